@@ -1,7 +1,7 @@
 //! Mean currents of all positions with their errors as stated or observed, and fits to them.
 
 use super::inputs::Setup;
-use super::least_squares::{Fit, NoLeastSquares, SETTLED};
+use super::least_squares::{Fit, NoLeastSquares, Problem, SETTLED};
 use super::offsets::{Differences, Offsets};
 use super::readings::Readings;
 use super::repeats::Repeats;
@@ -45,7 +45,7 @@ impl Observation {
         let differences = differences.as_ref();
         let mut seen = data.repeats.observe(setup, readings, differences, &mut data.offsets, &fit);
         if data.repeats != stated || data.offsets.columns() > 0 {
-            fit = data.fit_again(setup, &fit)?;
+            fit = data.problem(setup, model).solve_again(&fit)?;
         }
         // Differences of visits depend on K, which depends on them.
         for _ in 0..MOST_OBSERVATIONS {
@@ -55,7 +55,7 @@ impl Observation {
             let before = fit.changing.clone();
             data.repeats = stated.clone();
             seen = data.repeats.observe(setup, readings, differences, &mut data.offsets, &fit);
-            fit = data.fit_again(setup, &fit)?;
+            fit = data.problem(setup, model).solve_again(&fit)?;
             let u = fit.own_uncertainties_of_offsets();
             let close = |((now, before), u): ((&f64, &f64), f64)| {
                 (now - before).abs() <= (SAME_OFFSET * before.abs()).max(SETTLED * u)
@@ -99,15 +99,18 @@ impl Data {
 
     /// Returns the weighted fit at `setup`.
     pub(crate) fn fit(&self, setup: &Setup, model: Model) -> Result<Fit, NoLeastSquares> {
-        Fit::new(setup.coefficients(), &self.currents_ma, model, &self.offsets, self.own_covariance(setup))
+        self.problem(setup, model).solve()
     }
 
-    /// Returns the weighted fit of the same model as `last`, which differs only by weights and offsets.
-    fn fit_again(&self, setup: &Setup, last: &Fit) -> Result<Fit, NoLeastSquares> {
-        last.again(setup.coefficients(), &self.currents_ma, &self.offsets, self.own_covariance(setup))
-    }
-
-    fn own_covariance(&self, setup: &Setup) -> impl Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64> {
-        |place, unknowns, current| Sensitivity::new(setup, unknowns).own_covariance(place, current, &self.repeats)
+    fn problem<'a>(
+        &'a self,
+        setup: &'a Setup,
+        model: Model,
+    ) -> Problem<'a, impl Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> {
+        let own_covariance = |place, unknowns: &Unknowns, current: &Vector2<f64>| {
+            Sensitivity::new(setup, unknowns).own_covariance(place, current, &self.repeats)
+        };
+        let (coefficients, currents_ma, offsets) = (setup.coefficients(), &self.currents_ma, &self.offsets);
+        Problem { coefficients, currents_ma, model, offsets, own_covariance }
     }
 }

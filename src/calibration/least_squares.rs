@@ -101,7 +101,8 @@ pub(crate) fn solve(
     meter: &MeterUncertainty,
     model: Model,
 ) -> Result<GyroParameters, NoLeastSquares> {
-    let fit = Fit::new(coefficients, currents_ma, model, &Offsets::default(), own_covariance_of(meter))?;
+    let (offsets, own_covariance) = (&Offsets::default(), own_covariance_of(meter));
+    let fit = Problem { coefficients, currents_ma, model, offsets, own_covariance }.solve()?;
     Ok(fit.unknowns.parameters)
 }
 
@@ -171,39 +172,6 @@ pub(crate) struct Fit {
 }
 
 impl Fit {
-    /// Fits the parameters; `own_covariance` returns the covariance, 2×2, of the own part of a position for given
-    /// unknowns and current.
-    pub(crate) fn new(
-        coefficients: &Coefficients,
-        currents_ma: &[Vector2<f64>],
-        model: Model,
-        offsets: &Offsets,
-        own_covariance: impl Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>,
-    ) -> Result<Self, NoLeastSquares> {
-        let problem = Problem { coefficients, currents_ma, model, offsets, own_covariance };
-        problem.fit(problem.first()?)
-    }
-
-    /// Fits the same parameters again after a change of weights or offsets, from this solution on.
-    pub(crate) fn again(
-        &self,
-        coefficients: &Coefficients,
-        currents_ma: &[Vector2<f64>],
-        offsets: &Offsets,
-        own_covariance: impl Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>,
-    ) -> Result<Self, NoLeastSquares> {
-        let problem = Problem { coefficients, currents_ma, model: self.of, offsets, own_covariance };
-        let mut start = Solution { unknowns: self.unknowns, changing: self.changing.clone() };
-        if start.changing.len() != offsets.columns() {
-            start.changing = vec![0.0; offsets.columns()];
-            problem.offsets_determined(&self.currents_ma)?;
-        }
-        match problem.settle(start) {
-            Some(fit) if self.settled => Ok(fit),
-            _ => problem.fit(problem.first()?),
-        }
-    }
-
     /// Returns the drift in time about x and y, °/h²; `None` if it was not fitted.
     pub(crate) fn drift(&self, offsets: &Offsets) -> Option<Vector2<f64>> {
         let &[.., x, y] = self.changing.as_slice() else { return None };
@@ -248,16 +216,35 @@ fn whole_design(
     whole
 }
 
-/// Input of a fit, kept together to shorten the argument lists of its steps.
-struct Problem<'a, F> {
-    coefficients: &'a Coefficients,
-    currents_ma: &'a [Vector2<f64>],
-    model: Model,
-    offsets: &'a Offsets,
-    own_covariance: F,
+/// Input of a fit.
+pub(crate) struct Problem<'a, F> {
+    pub(crate) coefficients: &'a Coefficients,
+    pub(crate) currents_ma: &'a [Vector2<f64>],
+    pub(crate) model: Model,
+    pub(crate) offsets: &'a Offsets,
+    /// Returns the covariance, 2×2, of the own part of a position for given unknowns and current.
+    pub(crate) own_covariance: F,
 }
 
 impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
+    /// Fits the parameters.
+    pub(crate) fn solve(&self) -> Result<Fit, NoLeastSquares> {
+        self.fit(self.first()?)
+    }
+
+    /// Fits the parameters again after a change of weights or offsets, from the solution of `last` on.
+    pub(crate) fn solve_again(&self, last: &Fit) -> Result<Fit, NoLeastSquares> {
+        let mut start = Solution { unknowns: last.unknowns, changing: last.changing.clone() };
+        if start.changing.len() != self.offsets.columns() {
+            start.changing = vec![0.0; self.offsets.columns()];
+            self.offsets_determined(&last.currents_ma)?;
+        }
+        match self.settle(start) {
+            Some(fit) if last.settled => Ok(fit),
+            _ => self.solve(),
+        }
+    }
+
     /// Returns the unweighted equations with measured currents in the unit `unit_ma`, after a check of rank and
     /// condition. Columns of offsets are only checked.
     fn conditioned(&self, unit_ma: f64) -> Result<Factorised, NoLeastSquares> {
