@@ -18,9 +18,9 @@ use nalgebra::{DMatrix, Matrix2, Vector2};
 pub(crate) struct Propagation<'a> {
     fit: &'a Fit,
     /// X: unwhitened design matrix (rows, two per position × parameters).
-    pub(super) design: DMatrix<f64>,
+    pub(crate) design: DMatrix<f64>,
     /// F: errors of the misclosures (rows × causes), °/h.
-    pub(super) causes: DMatrix<f64>,
+    pub(crate) causes: DMatrix<f64>,
     /// Q'W F (rows × causes): the upper rows belong to the parameters, the lower rows to the residuals.
     rotated: DMatrix<f64>,
 }

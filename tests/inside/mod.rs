@@ -28,6 +28,8 @@ fn written(content: &crate::passport::Content, key: &crate::trust::SigningKey) -
 mod calibration;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod certification;
+#[cfg(feature = "monte-carlo")]
+mod chi_square;
 #[cfg(feature = "factory")]
 mod forgeries;
 mod frame_axis;

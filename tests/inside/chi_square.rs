@@ -1,0 +1,148 @@
+//! Chi-square of a fit, and the parts of its covariance that rest on estimates, against dense matrices.
+
+use dtg_passport::attitude::Deviation;
+use dtg_passport::calibration::analytic::{self, AnalyticMap};
+use dtg_passport::calibration::causes;
+use dtg_passport::calibration::chi_square::{ChiSquare, Estimated, chi_square, quadratic_form};
+use dtg_passport::calibration::data::Data;
+use dtg_passport::calibration::estimates::{Basis, Estimates};
+use dtg_passport::calibration::procedure::{Linearised, linearise};
+use dtg_passport::calibration::propagation::Propagation;
+use dtg_passport::calibration::unknowns::Unknowns;
+use dtg_passport::calibration::{InputUncertainty, MeterUncertainty, Method, Model, Options, Readings, Setup};
+use dtg_passport::coefficients::{EIGHT_POSITIONS, EarthRate, Position};
+use dtg_passport::gyro::GyroType;
+use dtg_passport::statistics::random::Stream;
+use nalgebra::{DMatrix, DVector};
+
+/// Uncertainties of both tests.
+fn uncertainty(noise_ma: f64) -> InputUncertainty {
+    InputUncertainty {
+        angles_rad: vec![[1e-5, 2e-5, 3e-5]; 8],
+        common_platform_rad: 2e-5,
+        latitude_rad: 3e-5,
+        azimuth_rad: 5e-5,
+        seating_rad: [3e-5; 3],
+        ..InputUncertainty::of_meter(MeterUncertainty {
+            reading: 1e-4,
+            floor_ma: 1e-6,
+            noise_ma,
+            gain: 1e-4,
+            offset_ma: 1e-5,
+        })
+    }
+}
+
+/// The eight positions with deviations drawn within a limit.
+fn setup(stream: &mut Stream, limit_rad: f64, latitude_deg: f64, uncertainty: InputUncertainty) -> Setup {
+    let stand = EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| {
+        let [alpha_rad, beta_rad, gamma_rad] = [(); 3].map(|()| stream.within(limit_rad));
+        Position { index, theta_deg, phi_deg, deviation: Deviation { alpha_rad, beta_rad, gamma_rad } }
+    });
+    Setup::new(&stand, EarthRate::at_astronomic_latitude(latitude_deg), uncertainty).unwrap()
+}
+
+/// Checks [`chi_square`] against r' C⁻ r by the pseudo-inverse of the residuals' covariance, for two methods.
+#[test]
+fn chi_square_is_that_of_the_residuals_of_any_method() {
+    let mut stream = Stream::new(1);
+    let uncertainty = InputUncertainty { level_rad: 2e-5, ..uncertainty(0.0) };
+    let setup = setup(&mut stream, 0.14, 40.0, uncertainty);
+    let gyro = GyroType::gvk_6().nominal.to_model();
+    let positions = &setup.coefficients().positions;
+    let mut currents: Vec<_> = positions.iter().map(|at| gyro.currents_ma(at).unwrap()).collect();
+    currents.iter_mut().for_each(|current| *current = current.map(|j| j * (1.0 + stream.within(2e-4))));
+    let each: Vec<_> = positions.iter().map(|at| at.index).zip(currents.clone()).collect();
+    let data = Data::new(&setup, &Readings::new(setup.coefficients(), &each).unwrap());
+    let fit = data.fit(&setup, Model::Paper).unwrap();
+    let ChiSquare { value: expected, degrees_of_freedom, .. } = chi_square(&setup, &fit, &data);
+    assert_eq!(degrees_of_freedom, 8);
+    let propagation = Propagation::new(&setup, &fit, &data);
+    let map = AnalyticMap::new(setup.coefficients(), &fit.currents_ma).unwrap();
+    let closed = analytic::solve(setup.coefficients(), &currents).unwrap().parameters;
+    let closed = Unknowns::of(closed);
+    let methods = [(fit.unknowns, propagation.least_squares()), (closed, propagation.analytic(&map).0)];
+    for (unknowns, spread) in methods {
+        let rows = positions.iter().zip(&currents).flat_map(|(at, j)| {
+            let misclosure = unknowns.misclosure(at, j);
+            [misclosure.x, misclosure.y]
+        });
+        let residuals = DVector::from_iterator(16, rows);
+        let left = &propagation.causes - &propagation.design * &spread;
+        let inverse = (&left * left.transpose()).pseudo_inverse(1e-14).unwrap();
+        let found = residuals.dot(&(inverse * &residuals));
+        assert!((found / expected - 1.0).abs() < 1e-3, "{found} {expected}");
+    }
+}
+
+/// Expected: tr P D and tr P D P D with P = C⁻¹ − C⁻¹ X (X' C⁻¹ X)⁻¹ X' C⁻¹ from dense matrices, where C is the sum of
+/// all inputs and D of those on one estimate.
+#[test]
+fn parts_are_those_of_dense_matrices() {
+    let mut stream = Stream::new(5);
+    let uncertainty = InputUncertainty {
+        angles_degrees_of_freedom: vec![6.0; 8],
+        repeatability_rad: 2e-5,
+        repeatability_degrees_of_freedom: 18.0,
+        common_platform_degrees_of_freedom: 3.0,
+        common_base_rad: 1e-5,
+        common_base_degrees_of_freedom: 4.0,
+        ..uncertainty(1e-6)
+    };
+    let setup = setup(&mut stream, 0.01, 55.0, uncertainty);
+    let gyro = GyroType::gvk_6().nominal.to_model();
+    let mut run = "cycle,i,j,jx_ma,jy_ma\n".to_owned();
+    for (cycle, count) in [(1, 8), (2, 8), (3, 5)] {
+        for at in setup.coefficients().positions.iter().take(count) {
+            let [x, y] = <[f64; 2]>::from(gyro.currents_ma(at).unwrap()).map(|j| j + stream.within(1e-4));
+            run += &format!("{cycle},{},{},{x},{y}\n", at.index.i, at.index.j);
+        }
+    }
+    let readings = Readings::from_csv("run.csv", run.as_bytes(), setup.coefficients(), 1000.0).unwrap();
+    for options in [Options::default(), Options { model: Model::General, ..Options::default() }] {
+        let Linearised { fit, data, .. } = linearise(&setup, &readings, Method::LeastSquares, &options).unwrap();
+        let (value, Estimated { parts, visits }) = quadratic_form(&setup, &fit, &data);
+        let estimates = Estimates::new(&setup, &data.repeats);
+        assert!(parts.len() >= 6, "angles, returns and noise, platform, base and turn-ons: {parts:?}");
+        let (inputs, columns) = causes::inputs(&setup, &fit.unknowns, &fit.currents_ma, &data.repeats, &data.offsets);
+        let inverse = (&columns * columns.transpose()).try_inverse().unwrap();
+        let design = fit.design(&data.offsets);
+        let weighted = &inverse * &design;
+        let p = &inverse - &weighted * (design.tr_mul(&weighted)).try_inverse().unwrap() * weighted.transpose();
+        for (estimate, part) in parts.iter().enumerate() {
+            let mut of_estimate = DMatrix::zeros(design.nrows(), design.nrows());
+            for (input, column) in inputs.iter().zip(columns.column_iter()) {
+                for (_, share) in input.basis.shares().filter(|(place, _)| *place == estimate) {
+                    of_estimate.ger(share, &column, &column, 1.0);
+                }
+            }
+            let seen = &p * of_estimate;
+            let (trace, square) = (seen.trace(), (&seen * &seen).trace());
+            assert_eq!(part.degrees_of_freedom, estimates.degrees_of_freedom[estimate]);
+            // ω_0 absorbs the mean of the turn-ons, so nothing of it is left.
+            let is = |found: f64, expected: f64| (found - expected).abs() < 1e-7 * expected.abs().max(1e-5);
+            assert!(is(part.trace, trace), "{estimate}: {part:?} {trace}");
+            assert!(is(part.square, square), "{estimate}: {part:?} {square}");
+        }
+        // The same form with another variance of the visits, which scales the columns of that estimate.
+        let (of_visits, terms) = visits.expect("a noise of the gyro that is estimated");
+        let mut y: Vec<f64> = Vec::new();
+        for (place, current) in data.currents_ma.iter().enumerate() {
+            y.extend(fit.misclosure(place, current).iter());
+        }
+        y.extend(fit.of_differences(&data.offsets).iter());
+        let y = DVector::from_vec(y);
+        for factor in [0.2, 1.0, 7.0] {
+            let mut scaled = columns.clone();
+            for (input, mut column) in inputs.iter().zip(scaled.column_iter_mut()) {
+                column *= if input.basis == Basis::Estimate(of_visits) { f64::sqrt(factor) } else { 1.0 };
+            }
+            let inverse = (&scaled * scaled.transpose()).try_inverse().unwrap();
+            let weighted = &inverse * &design;
+            let p = &inverse - &weighted * (design.tr_mul(&weighted)).try_inverse().unwrap() * weighted.transpose();
+            let due = y.dot(&(p * &y));
+            let found = terms.iter().fold(value, |sum, term| sum - term.taken(factor));
+            assert!((found / due - 1.0).abs() < 1e-6, "{factor}: {found} {due}");
+        }
+    }
+}
