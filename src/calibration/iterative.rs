@@ -90,15 +90,27 @@ pub struct IterativeSolution {
     pub parameters: GyroParameters,
     /// ω_n at the last step, °/(h·g), 2×2, four independent numbers.
     pub omega_n_deg_per_h_per_g: Matrix2<f64>,
+    /// Course of the iteration.
+    pub iteration: Iteration,
+    /// Last change of K, K_λ − K_{λ−1}, °/(h·mA), 2×2.
+    pub last_change_k_deg_per_h_per_ma: Matrix2<f64>,
+}
+
+/// Course of the iterative method.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Iteration {
+    /// Stop rule of the iteration.
+    pub stop_rule: StopRule,
     /// Number of steps; the first approximation counts as 1.
     pub steps: u32,
     /// Changes of the parameters in each step after the first approximation.
     pub changes: Vec<StepChange>,
-    /// Spectral radius ρ(T).
+    /// Number of steps predicted before the first one; `None` if there is no prediction.
+    pub predicted_steps: Option<u32>,
+    /// Spectral radius ρ(T), known before the first step.
     pub spectral_radius: f64,
-    /// Last change of K, K_λ − K_{λ−1}, °/(h·mA), 2×2.
-    pub last_change_k_deg_per_h_per_ma: Matrix2<f64>,
-    /// Exact remainder of K, (K_λ − K_{λ−1}) T (1 − T)⁻¹, °/(h·mA), 2×2.
+    /// Exact remainder of K, (K_λ − K_{λ−1}) T (1 − T)⁻¹, by which the analytic solution differs from the last step,
+    /// °/(h·mA), 2×2.
     pub remainder_k_deg_per_h_per_ma: Matrix2<f64>,
     /// Exact remainder of ω_n, °/(h·g), 2×2.
     pub remainder_omega_n_deg_per_h_per_g: Matrix2<f64>,
@@ -272,14 +284,16 @@ pub fn solve(
     let rest = (Matrix2::identity() - plan.t).try_inverse().ok_or(too_many)?;
     let remainder = change * plan.t * rest;
     let omega0 = mean_misclosure(coefficients, currents_ma, &k, &omega_n);
-    Ok(IterativeSolution {
-        parameters: AnalyticSolution::new(k, omega_n, omega0).parameters,
-        omega_n_deg_per_h_per_g: omega_n,
+    let iteration = Iteration {
+        stop_rule: *rule,
         steps,
         changes,
+        predicted_steps: plan.predicted_steps(rule),
         spectral_radius,
-        last_change_k_deg_per_h_per_ma: change,
         remainder_k_deg_per_h_per_ma: remainder,
         remainder_omega_n_deg_per_h_per_g: -remainder * plan.j2_per_n2,
-    })
+    };
+    let parameters = AnalyticSolution::new(k, omega_n, omega0).parameters;
+    let (omega_n_deg_per_h_per_g, last_change_k_deg_per_h_per_ma) = (omega_n, change);
+    Ok(IterativeSolution { parameters, omega_n_deg_per_h_per_g, iteration, last_change_k_deg_per_h_per_ma })
 }

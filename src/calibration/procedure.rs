@@ -7,14 +7,14 @@ use super::data::{Data, Observation};
 use super::diagnosis;
 use super::estimates::Estimates;
 use super::inputs::Setup;
-use super::iterative::{self, NoIterativeSolution, StopRule};
+use super::iterative::{self, Iteration, NoIterativeSolution, StopRule};
 use super::least_squares::{Fit, NoLeastSquares};
 use super::offsets::{Differences, Offsets};
 use super::parameter::Parameter;
 use super::propagation::{Propagation, covariance, product, standard_deviations};
 use super::readings::Readings;
 use super::result::{
-    Calibration, Cycle, Drift, DriftTest, GMatrix, Iteration, Method, MethodRefusal, MethodResult, ModelTest, Residual,
+    Calibration, Cycle, Drift, DriftTest, GMatrix, Method, MethodRefusal, MethodResult, ModelTest, Residual,
 };
 use super::unknowns::{Model, Unknowns};
 use crate::gyro::GyroParameters;
@@ -312,21 +312,10 @@ impl<'a> Evaluation<'a> {
     }
 
     fn iterative(&self, closed: Option<&Closed>, rule: &StopRule) -> Result<MethodResult, MethodRefusal> {
-        let coefficients = self.setup.coefficients();
-        let found = iterative::solve(coefficients, &self.data.currents_ma, rule)?;
-        let predicted_steps = iterative::Plan::new(coefficients, &self.data.currents_ma)?.predicted_steps(rule);
-        let iteration = Iteration {
-            stop_rule: *rule,
-            steps: found.steps,
-            changes: found.changes,
-            predicted_steps,
-            spectral_radius: found.spectral_radius,
-            remainder_k_deg_per_h_per_ma: found.remainder_k_deg_per_h_per_ma,
-            remainder_omega_n_deg_per_h_per_g: found.remainder_omega_n_deg_per_h_per_g,
-        };
+        let found = iterative::solve(self.setup.coefficients(), &self.data.currents_ma, rule)?;
         let closed = closed.ok_or(NoIterativeSolution::SingularCurrents)?;
         let (parameters, omega_n) = (found.parameters, found.omega_n_deg_per_h_per_g);
-        Ok(self.of_the_paper(Method::Iterative, parameters, omega_n, Some(iteration), closed))
+        Ok(self.of_the_paper(Method::Iterative, parameters, omega_n, Some(found.iteration), closed))
     }
 
     /// Returns the result of one of the paper's methods. The remainder of the iteration is stated separately.

@@ -3,7 +3,7 @@
 use super::analytic::NoAnalyticSolution;
 use super::chi_square::ChiSquare;
 use super::diagnosis::{ALARM, Hint};
-use super::iterative::{NoIterativeSolution, StepChange, StopRule};
+use super::iterative::{Iteration, NoIterativeSolution};
 use super::least_squares::NoLeastSquares;
 use super::noise::{DriftNoise, NoiseSource};
 use super::parameter::Parameter;
@@ -253,25 +253,6 @@ impl MethodResult {
             other => self.parameters.to_vector().get(other.place()).copied(),
         }
     }
-}
-
-/// Course of the iterative method.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Iteration {
-    /// Stop rule of the iteration.
-    pub stop_rule: StopRule,
-    /// Number of steps; the first approximation counts as 1.
-    pub steps: u32,
-    /// Changes of the parameters in each step after the first approximation.
-    pub changes: Vec<StepChange>,
-    /// Number of steps predicted before the first one; `None` if there is no prediction.
-    pub predicted_steps: Option<u32>,
-    /// Spectral radius ρ(T), known before the first step.
-    pub spectral_radius: f64,
-    /// Exact difference of the analytic solution from K at the last step, °/(h·mA), 2×2.
-    pub remainder_k_deg_per_h_per_ma: Matrix2<f64>,
-    /// Exact difference of the analytic solution from ω_n at the last step, °/(h·g), 2×2.
-    pub remainder_omega_n_deg_per_h_per_g: Matrix2<f64>,
 }
 
 /// Residuals of the two equations of a position: ω_3 − K J − ω_0 − ω_n n.
