@@ -8,11 +8,11 @@ use super::estimates::{Basis, Estimates};
 use super::inputs::Setup;
 use super::offsets::Offsets;
 use super::repeats::Repeats;
-use super::sensitivity::{Sensitivity, Shared};
+use super::sensitivity::Sensitivity;
 use super::unknowns::Unknowns;
 use crate::attitude::ANGLES;
 use crate::coefficients::PositionIndex;
-use nalgebra::{DMatrix, Vector2, Vector3};
+use nalgebra::{DMatrix, Vector2};
 
 /// Uncertain input quantity. Axes are counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -140,6 +140,11 @@ impl Cause {
         }
     }
 
+    /// Returns `true` if the cause acts on a single position other than `index`.
+    pub(crate) fn is_elsewhere(self, index: PositionIndex) -> bool {
+        self.position().is_some_and(|at| at != index)
+    }
+
     /// Converts an uncertainty from its internal unit (rad, fraction of the reading, mA) to [`Self::unit`].
     pub(crate) fn shown(self, uncertainty: f64) -> f64 {
         match self.unit() {
@@ -186,7 +191,7 @@ pub(crate) fn inputs(
     columns.view_mut((2 * currents_ma.len(), positions), (differences, differences)).fill_with_identity();
     for (column, input) in inputs.iter().enumerate().take(positions) {
         for (place, current_ma) in currents_ma.iter().enumerate() {
-            let change = effect(&sensitivity, setup, (place, current_ma), input.cause) * input.standard_uncertainty;
+            let change = sensitivity.to(place, current_ma, input.cause) * input.standard_uncertainty;
             columns[(2 * place, column)] = change.x;
             columns[(2 * place + 1, column)] = change.y;
         }
@@ -250,37 +255,5 @@ impl Input {
     fn new(cause: Cause, standard_uncertainty: f64, basis: Basis, degrees_of_freedom: f64) -> Option<Self> {
         let input = Self { cause, standard_uncertainty, degrees_of_freedom, basis };
         (standard_uncertainty > 0.0).then_some(input)
-    }
-}
-
-/// Returns the unit vector of an axis.
-pub(crate) fn unit_vector(axis: usize) -> Vector3<f64> {
-    Vector3::from_fn(|row, _| if row == axis { 1.0 } else { 0.0 })
-}
-
-/// Returns the change of the misclosure of a position per unit of a cause, °/h.
-fn effect(
-    sensitivity: &Sensitivity,
-    setup: &Setup,
-    (place, current_ma): (usize, &Vector2<f64>),
-    cause: Cause,
-) -> Vector2<f64> {
-    let here = setup.coefficients().positions[place].index;
-    let column = |axis: usize| -sensitivity.k_deg_per_h_per_ma().column(axis).into_owned();
-    let shared = |input: Shared| sensitivity.to_shared(place, current_ma, &input);
-    match cause {
-        _ if cause.position().is_some_and(|index| index != here) => Vector2::zeros(),
-        Cause::Angle(_, angle) => sensitivity.to_case_turn(place, &setup.turns[place].axes[angle]),
-        Cause::Return(_, axis) => sensitivity.to_case_turn(place, &unit_vector(axis)),
-        Cause::Reading(_, axis) => column(axis) * current_ma[axis],
-        Cause::Floor(_, axis) | Cause::Noise(_, axis) => column(axis),
-        Cause::Visits(_, axis) | Cause::TurnOn(axis) => shared(Shared::TurnOn(axis)),
-        Cause::Differences(_) => Vector2::zeros(),
-        Cause::Platform(axis) | Cause::Seat(axis) => shared(Shared::Case(unit_vector(axis))),
-        Cause::Base(axis) | Cause::Level(axis) => shared(Shared::Base(unit_vector(axis))),
-        Cause::Azimuth | Cause::Mark => shared(Shared::Base(Vector3::z())),
-        Cause::Latitude | Cause::Deflection => shared(Shared::Latitude),
-        Cause::Gain => shared(Shared::Gain),
-        Cause::Offset => shared(Shared::Offset),
     }
 }

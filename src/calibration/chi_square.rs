@@ -1,12 +1,13 @@
 //! Chi-square test of a fit: its value from all inputs, and its distribution if uncertainties rest on estimates.
 
+use super::causes::Cause;
 use super::data::Data;
 use super::estimates::{Basis, Estimates};
 use super::inputs::Setup;
 use super::least_squares::{Fit, multiply_rows};
-use super::sensitivity::{Sensitivity, Shared};
+use super::sensitivity::Sensitivity;
 use crate::statistics::scaled_f::{self, Part, ScaledF};
-use nalgebra::{DMatrix, DVector, DVectorView, Matrix2, Vector3};
+use nalgebra::{DMatrix, DVector, DVectorView, Matrix2};
 
 /// Chi-square test of a fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -235,20 +236,19 @@ fn own_parts(setup: &Setup, fit: &Fit, data: &Data, estimates: &Estimates) -> Ve
 fn common_parts(setup: &Setup, fit: &Fit, data: &Data, estimates: &Estimates) -> Vec<DMatrix<f64>> {
     let u = setup.uncertainty();
     let sensitivity = Sensitivity::new(setup, &fit.unknowns);
-    let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
     let turn_on = data.repeats.turn_on_of_mean_deg_per_h();
-    let inputs: [(Basis, f64, Vec<Shared>); 3] = [
-        (estimates.platform, u.common_platform_rad, axes.map(Shared::Case).into()),
-        (estimates.base, u.common_base_rad, axes.map(Shared::Base).into()),
-        (estimates.turn_ons, turn_on, [0, 1].map(Shared::TurnOn).into()),
+    let inputs: [(Basis, f64, Vec<Cause>); 3] = [
+        (estimates.platform, u.common_platform_rad, [0, 1, 2].map(Cause::Platform).into()),
+        (estimates.base, u.common_base_rad, [0, 1, 2].map(Cause::Base).into()),
+        (estimates.turn_ons, turn_on, [0, 1].map(Cause::TurnOn).into()),
     ];
     let of_estimate = |estimate| match inputs.iter().find(|(basis, ..)| *basis == Basis::Estimate(estimate)) {
         None => DMatrix::zeros(fit.model.rows, 0),
-        Some((_, u, inputs)) => {
-            let mut columns = DMatrix::zeros(fit.model.rows, inputs.len());
+        Some((_, u, causes)) => {
+            let mut columns = DMatrix::zeros(fit.model.rows, causes.len());
             for (place, (whiten, current_ma)) in fit.whitening.iter().zip(&fit.currents_ma).enumerate() {
-                for (column, input) in inputs.iter().enumerate() {
-                    let change = whiten * sensitivity.to_shared(place, current_ma, input) * *u;
+                for (column, cause) in causes.iter().enumerate() {
+                    let change = whiten * sensitivity.to(place, current_ma, *cause) * *u;
                     columns.fixed_view_mut::<2, 1>(2 * place, column).copy_from(&change);
                 }
             }

@@ -3,6 +3,7 @@
 //! Rotations are passive. If the case rotates by the small vector δ, the coordinates v of a fixed vector change by
 //! v × δ. If the base rotates by δ about east, north and up, Ã w changes by Ã (w × δ), with w in these axes.
 
+use super::causes::Cause;
 use super::inputs::Setup;
 use super::repeats::Repeats;
 use super::unknowns::Unknowns;
@@ -22,6 +23,11 @@ impl VectorChange {
     /// Returns the change of vectors per radian of a rotation of the case about the unit vector `axis` (case coordinates).
     pub(crate) fn turned(&self, axis: &Vector3<f64>) -> Self {
         Self { earth_rate_deg_per_h: self.earth_rate_deg_per_h.cross(axis), vertical: self.vertical.cross(axis) }
+    }
+
+    /// Returns the change for `size` units.
+    pub(crate) fn times(&self, size: f64) -> Self {
+        Self { earth_rate_deg_per_h: self.earth_rate_deg_per_h * size, vertical: self.vertical * size }
     }
 }
 
@@ -52,6 +58,22 @@ impl Setup {
         let change = self.turns[place].attitude * Vector3::new(0.0, -earth.z, earth.y);
         VectorChange { earth_rate_deg_per_h: change, vertical: Vector3::zeros() }
     }
+
+    /// Returns the change of the vectors of position `place` per unit of a cause; 0 for causes in the currents or the
+    /// gyro's drift.
+    pub(crate) fn changed(&self, place: usize, cause: Cause) -> VectorChange {
+        let turned = |axis: &Vector3<f64>| self.in_case(place).turned(axis);
+        match cause {
+            Cause::Angle(index, angle) if index == self.coefficients().positions[place].index => {
+                turned(&self.turns[place].axes[angle])
+            }
+            Cause::Return(_, axis) | Cause::Platform(axis) | Cause::Seat(axis) => turned(&Vector3::ith(axis, 1.0)),
+            Cause::Base(axis) | Cause::Level(axis) => self.base_turned(place, &Vector3::ith(axis, 1.0)),
+            Cause::Azimuth | Cause::Mark => self.base_turned(place, &Vector3::z()),
+            Cause::Latitude | Cause::Deflection => self.latitude_changed(place),
+            _ => VectorChange { earth_rate_deg_per_h: Vector3::zeros(), vertical: Vector3::zeros() },
+        }
+    }
 }
 
 /// Sensitivities of the misclosures at one solution.
@@ -79,12 +101,6 @@ impl<'a> Sensitivity<'a> {
         // d(n n_z) = dn n_z + n dn_z (paper, eq. (2)).
         let anisoelastic = vertical.xy() * at.specific_force_z_g + at.specific_force_g * vertical.z;
         earth_rate_deg_per_h.xy() - drift - anisoelastic * unknowns.anisoelasticity_deg_per_h_per_g2
-    }
-
-    /// Returns the change of the misclosure of position `place`, °/h per radian, for a rotation of the case about the
-    /// unit vector `axis` (case coordinates).
-    pub(crate) fn to_case_turn(&self, place: usize, axis: &Vector3<f64>) -> Change {
-        self.of_vectors(place, &self.setup.in_case(place).turned(axis))
     }
 
     /// Returns the changes of the misclosure of position `place`, °/h per radian, for rotations of the case about x, y and
@@ -144,25 +160,24 @@ impl<'a> Sensitivity<'a> {
     /// of the turn-ons. Exact inputs have no column.
     pub(crate) fn shared(&self, currents_ma: &[Vector2<f64>], repeats: &Repeats) -> DMatrix<f64> {
         let u = self.setup.uncertainty();
-        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
-        let mut columns: Vec<(f64, Shared)> = Vec::with_capacity(9);
-        for (axis, seat) in axes.into_iter().zip(u.seating_rad) {
-            columns.push((libm::hypot(u.common_platform_rad, seat), Shared::Case(axis)));
+        let mut columns: Vec<(f64, Cause)> = Vec::with_capacity(11);
+        for (axis, seat) in u.seating_rad.into_iter().enumerate() {
+            columns.push((libm::hypot(u.common_platform_rad, seat), Cause::Seat(axis)));
         }
         let azimuth_rad = libm::hypot(u.azimuth_rad, u.mark_rad);
-        for (axis, own) in axes.into_iter().zip([u.level_rad, u.level_rad, azimuth_rad]) {
-            columns.push((libm::hypot(u.common_base_rad, own), Shared::Base(axis)));
+        for (axis, own) in [u.level_rad, u.level_rad, azimuth_rad].into_iter().enumerate() {
+            columns.push((libm::hypot(u.common_base_rad, own), Cause::Base(axis)));
         }
-        columns.push((libm::hypot(u.latitude_rad, u.deflection_rad), Shared::Latitude));
-        columns.push((u.meter.gain, Shared::Gain));
-        columns.push((u.meter.offset_ma, Shared::Offset));
-        columns.extend([0, 1].map(|axis| (repeats.turn_on_of_mean_deg_per_h(), Shared::TurnOn(axis))));
+        columns.push((libm::hypot(u.latitude_rad, u.deflection_rad), Cause::Latitude));
+        columns.push((u.meter.gain, Cause::Gain));
+        columns.push((u.meter.offset_ma, Cause::Offset));
+        columns.extend([0, 1].map(|axis| (repeats.turn_on_of_mean_deg_per_h(), Cause::TurnOn(axis))));
         columns.retain(|(u, _)| *u > 0.0);
         let positions = currents_ma.len();
         let mut matrix = DMatrix::zeros(2 * positions, columns.len());
-        for (column, (u, input)) in columns.iter().enumerate() {
+        for (column, (u, cause)) in columns.iter().enumerate() {
             for (place, current) in currents_ma.iter().enumerate() {
-                let change = self.to_shared(place, current, input) * *u;
+                let change = self.to(place, current, *cause) * *u;
                 matrix[(2 * place, column)] = change.x;
                 matrix[(2 * place + 1, column)] = change.y;
             }
@@ -170,29 +185,18 @@ impl<'a> Sensitivity<'a> {
         matrix
     }
 
-    /// Returns the change of the misclosure of position `place` per unit of a common input, °/h.
-    pub(crate) fn to_shared(&self, place: usize, current_ma: &Vector2<f64>, input: &Shared) -> Change {
+    /// Returns the change of the misclosure of position `place` per unit of a cause, °/h.
+    pub(crate) fn to(&self, place: usize, current_ma: &Vector2<f64>, cause: Cause) -> Change {
         let k = &self.unknowns.parameters.k_deg_per_h_per_ma;
-        match input {
-            Shared::Case(axis) => self.to_case_turn(place, axis),
-            Shared::Base(axis) => self.of_vectors(place, &self.setup.base_turned(place, axis)),
-            Shared::Latitude => self.of_vectors(place, &self.setup.latitude_changed(place)),
-            Shared::Gain => -(k * current_ma),
-            Shared::Offset => -(k * Vector2::repeat(1.0)),
-            Shared::TurnOn(axis) => -Vector2::from_fn(|row, _| if row == *axis { 1.0 } else { 0.0 }),
+        match cause {
+            _ if cause.is_elsewhere(self.setup.coefficients().positions[place].index) => Change::zeros(),
+            Cause::Reading(_, axis) => -k.column(axis) * current_ma[axis],
+            Cause::Floor(_, axis) | Cause::Noise(_, axis) => -k.column(axis),
+            Cause::Visits(_, axis) | Cause::TurnOn(axis) => -Change::ith(axis, 1.0),
+            Cause::Differences(_) => Change::zeros(),
+            Cause::Gain => -(k * current_ma),
+            Cause::Offset => -(k * Vector2::repeat(1.0)),
+            _ => self.of_vectors(place, &self.setup.changed(place, cause)),
         }
     }
-}
-
-/// Input common to all positions.
-pub(crate) enum Shared {
-    /// Rotation of the case about an axis of the case.
-    Case(Vector3<f64>),
-    /// Rotation of the base about an axis given by its components east, north, up.
-    Base(Vector3<f64>),
-    Latitude,
-    Gain,
-    Offset,
-    /// Mean bias of the turn-ons about axis x or y, counted from 0.
-    TurnOn(usize),
 }

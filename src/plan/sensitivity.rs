@@ -4,10 +4,10 @@
 //! the sensitivities of the calibration, so nothing here says beforehand which errors a plan can see.
 
 use super::candidates::Design;
-use crate::calibration::sensitivity::{Sensitivity, Shared};
+use crate::calibration::causes::Cause;
+use crate::calibration::sensitivity::Sensitivity;
 use crate::text::words;
 use crate::units::radians_from_arcseconds;
-use nalgebra::Vector3;
 use serde::Serialize;
 
 words! {
@@ -48,17 +48,17 @@ impl CommonError {
         }
     }
 
-    fn shared(self) -> Shared {
+    fn cause(self) -> Cause {
         match self {
-            Self::Azimuth => Shared::Base(Vector3::z()),
-            Self::LevelAboutNorth => Shared::Base(Vector3::y()),
-            Self::LevelAboutEast => Shared::Base(Vector3::x()),
-            Self::SeatAboutZ => Shared::Case(Vector3::z()),
-            Self::SeatAboutX => Shared::Case(Vector3::x()),
-            Self::SeatAboutY => Shared::Case(Vector3::y()),
-            Self::Latitude => Shared::Latitude,
-            Self::Gain => Shared::Gain,
-            Self::Offset => Shared::Offset,
+            Self::Azimuth => Cause::Azimuth,
+            Self::LevelAboutNorth => Cause::Level(1),
+            Self::LevelAboutEast => Cause::Level(0),
+            Self::SeatAboutZ => Cause::Seat(2),
+            Self::SeatAboutX => Cause::Seat(0),
+            Self::SeatAboutY => Cause::Seat(1),
+            Self::Latitude => Cause::Latitude,
+            Self::Gain => Cause::Gain,
+            Self::Offset => Cause::Offset,
         }
     }
 }
@@ -103,8 +103,7 @@ pub(crate) fn effects(design: &Design) -> Vec<Effect> {
 
 fn effect(design: &Design, sensitivity: &Sensitivity, error: CommonError) -> Effect {
     let currents_ma = &design.candidates.currents_ma;
-    let shared = error.shared();
-    let misclosure = |place: usize| sensitivity.to_shared(place, &currents_ma[place], &shared) * error.in_model_unit();
+    let misclosure = |place: usize| sensitivity.to(place, &currents_ma[place], error.cause()) * error.in_model_unit();
     let mut over_tolerance = [0.0; 8];
     for (place, _) in design.visited() {
         let (of_axes, misclosure) = (design.response(place), misclosure(place));

@@ -5,11 +5,11 @@
 //! positions and the currents are not part of a passport and do not affect its numbers.
 
 use crate::calibration::Setup;
-use crate::calibration::causes::{Cause, Input, of_stand_and_site, unit_vector};
+use crate::calibration::causes::{Input, of_stand_and_site};
 use crate::calibration::estimates::Estimates;
 use crate::calibration::sensitivity::VectorChange;
 use crate::coefficients::{Matrices, PositionIndex, pair_differences};
-use nalgebra::{DMatrix, Matrix2, Vector3};
+use nalgebra::{DMatrix, Matrix2};
 
 /// Number of a passport, identified by its keys.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -61,7 +61,8 @@ impl EntryUncertainty {
         }
         let mut spread = DMatrix::zeros(entries.len(), inputs.len());
         for (column, input) in inputs.iter().enumerate() {
-            let changes: Vec<VectorChange> = (0..positions.len()).map(|place| change(setup, place, input)).collect();
+            let change = |place| setup.changed(place, input.cause).times(input.standard_uncertainty);
+            let changes: Vec<VectorChange> = (0..positions.len()).map(change).collect();
             let mut values: Vec<f64> = changes.iter().flat_map(entries_of).collect();
             if let (Some(matrices), Some(eight)) = (&setup.coefficients().matrices, setup.coefficients().eight()) {
                 values.extend(of_matrices(matrices, &eight.map(|place| changes[place])));
@@ -85,23 +86,6 @@ const MATRIX_KEYS: [&str; 8] =
 fn entries_of(change: &VectorChange) -> [f64; 5] {
     let VectorChange { earth_rate_deg_per_h: earth, vertical } = change;
     [vertical.x, vertical.y, vertical.z, earth.x, earth.y]
-}
-
-/// Returns the change of a position for one standard uncertainty of an input.
-fn change(setup: &Setup, place: usize, input: &Input) -> VectorChange {
-    let none = VectorChange { earth_rate_deg_per_h: Vector3::zeros(), vertical: Vector3::zeros() };
-    let change = match input.cause {
-        Cause::Angle(index, angle) if index == setup.coefficients().positions[place].index => {
-            setup.in_case(place).turned(&setup.turns[place].axes[angle])
-        }
-        Cause::Platform(axis) => setup.in_case(place).turned(&unit_vector(axis)),
-        Cause::Base(axis) | Cause::Level(axis) => setup.base_turned(place, &unit_vector(axis)),
-        Cause::Azimuth | Cause::Mark => setup.base_turned(place, &Vector3::z()),
-        Cause::Latitude | Cause::Deflection => setup.latitude_changed(place),
-        _ => none,
-    };
-    let u = input.standard_uncertainty;
-    VectorChange { earth_rate_deg_per_h: change.earth_rate_deg_per_h * u, vertical: change.vertical * u }
 }
 
 /// Returns the changes of the matrices, in the order of [`MATRIX_KEYS`], row by row, for those of the eight positions.
