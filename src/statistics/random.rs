@@ -6,8 +6,7 @@
 use crate::parallel;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// Stream of random numbers for one block.
 #[derive(Debug, Clone)]
@@ -53,6 +52,9 @@ impl Stream {
 /// Number of trials in a block.
 pub(crate) const BLOCK: u64 = 500;
 
+/// Largest number of blocks whose streams are made at a time.
+const BLOCKS_IN_A_WAVE: usize = 4096;
+
 /// Settings of a series of trials.
 #[derive(Clone, Copy)]
 pub struct Run<'a> {
@@ -86,52 +88,35 @@ impl Run<'_> {
     /// `work` is called with the stream of the block and the number of its trials. If the run is cancelled, the results
     /// of the finished blocks are returned: an unbroken series from the first.
     pub fn blocks<T: Send>(&self, work: impl Fn(&mut Stream, u64) -> T + Sync) -> Vec<T> {
-        let queue = Mutex::new(Queue { next: 0, stream: Stream::new(self.seed) });
-        let done = Mutex::new((0_u64, Vec::new()));
-        let worker = || {
-            while let Some((block, mut stream)) = self.take(&queue) {
-                let trials = BLOCK.min(self.trials - block * BLOCK);
-                let result = work(&mut stream, trials);
-                let total = {
-                    let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
-                    done.0 += trials;
-                    done.1.push((block, result));
-                    done.0
-                };
-                if let Some(progress) = self.progress {
-                    progress(total);
-                }
-            }
-        };
-        let others = self.threads.saturating_sub(1).min(usize::try_from(self.trials / BLOCK).unwrap_or(usize::MAX));
-        std::thread::scope(|scope| {
-            for _ in 0..others {
-                scope.spawn(worker);
-            }
-            worker();
+        let mut stream = Stream::new(self.seed);
+        let mut blocks = (0..self.trials.div_ceil(BLOCK)).map(|block| {
+            let own = stream.clone();
+            stream.0.jump();
+            (BLOCK.min(self.trials - block * BLOCK), own)
         });
-        let (_, mut results) = done.into_inner().unwrap_or_else(PoisonError::into_inner);
-        results.sort_by_key(|(block, _)| *block);
-        results.into_iter().map(|(_, result)| result).collect()
-    }
-
-    /// Returns the next block and its stream, or `None` if there is none left or the run is cancelled.
-    fn take(&self, queue: &Mutex<Queue>) -> Option<(u64, Stream)> {
-        let mut queue = queue.lock().unwrap_or_else(PoisonError::into_inner);
-        let cancelled = self.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed));
-        if cancelled || queue.next * BLOCK >= self.trials {
-            return None;
+        let cancelled = || self.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed));
+        let done = AtomicU64::new(0);
+        let block = |(trials, stream): &(u64, Stream)| {
+            if cancelled() {
+                return None;
+            }
+            let result = work(&mut stream.clone(), *trials);
+            let total = done.fetch_add(*trials, Ordering::Relaxed) + trials;
+            if let Some(progress) = self.progress {
+                progress(total);
+            }
+            Some(result)
+        };
+        let mut results = Vec::new();
+        loop {
+            // So few at a time that their streams need little memory, however many trials there are.
+            let wave: Vec<(u64, Stream)> = blocks.by_ref().take(BLOCKS_IN_A_WAVE).collect();
+            results.extend(parallel::map(&wave, self.threads, &block).into_iter().map_while(|result| result));
+            if wave.is_empty() || cancelled() {
+                return results;
+            }
         }
-        let taken = (queue.next, queue.stream.clone());
-        queue.next += 1;
-        queue.stream.0.jump();
-        Some(taken)
     }
-}
-
-struct Queue {
-    next: u64,
-    stream: Stream,
 }
 
 #[cfg(test)]
