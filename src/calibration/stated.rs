@@ -169,39 +169,3 @@ impl Display for TemperatureOutside {
         )
     }
 }
-
-#[cfg(all(test, feature = "factory"))]
-mod tests {
-    use super::*;
-    use crate::stand::Stand;
-
-    /// Expected: both ends of a certified range belong to it, and nothing is said of what is not stated.
-    #[test]
-    fn a_temperature_outside_the_certified_range_is_told() {
-        let stand = Stand::from_yaml("stand.yaml", include_bytes!("../../passports/SPS-2/0017/stand.yaml")).unwrap();
-        let of = |here_c: Option<f64>, range: Option<[f64; 2]>| {
-            let certificate = Certificate { temperature_range_c: range, ..stand.certificate.clone() };
-            let subject = Subject { temperature_c: here_c, ..Subject::default() };
-            let laboratory = Laboratory { temperature_c: here_c, ..Laboratory::paper() };
-            let other = Laboratory { temperature_c: Some(99.0), ..Laboratory::paper() };
-            let outside = TemperatureOutside::of(&certificate, &Subject::default(), Some(&laboratory));
-            if here_c.is_some() {
-                assert_eq!(TemperatureOutside::of(&certificate, &subject, Some(&other)), outside);
-            }
-            outside
-        };
-        for (here_c, range) in [(Some(18.0), Some([18.0, 22.0])), (Some(22.0), Some([18.0, 22.0])), (Some(30.0), None)]
-        {
-            assert_eq!(of(here_c, range), None);
-        }
-        assert_eq!(of(None, Some([18.0, 22.0])), None);
-        for here_c in [17.5, 22.5] {
-            let outside = of(Some(here_c), Some([18.0, 22.0]));
-            assert_eq!(outside, Some(TemperatureOutside { here_c, low_c: 18.0, high_c: 22.0 }));
-        }
-        assert_eq!(
-            of(Some(17.5), Some([18.0, 22.0])).unwrap().to_string(),
-            "the temperature in the laboratory is 17.5 deg C; the deviations are certified from 18 to 22 deg C"
-        );
-    }
-}

@@ -1,15 +1,15 @@
 //! Verdicts against hand-made figures, the JSON of results, and the inputs that the files state.
 
 use crate::inside::reference::*;
-use dtg_passport::calibration::document::CalibrationDocument;
-use dtg_passport::calibration::stated::{NotStated, uncertainties};
+use dtg_passport::calibration::document::{CalibrationDocument, Subject};
+use dtg_passport::calibration::stated::{NotStated, TemperatureOutside, uncertainties};
 use dtg_passport::calibration::verdict::{Decision, Found, against_earlier, against_type, change_in_uncertainties};
 use dtg_passport::calibration::{InputUncertainty, Options, Parameter, Setup, calibrate};
 use dtg_passport::coefficients::EarthRate;
 use dtg_passport::gyro::{GyroParameters, GyroType};
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::site::Site;
-use dtg_passport::stand::Stand;
+use dtg_passport::stand::{Certificate, Stand};
 use dtg_passport::units::radians_from_arcseconds;
 
 const G: f64 = 9.80665;
@@ -327,4 +327,33 @@ fn every_part_that_is_not_stated_is_named() {
     assert_eq!(missing(&format!("{SITE}{}", mark.replace(", position_u_m: 0.02", ""))), [of_mark]);
     assert_eq!(missing(&format!("{SITE}gravity_m_per_s2: 9.8156\n")), [gravity]);
     assert!(missing(&SITE.replace("latitude_deg", "astronomic_latitude_deg")).is_empty());
+}
+
+/// Expected: both ends of a certified range belong to it, and nothing is said of what is not stated.
+#[test]
+fn a_temperature_outside_the_certified_range_is_told() {
+    let stand = Stand::from_yaml("stand.yaml", STAND.as_bytes()).unwrap();
+    let of = |here_c: Option<f64>, range: Option<[f64; 2]>| {
+        let certificate = Certificate { temperature_range_c: range, ..stand.certificate.clone() };
+        let subject = Subject { temperature_c: here_c, ..Subject::default() };
+        let laboratory = Laboratory { temperature_c: here_c, ..Laboratory::paper() };
+        let other = Laboratory { temperature_c: Some(99.0), ..Laboratory::paper() };
+        let outside = TemperatureOutside::of(&certificate, &Subject::default(), Some(&laboratory));
+        if here_c.is_some() {
+            assert_eq!(TemperatureOutside::of(&certificate, &subject, Some(&other)), outside);
+        }
+        outside
+    };
+    for (here_c, range) in [(Some(18.0), Some([18.0, 22.0])), (Some(22.0), Some([18.0, 22.0])), (Some(30.0), None)] {
+        assert_eq!(of(here_c, range), None);
+    }
+    assert_eq!(of(None, Some([18.0, 22.0])), None);
+    for here_c in [17.5, 22.5] {
+        let outside = of(Some(here_c), Some([18.0, 22.0]));
+        assert_eq!(outside, Some(TemperatureOutside { here_c, low_c: 18.0, high_c: 22.0 }));
+    }
+    assert_eq!(
+        of(Some(17.5), Some([18.0, 22.0])).unwrap().to_string(),
+        "the temperature in the laboratory is 17.5 deg C; the deviations are certified from 18 to 22 deg C"
+    );
 }
