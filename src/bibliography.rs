@@ -91,15 +91,4 @@ pub enum Bibliography {
     GostR2610,
     /// ISO/IEC 18004:2015, QR Code bar code symbology specification.
     Iso18004,
-    /// OpenSSH, PROTOCOL.sshsig: the signature format, its armor and its namespaces.
-    SshSig,
-    /// OpenSSH, PROTOCOL.krl: key revocation lists.
-    SshKrl,
-    /// OpenSSH, ssh-keygen(1), section "ALLOWED SIGNERS".
-    AllowedSigners,
-    /// OpenSSH, PROTOCOL.u2f: signatures made by FIDO tokens.
-    SshU2f,
-    /// YAML Ain't Markup Language, versions 1.1 (2005) and 1.2.2 (2021): interpretation of scalars by readers of
-    /// either version.
-    Yaml,
 }

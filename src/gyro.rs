@@ -68,13 +68,9 @@ impl Parameters {
 
     /// Converts the parameters to vectors and matrices.
     pub fn to_model(&self) -> GyroParameters {
-        let [[kx, kxy], [kyx, ky]] = self.k_deg_per_h_per_ma;
-        GyroParameters {
-            k_deg_per_h_per_ma: Matrix2::new(kx, kxy, kyx, ky),
-            omega0_deg_per_h: Vector2::from(self.omega0_deg_per_h),
-            omega_g_deg_per_h_per_g: self.omega_g_deg_per_h_per_g,
-            omega_k_deg_per_h_per_g: self.omega_k_deg_per_h_per_g,
-        }
+        let ([[kx, kxy], [kyx, ky]], [x, y]) = (self.k_deg_per_h_per_ma, self.omega0_deg_per_h);
+        let (w_g, w_k) = (self.omega_g_deg_per_h_per_g, self.omega_k_deg_per_h_per_g);
+        GyroParameters::from_vector(&[kx, kxy, kyx, ky, x, y, w_g, w_k])
     }
 }
 

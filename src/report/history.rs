@@ -1,6 +1,7 @@
 //! One stand over the years, as text and as JSON.
 
 use crate::attitude::ANGLES;
+use crate::calibration::document::finite;
 use crate::history::drift::{DRIFTS, Drift, Jump, SUSPECTED, Series};
 use crate::history::{History, PastCertificate, PastPassport};
 use crate::report::page::language::capital;
@@ -52,8 +53,6 @@ fn drift_json(drift: &Drift) -> Value {
 
 fn series_json(series: &Series) -> Value {
     let line = series.line.as_ref();
-    // Infinite degrees of freedom are null, because JSON has no infinity.
-    let finite = |value: f64| value.is_finite().then_some(value);
     json!({
         "i": series.index.i, "j": series.index.j, "angle": ANGLES[series.angle],
         "values": series.values,
