@@ -6,6 +6,10 @@
 //! computes its regressors and its weights from the currents that the last solution gives (effective variance,
 //! iterated), never from the noisy readings.
 
+mod refused;
+
+pub use refused::NoLeastSquares;
+
 use super::inputs::MeterUncertainty;
 use super::offsets::Offsets;
 use super::parameter::Parameter;
@@ -32,62 +36,6 @@ const LARGEST_NUMBER_OF_STEPS: usize = 30;
 
 /// Length of the last step, as a fraction of the solution's own uncertainty, below which the fit is settled.
 pub(crate) const SETTLED: f64 = 1e-6;
-
-/// Reason why least squares gives no result.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum NoLeastSquares {
-    /// A number of current pairs that differs from the number of positions.
-    #[error("found {found} pairs of currents, expected {expected}, one for each position")]
-    WrongNumberOfCurrents {
-        /// Number of pairs of currents given.
-        found: usize,
-        /// Number of positions of the stand.
-        expected: usize,
-    },
-    /// Readings of other positions than those of the coefficients, or in another order.
-    #[error("the readings and the coefficients are for different positions")]
-    OtherPositions,
-    /// Equations that do not determine all parameters.
-    #[error("{}", inseparable(.groups, *.condition))]
-    Inseparable {
-        /// Groups of parameters that cannot be separated; a group of one parameter is not determined at all.
-        groups: Vec<Vec<Parameter>>,
-        /// Condition number of the equations.
-        condition: f64,
-    },
-    /// A drift in time is asked for, but a reading has no time.
-    #[error("a drift in time cannot be fitted without the time of every reading: add the column time_s")]
-    NoTimes,
-    /// A drift in time is asked for, but all readings have the same time.
-    #[error("a drift in time cannot be fitted, because all readings have the same time_s")]
-    ConstantTime,
-    /// A drift in time is asked for, but would leave the noise of the gyro from visit to visit without degrees of freedom.
-    #[error(
-        "a drift in time cannot be fitted, because the repeated visits cannot tell it from the noise of the gyro: visit \
-         more positions again, or state noise.visit_deg_per_h in the gyro type"
-    )]
-    DriftOrNoise,
-    /// A current or an uncertainty that is not finite, or a meter without any uncertainty.
-    #[error("every current must be finite and every uncertainty positive")]
-    NotUsable,
-}
-
-fn inseparable(groups: &[Vec<Parameter>], condition: f64) -> String {
-    let words = groups.iter().map(|group| {
-        let symbols: Vec<&str> = group.iter().map(|parameter| parameter.symbol()).collect();
-        match symbols.as_slice() {
-            [] => "determine the parameters".to_owned(),
-            [one] => format!("determine {one}"),
-            [one, rest @ ..] => format!("separate {one} from {}", rest.join(" and ")),
-        }
-    });
-    let words: Vec<String> = words.collect();
-    let words = words.join(", nor ");
-    format!(
-        "readings of these positions cannot {words} (condition number {condition:.0e}, at most {LARGEST_CONDITION})"
-    )
-}
 
 /// Solves for the gyro parameters from one reading (J_x, J_y) of each of `coefficients.positions`, mA, in the same
 /// order.
@@ -289,8 +237,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         if found.number <= LARGEST_CONDITION {
             return Factorised::new(design).ok_or(NoLeastSquares::NotUsable);
         }
-        let groups = mixed(&found.undetermined, &self.names());
-        Err(NoLeastSquares::Inseparable { groups, condition: found.number })
+        Err(NoLeastSquares::inseparable(&found, &self.names()))
     }
 
     /// Checks that no offset is mixed with another unknown. How well each is known, its uncertainty tells.
@@ -314,8 +261,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         if found.undetermined.is_empty() {
             return Ok(());
         }
-        let groups = mixed(&found.undetermined, &self.names());
-        Err(NoLeastSquares::Inseparable { groups, condition: found.number })
+        Err(NoLeastSquares::inseparable(&found, &self.names()))
     }
 
     /// Returns the names of all columns.
@@ -433,32 +379,4 @@ pub(crate) fn multiply_rows(matrix: &mut DMatrix<f64>, place: usize, by: &Matrix
         matrix[(2 * place, column)] = by.m11 * x + by.m12 * y;
         matrix[(2 * place + 1, column)] = by.m21 * x + by.m22 * y;
     }
-}
-
-/// Returns the groups of parameters that the undetermined directions mix.
-///
-/// Elimination with the largest element as pivot leaves each direction with as few parameters as possible. Two
-/// parameters that are undetermined independently then do not seem to be mixed with each other.
-fn mixed(directions: &[DVector<f64>], names: &[Parameter]) -> Vec<Vec<Parameter>> {
-    let mut rows: Vec<DVector<f64>> = directions.to_vec();
-    for pivot_row in 0..rows.len() {
-        let pivot = rows[pivot_row].iamax();
-        let divisor = rows[pivot_row][pivot];
-        if divisor == 0.0 {
-            continue;
-        }
-        let normalised = &rows[pivot_row] / divisor;
-        for (other, row) in rows.iter_mut().enumerate() {
-            if other != pivot_row {
-                let factor = row[pivot];
-                row.axpy(-factor, &normalised, 1.0);
-            }
-        }
-        rows[pivot_row] = normalised;
-    }
-    let involved = |row: &DVector<f64>| {
-        let limit = 0.1 * row.amax();
-        names.iter().zip(row.iter()).filter(|(_, x)| x.abs() > limit).map(|(name, _)| *name).collect()
-    };
-    rows.iter().map(involved).collect()
 }

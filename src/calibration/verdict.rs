@@ -79,15 +79,6 @@ pub struct ParameterVerdict {
     pub specific_risk: f64,
 }
 
-impl Verdict {
-    /// Returns the parameter whose uncertainty takes most of its tolerance.
-    pub(crate) fn least_certain(&self) -> Option<Parameter> {
-        let share = |line: &&ParameterVerdict| line.expanded_uncertainty / line.tolerance;
-        let worst = self.parameters.iter().max_by(|one, other| share(one).total_cmp(&share(other)))?;
-        Parameter::EIGHT.into_iter().find(|parameter| parameter.key() == worst.parameter)
-    }
-}
-
 impl ParameterVerdict {
     /// Returns `true` if the parameter is undecided because of its uncertainty, not because the result is not valid.
     pub(crate) fn is_close(&self) -> bool {
@@ -221,6 +212,13 @@ pub(crate) fn change_in_uncertainties(found: &Found, earlier: &Found) -> [f64; 8
 }
 
 impl Verdict {
+    /// Returns the parameter whose uncertainty takes most of its tolerance.
+    pub(crate) fn least_certain(&self) -> Option<Parameter> {
+        let share = |line: &&ParameterVerdict| line.expanded_uncertainty / line.tolerance;
+        let worst = self.parameters.iter().max_by(|one, other| share(one).total_cmp(&share(other)))?;
+        Parameter::EIGHT.into_iter().find(|parameter| parameter.key() == worst.parameter)
+    }
+
     /// Returns the comparison with nothing decided, for parameters that are not valid.
     pub(crate) fn undecided(mut self) -> Self {
         for row in &mut self.parameters {

@@ -43,20 +43,16 @@ impl Readings {
                 readings.push(Reading { index, current_ma: Vector2::new(x, y), cycle, visit, time_s });
             }
         }
-        if problems.is_empty() && visit.is_none() {
-            problems = perhaps_mistaken(coefficients, &readings);
-        }
         if problems.is_empty() {
-            problems = torn_visits(&table, &readings);
-        }
-        if problems.is_empty() {
-            problems = lone_cycles(&readings);
-        }
-        if problems.is_empty() {
-            problems = impossible_times(&table, &readings);
-        }
-        if problems.is_empty() {
-            problems = without_current(&readings);
+            // Each kind of problem may be the cause of the next.
+            let kinds = [
+                if visit.is_none() { perhaps_mistaken(coefficients, &readings) } else { Vec::new() },
+                torn_visits(&table, &readings),
+                lone_cycles(&readings),
+                impossible_times(&table, &readings),
+                without_current(&readings),
+            ];
+            problems = kinds.into_iter().find(|found| !found.is_empty()).unwrap_or_default();
         }
         if !problems.is_empty() {
             return Err(table.refuse(problems));
