@@ -50,20 +50,12 @@ impl Parameter {
     };
 
     /// The parameters of the general model: G by rows takes the place of ω_g and ω_k.
-    pub(crate) const TWELVE: [Self; 12] = [
-        Self::Kx,
-        Self::Kxy,
-        Self::Kyx,
-        Self::Ky,
-        Self::Omega0x,
-        Self::Omega0y,
-        Self::G(0, 0),
-        Self::G(0, 1),
-        Self::G(0, 2),
-        Self::G(1, 0),
-        Self::G(1, 1),
-        Self::G(1, 2),
-    ];
+    pub(crate) const TWELVE: [Self; 12] = {
+        let [kx, kxy, kyx, ky, x, y, ..] = Self::EIGHT;
+        let [xx, xy, xz] = [Self::G(0, 0), Self::G(0, 1), Self::G(0, 2)];
+        let [yx, yy, yz] = [Self::G(1, 0), Self::G(1, 1), Self::G(1, 2)];
+        [kx, kxy, kyx, ky, x, y, xx, xy, xz, yx, yy, yz]
+    };
 
     /// Returns key, symbol and unit.
     fn words(self) -> [&'static str; 3] {

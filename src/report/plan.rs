@@ -166,33 +166,26 @@ fn percent(share: f64) -> String {
 /// Returns what a user of the plan must know besides the numbers.
 fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<String> {
     let mut remarks = Vec::new();
-    let names = |these: &dyn Fn(&&Effect) -> bool| {
-        let names: Vec<&str> = plan.evaluation.effects.iter().filter(these).map(|at| at.error.name()).collect();
-        names.join(", ")
-    };
-    match plan.beyond_range {
-        0 => {}
-        1 => {
-            remarks.push("One position is left out: the gyro needs more current there than meter.range_ma.".to_owned())
+    if plan.beyond_range > 0 {
+        let positions = match plan.beyond_range {
+            1 => "One position is".to_owned(),
+            some => format!("{some} positions are"),
+        };
+        remarks.push(format!("{positions} left out: the gyro needs more current there than meter.range_ma."));
+    }
+    let kinds: [(&str, fn(&Effect) -> bool); 3] = [
+        ("This plan cannot see the following errors, because the residuals do not show them", |effect| {
+            effect.matters() && effect.is_hidden()
+        }),
+        ("The residuals show errors of this size", |effect| effect.matters() && !effect.is_hidden()),
+        ("Almost without effect on it (below 0.1 % of every tolerance)", |effect| !effect.matters()),
+    ];
+    for (words, is) in kinds {
+        let effects = plan.evaluation.effects.iter().filter(|effect| is(effect));
+        let names: Vec<&str> = effects.map(|effect| effect.error.name()).collect();
+        if !names.is_empty() {
+            remarks.push(format!("{words}: {}.", names.join(", ")));
         }
-        some => {
-            remarks
-                .push(format!("{some} positions are left out: the gyro needs more current there than meter.range_ma."));
-        }
-    }
-    let unseen = names(&|effect| effect.matters() && effect.is_hidden());
-    if !unseen.is_empty() {
-        remarks.push(format!(
-            "This plan cannot see the following errors, because the residuals do not show them: {unseen}."
-        ));
-    }
-    let shown = names(&|effect| effect.matters() && !effect.is_hidden());
-    if !shown.is_empty() {
-        remarks.push(format!("The residuals show errors of this size: {shown}."));
-    }
-    let harmless = names(&|effect| !effect.matters());
-    if !harmless.is_empty() {
-        remarks.push(format!("Almost without effect on it (below 0.1 % of every tolerance): {harmless}."));
     }
     let worse: Vec<String> =
         plan.worse().iter().map(|(parameter, ratio)| format!("{} {ratio:.2} times", parameter.symbol())).collect();
