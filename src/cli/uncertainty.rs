@@ -6,7 +6,7 @@ use crate::gyro::Tolerance;
 use crate::interface::calibrated::distributions;
 use crate::report::{picture, uncertainty as report};
 use crate::uncertainty::dominant::Dominant;
-use crate::uncertainty::monte_carlo::{Trials, check_model};
+use crate::uncertainty::monte_carlo::{Trials, refused_model};
 use crate::uncertainty::{Budget, MonteCarlo};
 use clap::Args;
 use indicatif::HumanDuration;
@@ -105,7 +105,7 @@ impl UncertaintyOptions {
         }
         let method = calibration.answer().map_or(Method::LeastSquares, |answer| answer.method);
         // Before the picture is written.
-        if let Some(why) = self.monte_carlo.then(|| check_model(options).err()).flatten() {
+        if let Some(why) = self.monte_carlo.then(|| refused_model(options)).flatten() {
             let advice = "omit --monte-carlo, or --anisoelasticity, --drift and --model general";
             return Err(Failure::unusable(format!("{why}; {advice}")));
         }

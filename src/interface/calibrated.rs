@@ -116,7 +116,9 @@ pub(crate) fn distributions(
     (budget, options): (&Budget, &Options),
     run: &Trials,
 ) -> Result<MonteCarlo, Failed> {
-    uncertainty::monte_carlo::check_model(options).map_err(Failed::refused)?;
+    if let Some(why) = uncertainty::monte_carlo::refused_model(options) {
+        return Err(Failed::refused(why));
+    }
     let engine = Engine::new(setup, readings, budget.method, ReadingShape::Normal).map_err(Failed::refused)?;
     let found = uncertainty::monte_carlo(&engine, budget, run);
     if found.trials == 0 {

@@ -31,13 +31,10 @@ const MOST_BLOCKS_IN_A_WAVE: u64 = 512;
 /// Number of trials after which an adaptive run stops.
 pub(crate) const MOST_TRIALS: u64 = 200_000_000;
 
-/// Checks that the trials can have the model of a calibration.
-///
-/// # Errors
-/// Returns the reason unless it is the paper's model without a drift in time.
-pub(crate) fn check_model(options: &Options) -> Result<(), &'static str> {
+/// Returns the reason why trials cannot have the model of a calibration, or `None` if it is the paper's without a drift.
+pub(crate) fn refused_model(options: &Options) -> Option<&'static str> {
     let same = options.model == Model::Paper && !options.drift;
-    if same { Ok(()) } else { Err("the Monte Carlo method has the paper's model with one constant drift") }
+    (!same).then_some("the Monte Carlo method has the paper's model with one constant drift")
 }
 
 /// Settings of a Monte Carlo run.
