@@ -2,11 +2,11 @@
 
 use super::accuracy::PAPER_LATITUDE_DEG;
 use super::draw::{self, Deviations};
-use crate::calibration::iterative::{LARGEST_NUMBER_OF_STEPS, Plan, StopRule};
+use crate::calibration::iterative::{Plan, StopRule};
 use crate::coefficients::{EarthRate, StandGeometry};
 use crate::gyro::{GyroParameters, GyroType};
 use crate::statistics::random::{Run, Stream};
-use crate::statistics::summary::{Histogram, binomial_standard_error};
+use crate::statistics::summary::{binomial_standard_error, percentile};
 use serde::Serialize;
 
 /// Options of the convergence simulation.
@@ -93,15 +93,15 @@ pub fn convergence(options: &ConvergenceOptions, run: &Run) -> Convergence {
     Convergence { trials: run.trials, seed: run.seed, rows }
 }
 
-/// Returns the histogram of the steps of the stands that converged in one block, and the number of stands drawn.
+/// Returns the numbers of steps of the stands that converged in one block, and the number of stands drawn.
 fn steps(
     options: &ConvergenceOptions,
     deviations: Deviations,
     limit_deg: f64,
     stream: &mut Stream,
     trials: u64,
-) -> (Histogram, u64) {
-    let mut converged = Histogram::up_to(LARGEST_NUMBER_OF_STEPS as usize);
+) -> (Vec<u16>, u64) {
+    let mut converged = Vec::new();
     for _ in 0..trials {
         let stand = draw::stand(stream, deviations, limit_deg);
         let plan = StandGeometry::new(&stand).ok().and_then(|geometry| {
@@ -110,24 +110,25 @@ fn steps(
             Plan::new(&at, &currents.collect::<Option<Vec<_>>>()?).ok()
         });
         if let Some(steps) = plan.and_then(|plan| plan.steps(&options.stop_rule)) {
-            converged.add(steps as usize);
+            converged.extend(u16::try_from(steps));
         }
     }
     (converged, trials)
 }
 
 /// Returns the row of one limit, or `None` if the run was cancelled before the first block.
-fn row(deviations: Deviations, limit_deg: f64, blocks: &[(Histogram, u64)]) -> Option<ConvergenceRow> {
-    let mut converged = Histogram::up_to(LARGEST_NUMBER_OF_STEPS as usize);
-    blocks.iter().for_each(|(block, _)| converged.merge(block));
+fn row(deviations: Deviations, limit_deg: f64, blocks: &[(Vec<u16>, u64)]) -> Option<ConvergenceRow> {
+    let mut converged: Vec<u16> = blocks.iter().flat_map(|(steps, _)| steps).copied().collect();
+    converged.sort_unstable();
     let stands: u64 = blocks.iter().map(|(_, trials)| trials).sum();
-    let missing = stands - converged.count();
+    let missing = stands - converged.len() as u64;
+    let sum: u64 = converged.iter().map(|steps| u64::from(*steps)).sum();
     (stands > 0).then(|| ConvergenceRow {
         limit_deg,
         deviations: deviations.key(),
-        mean: converged.mean(),
-        percentile_95: converged.percentile(0.95),
-        most: converged.most(),
+        mean: (!converged.is_empty()).then(|| sum as f64 / converged.len() as f64),
+        percentile_95: percentile(&converged, 0.95).map(usize::from),
+        most: converged.last().copied().map(usize::from),
         not_converged_percent: 100.0 * missing as f64 / stands as f64,
         not_converged_u_percent: 100.0 * binomial_standard_error(missing, stands),
         stands,

@@ -48,57 +48,11 @@ impl Summary {
     }
 }
 
-/// Counts of the whole numbers up to a limit.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Histogram(Vec<u64>);
-
-impl Histogram {
-    /// Creates an empty histogram for numbers up to `largest`.
-    pub(crate) fn up_to(largest: usize) -> Self {
-        Self(vec![0; largest + 1])
-    }
-
-    /// Counts `value`; a value above the limit counts as the limit.
-    pub(crate) fn add(&mut self, value: usize) {
-        let last = self.0.len() - 1;
-        if let Some(count) = self.0.get_mut(value.min(last)) {
-            *count += 1;
-        }
-    }
-
-    /// Adds the counts of another histogram with the same limit.
-    pub(crate) fn merge(&mut self, other: &Self) {
-        for (count, more) in self.0.iter_mut().zip(&other.0) {
-            *count += more;
-        }
-    }
-
-    /// Returns the number of values counted.
-    pub(crate) fn count(&self) -> u64 {
-        self.0.iter().sum()
-    }
-
-    /// Returns the mean of the values, or `None` if there are none.
-    pub(crate) fn mean(&self) -> Option<f64> {
-        let sum: u64 = self.0.iter().enumerate().map(|(value, count)| value as u64 * count).sum();
-        (self.count() > 0).then(|| sum as f64 / self.count() as f64)
-    }
-
-    /// Returns the smallest number that at least `share` of the sample does not exceed, or `None` if the sample is
-    /// empty.
-    pub(crate) fn percentile(&self, share: f64) -> Option<usize> {
-        let due = (share * self.count() as f64).ceil() as u64;
-        let mut below = 0;
-        self.0.iter().position(|count| {
-            below += count;
-            below > 0 && below >= due
-        })
-    }
-
-    /// Returns the largest number counted, or `None` if the sample is empty.
-    pub(crate) fn most(&self) -> Option<usize> {
-        self.0.iter().rposition(|count| *count > 0)
-    }
+/// Returns the smallest value that at least `share` of a sample in ascending order does not exceed, or `None` if the sample
+/// is empty.
+pub(crate) fn percentile<T: Copy>(ascending: &[T], share: f64) -> Option<T> {
+    let due = (share * ascending.len() as f64).ceil() as usize;
+    ascending.get(due.saturating_sub(1)).copied()
 }
 
 /// Returns the standard error of a share `part` / `whole` of independent trials (binomial), or 0 for an empty sample.
@@ -127,19 +81,17 @@ mod tests {
         assert_eq!(Summary::default().standard_deviation(), 0.0);
     }
 
-    /// Expected by hand.
+    /// Expected by hand: 19 of 20 values are 3, the last is 8.
     #[test]
-    fn histogram_of_twenty() {
-        let mut histogram = Histogram::up_to(10);
-        (0..19).for_each(|_| histogram.add(3));
-        assert_eq!(histogram.percentile(0.95), Some(3));
-        histogram.add(8);
+    fn percentiles_of_twenty() {
+        let mut sample = vec![3; 19];
+        assert_eq!(percentile(&sample, 0.95), Some(3));
+        sample.push(8);
         assert_eq!(
-            (histogram.percentile(0.95), histogram.percentile(1.0), histogram.most()),
-            (Some(3), Some(8), Some(8))
+            [0.0, 0.95, 0.96, 1.0].map(|share| percentile(&sample, share)),
+            [Some(3), Some(3), Some(8), Some(8)]
         );
-        assert_eq!(histogram.mean(), Some(65.0 / 20.0));
-        assert_eq!(Histogram::up_to(3).percentile(0.5), None);
+        assert_eq!(percentile::<u16>(&[], 0.5), None);
         assert!((binomial_standard_error(50, 100) - 0.05).abs() < 1e-15);
     }
 }
