@@ -299,7 +299,7 @@ impl<'a> Evaluation<'a> {
         let each = turn_ons.row_iter().zip(&offsets.cycles).map(|(row, &cycle)| {
             let bias = row.iter().zip(self.fit.changing.chunks_exact(2));
             let bias = bias.fold(Vector2::zeros(), |sum, (a, x)| sum + Vector2::new(x[0], x[1]) * *a);
-            Cycle { cycle, omega0_deg_per_h: omega0 + bias }
+            Cycle { cycle, omega0_deg_per_h: (omega0 + bias).into() }
         });
         each.collect()
     }

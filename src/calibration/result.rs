@@ -119,12 +119,13 @@ pub enum MethodRefusal {
 }
 
 /// ω_0 of one turn-on of the gyro.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "struct CycleDocument")]
 pub struct Cycle {
     /// Number of the turn-on.
     pub cycle: u32,
     /// ω_0 about x and y, °/h.
-    pub omega0_deg_per_h: Vector2<f64>,
+    pub omega0_deg_per_h: [f64; 2],
 }
 
 /// Linear drift of ω_0 in time.

@@ -217,8 +217,8 @@ fn beyond_the_paper(out: &mut String, answer: &MethodResult) {
     for at in &answer.cycles {
         let u = answer.standard_uncertainty(Parameter::Omega0x).unwrap_or(0.0);
         let digits = columns::decimals(u);
-        let (omega0, cycle) = (at.omega0_deg_per_h, at.cycle);
-        let _ = writeln!(out, "  turn-on {cycle}: ω_0 = ({:.digits$}, {:.digits$}) °/h", omega0.x, omega0.y);
+        let ([x, y], cycle) = (at.omega0_deg_per_h, at.cycle);
+        let _ = writeln!(out, "  turn-on {cycle}: ω_0 = ({x:.digits$}, {y:.digits$}) °/h");
     }
     if !answer.cycles.is_empty() {
         columns::paragraph(out, "  ", "ω_0 is the mean of the turn-ons; u is that of the long-term mean.");

@@ -116,7 +116,7 @@ fn exact_readings_give_exact_parameters() {
                 assert!((drift - gyro.per_hour).amax() < 1e-9, "{drift}");
                 for (at, bias) in result.cycles.iter().zip(gyro.turn_ons) {
                     let due = gvk_6().omega0_deg_per_h + bias;
-                    assert!((at.omega0_deg_per_h - due).amax() < 1e-9, "{at:?}");
+                    assert!((Vector2::from(at.omega0_deg_per_h) - due).amax() < 1e-9, "{at:?}");
                 }
                 match result.g_matrix {
                     Some(found) => assert!((found.deg_per_h_per_g - gyro.g).amax() < 1e-9, "{found:?}"),

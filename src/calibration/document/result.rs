@@ -3,7 +3,7 @@
 use crate::calibration::iterative::{LARGEST_NUMBER_OF_STEPS, StepChange, StopRule};
 use crate::calibration::noise::{DriftNoise, NoiseSource};
 use crate::calibration::parameter::Parameter;
-use crate::calibration::result::{Calibration, MethodResult, ModelTest};
+use crate::calibration::result::{Calibration, Cycle, MethodResult, ModelTest};
 use crate::calibration::scatter::RowScatter;
 use crate::calibration::unknowns::Model;
 use crate::calibration::verdict::Found;
@@ -44,7 +44,7 @@ pub(crate) struct ResultDocument {
     pub(crate) drift_deg_per_h_per_h: Option<[f64; 2]>,
     /// ω_0 of each turn-on of the gyro.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
-    pub(crate) cycles: Vec<CycleDocument>,
+    pub(crate) cycles: Vec<Cycle>,
     /// Noise of the gyro's drift that the uncertainties contain; absent in results of earlier versions.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) noise: Option<NoiseDocument>,
@@ -87,16 +87,6 @@ pub(crate) struct ResultDocument {
 
 fn paper() -> String {
     Model::Paper.key().to_owned()
-}
-
-/// ω_0 of one turn-on of the gyro.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct CycleDocument {
-    /// Number of the turn-on.
-    pub(crate) cycle: u32,
-    /// ω_0, °/h: [x, y].
-    pub(crate) omega0_deg_per_h: [f64; 2],
 }
 
 /// Noise of the gyro's drift: from visit to visit, and from one turn-on to the next.
@@ -246,11 +236,7 @@ impl ResultDocument {
             g_matrix_deg_per_h_per_g: result.g_matrix.map(|g| rows(&g.deg_per_h_per_g)),
             model_test: result.model_test,
             drift_deg_per_h_per_h: result.drift.map(|drift| drift.deg_per_h_per_h.into()),
-            cycles: result
-                .cycles
-                .iter()
-                .map(|at| CycleDocument { cycle: at.cycle, omega0_deg_per_h: at.omega0_deg_per_h.into() })
-                .collect(),
+            cycles: result.cycles.clone(),
             noise: Some(NoiseDocument::new(calibration)),
             anisoelasticity_deg_per_h_per_g2: result.anisoelasticity_deg_per_h_per_g2,
             iterations: iteration.map(|iteration| iteration.steps),
