@@ -163,6 +163,9 @@ fn percent(share: f64) -> String {
     }
 }
 
+/// Which effects a sentence names.
+type Named = fn(&Effect) -> bool;
+
 /// Returns what a user of the plan must know besides the numbers.
 fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<String> {
     let mut remarks = Vec::new();
@@ -173,7 +176,7 @@ fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<String> {
         };
         remarks.push(format!("{positions} left out: the gyro needs more current there than meter.range_ma."));
     }
-    let kinds: [(&str, fn(&Effect) -> bool); 3] = [
+    let kinds: [(&str, Named); 3] = [
         ("This plan cannot see the following errors, because the residuals do not show them", |effect| {
             effect.matters() && effect.is_hidden()
         }),

@@ -111,7 +111,7 @@ impl Run<'_> {
         loop {
             // So few at a time that their streams need little memory, however many trials there are.
             let wave: Vec<(u64, Stream)> = blocks.by_ref().take(BLOCKS_IN_A_WAVE).collect();
-            results.extend(parallel::map(&wave, self.threads, &block).into_iter().map_while(|result| result));
+            results.extend(parallel::map(&wave, self.threads, block).into_iter().map_while(|result| result));
             if wave.is_empty() || cancelled() {
                 return results;
             }
