@@ -4,6 +4,8 @@ use super::components::{Components, RunModel};
 use super::rotated_runs::{CommonAxis, RotatedRuns, left_squares, without};
 use super::suspects::{OUTLIER, Outlier};
 use super::{AngleReadings, Header, turns_of};
+use crate::calibration::recorded::rounding_of;
+use crate::statistics::beta::student_factor;
 use crate::statistics::outlier::cochran_probability;
 use std::ops::Range;
 
@@ -16,7 +18,8 @@ pub(crate) struct UnequalAxis {
     pub deviation_arcsec: f64,
     /// Standard deviation from run to run about the other two axes, arcsec.
     pub others_arcsec: f64,
-    /// Standard uncertainty of type B that brings the pooled common part to that of the axis, arcsec.
+    /// Standard uncertainty of type B with which an interval of the normal distribution for the common part, pooled otherwise,
+    /// is Student's about the axis, arcsec.
     pub missing_arcsec: f64,
     /// Probability that an axis of platform or base stands out this much by chance.
     pub probability: f64,
@@ -34,6 +37,8 @@ pub(crate) fn find(
     let Some(model) = RunModel::new(&turns_of(header, readings)) else { return Vec::new() };
     let (squares, changes) = left_squares(without(header, readings, components, outliers), rotated);
     let changes = changes as f64;
+    // The variance of a single axis has few degrees of freedom, and those of the common parts are not in the file.
+    let widened = student_factor(0.05, changes) / student_factor(0.05, f64::INFINITY);
     // Axes of the base that cannot be distinguished from the platform do not vary, so the others cannot be compared.
     let groups = &[0..3, 3..6][..if components.base_axes == 3 { 2 } else { 1 }];
     let unequal = |axes: &Range<usize>| {
@@ -59,9 +64,12 @@ pub(crate) fn find(
             axis: CommonAxis(axes.start + worst),
             deviation_arcsec: own.sqrt(),
             others_arcsec: ((3.0 * between - own) / 2.0).max(0.0).sqrt(),
-            missing_arcsec: ((own - between).max(0.0) / readings.runs.len() as f64).sqrt(),
+            missing_arcsec: ((own * widened * widened - between).max(0.0) / readings.runs.len() as f64).sqrt(),
             probability: (groups.len() as f64 * cochran_probability(&relative, worst)).min(1.0),
         })
     };
-    groups.iter().filter_map(unequal).filter(|at| at.probability < OUTLIER).collect()
+    // Runs of coarse readings may agree about two axes; a variation within the rounding is none.
+    let is_found =
+        |at: &UnequalAxis| at.probability < OUTLIER && at.deviation_arcsec > rounding_of(readings.step_arcsec);
+    groups.iter().filter_map(unequal).filter(is_found).collect()
 }

@@ -75,5 +75,7 @@ mod text_rule;
 pub(crate) mod texts;
 #[cfg(all(feature = "factory", feature = "report"))]
 mod type_b;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod unequal_axes;
 #[cfg(feature = "factory")]
 mod verdict;
