@@ -229,7 +229,8 @@ impl Differences {
             turned.fixed_rows_mut::<3>(3 * place).copy_from(&case_turn(turn, &change));
             let position = &certificate.positions[place];
             let own = own_variance(turn, &certified_u_arcsec(position).unwrap_or_default());
-            let both = own.map(|variance| variance + of_check);
+            let rounding = [0, 1, 2].map(|angle| readings.rounding_of_mean_arcsec(place, angle));
+            let both = (own + own_variance(turn, &rounding.into())).map(|variance| variance + of_check);
             u.fixed_rows_mut::<3>(3 * place).copy_from(&both.map(f64::sqrt));
             // Welch and Satterthwaite, GUM (JCGM 100), eq. (G.2b), for the axis with the fewest degrees of freedom.
             let of_certificate = position.degrees_of_freedom.unwrap_or(f64::INFINITY);

@@ -200,6 +200,19 @@ impl AngleReadings {
         if spread < SPREAD_OVER_DIGITS * self.step_arcsec { rounding_of(self.step_arcsec) } else { 0.0 }
     }
 
+    /// Returns the standard uncertainty of the rounding in the mean of an angle, arcsec, where the scatter of visits is known
+    /// from finer readings, which do not contain it.
+    pub(crate) fn rounding_of_mean_arcsec(&self, position: usize, angle: usize) -> f64 {
+        let independent = rounding_of(self.step_arcsec) / (self.runs.len() as f64).sqrt();
+        self.rounding_arcsec(position, angle).max(independent)
+    }
+
+    /// Returns `true` if visits scatter by less than half a step of the readings, with this standard deviation: which
+    /// readings differ is then a matter of rounding.
+    pub(crate) fn is_coarse(&self, scatter_arcsec: f64) -> bool {
+        scatter_arcsec < SPREAD_OVER_DIGITS * self.step_arcsec
+    }
+
     /// Returns the means (α, β, γ) of each position over the runs, arcsec.
     pub(crate) fn means_arcsec(&self) -> Vec<Vector3<f64>> {
         let runs = self.runs.len() as f64;

@@ -17,7 +17,7 @@
 //! move after the first or before the last run is that run's.
 
 use super::components::{Components, RunModel, RunTurn};
-use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
+use super::suspects::{AXES, OUTLIER, Outlier, STEPS_OF_ROUNDING, STRAGGLER};
 use super::{AngleReadings, Header, turns_of};
 use crate::statistics::outlier::bonferroni_student;
 use nalgebra::Vector3;
@@ -134,9 +134,13 @@ pub(crate) fn bumped(
     let runs = left.len();
     let mut found: Vec<RotatedRuns> = Vec::new();
     while left.len() >= FEWEST_RUNS {
-        let Some(worst) = worst(&left, components.base_axes).filter(|worst| worst.probability < STRAGGLER) else {
-            break;
+        // Runs of coarse readings may agree exactly, and a rotation within the rounding would then seem improbable.
+        let span = f64::from(left[left.len() - 1].0 - left[0].0);
+        let steps = |at: &RotatedRuns| if at.pattern == Pattern::Drift { span } else { 1.0 } * at.turn_arcsec().abs();
+        let is_found = |worst: &RotatedRuns| {
+            worst.probability < STRAGGLER && steps(worst) > STEPS_OF_ROUNDING * readings.step_arcsec
         };
+        let Some(worst) = worst(&left, components.base_axes).filter(is_found) else { break };
         found.push(RotatedRuns { runs, ..worst });
         let Some(bumped) = worst.run() else { break };
         left.retain(|(run, _)| *run != bumped);

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 /// Largest difference from the other runs, in steps of the readings, that rounding explains: one step, if both are within
 /// half a step of it.
-const STEPS_OF_ROUNDING: f64 = 1.5;
+pub(super) const STEPS_OF_ROUNDING: f64 = 1.5;
 
 /// Probability below which a value is reported: a straggler in
 /// [ISO 5725-2](crate::bibliography::Bibliography::Iso5725).
@@ -82,7 +82,13 @@ impl Suspects {
     pub(crate) fn of(header: &Header, readings: &AngleReadings, components: &Components) -> Self {
         let mut outliers = outliers(header, readings, components);
         outliers.retain(|out| out.residual_arcsec.abs() > STEPS_OF_ROUNDING * readings.step_arcsec);
-        let twins = twins(&readings.runs, components);
+        let scatter_arcsec = components.pooled_arcsec2.value.sqrt();
+        // Coarse readings repeat by themselves, and a position scatters if its angles happen to be between two steps.
+        let repeats = scatter_arcsec < readings.step_arcsec;
+        let twins = if repeats { Vec::new() } else { twins(&readings.runs, components) };
+        if readings.is_coarse(scatter_arcsec) {
+            return Self { positions: None, axes: None, worse: Vec::new(), outliers, twins };
+        }
         // An outlier increases the scatter of its position and its axis and, through the common part, of its whole run.
         if !outliers.is_empty() {
             let worse =

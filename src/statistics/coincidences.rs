@@ -61,9 +61,14 @@ pub(crate) fn copies<const N: usize>(quantities: &[Vec<[f64; N]>]) -> Vec<Coinci
     let pairs: f64 =
         quantities.iter().map(|readings| readings.len() as f64 * (readings.len() as f64 - 1.0) / 2.0).sum();
     let expected = pairs * (0..N).map(agree).product::<f64>();
+    if is_chance(expected, found.len()) { Vec::new() } else { found }
+}
+
+/// Returns `true` if chance explains so many coincidences that are not copies, of which as many as `expected` occur on
+/// average.
+pub(crate) fn is_chance(expected: f64, found: usize) -> bool {
     // P(N ≥ k) of a Poisson distribution with mean λ is P(χ² < 2λ) with 2k degrees of freedom.
-    let chance = 1.0 - chi_square_larger(2.0 * expected, 2 * found.len());
-    if chance > COPIED { Vec::new() } else { found }
+    1.0 - chi_square_larger(2.0 * expected, 2 * found) > COPIED
 }
 
 /// Returns the step of numbers, a multiple of their last digit, or, if they were computed, their smallest difference within

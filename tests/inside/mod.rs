@@ -30,6 +30,8 @@ mod calibration;
 mod certification;
 #[cfg(feature = "monte-carlo")]
 mod chi_square;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod coarse_readings;
 #[cfg(feature = "factory")]
 mod forgeries;
 mod frame_axis;

@@ -72,22 +72,37 @@ fn single_copies(table: &Table, rows: &[Reading]) -> Vec<Problem> {
     coincidences::copies(&numbers).into_iter().filter_map(problem).take(MOST_PROBLEMS).collect()
 }
 
-/// Returns a problem for each run whose angles are exactly those of an earlier run.
+/// Returns a problem for each run whose angles are exactly those of an earlier run, if there are more than chance explains.
 fn copies(table: &Table, rows: &[Reading]) -> Vec<Problem> {
     let mut of_run: BTreeMap<u32, Vec<u64>> = BTreeMap::new();
     for ((_, run), (angles, _)) in averages(rows) {
         of_run.entry(run).or_default().extend(angles.iter().map(|angle| angle.to_bits()));
     }
-    let mut first: BTreeMap<Vec<u64>, u32> = BTreeMap::new();
-    let mut problems = Vec::new();
-    for (run, angles) in of_run {
-        let Some(earlier) = first.insert(angles.clone(), run) else { continue };
-        first.insert(angles, earlier);
+    let mut first: BTreeMap<&[u64], u32> = BTreeMap::new();
+    let mut copies = Vec::new();
+    for (run, angles) in &of_run {
+        let earlier = *first.entry(angles).or_insert(*run);
+        if earlier != *run {
+            copies.push((*run, earlier));
+        }
+    }
+    // Angles of coarse readings agree by themselves. How often they do is seen in runs that follow each other and differ.
+    let (mut same, mut all, mut number) = (0.0, 0.0, 0.0);
+    for (one, other) in of_run.values().zip(of_run.values().skip(1)).filter(|(one, other)| one != other) {
+        number = one.len() as f64;
+        all += number;
+        same += one.iter().zip(other).filter(|(one, other)| one == other).count() as f64;
+    }
+    let pairs = of_run.len() as f64 * (of_run.len() as f64 - 1.0) / 2.0;
+    if copies.is_empty() || all > 0.0 && coincidences::is_chance(pairs * libm::pow(same / all, number), copies.len()) {
+        return Vec::new();
+    }
+    let problem = |(run, earlier): (u32, u32)| {
         let found = format!("run {run} with the same angles as run {earlier}");
         let advice = "delete the copy, or, if both were measured, record more digits than the readings vary by";
-        problems.extend(at_run(table, rows, run, found, "independent readings", advice));
-    }
-    problems
+        at_run(table, rows, run, found, "independent readings", advice)
+    };
+    copies.into_iter().filter_map(problem).collect()
 }
 
 /// Returns a problem for each run whose angles are those of the others times a factor.
