@@ -223,6 +223,13 @@ impl Components {
         }
     }
 
+    /// Returns −2 ln of the likelihood, up to a constant, of readings that leave these sums of squared residuals about x, y, z,
+    /// arcsec², with a separate variance for each axis.
+    pub(crate) fn unlikelihood(&self, sums_arcsec2: [f64; 3]) -> f64 {
+        let axes = self.axis_squares_arcsec2.iter().zip(sums_arcsec2);
+        axes.map(|(all, sum)| all.degrees_of_freedom * libm::log(sum.max(f64::MIN_POSITIVE))).sum()
+    }
+
     /// Returns the degrees of freedom that the residuals of an axis keep: their sum of squares over their mean square.
     pub(crate) fn kept(&self, axis: usize) -> f64 {
         let rows = (axis..self.keeps.nrows()).step_by(3);

@@ -89,17 +89,18 @@ impl Deletion {
             angles.push(angle);
             Self::of(components, angles)
         });
-        // −2 ln of the likelihood up to a constant; mean square times degrees of freedom is the sum of squares.
-        let unlikelihood = |deletion: &Self| -> f64 {
-            let axes = components.axis_squares_arcsec2.iter().zip(&deletion.squares_arcsec2);
-            axes.map(|(all, left)| {
-                let sum = left.value * left.degrees_of_freedom;
-                all.degrees_of_freedom * libm::log(sum.max(f64::MIN_POSITIVE))
-            })
-            .sum()
-        };
-        let scored = without.map(|deletion| (unlikelihood(&deletion), deletion));
+        let scored = without.map(|deletion| (deletion.unlikelihood(components), deletion));
         scored.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, deletion)| deletion)
+    }
+
+    /// Returns −2 ln of the likelihood of the remaining readings, up to a constant.
+    pub(crate) fn unlikelihood(&self, components: &Components) -> f64 {
+        let sum = |axis: usize| {
+            let (all, left) = (&components.axis_squares_arcsec2[axis], &self.squares_arcsec2[axis]);
+            // The degrees of freedom are effective ones, in the same ratio before and after the deletion.
+            left.value * left.degrees_of_freedom * components.kept(axis) / all.degrees_of_freedom
+        };
+        components.unlikelihood([0, 1, 2].map(sum))
     }
 
     /// Returns Student's t of the n-th angle (its shift over its standard deviation), and the degrees of freedom of t.

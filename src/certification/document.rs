@@ -64,14 +64,14 @@ impl Certification {
     }
 
     fn of_the_positions(&self) -> Vec<String> {
-        let worse: Vec<String> = self.suspects.worse.iter().map(|at| at.index.to_string()).collect();
+        let mut worse: Vec<String> =
+            self.suspects.worse.iter().map(|at| format!("position {} (Cochran's test)", at.index)).collect();
+        let group = self.suspects.group.iter();
+        worse.extend(group.map(|at| format!("the positions with θ = {}° (F test)", at.theta_deg)));
         let scatter = if worse.is_empty() {
             "the pooled standard deviation of all positions, for each axis".to_owned()
         } else {
-            format!(
-                "its own standard deviation for position {} (Cochran's test), the pooled one for the others",
-                worse.join(", ")
-            )
+            format!("for {} the own standard deviation, for the others the pooled one", worse.join(" and "))
         };
         let type_b = if self.stand.certificate.type_b_arcsec2(ActsOn::Position) > 0.0 { ", and type_b" } else { "" };
         let runs = self.runs.len();

@@ -4,6 +4,7 @@ use super::Certification;
 use super::compared::{CommonTurn, ComparedPosition, Test};
 use super::misread::Misread;
 use super::rotated_runs::{Pattern, RotatedRuns};
+use super::split_run::SplitRun;
 use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
 use crate::coefficients::PositionIndex;
 use crate::text::words;
@@ -31,6 +32,8 @@ pub(crate) enum Finding {
     RotatedSlightly,
     /// Runs of the check that are rotated as a whole relative to its other runs.
     RotatedRuns(RotatedRuns),
+    /// Run of the check that changed within itself.
+    SplitRun(SplitRun),
     /// Outlier among the readings of the check, and its part in the mean of the position, arcsec.
     Outlier(Outlier, f64),
     /// Rotation of the stand as a whole, which was not tested.
@@ -112,6 +115,15 @@ impl Display for Finding {
                     ),
                 };
             }
+            Self::SplitRun(SplitRun { run, between: [before, after], axis, turns_arcsec: [x, y, z], .. }) => {
+                return write!(
+                    f,
+                    "run {run} of the check seems to have changed within itself: from position {after} on, its positions \
+                     are rotated by {x:+.2}, {y:+.2}, {z:+.2} arcsec about {} relative to those up to {before}, in the \
+                     order of the rows; measure the run again, or exclude it with --exclude {run} and --why",
+                    axis.names()
+                );
+            }
             Self::Outlier(Outlier { index, run, residual_arcsec: residual, axis, .. }, mean) => {
                 return write!(
                     f,
@@ -147,7 +159,8 @@ impl Finding {
 
     /// Returns `true` for an outlier among the readings or the runs of a check, with which nothing is decided.
     pub(crate) fn is_outlier(&self) -> bool {
-        matches!(self, Self::Outlier(..)) || matches!(self, Self::RotatedRuns(run) if run.probability < OUTLIER)
+        matches!(self, Self::Outlier(..) | Self::SplitRun(_))
+            || matches!(self, Self::RotatedRuns(run) if run.probability < OUTLIER)
     }
 
     /// Returns `true` for a change of the stand.
@@ -204,7 +217,13 @@ pub(super) fn findings(
     let suspect: Vec<Finding> = again.map_or_else(Vec::new, suspect);
     let explained = |at: &ComparedPosition| suspect.iter().chain(&misplaced).any(|found| found.explains(at));
     findings.retain(|found| !matches!(found, Finding::Changed(at) if explained(at)));
-    let bumped = suspect.iter().any(|found| matches!(found, Finding::RotatedRuns(_)) && found.is_outlier());
+    // A run that changed within itself changes all positions of the check.
+    if suspect.iter().any(|found| matches!(found, Finding::SplitRun(_))) {
+        findings.clear();
+    }
+    let bumped = suspect
+        .iter()
+        .any(|found| matches!(found, Finding::RotatedRuns(_) | Finding::SplitRun(_)) && found.is_outlier());
     // If no positions agree, there is no rotation that is common to them.
     let agree = positions.iter().any(|at| at.repeats);
     if agree && moved && !bumped {
@@ -222,5 +241,6 @@ fn suspect(check: &Certification) -> Vec<Finding> {
     let runs = check.runs.len() as f64;
     let outliers = check.suspects.outliers.iter().filter(|out| out.probability < OUTLIER);
     let outliers = outliers.map(|out| Finding::Outlier(*out, out.residual_arcsec / runs));
-    check.rotated_runs.iter().copied().map(Finding::RotatedRuns).chain(outliers).collect()
+    let split = check.suspects.split.into_iter().map(Finding::SplitRun);
+    split.chain(check.rotated_runs.iter().copied().map(Finding::RotatedRuns)).chain(outliers).collect()
 }

@@ -6,8 +6,10 @@
 //! * `deletion`: the fit without some of the readings.
 //! * `suspects`: positions that scatter more (Cochran), outliers (Grubbs), and runs that agree too well.
 //! * `rotated_runs`: runs rotated as a whole relative to the other runs (Grubbs), moves and drifts of the stand.
+//! * `split_run`: a run that changed within itself (F test).
 //! * `unequal_axes`: axes about which the runs rotate more than about the others (Cochran).
 //! * `shared_settings`: settings of an angle that several positions of a run share.
+//! * `worse_groups`: positions with the same θ that scatter more (F test).
 //! * `remark`: remarks for the signatory.
 //! * `compared`: values of the comparison of a later check run with the certificate.
 //! * `finding`: reasons for the result of that comparison, and its limits.
@@ -29,8 +31,10 @@ pub(crate) mod readings;
 pub(crate) mod remark;
 pub(crate) mod rotated_runs;
 pub(crate) mod shared_settings;
+pub(crate) mod split_run;
 pub(crate) mod suspects;
 pub(crate) mod unequal_axes;
+pub(crate) mod worse_groups;
 
 pub use compared::{CommonTurn, ComparedPosition, Test};
 pub use comparison::{Comparison, NotCompared, compare};
@@ -174,9 +178,10 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     if let Some(deletion) = &deletion {
         components.without(deletion.squares_arcsec2, &readings.missing);
     }
-    let suspects = Suspects::of(header, readings, &components);
-    let worse: Vec<usize> = suspects.worse.iter().map(|at| at.place).collect();
-    let scatter = components.scatter_of_positions(&worse).filter(|_| !worse.is_empty());
+    let shared_settings = shared_settings::find(header, &turns, &components);
+    // Positions that share a setting seem to have moved together within a run.
+    let suspects = Suspects::of(header, readings, &turns, &components, shared_settings.is_empty());
+    let scatter = suspects.scatter(&components);
     let mut stand = Stand {
         stand: header.stand.clone(),
         certificate: header.certificate.clone(),
@@ -217,9 +222,10 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
         excluded: Some(readings.excluded.clone()).filter(|excluded| !excluded.is_empty()),
     };
     certificate.evidence = readings.sha256.as_deref().map(of_readings);
-    let rotated_runs = rotated_runs::bumped(header, readings, &components, &suspects.outliers);
+    let mut rotated_runs = rotated_runs::bumped(header, readings, &components, &suspects.outliers);
+    // A run that changed within itself is also rotated on average.
+    rotated_runs.retain(|at| suspects.split.is_none_or(|split| at.run() != Some(split.run)));
     let unequal_axes = unequal_axes::find(header, readings, &components, &suspects.outliers, &rotated_runs);
-    let shared_settings = shared_settings::find(header, &turns, &components);
     let mut remarks: Vec<Remark> = rotated_runs.iter().copied().map(Remark::RotatedRuns).collect();
     // A shared setting may be the cause of what follows.
     remarks.extend(shared_settings.iter().copied().map(Remark::SharedSetting));

@@ -3,8 +3,10 @@
 
 use super::rotated_runs::{Pattern, RotatedRuns};
 use super::shared_settings::SharedSetting;
+use super::split_run::SplitRun;
 use super::suspects::{AXES, OUTLIER, Outlier, Suspects, WorsePosition};
 use super::unequal_axes::UnequalAxis;
+use super::worse_groups::WorseGroup;
 use crate::calibration::recorded::rounding_of;
 use crate::stand::remarks::Odd;
 use std::fmt::{self, Display, Formatter};
@@ -14,10 +16,14 @@ use std::fmt::{self, Display, Formatter};
 pub(crate) enum Remark {
     /// Position that scatters more than the others.
     Worse(WorsePosition),
+    /// Positions with the same θ that scatter more than the others.
+    WorseGroup(WorseGroup),
     /// Reading that differs from those of the other runs.
     Outlier(Outlier),
     /// Runs that are rotated as a whole relative to the other runs.
     RotatedRuns(RotatedRuns),
+    /// Run that changed within itself.
+    SplitRun(SplitRun),
     /// Suspect reading in one of two runs, which do not show which one is wrong.
     TwoRuns(u32, u32),
     /// Single positions that were not compared, because a reading is suspect.
@@ -45,7 +51,9 @@ pub(crate) enum Remark {
 impl Remark {
     /// Returns a remark for each suspect position, reading or run.
     pub(crate) fn of_suspects(suspects: &Suspects, runs: &[u32]) -> Vec<Self> {
-        let mut remarks: Vec<Self> = suspects.worse.iter().copied().map(Self::Worse).collect();
+        let mut remarks: Vec<Self> = suspects.split.iter().copied().map(Self::SplitRun).collect();
+        remarks.extend(suspects.group.iter().cloned().map(Self::WorseGroup));
+        remarks.extend(suspects.worse.iter().copied().map(Self::Worse));
         remarks.extend(suspects.outliers.iter().copied().map(Self::Outlier));
         if let ([one, other], false) = (runs, suspects.outliers.is_empty()) {
             remarks.push(Self::TwoRuns(*one, *other));
@@ -75,6 +83,13 @@ impl Display for Remark {
                 "{}: the standard deviation of position {index} is {ratio:.1} times the pooled one (Cochran's test: \
                  probability {}); its uncertainty is computed from its own readings, that of the others without it",
                 grade(*p),
+                probability(*p)
+            ),
+            Self::WorseGroup(WorseGroup { theta_deg, ratio, probability: p, .. }) => write!(
+                f,
+                "the standard deviation of the positions with θ = {theta_deg}° is {ratio:.1} times that of the others (F \
+                 test: probability {}); their uncertainty is computed from their own readings, that of the others without \
+                 them; find the cause, because repeatability_arcsec is pooled from all positions",
                 probability(*p)
             ),
             Self::Outlier(out) => {
@@ -119,6 +134,19 @@ impl Display for Remark {
                          and measure again"
                     ),
                 }
+            }
+            Self::SplitRun(at) => {
+                let ([x, y, z], [before, after]) = (at.turns_arcsec, at.between);
+                write!(
+                    f,
+                    "run {run} seems to have changed within itself: from position {after} on, its positions are rotated by \
+                     {x:+.2}, {y:+.2}, {z:+.2} arcsec about {} relative to those up to {before}, in the order of the rows \
+                     (F test: probability {}); the run was not excluded, and single readings and positions were not \
+                     examined; find the cause, then measure the run again, or exclude it with --exclude {run} and --why",
+                    at.axis.names(),
+                    probability(at.probability),
+                    run = at.run
+                )
             }
             Self::TwoRuns(one, other) => {
                 write!(f, "two runs do not show whether run {one} or run {other} is wrong; measure a third run")

@@ -2,7 +2,10 @@
 
 use super::components::{Components, Variance};
 use super::deletion::Deletion;
+use super::split_run::{self, SplitRun};
+use super::worse_groups::{self, WorseGroup};
 use super::{AngleReadings, Header};
+use crate::calibration::inputs::Turn;
 use crate::coefficients::PositionIndex;
 use crate::statistics::outlier::{Bartlett, bartlett, bonferroni_student, cochran_probability};
 use serde::Serialize;
@@ -72,6 +75,10 @@ pub(crate) struct Suspects {
     pub axes: Option<Bartlett>,
     /// Positions that scatter more than the others, the worst first.
     pub worse: Vec<WorsePosition>,
+    /// Positions with the same θ that scatter more than the others.
+    pub group: Option<WorseGroup>,
+    /// Run that changed within itself; single readings and positions are then not examined.
+    pub split: Option<SplitRun>,
     /// Outliers, the least probable first.
     pub outliers: Vec<Outlier>,
     /// Numbers of the runs of each pair that agrees far better than the others.
@@ -79,29 +86,81 @@ pub(crate) struct Suspects {
 }
 
 impl Suspects {
-    pub(crate) fn of(header: &Header, readings: &AngleReadings, components: &Components) -> Self {
-        let mut outliers = outliers(header, readings, components);
+    /// Returns what is suspect; a run that changed within itself is looked for if `may_split`.
+    pub(crate) fn of(
+        header: &Header,
+        readings: &AngleReadings,
+        turns: &[Turn],
+        components: &Components,
+        may_split: bool,
+    ) -> Self {
+        let alike = vec![1.0; header.positions.len()];
+        let found = Self::relative_to(header, readings, components, &alike);
+        let is_coarse = readings.is_coarse(components.pooled_arcsec2.value.sqrt());
+        // One position that scatters more is not taken for a group.
+        let group = worse_groups::find(header, turns, components, &found.outliers);
+        let group = group.filter(|group| !is_coarse && found.worse.iter().all(|at| group.probability < at.probability));
+        let relative = group.as_ref().map_or(alike, WorseGroup::relative);
+        let split = split_run::find(header, readings, turns, components, &relative).filter(|_| may_split);
+        if let Some(split) = split.filter(|split| !found.explains(split, header, readings, components)) {
+            let (positions, axes, worse, outliers) = (None, None, Vec::new(), Vec::new());
+            return Self { positions, axes, worse, outliers, split: Some(split), ..found };
+        }
+        if group.is_none() {
+            return found;
+        }
+        // Good readings of these positions seem to be out compared with the scatter of all. Those of the others contain the
+        // scatter of the group, through the rotation of the run.
+        let scatter: Vec<f64> = relative.into_iter().map(|scatter| scatter.max(1.0)).collect();
+        let found = Self::relative_to(header, readings, components, &scatter);
+        // A reading that is suspect all the same may be of any position, and all state the pooled scatter.
+        if found.outliers.is_empty() { Self { worse: Vec::new(), group, ..found } } else { found }
+    }
+
+    /// Returns what is suspect if the variances of the visits to the positions are in the ratio `scatter`.
+    fn relative_to(header: &Header, readings: &AngleReadings, components: &Components, scatter: &[f64]) -> Self {
+        let mut outliers = outliers(header, readings, components, scatter);
         outliers.retain(|out| out.residual_arcsec.abs() > STEPS_OF_ROUNDING * readings.step_arcsec);
         let scatter_arcsec = components.pooled_arcsec2.value.sqrt();
         // Coarse readings repeat by themselves, and a position scatters if its angles happen to be between two steps.
         let repeats = scatter_arcsec < readings.step_arcsec;
         let twins = if repeats { Vec::new() } else { twins(&readings.runs, components) };
+        let none = Self { positions: None, axes: None, worse: Vec::new(), group: None, split: None, outliers, twins };
         if readings.is_coarse(scatter_arcsec) {
-            return Self { positions: None, axes: None, worse: Vec::new(), outliers, twins };
+            return none;
         }
         // An outlier increases the scatter of its position and its axis and, through the common part, of its whole run.
-        if !outliers.is_empty() {
+        if !none.outliers.is_empty() {
             let worse =
-                in_several_runs(&outliers).map_or_else(Vec::new, |index| worse(header, components, Some(index)));
-            return Self { positions: None, axes: None, worse, outliers, twins };
+                in_several_runs(&none.outliers).map_or_else(Vec::new, |index| worse(header, components, Some(index)));
+            return Self { worse, ..none };
         }
         Self {
             positions: bartlett(&groups(&components.position_squares)),
             axes: bartlett(&groups(&components.axis_squares_arcsec2)),
             worse: worse(header, components, None),
-            outliers,
-            twins,
+            ..none
         }
+    }
+
+    /// Returns `true` if the outliers explain the readings better than a run that changed within itself, or rounding does.
+    fn explains(&self, split: &SplitRun, header: &Header, readings: &AngleReadings, components: &Components) -> bool {
+        let angle = |out: &Outlier| {
+            let place = header.positions.iter().position(|at| at.index() == out.index)?;
+            Some((readings.runs.iter().position(|run| *run == out.run)?, 3 * place + out.axis))
+        };
+        let deletion = Deletion::of(components, self.outliers.iter().filter_map(angle).collect());
+        let is_rounding = split.turns_arcsec.iter().all(|turn| turn.abs() <= STEPS_OF_ROUNDING * readings.step_arcsec);
+        is_rounding || deletion.is_some_and(|single| single.unlikelihood(components) <= split.unlikelihood)
+    }
+
+    /// Returns the variance of the visits to each position relative to that of all, or `None` if all scatter alike.
+    pub(super) fn scatter(&self, components: &Components) -> Option<Vec<Variance>> {
+        if let Some(group) = &self.group {
+            return Some(group.scatter.clone());
+        }
+        let worse: Vec<usize> = self.worse.iter().map(|at| at.place).collect();
+        components.scatter_of_positions(&worse).filter(|_| !worse.is_empty())
     }
 }
 
@@ -134,19 +193,20 @@ fn worse(header: &Header, components: &Components, only: Option<PositionIndex>) 
     found
 }
 
-/// Returns the outliers among the readings, with a separate variance for each axis.
+/// Returns the outliers among the readings, with a separate variance for each axis, and variances of the positions in the
+/// ratio `scatter`.
 ///
 /// The most suspect reading is deleted, then the next, and so on. All readings deleted up to the last improbable one
 /// are outliers ([Rosner](crate::bibliography::Bibliography::Rosner83)'s procedure, because two outliers can hide each
 /// other).
-fn outliers(header: &Header, readings: &AngleReadings, components: &Components) -> Vec<Outlier> {
+fn outliers(header: &Header, readings: &AngleReadings, components: &Components, scatter: &[f64]) -> Vec<Outlier> {
     let runs = &readings.runs;
     // With two runs, the difference of the first from the second is that of the second from the first, so it counts
     // once.
     let values = components.keeps.nrows() * if runs.len() == 2 { 1 } else { runs.len() };
     let probability = |deletion: &Deletion, n: usize| {
         let (t, degrees_of_freedom) = deletion.student(n);
-        bonferroni_student(t, values, degrees_of_freedom)
+        bonferroni_student(t / scatter[deletion.angles[n].1 / 3].sqrt(), values, degrees_of_freedom)
     };
     let mut suspect = None;
     let mut deletion = Deletion::of(components, Vec::new());

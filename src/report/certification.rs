@@ -66,6 +66,14 @@ fn certification_json(found: &Certification) -> Value {
     let shared = found.shared_settings.iter().map(|at| {
         json!({"angle": at.setting.key(), "between_runs_arcsec": at.deviation_arcsec, "probability": at.probability})
     });
+    let split = found.suspects.split.map(|at| {
+        json!({
+            "run": at.run, "between_positions": at.between, "part": at.axis.part(), "turns_arcsec": at.turns_arcsec,
+            "probability": at.probability,
+        })
+    });
+    let group = found.suspects.group.as_ref();
+    let group = group.map(|at| json!({"theta_deg": at.theta_deg, "ratio": at.ratio, "probability": at.probability}));
     json!({
         "stand": File(found.stand.clone()).write().unwrap_or(Node::Null),
         "runs": found.runs,
@@ -78,9 +86,11 @@ fn certification_json(found: &Certification) -> Value {
         "bartlett": {"positions": found.suspects.positions, "axes": found.suspects.axes},
         "worse_position": found.suspects.worse.first(),
         "worse_positions": found.suspects.worse,
+        "worse_group": group,
         "outliers": out.collect::<Vec<_>>(),
         "bumped_runs": bumped.collect::<Vec<_>>(),
         "moved": moved,
+        "split_run": split,
         "unequal_axes": unequal.collect::<Vec<_>>(),
         "shared_settings": shared.collect::<Vec<_>>(),
         "twins": found.suspects.twins,
@@ -186,7 +196,9 @@ fn tests(out: &mut String, found: &Certification) {
     }
     let readings = found.runs.len() * found.components.keeps.nrows();
     let named = graded(found.suspects.outliers.iter().map(|out| out.probability));
-    let _ = writeln!(out, "Grubbs' test of {readings} angles: {named}");
+    if found.suspects.split.is_none() {
+        let _ = writeln!(out, "Grubbs' test of {readings} angles: {named}");
+    }
     if found.runs.len() > 2 {
         let axes = 3 + found.components.base_axes;
         let (bumped, moved): (Vec<&RotatedRuns>, Vec<_>) = found.rotated_runs.iter().partition(|at| at.run().is_some());

@@ -68,6 +68,8 @@ mod shared_settings;
 #[cfg(feature = "factory")]
 mod site;
 mod slow;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod split_run;
 #[cfg(feature = "monte-carlo")]
 mod stated_uncertainty;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
@@ -81,3 +83,5 @@ mod type_b;
 mod unequal_axes;
 #[cfg(feature = "factory")]
 mod verdict;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod worse_groups;

@@ -181,8 +181,10 @@ fn a_remark_says_the_same_in_both_languages() {
     use dtg_passport::certification::remark::Remark;
     use dtg_passport::certification::rotated_runs::{CommonAxis, Pattern, RotatedRuns};
     use dtg_passport::certification::shared_settings::{Setting, SharedSetting};
+    use dtg_passport::certification::split_run::SplitRun;
     use dtg_passport::certification::suspects::{Outlier, WorsePosition};
     use dtg_passport::certification::unequal_axes::UnequalAxis;
+    use dtg_passport::certification::worse_groups::WorseGroup;
     use dtg_passport::coefficients::PositionIndex;
     use dtg_passport::report::page::Language;
     use dtg_passport::report::page::certification::remarks::words;
@@ -205,9 +207,24 @@ fn a_remark_says_the_same_in_both_languages() {
     let outlier = |line| Outlier { index, run: 4, line, axis: 1, residual_arcsec: -14.25, probability: 2.5e-3 };
     let remarks = [
         Remark::Worse(WorsePosition { index, place: 6, ratio: 2.25, probability: 0.031 }),
+        Remark::WorseGroup(WorseGroup {
+            theta_deg: 90.0,
+            places: vec![4, 5, 6, 7],
+            ratio: 2.9,
+            probability: 1.5e-6,
+            scatter: vec![],
+        }),
         Remark::Outlier(outlier(None)),
         Remark::Outlier(outlier(Some(17))),
         Remark::TwoRuns(1, 2),
+        Remark::SplitRun(SplitRun {
+            run: 3,
+            between: [index, PositionIndex { i: 2, j: 4 }],
+            axis: CommonAxis(3),
+            turns_arcsec: [-299.4, 12.5, 0.75],
+            probability: 2.5e-6,
+            unlikelihood: 0.0,
+        }),
         rotated(Pattern::One(3), 0),
         rotated(Pattern::One(3), 4),
         rotated(Pattern::Move(3, 4), 0),
@@ -241,6 +258,6 @@ fn a_remark_says_the_same_in_both_languages() {
         assert!(least.iter().all(|number| ru.contains(number)), "{en}: {ru:?}");
     }
     // Expected: 1/√(2·6) = 0.2887 (GUM, E.4.3).
-    assert!(words(&remarks[14], Language::Russian).contains("29\u{a0}%"));
-    assert!(words(&remarks[1], Language::Russian).contains("\u{2212}14,25″"));
+    assert!(words(&remarks[16], Language::Russian).contains("29\u{a0}%"));
+    assert!(words(&remarks[2], Language::Russian).contains("\u{2212}14,25″"));
 }

@@ -149,7 +149,7 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
         });
         (name, Some(Number::fixed(at.turn_arcsec(), 2)), None, Some(at.probability))
     }));
-    if suspects.outliers.is_empty() {
+    if suspects.outliers.is_empty() && suspects.split.is_none() {
         let count = page.certification.runs.len() * page.certification.components.keeps.nrows();
         let name = languages.label_with(|language| texts::NO_OUTLIER.filled(language, &[("count", &count)]));
         found.push((name, None, None, None));

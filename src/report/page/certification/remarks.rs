@@ -7,6 +7,7 @@ use crate::certification::finding::{Finding, Untested};
 use crate::certification::misread::Misread;
 use crate::certification::remark::Remark;
 use crate::certification::rotated_runs::{CommonAxis, Pattern};
+use crate::certification::split_run::SplitRun;
 use crate::certification::suspects::{AXES, OUTLIER};
 use crate::report::page::language::{Language, Text};
 use crate::report::page::number::Number;
@@ -33,6 +34,11 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
         Remark::Worse(at) => {
             suspect(texts::WORSE, at.probability, &[("index", &at.index), ("ratio", &fixed(at.ratio, 1))])
         }
+        Remark::WorseGroup(at) => {
+            let (theta, ratio) = (exact(at.theta_deg), fixed(at.ratio, 1));
+            let p = Number::scientific(at.probability, 2).text(language);
+            fill(texts::WORSE_GROUP, &[("theta", &theta), ("ratio", &ratio), ("p", &p)])
+        }
         Remark::Outlier(out) => {
             let (text, line) = match out.line {
                 Some(line) => (texts::OUTLIER_IN_LINE, line),
@@ -56,6 +62,10 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
             let values: [(&str, &dyn Display); 7] =
                 [("run", &run), ("after", &after), ("x", &x), ("y", &y), ("z", &z), ("axes", &axes), ("mean", &mean)];
             suspect(text, at.probability, &values)
+        }
+        Remark::SplitRun(at) => {
+            let p = Number::scientific(at.probability, 2).text(language);
+            split_words(texts::SPLIT_RUN, at, language, &p)
         }
         Remark::TwoRuns(one, other) => fill(texts::TWO_RUNS, &[("one", one), ("other", other)]),
         Remark::NotCompared => fill(texts::NOT_COMPARED, &[]),
@@ -107,6 +117,23 @@ pub(super) fn axis_name(axis: CommonAxis, language: Language) -> String {
         axis @ 0..3 => AXES[axis].to_owned(),
         axis => [compass::EAST, compass::NORTH, compass::UP][axis - 3].words(language),
     }
+}
+
+/// Returns a run that changed within itself as a sentence, with the probability `p`.
+fn split_words(text: Text, at: &SplitRun, language: Language, p: &str) -> String {
+    let ([before, after], axes) = (at.between, axes_of(at.axis, language));
+    let [x, y, z] = at.turns_arcsec.map(|turn| Number::fixed(turn, 2).text(language));
+    let values: [(&str, &dyn Display); 8] = [
+        ("run", &at.run),
+        ("before", &before),
+        ("after", &after),
+        ("axes", &axes),
+        ("x", &x),
+        ("y", &y),
+        ("z", &z),
+        ("p", &p),
+    ];
+    text.filled(language, &values)
 }
 
 /// Returns the error of a whole file as a sentence.
@@ -163,6 +190,7 @@ pub(crate) fn finding(finding: &Finding, language: Language) -> String {
             ];
             return text.filled(language, &values);
         }
+        Finding::SplitRun(at) => return split_words(texts::CHECK_SPLIT, at, language, ""),
         Finding::Outlier(out, mean) => {
             let ([residual, mean], axis) = ([out.residual_arcsec, *mean].map(arcsec), AXES[out.axis]);
             let (index, run) = (&out.index, &out.run);

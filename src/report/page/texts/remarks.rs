@@ -11,6 +11,14 @@ texts! {
         ru: "{grade}: стандартное отклонение положения {index} в {ratio} раза больше объединённого (критерий Кохрена, \
              p = {p}). Неопределённость этого положения вычислена по его показаниям, остальных — без него."
     }
+    WORSE_GROUP {
+        en: "The standard deviation of the positions with θ = {theta}° is {ratio} times that of the others (F test, \
+             p = {p}). Their uncertainty is computed from their own readings, that of the others without them. The \
+             repeatability is pooled from all positions.",
+        ru: "Стандартное отклонение положений с θ = {theta}° в {ratio} раза больше, чем остальных (критерий Фишера, \
+             p = {p}). Их неопределённость вычислена по их показаниям, остальных — без них. Указана повторяемость, \
+             объединённая по всем положениям."
+    }
     OUTLIER_READING {
         en: "{grade}: position {index}, run {run} differs by {residual}″ about {axis} from the other runs (Grubbs’ test, \
              p = {p}). The reading was not excluded.",
@@ -47,6 +55,14 @@ texts! {
         ru: "По-видимому, стенд дрейфует: от серии к серии все положения поворачиваются на {x}″, {y}″, {z}″ вокруг \
              {axes} (критерий Стьюдента для прямой, p = {p}). Серии не исключены; аттестованные отклонения относятся к \
              середине измерений."
+    }
+    SPLIT_RUN {
+        en: "Run {run} seems to have changed within itself: from position {after} on, its positions are rotated by {x}″, \
+             {y}″, {z}″ about {axes} relative to those up to {before}, in the order of the rows (F test, p = {p}). The run \
+             was not excluded; single readings and positions were not examined.",
+        ru: "По-видимому, стенд сместился во время серии {run}: её положения начиная с {after} повёрнуты относительно \
+             положений до {before} включительно (в порядке строк) на {x}″, {y}″, {z}″ вокруг {axes} (критерий Фишера, \
+             p = {p}). Серия не исключена; отдельные показания и положения не проверялись."
     }
     TWO_RUNS {
         en: "Two runs do not show whether run {one} or run {other} is wrong; a third run is needed.",
@@ -207,6 +223,12 @@ texts! {
              {axes}; the common rotation is that of the middle of the check.",
         ru: "По-видимому, стенд дрейфует: от одной контрольной серии к другой все положения поворачиваются на {x}″, \
              {y}″, {z}″ вокруг {axes}; общий поворот относится к середине проверки."
+    }
+    CHECK_SPLIT {
+        en: "Run {run} of the check seems to have changed within itself: from position {after} on, its positions are \
+             rotated by {x}″, {y}″, {z}″ about {axes} relative to those up to {before}, in the order of the rows.",
+        ru: "По-видимому, стенд сместился во время контрольной серии {run}: её положения начиная с {after} повёрнуты \
+             относительно положений до {before} включительно (в порядке строк) на {x}″, {y}″, {z}″ вокруг {axes}."
     }
     CHECK_OUTLIER {
         en: "The reading of position {index} in run {run} of the check differs by {residual}″ about {axis} from its other \
