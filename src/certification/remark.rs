@@ -152,8 +152,8 @@ impl Display for Remark {
                 write!(f, "two runs do not show whether run {one} or run {other} is wrong; measure a third run")
             }
             Self::NotCompared => f.write_str(
-                "because a reading is suspect, single positions were not compared, and all positions state the pooled \
-                 standard deviation",
+                "because a reading is suspect, the scatter of single positions was not tested; all positions state the \
+                 pooled standard deviation",
             ),
             Self::Twins(one, other) => write!(
                 f,

@@ -69,9 +69,9 @@ texts! {
         ru: "По двум сериям нельзя установить, какая из них ошибочна, {one} или {other}; требуется третья серия."
     }
     NOT_COMPARED {
-        en: "Because a reading is suspect, single positions were not compared; all positions state the pooled standard \
-             deviation.",
-        ru: "Из-за сомнительного показания отдельные положения не сравнивались; для всех положений указано объединённое \
+        en: "Because a reading is suspect, the scatter of single positions was not tested; all positions state the \
+             pooled standard deviation.",
+        ru: "Из-за сомнительного показания разброс в отдельных положениях не проверялся; для всех указано объединённое \
              стандартное отклонение."
     }
     TWINS {
