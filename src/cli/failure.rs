@@ -4,8 +4,8 @@ use super::{Code, REFUSED, UNUSABLE, output};
 use crate::files::FileError;
 use crate::folder::Folder;
 use crate::interface::calibrated::Stopped;
-use crate::interface::{self, CheckLine, Failed, Place};
-use crate::passport::Verification;
+use crate::interface::{self, Failed, Place};
+use crate::passport::{Check, Verification};
 use crate::report::{issued, style, verdict};
 use crate::text::{Unreadable, name_of, shown};
 use std::path::Path;
@@ -102,9 +102,9 @@ impl Failure {
     /// Creates the failure for the passport `name`, which did not pass every check; `words` precede its verdict.
     pub(super) fn verdict(words: &str, name: &str, verification: &Verification) -> Self {
         let verdict = verdict::Verdict::of(name, verification);
-        let failed: Vec<_> = verdict.checks.iter().filter(|check| check.passed == Some(false)).collect();
-        let kind = failed.first().map_or(interface::REFUSED, |check| check.code);
-        let place = |check: &&CheckLine| Place::file(name.to_owned(), format!("{}: {}", check.name, check.detail));
+        let failed: Vec<_> = verdict.checks.iter().filter(|check| check.passed() == Some(false)).collect();
+        let kind = failed.first().map_or(interface::REFUSED, |check| check.code.as_str());
+        let place = |check: &&Check| Place::file(name.to_owned(), format!("{}: {}", check.name.as_str(), check.detail));
         let problems = failed.iter().map(place).collect();
         Self::new(format!("{words}{}", style::plain(&verdict::text(&[verdict]))), REFUSED, kind, problems)
     }

@@ -43,7 +43,7 @@ pub use planned::plan;
 
 #[cfg(feature = "factory")]
 use crate::files::FileError;
-use crate::passport::{Content, Verification};
+use crate::passport::{Check, Content, Verification};
 #[cfg(feature = "factory")]
 use crate::text::name_of;
 use crate::text::{Problem, Unreadable, printable};
@@ -158,37 +158,14 @@ pub(crate) struct Verdict {
     /// Id of the passport; null until the signature passes.
     pub id: Option<String>,
     /// All checks.
-    pub checks: Vec<CheckLine>,
-}
-
-/// Result of one check.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub(crate) struct CheckLine {
-    /// Name of the check.
-    pub name: &'static str,
-    /// `true` if the check passed, `false` if it failed; null if it was not run.
-    pub passed: Option<bool>,
-    /// Result of the check as a code, for programs.
-    pub code: &'static str,
-    /// Result of the check as a sentence, for people.
-    pub detail: String,
-    /// `false` if the check had nothing to check, because the question was not asked.
-    #[serde(skip)]
-    pub asked: bool,
+    pub checks: Vec<Check>,
 }
 
 impl Verdict {
     /// Creates the verdict of `verification` on the file `file`.
     pub(crate) fn of(file: &str, verification: &Verification) -> Self {
-        let checks = verification.checks().iter().map(|check| CheckLine {
-            name: check.name.as_str(),
-            passed: check.passed(),
-            code: check.code.as_str(),
-            detail: check.detail.clone(),
-            asked: check.was_asked(),
-        });
         let id = verification.id_from_anyone().map(str::to_owned);
-        Self { file: file.to_owned(), valid: verification.valid(), id, checks: checks.collect() }
+        Self { file: file.to_owned(), valid: verification.valid(), id, checks: verification.checks().to_vec() }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::text::printable;
 use crate::text::words;
+use serde::ser::{Serialize, SerializeStruct, Serializer};
 use std::fmt::Display;
 
 words! {
@@ -116,5 +117,17 @@ impl Check {
             Code::NotRun => None,
             _ => Some(false),
         }
+    }
+}
+
+/// Serialises the check as `verify` prints it: `{name, passed, code, detail}`.
+impl Serialize for Check {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut line = serializer.serialize_struct("Check", 4)?;
+        line.serialize_field("name", self.name.as_str())?;
+        line.serialize_field("passed", &self.passed())?;
+        line.serialize_field("code", self.code.as_str())?;
+        line.serialize_field("detail", &self.detail)?;
+        line.end()
     }
 }

@@ -21,8 +21,8 @@ pub(crate) fn text(verdicts: &[Verdict]) -> String {
         let _ = writeln!(text, "{answer}  {id}  {}", Printable(&verdict.file));
         let _ = writeln!(text, "  {}", counts(verdict));
         for check in &verdict.checks {
-            let mark = match check.passed {
-                Some(true) if !check.asked => format!("{} not asked", style::NOT_ASKED),
+            let mark = match check.passed() {
+                Some(true) if !check.was_asked() => format!("{} not asked", style::NOT_ASKED),
                 Some(true) => style::good(&format!("{} passed   ", style::PASSED)),
                 Some(false) => style::bad(&format!("{} FAILED   ", style::FAILED)),
                 None => "- not run  ".to_owned(),
@@ -30,7 +30,7 @@ pub(crate) fn text(verdicts: &[Verdict]) -> String {
             let _ = writeln!(
                 text,
                 "  {mark}  {:<10}  {}",
-                check.name,
+                check.name.as_str(),
                 check.detail.replace('\n', "\n                           ")
             );
         }
@@ -40,12 +40,11 @@ pub(crate) fn text(verdicts: &[Verdict]) -> String {
 
 /// Returns how many checks were made, how many were not run, and which were not asked for.
 fn counts(verdict: &Verdict) -> String {
-    let checked = verdict.checks.iter().filter(|check| check.asked && check.passed.is_some()).count();
-    let not_run = verdict.checks.iter().filter(|check| check.passed.is_none()).count();
-    let idle = verdict.checks.iter().filter(|check| !check.asked).map(|check| check.name);
-    let absent = ON_REQUEST.iter().map(|name| name.as_str());
-    let absent = absent.filter(|name| verdict.checks.iter().all(|check| check.name != *name));
-    let not_asked: Vec<&str> = idle.chain(absent).collect();
+    let checked = verdict.checks.iter().filter(|check| check.was_asked() && check.passed().is_some()).count();
+    let not_run = verdict.checks.iter().filter(|check| check.passed().is_none()).count();
+    let idle = verdict.checks.iter().filter(|check| !check.was_asked()).map(|check| check.name);
+    let absent = ON_REQUEST.into_iter().filter(|name| verdict.checks.iter().all(|check| check.name != *name));
+    let not_asked: Vec<&str> = idle.chain(absent).map(CheckName::as_str).collect();
     let mut words = format!("{checked} checked");
     if not_run > 0 {
         let _ = write!(words, ", {not_run} not run");
