@@ -10,11 +10,10 @@ use crate::laboratory::Laboratory;
 use crate::site::{Earth, Site};
 use crate::stand::{self, Certificate, CertifiedPosition, Datum, Identity, Stand};
 use crate::text::scalar::{Identifier, day};
-use crate::text::{Path, Problems, record};
+use crate::text::{Path, Problems, record, words};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use nalgebra::{Matrix2, Vector2};
-use std::fmt::{self, Display, Formatter};
 
 /// Format name of a passport.
 pub(crate) const PASSPORT_FORMAT: &str = "dtg-passport/1";
@@ -332,22 +331,15 @@ impl SelfCheck {
     }
 }
 
-/// A document with an expiry date.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Dated {
-    /// The passport itself.
-    Passport,
-    /// The calibration certificate of the stand.
-    Certificate,
-}
-
-impl Display for Dated {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        f.write_str(match self {
-            Self::Passport => "passport",
-            Self::Certificate => "certificate",
-        })
+words! {
+    /// A document with an expiry date.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[non_exhaustive]
+    pub enum Dated: pub(crate) word {
+        /// The passport itself.
+        Passport = "passport",
+        /// The calibration certificate of the stand.
+        Certificate = "certificate",
     }
 }
 

@@ -360,11 +360,12 @@ impl Run {
                     Dated::Certificate => "have the stand recertified",
                     Dated::Passport => "request a new passport from the issuer",
                 };
+                let which = which.word();
                 let until = format!("the {which} was valid until {last} (inclusive), verified as of {time}");
                 (Code::Expired, format!("{until}; {remedy}"))
             }
             Some((last, which)) => {
-                (Code::Ok, format!("issued {issued_at}; the {which} is valid until {last} (inclusive)"))
+                (Code::Ok, format!("issued {issued_at}; the {} is valid until {last} (inclusive)", which.word()))
             }
             None => {
                 (Code::Ok, format!("issued {issued_at}; neither the passport nor the certificate has an expiry date"))

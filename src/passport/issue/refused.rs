@@ -48,7 +48,8 @@ pub enum IssueRefused {
     },
     /// The time of issue is later than the expiry date.
     #[error(
-        "issued_at {issued_at} is later than {last}, until which the {document} is valid; {}",
+        "issued_at {issued_at} is later than {last}, until which the {} is valid; {}",
+        document.word(),
         if *document == Dated::Certificate { "have the stand recertified" } else { "specify a later date" }
     )]
     AlreadyExpired {
