@@ -72,12 +72,10 @@ impl Workspace {
         let (table, errors) = DeTable::parse_recoverable(text);
         let mut problems: Vec<Problem> = errors
             .iter()
-            .map(|error| Problem {
-                location: error.span().map(|span| location(bytes, span.start)),
-                field: String::new(),
-                found: format!("invalid TOML ({})", error.message().lines().collect::<Vec<_>>().join(", ")),
-                expected: "lines such as trust = \"allowed_signers\", each key once".to_owned(),
-                advice: String::new(),
+            .map(|error| {
+                let at = error.span().map(|span| location(bytes, span.start));
+                let found = format!("invalid TOML ({})", error.message().lines().collect::<Vec<_>>().join(", "));
+                Problem::new(at, "", found, "lines such as trust = \"allowed_signers\", each key once", "")
             })
             .collect();
         let mut values: [Option<String>; 6] = Default::default();
@@ -86,13 +84,11 @@ impl Workspace {
                 None => problems.push(unknown_key(key.get_ref(), location(bytes, key.span().start))),
                 Some(place) => match text_of(value.get_ref()) {
                     Some(text) => values[place] = Some(text.to_owned()),
-                    None => problems.push(Problem {
-                        location: Some(location(bytes, value.span().start)),
-                        field: KEYS[place].to_owned(),
-                        found: text.get(value.span()).unwrap_or("nothing").to_owned(),
-                        expected: "text".to_owned(),
-                        advice: "put it in double quotes".to_owned(),
-                    }),
+                    None => {
+                        let found = text.get(value.span()).unwrap_or("nothing");
+                        let at = Some(location(bytes, value.span().start));
+                        problems.push(Problem::new(at, KEYS[place], found, "text", "put it in double quotes"));
+                    }
                 },
             }
         }
@@ -161,13 +157,8 @@ fn text_of<'a>(value: &'a DeValue) -> Option<&'a str> {
 fn unknown_key(key: &str, at: Location) -> Problem {
     let alike = |known: &&&str| strsim::jaro_winkler(known, key);
     let nearest = KEYS.iter().max_by(|a, b| alike(a).total_cmp(&alike(b))).filter(|known| alike(known) > 0.8);
-    Problem {
-        location: Some(at),
-        field: String::new(),
-        found: format!("unknown key {key:?}"),
-        expected: format!("one of {}", KEYS.join(", ")),
-        advice: nearest.map_or_else(|| "delete it".to_owned(), |known| format!("did you mean {known}?")),
-    }
+    let advice = nearest.map_or_else(|| "delete it".to_owned(), |known| format!("did you mean {known}?"));
+    Problem::new(Some(at), "", format!("unknown key {key:?}"), format!("one of {}", KEYS.join(", ")), advice)
 }
 
 /// Returns the line and column of a byte.
