@@ -69,32 +69,45 @@ struct Cli {
     verbose: bool,
 }
 
-#[derive(Subcommand)]
-enum Verb {
-    Demo(demo::Options),
-    Init(init::Options),
-    New(new::Options),
-    Status(status::Options),
-    Keygen(keygen::Options),
-    Certify(certify::Options),
-    Issue(issue::Options),
-    Reissue(reissue::Options),
-    Recertify(recertify::Options),
-    Verify(verify::Options),
-    Show(show::Options),
-    Export(export::Options),
-    Diff(diff::Options),
-    History(history::Options),
-    Render(render::Options),
-    Calibrate(Box<calibrate::Options>),
-    Register(register::Options),
-    Revoke(revoke::Options),
-    Plan(plan::Options),
-    Simulate(simulate::Options),
-    Selftest(selftest::Options),
-    Schema(schema::Options),
-    Completions(completions::Options),
-    Man(man::Options),
+/// Declares the verbs, each with the module that has its `Options` and its `run`.
+macro_rules! verbs {
+    ($($verb:ident = $module:ident,)*) => {
+        #[derive(Subcommand)]
+        enum Verb { $($verb(Box<$module::Options>),)* }
+
+        impl Verb {
+            fn run(&self) -> Result<Code, Failure> {
+                match self { $(Self::$verb(options) => $module::run(options),)* }
+            }
+        }
+    };
+}
+
+verbs! {
+    Demo = demo,
+    Init = init,
+    New = new,
+    Status = status,
+    Keygen = keygen,
+    Certify = certify,
+    Issue = issue,
+    Reissue = reissue,
+    Recertify = recertify,
+    Verify = verify,
+    Show = show,
+    Export = export,
+    Diff = diff,
+    History = history,
+    Render = render,
+    Calibrate = calibrate,
+    Register = register,
+    Revoke = revoke,
+    Plan = plan,
+    Simulate = simulate,
+    Selftest = selftest,
+    Schema = schema,
+    Completions = completions,
+    Man = man,
 }
 
 /// Exit code of a verb that ran to its end: 0, or the highest code that it reported.
@@ -120,32 +133,7 @@ pub fn main() -> ExitCode {
     if cli.verbose {
         added.iter().for_each(|option| output::say(&format!("uses {option}")));
     }
-    let result = match cli.verb {
-        Verb::Demo(options) => demo::run(&options),
-        Verb::Init(options) => init::run(&options),
-        Verb::New(options) => new::run(&options),
-        Verb::Status(options) => status::run(&options),
-        Verb::Keygen(options) => keygen::run(&options),
-        Verb::Certify(options) => certify::run(&options),
-        Verb::Issue(options) => issue::run(&options),
-        Verb::Reissue(options) => reissue::run(&options),
-        Verb::Recertify(options) => recertify::run(&options),
-        Verb::Verify(options) => verify::run(&options),
-        Verb::Show(options) => show::run(&options),
-        Verb::Export(options) => export::run(&options),
-        Verb::Diff(options) => diff::run(&options),
-        Verb::History(options) => history::run(&options),
-        Verb::Render(options) => render::run(&options),
-        Verb::Calibrate(options) => calibrate::run(&options),
-        Verb::Register(options) => register::run(&options),
-        Verb::Revoke(options) => revoke::run(&options),
-        Verb::Plan(options) => plan::run(&options),
-        Verb::Simulate(options) => simulate::run(&options),
-        Verb::Selftest(options) => selftest::run(&options),
-        Verb::Schema(options) => schema::run(&options),
-        Verb::Completions(options) => completions::run(&options),
-        Verb::Man(options) => man::run(&options),
-    };
+    let result = cli.verb.run();
     if cli.verbose {
         output::say(&format!("took {:.3} s", start.elapsed().as_secs_f64()));
     }
