@@ -19,8 +19,7 @@ pub(crate) fn cases() -> Vec<Case> {
 /// Creates cases of an example for numbers printed with `decimals` decimals; the tolerance is half a unit of the last one.
 fn printed(example: &'static str) -> impl Fn(&'static str, &str, f64, i32, f64) -> Case {
     move |source, quantity, expected, decimals, found| {
-        let tolerance = 0.5 * 10_f64.powi(-decimals);
-        Case { example, quantity: quantity.to_owned(), source, expected, tolerance, found, digits: None }
+        Case::new(example, source, quantity, [expected, 0.5 * 10_f64.powi(-decimals), found])
     }
 }
 

@@ -30,6 +30,12 @@ pub(crate) struct Case {
 }
 
 impl Case {
+    /// Creates the case of a quantity; the `numbers` are the published one, the tolerance, and the computed one.
+    fn new(example: &'static str, source: &'static str, quantity: &str, numbers: [f64; 3]) -> Self {
+        let ([expected, tolerance, found], quantity) = (numbers, quantity.to_owned());
+        Self { example, quantity, source, expected, tolerance, found, digits: None }
+    }
+
     /// Returns `true` if the computed value is within the tolerance.
     pub(crate) fn passed(&self) -> bool {
         (self.found - self.expected).abs() <= self.tolerance

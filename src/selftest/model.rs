@@ -29,8 +29,8 @@ pub(crate) fn cases() -> [Case; 2] {
     };
     let of = format!("worst of {} stands", errors.len());
     [
-        case(format!("error of a coefficient, {of}"), COEFFICIENT_LIMIT, worst(0)),
-        case(format!("error of a parameter, {of}"), PARAMETER_LIMIT, worst(1)),
+        case(&format!("error of a coefficient, {of}"), COEFFICIENT_LIMIT, worst(0)),
+        case(&format!("error of a parameter, {of}"), PARAMETER_LIMIT, worst(1)),
     ]
 }
 
@@ -39,16 +39,9 @@ fn largest(errors: impl Iterator<Item = f64>) -> f64 {
     errors.fold(0.0, |a, b| if b > a || b.is_nan() { b } else { a })
 }
 
-fn case(quantity: String, tolerance: f64, found: f64) -> Case {
-    Case {
-        example: "the paper's model",
-        quantity,
-        source: "60-digit arithmetic of eq. (3)-(16), tests/vectors/model.json",
-        expected: 0.0,
-        tolerance,
-        found,
-        digits: None,
-    }
+fn case(quantity: &str, tolerance: f64, found: f64) -> Case {
+    const SOURCE: &str = "60-digit arithmetic of eq. (3)-(16), tests/vectors/model.json";
+    Case::new("the paper's model", SOURCE, quantity, [0.0, tolerance, found])
 }
 
 /// Returns the errors of the coefficients and of the parameters of a stand; NaN if there is nothing to compare.

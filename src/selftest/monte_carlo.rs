@@ -139,26 +139,20 @@ fn compared(printed: &Printed, draw: impl Fn(&mut WideRandom) -> Column) -> Vec<
         None => ("symmetric", [0.5 - COVERAGE / 2.0, 0.5 + COVERAGE / 2.0].map(|share| bins.quantile(share))),
     };
     let [low, high] = ends.map(|end| centre + unit * end);
-    let case = |quantity: String, expected, tolerance, found| Case {
-        example: printed.example,
-        quantity,
-        source: printed.source,
-        expected,
-        tolerance,
-        found,
-        digits: None,
+    let case = |quantity: &str, expected, tolerance, found| {
+        Case::new(printed.example, printed.source, quantity, [expected, tolerance, found])
     };
     let (u, u_limit) = printed.standard_uncertainty;
     let mut cases = vec![
-        case("standard uncertainty".to_owned(), u, u_limit, unit * summary.standard_deviation()),
-        case(format!("{kind} 95 % interval, low"), printed.interval[0], printed.limit, low),
-        case(format!("{kind} 95 % interval, high"), printed.interval[1], printed.limit, high),
+        case("standard uncertainty", u, u_limit, unit * summary.standard_deviation()),
+        case(&format!("{kind} 95 % interval, low"), printed.interval[0], printed.limit, low),
+        case(&format!("{kind} 95 % interval, high"), printed.interval[1], printed.limit, high),
     ];
     if let Some(limit) = printed.shortest {
         let [due_low, due_high] = printed.interval;
         // Rounded to the printed digits, because a difference of binary numbers has more.
         let due = ((due_high - due_low) * 1e4).round() / 1e4;
-        cases.push(case(format!("{kind} 95 % interval, width"), due, limit, high - low));
+        cases.push(case(&format!("{kind} 95 % interval, width"), due, limit, high - low));
     }
     cases
 }

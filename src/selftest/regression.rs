@@ -84,30 +84,24 @@ struct Set {
 impl Set {
     fn cases(&self, design: DMatrix<f64>, mut right: DMatrix<f64>) -> Vec<Case> {
         let (rows, columns) = design.shape();
-        let Some(model) = Factorised::new(design) else { return vec![self.case("fit".to_owned(), 1.0, f64::NAN)] };
+        let Some(model) = Factorised::new(design) else { return vec![self.case("fit", 1.0, f64::NAN)] };
         model.rotate(&mut right);
         let (estimates, _) = model.solve_rotated(&right);
         let residual = (right.rows(columns, rows - columns).norm_squared() / (rows - columns) as f64).sqrt();
         let mut cases = Vec::new();
         for (at, (estimate, deviation)) in self.certified.iter().enumerate() {
-            cases.push(self.case(format!("B{at}"), *estimate, estimates[at]));
-            cases.push(self.case(format!("s(B{at})"), *deviation, residual * model.r_inverse.row(at).norm()));
+            cases.push(self.case(&format!("B{at}"), *estimate, estimates[at]));
+            cases.push(self.case(&format!("s(B{at})"), *deviation, residual * model.r_inverse.row(at).norm()));
         }
-        cases.push(self.case("residual standard deviation".to_owned(), self.residual, residual));
+        cases.push(self.case("residual standard deviation", self.residual, residual));
         cases
     }
 
-    fn case(&self, quantity: String, expected: f64, found: f64) -> Case {
+    fn case(&self, quantity: &str, expected: f64, found: f64) -> Case {
         // Certified values have 15 digits, so no more can be compared.
         let digits = -libm::log10(((found - expected) / expected).abs());
-        Case {
-            example: self.example,
-            quantity,
-            source: self.source,
-            expected,
-            tolerance: expected.abs() * libm::pow(10.0, -self.digits_due),
-            found,
-            digits: Some(if digits.is_nan() { 0.0 } else { digits.min(15.0) }),
-        }
+        let digits = Some(if digits.is_nan() { 0.0 } else { digits.min(15.0) });
+        let tolerance = expected.abs() * libm::pow(10.0, -self.digits_due);
+        Case { digits, ..Case::new(self.example, self.source, quantity, [expected, tolerance, found]) }
     }
 }
