@@ -1,9 +1,9 @@
 //! Batch that issues revision 1 of every stand at every site.
 
 use super::catalogue::{Catalogue, Listed};
-use super::{Batch, Event, Listener, Outcome, Purpose, Sweeper, fail, parallel};
+use super::{Batch, Event, Listener, Outcome, Purpose, fail, parallel, sweep};
 use crate::files::folder_of;
-use crate::folder::{Folder, search};
+use crate::folder::{Folder, Visited, search};
 use crate::passport::Trust;
 use crate::passport::content::passport_id;
 use crate::passport::issue::{Issue, PreparedStand};
@@ -50,10 +50,9 @@ impl Batch<'_> {
         fail(bad_stands, all_sites, tell);
         fail(bad_sites, stands.len() as u64, tell);
         tell(Event::Planned(self.shard.share((stands.len() * sites.len()) as u64)));
-        let mut run =
-            Run { batch: self, job, sweeper: Sweeper::default(), pairs: Vec::new(), unusable: BTreeMap::new() };
+        let mut run = Run { batch: self, job, swept: Visited::default(), pairs: Vec::new(), unusable: BTreeMap::new() };
         if self.seal.is_some() {
-            run.sweeper.sweep(job.folder.root());
+            sweep(&run.swept, job.folder.root());
         }
         run.all(&stands, &sites, tell);
     }
@@ -62,7 +61,8 @@ impl Batch<'_> {
 struct Run<'a> {
     batch: &'a Batch<'a>,
     job: &'a Job<'a>,
-    sweeper: Sweeper,
+    /// Folders from which the leftovers of killed runs were removed.
+    swept: Visited,
     pairs: Vec<Pair>,
     /// Passports that may not be used, by folder and SHA-256: each folder is read once, and only if something was there.
     unusable: BTreeMap<PathBuf, BTreeMap<String, String>>,
@@ -138,7 +138,7 @@ impl Run<'_> {
     fn one(&self, (stand, site): &Pair) -> Outcome {
         let Job { folder, order, .. } = self.job;
         if self.batch.seal.is_some() {
-            self.sweeper.sweep(folder_of(&folder.path_of(&stand.stand().stand, &site.id, order.revision)));
+            sweep(&self.swept, folder_of(&folder.path_of(&stand.stand().stand, &site.id, order.revision)));
         }
         self.batch.settle(
             || passport_id(&stand.stand().stand, &site.id, order.revision),

@@ -235,17 +235,10 @@ fn fail(failures: Vec<Failure>, passports: u64, tell: Listener) {
     }
 }
 
-/// Folders of stands from which the leftovers of killed runs were removed, each once.
-#[derive(Default)]
-struct Sweeper {
-    swept: Visited,
-}
-
-impl Sweeper {
-    fn sweep(&self, folder: &Path) {
-        let Ok(()) = self.swept.visit(folder, || {
-            leftovers::remove(folder);
-            Ok::<_, Infallible>(true)
-        });
-    }
+/// Removes the leftovers of killed runs from a folder that is not among those already `swept`.
+fn sweep(swept: &Visited, folder: &Path) {
+    let Ok(()) = swept.visit(folder, || {
+        leftovers::remove(folder);
+        Ok::<_, Infallible>(true)
+    });
 }

@@ -1,7 +1,7 @@
 //! Paths in the arguments of a user: files, folders, patterns, and a list on standard input.
 
 use super::{Failure, Purpose};
-use crate::files::walk::{Entry, Walk};
+use crate::files::walk::{Entry, LINK, SPECIAL, Walk};
 use crate::files::{FileError, reason};
 use crate::folder::search;
 use crate::text::{Printable, shown};
@@ -77,14 +77,8 @@ pub(super) fn contains_no(folder: &Path, what: &str) -> Failure {
 pub(crate) fn found(entry: Result<Entry, FileError>) -> Result<PathBuf, Failure> {
     match entry {
         Ok(Entry::File(path)) => Ok(path),
-        Ok(Entry::Special(path)) => {
-            Err(Failure::unusable(&path, format!("{}: not read: it is a pipe, a device or a socket", shown(&path))))
-        }
-        Ok(Entry::Link(path)) => {
-            let why =
-                format!("{}: not read: links are not followed, because they may lead out of the folder", shown(&path));
-            Err(Failure::refused(&path, why))
-        }
+        Ok(Entry::Special(path)) => Err(Failure::unusable(&path, format!("{}: {SPECIAL}", shown(&path)))),
+        Ok(Entry::Link(path)) => Err(Failure::refused(&path, format!("{}: {LINK}", shown(&path)))),
         Err(error) => Err(Failure::file(error)),
     }
 }

@@ -5,11 +5,11 @@
 
 use super::catalogue::Catalogue;
 use super::paths;
-use super::{Batch, Event, Failure, Listener, Outcome, Purpose, Sweeper, fail, parallel};
+use super::{Batch, Event, Failure, Listener, Outcome, Purpose, fail, parallel, sweep};
 use crate::document::sha256_hex;
 use crate::files::{self, FileError, folder_of};
 use crate::folder::verifier::Verifier;
-use crate::folder::{Folder, Issued, Superseding, search};
+use crate::folder::{Folder, Issued, Superseding, Visited, search};
 use crate::passport::issue::PreparedStand;
 use crate::passport::reissue::{Order, ReissueRefused, Successor, successor};
 use crate::passport::{Check, CheckName, Question, Trust, verify};
@@ -91,7 +91,7 @@ impl Batch<'_> {
             stands,
             sites,
             sites_missing,
-            sweeper: Sweeper::default(),
+            swept: Visited::default(),
             superseding: Superseding::default(),
             candidates: Vec::new(),
         };
@@ -123,7 +123,8 @@ struct Run<'a> {
     sites: Catalogue<Site>,
     /// `true` if a site file could not be read, so its site is unknown.
     sites_missing: bool,
-    sweeper: Sweeper,
+    /// Folders from which the leftovers of killed runs were removed.
+    swept: Visited,
     superseding: Superseding,
     candidates: Vec<Result<Candidate, Failure>>,
 }
@@ -207,9 +208,9 @@ impl Run<'_> {
         let Examined::Next(next) = examined else { return None };
         let Following { name, successor, folder, .. } = &**next;
         if self.batch.seal.is_some() {
-            self.sweeper.sweep(folder.root());
+            sweep(&self.swept, folder.root());
             let path = folder.path_of(&successor.stand().stand, &successor.site.id, successor.first_revision());
-            self.sweeper.sweep(folder_of(&path));
+            sweep(&self.swept, folder_of(&path));
         }
         Some(self.batch.settle(
             || name.clone(),

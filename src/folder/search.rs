@@ -3,12 +3,12 @@
 
 use super::claim::{Claim, is_yaml};
 use crate::files::leftovers::is_lasting;
-use crate::files::walk::{Entry, Walk};
+use crate::files::walk::{Entry, LINK, SPECIAL, Walk};
 use crate::files::{self, FileError};
 use crate::history::{History, Recorded};
 use crate::parallel;
 use crate::passport::Trust;
-use crate::register::{Alarm, Asked, Concern, Examined, Line, Register, examine};
+use crate::register::{Alarm, AlarmKind, Asked, Concern, Examined, Line, Register, examine};
 use crate::revocation::{ListRefused, RevocationList, Series, claims_to_be_a_list};
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
 use jiff::Timestamp;
@@ -156,8 +156,8 @@ pub(crate) fn register_of(
         other && memchr::memmem::find(bytes, id.as_bytes()).is_none() && Claim::of(path, bytes) != Some(Claim::List)
     };
     let mut alarms: Vec<Alarm> = found.unreadable.iter().map(|error| unreadable(root, error)).collect();
-    alarms.extend(found.links.iter().map(|path| Alarm::link(&name_of(path))));
-    alarms.extend(found.special.iter().map(|path| Alarm::special(&name_of(path))));
+    alarms.extend(found.links.iter().map(|path| Alarm::of_file(AlarmKind::Link, LINK, &name_of(path))));
+    alarms.extend(found.special.iter().map(|path| Alarm::of_file(AlarmKind::Special, SPECIAL, &name_of(path))));
     let seen = parallel::map_with(&found.files, threads, Vec::new, |bytes, path| {
         Seen::of(root, path, bytes, elsewhere, |bytes| examine(&name_of(path), bytes, &trust, asked))
     });
@@ -242,10 +242,15 @@ impl Seen {
             Some(Claim::Passport) => {
                 let what = if bytes.is_empty() { "an empty file" } else { "a damaged passport or list" };
                 let words = format!("{what}, which may supersede or withdraw other passports");
-                Self::Damaged(examined, Alarm::damaged(&words, &name_of(path), concern(root, path)))
+                let alarm = Alarm::of_file(AlarmKind::Damaged, &words, &name_of(path));
+                Self::Damaged(examined, alarm.concerning(concern(root, path)))
             }
             None if !path.file_name().is_some_and(is_numbered) => Self::Nothing,
-            None if read.is_err() => Self::Alarm(Alarm::too_large(&name_of(path))),
+            None if read.is_err() => {
+                let words =
+                    format!("not read: it has more than {LARGEST_DOCUMENT_BYTES} bytes, the limit for a passport");
+                Self::Alarm(Alarm::of_file(AlarmKind::TooLarge, &words, &name_of(path)))
+            }
             None => Self::Passport(examined),
         }
     }
@@ -380,7 +385,8 @@ fn unreadable(root: &Path, error: &FileError) -> Alarm {
         FileError::Read { error, .. } => format!("cannot be read: {}", files::reason(error)),
         other => other.to_string(),
     };
-    Alarm::unreadable(&why, &name_of(error.path()), concern(root, error.path()))
+    let alarm = Alarm::of_file(AlarmKind::Unreadable, &why, &name_of(error.path()));
+    alarm.concerning(concern(root, error.path()))
 }
 
 /// Returns `true` if a file is named like passports and lists, `<name>-<number>.yaml`.

@@ -3,9 +3,9 @@
 use super::successors::Successor;
 use super::{Examined, Line, series_of};
 use crate::revocation::{ListRefused, RevocationList, SeriesAlarm};
+use crate::text::Printable;
 use crate::text::words;
 use crate::text::words::first_few;
-use crate::text::{LARGEST_DOCUMENT_BYTES, Printable};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Display};
@@ -66,36 +66,6 @@ words! {
 }
 
 impl Alarm {
-    /// Creates the alarm of a link, which may lead out of the folder.
-    pub(crate) fn link(file: &str) -> Self {
-        Self::of_file(
-            AlarmKind::Link,
-            "not read: links are not followed, because they may lead out of the folder",
-            file,
-        )
-    }
-
-    /// Creates the alarm of a pipe, a device or a socket.
-    pub(crate) fn special(file: &str) -> Self {
-        Self::of_file(AlarmKind::Special, "not read: it is a pipe, a device or a socket", file)
-    }
-
-    /// Creates the alarm of a file larger than any passport.
-    pub(crate) fn too_large(file: &str) -> Self {
-        let words = format!("not read: it has more than {LARGEST_DOCUMENT_BYTES} bytes, the limit for a passport");
-        Self::of_file(AlarmKind::TooLarge, &words, file)
-    }
-
-    /// Creates the alarm of a file or folder that the system refuses to read; `why` is the reason.
-    pub(crate) fn unreadable(why: &str, file: &str, concern: Concern) -> Self {
-        Self::of_file(AlarmKind::Unreadable, why, file).concerning(concern)
-    }
-
-    /// Creates the alarm of a file that resembles a passport or a list but cannot be read as one.
-    pub(crate) fn damaged(why: &str, file: &str, concern: Concern) -> Self {
-        Self::of_file(AlarmKind::Damaged, why, file).concerning(concern)
-    }
-
     /// Creates the alarm of a list that is not accepted. A damaged list might withdraw any passport.
     pub(crate) fn refused_list(error: &ListRefused, file: &str) -> Self {
         let alarm = Self::of_file(AlarmKind::Revocation, &error.to_string(), file);
@@ -135,11 +105,13 @@ impl Alarm {
         }
     }
 
-    fn concerning(self, concern: Concern) -> Self {
+    /// Returns the alarm with the passports that the file may supersede or withdraw.
+    pub(crate) fn concerning(self, concern: Concern) -> Self {
         Self { concern: Some(concern), ..self }
     }
 
-    fn of_file(kind: AlarmKind, words: &str, file: &str) -> Self {
+    /// Creates the alarm of one file.
+    pub(crate) fn of_file(kind: AlarmKind, words: &str, file: &str) -> Self {
         Self::of_files(kind, words.to_owned(), vec![file.to_owned()])
     }
 
