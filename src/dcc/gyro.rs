@@ -20,6 +20,7 @@ use crate::report::page::calibration::not_stated;
 use crate::report::page::language::Text;
 use crate::report::page::texts::calibration as texts;
 use crate::text::Problems;
+use std::fmt::Display;
 
 /// Publication of the drift model and of the equations.
 const PAPER: &str = "https://doi.org/10.18698/2308-6033-2017-10-1691";
@@ -117,29 +118,22 @@ fn statements(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
             .and(in_words("dcc:declaration", words::RULE, languages))
             .and(Element::text("dcc:conformity", decided(verdict.overall, verdict.parameters.iter().all(passes))))
     });
-    let currents = Element::new("dcc:statement")
-        .and(in_words("dcc:name", texts::CURRENTS_SHA256, languages))
+    let currents = parts::statement(texts::CURRENTS_SHA256, None, languages)
         .and(Element::text("dcc:reference", &calibrated.subject.currents_sha256));
     let excluded = calibrated.done.document.excluded.iter().map(|Exclusion { i, j, visit, cycle, why }| {
         let visit = format!("{i}, {j}, {visit}, {}: {why}", cycle.unwrap_or(1));
         parts::statement(texts::EXCLUDED, Some(&visit), languages)
     });
     let missing = calibrated.done.missing.iter().map(|what| {
-        Element::new("dcc:statement").and(in_words("dcc:name", words::NOT_STATED, languages)).and(in_words(
-            "dcc:declaration",
-            not_stated(*what),
-            languages,
-        ))
+        let what = in_words("dcc:declaration", not_stated(*what), languages);
+        parts::statement(words::NOT_STATED, None, languages).and(what)
     });
     let certificate = &calibrated.content.certificate;
     let outside = TemperatureOutside::of(certificate, calibrated.subject, calibrated.laboratory).map(|outside| {
         let TemperatureOutside { here_c, low_c, high_c } = outside;
-        Element::new("dcc:statement").and(in_words("dcc:name", texts::TEMPERATURE_IS_OUTSIDE, languages)).and(filled(
-            "dcc:declaration",
-            texts::TEMPERATURE_OUTSIDE,
-            &[("here", &here_c), ("low", &low_c), ("high", &high_c)],
-            languages,
-        ))
+        let values: [(&str, &dyn Display); 3] = [("here", &here_c), ("low", &low_c), ("high", &high_c)];
+        let declaration = filled("dcc:declaration", texts::TEMPERATURE_OUTSIDE, &values, languages);
+        parts::statement(texts::TEMPERATURE_IS_OUTSIDE, None, languages).and(declaration)
     });
     conformity.into_iter().chain([currents]).chain(excluded).chain(outside).chain(missing).collect()
 }
