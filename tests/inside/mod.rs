@@ -35,11 +35,15 @@ mod coarse_readings;
 #[cfg(feature = "factory")]
 mod forgeries;
 mod frame_axis;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod hidden_drift;
 mod model;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod other_axes;
 #[cfg(all(feature = "factory", feature = "report"))]
 mod passport_accuracy;
+#[cfg(feature = "factory")]
+mod passport_readers;
 #[cfg(all(feature = "factory", feature = "report"))]
 mod pictures;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
@@ -74,9 +78,13 @@ mod split_run;
 mod stated_uncertainty;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod suspects;
+#[cfg(feature = "cli")]
+mod templates;
 mod text_rule;
 #[cfg(feature = "report")]
 pub(crate) mod texts;
+#[cfg(feature = "factory")]
+mod trust_files;
 #[cfg(all(feature = "factory", feature = "report"))]
 mod type_b;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]

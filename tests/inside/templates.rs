@@ -1,0 +1,73 @@
+//! Templates of hand-written files: the readers of all of them accept them.
+
+use crate::calibration::Readings;
+use crate::certification::{AngleReadings, Header};
+use crate::coefficients::{EarthRate, StandGeometry};
+use crate::dcc::Administrative;
+use crate::earth::Place;
+use crate::gyro::GyroType;
+use crate::laboratory::Laboratory;
+use crate::site::Site;
+use crate::stand::{CertifiedPosition, Stand};
+use crate::template::{DCC, GYRO, LABORATORY, Positions, currents, header, readings, site, stand};
+
+const EACH: [(Positions, usize); 3] = [(Positions::Four, 4), (Positions::Eight, 8), (Positions::TwentyFour, 24)];
+
+#[test]
+fn stand_header_readings_and_currents_pass_their_readers() {
+    for (set, count) in &EACH {
+        let count = *count;
+        let stand = Stand::from_yaml("stand.yaml", stand(set).as_bytes()).unwrap();
+        let header = Header::from_yaml("header.yaml", header(set).as_bytes()).unwrap();
+        assert_eq!((stand.positions.len(), header.positions.len()), (count, count));
+        let readings = readings(set, 5);
+        let read = AngleReadings::from_csv("readings.csv", readings.as_bytes(), &header.positions).unwrap();
+        assert_eq!((read.runs, read.each_arcsec.len()), (vec![1, 2, 3, 4, 5], count));
+        let positions: Vec<_> = stand.positions.iter().map(CertifiedPosition::to_model).collect();
+        let coefficients = StandGeometry::new(&positions).unwrap().at(EarthRate::at_astronomic_latitude(45.0));
+        let currents = currents(set).unwrap();
+        let read = Readings::from_csv("currents.csv", currents.as_bytes(), &coefficients, 1.0).unwrap();
+        assert_eq!(read.positions().len(), count);
+    }
+}
+
+#[test]
+fn gyro_laboratory_and_site_pass_their_readers() {
+    assert_eq!(GyroType::from_yaml("gyro.yaml", GYRO.as_bytes()).unwrap().nominal, GyroType::gvk_6().nominal);
+    Laboratory::from_yaml("laboratory.yaml", LABORATORY.as_bytes()).unwrap();
+    Administrative::from_yaml("dcc.yaml", DCC.as_bytes()).unwrap();
+    let read = |text: &str| Site::from_yaml("here.yaml", text.as_bytes()).unwrap();
+    read(&site("here", None, None));
+    // Expected: normal gravity of WGS 84 at 45° on the ellipsoid (NIMA TR8350.2, Somigliana), 9.80619769 m/s².
+    let place = Place { latitude_deg: 45.0, longitude_deg: -0.5 };
+    let on_the_ellipsoid = site("here", Some(place), Some(0.0));
+    assert!(on_the_ellipsoid.contains("9.80620 m/s2"), "{on_the_ellipsoid}");
+    assert!(!on_the_ellipsoid.contains("CHANGE; "));
+    let read = read(&on_the_ellipsoid);
+    assert_eq!((read.latitude_deg, read.longitude_deg, read.height_m), (Some(45.0), Some(-0.5), Some(0.0)));
+    assert_eq!(read.id.as_str(), "here");
+}
+
+#[test]
+fn what_is_a_comment_is_right_too() {
+    let uncommented = |text: &str| {
+        let lines = text.lines().map(|line| match line.trim_start().strip_prefix("# ") {
+            Some(rest)
+                if rest.contains(": ") && !rest.contains('…') && rest.starts_with(|c: char| c.is_lowercase()) =>
+            {
+                format!("{}{rest}\n", &line[..line.len() - line.trim_start().len()])
+            }
+            _ => format!("{line}\n"),
+        });
+        lines.collect::<String>()
+    };
+    let site = site("here", None, None);
+    let text = uncommented(&site);
+    assert!(text.contains("\ndeflection_arcsec") && text.contains("\ngravity_m_per_s2"), "{text}");
+    Site::from_yaml("here.yaml", text.as_bytes()).unwrap();
+    Laboratory::from_yaml("laboratory.yaml", uncommented(LABORATORY).as_bytes()).unwrap();
+    GyroType::from_yaml("gyro.yaml", uncommented(GYRO).as_bytes()).unwrap();
+    let dcc = uncommented(DCC);
+    let read = Administrative::from_yaml("dcc.yaml", dcc.as_bytes()).unwrap();
+    assert!(read.traceable == Some(true) && read.issued.is_some(), "{dcc}");
+}
