@@ -4,10 +4,11 @@
 use super::excerpt::Location;
 use super::problem::Unreadable;
 use super::{Field, LARGEST_DOCUMENT_BYTES};
-use serde::ser::{Serialize, SerializeMap, Serializer};
+use serde::{Serialize, Serializer};
 
 /// Value in a document.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
 pub(crate) enum Node {
     /// Empty value after a colon.
     Null,
@@ -22,6 +23,7 @@ pub(crate) enum Node {
     /// List.
     List(Vec<Node>),
     /// Mapping in the order of the text; a duplicate key is kept twice.
+    #[serde(serialize_with = "in_order")]
     Map(Vec<(String, Node)>),
 }
 
@@ -124,24 +126,8 @@ pub(crate) fn location_of(before: &[u8]) -> Location {
     }
 }
 
-impl Serialize for Node {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Node::Null => serializer.serialize_unit(),
-            Node::Bool(value) => serializer.serialize_bool(*value),
-            Node::Integer(value) => serializer.serialize_i64(*value),
-            Node::Number(value) => serializer.serialize_f64(*value),
-            Node::Text(value) => serializer.serialize_str(value),
-            Node::List(items) => items.serialize(serializer),
-            Node::Map(entries) => {
-                let mut map = serializer.serialize_map(Some(entries.len()))?;
-                for (key, value) in entries {
-                    map.serialize_entry(key, value)?;
-                }
-                map.end()
-            }
-        }
-    }
+fn in_order<S: Serializer>(entries: &[(String, Node)], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(entries.iter().map(|(key, value)| (key, value)))
 }
 
 /// Destination of the values of a document, in their order.
