@@ -141,7 +141,7 @@ pub(crate) struct Failure {
 impl Failure {
     /// Creates the failure for a document that was refused.
     pub(crate) fn refused(path: &Path, why: String) -> Self {
-        Self { what: name_of(path), why, unusable: false, passports: None, unreadable: None }
+        Self::of(name_of(path), why, false)
     }
 
     /// Creates the failure for a file that cannot be used.
@@ -162,7 +162,11 @@ impl Failure {
 
     /// Creates the failure for an order that the folder refused.
     pub(crate) fn of_order(what: String, refused: &FolderRefused) -> Self {
-        Self { what, why: refused.to_string(), unusable: refused.is_unusable(), passports: None, unreadable: None }
+        Self::of(what, refused.to_string(), refused.is_unusable())
+    }
+
+    fn of(what: String, why: String, unusable: bool) -> Self {
+        Self { what, why, unusable, passports: None, unreadable: None }
     }
 }
 
@@ -205,10 +209,7 @@ impl Batch<'_> {
             let why = error.to_string();
             for outcome in outcomes.iter_mut().flatten() {
                 if let Outcome::There(issued) = outcome {
-                    let what = issued.id.clone();
-                    let why = why.clone();
-                    *outcome =
-                        Outcome::Failed(Failure { what, why, unusable: true, passports: None, unreadable: None });
+                    *outcome = Outcome::Failed(Failure::of(issued.id.clone(), why.clone(), true));
                 }
             }
         }

@@ -28,8 +28,11 @@ pub(crate) fn write_together<B: AsRef<[u8]>>(new: &[(PathBuf, B)], last: &[(Path
         move |error| FileError::Write { path, error }
     };
     let stage = |(path, bytes): &(PathBuf, B)| {
-        make_folders(folder_of(path)).map_err(failed(path))?;
-        temporary(folder_of(path), bytes.as_ref(), Access::Shared, Durability::Named).map_err(failed(path))
+        let folder = folder_of(path);
+        if !folder.is_dir() {
+            make_folder(folder, Durability::Named).map_err(failed(path))?;
+        }
+        temporary(folder, bytes.as_ref(), Access::Shared, Durability::Named).map_err(failed(path))
     };
     let staged = new.iter().map(stage).collect::<Result<Vec<_>, _>>()?;
     let staged_last = last.iter().map(stage).collect::<Result<Vec<_>, _>>()?;
@@ -66,10 +69,6 @@ fn publish<'a, B>(
         written.push(path);
     }
     Ok(())
-}
-
-fn make_folders(folder: &Path) -> io::Result<()> {
-    if folder.is_dir() { Ok(()) } else { make_folder(folder, Durability::Named) }
 }
 
 #[cfg(test)]

@@ -264,11 +264,11 @@ impl Folder {
                     None => Ok(Next::New(Unwritten { path, draft })),
                 };
             };
-            let of_the_same = there.predecessor_sha256() == Some(successor.old_sha256());
             if same(&there.content, draft.content()) {
                 return Ok(Next::There(there.left(&draft)));
             }
-            if of_the_same {
+            let predecessor = there.content.passport.reissued_from.as_ref();
+            if predecessor.is_some_and(|predecessor| predecessor.sha256 == successor.old_sha256()) {
                 return Err(FolderRefused::OtherSuccessor { path: there.path });
             }
             // At the predecessor's site only one revision can be the next one; at another site, try the next free
@@ -436,10 +436,6 @@ impl Existing {
             words = format!("valid until {} -> {}; {words}", day(there.valid_until), day(new.passport.valid_until));
         }
         words
-    }
-
-    fn predecessor_sha256(&self) -> Option<&str> {
-        self.content.passport.reissued_from.as_ref().map(|predecessor| predecessor.sha256.as_str())
     }
 }
 

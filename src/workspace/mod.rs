@@ -15,7 +15,7 @@ use crate::folder::{Folder, search};
 use crate::text::problem::Problem;
 use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, Location, Unreadable, name_of};
 use std::path::{Path, PathBuf};
-use toml::de::{DeTable, DeValue};
+use toml::de::DeTable;
 
 /// Name of the file in the folder of a workspace.
 pub(crate) const WORKSPACE_FILE: &str = "dtg-passport.toml";
@@ -82,7 +82,7 @@ impl Workspace {
         for (key, value) in table.get_ref().iter() {
             match KEYS.iter().position(|known| known == key.get_ref()) {
                 None => problems.push(unknown_key(key.get_ref(), location(bytes, key.span().start))),
-                Some(place) => match text_of(value.get_ref()) {
+                Some(place) => match value.get_ref().as_str().filter(|text| !text.is_empty()) {
                     Some(text) => values[place] = Some(text.to_owned()),
                     None => {
                         let found = text.get(value.span()).unwrap_or("nothing");
@@ -147,11 +147,6 @@ fn identifiers<'a>(names: &[&'a str]) -> Option<Vec<&'a str>> {
     let is_file = |name: &str| [".yaml", ".yml", ".csv"].iter().any(|end| name.to_lowercase().ends_with(end));
     let each = names.iter().map(|name| (Identifier::new(name).is_ok() && !is_file(name)).then_some(*name));
     each.collect()
-}
-
-/// Returns the text of a value, or `None` if it is not text or empty.
-fn text_of<'a>(value: &'a DeValue) -> Option<&'a str> {
-    value.as_str().filter(|text| !text.is_empty())
 }
 
 fn unknown_key(key: &str, at: Location) -> Problem {
