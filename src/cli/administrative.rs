@@ -3,6 +3,7 @@
 use super::{Failure, inputs};
 use crate::dcc::Administrative;
 use crate::text::kind::Kind;
+use crate::text::placeholder::filled_in;
 use crate::text::{Problems, Unreadable, name_of};
 use std::path::Path;
 
@@ -25,7 +26,7 @@ impl AdministrativeFile {
         };
         let name = name_of(path);
         let bytes = inputs::bytes(path, Kind::Dcc.words())?;
-        let content = Administrative::from_yaml(&name, &bytes).map_err(Failure::unreadable)?;
+        let content = filled_in(&name, &bytes, Administrative::from_yaml).map_err(Failure::unreadable)?;
         let text = String::from_utf8_lossy(&bytes);
         let text = text.strip_prefix('\u{FEFF}').unwrap_or(&text).to_owned();
         Ok(Self { name, text, content: Some(content) })

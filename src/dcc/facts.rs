@@ -3,7 +3,6 @@
 
 use super::administrative::{Administrative, Contact, Location, Performed};
 use crate::report::{Language, Languages};
-use crate::text::placeholder::{is_placeholder, refuse_at};
 use crate::text::{Path, Problems};
 use jiff::civil::Date;
 use std::fmt::Display;
@@ -81,7 +80,6 @@ impl Facts {
         let none = Administrative::default();
         let file = file.unwrap_or(&none);
         let mut collector = Collector { source: known.source, problems: Problems::new() };
-        collector.refuse_unchanged(file);
         let facts = collector.facts(known, file, lang);
         match facts {
             Some(facts) if collector.problems.is_empty() => Ok(facts),
@@ -160,24 +158,6 @@ impl Collector {
             temperature_c: temperature?,
             traceable: file.traceable,
         })
-    }
-
-    /// Refuses values that the template leaves to the user: they are no facts.
-    fn refuse_unchanged(&mut self, file: &Administrative) {
-        let root = Path::Root;
-        let mut refuse = |at: &Path, text: Option<&str>| {
-            if let Some(text) = text.filter(|text| is_placeholder(text)) {
-                refuse_at(at, text, &mut self.problems);
-            }
-        };
-        for (key, contact) in [("laboratory", &file.laboratory), ("customer", &file.customer)] {
-            let at = root.key(key);
-            contact.iter().flat_map(Contact::texts).for_each(|(key, text)| refuse(&at.key(key), text));
-        }
-        let at = root.key("responsible");
-        let names = file.responsible.iter().flatten();
-        names.enumerate().for_each(|(index, name)| refuse(&at.item(index), Some(name)));
-        refuse(&root.key("method"), file.method.as_deref());
     }
 
     /// Returns a required value, or records that its key is missing and the element of the DCC that needs it.

@@ -7,14 +7,9 @@ use super::{Node, Path, yaml};
 const PLACEHOLDER: &str = "CHANGE";
 
 /// Returns `true` if `text` is a placeholder: the word alone, or the word, a colon and what is to be written.
-pub(crate) fn is_placeholder(text: &str) -> bool {
+fn is_placeholder(text: &str) -> bool {
     let rest = text.trim().strip_prefix(PLACEHOLDER);
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(':'))
-}
-
-/// Records a placeholder `text` at `at`.
-pub(crate) fn refuse_at(at: &Path, text: &str, problems: &mut Problems) {
-    problems.at(at, format!("{text:?}"), "your value", "replace the word from the template");
 }
 
 /// Reads a hand-written document with `read`, and refuses its placeholders; `name` is its name in messages.
@@ -39,7 +34,9 @@ pub(crate) fn filled_in<T>(
 
 fn find(node: &Node, at: &Path, problems: &mut Problems) {
     match node {
-        Node::Text(text) if is_placeholder(text) => refuse_at(at, text, problems),
+        Node::Text(text) if is_placeholder(text) => {
+            problems.at(at, format!("{text:?}"), "your value", "replace the word from the template");
+        }
         Node::List(items) => items.iter().enumerate().for_each(|(index, item)| find(item, &at.item(index), problems)),
         Node::Map(entries) => entries.iter().for_each(|(key, value)| find(value, &at.key(key), problems)),
         _ => {}
