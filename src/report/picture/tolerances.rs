@@ -10,9 +10,9 @@ use crate::report::page::number::Number;
 use crate::report::page::texts::{pictures as texts, units};
 use maud::{Markup, html};
 
-const WIDTH: f64 = 160.0;
+const WIDTH: f64 = 132.0;
 const HEIGHT: f64 = 17.0;
-const FIELD: [f64; 2] = [7.0, 153.0];
+const FIELD: [f64; 2] = [7.0, WIDTH - 7.0];
 
 /// Smallest and largest end of the axis, in tolerances. An arrow points to values beyond.
 const REACH: [f64; 2] = [1.3, 4.0];
