@@ -7,6 +7,7 @@ use super::least_squares::Fit;
 use super::sensitivity::Sensitivity;
 use super::unknowns::Model;
 use crate::coefficients::PositionIndex;
+use crate::text::number::{exponent_as_printed, two_digits};
 use crate::units::arcseconds_from_radians;
 use nalgebra::{Matrix2, Vector2};
 use std::fmt;
@@ -63,12 +64,19 @@ impl fmt::Display for Explanation {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Self::Exchanged(one, other) => write!(f, "positions {one} and {other} are exchanged"),
-            Self::DidNotRepeat { index, angle_arcsec, current_ua } => write!(
-                f,
-                "position {index} did not repeat: by {angle_arcsec:.0} arcsec if the angle changed, or by {:.2} uA in \
-                 J_x and {:.2} uA in J_y if the currents are wrong",
-                current_ua.x, current_ua.y
-            ),
+            Self::DidNotRepeat { index, angle_arcsec, current_ua } => {
+                let digits = 1 - exponent_as_printed(current_ua.amax(), 2);
+                let (scale, decimals) = (libm::pow(10.0, digits.into()), usize::try_from(digits).unwrap_or(0));
+                // Adding zero turns -0.0 into 0.0.
+                let rounded = |error: f64| format!("{:.decimals$}", (error * scale).round() / scale + 0.0);
+                let [x, y] = [current_ua.x, current_ua.y].map(rounded);
+                write!(
+                    f,
+                    "position {index} did not repeat: by {} arcsec if the angle changed, or by {x} uA in J_x and \
+                     {y} uA in J_y if the currents are wrong",
+                    two_digits(*angle_arcsec)
+                )
+            }
         }
     }
 }
@@ -79,9 +87,9 @@ impl fmt::Display for Hint {
             [] => write!(
                 f,
                 "the readings do not fit, and no single position and no exchange of two positions explains this; the \
-                 passport may be that of another stand (all positions differ by about {:.0} arcsec), or the gyro may \
+                 passport may be that of another stand (all positions differ by about {} arcsec), or the gyro may \
                  have drifted, or the stand may have moved, during the run",
-                self.size_arcsec
+                two_digits(self.size_arcsec)
             ),
             some => {
                 let causes: Vec<String> = some.iter().map(ToString::to_string).collect();

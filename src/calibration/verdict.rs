@@ -142,6 +142,13 @@ impl Found {
         Self { parameters, standard_uncertainty, degrees_of_freedom, gravity_m_per_s2, gravity_u_m_per_s2: 0.0 }
     }
 
+    /// Returns the expanded uncertainty of a parameter: k = 2, or Student's t for few degrees of freedom.
+    #[cfg(feature = "report")]
+    pub(crate) fn expanded_uncertainty(&self, parameter: Parameter) -> f64 {
+        let place = parameter.place();
+        coverage_factor(self.degrees_of_freedom[place]) * self.standard_uncertainty[place]
+    }
+
     /// Returns the standard uncertainty that the local g adds to a parameter on conversion to another g; 0 if it has no
     /// effect.
     fn u_from_gravity(&self, parameter: Parameter) -> f64 {

@@ -14,6 +14,15 @@ pub(crate) fn decimal(value: f64) -> String {
     text
 }
 
+/// Returns a value as text with two significant digits, and as 1.5e-5 if it is not near 1.
+pub(crate) fn two_digits(value: f64) -> String {
+    let scientific = format!("{value:.1e}");
+    match (scientific.parse::<f64>(), exponent_of(&scientific)) {
+        (Ok(value), exponent @ -4..=5) => format!("{value:.*}", usize::try_from(1 - exponent).unwrap_or(0)),
+        _ => scientific,
+    }
+}
+
 /// Returns the power of ten of the first digit of a value as printed with `digits` significant digits: that of 0.0996 is
 /// −2 with three digits, and −1 with two, because it rounds to 0.10.
 pub(crate) fn exponent_as_printed(value: f64, digits: i32) -> i32 {

@@ -3,6 +3,7 @@
 use super::budget::{Budget, Contribution, ParameterBudget};
 use crate::calibration::causes::Cause;
 use crate::gyro::Tolerance;
+use crate::text::number::two_digits;
 use crate::units::printed;
 
 /// Smallest share of a variance that counts as "nearly all" of it.
@@ -135,23 +136,10 @@ fn what_to_do(cause: Cause, limit: f64) -> String {
     }
 }
 
-/// Returns a number as text with two significant digits.
-fn two_digits(value: f64) -> String {
-    plain(format!("{value:.1e}"))
-}
-
 /// Returns a number rounded towards zero to two significant digits.
 fn rounded_down(value: f64) -> f64 {
     let decade = libm::pow(10.0, libm::log10(value).floor() - 1.0);
     (value / decade + 1e-9).floor() * decade
-}
-
-/// Returns 1.5e-1 as 0.15, and so on, unless the exponent is beyond ±4.
-fn plain(scientific: String) -> String {
-    match (scientific.parse::<f64>(), crate::text::number::exponent_of(&scientific)) {
-        (Ok(value), exponent @ -4..=4) => format!("{value:.*}", usize::try_from(1 - exponent).unwrap_or(0)),
-        _ => scientific,
-    }
 }
 
 #[cfg(test)]

@@ -123,12 +123,17 @@ def derived(budget):
             yield float(Decimal(limit).quantize(Decimal(1).scaleb(place), ROUND_FLOOR))
 
 
+def adopted(result):
+    """The result of least squares, or of the last method."""
+    return next((one for one in result["results"] if one["method"] == "least-squares"), result["results"][-1])
+
+
 def course(results, gravity):
     """The parameters of several results, and their standard uncertainties, each at one gravity: PLACES × results."""
     for place in PLACES.values():
         line = []
         for result in results:
-            answer = next((one for one in result["results"] if one["method"] == "least-squares"), result["results"][-1])
+            answer = adopted(result)
             value, u = at(answer, place), at(answer["standard_uncertainty"], place)
             if place[0] in ("omega_g_deg_per_h_per_g", "omega_k_deg_per_h_per_g"):
                 local = result["gravity_m_per_s2"]
@@ -138,6 +143,22 @@ def course(results, gravity):
         yield line
 
 
+def expanded(result):
+    """The expanded uncertainty of each parameter by its symbol: k = 2, or Student's t of the same coverage by the expansion of
+    Abramowitz and Stegun (26.7.5), which leaves out less than 1e-12 from ten thousand degrees of freedom on."""
+    answer = adopted(result)
+    freedom = {symbol_of(key): value for key, value in result["degrees_of_freedom"].items()}
+    found = {}
+    for symbol, place in PLACES.items():
+        inverse = 1 / freedom.get(symbol, math.inf)
+        u = at(answer["standard_uncertainty"], place)
+        if inverse > 1e-4:
+            raise ValueError(f"{symbol} has too few degrees of freedom for the expansion")
+        if u is not None:
+            found[symbol] = u * (2 + (2**3 + 2) / 4 * inverse + (5 * 2**5 + 16 * 2**3 + 3 * 2) / 96 * inverse**2)
+    return found
+
+
 class Report:
     def __init__(self, said, result, files, days, earlier=(), gravity=None):
         self.said, self.result, self.days = said, result, days
@@ -145,6 +166,7 @@ class Report:
         gravity = gravity or result["gravity_m_per_s2"]
         self.course = list(course([*earlier, result], gravity)) if len(earlier) > 1 else []
         self.converted = [number for line in self.course for value, u in line for number in (value, 2 * u)]
+        self.alone = {} if result.get("verdict") else expanded(result)
         self.known = {}
         for path, value in numbers(result):
             # What is missing is stated as at most so much.
@@ -171,12 +193,16 @@ class Report:
         paths = self.known.get(float(value))
         if paths is None and any(math.isclose(float(value), other, rel_tol=1e-14) for other in self.converted):
             paths = [()]
+        if paths is None and any(math.isclose(float(value), other, rel_tol=1e-12) for other in self.alone.values()):
+            paths = [()]
         if paths is None:
             self.wrong.append(f"{value} is on the page and not in the result")
             return
         if digits != rounded(float(value), place) and float(digits) != float(value):
             self.wrong.append(f"{shown} is not {value} rounded")
         due = [uncertainty(self.result, path) if path else None for path in paths]
+        alone = adopted(self.result)
+        due += [u for symbol, u in self.alone.items() if at(alone, PLACES[symbol]) == float(value)]
         if all(u and place_of(u) != place for u in due):
             self.wrong.append(f"{shown} has not the digits of its uncertainty {due[0]}: {paths[0]}")
 
@@ -204,6 +230,7 @@ class Report:
         found = [self.table(table) for table in self.said["tables"]]
         due = {"parameters", "residuals", *(part for part in ("verdict", "change") if self.result.get(part))}
         due |= {"course"} if self.course else set()
+        due |= {"alone"} if self.alone else set()
         if not due <= set(found):
             self.wrong.append(f"tables are missing: {found}")
 
@@ -214,6 +241,8 @@ class Report:
             return self.parameters(heads, table)
         if heads[:2] == ["i", "j"]:
             return self.residuals(table)
+        if self.alone and heads[1:] in (["Value", "± U"], ["Значение", "± U"]):
+            return self.values(table)
         if len(heads) in (9, 10):
             return self.verdict(table)
         if heads[1:2] in (["Calibration"], ["Калибровка"]):
@@ -296,9 +325,22 @@ class Report:
                 if due and part["contribution"] not in shown:
                     self.wrong.append(f"{symbol}: the contribution {part} is not on the page")
 
+    def values(self, table):
+        """The parameters without a type."""
+        answer = adopted(self.result)
+        symbols = [row[0]["text"].split(",")[0] for row in table["rows"]]
+        if sorted(symbols) != sorted(self.alone):
+            self.wrong.append(f"the result has other parameters: {symbols}")
+        for symbol, row in zip(symbols, table["rows"]):
+            u = self.alone[symbol]
+            self.cell(f"{symbol}, value", row[1], at(answer, PLACES[symbol]), u)
+            shown = [float(value) for value in row[2]["values"]]
+            if len(shown) != 1 or not math.isclose(shown[0], u, rel_tol=1e-12):
+                self.wrong.append(f"{symbol}: U is {shown}, and that of its result {u}")
+        return "alone"
+
     def residuals(self, table):
-        answers = [result for result in self.result["results"] if result["method"] == "least-squares"]
-        due = (answers or self.result["results"][-1:])[0]["residuals_deg_per_h"]
+        due = adopted(self.result)["residuals_deg_per_h"]
         if len(table["rows"]) != len(due):
             self.wrong.append(f"{len(table['rows'])} rows of residuals, and {len(due)} in the result")
         for row, line in zip(table["rows"], due):

@@ -352,7 +352,7 @@ impl Ticks {
         let length = (scale.places[1] - scale.places[0]).abs();
         let fits = |ticks: &Self| {
             let widest = ticks.marks(language).iter().map(|(_, text)| text.chars().count()).max().unwrap_or(0);
-            LETTER * widest as f64 + GAP <= ticks.step / (high - low) * length
+            ticks.values.len() > 1 && LETTER * widest as f64 + GAP <= ticks.step / (high - low) * length
         };
         let fewer = (2..=8).rev().map(|most| Self::between(low, high, most));
         let largest = round_below(high.max(-low));

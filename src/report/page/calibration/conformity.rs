@@ -1,7 +1,7 @@
 //! The result: every parameter with its expanded uncertainty, within the tolerance of the type if one was specified, and
 //! its change since an earlier result.
 
-use super::parameters::{self, name_of, values};
+use super::parameters::{self, name_of};
 use super::{CalibrationPage, Section, history};
 use crate::calibration::document::CalibrationDocument;
 use crate::calibration::parameter::Parameter;
@@ -9,7 +9,7 @@ use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::gyro::GyroType;
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::{Cell, Number, column};
-use crate::report::page::parts::{Column, Table, date_text, heading, quantity, symbol, symbol_and_unit};
+use crate::report::page::parts::{Column, Table, date_text, heading, quantity, symbol_and_unit};
 use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::accuracy::unit;
@@ -71,16 +71,19 @@ pub(super) fn counted(verdict: &Verdict, of_what: Option<Text>, languages: &Lang
 
 /// Writes the parameters without a type: values and expanded uncertainties.
 fn alone(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let Some(result) = page.adopted() else { return html! {} };
-    let [values, us] = values(result);
-    let found = Parameter::AS_IN_THE_PAPER.into_iter().filter(|parameter| !values[parameter.place()].is_nan());
-    let found: Vec<(Parameter, f64, f64)> =
-        found.map(|parameter| (parameter, values[parameter.place()], us[parameter.place()])).collect();
-    let values = column(languages, found.iter().map(|(_, x, u)| Number::measured(*x, *u)));
-    let us = column(languages, found.iter().map(|(.., u)| Number::uncertainty(*u)));
-    let columns = [Column::named(languages, texts::FOUND, values), Column::new(symbol("u", ""), us)];
+    let Some(found) = page.document.answer() else { return html! {} };
+    let values = found.parameters.to_vector();
+    let rows = Parameter::AS_IN_THE_PAPER.into_iter().filter(|parameter| !values[parameter.place()].is_nan());
+    let rows: Vec<(Parameter, f64)> =
+        rows.map(|parameter| (parameter, found.expanded_uncertainty(parameter))).collect();
+    let each = rows.iter().map(|(parameter, expanded)| Number::measured(values[parameter.place()], *expanded));
+    let expanded = rows.iter().map(|(_, expanded)| Number::uncertainty(*expanded));
+    let columns = [
+        Column::named(languages, texts::FOUND, column(languages, each)),
+        Column::named(languages, texts::PLUS_MINUS, column(languages, expanded)),
+    ];
     let with_unit = |parameter: Parameter| symbol_and_unit(languages, &name_of(parameter.symbol()), unit(parameter));
-    let names = found.iter().map(|(parameter, ..)| vec![with_unit(*parameter)]).collect();
+    let names = rows.iter().map(|(parameter, _)| vec![with_unit(*parameter)]).collect();
     let table = Table::of(vec![languages.label(texts::PARAMETER)], names, &columns);
     Table { class: "numbers narrow", ..table }.captioned(languages, texts::RESULT_CAPTION)
 }
@@ -111,7 +114,7 @@ fn table(
     for (risk, row) in risks.iter_mut().zip(rows) {
         // Without a model that fits, a risk has no meaning.
         *risk = if page.fits() {
-            html! { (mark_of(languages, row)) " " (risk) }
+            html! { span.marked { (mark_of(languages, row)) " " (risk) } }
         } else {
             html! { "–" }
         };

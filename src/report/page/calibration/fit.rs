@@ -159,7 +159,7 @@ fn what_may_be_wrong(hint: &Hint, languages: &Languages) -> Markup {
         (heading(languages, texts::HINT))
         @if hint.explanations.is_empty() {
             (languages.paragraph_with(|language| {
-                let size = Number::fixed(hint.size_arcsec, 0).text(language);
+                let size = Number::significant(hint.size_arcsec, 2).text(language);
                 italic(&texts::HINT_NOTHING.filled(language, &[("size", &size)]))
             }))
         }
@@ -173,8 +173,9 @@ fn explained(explanation: &Explanation, language: Language) -> String {
     match explanation {
         Explanation::Exchanged(one, other) => texts::HINT_EXCHANGED.filled(language, &[("one", one), ("other", other)]),
         Explanation::DidNotRepeat { index, angle_arcsec, current_ua } => {
-            let two = |value: f64| Number::significant(value, 2).text(language);
-            let [angle, jx, jy] = [*angle_arcsec, current_ua.x, current_ua.y].map(two);
+            let angle = Number::significant(*angle_arcsec, 2).text(language);
+            let place = Number::place_of(current_ua.amax());
+            let [jx, jy] = [current_ua.x, current_ua.y].map(|error| Number::to_place(error, place).text(language));
             texts::HINT_DID_NOT_REPEAT
                 .filled(language, &[("index", index), ("angle", &angle), ("jx", &jx), ("jy", &jy)])
         }

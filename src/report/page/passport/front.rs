@@ -70,7 +70,7 @@ fn answers(page: &PassportPage, languages: &Languages) -> Markup {
     let place = html! {
         p { (languages.label(whither)) }
         p { (degrees(latitude)) @if let Some(longitude) = site.longitude_deg { ", " (degrees(longitude)) } }
-        p { (given(site.id.as_str())) }
+        p { (given(site.name.as_deref().unwrap_or(site.id.as_str()))) }
     };
     let word = html! {
         p { (given(&certificate.laboratory)) }

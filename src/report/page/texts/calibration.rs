@@ -150,8 +150,9 @@ texts! {
     PARAMETERS { en: "Parameters", ru: "Параметры" }
     RESULT { en: "Result", ru: "Результат" }
     RESULT_CAPTION {
-        en: "Parameters with their standard uncertainty u (k = 1); drifts refer to local g",
-        ru: "Параметры и их стандартная неопределённость u (k = 1); составляющие дрейфа отнесены к местному g"
+        en: "Parameters with their expanded uncertainty U (k = 2, or Student’s t); drifts refer to local g",
+        ru: "Параметры и их расширенная неопределённость U (k = 2 или коэффициент Стьюдента); составляющие дрейфа \
+             отнесены к местному g"
     }
     PASSED { en: "{passed} of {all} parameters pass", ru: "Соответствуют допускам {passed} из {all} параметров" }
     CHANGE_COUNTED { en: "Change since the previous calibration:", ru: "Изменение после предыдущей калибровки." }

@@ -53,8 +53,8 @@ texts! {
     }
     DEVIATION_NO_U { en: "the certificate gives no uncertainty", ru: "неопределённость в сертификате не указана" }
 
-    EARTH_RATE_DIFFERENCE { en: "ω₃: actual minus nominal", ru: "Отклонение ω₃ от номинальной" }
-    SPECIFIC_FORCE_DIFFERENCE { en: "n: actual minus nominal", ru: "Отклонение n от номинальной" }
+    EARTH_RATE_DIFFERENCE { en: "ω₃: actual minus ideal", ru: "ω₃: отличие от идеальной" }
+    SPECIFIC_FORCE_DIFFERENCE { en: "n: actual minus ideal", ru: "n: отличие от идеальной" }
     EARTH_RATE_OF_FRAME { en: "ω₃, frame index i = {i}", ru: "ω₃, индекс рамки i = {i}" }
     SPECIFIC_FORCE_OF_FRAME { en: "n, frame index i = {i}", ru: "n, индекс рамки i = {i}" }
     VECTOR_IN_WORDS { en: "position {index}: x {x}, y {y}", ru: "положение {index}: x {x}, y {y}" }
