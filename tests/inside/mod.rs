@@ -30,8 +30,6 @@ mod calibration;
 mod certification;
 #[cfg(feature = "monte-carlo")]
 mod chi_square;
-#[cfg(all(feature = "factory", feature = "monte-carlo"))]
-mod coarse_readings;
 #[cfg(feature = "factory")]
 mod forgeries;
 mod frame_axis;
@@ -59,21 +57,13 @@ mod reissue;
 mod repeats;
 #[cfg(feature = "monte-carlo")]
 mod robustness;
-#[cfg(all(feature = "factory", feature = "monte-carlo"))]
-mod rotated_runs;
 #[cfg(feature = "monte-carlo")]
 mod runs;
-#[cfg(all(feature = "factory", feature = "monte-carlo"))]
-mod same_stand;
 #[cfg(feature = "report")]
 mod selftest;
-#[cfg(all(feature = "factory", feature = "monte-carlo"))]
-mod shared_settings;
 #[cfg(feature = "factory")]
 mod site;
 mod slow;
-#[cfg(all(feature = "factory", feature = "monte-carlo"))]
-mod split_run;
 #[cfg(feature = "monte-carlo")]
 mod stated_uncertainty;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
@@ -87,9 +77,5 @@ pub(crate) mod texts;
 mod trust_files;
 #[cfg(all(feature = "factory", feature = "report"))]
 mod type_b;
-#[cfg(all(feature = "factory", feature = "monte-carlo"))]
-mod unequal_axes;
 #[cfg(feature = "factory")]
 mod verdict;
-#[cfg(all(feature = "factory", feature = "monte-carlo"))]
-mod worse_groups;

@@ -2,6 +2,8 @@
 
 #[cfg(feature = "cli")]
 mod alone;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod coarse_readings;
 #[cfg(feature = "monte-carlo")]
 mod diagnosis;
 #[cfg(feature = "cli")]
@@ -12,11 +14,23 @@ mod hostile_input;
 mod hostile_memory;
 #[cfg(feature = "factory")]
 mod noise;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod rotated_runs;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod same_stand;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod shared_settings;
 #[cfg(feature = "report")]
 mod simulation;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod split_run;
 #[cfg(feature = "factory")]
 mod tampering;
 #[cfg(all(feature = "factory", feature = "report"))]
 mod uncertainty;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod unequal_axes;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod worse_groups;
 #[cfg(feature = "factory")]
 mod yaml_readers;

@@ -1,6 +1,6 @@
 //! Axes about which the runs vary more than about the others: named, and covered by the proposed line of type_b.
 
-use crate::inside::rotated_runs::{SMALL, found, measured};
+use super::rotated_runs::{SMALL, found, measured};
 use crate::inside::simulated_stands::{HEADER, Truth};
 use dtg_passport::certification::{AngleReadings, Header, certify};
 use dtg_passport::coefficients::EIGHT_POSITIONS;
