@@ -2,6 +2,7 @@
 
 use super::page::number::{THIN_BLANK, superscripts};
 use super::style;
+use crate::text::excerpt::columns_of;
 use crate::text::printable;
 use std::fmt::Write;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -20,7 +21,6 @@ pub(crate) fn set_width(columns: usize) {
     COLUMNS.store(columns.max(LEAST_COLUMNS), Ordering::Relaxed);
 }
 
-/// Returns the width of the terminal.
 pub(crate) fn width() -> usize {
     COLUMNS.load(Ordering::Relaxed)
 }
@@ -81,10 +81,9 @@ fn last_column(line: &str, most: usize) -> usize {
     line.match_indices(|c| c != ' ').map(|(at, _)| at).rfind(after_gap).unwrap_or(0)
 }
 
-/// Returns the columns that a text takes in a terminal: none for emphasis, two for East Asian characters.
+/// Returns the columns that a text takes in a terminal, in which emphasis takes none.
 fn shown_columns(text: &str) -> usize {
-    let wide = |c| matches!(c, '\u{3001}'..='\u{30FF}' | '\u{4E00}'..='\u{9FFF}' | '\u{AC00}'..='\u{D7A3}' | '\u{FF01}'..='\u{FF5E}');
-    style::plain(text).chars().map(|c| if wide(c) { 2 } else { 1 }).sum()
+    columns_of(&style::plain(text))
 }
 
 /// Appends words from `column` on, broken at spaces before `columns`, but not between a number and its unit. Further lines

@@ -58,14 +58,14 @@ impl Display for Excerpt {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         let Self { line, before, after } = self;
         let margin = line.to_string().len();
-        let columns: usize = before.chars().map(|c| if is_wide(c) { 2 } else { 1 }).sum();
-        write!(f, "{line} | {before}{after}\n{:margin$} | {:columns$}^", "", "")
+        write!(f, "{line} | {before}{after}\n{:margin$} | {:columns$}^", "", "", columns = columns_of(before))
     }
 }
 
-/// Returns `true` if `c` is two columns wide in a terminal, for the characters that [`Printable`] shows unescaped.
-fn is_wide(c: char) -> bool {
-    matches!(c, '\u{3001}'..='\u{30FF}' | '\u{4E00}'..='\u{9FFF}' | '\u{AC00}'..='\u{D7A3}' | '\u{FF01}'..='\u{FF5E}')
+/// Returns the columns that a text takes in a terminal: two for an East Asian character that [`Printable`] shows unescaped.
+pub(crate) fn columns_of(text: &str) -> usize {
+    let wide = ['\u{3001}'..='\u{30FF}', '\u{4E00}'..='\u{9FFF}', '\u{AC00}'..='\u{D7A3}', '\u{FF01}'..='\u{FF5E}'];
+    text.chars().map(|c| if wide.iter().any(|range| range.contains(&c)) { 2 } else { 1 }).sum()
 }
 
 #[cfg(test)]

@@ -9,39 +9,22 @@ words! {
     /// Kind of a file that a user may have, and a noun phrase for it.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub(crate) enum Kind: pub(crate) words {
-        /// Stand file, certified or not.
         Stand = "a stand file (dtg-stand/1)",
-        /// Site file.
         Site = "a site file (dtg-site/1)",
-        /// Gyro type.
         Gyro = "a gyro type (dtg-gyro/1)",
-        /// Laboratory file.
         Laboratory = "a laboratory file (dtg-laboratory/1)",
-        /// Administrative file of a DCC.
         Dcc = "an administrative file (dtg-dcc/1)",
-        /// Passport.
         Passport = "a passport (dtg-passport/1)",
-        /// Signed list of withdrawn passports.
         RevocationList = "a list of withdrawn passports (dtg-revocation/1)",
-        /// Angles in CSV.
         Angles = "a table of angles (CSV)",
-        /// Currents in CSV.
         Currents = "a table of currents (CSV)",
-        /// Result of a calibration in JSON.
         Result = "the result of a calibration (JSON)",
-        /// Trusted keys.
         AllowedSigners = "a list of trusted keys (allowed_signers)",
-        /// Public key, or a list of them.
         PublicKey = "a public key",
-        /// Private key.
         PrivateKey = "a private key",
-        /// OpenSSH's key revocation list.
         KeyRevocationList = "a key revocation list of OpenSSH (KRL)",
-        /// Table of a spreadsheet program.
         Workbook = "a file of a spreadsheet or word processor",
-        /// Document for print.
         Pdf = "a PDF file",
-        /// Page.
         Html = "an HTML page",
     }
 }

@@ -17,10 +17,10 @@
 pub(crate) mod canonical;
 pub(crate) mod excerpt;
 pub(crate) mod kind;
+mod known_name;
 pub(crate) mod node;
 pub(crate) mod number;
 mod number_advice;
-mod other_unit;
 #[cfg(feature = "factory")]
 pub(crate) mod placeholder;
 pub(crate) mod printable;

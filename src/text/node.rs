@@ -12,15 +12,12 @@ use serde::{Serialize, Serializer};
 pub(crate) enum Node {
     /// Empty value after a colon.
     Null,
-    /// Boolean, `true` or `false`.
     Bool(bool),
     /// Whole number without point or exponent.
     Integer(i64),
     /// Number with a point or an exponent.
     Number(f64),
-    /// String.
     Text(String),
-    /// List.
     List(Vec<Node>),
     /// Mapping in the order of the text; a duplicate key is kept twice.
     #[serde(serialize_with = "in_order")]
@@ -134,15 +131,11 @@ fn in_order<S: Serializer>(entries: &[(String, Node)], serializer: S) -> Result<
 ///
 /// A single pass over the fields of a record ([`Field::emit`]) serves every form in which a document is written.
 pub(crate) trait Sink: Sized {
-    /// Writes `true` or `false`.
     fn boolean(&mut self, value: bool);
-    /// Writes a whole number.
     fn integer(&mut self, value: i64);
     /// Writes a finite binary64 number.
     fn number(&mut self, value: f64);
-    /// Writes a string.
     fn text(&mut self, value: &str);
-    /// Writes a list.
     fn list<T: Field>(&mut self, items: &[T]);
     /// Writes a mapping. `entries` writes each key and its value; if `empty` is `true`, it writes none.
     fn mapping(&mut self, empty: bool, entries: impl FnOnce(&mut Self));

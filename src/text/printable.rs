@@ -33,7 +33,6 @@ impl<T: Display> Display for Printable<T> {
     }
 }
 
-/// Returns the text as [`Printable`] displays it.
 pub(crate) fn printable(text: impl Display) -> String {
     Printable(text).to_string()
 }
@@ -84,17 +83,11 @@ pub(crate) fn outgoing(text: &str, codes: &[&str]) -> String {
 }
 
 /// Returns a value as indented JSON, in which invisible characters are escaped as `\uXXXX`.
-///
-/// # Errors
-/// Returns an error if the value cannot be written as JSON.
 pub(crate) fn json(value: &impl Serialize) -> Result<String, serde_json::Error> {
     Ok(json_escaped(&serde_json::to_string_pretty(value)?))
 }
 
 /// Returns a value as JSON on a single line, escaped as [`json`] does.
-///
-/// # Errors
-/// Returns an error if the value cannot be written as JSON.
 pub(crate) fn json_line(value: &impl Serialize) -> Result<String, serde_json::Error> {
     Ok(json_escaped(&serde_json::to_string(value)?))
 }

@@ -12,9 +12,7 @@ use std::hash::Hash;
 /// A path borrows its parent, so that reading a correct document allocates no memory. Items of a list count from 0.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Path<'a> {
-    /// Top of the document.
     Root,
-    /// Key of a mapping.
     Key(&'a Path<'a>, &'a str),
     /// Item of a list, counted from 0.
     Item(&'a Path<'a>, usize),
@@ -31,7 +29,6 @@ pub(crate) enum Step {
 }
 
 impl<'a> Path<'a> {
-    /// Returns the path of the value under `key`.
     pub(crate) fn key(&'a self, key: &'a str) -> Path<'a> {
         Path::Key(self, key)
     }
@@ -91,7 +88,6 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// Creates the report of an error.
     pub(crate) fn new(
         location: Option<Location>,
         field: impl Into<String>,
@@ -144,12 +140,10 @@ pub(crate) struct Problems {
 }
 
 impl Problems {
-    /// Creates an empty collection of errors.
     pub(crate) fn new() -> Self {
         Self::default()
     }
 
-    /// Returns `true` if there is no error so far.
     pub(crate) fn is_empty(&self) -> bool {
         self.found.is_empty()
     }
@@ -226,7 +220,7 @@ impl Problems {
             problem.field.contains('[').then_some(kind)
         });
         let more = self.more || groups.len() > affordable;
-        let located = groups.into_iter().take(affordable).map(|Group { first: (steps, problem), others }| {
+        let located = groups.into_iter().take(affordable).map(|((steps, problem), others)| {
             let last = others.last().and_then(|(steps, _)| locate(steps)).map(|at| at.line);
             let found = problem.found + &more_of_this_kind(others.len(), last, !self.more);
             Problem { location: locate(&steps), found, ..problem }
@@ -264,33 +258,27 @@ fn more_of_this_kind(others: usize, last: Option<usize>, all: bool) -> String {
 pub(crate) fn counted<K: Eq + Hash>(problems: Vec<Problem>, kind: impl Fn(&Problem) -> Option<K>) -> Vec<Problem> {
     let all = problems.len() < MOST_COUNTED;
     let line = |problem: &Problem| problem.location.map_or(0, |at| at.line);
-    let shown = grouped(problems, kind).into_iter().map(|Group { first, others }| {
+    let shown = grouped(problems, kind).into_iter().map(|(first, others)| {
         let last = others.iter().map(line).chain([line(&first)]).max();
         Problem { found: first.found + &more_of_this_kind(others.len(), last, all), ..first }
     });
     shown.take(MOST_PROBLEMS).collect()
 }
 
-/// First error of a kind, and the others.
-struct Group<T> {
-    first: T,
-    others: Vec<T>,
-}
-
-/// Groups errors of one kind, if there are many of it, at the place of the first.
-fn grouped<T, K: Eq + Hash>(found: Vec<T>, kind: impl Fn(&T) -> Option<K>) -> Vec<Group<T>> {
+/// Groups errors of one kind, if there are many of it, at the place of the first; returns the first and the others.
+fn grouped<T, K: Eq + Hash>(found: Vec<T>, kind: impl Fn(&T) -> Option<K>) -> Vec<(T, Vec<T>)> {
     let mut counts = HashMap::new();
     for kind in found.iter().filter_map(&kind) {
         *counts.entry(kind).or_insert(0_usize) += 1;
     }
-    let mut groups: Vec<Group<T>> = Vec::new();
+    let mut groups: Vec<(T, Vec<T>)> = Vec::new();
     let mut places = HashMap::new();
     for error in found {
         let one_of_many = kind(&error).filter(|kind| counts.get(kind).is_some_and(|count| *count >= ALIKE));
         let next = groups.len();
         match one_of_many.map(|kind| *places.entry(kind).or_insert(next)).and_then(|place| groups.get_mut(place)) {
-            Some(group) => group.others.push(error),
-            None => groups.push(Group { first: error, others: Vec::new() }),
+            Some((_, others)) => others.push(error),
+            None => groups.push((error, Vec::new())),
         }
     }
     groups
@@ -363,7 +351,6 @@ impl Unreadable {
         text
     }
 
-    /// Returns the name of the document.
     pub(crate) fn name(&self) -> &str {
         &self.name
     }

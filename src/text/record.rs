@@ -2,9 +2,7 @@
 
 use super::canonical::Scanner;
 use super::node::{Sink, Tree};
-use super::number_advice;
-use super::scalar::latin;
-use super::{Node, Path, Problems};
+use super::{Node, Path, Problems, known_name, number_advice};
 use std::collections::HashSet;
 
 /// Type of a field of a document.
@@ -204,10 +202,7 @@ fn unknown_key_advice(entries: &[(String, Node)], index: usize, key: &str, value
     {
         return format!("use a decimal point: {name}: {whole}.{key}");
     }
-    if let Some((latin, odd)) = latin(key).filter(|(latin, _)| known.contains(&latin.as_str())) {
-        return format!("the {odd} only looks like a Latin letter; type {latin} again");
-    }
-    if let Some(advice) = super::other_unit::advice(known, key) {
+    if let Some(advice) = known_name::advice(known, key) {
         return advice;
     }
     let alike = |name: &&str| strsim::jaro_winkler(name, key);

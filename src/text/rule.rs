@@ -82,7 +82,6 @@ pub(crate) fn check<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadab
     Ok(text)
 }
 
-/// Returns `true` if all bytes are printable ASCII.
 pub(super) fn is_printable_ascii(bytes: &[u8]) -> bool {
     // Do not stop at the first other byte, so that the compiler can test many bytes at once.
     bytes.iter().fold(true, |good, byte| good & (b' '..=b'~').contains(byte))

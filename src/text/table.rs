@@ -8,11 +8,10 @@
 
 use super::excerpt::Location;
 use super::kind::{Kind, mistaken};
+use super::known_name;
 use super::node::hand_written_text;
 use super::number_advice::{self, unquoted};
-use super::other_unit;
 use super::problem::{MOST_COUNTED, MOST_PROBLEMS, Problem, Unreadable, counted};
-use super::scalar::latin;
 
 /// Table: rows of cells, in the order of the requested columns.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,7 +26,6 @@ pub(crate) struct Table<'a> {
     semicolons: Option<&'static str>,
 }
 
-/// Row of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Row {
     /// Cells, one for each requested column that is present.
@@ -39,7 +37,6 @@ pub(crate) struct Row {
 pub(crate) struct Cell {
     /// Text, without the quotes of a quoted cell.
     pub text: String,
-    /// Location of the cell.
     pub location: Location,
 }
 
@@ -166,7 +163,6 @@ impl<'a> Table<'a> {
     }
 }
 
-/// Returns the name of a requested column.
 fn column_name<'a>(columns: &[&'a str], place: usize) -> &'a str {
     columns.get(place).copied().unwrap_or_default()
 }
@@ -255,7 +251,6 @@ fn quoted_cell(quoted: &str, separator: char) -> Option<(String, &str)> {
     (after.is_empty() || after.starts_with(separator)).then(|| (text.trim().to_owned(), after))
 }
 
-/// Header of a table.
 struct Header<'a> {
     /// Requested columns that are present.
     columns: Vec<&'a str>,
@@ -304,10 +299,7 @@ impl<'a> Header<'a> {
                 if cells[..index].iter().any(|earlier| earlier.text == cell.text) {
                     problem(format!("duplicate column {:?}", cell.text), String::new());
                 }
-            } else if let Some((column, odd)) = latin(&cell.text).filter(|(latin, _)| known.contains(&latin.as_str())) {
-                let advice = format!("the {odd} only looks like a Latin letter; type {column} again");
-                problem(format!("column {:?}", cell.text), advice);
-            } else if let Some(advice) = other_unit::advice(&known, &cell.text) {
+            } else if let Some(advice) = known_name::advice(&known, &cell.text) {
                 problem(format!("column {:?}", cell.text), advice);
             } else if let Some(column) = meant(&known, &cell.text) {
                 problem(format!("column {:?}", cell.text), format!("did you mean {column}?"));

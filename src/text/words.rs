@@ -10,7 +10,6 @@ macro_rules! words {
         $vis enum $name { $($(#[$doc])* $variant,)* }
 
         impl $name {
-            /// All variants.
             #[allow(dead_code)]
             pub(crate) const ALL: [Self; [$($text),*].len()] = [$(Self::$variant),*];
 

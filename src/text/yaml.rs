@@ -23,7 +23,9 @@ pub(crate) fn tree(name: &str, bytes: &[u8]) -> Result<(Node, String), Unreadabl
     }
     refuse_control_characters(name, &text)?;
     refuse_deep(name, &text)?;
-    let budget = Budget::of(&text);
+    // Every value and every byte of a string takes space in the text unless an alias repeats it, so no document without
+    // aliases needs this much.
+    let budget = Cell::new(4 * text.len() + 64);
     match Whole(&budget).deserialize(serde_yaml::Deserializer::from_str(&text)) {
         Ok(node) => Ok((node, text)),
         Err(error) => Err(unreadable_yaml(name, &text, &error)),
@@ -145,34 +147,26 @@ fn refuse_deep(name: &str, text: &str) -> Result<(), Unreadable> {
     Ok(())
 }
 
-/// Error message for a document that exceeds its [`Budget`].
+/// Error message for a document that exceeds its budget.
 const REPEATED: &str = "aliases that repeat too much";
 
-/// Amount that may still be built, which limits aliases, because they can make a small text very large.
-struct Budget(Cell<usize>);
+/// Deserialiser of the whole tree, with the amount that may still be built. It limits aliases, because they can make a small
+/// text very large.
+#[derive(Clone, Copy)]
+struct Whole<'a>(&'a Cell<usize>);
 
-impl Budget {
-    /// Creates the budget of a text. Every value and every byte of a string takes space in the text unless an alias
-    /// repeats it, so no document without aliases needs this much.
-    fn of(text: &str) -> Self {
-        Self(Cell::new(4 * text.len() + 64))
-    }
-
-    fn spend<E: de::Error>(&self, cost: usize) -> Result<(), E> {
+impl Whole<'_> {
+    fn spend<E: de::Error>(self, cost: usize) -> Result<(), E> {
         let left = self.0.get().checked_sub(cost).ok_or_else(|| E::custom(REPEATED))?;
         self.0.set(left);
         Ok(())
     }
 }
 
-/// Deserialiser of the whole tree.
-#[derive(Clone, Copy)]
-struct Whole<'a>(&'a Budget);
-
 impl<'de> DeserializeSeed<'de> for Whole<'_> {
     type Value = Node;
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Node, D::Error> {
-        self.0.spend(1)?;
+        self.spend(1)?;
         deserializer.deserialize_any(self)
     }
 }
@@ -199,7 +193,7 @@ impl<'de> Visitor<'de> for Whole<'_> {
         Ok(Node::Number(value))
     }
     fn visit_str<E: de::Error>(self, value: &str) -> Result<Node, E> {
-        self.0.spend(value.len())?;
+        self.spend(value.len())?;
         Ok(Node::Text(value.to_owned()))
     }
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Node, A::Error> {
@@ -310,8 +304,5 @@ fn parse<T: Document>(name: &str, bytes: &[u8], check: impl FnOnce(&T, &mut Prob
     if let Some(value) = &value {
         check(value, &mut problems);
     }
-    match value {
-        Some(value) if problems.is_empty() => Ok(value),
-        _ => Err(problems.refuse(name, &text)),
-    }
+    value.filter(|_| problems.is_empty()).ok_or_else(|| problems.refuse(name, &text))
 }

@@ -23,7 +23,6 @@ pub(super) fn scan<T: Field>(text: &str) -> Result<T, Problem> {
     })
 }
 
-/// Scanner of a text in canonical form.
 #[derive(Debug)]
 pub(crate) struct Scanner<'t> {
     rest: &'t str,
@@ -114,7 +113,6 @@ impl<'t> Scanner<'t> {
         Some(value)
     }
 
-    /// Reads the items of a list.
     pub(crate) fn list<T: Field>(&mut self) -> Option<Vec<T>> {
         let mut items = Vec::new();
         if !self.inline && self.rest.starts_with('\n') {
@@ -175,7 +173,6 @@ impl<'t> Scanner<'t> {
         })
     }
 
-    /// Reads a string.
     pub(crate) fn string(&mut self) -> Option<String> {
         self.on_the_line(|scanner| scanner.quoted(scanner.rest.strip_prefix('"')?))
     }

@@ -1,4 +1,6 @@
-//! Advice on names of known quantities in another unit, whose numbers must be converted before they are renamed.
+//! Advice on unknown names that are known ones in letters of another alphabet, or in another unit.
+
+use super::scalar::latin;
 
 /// Last parts of names that are units.
 const UNITS: [&str; 36] = [
@@ -7,9 +9,12 @@ const UNITS: [&str; 36] = [
     "mas",
 ];
 
-/// Returns the advice for an unknown name that is one of the `known` quantities in another unit, or an expanded uncertainty
-/// where a standard uncertainty is expected; `None` for other names.
+/// Returns the advice for an unknown name that only looks like one of the `known`, is one of them in another unit, whose
+/// numbers must be converted, or is an expanded uncertainty instead of a standard one; `None` for other names.
 pub(super) fn advice(known: &[&str], found: &str) -> Option<String> {
+    if let Some((latin, odd)) = latin(found).filter(|(latin, _)| known.contains(&latin.as_str())) {
+        return Some(format!("the {odd} only looks like a Latin letter; type {latin} again"));
+    }
     if let Some(name) = known.iter().find(|name| found.starts_with("U_") && **name == found.to_lowercase()) {
         return Some(format!(
             "if U is an expanded uncertainty, divide the numbers by its coverage factor k; then name it {name}"
