@@ -61,9 +61,6 @@ impl Stated {
     }
 
     /// Computes the standard uncertainties of the parameters on a certified stand at a site.
-    ///
-    /// # Errors
-    /// Returns [`NoAccuracy`] if the inputs are unusable or do not determine the parameters.
     pub(crate) fn accuracy(
         &self,
         certificate: &Certificate,
@@ -99,11 +96,8 @@ impl Accuracy {
     /// Returns a sentence if the gyro needs more current in a position of the passport than the meter can read.
     pub(crate) fn beyond_range(&self, content: &Content) -> Option<String> {
         let gyro = at_gravity(&self.gyro, content.earth.gravity_m_per_s2);
-        let each = content
-            .coefficients()
-            .positions
-            .into_iter()
-            .filter_map(|at| Some((gyro.currents_ma(&at)?.amax(), at.index)));
+        let positions = content.coefficients().positions;
+        let each = positions.iter().filter_map(|at| Some((gyro.currents_ma(at)?.amax(), at.index)));
         let (current_ma, index) = each.max_by(|(one, _), (other, _)| one.total_cmp(other))?;
         let range_ma = self.laboratory.meter.range_ma;
         (current_ma > range_ma).then(|| {

@@ -87,9 +87,7 @@ pub(crate) fn absences(content: &Content) -> Vec<String> {
 
 /// Returns the missing statements of this passport.
 pub(crate) fn absent(content: &Content) -> Vec<Absence> {
-    let mut absent = of_the_certificate(content);
-    absent.extend(of_the_site(content));
-    absent
+    [of_the_certificate(content), of_the_site(content)].concat()
 }
 
 fn sentences(absences: Vec<Absence>) -> Vec<String> {
@@ -162,19 +160,9 @@ fn of_the_stand(path: &str, absences: impl Fn() -> Vec<Absence>) -> Vec<String> 
     }
 }
 
-/// Comment on the axes in a passport whose frame's axis points east, as in the paper.
-const AXES: &str =
-    "Axes: base xi east, eta north, zeta up; case x, y, z with z along the spin axis. i and j count from 1.";
-
 fn comments(content: &Content, path: &str) -> Vec<String> {
     let fixed: &[&str] = match path {
-        "format" => &[
-            "Passport of a two-axis test stand for dynamically tuned gyros.",
-            "Signed verbatim: any change, even of a space or of this comment, makes the signature invalid.",
-            AXES,
-            "Equations: Tang and Podchezertsev 2017, doi 10.18698/2308-6033-2017-10-1691.",
-            "Standard uncertainties (k = 1). Matrices are lists of rows.",
-        ],
+        "format" => return of_the_format(content.site.frame_axis_azimuth_deg()),
         "certificate" | "positions" => return of_the_stand(path, || of_the_certificate(content)),
         "matrices" => &[
             "With J1 = (J11 - J13, J12 - J14), J2 = (J21 - J23, J22 - J24) as columns, in mA:",
@@ -196,7 +184,6 @@ fn comments(content: &Content, path: &str) -> Vec<String> {
     };
     let mut lines: Vec<String> = fixed.iter().map(|line| (*line).to_owned()).collect();
     match path {
-        "format" => with_axes(&mut lines, content.site.frame_axis_azimuth_deg()),
         "site" => lines.extend(sentences(of_the_site(content))),
         "earth" => lines.extend(of_the_earth(content)),
         _ => {}
@@ -204,23 +191,29 @@ fn comments(content: &Content, path: &str) -> Vec<String> {
     lines
 }
 
-/// Replaces the comment on the axes if the frame's axis does not point east.
-fn with_axes(lines: &mut Vec<String>, azimuth_deg: f64) {
-    let Some(place) = lines.iter().position(|line| line == AXES) else { return };
-    if azimuth_deg == PAPER_FRAME_AXIS_AZIMUTH_DEG {
-        return;
-    }
-    let turned = [
+/// Returns the comments above the first key, with the azimuth of the frame's axis if that does not point east as in the
+/// paper.
+fn of_the_format(azimuth_deg: f64) -> Vec<String> {
+    let axes = if azimuth_deg == PAPER_FRAME_AXIS_AZIMUTH_DEG {
+        "Axes: base xi east, eta north, zeta up; case x, y, z with z along the spin axis. i and j count from 1."
+            .to_owned()
+    } else {
         format!(
             "Axes: base xi (axis of the frame) at the azimuth {} deg, clockwise from north; zeta up, eta 90 deg \
-             counterclockwise",
+             counterclockwise\n\
+             from xi. Case x, y, z with z along the spin axis. i and j count from 1.\n\
+             Orientation, from east, north, up to case: E A Rz(90 deg - azimuth), with A and E as in eq. (3) and (4).",
             number::decimal(azimuth_deg)
-        ),
-        "from xi. Case x, y, z with z along the spin axis. i and j count from 1.".to_owned(),
-        "Orientation, from east, north, up to case: E A Rz(90 deg - azimuth), with A and E as in eq. (3) and (4)."
-            .to_owned(),
-    ];
-    lines.splice(place..=place, turned);
+        )
+    };
+    let text = format!(
+        "Passport of a two-axis test stand for dynamically tuned gyros.\n\
+         Signed verbatim: any change, even of a space or of this comment, makes the signature invalid.\n\
+         {axes}\n\
+         Equations: Tang and Podchezertsev 2017, doi 10.18698/2308-6033-2017-10-1691.\n\
+         Standard uncertainties (k = 1). Matrices are lists of rows."
+    );
+    text.lines().map(str::to_owned).collect()
 }
 
 fn of_the_earth(content: &Content) -> Vec<String> {

@@ -15,7 +15,6 @@ use jiff::Timestamp;
 use jiff::civil::Date;
 use nalgebra::{Matrix2, Vector2};
 
-/// Format name of a passport.
 pub(crate) const PASSPORT_FORMAT: &str = "dtg-passport/1";
 
 /// Returns `true` if the file states the format of a passport.
@@ -176,11 +175,9 @@ pub(crate) const REFERENCE_GYRO: Parameters = Parameters {
 /// Numbers of a passport that are computed from its stand and its site.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Derived {
-    /// Earth parameters at the site.
     pub earth: Earth,
     /// Matrices of the paper, or `None` without its eight positions.
     pub matrices: Option<MatrixRows>,
-    /// Specific force and Earth rate in every position.
     pub vectors: Vec<PositionVectors>,
     /// Self-check of laboratory software for the given gyro, or `None` if the positions do not determine the
     /// parameters.

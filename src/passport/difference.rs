@@ -40,9 +40,7 @@ impl NumberDifference {
 pub(crate) struct OtherDifference {
     /// Key, as in [`NumberDifference::key`].
     pub key: String,
-    /// Value in the first passport.
     pub a: Option<Node>,
-    /// Value in the second passport.
     pub b: Option<Node>,
 }
 
@@ -77,7 +75,7 @@ impl Differences {
         match (a, b) {
             (None, None) => {}
             (Some(Node::Map(_)) | None, Some(Node::Map(_)) | None) => {
-                for name in names(a, b) {
+                for name in keys(a, b) {
                     let below = if key.is_empty() { name.to_owned() } else { format!("{key}.{name}") };
                     self.compare(&below, a.and_then(|a| a.get(name)), b.and_then(|b| b.get(name)));
                 }
@@ -132,7 +130,7 @@ pub(crate) fn of_deviations(a: &Stand, b: &Stand) -> Vec<NumberDifference> {
 }
 
 /// Returns the keys of two mappings, those of the first before those that only the second has.
-fn names<'n>(a: Option<&'n Node>, b: Option<&'n Node>) -> Vec<&'n str> {
+pub(super) fn keys<'n>(a: Option<&'n Node>, b: Option<&'n Node>) -> Vec<&'n str> {
     let of = |node: Option<&'n Node>| -> &'n [(String, Node)] {
         match node {
             Some(Node::Map(entries)) => entries,

@@ -9,9 +9,6 @@ use crate::text::{Unreadable, canonical};
 /// Returns the stand file (`dtg-stand/1`) of a passport. It is read back and compared first.
 ///
 /// Every passport of one certificate gives the same text.
-///
-/// # Errors
-/// Returns [`Unreadable`] if its reader refuses the file.
 pub(crate) fn stand_file(content: &Content) -> Result<String, Unreadable> {
     let comment = "Stand exported from a verified passport, number for number. Standard uncertainties (k = 1).";
     file("the exported stand file", comment, content.to_stand(), Stand::from_yaml)

@@ -51,20 +51,16 @@ pub(super) fn verdict(content: &Content, place: Place) -> (Code, String) {
     if nearness.within() {
         return (Code::Ok, words);
     }
-    let exchanged = Place { latitude_deg: place.longitude_deg, longitude_deg: place.latitude_deg };
-    let is_exchanged = exchanged.latitude_deg.abs() <= 90.0 && Nearness::of(content, exchanged).within();
-    let with_signs = |latitude: f64, longitude: f64| {
-        let other =
-            Place { latitude_deg: latitude * place.latitude_deg, longitude_deg: longitude * place.longitude_deg };
-        Nearness::of(content, other).within()
-    };
-    let advice = if is_exchanged && site.longitude_deg.is_some() {
+    let Place { latitude_deg, longitude_deg } = place;
+    let within = |latitude_deg, longitude_deg| Nearness::of(content, Place { latitude_deg, longitude_deg }).within();
+    let may_be_exchanged = site.longitude_deg.is_some() && longitude_deg.abs() <= 90.0;
+    let advice = if may_be_exchanged && within(longitude_deg, latitude_deg) {
         "check whether latitude and longitude are exchanged"
-    } else if with_signs(1.0, -1.0) {
+    } else if within(latitude_deg, -longitude_deg) {
         "check the sign of the longitude; it is negative in the west"
-    } else if with_signs(-1.0, 1.0) {
+    } else if within(-latitude_deg, longitude_deg) {
         "check the sign of the latitude; it is negative in the south"
-    } else if with_signs(-1.0, -1.0) {
+    } else if within(-latitude_deg, -longitude_deg) {
         "check the signs of latitude and longitude; they are negative in the south and in the west"
     } else {
         "request a re-issue for this place from the factory"

@@ -6,9 +6,6 @@ use crate::document::{self, SignedText};
 use crate::text::Unreadable;
 
 /// Parses the payload of a passport: see [`document::parse`].
-///
-/// # Errors
-/// Returns the first line that is not in canonical form, or every error in the content.
 pub(crate) fn content(name: &str, payload: &str) -> Result<Content, Unreadable> {
     document::parse(name, payload, Content::check)
 }

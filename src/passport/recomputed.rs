@@ -4,6 +4,7 @@ use super::accuracy::Stated;
 use super::content::{Content, Derived, REFERENCE_GYRO, SelfCheck, derive};
 use crate::earth::{AZIMUTH_QUANTUM_DEG, LENGTH_QUANTUM_M};
 use crate::text::{Field, Node};
+use std::collections::BTreeSet;
 
 /// Largest allowed difference, relative to the largest element of each matrix, each set of vectors or each number.
 pub(crate) const LIMIT: f64 = 1e-12;
@@ -27,21 +28,24 @@ fn words(value: f64) -> String {
 /// Compares Earth parameters, matrices, vectors, self-check and accuracy with the values computed from the signed
 /// inputs.
 ///
+/// Returns the wrong numbers in the order of comparison; if there is nothing to compare with, the number that is absent.
 /// The self-check is computed for the gyro that it states. A passport may have none, because no calibration needs it.
-///
-/// # Errors
-/// Returns the wrong numbers in the order of comparison, or the reason why there is nothing to compare with.
-pub(crate) fn compare(content: &Content) -> Result<(), Vec<WrongNumber>> {
+pub(crate) fn compare(content: &Content) -> Vec<WrongNumber> {
     let gyro = content.self_check.as_ref().map_or(REFERENCE_GYRO, SelfCheck::parameters);
     let Ok(mut derived) = derive(&content.positions, &content.site, &gyro) else {
         let field = "matrices.n2_inverse".to_owned();
-        return Err(vec![WrongNumber { field, stated: f64::NAN, computed: f64::NAN }]);
+        return vec![WrongNumber { field, stated: f64::NAN, computed: f64::NAN }];
     };
     if content.self_check.is_none() {
         derived.self_check = None;
     }
     let mut wrong = Vec::new();
-    if !states_the_same(content, &derived) {
+    // If the same program computed both, every number is equal bit for bit.
+    let same = content.earth == derived.earth
+        && content.matrices == derived.matrices
+        && content.vectors == derived.vectors
+        && content.self_check == derived.self_check;
+    if !same {
         compare_derived(content, &derived, &mut wrong);
     }
     // Consistent numbers are not enough: if the stated gyro is absurd, no software can recover its parameters.
@@ -53,15 +57,7 @@ pub(crate) fn compare(content: &Content) -> Result<(), Vec<WrongNumber>> {
         }
     }
     compare_accuracy(content, &mut wrong);
-    if wrong.is_empty() { Ok(()) } else { Err(wrong) }
-}
-
-/// Returns `true` if every number equals the computed one bit for bit, as it does if the same program computed both.
-fn states_the_same(content: &Content, derived: &Derived) -> bool {
-    content.earth == derived.earth
-        && content.matrices == derived.matrices
-        && content.vectors == derived.vectors
-        && content.self_check == derived.self_check
+    wrong
 }
 
 /// Compares number by number, within the limits: each key of a matrix or of all positions relative to its own largest
@@ -121,17 +117,12 @@ fn compare_numbers(
     set: impl Fn(&str) -> String,
     wrong: &mut Vec<WrongNumber>,
 ) {
-    let mut sets: Vec<String> = Vec::new();
-    for name in stated.iter().chain(computed).map(|(field, _)| set(field)) {
-        if !sets.contains(&name) {
-            sets.push(name);
-        }
-    }
-    for name in &sets {
+    let mut seen = BTreeSet::new();
+    for name in stated.iter().chain(computed).map(|(field, _)| set(field)).filter(|name| seen.insert(name.clone())) {
         let of_set = |numbers: &[(String, f64)]| -> Vec<(String, f64)> {
-            numbers.iter().filter(|(field, _)| set(field) == *name).cloned().collect()
+            numbers.iter().filter(|(field, _)| set(field) == name).cloned().collect()
         };
-        compare_set(&of_set(stated), &of_set(computed), quantum(name), wrong);
+        compare_set(&of_set(stated), &of_set(computed), quantum(&name), wrong);
     }
 }
 

@@ -3,6 +3,7 @@
 use super::accuracy::Stated;
 use super::checks::{CheckName, Code};
 use super::content::{Content, Predecessor};
+use super::difference::keys;
 use super::issue::{Draft, Issue, IssueRefused, PreparedStand, Reissued};
 use super::verification::Verification;
 use crate::document::sha256_hex;
@@ -132,12 +133,12 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
     if order.reason.is_empty() || !order.reason.chars().all(rule::allowed_in_string) {
         return Err(ReissueRefused::BadReason);
     }
-    let usable = usable(verification)?;
+    let limit = limit(verification)?;
     let Some(old) = verification.content_from_anyone() else {
         return Err(ReissueRefused::OldDoesNotHold { check: "schema", detail: "it has no content".to_owned() });
     };
-    if let (Usable::NameOnly { check, detail }, false) = (&usable, order.stand.is_some() && order.site.is_some()) {
-        return Err(ReissueRefused::NeedsFactoryFiles { check, detail: detail.clone() });
+    if let Some((check, detail)) = limit.clone().filter(|_| order.stand.is_none() || order.site.is_none()) {
+        return Err(ReissueRefused::NeedsFactoryFiles { check, detail });
     }
     if order.issued_at < old.passport.issued_at {
         let (issued_at, old) = (order.issued_at, old.passport.issued_at);
@@ -152,7 +153,7 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
         return Err(ReissueRefused::OtherStand { given, old: known });
     }
     let [given_measured, old_measured] = [&stand.certificate, &old.certificate].map(Certificate::measured);
-    if matches!(usable, Usable::Whole) && given_measured < old_measured {
+    if limit.is_none() && given_measured < old_measured {
         let [given, old] = [&stand.certificate, &old.certificate].map(|certificate| certificate.number.clone());
         return Err(ReissueRefused::OlderCertificate { given, given_measured, old, old_measured });
     }
@@ -165,11 +166,9 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
         id: old.passport.id.clone(),
         sha256: sha256_hex(old_bytes),
         reason: order.reason.clone(),
-        changed: match &usable {
-            Usable::Whole => changes(old, stand, &site, &order.issuer),
-            Usable::NameOnly { .. } => {
-                "not compared: issued from the factory's files, with only a reference to the predecessor".into()
-            }
+        changed: match &limit {
+            None => changes(old, stand, &site, &order.issuer),
+            Some(_) => "not compared: issued from the factory's files, with only a reference to the predecessor".into(),
         },
     };
     let issue = Issue {
@@ -179,13 +178,10 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
         revision: 0,
         reissued: Some(Reissued { from: predecessor, supersedes: same_site || order.moved }),
         // A predecessor that can only be referenced may have been signed by anyone, so nothing is taken from it.
-        accuracy: match &usable {
-            Usable::Whole => old.accuracy.as_ref().map(Stated::of),
-            Usable::NameOnly { .. } => None,
-        },
+        accuracy: old.accuracy.as_ref().filter(|_| limit.is_none()).map(Stated::of),
         allow_uncalibratable: order.allow_uncalibratable,
     };
-    let says_the_same = matches!(usable, Usable::Whole)
+    let says_the_same = limit.is_none()
         && *stand == old.to_stand()
         && site == old.site
         && issue.issuer == old.passport.issuer
@@ -195,16 +191,10 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
     Ok(Successor { stand, site, same_site, old_revision, issue, says_the_same, for_the_same_reason, rival })
 }
 
-/// Extent to which a predecessor may be used.
-enum Usable {
-    /// The whole content.
-    Whole,
-    /// The id and the hash only, because the key was lost or revoked, or the passport has expired.
-    NameOnly { check: &'static str, detail: String },
-}
-
-fn usable(verification: &Verification) -> Result<Usable, ReissueRefused> {
-    let mut usable = Usable::Whole;
+/// Returns the check, with its detail, because of which only the id and the hash of a predecessor may be used: the key was
+/// lost or revoked, or the passport has expired; `None` if the whole content may be used.
+fn limit(verification: &Verification) -> Result<Option<(&'static str, String)>, ReissueRefused> {
+    let mut limit = None;
     for check in verification.checks() {
         let (name, detail) = (check.name.as_str(), check.detail.clone());
         match (check.name, check.code) {
@@ -212,25 +202,22 @@ fn usable(verification: &Verification) -> Result<Usable, ReissueRefused> {
             (_, Code::Ok) | (CheckName::Recomputed | CheckName::InForce, Code::NotRun) => {}
             (CheckName::Signer, Code::UnknownKey)
             | (CheckName::Revocation, Code::KeyRevoked)
-            | (CheckName::InForce, Code::Expired) => usable = Usable::NameOnly { check: name, detail },
+            | (CheckName::InForce, Code::Expired) => limit = Some((name, detail)),
             _ => return Err(ReissueRefused::OldDoesNotHold { check: name, detail }),
         }
     }
-    Ok(usable)
+    Ok(limit)
 }
 
 impl Successor {
-    /// Returns `true` if the new passport supersedes its predecessor.
     pub(crate) fn supersedes(&self) -> bool {
         self.issue.reissued.as_ref().is_some_and(|reissued| reissued.supersedes)
     }
 
-    /// Returns the stand of the new passport.
     pub(crate) fn stand(&self) -> &Stand {
         self.stand.stand()
     }
 
-    /// Returns the SHA-256 of the predecessor.
     pub(crate) fn old_sha256(&self) -> &str {
         self.issue.reissued.as_ref().map_or("", |reissued| &reissued.from.sha256)
     }
@@ -285,9 +272,8 @@ pub(crate) fn changes(old: &Content, stand: &Stand, site: &Site, issuer: &str) -
 fn compare(path: &str, old: Option<Node>, new: Option<Node>, changes: &mut Vec<String>) {
     match (&old, &new) {
         (old, new) if old == new => {}
-        (Some(Node::Map(before)), Some(Node::Map(after))) => {
-            let keys = before.iter().chain(after.iter().filter(|(key, _)| !before.iter().any(|(name, _)| name == key)));
-            for (key, _) in keys {
+        (Some(Node::Map(_)), Some(Node::Map(_))) => {
+            for key in keys(old.as_ref(), new.as_ref()) {
                 let of = |node: &Option<Node>| node.as_ref().and_then(|node| node.get(key)).cloned();
                 compare(&format!("{path} {key}"), of(&old), of(&new), changes);
             }

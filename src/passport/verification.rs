@@ -241,49 +241,35 @@ impl Run {
     }
 
     fn grammar<'a>(&mut self, name: &str, bytes: &'a [u8]) -> Option<SignedText<'a>> {
-        match SignedText::split(name, bytes, NAMESPACE) {
-            Ok(text) => {
-                let detail = "the file has the canonical form, which all programs read alike";
-                self.note(CheckName::Grammar, Code::Ok, detail);
-                Some(text)
-            }
-            Err(Malformed { fault, other_namespace }) => {
-                let code = if other_namespace.is_some() { Code::WrongNamespace } else { Code::Malformed };
-                self.note(CheckName::Grammar, code, fault);
-                None
-            }
+        let split = SignedText::split(name, bytes, NAMESPACE);
+        let good = "the file has the canonical form, which all programs read alike";
+        match &split {
+            Ok(_) => self.note(CheckName::Grammar, Code::Ok, good),
+            Err(Malformed { fault, other_namespace: None }) => self.note(CheckName::Grammar, Code::Malformed, fault),
+            Err(Malformed { fault, .. }) => self.note(CheckName::Grammar, Code::WrongNamespace, fault),
         }
+        split.ok()
     }
 
     fn signature<'a>(&mut self, text: &SignedText<'a>, trust: &Trust) -> Option<&'a str> {
-        match text.signed_payload(Some(&trust.signers)) {
-            Ok(payload) => {
-                let detail = format!("the text has not changed since {} signed it", text.key().fingerprint());
-                self.note(CheckName::Signature, Code::Ok, detail);
-                Some(payload)
-            }
-            Err(error) => {
-                let detail = format!("{error}; get the file from the issuer again");
-                self.note(CheckName::Signature, Code::Altered, detail);
-                None
-            }
-        }
+        let payload = text.signed_payload(Some(&trust.signers));
+        let (code, detail) = match &payload {
+            Ok(_) => (Code::Ok, format!("the text has not changed since {} signed it", text.key().fingerprint())),
+            Err(error) => (Code::Altered, format!("{error}; get the file from the issuer again")),
+        };
+        self.note(CheckName::Signature, code, detail);
+        payload.ok()
     }
 
     fn schema(&mut self, name: &str, payload: &str) -> Option<Content> {
-        match read::content(name, payload) {
-            Ok(content) => {
-                let detail = format!("the content is complete and conforms to {PASSPORT_FORMAT}");
-                self.note(CheckName::Schema, Code::Ok, detail);
-                Some(content)
-            }
-            Err(error) => {
-                // The detail has one line for each error, so `Check::new`, which makes a single line, is not used.
-                let (name, detail) = (CheckName::Schema, error.to_string());
-                self.checks.push(Check { name, code: Code::BadContent, detail });
-                None
-            }
-        }
+        let content = read::content(name, payload);
+        let (code, detail) = match &content {
+            Ok(_) => (Code::Ok, format!("the content is complete and conforms to {PASSPORT_FORMAT}")),
+            Err(error) => (Code::BadContent, error.to_string()),
+        };
+        // The detail has one line for each error, so `Check::new`, which makes a single line, is not used.
+        self.checks.push(Check { name: CheckName::Schema, code, detail });
+        content.ok()
     }
 
     /// Returns `true` if the key is not revoked, even if the passport is withdrawn.
@@ -309,42 +295,32 @@ impl Run {
 
     /// Returns `true` if the key is that of the issuer.
     fn signer(&mut self, key: &PublicKey, content: &Content, trust: &Trust) -> bool {
-        let header = &content.passport;
-        match trust.signers.authorise(key, &header.issuer, NAMESPACE, header.issued_at) {
-            Ok(()) => {
-                self.note(CheckName::Signer, Code::Ok, format!("the key belongs to {}", header.issuer));
-                true
-            }
-            Err(miss) => {
-                let code = match miss {
-                    NotAuthorised::UnknownKey => Code::UnknownKey,
-                    NotAuthorised::WrongPrincipal { .. } => Code::WrongPrincipal,
-                    NotAuthorised::WrongNamespace { .. } => Code::WrongNamespace,
-                    NotAuthorised::NotYetValid { .. } => Code::KeyNotYetValid,
-                    NotAuthorised::Expired { .. } => Code::KeyExpired,
-                };
-                let (issuer, at) = (&header.issuer, header.issued_at);
-                let detail = format!("{miss} (key {}, issuer {issuer}, issued {at})", key.fingerprint());
-                self.note(CheckName::Signer, code, detail);
-                false
-            }
-        }
+        let (issuer, at) = (&content.passport.issuer, content.passport.issued_at);
+        let Err(miss) = trust.signers.authorise(key, issuer, NAMESPACE, at) else {
+            self.note(CheckName::Signer, Code::Ok, format!("the key belongs to {issuer}"));
+            return true;
+        };
+        let code = match miss {
+            NotAuthorised::UnknownKey => Code::UnknownKey,
+            NotAuthorised::WrongPrincipal { .. } => Code::WrongPrincipal,
+            NotAuthorised::WrongNamespace { .. } => Code::WrongNamespace,
+            NotAuthorised::NotYetValid { .. } => Code::KeyNotYetValid,
+            NotAuthorised::Expired { .. } => Code::KeyExpired,
+        };
+        let detail = format!("{miss} (key {}, issuer {issuer}, issued {at})", key.fingerprint());
+        self.note(CheckName::Signer, code, detail);
+        false
     }
 
     fn recomputed(&mut self, content: &Content) {
-        match recomputed::compare(content) {
-            Ok(()) => {
-                let detail = "all numbers, recomputed, agree with the signed deviations and site";
-                self.note(CheckName::Recomputed, Code::Ok, detail);
-            }
-            Err(wrong) => {
-                let others = wrong.len() - 1;
-                let more = if others > 0 { format!(" (and {others} more)") } else { String::new() };
-                let first = wrong.first().map(ToString::to_string).unwrap_or_default();
-                let detail = format!("the signature is correct, but {first}{more}; report this to the issuer");
-                self.note(CheckName::Recomputed, Code::WrongNumber, detail);
-            }
-        }
+        let wrong = recomputed::compare(content);
+        let Some((first, others)) = wrong.split_first() else {
+            let detail = "all numbers, recomputed, agree with the signed deviations and site";
+            return self.note(CheckName::Recomputed, Code::Ok, detail);
+        };
+        let more = if others.is_empty() { String::new() } else { format!(" (and {} more)", others.len()) };
+        let detail = format!("the signature is correct, but {first}{more}; report this to the issuer");
+        self.note(CheckName::Recomputed, Code::WrongNumber, detail);
     }
 
     fn in_force(&mut self, content: &Content, time: Timestamp) {
