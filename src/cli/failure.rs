@@ -3,8 +3,7 @@
 use super::{Code, REFUSED, UNUSABLE, output};
 use crate::files::FileError;
 use crate::folder::Folder;
-use crate::interface::calibrated::Stopped;
-use crate::interface::{self, Failed, Place};
+use crate::interface::{self, Failed, Place, Stopped};
 use crate::passport::{Check, Verification};
 use crate::report::{issued, style, verdict};
 use crate::text::{Unreadable, name_of, shown};
@@ -71,7 +70,6 @@ impl Failure {
         ExitCode::from(self.code)
     }
 
-    /// Adds what to do.
     pub(super) fn with_advice(mut self, advice: &str) -> Self {
         self.message += &format!("; {advice}");
         self.failed.message += &format!("; {advice}");
@@ -91,10 +89,10 @@ impl Failure {
         Self { message: error.with_lines(""), code: UNUSABLE, failed }
     }
 
-    /// Creates the failure of a calibration.
     pub(super) fn stopped(stopped: Stopped) -> Self {
         match stopped {
             Stopped::Unreadable(error) => Self::unreadable(error),
+            Stopped::Unusable(why) => Self::unusable(why),
             Stopped::Refused(why) => Self::refused(why),
         }
     }

@@ -5,7 +5,7 @@ use super::{Failure, output};
 use crate::earth::Place;
 use crate::files;
 pub(super) use crate::folder::verifier::Verifier;
-use crate::interface::enquiry::{self, NoTrust};
+use crate::interface::enquiry;
 pub(super) use crate::interface::enquiry::{date, time};
 use crate::passport::{Question, Trust};
 use crate::text::name_of;
@@ -131,10 +131,7 @@ pub(super) fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Resu
     let revoked = revoked.iter().map(|path| Ok((name_of(path), read(path).map_err(Failure::file)?)));
     let revoked = revoked.collect::<Result<Vec<_>, Failure>>()?;
     let found = enquiry::trust((&name_of(signers), &keys?), &revoked, time);
-    let (trust, remarks) = found.map_err(|why| match why {
-        NoTrust::Unreadable(error) => Failure::unreadable(error),
-        why => Failure::unusable(why),
-    })?;
+    let (trust, remarks) = found.map_err(Failure::stopped)?;
     remarks.iter().for_each(|remark| output::complain(remark));
     Ok(trust)
 }

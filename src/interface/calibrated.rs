@@ -1,6 +1,6 @@
 //! Calibration with a passport: from currents as CSV to the JSON of `calibrate`.
 
-use super::{Failed, json};
+use super::{Failed, Stopped, json};
 #[cfg(not(feature = "report"))]
 use crate::calibration::diagnosis::INCONSISTENT;
 use crate::calibration::document::{NoChange, Subject};
@@ -13,7 +13,7 @@ use crate::document::sha256_hex;
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
-use crate::text::{Unreadable, printable};
+use crate::text::printable;
 use crate::uncertainty::Budget;
 #[cfg(feature = "monte-carlo")]
 use crate::uncertainty::{self, Engine, MonteCarlo, ReadingShape, Trials};
@@ -127,24 +127,6 @@ pub(crate) fn distributions(
     Ok(found)
 }
 
-/// Reason why a calibration has no result.
-#[derive(Debug)]
-pub(crate) enum Stopped {
-    /// The currents cannot be read.
-    Unreadable(Unreadable),
-    /// The inputs do not give a result that could be used.
-    Refused(String),
-}
-
-impl From<Stopped> for Failed {
-    fn from(stopped: Stopped) -> Self {
-        match stopped {
-            Stopped::Unreadable(error) => error.into(),
-            Stopped::Refused(why) => Self::refused(why),
-        }
-    }
-}
-
 /// Inputs of a calibration with a passport, read and checked.
 pub(crate) struct Prepared<'a> {
     content: &'a Content,
@@ -194,8 +176,7 @@ impl<'a> Prepared<'a> {
                 parameter.symbol()
             )));
         }
-        let readings = Readings::from_csv(name, currents, setup.coefficients(), laboratory.meter.range_ma);
-        let readings = readings.map_err(Stopped::Unreadable)?;
+        let readings = Readings::from_csv(name, currents, setup.coefficients(), laboratory.meter.range_ma)?;
         let currents_sha256 = sha256_hex(currents);
         Ok(Self { content, laboratory, gyro_type, setup, missing, currents_sha256, readings })
     }

@@ -1,14 +1,13 @@
 //! Whom to trust and what to ask, and the answer on each passport.
 
-use super::{Failed, Verdict, asked, json};
+use super::{Failed, Stopped, Verdict, asked, json};
 use crate::document::sha256_hex;
 use crate::earth::Place;
 #[cfg(feature = "factory")]
 use crate::files::{self, FileError};
 use crate::passport::{Question, Trust, Verification, verify};
 use crate::register::Register;
-use crate::revocation::{ListRefused, RevocationList, Series, claims_to_be_a_list};
-use crate::text::Unreadable;
+use crate::revocation::{RevocationList, Series, claims_to_be_a_list};
 use crate::text::scalar::{day, impossible_date};
 #[cfg(feature = "factory")]
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
@@ -160,46 +159,25 @@ impl Enquiry {
     }
 }
 
-/// Reason why there is no trust.
-#[derive(Debug, thiserror::Error)]
-pub(crate) enum NoTrust {
-    /// Signers or list of keys that cannot be read.
-    #[error(transparent)]
-    Unreadable(#[from] Unreadable),
-    /// List of withdrawn passports that is refused.
-    #[error(transparent)]
-    List(#[from] ListRefused),
-    /// List that another one continues, and that was not given.
-    #[error("{0}; specify that list too, with --revoked")]
-    Incomplete(String),
-}
-
-impl From<NoTrust> for Failed {
-    fn from(error: NoTrust) -> Self {
-        match error {
-            NoTrust::Unreadable(error) => error.into(),
-            other => Self::unusable(other),
-        }
-    }
-}
-
 /// Returns the trust in `signers` without what `revoked` revokes, and the alarms that do not prevent its use. The files
 /// are names and contents. Lists of withdrawn passports are verified at `time`; the newest list applies.
 pub(crate) fn trust(
     signers: (&str, &[u8]),
     revoked: &[(String, Vec<u8>)],
     time: Timestamp,
-) -> Result<(Trust, Vec<String>), NoTrust> {
+) -> Result<(Trust, Vec<String>), Stopped> {
     let mut trust = Trust::of(AllowedSigners::parse(signers.0, signers.1)?);
     let (lists, keys): (Vec<_>, Vec<_>) = revoked.iter().partition(|(_, bytes)| claims_to_be_a_list(bytes));
     for (name, bytes) in keys {
         trust.revoked.push(RevokedKeys::parse(name, bytes)?);
     }
-    let verified =
-        lists.iter().map(|(name, bytes)| RevocationList::verify(name, bytes, &trust.signers, &trust.revoked, time));
-    let series = Series::of(verified.collect::<Result<_, _>>()?);
+    let verify = |(name, bytes): &&(String, Vec<u8>)| {
+        let verified = RevocationList::verify(name, bytes, &trust.signers, &trust.revoked, time);
+        verified.map_err(|refused| Stopped::Unusable(refused.to_string()))
+    };
+    let series = Series::of(lists.iter().map(verify).collect::<Result<_, _>>()?);
     if let Some(alarm) = series.alarms().iter().find(|alarm| alarm.is_unknown()) {
-        return Err(NoTrust::Incomplete(alarm.to_string()));
+        return Err(Stopped::Unusable(format!("{alarm}; specify that list too, with --revoked")));
     }
     let contradictions = series.alarms().iter().filter(|alarm| alarm.is_contradiction());
     let words = |alarm| format!("ALARM: {alarm}; passports withdrawn by any of the lists are treated as withdrawn");
@@ -213,7 +191,6 @@ pub(super) fn read<T>(key: &str, text: &str, parse: fn(&str) -> Result<T, String
     parse(text).map_err(|why| Failed::unusable(format!("{key}: found {text:?}; {why}")))
 }
 
-/// Parses the time of a question.
 pub(crate) fn time(text: &str) -> Result<Timestamp, String> {
     if let Ok(date) = date(text) {
         return Ok(day(date).0);

@@ -134,6 +134,33 @@ impl From<Unreadable> for Failed {
     }
 }
 
+/// Reason why a question has no answer.
+#[derive(Debug)]
+pub(crate) enum Stopped {
+    /// Input with errors in its content.
+    Unreadable(Unreadable),
+    /// Input that cannot be used.
+    Unusable(String),
+    /// Inputs that do not give a result that could be used.
+    Refused(String),
+}
+
+impl From<Unreadable> for Stopped {
+    fn from(error: Unreadable) -> Self {
+        Self::Unreadable(error)
+    }
+}
+
+impl From<Stopped> for Failed {
+    fn from(stopped: Stopped) -> Self {
+        match stopped {
+            Stopped::Unreadable(error) => error.into(),
+            Stopped::Unusable(why) => Self::unusable(why),
+            Stopped::Refused(why) => Self::refused(why),
+        }
+    }
+}
+
 #[cfg(feature = "factory")]
 impl From<FileError> for Failed {
     fn from(error: FileError) -> Self {
@@ -151,13 +178,11 @@ impl From<FileError> for Failed {
 /// Verdict on one file, as `verify` prints it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(crate) struct Verdict {
-    /// Path of the file.
     pub file: String,
     /// `true` if every check passed.
     pub valid: bool,
     /// Id of the passport; null until the signature passes.
     pub id: Option<String>,
-    /// All checks.
     pub checks: Vec<Check>,
 }
 
