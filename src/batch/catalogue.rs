@@ -28,18 +28,12 @@ pub(crate) trait Listed: Clone + Send + Sync {
     const NAME: &str;
 
     /// Reads a file; `name` is its name in messages.
-    ///
-    /// # Errors
-    /// Returns [`Unreadable`] with every error at its line, column and field.
     fn parse(name: &str, bytes: &[u8]) -> Result<Self, Unreadable>;
 
-    /// Returns the id of the document.
     fn id(&self) -> String;
 
     /// Returns a remark on the name of the file, or `None` if it is as expected.
-    fn remark(&self, _path: &Path) -> Option<String> {
-        None
-    }
+    fn remark(&self, path: &Path) -> Option<String>;
 }
 
 impl Listed for PreparedStand {
@@ -118,7 +112,6 @@ impl<T: Listed> Catalogue<T> {
         draft.finished()
     }
 
-    /// Returns the number of ids.
     pub(crate) fn len(&self) -> usize {
         self.files.len()
     }
@@ -136,10 +129,7 @@ impl<T: Listed> Catalogue<T> {
         self.by_id.contains_key(id)
     }
 
-    /// Returns the document with this id, or `None` if it was not given.
-    ///
-    /// # Errors
-    /// Returns a [`Failure`] if its file cannot be read any more, because it was changed or removed.
+    /// Returns the document with this id as [`Self::load`] does, or `None` if it was not given.
     pub(crate) fn get(&self, id: &str) -> Result<Option<Arc<T>>, Failure> {
         let Some(&place) = self.by_id.get(id) else { return Ok(None) };
         let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);

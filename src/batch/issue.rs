@@ -1,7 +1,7 @@
 //! Batch that issues revision 1 of every stand at every site.
 
 use super::catalogue::{Catalogue, Listed};
-use super::{Batch, Event, Listener, Outcome, Purpose, fail, parallel, sweep};
+use super::{Batch, Event, Listener, Outcome, Purpose, fail, parallel, paths, sweep};
 use crate::files::folder_of;
 use crate::folder::{Folder, Visited, search};
 use crate::passport::Trust;
@@ -22,7 +22,6 @@ const SITES_AT_ONCE: usize = 1024;
 /// Input and destination of a batch.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Job<'a> {
-    /// Folder of the passports.
     pub folder: &'a Folder,
     /// Stands: files, folders and patterns, as in `paths`.
     pub stands: &'a [PathBuf],
@@ -43,8 +42,8 @@ impl Batch<'_> {
     /// All files are read first, so that every error in them is reported before anything is signed. An unusable file
     /// costs only its own passports. A stand that already has passports from another certificate is remarked upon.
     pub(crate) fn issue(&self, job: &Job, list: &mut dyn BufRead, tell: Listener) {
-        let (stands, bad_stands) = self.catalogue(job.stands, list, Purpose::Stands, tell);
-        let (sites, bad_sites) = self.catalogue(job.sites, list, Purpose::Sites, tell);
+        let (stands, bad_stands) = Catalogue::read(paths::files(job.stands, list, Purpose::Stands), self.threads, tell);
+        let (sites, bad_sites) = Catalogue::read(paths::files(job.sites, list, Purpose::Sites), self.threads, tell);
         let bad_files = bad_sites.iter().filter(|failure| failure.passports.is_none()).count();
         let all_sites = (sites.len() + bad_files) as u64;
         fail(bad_stands, all_sites, tell);

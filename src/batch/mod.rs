@@ -21,16 +21,14 @@ pub(crate) mod recertification;
 pub(crate) mod shard;
 pub(crate) mod successors;
 
-use catalogue::{Catalogue, Listed};
 use shard::Shard;
 
 use crate::files::{Durability, FileError, leftovers};
-use crate::folder::{self, FolderRefused, Issued, Next, Seal, Unwritten, Visited};
+use crate::folder::{self, FolderRefused, Issued, Next, Seal, Visited};
 use crate::parallel;
 use crate::passport::issue::Remarks;
 use crate::text::{Unreadable, name_of};
 use std::convert::Infallible;
-use std::io::BufRead;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -79,7 +77,6 @@ pub(crate) enum Event {
     Lost(u64),
     /// Remark on an input.
     Remark {
-        /// Name of the file.
         file: String,
         /// Text of the remark, which may be the same for many files.
         words: String,
@@ -94,14 +91,7 @@ pub(crate) enum Outcome {
     /// Passport that would be issued without the dry run.
     Planned(Planned),
     /// Passport of the folder that is not re-issued.
-    Skipped {
-        /// Id of the passport.
-        id: String,
-        /// Path of the passport.
-        file: PathBuf,
-        /// Reason why it is not re-issued.
-        why: String,
-    },
+    Skipped { id: String, file: PathBuf, why: String },
     /// Failure of an order, or of an input and all passports that depend on it.
     Failed(Failure),
 }
@@ -109,17 +99,31 @@ pub(crate) enum Outcome {
 /// Passport that a dry run would issue.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Planned {
-    /// Id of the passport.
     pub id: String,
-    /// Path of the passport.
     pub path: PathBuf,
-    /// Remarks on the passport for the factory.
     pub remarks: Remarks,
 }
 
-impl From<Unwritten> for Planned {
-    fn from(new: Unwritten) -> Self {
-        Self { id: new.id().to_owned(), remarks: new.draft.remarks(), path: new.path }
+impl From<Next> for Outcome {
+    fn from(next: Next) -> Self {
+        let id = next.id().to_owned();
+        match next {
+            Next::There(issued) => Self::There(issued),
+            Next::New(new) => Self::Planned(Planned { id, remarks: new.draft.remarks(), path: new.path }),
+        }
+    }
+}
+
+impl Outcome {
+    /// Returns the id of a passport that is new, or would be without the dry run, and the remarks on it. The remarks on an
+    /// existing one were printed when it was issued.
+    pub(crate) fn remarks(&self) -> Option<(&str, &Remarks)> {
+        match self {
+            Self::There(Issued { id, remarks, new: true, .. }) | Self::Planned(Planned { id, remarks, .. }) => {
+                Some((id, remarks))
+            }
+            _ => None,
+        }
     }
 }
 
@@ -128,7 +132,6 @@ impl From<Unwritten> for Planned {
 pub(crate) struct Failure {
     /// Id of the passport, or the file that it depends on.
     pub what: String,
-    /// Reason, in words.
     pub why: String,
     /// `true` if a file cannot be read or written, `false` if a readable document was refused.
     pub unusable: bool,
@@ -155,14 +158,8 @@ impl Failure {
         Self { unreadable: Some(Box::new(error)), ..Self::unusable(path, why) }
     }
 
-    /// Creates the failure for a file that cannot be read.
     pub(crate) fn file(error: FileError) -> Self {
         Self::unusable(error.path(), error.with_nearest())
-    }
-
-    /// Creates the failure for an order that the folder refused.
-    pub(crate) fn of_order(what: String, refused: &FolderRefused) -> Self {
-        Self::of(what, refused.to_string(), refused.is_unusable())
     }
 
     fn of(what: String, why: String, unusable: bool) -> Self {
@@ -191,12 +188,9 @@ impl Batch<'_> {
     ) -> Outcome {
         let there = match self.seal {
             Some(seal) => issue(seal).map(Outcome::There),
-            None => next().map(|next| match next {
-                Next::There(issued) => Outcome::There(issued),
-                Next::New(new) => Outcome::Planned(new.into()),
-            }),
+            None => next().map(Outcome::from),
         };
-        there.unwrap_or_else(|refused| Outcome::Failed(Failure::of_order(id(), &refused)))
+        there.unwrap_or_else(|why| Outcome::Failed(Failure::of(id(), why.to_string(), why.is_unusable())))
     }
 
     /// Reports outcomes after the names of all written passports have been synced to disk.
@@ -214,17 +208,6 @@ impl Batch<'_> {
             }
         }
         outcomes.into_iter().for_each(|outcome| tell(Event::Done(outcome)));
-    }
-
-    /// Reads stand or site files, as in `paths`; also returns the failures.
-    fn catalogue<T: Listed>(
-        &self,
-        arguments: &[PathBuf],
-        list: &mut dyn BufRead,
-        purpose: Purpose,
-        tell: Listener,
-    ) -> (Catalogue<T>, Vec<Failure>) {
-        Catalogue::read(paths::files(arguments, list, purpose), self.threads, tell)
     }
 }
 

@@ -6,7 +6,6 @@ use crate::text::Printable;
 pub(crate) struct Once<T>(Vec<(T, String)>);
 
 impl<T: PartialEq> Once<T> {
-    /// Creates an empty list.
     pub(crate) fn new() -> Self {
         Self(Vec::new())
     }

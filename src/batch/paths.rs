@@ -58,7 +58,7 @@ fn in_folder(folder: &Path, purpose: Purpose) -> Paths<'static> {
     let (found, what): (Paths, _) = match purpose {
         Purpose::Stands => (Box::new(Walk::deep(folder, is_stand).map(found)), "stand.yaml"),
         Purpose::Sites => (Box::new(Walk::flat(folder, is_yaml).map(found)), "*.yaml"),
-        Purpose::Tables => (Box::new(Walk::flat(folder, is_table).map(found)), "*.csv"),
+        Purpose::Tables => (Box::new(Walk::flat(folder, |name| has_extension(name, &["csv"])).map(found)), "*.csv"),
         Purpose::Passports => match search::passports(folder) {
             Err(error) => return failed(Failure::file(error)),
             Ok(found) => (Box::new(found.into_iter().map(|path| path.map_err(Failure::file))), "passport"),
@@ -91,10 +91,6 @@ pub(crate) fn is_stand(name: &OsStr) -> bool {
 
 pub(crate) fn is_yaml(name: &OsStr) -> bool {
     has_extension(name, &["yaml", "yml"])
-}
-
-fn is_table(name: &OsStr) -> bool {
-    has_extension(name, &["csv"])
 }
 
 /// Returns `true` if a file name has one of the extensions and is not hidden.

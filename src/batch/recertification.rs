@@ -4,15 +4,15 @@
 //! Everything is computed, signed and verified before anything is written, and the files are then written together. A
 //! second run with the same input completes a run that was killed in between, and changes nothing otherwise.
 
-use super::Planned;
+use super::Outcome;
 use super::successors::FORKED;
 use crate::certification::comparison::compare;
 use crate::certification::{AngleReadings, Certification, Comparison, Header, certify, predicted};
 use crate::files::{self, FileError, folder_of, leftovers};
 use crate::folder::archive::Superseded;
-use crate::folder::{Folder, FolderRefused, Issued, Next, Seal, Sealed, Superseding, search};
+use crate::folder::{Folder, FolderRefused, Next, Seal, Sealed, Superseding, search};
 use crate::passport::difference::{NumberDifference, of_deviations};
-use crate::passport::issue::{PreparedStand, Remarks};
+use crate::passport::issue::PreparedStand;
 use crate::passport::reissue::{Order, successor};
 use crate::passport::{Content, Question, Trust, verify};
 use crate::register::{Asked, Line, Register};
@@ -57,19 +57,14 @@ pub(crate) struct Recertification<'a> {
     pub excluded: &'a [Excluded],
     /// Header of the new certificate; that of the passport if `None`.
     pub header: Option<Header>,
-    /// Number of the new certificate.
     pub number: &'a str,
-    /// Date of issue of the new certificate.
     pub issued: Date,
     /// Expiry date of the new certificate (inclusive); that of the header if `None`.
     pub valid_until: Option<Date>,
     /// Places that get a new passport; all in force if empty.
     pub sites: &'a [AtSite],
-    /// Reason for the re-issue.
     pub reason: &'a str,
-    /// Issuer.
     pub issuer: &'a str,
-    /// Time of issue.
     pub issued_at: Timestamp,
     /// Trust in the predecessors, by which the successors are verified too.
     pub trust: Trust,
@@ -83,47 +78,25 @@ pub(crate) struct Recertification<'a> {
     pub cancel: Option<&'a AtomicBool>,
 }
 
-/// Successor of a recertification.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum NewPassport {
-    /// Passport that exists now, new or unchanged.
-    There(Issued),
-    /// Passport that an earlier run issued, which was in force before this one.
-    Done(Line),
-    /// Passport that would be issued without the dry run.
-    Planned(Planned),
-}
-
 /// Result of a recertification.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug)]
 pub(crate) struct Recertified {
     /// New certificate, with its evidence.
     pub certification: Certification,
     /// Check of the stand against the old certificate.
     pub comparison: Comparison,
-    /// Number of the old certificate.
     pub old_number: String,
     /// Deviations of the old and the new certificate.
     pub changes: Vec<NumberDifference>,
-    /// New passports.
-    pub passports: Vec<NewPassport>,
+    /// Passports that an earlier run issued, which were in force before this one.
+    pub done: Vec<Line>,
+    /// Successors that exist now, or that would be issued without the dry run.
+    pub passports: Vec<Outcome>,
     /// Passports of the stand that stay in force under the old certificate.
     pub remaining: Vec<String>,
-    /// Stand file of the new certificate.
     pub stand_file: PathBuf,
     /// Path under which the superseded stand file is kept.
     pub superseded: Option<PathBuf>,
-}
-
-impl Recertified {
-    /// Returns the ids of the passports that were written or would be without the dry run, with the remarks on them.
-    pub(crate) fn remarks(&self) -> impl Iterator<Item = (&str, &Remarks)> {
-        self.passports.iter().filter_map(|passport| match passport {
-            NewPassport::There(issued) if issued.new => Some((issued.id.as_str(), &issued.remarks)),
-            NewPassport::Planned(planned) => Some((planned.id.as_str(), &planned.remarks)),
-            NewPassport::There(_) | NewPassport::Done(_) => None,
-        })
-    }
 }
 
 /// Reason why a stand was not recertified; nothing was written.
@@ -135,13 +108,11 @@ pub(crate) enum NotRecertified {
     /// Rule that the order or the readings break.
     #[error("{0}; nothing was written")]
     Refused(String),
-    /// Input with errors.
     #[error(transparent)]
     Unreadable(#[from] Unreadable),
     /// Successor that cannot be issued.
     #[error("{0}: {1}; nothing was written")]
     Folder(String, FolderRefused),
-    /// Failure of the file system.
     #[error(transparent)]
     File(#[from] FileError),
 }
@@ -171,9 +142,6 @@ struct Old {
 
 impl Recertification<'_> {
     /// Recertifies the stand. Without `seal` it is a dry run, which computes and checks everything and writes nothing.
-    ///
-    /// # Errors
-    /// Returns [`NotRecertified`]; nothing is then written.
     pub(crate) fn run(&self, seal: Option<Seal>) -> Result<Recertified, NotRecertified> {
         self.check()?;
         let bytes = files::read(self.passport, LARGEST_DOCUMENT_BYTES)?;
@@ -201,18 +169,11 @@ impl Recertification<'_> {
             next.push(self.next(predecessor, &folder, &prepared, &trust)?);
         }
         let superseded = Superseded::of(&stand_file, text.as_bytes())?;
-        let mut passports: Vec<NewPassport> = chosen.done.into_iter().map(NewPassport::Done).collect();
-        match seal {
-            None => passports.extend(next.into_iter().map(|next| match next {
-                Next::There(issued) => NewPassport::There(issued),
-                Next::New(new) => NewPassport::Planned(new.into()),
-            })),
+        let passports = match seal {
+            None => next.into_iter().map(Outcome::from).collect(),
             Some(seal) => {
                 let sealed = next.into_iter().map(|next| {
-                    let id = match &next {
-                        Next::There(issued) => issued.id.clone(),
-                        Next::New(new) => new.id().to_owned(),
-                    };
+                    let id = next.id().to_owned();
                     folder.seal(next, seal).map_err(|refused| NotRecertified::Folder(id, refused))
                 });
                 let sealed = sealed.collect::<Result<Vec<_>, _>>()?;
@@ -220,14 +181,15 @@ impl Recertification<'_> {
                     return Err(refused("interrupted"));
                 }
                 write(&sealed, &stand_file, &text, superseded.as_ref())?;
-                passports.extend(sealed.into_iter().map(|sealed| NewPassport::There(sealed.issued)));
+                sealed.into_iter().map(|sealed| Outcome::There(sealed.issued)).collect()
             }
-        }
+        };
         Ok(Recertified {
             changes: of_deviations(&old_stand, &new),
             old_number: old_stand.certificate.number,
             certification,
             comparison,
+            done: chosen.done,
             passports,
             remaining: chosen.remaining,
             stand_file,
@@ -236,9 +198,6 @@ impl Recertification<'_> {
     }
 
     /// Checks the values that have no file which a message could name.
-    ///
-    /// # Errors
-    /// Returns [`NotRecertified::Order`] for a value that no certificate can state.
     pub(crate) fn check(&self) -> Result<(), NotRecertified> {
         let (number, issued) = (self.number, self.issued);
         if number.trim().is_empty() || !number.chars().all(rule::allowed_in_string) {

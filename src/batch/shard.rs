@@ -32,7 +32,6 @@ impl FromStr for Shard {
 }
 
 impl Shard {
-    /// Whole job as a single part.
     pub(crate) const WHOLE: Self = Self { number: 1, parts: 1 };
 
     /// Returns the approximate number of `orders` in this part.

@@ -58,10 +58,8 @@ struct Searched {
     register: Register,
 }
 
-/// Candidate that was examined.
 enum Examined {
     Done(Option<Outcome>),
-    /// Successor to be issued.
     Next(Box<Following>),
 }
 
@@ -70,17 +68,18 @@ struct Following {
     /// Name of the predecessor's file.
     name: String,
     successor: Successor,
-    /// Folder of the successor.
     folder: Arc<Folder>,
-    /// Warnings about the predecessor.
     warnings: Vec<String>,
 }
 
 impl Batch<'_> {
     /// Re-issues the given files, and the passports in given folders that the change concerns.
     pub(crate) fn reissue(&self, passports: &[PathBuf], list: &mut dyn BufRead, change: Change, tell: Listener) {
-        let (stands, bad_stands) = self.catalogue(change.stands, &mut std::io::empty(), Purpose::Stands, tell);
-        let (sites, bad_sites) = self.catalogue(change.sites, &mut std::io::empty(), Purpose::Sites, tell);
+        let mut none = std::io::empty();
+        let (stands, bad_stands) =
+            Catalogue::read(paths::files(change.stands, &mut none, Purpose::Stands), self.threads, tell);
+        let (sites, bad_sites) =
+            Catalogue::read(paths::files(change.sites, &mut none, Purpose::Sites), self.threads, tell);
         let sites_missing = !bad_sites.is_empty();
         // The stand or site of an unreadable file is unknown, and so is the number of its passports.
         fail(bad_stands, 0, tell);

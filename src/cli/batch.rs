@@ -92,7 +92,6 @@ impl BatchOptions {
         }
     }
 
-    /// Returns the folder of passports at `root`.
     pub(super) fn folder(&self, root: &Path) -> Folder {
         Folder::new(root).with_durability(self.durability())
     }
@@ -155,15 +154,12 @@ impl Reporter {
     }
 
     fn outcome(&mut self, outcome: &Outcome) {
-        match outcome {
-            // The remarks on an identical existing passport were printed when it was issued.
-            Outcome::There(issued) if issued.new => self.told.add_all(&issued.id, &issued.remarks),
-            Outcome::Planned(planned) => self.told.add_all(&planned.id, &planned.remarks),
-            Outcome::There(_) | Outcome::Skipped { .. } => {}
-            Outcome::Failed(failed) => {
-                self.code = self.code.max(if failed.unusable { UNUSABLE } else { REFUSED });
-                self.bar.suspend(|| output::complain(&failure(failed)));
-            }
+        if let Some((id, remarks)) = outcome.remarks() {
+            self.told.add_all(id, remarks);
+        }
+        if let Outcome::Failed(failed) = outcome {
+            self.code = self.code.max(if failed.unusable { UNUSABLE } else { REFUSED });
+            self.bar.suspend(|| output::complain(&failure(failed)));
         }
         let text = self.reports.add(Report::of(outcome));
         self.write(&text);

@@ -6,6 +6,7 @@ use super::output::{self, Format};
 use super::render::languages;
 use super::trust_options::{self, TrustOptions};
 use super::{Code, Failure, defaults, inputs, long_run};
+use crate::batch::Outcome;
 use crate::batch::recertification::{AtSite, NotRecertified, Recertification};
 use crate::certification::Header;
 use crate::files;
@@ -140,7 +141,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     }
     options.format.write(|| report::to_json(&found, dry_run), || report::text(&found, dry_run))?;
     let mut told = Told::default();
-    found.remarks().for_each(|(id, remarks)| told.add_all(id, remarks));
+    found.passports.iter().filter_map(Outcome::remarks).for_each(|(id, remarks)| told.add_all(id, remarks));
     told.lines().iter().for_each(|line| output::say(line));
     Ok(0)
 }

@@ -90,16 +90,18 @@ pub(crate) enum Next {
 /// Passport that was computed and checked, but not yet signed and written.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Unwritten {
-    /// Path of the passport.
     pub path: PathBuf,
     /// Passport, not yet signed.
     pub draft: Box<Draft>,
 }
 
-impl Unwritten {
+impl Next {
     /// Returns the id of the passport.
     pub(crate) fn id(&self) -> &str {
-        &self.draft.content().passport.id
+        match self {
+            Self::There(issued) => &issued.id,
+            Self::New(new) => &new.draft.content().passport.id,
+        }
     }
 }
 
@@ -224,9 +226,6 @@ impl Folder {
     }
 
     /// Returns the next step of [`Self::issue`]; nothing is signed or written.
-    ///
-    /// # Errors
-    /// Returns [`FolderRefused`] if the passport cannot be issued.
     pub(crate) fn next_first(&self, stand: &PreparedStand, site: &Site, order: &Issue) -> Result<Next, FolderRefused> {
         let draft = Box::new(stand.draft(site, order)?);
         let stand = stand.stand();
@@ -250,9 +249,6 @@ impl Folder {
     }
 
     /// Returns the next step of [`Self::reissue`]; nothing is signed or written.
-    ///
-    /// # Errors
-    /// Returns [`FolderRefused`] if the successor cannot be issued.
     pub(crate) fn next_successor(&self, successor: &Successor) -> Result<Next, FolderRefused> {
         let mut revision = successor.first_revision();
         loop {
@@ -371,9 +367,6 @@ const FOLDERS_OF_A_PASSPORT: usize = 3;
 
 /// Syncs the names of passports that were written with [`Durability::NameLater`], and those of the folders from the
 /// root to them.
-///
-/// # Errors
-/// Returns [`FileError::Write`] for the first folder that cannot be synced.
 pub(crate) fn sync_names<'a>(
     durability: Durability,
     passports: impl Iterator<Item = &'a Path>,
@@ -401,7 +394,6 @@ fn check_verifiable(path: &Path, text: &str, draft: &Draft, trust: &Trust) -> Re
     }
 }
 
-/// Passport that already exists.
 struct Existing {
     path: PathBuf,
     sha256: String,

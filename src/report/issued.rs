@@ -43,12 +43,9 @@ words! {
 pub(crate) struct Report {
     /// Id of the passport; for a refused re-issue, the predecessor's file; for an input, its file.
     pub id: String,
-    /// The result.
     pub state: State,
-    /// File of the passport.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
-    /// SHA-256 of the file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sha256: Option<String>,
     /// Noise of a calibration on this stand relative to an ideal stand.
@@ -71,25 +68,17 @@ impl Report {
         Self { id, state, file: None, sha256: None, noise_growth: None, absences, reason: None, passports: None }
     }
 
-    /// Creates the report of a passport that exists now.
-    pub(super) fn issued(Issued { id, path, sha256, new, remarks }: &Issued) -> Self {
-        Self {
-            file: Some(name_of(path)),
-            sha256: Some(sha256.clone()),
-            ..Self::new(id.clone(), if *new { State::Issued } else { State::Unchanged }).with(remarks)
-        }
-    }
-
-    /// Creates the report of a passport that a dry run would issue.
-    pub(super) fn planned(Planned { id, path, remarks }: &Planned) -> Self {
-        Self { file: Some(name_of(path)), ..Self::new(id.clone(), State::Planned).with(remarks) }
-    }
-
     /// Creates the report of an order of a batch.
     pub(crate) fn of(outcome: &Outcome) -> Self {
         match outcome {
-            Outcome::There(issued) => Self::issued(issued),
-            Outcome::Planned(planned) => Self::planned(planned),
+            Outcome::There(Issued { id, path, sha256, new, remarks }) => Self {
+                file: Some(name_of(path)),
+                sha256: Some(sha256.clone()),
+                ..Self::new(id.clone(), if *new { State::Issued } else { State::Unchanged }).with(remarks)
+            },
+            Outcome::Planned(Planned { id, path, remarks }) => {
+                Self { file: Some(name_of(path)), ..Self::new(id.clone(), State::Planned).with(remarks) }
+            }
             Outcome::Skipped { id, file, why } => {
                 Self { file: Some(name_of(file)), reason: Some(why.clone()), ..Self::new(id.clone(), State::Skipped) }
             }
@@ -211,7 +200,6 @@ pub(crate) struct Reports {
 }
 
 impl Reports {
-    /// Creates an empty series of reports.
     pub(crate) fn new(form: Form) -> Self {
         Self { form, count: 0, held: Vec::new(), totals: Totals::default() }
     }
@@ -243,9 +231,8 @@ impl Reports {
 
     fn csv(&self, report: &Report) -> String {
         let head = if self.count == 1 { CSV_HEADER } else { "" };
-        let text = |text: &Option<String>| text.clone().unwrap_or_default();
-        let cells = [report.state.key().to_owned(), report.id.clone(), text(&report.file), text(&report.sha256)];
-        format!("{head}{}", csv_row(cells.iter().map(String::as_str).chain([text(&report.reason).as_str()])))
+        let texts = [&report.file, &report.sha256, &report.reason].map(|text| text.as_deref().unwrap_or_default());
+        head.to_owned() + &csv_row([report.state.key(), &report.id].into_iter().chain(texts))
     }
 
     /// Returns the text to write at the end.

@@ -1,33 +1,27 @@
 //! Result of a recertification, as text and as JSON.
 
-use crate::batch::recertification::{NewPassport, Recertified};
+use crate::batch::recertification::Recertified;
 use crate::report::issued::{self, Report, State};
 use crate::report::{certification, columns, difference, style};
 use crate::text::{name_of, shown};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-fn report(passport: &NewPassport) -> Report {
-    match passport {
-        NewPassport::There(issued) => Report::issued(issued),
-        NewPassport::Planned(planned) => Report::planned(planned),
-        NewPassport::Done(line) => Report {
-            file: Some(line.file.clone()),
-            sha256: Some(line.sha256.clone()),
-            ..Report::new(line.id.clone().unwrap_or_default(), State::Unchanged)
-        },
-    }
+fn reports(found: &Recertified) -> impl Iterator<Item = Report> {
+    let done = found.done.iter().map(|line| Report {
+        file: Some(line.file.clone()),
+        sha256: Some(line.sha256.clone()),
+        ..Report::new(line.id.clone().unwrap_or_default(), State::Unchanged)
+    });
+    done.chain(found.passports.iter().map(Report::of))
 }
 
 /// Returns the result as JSON: `{dry_run, certification, comparison, old_certificate, changes, passports, remaining,
 /// stand_file, superseded_file}`.
 pub(crate) fn to_json(found: &Recertified, dry_run: bool) -> Value {
     let certified = certification::to_json(Some(&found.certification), None, Some(&found.comparison));
-    let passports = found
-        .passports
-        .iter()
-        .map(report)
-        .map(|row| json!({"id": row.id, "state": row.state, "file": row.file, "sha256": row.sha256}));
+    let passports =
+        reports(found).map(|row| json!({"id": row.id, "state": row.state, "file": row.file, "sha256": row.sha256}));
     json!({
         "dry_run": dry_run,
         "certification": certified["certification"],
@@ -50,19 +44,12 @@ pub(crate) fn text(found: &Recertified, dry_run: bool) -> String {
     let _ = writeln!(out, "\n{}", style::heading(&heading));
     difference::numbers(&mut out, &found.changes);
     let _ = writeln!(out);
-    for report in found.passports.iter().map(report) {
-        out += &issued::named(&report);
-    }
+    out.extend(reports(found).map(|report| issued::named(&report)));
     let verb = if dry_run { "planned" } else { "certified" };
     let _ = writeln!(out, "{verb:<9}  certificate {number}  {}", shown(&found.stand_file));
     if let Some(path) = &found.superseded {
-        let _ = writeln!(
-            out,
-            "{:<9}  certificate {}  {}",
-            if dry_run { "planned" } else { "kept" },
-            found.old_number,
-            shown(path)
-        );
+        let verb = if dry_run { "planned" } else { "kept" };
+        let _ = writeln!(out, "{verb:<9}  certificate {}  {}", found.old_number, shown(path));
     }
     if !found.remaining.is_empty() {
         let words = format!(
