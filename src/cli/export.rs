@@ -81,7 +81,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     for found in paths::files(&options.passports, &mut list, Purpose::Passports) {
         match found {
             Ok(path) => run.push(path)?,
-            Err(failed) => run.failed(failed.what.clone(), Failure::input(&failed))?,
+            Err(failed) => run.failed(failed.what.clone(), Failure::input(&failed), false)?,
         }
     }
     run.chunk()?;
@@ -119,13 +119,14 @@ impl Run<'_> {
         if self.next.len() == AT_ONCE { self.chunk() } else { Ok(()) }
     }
 
-    /// Reports the failure of one passport; the others are exported nevertheless.
-    fn failed(&mut self, file: String, failure: Failure) -> Result<(), Failure> {
+    /// Reports the failure of one passport; the others are exported nevertheless. With `has_line`, the line of the passport,
+    /// with its checks, is already on standard output.
+    fn failed(&mut self, file: String, failure: Failure, has_line: bool) -> Result<(), Failure> {
         output::complain(&failure.message);
         self.code = self.code.max(failure.code);
         match self.options.format {
-            Format::Json => inputs::json_line(&Each::<Value>::Refused { file, refusal: failure.failed }),
-            Format::Text => Ok(()),
+            Format::Json if !has_line => inputs::json_line(&Each::<Value>::Refused { file, refusal: failure.failed }),
+            _ => Ok(()),
         }
     }
 
@@ -152,7 +153,7 @@ impl Run<'_> {
         };
         let to = |form: Form| self.options.to.contains(&form);
         let json = || {
-            let node = exported::json(&name, &sha256_hex(&bytes), &verification);
+            let node = exported::json(&name, sha256_hex(&bytes), &verification);
             printable::json_line(&node).map(|line| line + "\n").map_err(Failure::unusable)
         };
         let json = if to(Form::Json) && !unread { Some(json()?) } else { None };
@@ -194,17 +195,11 @@ impl Run<'_> {
         if !verification.valid() {
             let failure = Failure::verdict("nothing was exported\n", &name, verification);
             let failure = Failure { code: if *unread { UNUSABLE } else { REFUSED }, ..failure };
-            // The line of the passport, with its checks, is already on standard output if no folder was given.
-            if line.is_some() {
-                output::complain(&failure.message);
-                self.code = self.code.max(failure.code);
-                return Ok(());
-            }
-            return self.failed(name, failure);
+            return self.failed(name, failure, line.is_some());
         }
         let new = match self.new_files(path, files.as_ref()) {
             Ok(new) => new,
-            Err(failure) => return self.failed(name, failure),
+            Err(failure) => return self.failed(name, failure, false),
         };
         output::together(&new, self.options.force)?;
         let written: Vec<String> = new.iter().map(|(target, _)| name_of(target)).collect();

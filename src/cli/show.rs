@@ -9,8 +9,9 @@ use crate::document::sha256_hex;
 use crate::passport::{Content, Verification, read};
 use crate::report::{exported, passport_table};
 use crate::text::kind::Kind;
-use crate::text::{Node, name_of};
+use crate::text::name_of;
 use clap::{ArgGroup, Args};
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 /// Show passports as tables, or in full as JSON for tools without YAML
@@ -85,8 +86,8 @@ impl Reader {
 
 impl Read {
     /// Returns the passport and the result of its verification, for programs.
-    fn for_programs(&self) -> Node {
-        exported::shown(&self.content, &sha256_hex(&self.bytes), self.verification.as_ref())
+    fn for_programs(&self) -> impl Serialize + use<> {
+        exported::shown(&self.content, sha256_hex(&self.bytes), self.verification.as_ref())
     }
 }
 
