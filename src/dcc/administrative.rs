@@ -103,9 +103,6 @@ impl Document for Administrative {
 
 impl Administrative {
     /// Reads a `dtg-dcc/1` file; `name` is the file name in messages.
-    ///
-    /// # Errors
-    /// Returns [`Unreadable`] with the line, column and field of every error.
     pub(crate) fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
         yaml::read_document(name, bytes, |file: &Self, problems| file.check(problems))
     }
@@ -182,7 +179,6 @@ const COUNTRY_CODES: &str = "\
     SJ SK SL SM SN SO SR SS ST SV SX SY SZ TC TD TF TG TH TJ TK TL TM TN TO TR TT TV TW TZ UA UG UM US UY UZ VA VC VE VG VI \
     VN VU WF WS YE YT ZA ZM ZW";
 
-/// Returns `true` if `text` is a country code.
 fn is_country(text: &str) -> bool {
     COUNTRY_CODES.split_ascii_whitespace().any(|code| code == text)
 }

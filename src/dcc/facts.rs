@@ -14,27 +14,20 @@ pub(super) struct Known<'a> {
     pub source: &'static str,
     /// Serial number of the item, if an option must state it.
     pub serial: Option<Option<&'a str>>,
-    /// Number of the certificate.
     pub number: Option<&'a str>,
     /// Day on which the item was received.
     pub received: Option<Date>,
     /// Day of the measurements.
     pub performed: Option<Date>,
-    /// Date of issue.
     pub issued: Option<Date>,
-    /// Name of the laboratory.
     pub laboratory: Option<&'a str>,
-    /// Address of the laboratory.
     pub address: Option<&'a str>,
     /// Person who authorised the certificate.
     pub authorized_by: Option<&'a str>,
-    /// Name of the customer.
     pub customer: Option<&'a str>,
-    /// Method of measurement.
     pub method: Option<&'a str>,
     /// `true` if the method needs no statement, because it is a calculation of this program.
     pub method_is_known: bool,
-    /// Statement of traceability.
     pub traceability: Option<&'a str>,
     /// Temperature during the measurements, °C.
     pub temperature_c: Option<f64>,
@@ -81,10 +74,7 @@ impl Facts {
         let file = file.unwrap_or(&none);
         let mut collector = Collector { source: known.source, problems: Problems::new() };
         let facts = collector.facts(known, file, lang);
-        match facts {
-            Some(facts) if collector.problems.is_empty() => Ok(facts),
-            _ => Err(collector.problems),
-        }
+        facts.filter(|_| collector.problems.is_empty()).ok_or(collector.problems)
     }
 }
 

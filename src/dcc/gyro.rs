@@ -71,9 +71,6 @@ impl<'a> Calibrated<'a> {
 }
 
 /// Returns the DCC of a gyro.
-///
-/// # Errors
-/// Returns every missing key and every contradiction, by their paths in the administrative file.
 pub(crate) fn of_gyro(
     calibrated: &Calibrated,
     administrative: Option<&Administrative>,
@@ -90,13 +87,13 @@ pub(crate) fn of_gyro(
     };
     let facts = Facts::collect(&known, administrative, lang)?;
     let subject = Subject {
-        identifications: Vec::new(),
+        identification: None,
         previous_report: None,
         item: item(calibrated, &facts.languages),
         accreditation: None,
         statements: statements(calibrated, &facts.languages),
     };
-    let xml = parts::certificate(&facts, subject, vec![result(calibrated, &facts)], None);
+    let xml = parts::certificate(&facts, subject, result(calibrated, &facts), None);
     Ok(Dcc { number: facts.number, xml })
 }
 
@@ -197,25 +194,21 @@ fn equipment(calibrated: &Calibrated, languages: &Languages) -> Element {
 fn quantities(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
     use Parameter::{Kx, Kxy, Ky, Kyx, Omega0x, Omega0y, OmegaG, OmegaK};
     let per_m_per_s2 = calibrated.found.at_gravity(1.0);
+    let labels = |parameters: &[Parameter]| parameters.iter().map(|one| one.key()).collect::<Vec<_>>().join(" ");
+    let (values, u) = (per_m_per_s2.parameters.to_vector(), per_m_per_s2.standard_uncertainty);
     let group = |name: Text, parameters: &[Parameter], unit: &str| {
-        let values = per_m_per_s2.parameters.to_vector();
-        let value = |parameter: &Parameter| values[parameter.place()];
-        let u = |parameter: &Parameter| Some(per_m_per_s2.standard_uncertainty[parameter.place()]);
-        let labels = parameters.iter().map(|parameter| parameter.key()).collect::<Vec<_>>().join(" ");
-        let each: Vec<f64> = parameters.iter().map(value).collect();
-        let uncertainties: Vec<_> = parameters.iter().map(u).collect();
-        let list = parts::reals(Some(&labels), &each, unit, &uncertainties);
-        let decisions = calibrated.judged.map(|judged| decisions(judged, parameters, unit, languages));
+        let each: Vec<f64> = parameters.iter().map(|one| values[one.place()]).collect();
+        let uncertainties: Vec<_> = parameters.iter().map(|one| Some(u[one.place()])).collect();
+        let list = parts::reals(Some(&labels(parameters)), &each, unit, &uncertainties);
+        let decisions = calibrated.judged.map(|(_, verdict)| decisions(verdict, parameters, unit, languages));
         quantity(Some("basic_measuredValue"), in_words("dcc:name", name, languages), list).and(decisions)
     };
     // Unlimited degrees of freedom are not stated.
-    let freedom = Parameter::EIGHT.map(|parameter| (parameter, per_m_per_s2.degrees_of_freedom[parameter.place()]));
-    let known: Vec<_> = freedom.into_iter().filter(|(_, freedom)| freedom.is_finite()).collect();
-    let labels = known.iter().map(|(parameter, _)| parameter.key()).collect::<Vec<_>>().join(" ");
-    let each: Vec<f64> = known.iter().map(|(_, freedom)| *freedom).collect();
+    let freedom = Parameter::EIGHT.map(|one| (one, per_m_per_s2.degrees_of_freedom[one.place()]));
+    let (known, each): (Vec<_>, Vec<_>) = freedom.into_iter().filter(|(_, freedom)| freedom.is_finite()).unzip();
     let freedom = (!known.is_empty()).then(|| {
         let name = in_words("dcc:name", texts::EFFECTIVE_FREEDOM, languages);
-        quantity(None, name, parts::reals(Some(&labels), &each, units::ONE, &[]))
+        quantity(None, name, parts::reals(Some(&labels(&known)), &each, units::ONE, &[]))
     });
     let mut quantities = vec![
         group(words::SCALE_FACTORS, &[Kx, Kxy, Kyx, Ky], units::DEG_PER_H_PER_MA),
@@ -227,12 +220,7 @@ fn quantities(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
 }
 
 /// Returns the decisions on parameters and the limits of their tolerances, in their order and unit.
-fn decisions(
-    (_, verdict): (&GyroType, &Verdict),
-    parameters: &[Parameter],
-    unit: &str,
-    languages: &Languages,
-) -> Element {
+fn decisions(verdict: &Verdict, parameters: &[Parameter], unit: &str, languages: &Languages) -> Element {
     let rows = parameters.iter().filter_map(|one| verdict.parameters.iter().find(|row| row.parameter == one.key()));
     let rows: Vec<_> = rows.collect();
     let each: Vec<&str> = rows.iter().map(|row| decided(row.guarded, passes(row))).collect();

@@ -24,12 +24,9 @@ pub(crate) use stand::of_stand;
 
 use crate::text::{Identifier, NotAnIdentifier};
 
-/// Digital Calibration Certificate.
 #[derive(Debug)]
 pub(crate) struct Dcc {
-    /// Number of the certificate.
     pub number: String,
-    /// XML document.
     pub xml: String,
 }
 

@@ -9,7 +9,6 @@ use crate::report::page::language::Text;
 use base64ct::{Base64, Encoding};
 use std::fmt::Display;
 
-/// Version of the schema.
 const SCHEMA_VERSION: &str = "3.3.0";
 
 /// Database of the vocabularies that `refType` uses.
@@ -97,12 +96,10 @@ pub(super) fn statement(name: Text, declaration: Option<&str>, languages: &Langu
         .and(stated(declaration).map(|text| plain("dcc:declaration", text)))
 }
 
-/// Returns a serial number.
 pub(super) fn serial(value: &str, languages: &Languages) -> Element {
     identification(value, words::SERIAL, languages).with("refType", "basic_serialNumber")
 }
 
-/// Returns the manufacturer, if stated.
 pub(super) fn manufacturer(name: Option<&str>) -> Option<Element> {
     stated(name).map(|name| Element::new("dcc:manufacturer").and(plain("dcc:name", name)))
 }
@@ -148,7 +145,6 @@ pub(super) fn software(name: &'static str) -> Element {
     Element::new(name).and(program)
 }
 
-/// Returns a method by its name, its description and a link.
 pub(super) fn method(name: Element, description: Element, link: Option<&str>) -> Element {
     Element::new("dcc:usedMethod")
         .with("refType", "basic_calibrationMethod")
@@ -157,13 +153,11 @@ pub(super) fn method(name: Element, description: Element, link: Option<&str>) ->
         .and(link.map(|link| Element::text("dcc:link", link)))
 }
 
-/// Returns the method that the facts state, if any.
 pub(super) fn stated_method(facts: &Facts) -> Option<Element> {
     let name = || in_words("dcc:name", words::METHOD, &facts.languages);
     facts.method.as_deref().map(|text| method(name(), plain("dcc:description", text), None))
 }
 
-/// Returns the results: quantities with a name and a note.
 pub(super) fn results(name: Text, note: Text, quantities: Vec<Element>, languages: &Languages) -> Element {
     let list = Element::new("dcc:list").and(quantities);
     let result = Element::new("dcc:result")
@@ -174,13 +168,11 @@ pub(super) fn results(name: Text, note: Text, quantities: Vec<Element>, language
     Element::new("dcc:results").and(result)
 }
 
-/// Returns the temperature during the measurements.
 pub(super) fn temperature(temperature_c: f64, languages: &Languages) -> Element {
     condition(words::TEMPERATURE, real(temperature_c, units::CELSIUS, None), languages)
         .with("refType", "basic_temperature")
 }
 
-/// Returns a condition of the measurements by its name and value.
 pub(super) fn condition(name: Text, value: Element, languages: &Languages) -> Element {
     let name = || in_words("dcc:name", name, languages);
     let value = quantity(Some("basic_measuredValue"), name(), value);
@@ -189,20 +181,16 @@ pub(super) fn condition(name: Text, value: Element, languages: &Languages) -> El
 
 /// Parts of the administrative data that differ between a stand and a gyro.
 pub(super) struct Subject {
-    /// Identifications of the certificate besides its number.
-    pub identifications: Vec<Element>,
-    /// Earlier report, if there is one.
+    /// Identification of the certificate besides its number.
+    pub identification: Option<Element>,
     pub previous_report: Option<Element>,
-    /// Calibrated item.
     pub item: Element,
-    /// Accreditation of the laboratory.
     pub accreditation: Option<String>,
     /// Statements on the whole certificate.
     pub statements: Vec<Element>,
 }
 
-/// Returns a whole DCC.
-pub(super) fn certificate(facts: &Facts, subject: Subject, results: Vec<Element>, document: Option<Element>) -> String {
+pub(super) fn certificate(facts: &Facts, subject: Subject, result: Element, document: Option<Element>) -> String {
     Element::new("dcc:digitalCalibrationCertificate")
         .with("xmlns:dcc", "https://ptb.de/dcc")
         .with("xmlns:si", "https://ptb.de/si")
@@ -210,13 +198,13 @@ pub(super) fn certificate(facts: &Facts, subject: Subject, results: Vec<Element>
         .with("xsi:schemaLocation", format!("https://ptb.de/dcc https://ptb.de/dcc/v{SCHEMA_VERSION}/dcc.xsd"))
         .with("schemaVersion", SCHEMA_VERSION)
         .and(administrative_data(facts, subject))
-        .and(Element::new("dcc:measurementResults").and(results))
+        .and(Element::new("dcc:measurementResults").and(result))
         .and(document)
         .document()
 }
 
 fn administrative_data(facts: &Facts, subject: Subject) -> Element {
-    let core = core_data(facts, subject.identifications, subject.previous_report);
+    let core = core_data(facts, subject.identification, subject.previous_report);
     let statements = (!subject.statements.is_empty()).then(|| Element::new("dcc:statements").and(subject.statements));
     Element::new("dcc:administrativeData")
         .and(software("dcc:dccSoftware"))
@@ -241,7 +229,7 @@ fn vocabularies(languages: &Languages) -> Element {
         .and(vocabulary(words::MATH_TERMS, "math"))
 }
 
-fn core_data(facts: &Facts, identifications: Vec<Element>, previous_report: Option<Element>) -> Element {
+fn core_data(facts: &Facts, identification: Option<Element>, previous_report: Option<Element>) -> Element {
     let [begin, end] = facts.performed;
     let used = facts.languages.iter().map(|language| Element::text("dcc:usedLangCodeISO639_1", language.tag()));
     Element::new("dcc:coreData")
@@ -249,7 +237,7 @@ fn core_data(facts: &Facts, identifications: Vec<Element>, previous_report: Opti
         .and(used)
         .and(Element::text("dcc:mandatoryLangCodeISO639_1", facts.mandatory.tag()))
         .and(Element::text("dcc:uniqueIdentifier", &facts.number))
-        .and((!identifications.is_empty()).then(|| Element::new("dcc:identifications").and(identifications)))
+        .and(identification.map(|one| Element::new("dcc:identifications").and(one)))
         .and(facts.received.map(|day| Element::text("dcc:receiptDate", day)))
         .and(Element::text("dcc:beginPerformanceDate", begin))
         .and(Element::text("dcc:endPerformanceDate", end))

@@ -14,9 +14,6 @@ use crate::stand::{CertifiedPosition, Datum};
 use crate::text::Problems;
 
 /// Returns the DCC of the certificate in a verified passport; `bytes` is the signed file, which the DCC contains.
-///
-/// # Errors
-/// Returns every missing key and every contradiction, by their paths in the administrative file.
 pub(crate) fn of_stand(
     content: &Content,
     bytes: &[u8],
@@ -28,7 +25,7 @@ pub(crate) fn of_stand(
     let id = &content.passport.id;
     let predecessor = content.passport.reissued_from.as_ref();
     let subject = Subject {
-        identifications: vec![parts::identification(id, words::PASSPORT_ID, languages)],
+        identification: Some(parts::identification(id, words::PASSPORT_ID, languages)),
         previous_report: predecessor
             .map(|from| parts::hashed("dcc:previousReport", words::PREDECESSOR, &from.id, &from.sha256, languages)),
         item: item(content, languages),
@@ -45,7 +42,7 @@ pub(crate) fn of_stand(
         ],
         (&file_name, "application/yaml", bytes),
     );
-    let xml = parts::certificate(&facts, subject, vec![result(content, &facts)], Some(document));
+    let xml = parts::certificate(&facts, subject, result(content, &facts), Some(document));
     Ok(Dcc { number: facts.number, xml })
 }
 

@@ -13,7 +13,6 @@ pub(super) struct Element {
 }
 
 impl Element {
-    /// Creates an empty element.
     pub(super) fn new(name: &'static str) -> Self {
         Self { name, attributes: Vec::new(), text: String::new(), elements: Vec::new() }
     }
@@ -33,7 +32,6 @@ impl Element {
         Self::text(name, values.into_iter().map(number).collect::<Vec<_>>().join(" "))
     }
 
-    /// Adds an attribute.
     pub(super) fn with(mut self, name: &'static str, value: impl Into<String>) -> Self {
         self.attributes.push((name, value.into()));
         self

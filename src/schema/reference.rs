@@ -18,14 +18,6 @@ struct Section<'a> {
     seen: &'a mut HashMap<String, String>,
 }
 
-/// Line of a table: the whole key, the kind of its value, whether it is required, and its meaning.
-struct Row {
-    key: String,
-    value: String,
-    required: bool,
-    meaning: String,
-}
-
 impl Section<'_> {
     fn write(mut self) -> String {
         let root = self.schema.as_object().cloned().unwrap_or_default();
@@ -33,17 +25,12 @@ impl Section<'_> {
         let mut out = format!("## `{format}`\n\n");
         let _ = writeln!(out, "{}\n", text(&root, "description"));
         let _ = writeln!(out, "| key | value | required | meaning |\n|---|---|---|---|");
-        let mut rows = Vec::new();
-        self.rows(&root, "", format, &mut rows);
-        for Row { key, value, required, meaning } in rows {
-            let required = if required { "yes" } else { "" };
-            let _ = writeln!(out, "| `{key}` | {value} | {required} | {} |", meaning.replace('|', "\\|"));
-        }
+        self.rows(&root, "", format, &mut out);
         out
     }
 
-    /// Adds the keys of a mapping; the keys of a nested mapping follow its own line.
-    fn rows(&mut self, mapping: &Map<String, Value>, prefix: &str, format: &str, rows: &mut Vec<Row>) {
+    /// Writes a line for each key of a mapping; the keys of a nested mapping follow its own line.
+    fn rows(&mut self, mapping: &Map<String, Value>, prefix: &str, format: &str, out: &mut String) {
         let required: Vec<&str> =
             mapping.get("required").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str).collect();
         for (name, property) in mapping.get("properties").and_then(Value::as_object).into_iter().flatten() {
@@ -59,13 +46,13 @@ impl Section<'_> {
             if let Some(there) = known {
                 meaning = format!("{meaning} As in `{there}`.");
             }
-            let row = Row { value: self.value(property), required: required.contains(&name.as_str()), key, meaning };
-            let inside = format!("{}{below}", row.key);
+            let (value, meaning) = (self.value(property), meaning.replace('|', "\\|"));
+            let is_required = if required.contains(&name.as_str()) { "yes" } else { "" };
+            let _ = writeln!(out, "| `{key}` | {value} | {is_required} | {meaning} |");
             let described = known.is_some();
-            rows.push(row);
             if let Some((name, part)) = part.filter(|_| !described) {
                 self.seen.insert(name.to_owned(), format.to_owned());
-                self.rows(&part, &inside, format, rows);
+                self.rows(&part, &format!("{key}{below}"), format, out);
             }
         }
     }
