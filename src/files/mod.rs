@@ -81,7 +81,8 @@ impl FileError {
         if let Self::Folder { .. } = self {
             return format!("{self}; name a file in it");
         }
-        self.nearest().map_or_else(|| self.to_string(), |near| format!("{self}; did you mean {}?", shown(&near)))
+        let nearest = if self.is_missing() { nearest(self.path()) } else { None };
+        nearest.map_or_else(|| self.to_string(), |near| format!("{self}; did you mean {}?", shown(&near)))
     }
 
     /// Returns `true` if the path does not exist.
@@ -91,14 +92,9 @@ impl FileError {
 
     /// Returns `true` if neither the path nor a similar one exists.
     pub(crate) fn is_unlike_any(&self) -> bool {
-        self.is_missing() && self.nearest().is_none()
+        self.is_missing() && nearest(self.path()).is_none()
     }
 
-    fn nearest(&self) -> Option<PathBuf> {
-        if self.is_missing() { nearest(self.path()) } else { None }
-    }
-
-    /// Returns the path of the file.
     pub(crate) fn path(&self) -> &Path {
         match self {
             Self::Read { path, .. }
@@ -117,7 +113,7 @@ const MOST_NAMES: usize = 10_000;
 
 /// Returns the existing path nearest to one that does not exist: one that differs in a few letters of one name, or
 /// `None` if there is none.
-pub(crate) fn nearest(path: &Path) -> Option<PathBuf> {
+fn nearest(path: &Path) -> Option<PathBuf> {
     let mut there = PathBuf::new();
     let mut parts = path.components();
     for part in parts.by_ref() {
@@ -176,9 +172,6 @@ pub(crate) fn read(path: &Path, limit: usize) -> Result<Vec<u8>, FileError> {
 }
 
 /// Reads a file as [`read`] does, but replaces the content of `bytes`, so that its memory can be reused for many files.
-///
-/// # Errors
-/// Returns the errors of [`read`].
 pub(crate) fn read_into(bytes: &mut Vec<u8>, path: &Path, limit: usize) -> Result<(), FileError> {
     read_first_into(bytes, path, limit + 1)?;
     if bytes.len() > limit {
@@ -188,9 +181,6 @@ pub(crate) fn read_into(bytes: &mut Vec<u8>, path: &Path, limit: usize) -> Resul
 }
 
 /// Reads the first `limit` bytes of a file, or all of it if it is shorter.
-///
-/// # Errors
-/// Returns [`FileError::Read`], [`FileError::Folder`] or [`FileError::Special`].
 pub(crate) fn read_first(path: &Path, limit: usize) -> Result<Vec<u8>, FileError> {
     let mut bytes = Vec::new();
     read_first_into(&mut bytes, path, limit)?;
@@ -255,9 +245,6 @@ pub(crate) fn write_new(path: &Path, bytes: &[u8], access: Access) -> Result<(),
 }
 
 /// Writes a new file as [`write_new`] does, with the given `durability`.
-///
-/// # Errors
-/// Returns the errors of [`write_new`].
 pub(crate) fn write_new_as(path: &Path, bytes: &[u8], access: Access, durability: Durability) -> Result<(), FileError> {
     let persist = |temporary: NamedTempFile| temporary.persist_noclobber(path);
     write(path, bytes, access, durability, persist, false)
@@ -287,9 +274,6 @@ pub(crate) fn check_replaceable<P: AsRef<Path>>(
 }
 
 /// Checks that no two of the `paths` to be written are the same, because the last one would replace the others.
-///
-/// # Errors
-/// Returns [`FileError::Twice`].
 pub(crate) fn check_distinct<'a>(paths: impl IntoIterator<Item = &'a PathBuf>) -> Result<(), FileError> {
     let mut seen = BTreeSet::new();
     for path in paths {
@@ -305,9 +289,6 @@ pub(crate) fn check_distinct<'a>(paths: impl IntoIterator<Item = &'a PathBuf>) -
 ///
 /// Passports, lists of withdrawn passports and private keys are never replaced. Nor is anything but a regular file,
 /// because renaming a new file to the name of a device would remove the device.
-///
-/// # Errors
-/// Returns the errors of [`write_new`].
 pub(crate) fn write_replaceable(path: &Path, bytes: &[u8], force: bool) -> Result<(), FileError> {
     check_replaceable([path], force)?;
     let persist = |temporary: NamedTempFile| match force {
@@ -380,7 +361,6 @@ fn write(
     }
 }
 
-/// Returns the folder that contains a file.
 pub(crate) fn folder_of(path: &Path) -> &Path {
     path.parent().map_or(Path::new("."), or_here)
 }

@@ -6,9 +6,6 @@ use std::{fs, io};
 use tempfile::{NamedTempFile, PersistError};
 
 /// Writes several files as [`super::write_replaceable`] does: all of them or none.
-///
-/// # Errors
-/// Returns the errors of [`check_replaceable`], or [`FileError::Write`].
 pub(crate) fn write_replaceable_together<B: AsRef<[u8]>>(files: &[(PathBuf, B)], force: bool) -> Result<(), FileError> {
     check_replaceable(files.iter().map(|(path, _)| path), force)?;
     if force { write_together(&[], files) } else { write_together(files, &[]) }

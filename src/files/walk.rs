@@ -17,10 +17,8 @@ pub(crate) enum Entry {
     Special(PathBuf),
 }
 
-/// Why a link is not read.
 pub(crate) const LINK: &str = "not read: links are not followed, because they may lead out of the folder";
 
-/// Why a pipe, a device or a socket is not read.
 pub(crate) const SPECIAL: &str = "not read: it is a pipe, a device or a socket";
 
 /// Walk through a folder. It keeps only the wanted names in the folders from the root to the current one, so its memory

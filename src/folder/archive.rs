@@ -13,7 +13,6 @@ const MOST: u32 = 1000;
 pub(crate) struct Superseded {
     /// Path under which it is kept.
     pub path: PathBuf,
-    /// Content of the file.
     pub bytes: Vec<u8>,
     /// `true` if a file with this content is already there.
     pub kept: bool,
@@ -54,9 +53,6 @@ impl Superseded {
     }
 
     /// Writes the file under its new name, unless it is already there.
-    ///
-    /// # Errors
-    /// Returns [`FileError::Write`] or [`FileError::Exists`]; the superseded file itself is untouched.
     pub(crate) fn keep(&self) -> Result<(), FileError> {
         if self.kept { Ok(()) } else { files::write_new(&self.path, &self.bytes, Access::Shared) }
     }

@@ -11,7 +11,6 @@ const ARMOR: &str = "-----BEGIN SSH SIGNATURE-----";
 /// Kind of document that a file claims to be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Claim {
-    /// List of withdrawn passports.
     List,
     /// Passport, or a signed or empty file that may have been one.
     Passport,
@@ -39,10 +38,8 @@ impl Claim {
     }
 }
 
-/// Returns `true` if a file has a YAML extension.
 pub(super) fn is_yaml(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|extension| extension.eq_ignore_ascii_case("yaml") || extension.eq_ignore_ascii_case("yml"))
+    path.extension().is_some_and(|found| found.eq_ignore_ascii_case("yaml") || found.eq_ignore_ascii_case("yml"))
 }
 
 #[cfg(test)]

@@ -16,7 +16,6 @@ pub(super) struct Names {
     of: Of,
 }
 
-/// Kind of the names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Of {
     /// Models and serial numbers.
@@ -35,9 +34,6 @@ impl Names {
     }
 
     /// Adds a name to those of its folder; returns the path of an existing one that differs only in case, or `None`.
-    ///
-    /// # Errors
-    /// Returns [`FileError::Read`] if the folder exists but cannot be listed.
     pub(super) fn add(&self, path: &Path) -> Result<Option<PathBuf>, FileError> {
         let folder = crate::files::folder_of(path);
         let Some(name) = self.name(path) else { return Ok(None) };

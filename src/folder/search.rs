@@ -9,7 +9,7 @@ use crate::history::{History, Recorded};
 use crate::parallel;
 use crate::passport::Trust;
 use crate::register::{Alarm, AlarmKind, Asked, Concern, Examined, Line, Register, examine};
-use crate::revocation::{ListRefused, RevocationList, Series, claims_to_be_a_list};
+use crate::revocation::{RevocationList, Series, claims_to_be_a_list};
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
 use jiff::Timestamp;
 use std::collections::BTreeMap;
@@ -99,9 +99,6 @@ pub(crate) fn place_of_lists(passports: &Path) -> PathBuf {
 
 /// Returns the files under `root` that claim to be passports, at any depth, with an error for each entry that was not
 /// read. They are recognised by content; nothing in them is verified.
-///
-/// # Errors
-/// Returns [`FileError::Read`] if `root` cannot be read.
 pub(crate) fn passports(root: &Path) -> Result<Vec<Result<PathBuf, FileError>>, FileError> {
     let found = find(root)?;
     let claims = found.files.into_iter().filter_map(|path| match files::read_first(&path, LARGEST_DOCUMENT_BYTES) {
@@ -135,9 +132,6 @@ pub(crate) fn unusable(root: &Path, trust: &Trust, time: Timestamp, threads: usi
 
 /// Returns the register of a folder as [`register`] does, but if a `stand`, `<model>/<serial>`, is given, without the
 /// passports of other stands that are in their own folders. Every entry and every alarm that concerns the stand is there.
-///
-/// # Errors
-/// Returns the errors of [`register`].
 pub(crate) fn register_of(
     root: &Path,
     stand: Option<&str>,
@@ -181,9 +175,6 @@ pub(crate) fn register_of(
 
 /// Returns the history of a stand, `<model>/<serial>`, and the register of its passports. If no file in the folder is a
 /// passport of the stand, the history is `None`, and the register is that of all stands.
-///
-/// # Errors
-/// Returns [`FileError`] if the folder, or a passport of the stand, cannot be read.
 pub(crate) fn history(
     root: &Path,
     stand: &str,
@@ -208,7 +199,6 @@ pub(crate) fn history(
 /// Name and content of a file that claims to be a list.
 type Claimed = (PathBuf, Vec<u8>);
 
-/// Result of the examination of a file.
 enum Seen {
     Passport(Box<Examined>),
     Damaged(Box<Examined>, Alarm),
@@ -337,12 +327,9 @@ pub(crate) enum NoNewestList {
     /// File or folder that cannot be read and may be a list.
     #[error(transparent)]
     File(#[from] FileError),
-    /// List that was refused.
-    #[error(transparent)]
-    Refused(#[from] ListRefused),
-    /// Lists that contradict each other or are incomplete.
+    /// List that was refused, or lists that contradict each other or are incomplete.
     #[error("{0}")]
-    Series(String),
+    Refused(String),
 }
 
 /// Returns the lists of withdrawn passports under `folder`, which a new list in it may continue.
@@ -369,7 +356,8 @@ pub(crate) fn lists(folder: &Path, passports: &Path, trust: &Trust, time: Timest
     for path in found.files {
         let bytes = files::read_first(&path, LARGEST_DOCUMENT_BYTES + 1)?;
         if Claim::of(&path, &bytes) == Some(Claim::List) {
-            lists.push(RevocationList::verify(&name_of(&path), &bytes, &trust.signers, &trust.revoked, time)?);
+            let list = RevocationList::verify(&name_of(&path), &bytes, &trust.signers, &trust.revoked, time);
+            lists.push(list.map_err(|refused| NoNewestList::Refused(refused.to_string()))?);
         }
     }
     let series = Series::of(lists);
@@ -377,7 +365,7 @@ pub(crate) fn lists(folder: &Path, passports: &Path, trust: &Trust, time: Timest
         return Ok(series);
     }
     let alarms: Vec<String> = series.alarms().iter().map(ToString::to_string).collect();
-    Err(NoNewestList::Series(alarms.join("\n")))
+    Err(NoNewestList::Refused(alarms.join("\n")))
 }
 
 fn unreadable(root: &Path, error: &FileError) -> Alarm {

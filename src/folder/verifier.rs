@@ -17,9 +17,6 @@ pub(crate) struct Verifier {
 
 impl Verifier {
     /// Reads the register of `folder`, if there is one, and its lists of withdrawn passports.
-    ///
-    /// # Errors
-    /// Returns [`FileError`] if the folder cannot be read.
     pub(crate) fn new(trust: Trust, question: Question, folder: Option<&Path>) -> Result<Self, FileError> {
         let Some(folder) = folder else { return Ok(Self { trust, question, register: None }) };
         let asked = Asked::at(question.time);
@@ -27,7 +24,6 @@ impl Verifier {
         Ok(Self { trust, question, register: Some(register) })
     }
 
-    /// Verifies the bytes of a passport.
     pub(crate) fn verify(&self, name: &str, bytes: &[u8]) -> Verification {
         let verification = verify(name, bytes, &self.trust, &self.question);
         match &self.register {

@@ -110,7 +110,6 @@ impl Alarm {
         Self { concern: Some(concern), ..self }
     }
 
-    /// Creates the alarm of one file.
     pub(crate) fn of_file(kind: AlarmKind, words: &str, file: &str) -> Self {
         Self::of_files(kind, words.to_owned(), vec![file.to_owned()])
     }

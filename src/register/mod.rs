@@ -114,7 +114,6 @@ pub struct Examined {
     failed: Option<CheckName>,
 }
 
-/// Predecessor of a passport.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct Predecessor {
     id: String,

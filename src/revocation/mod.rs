@@ -19,7 +19,6 @@ use crate::text::{Path, Printable, Problems, canonical, record};
 use crate::trust::{AllowedSigners, BadIdentity, NotAuthorised, RevokedKeys, SignatureError};
 use jiff::Timestamp;
 
-/// Format name of a list.
 pub(crate) const REVOCATION_FORMAT: &str = "dtg-revocation/1";
 
 /// Returns `true` if the file states the format of such a list.
@@ -27,7 +26,6 @@ pub(crate) fn claims_to_be_a_list(bytes: &[u8]) -> bool {
     memchr::memmem::find(bytes, b"format: \"dtg-revocation/").is_some()
 }
 
-/// Namespace of the signatures of lists.
 pub(crate) const REVOCATION_NAMESPACE: &str = "dtg-revocation";
 
 record! {
@@ -250,7 +248,6 @@ impl RevocationList {
         format!("revocation-{}.yaml", self.sequence)
     }
 
-    /// Returns the text to be signed.
     fn payload(&self) -> String {
         let comments = |path: &str| match path {
             "format" => vec![
@@ -278,9 +275,6 @@ impl RevocationList {
 
     /// Signs the list and verifies it with `signers` and `revoked_keys`, because a list that its recipients cannot
     /// verify would withdraw nothing. Returns the whole file.
-    ///
-    /// # Errors
-    /// Returns the errors of [`RevocationList::sign`], and [`NoNewList::Refused`] if the list fails verification.
     pub(crate) fn sign_for(
         &self,
         name: &str,

@@ -107,7 +107,6 @@ impl Series {
         self.lists
     }
 
-    /// Returns the alarms of the series.
     pub(crate) fn alarms(&self) -> &[SeriesAlarm] {
         &self.alarms
     }

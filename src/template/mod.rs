@@ -190,7 +190,6 @@ pub(crate) fn site(id: &str, place: Option<Place>, height_m: Option<f64>) -> Str
     lines.concat()
 }
 
-/// Gyro type: the paper's.
 pub(crate) const GYRO: &str = r#"# Gyro type (dtg-gyro/1). The numbers are those of the paper's gyro; replace them by those of the type.
 format: "dtg-gyro/1"
 type: "GVK-6"                        # CHANGE
@@ -209,7 +208,6 @@ tolerance:                           # largest permitted deviations from the nom
 # noise: {visit_deg_per_h: 0.001, turn_on_deg_per_h: 0.005}    # of the drift, from visit to visit and between turn-ons
 "#;
 
-/// Laboratory with the paper's meter.
 pub(crate) const LABORATORY: &str = r#"# Laboratory (dtg-laboratory/1). All numbers but the range are standard uncertainties (k = 1): divide the limits of a
 # data sheet by 1.73. Replace them by those of your meter, gyro seat and base.
 format: "dtg-laboratory/1"
@@ -229,7 +227,6 @@ seating_arcsec:                      # of the gyro on the platform
 # temperature_c: 21.0
 "#;
 
-/// Administrative data of a Digital Calibration Certificate.
 pub(crate) const DCC: &str = r#"# Administrative data of a Digital Calibration Certificate (dtg-dcc/1): what PTB's format demands and no passport states.
 # Replace every CHANGE; delete the lines that do not apply. What the passport states is not repeated here.
 format: "dtg-dcc/1"

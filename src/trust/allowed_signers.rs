@@ -77,7 +77,6 @@ impl AllowedSigners {
         Ok(Self { lines: kept })
     }
 
-    /// Returns the lines, one for each key.
     pub(crate) fn lines(&self) -> &[SignerLine] {
         &self.lines
     }

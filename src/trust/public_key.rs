@@ -105,7 +105,8 @@ fn not_a_public_key<T>(found: &str) -> Result<T, KeyError> {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct AnyKey {
     algorithm: &'static str,
-    blob: Vec<u8>,
+    /// Key as SSH transmits it.
+    pub(super) blob: Vec<u8>,
 }
 
 impl AnyKey {
@@ -138,11 +139,6 @@ impl AnyKey {
         let key = ssh_key::PublicKey::from_bytes(&self.blob)
             .map_err(|error| KeyError::DamagedPublicKey(error.to_string()))?;
         PublicKey::from_data(key.key_data().clone())
-    }
-
-    /// Returns the key as SSH transmits it.
-    pub(super) fn into_blob(self) -> Vec<u8> {
-        self.blob
     }
 }
 

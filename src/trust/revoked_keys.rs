@@ -1,7 +1,6 @@
 //! Revoked keys: OpenSSH's key revocation list (`ssh-keygen -k`), or a list of public keys, one per line.
 
 use super::krl::{self, Revoked};
-use super::public_key::AnyKey;
 use super::signer_line::read_key;
 use super::{PublicKey, lines};
 use crate::text::Unreadable;
@@ -74,7 +73,7 @@ fn text(name: &str, bytes: &[u8]) -> Result<Revoked, Unreadable> {
         line.control_character().map_or_else(|| read_key(line, start), Err).map_err(|problem| vec![problem])
     };
     let keys = lines::each(name, &lines::of(name, bytes)?, read)?;
-    revoked.keys.extend(keys.into_iter().map(AnyKey::into_blob));
+    revoked.keys.extend(keys.into_iter().map(|key| key.blob));
     Ok(revoked)
 }
 

@@ -60,7 +60,7 @@ pub(super) fn read(line: &Line) -> Result<SignerLine, Vec<Problem>> {
         key_at = blanks(line.text, end);
     }
     match read_key(line, key_at) {
-        Ok(key) => signer.key = key.into_blob(),
+        Ok(key) => signer.key = key.blob,
         Err(problem) => problems.push(problem),
     }
     if problems.is_empty() { Ok(signer) } else { Err(problems) }
@@ -74,7 +74,6 @@ fn blanks(text: &str, at: usize) -> usize {
     text.len() - rest.trim_start_matches(BLANKS).len()
 }
 
-/// Returns the word that begins at `at`.
 fn word(text: &str, at: usize) -> &str {
     text[at..].split(BLANKS).next().unwrap_or_default()
 }
@@ -135,7 +134,6 @@ fn length_before(ends: &[char], text: &str) -> Result<usize, usize> {
 }
 
 impl SignerLine {
-    /// Reads the options between `start` and `end`.
     fn read_options(&mut self, line: &Line, start: usize, end: usize, problems: &mut Vec<Problem>) {
         let mut seen = Vec::new();
         let mut at = start;

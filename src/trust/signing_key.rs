@@ -117,9 +117,6 @@ impl SigningKey {
     }
 
     /// Signs a message that is already hashed.
-    ///
-    /// # Errors
-    /// Returns [`KeyError::Namespace`] if the namespace is empty.
     pub(crate) fn sign_message(&self, message: &Message) -> Result<Signature, KeyError> {
         let bytes = self.key.sign(message.signed.as_deref().ok_or(KeyError::Namespace)?).to_bytes();
         let key: KeyData = ssh_key::public::Ed25519PublicKey(self.key.verifying_key().to_bytes()).into();
@@ -153,10 +150,6 @@ fn decrypted(file: &PrivateKey, passphrase: Option<&str>) -> Result<PrivateKey, 
 
 impl PublicKey {
     /// Reads the public half of a key from the text of its file, private or public. It is not encrypted in either.
-    ///
-    /// # Errors
-    /// Returns the errors of [`PublicKey::from_openssh`], and [`KeyError::NotAPrivateKey`] or
-    /// [`KeyError::DamagedPrivateKey`] for a private key file in another format, or a damaged one.
     pub(crate) fn of_key_file(text: &str) -> Result<Self, KeyError> {
         let text = text.trim_start_matches('\u{feff}').trim();
         if !text.contains("PRIVATE KEY-----") {

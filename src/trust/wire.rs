@@ -19,14 +19,12 @@ impl From<Truncated> for String {
 /// Reader of binary data that knows its offset from the start of the file.
 #[derive(Debug, Clone)]
 pub(super) struct Wire<'a> {
-    /// Remaining bytes.
     pub(super) rest: &'a [u8],
     /// Offset from the start of the file, in bytes.
     pub(super) offset: usize,
 }
 
 impl<'a> Wire<'a> {
-    /// Creates a reader at the beginning of `bytes`.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         Self { rest: bytes, offset: 0 }
     }
@@ -46,7 +44,6 @@ impl<'a> Wire<'a> {
         Ok(array)
     }
 
-    /// Reads one byte.
     pub(super) fn byte(&mut self) -> Result<u8, Truncated> {
         self.array::<1>().map(|[byte]| byte)
     }

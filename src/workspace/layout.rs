@@ -7,7 +7,6 @@ use crate::text::rule;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Folders of a workspace.
 const FOLDERS: [&str; 5] = ["stands", "sites", "readings", "passports", LISTS_FOLDER];
 
 const GITIGNORE: &str = "# Private keys stay on the machine that signs.\n*.key\n";
@@ -55,9 +54,6 @@ pub(crate) enum NotMade {
 ///
 /// Existing files are replaced only with `force`; without it nothing is written if one exists. After an error, the new
 /// files and folders are removed.
-///
-/// # Errors
-/// Returns [`NotMade`] if a file exists or cannot be written.
 pub(crate) fn make(root: &Path, identity: Option<&str>, force: bool) -> Result<Vec<PathBuf>, NotMade> {
     let written = [
         (root.join(WORKSPACE_FILE), settings(identity)?),

@@ -26,38 +26,28 @@ const KEYS: [&str; 6] = ["key", "identity", "trust", "passports", "stands", "sit
 /// Workspace: the values that the options of commands have if they are not given. Paths begin with that of its folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Workspace {
-    /// Folder of the workspace.
     pub root: PathBuf,
-    /// Signing key.
     pub key: Option<PathBuf>,
     /// Issuer: the principal of the key in `trust`.
     pub identity: Option<String>,
     /// Trusted signing keys (allowed_signers).
     pub trust: Option<PathBuf>,
-    /// Folder of passports.
     pub passports: Option<PathBuf>,
-    /// Folder of stand files.
     pub stands: Option<PathBuf>,
-    /// Folder of site files.
     pub sites: Option<PathBuf>,
 }
 
 /// Reason why a workspace cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum NoWorkspace {
-    /// File that cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// File with mistakes.
     #[error(transparent)]
     Unreadable(#[from] Unreadable),
 }
 
 impl Workspace {
     /// Reads the workspace in the folder `root`.
-    ///
-    /// # Errors
-    /// Returns [`NoWorkspace`] if `root` has no readable `dtg-passport.toml`, or for mistakes in it.
     pub(crate) fn read(root: &Path) -> Result<Self, NoWorkspace> {
         let path = root.join(WORKSPACE_FILE);
         let bytes = files::read(&path, LARGEST_DOCUMENT_BYTES)?;

@@ -27,7 +27,6 @@ const SOON_DAYS: u32 = 90;
 /// Most lines of one kind in the text; the rest is counted.
 const MOST_LINES: usize = 20;
 
-/// What a workspace holds.
 #[derive(Debug, Serialize)]
 pub(crate) struct Status {
     workspace: String,
@@ -89,9 +88,6 @@ struct SigningKeyLine {
 }
 
 /// Returns what `workspace` holds at `time`; without `trust`, passports are not examined.
-///
-/// # Errors
-/// Returns [`FileError::Read`] if a folder that the workspace states cannot be read.
 pub(crate) fn status(workspace: &Workspace, trust: Option<&Trust>, time: Timestamp) -> Result<Status, FileError> {
     let mut remarks = Vec::new();
     let stands = stands(workspace, time, &mut remarks)?;
@@ -181,24 +177,17 @@ fn keys(trust: &Trust, time: Timestamp) -> Vec<KeyLine> {
     lines.collect()
 }
 
-/// Returns the public half of the signing key. It is in both files of a key, and never encrypted.
-fn public_half(key: &Path) -> Result<PublicKey, String> {
-    signing::key_to_sign_with(key).map_err(|error| match &error {
+/// Describes the signing key by its public half, which is in both files of a key and never encrypted.
+fn signing_key(key: &Path, workspace: &Workspace, trust: Option<&Trust>, time: Timestamp) -> SigningKeyLine {
+    let found = signing::key_to_sign_with(key);
+    let mut why = found.as_ref().err().map(|error| match error {
         KeyFileError::File(file) if file.is_missing() => format!(
             "{}: missing; create the key with `keygen`, or state the path of yours as `key` in {WORKSPACE_FILE}",
             shown(key)
         ),
         _ => error.to_string(),
-    })
-}
-
-/// Describes the signing key by its public half, because the private one is secret.
-fn signing_key(key: &Path, workspace: &Workspace, trust: Option<&Trust>, time: Timestamp) -> SigningKeyLine {
-    let found = public_half(key);
-    let (fingerprint, mut why) = match &found {
-        Ok(key) => (Some(key.fingerprint()), None),
-        Err(why) => (None, Some(why.clone())),
-    };
+    });
+    let fingerprint = found.as_ref().ok().map(PublicKey::fingerprint);
     let asked = found.ok().zip(workspace.identity.as_deref()).zip(trust);
     let trusted = asked.map(|((key, identity), trust)| {
         let refused = signing::distrust(trust, &key, identity, time);
