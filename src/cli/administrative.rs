@@ -32,7 +32,6 @@ impl AdministrativeFile {
         Ok(Self { name, text, content: Some(content) })
     }
 
-    /// Returns the content, or `None` without a file.
     pub(super) fn content(&self) -> Option<&Administrative> {
         self.content.as_ref()
     }

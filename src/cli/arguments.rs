@@ -109,16 +109,15 @@ fn advice(error: &clap::Error) -> String {
 
 /// Returns clap's words with its descriptions of numbers replaced by those that users know.
 fn clearer(words: &str) -> String {
-    let line = |line: &str| match line.split_once(" is not in ").and_then(|(before, range)| {
-        let (first, last) = range.trim_end().split_once("..=").or(range.trim_end().split_once(".."))?;
+    let range = |line: &str| {
+        let (before, range) = line.trim_end().split_once(" is not in ")?;
+        let (first, last) = range.split_once("..=").or(range.split_once(".."))?;
         let (option, _) = before.rsplit_once(": ")?;
         let up_to = if last == u64::MAX.to_string() { String::new() } else { format!(" to {last}") };
         Some(format!("{option}: expected a whole number from {first}{up_to}\n"))
-    }) {
-        Some(line) => line,
-        None => line.to_owned(),
     };
-    let words: String = words.split_inclusive('\n').map(line).collect();
+    let words: String =
+        words.split_inclusive('\n').map(|line| range(line).unwrap_or_else(|| line.to_owned())).collect();
     words
         .replace(": invalid digit found in string", ": expected a whole number")
         .replace(": invalid float literal", ": expected a number with a decimal point")

@@ -143,8 +143,7 @@ fn temperature(text: &str) -> Result<f64, String> {
 
 /// Parses a stop limit: the largest change in the last step of the iteration.
 fn limit(text: &str) -> Result<f64, String> {
-    let value = text.parse().ok().filter(|value| (0.0..f64::INFINITY).contains(value));
-    value.ok_or_else(|| "a number ≥ 0, with a decimal point".to_owned())
+    inputs::number(text, 0.0..f64::INFINITY, "a number ≥ 0".to_owned())
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
@@ -289,7 +288,10 @@ impl Bench<'_> {
                 warnings.iter().for_each(|warning| output::complain(warning));
                 output::json(&found.whole())?;
             }
-            Format::Text => output::text(&self.text(&found))?,
+            Format::Text => {
+                let text = report::text(done, self.gyro_name(), options.laboratory.is_none());
+                output::text(&(text + &found.uncertainty.text()))?;
+            }
         }
         Ok(found.code())
     }
@@ -357,7 +359,6 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// Returns the name of the gyro type, if one was given.
     fn gyro_name(&self) -> Option<&str> {
         self.gyro_type.as_ref().map(|gyro_type| gyro_type.r#type.as_str())
     }
@@ -382,7 +383,6 @@ impl Bench<'_> {
         Ok(page.html(&languages(&self.options.lang)))
     }
 
-    /// Writes the gyro's certificate.
     fn write_dcc(&self, path: &Path, calibrated: &Calibrated) -> Result<(), Failure> {
         let dcc = dcc::of_gyro(calibrated, self.administrative.content(), Some(&languages(&self.options.lang)));
         let refused = |problems| Failure::unreadable(self.administrative.refuse(problems));
@@ -390,10 +390,6 @@ impl Bench<'_> {
         output::saved(path, &dcc.xml, self.options.uncertainty.force)?;
         output::say("the DCC is not signed; the passport of the stand is, and its SHA-256 is in the DCC");
         Ok(())
-    }
-
-    fn text(&self, found: &Found) -> String {
-        report::text(&found.done, self.gyro_name(), self.options.laboratory.is_none()) + &found.uncertainty.text()
     }
 }
 
@@ -437,11 +433,10 @@ fn used<'a>(passport: &'a Read, verifier: Option<&'a Verifier>) -> Result<UsedPa
     let Some((verification, Verifier { trust, question, .. })) = verification.as_ref().zip(verifier) else {
         return Ok(UsedPassport::NotVerified { content, sha256: sha256_hex(bytes) });
     };
-    match PassportPage::of(bytes, trust, question, verification.clone()) {
-        Ok(page) => Ok(UsedPassport::Verified(Box::new(page))),
-        // The passport has just passed every check.
-        Err(_) => Err(Failure::refused("the passport cannot be used in a report")),
-    }
+    let page = PassportPage::of(bytes, trust, question, verification.clone());
+    // The passport has just passed every check.
+    let page = page.map_err(|_| Failure::refused("the passport cannot be used in a report"))?;
+    Ok(UsedPassport::Verified(Box::new(page)))
 }
 
 /// Reads the previous results, from the earliest to the latest.

@@ -33,9 +33,6 @@ pub(super) fn workspace() -> Option<&'static Workspace> {
 }
 
 /// Adds the options that are not given, and returns them in words.
-///
-/// # Errors
-/// Returns a failure if a workspace is named but cannot be read.
 pub(super) fn add(arguments: &mut Vec<OsString>) -> Result<Vec<String>, Failure> {
     // What this pass cannot parse, the next one refuses.
     let command = help::command();
@@ -49,7 +46,9 @@ pub(super) fn add(arguments: &mut Vec<OsString>) -> Result<Vec<String>, Failure>
     let workspace = folder.map(|folder| Workspace::read(&folder).map_err(|error| no_workspace(&folder, error)));
     let workspace = workspace.transpose()?;
     let mut added: Vec<Added> = Vec::new();
-    if let Some((verb, of_command, of_verb)) = verb(&command, &matches) {
+    if let Some((verb, of_verb)) = matches.subcommand()
+        && let Some(of_command) = command.find_subcommand(verb)
+    {
         added.extend(values(workspace.as_ref(), verb).filter(|(option, ..)| lacks(of_command, of_verb, option)));
         let root = workspace.as_ref().and_then(|workspace| workspace.passports.clone());
         let given = |id: &str| of_verb.value_source(id).is_some();
@@ -133,12 +132,6 @@ fn values(workspace: Option<&Workspace>, verb: &str) -> impl Iterator<Item = Add
 
 fn variable(name: &str) -> Option<OsString> {
     std::env::var_os(name).filter(|value| !value.is_empty())
-}
-
-/// Returns the verb, without and with its arguments.
-fn verb<'a>(command: &'a Command, matches: &'a ArgMatches) -> Option<(&'a str, &'a Command, &'a ArgMatches)> {
-    let (name, matches) = matches.subcommand()?;
-    Some((name, command.find_subcommand(name)?, matches))
 }
 
 /// Returns `true` if the verb has an option that is neither given nor excluded by another one.

@@ -27,7 +27,6 @@ fn exclusion(text: &str) -> Result<Excluded, String> {
 }
 
 impl ExclusionOptions {
-    /// Returns the exclusions with their reasons.
     pub(super) fn excluded(&self) -> Result<Vec<Excluded>, Failure> {
         let reasons = reasons(self.exclude.len(), &self.why)?;
         let each = self.exclude.iter().zip(reasons).map(|(excluded, why)| Excluded { why, ..excluded.clone() });

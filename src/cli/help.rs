@@ -93,7 +93,6 @@ pub(super) fn command() -> Command {
     })
 }
 
-/// Returns the examples of a verb.
 fn examples(verb: &str) -> impl Iterator<Item = &'static str> {
     EXAMPLES.into_iter().filter(move |example| example.split(' ').next() == Some(verb))
 }
@@ -113,16 +112,12 @@ pub(super) fn fitted(words: &str) -> String {
 
 /// Returns a usage with non-breaking spaces between each option and its value.
 fn unbroken(usage: &str) -> String {
-    let mut words = usage.split(' ').peekable();
-    let mut text = String::new();
-    while let Some(word) = words.next() {
-        text += word;
-        if words.peek().is_some() {
-            let is_option = style::plain(word).trim_start_matches('<').starts_with("--");
-            text.push(if is_option { '\u{A0}' } else { ' ' });
-        }
-    }
-    text
+    let is_option = |word: &str| style::plain(word).trim_start_matches('<').starts_with("--");
+    let word = |word: &str| match word.strip_suffix(' ') {
+        Some(option) if is_option(option) => format!("{option}\u{A0}"),
+        _ => word.to_owned(),
+    };
+    usage.split_inclusive(' ').map(word).collect()
 }
 
 /// Returns the version, the commit if the build was told it, and the formats.

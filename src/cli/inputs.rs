@@ -15,6 +15,7 @@ use crate::stand::Stand;
 use crate::text::kind::Kind;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, Unreadable, name_of, printable, shown};
 use serde::Serialize;
+use std::ops::RangeBounds;
 use std::path::{Path, PathBuf};
 
 /// A header of a certification, in words.
@@ -37,7 +38,6 @@ pub(super) fn document<T>(
     reader(&name_of(path), &bytes(path, expected)?).map_err(Failure::unreadable)
 }
 
-/// Reads a stand file.
 pub(super) fn stand(path: &Path) -> Result<Stand, Failure> {
     document(path, Kind::Stand.words(), Stand::from_yaml)
 }
@@ -68,6 +68,11 @@ pub(super) fn gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
 /// Reads a laboratory file, or returns the paper's meter without a path.
 pub(super) fn laboratory(path: Option<&Path>) -> Result<Laboratory, Failure> {
     path.map_or_else(|| Ok(Laboratory::paper()), |path| document(path, Kind::Laboratory.words(), Laboratory::from_yaml))
+}
+
+/// Parses a number within limits; `expected` describes it.
+pub(super) fn number(text: &str, limits: impl RangeBounds<f64>, expected: String) -> Result<f64, String> {
+    text.parse().ok().filter(|value| limits.contains(value)).ok_or(expected + ", with a decimal point")
 }
 
 /// Result of a verb for one of several inputs.
@@ -117,7 +122,6 @@ fn refused<T>((file, failure): (String, Failure)) -> Each<T> {
     Each::Refused { file, refusal: failure.failed }
 }
 
-/// Prints JSON on one line.
 pub(super) fn json_line(value: &impl Serialize) -> Result<(), Failure> {
     output::result(&(printable::json_line(value).map_err(Failure::unusable)? + "\n"))
 }

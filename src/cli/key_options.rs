@@ -31,12 +31,10 @@ pub(super) fn with_pub(path: &Path) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// Parses an identity given as an option.
 pub(super) fn identity(text: &str) -> Result<String, BadIdentity> {
     check_identity(text).map(|()| text.to_owned())
 }
 
-/// Returns the signer for a key file.
 pub(super) fn signer_of(key: &Path) -> Result<Box<dyn Signer + Sync>, Failure> {
     signing::forbid_core_dumps();
     signing::signer(key, &ask).map_err(unusable)

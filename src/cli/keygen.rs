@@ -61,12 +61,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let public = format!("{} {identity}\n", key.public_key().to_openssh());
     files::write_new(&public_path, public.as_bytes(), Access::Shared).map_err(Failure::file)?;
     let wrote = format!("wrote {} (keep it secret) and {}", shown(&options.key), shown(&public_path));
-    let appended = signers.map(|path| (path, signing::append_signer(path, &line)));
-    let (appended_to, failed) = match appended {
-        Some((path, Ok(()))) => (Some(path), None),
-        Some((_, Err(failed))) => (None, Some(failed)),
-        None => (None, None),
-    };
+    let failed = signers.and_then(|path| signing::append_signer(path, &line).err());
+    let appended_to = signers.filter(|_| failed.is_none());
     match appended_to {
         Some(path) => output::say(&format!("{wrote}; appended the line of the key to {}", shown(path))),
         None => output::say(&format!("{wrote}; add this line to allowed_signers:")),

@@ -23,7 +23,6 @@ pub(super) fn bar(length: u64, template: &str) -> Result<ProgressBar, Failure> {
     Ok(bar)
 }
 
-/// Reports that trials were interrupted.
 pub(super) fn report_interruption(cancel: &AtomicBool) {
     if cancel.load(Ordering::Relaxed) {
         output::say("interrupted; the result is from the trials completed so far");

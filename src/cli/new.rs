@@ -66,8 +66,7 @@ enum Kind {
 }
 
 fn height(text: &str) -> Result<f64, String> {
-    let height = text.parse().ok().filter(|height| (-500.0..=9000.0).contains(height));
-    height.ok_or_else(|| "a height from -500 to 9000 metres, with a decimal point".to_owned())
+    inputs::number(text, -500.0..=9000.0, "a height from -500 to 9000 metres".to_owned())
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {

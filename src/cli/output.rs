@@ -84,7 +84,6 @@ pub(super) fn own(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Writes a result as JSON.
 pub(super) fn json(value: &impl Serialize) -> Result<(), Failure> {
     let text = printable::json(value).map_err(Failure::unusable)?;
     result(&(text + "\n"))

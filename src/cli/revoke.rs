@@ -56,8 +56,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
             Failure::refused(format!("{}: cannot be withdrawn: {words}", shown(&path)))
         })?);
     }
-    let (count, ids) = (lists.count() + entries.len(), entries.iter().map(|entry| entry.id.clone()));
-    let ids: Vec<String> = ids.collect();
+    let count = lists.count() + entries.len();
+    let ids: Vec<String> = entries.iter().map(|entry| entry.id.clone()).collect();
     let list = lists.following(&options.key.identity, now(), entries).map_err(Failure::refused)?;
     let signer = signer_of(&options.key.key)?;
     let path = options.list.join(list.file_name());

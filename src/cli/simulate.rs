@@ -92,18 +92,11 @@ struct ConvergenceArguments {
 }
 
 fn limit(text: &str) -> Result<f64, String> {
-    bounded(text, 0.0, LARGEST_DEVIATION_DEG)
+    inputs::number(text, 0.0..=LARGEST_DEVIATION_DEG, format!("a number from 0 to {LARGEST_DEVIATION_DEG}"))
 }
 
 fn percent(text: &str) -> Result<f64, String> {
-    bounded(text, 0.0, 10.0)
-}
-
-fn bounded(text: &str, low: f64, high: f64) -> Result<f64, String> {
-    text.parse()
-        .ok()
-        .filter(|value| (low..=high).contains(value))
-        .ok_or_else(|| format!("a number from {low} to {high}, with a decimal point"))
+    inputs::number(text, 0.0..=10.0, "a number from 0 to 10".to_owned())
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {

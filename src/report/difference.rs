@@ -60,12 +60,8 @@ pub(crate) fn text(a: &Side, b: &Side, found: &Differences) -> String {
         let _ = writeln!(out, "\nThe contents are equal: {} numbers and all texts.", found.compared);
         return out;
     }
-    let _ = writeln!(
-        out,
-        "\n{} of {} numbers differ. u: standard uncertainty (k = 1) of B - A.",
-        found.numbers.len(),
-        found.compared
-    );
+    let (differ, all) = (found.numbers.len(), found.compared);
+    let _ = writeln!(out, "\n{differ} of {all} numbers differ. u: standard uncertainty (k = 1) of B - A.");
     if !found.numbers.is_empty() {
         numbers(&mut out, &found.numbers);
     }

@@ -5,7 +5,7 @@ use crate::passport::Content;
 use crate::passport::content::Rows;
 use crate::report::{columns, deviations, style};
 use crate::stand::{Evidence, TypeB};
-use crate::text::number;
+use crate::text::number::decimal;
 use crate::units::printed;
 use std::fmt::{Display, Write};
 
@@ -103,21 +103,12 @@ fn positions(out: &mut String, content: &Content) {
     if with_freedom {
         names.push("deg. of freedom");
     }
-    let number = |value: f64| number::decimal(value);
-    let maybe = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), number);
+    let maybe = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), decimal);
     let rows = content.positions.iter().map(|at| {
-        let mut row = vec![
-            at.i.to_string(),
-            at.j.to_string(),
-            number(at.theta_deg),
-            number(at.phi_deg),
-            number(at.alpha_arcsec),
-            maybe(at.u_alpha_arcsec),
-            number(at.beta_arcsec),
-            maybe(at.u_beta_arcsec),
-            number(at.gamma_arcsec),
-            maybe(at.u_gamma_arcsec),
-        ];
+        let mut row = vec![at.i.to_string(), at.j.to_string(), decimal(at.theta_deg), decimal(at.phi_deg)];
+        for (angle, u) in at.angles_arcsec().into_iter().zip(at.u_arcsec()) {
+            row.extend([decimal(angle), maybe(u)]);
+        }
         if with_freedom {
             row.push(maybe(at.degrees_of_freedom));
         }
@@ -135,13 +126,9 @@ fn with_u(u: Option<f64>) -> String {
 
 /// Returns a value to the digits of its standard uncertainty, and the uncertainty; all digits if it is `None`.
 fn measured(value: f64, u: Option<f64>) -> String {
-    u.map_or_else(
-        || value.to_string(),
-        |u| {
-            let digits = columns::decimals(u);
-            format!("{value:.digits$}, u {u:.digits$}")
-        },
-    )
+    let Some(u) = u else { return value.to_string() };
+    let digits = columns::decimals(u);
+    format!("{value:.digits$}, u {u:.digits$}")
 }
 
 fn site(out: &mut String, content: &Content) {

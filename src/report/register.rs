@@ -6,7 +6,6 @@ use crate::text::{Printable, printable};
 use std::fmt::Write;
 
 impl State {
-    /// Returns the name of the state in words.
     pub(crate) fn words(self) -> String {
         if self == Self::Broken { "BROKEN".to_owned() } else { self.key().replace('_', " ") }
     }

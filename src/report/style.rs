@@ -3,7 +3,6 @@
 use crate::text::printable;
 use anstyle::{AnsiColor, Style};
 
-/// Formats a heading.
 pub(crate) fn heading(words: &str) -> String {
     styled(Style::new().bold(), words)
 }
@@ -13,7 +12,6 @@ pub(crate) fn faint(words: &str) -> String {
     styled(Style::new().dimmed(), words)
 }
 
-/// Formats a good result.
 pub(crate) fn good(words: &str) -> String {
     styled(AnsiColor::Green.on_default().bold(), words)
 }

@@ -27,12 +27,8 @@ pub(crate) fn text(verdicts: &[Verdict]) -> String {
                 Some(false) => style::bad(&format!("{} FAILED   ", style::FAILED)),
                 None => "- not run  ".to_owned(),
             };
-            let _ = writeln!(
-                text,
-                "  {mark}  {:<10}  {}",
-                check.name.as_str(),
-                check.detail.replace('\n', "\n                           ")
-            );
+            let detail = check.detail.replace('\n', "\n                           ");
+            let _ = writeln!(text, "  {mark}  {:<10}  {detail}", check.name.as_str());
         }
     }
     text
