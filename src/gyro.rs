@@ -91,11 +91,11 @@ record! {
 }
 
 record! {
-    /// Noise of the gyro's own drift, each axis: standard deviations.
+    /// Noise of the gyro's own drift, each axis.
     pub struct GyroNoise {
-        /// From one visit of a position to the next. If absent: estimated from repeated visits.
+        /// Standard deviation of the drift between visits to a position. If absent: estimated from repeated visits.
         pub visit_deg_per_h: Option<f64>,
-        /// Of ω_0, from one turn-on to the next. If absent: estimated from repeated cycles.
+        /// Standard deviation of ω_0 between turn-ons. If absent: estimated from repeated cycles.
         pub turn_on_deg_per_h: Option<f64>,
     }
 }

@@ -144,7 +144,7 @@ struct Departure {
     current_ma: Vector2<f64>,
 }
 
-/// What the differences between visits say of x.
+/// Information on x from the differences between visits.
 pub(crate) struct Condensed {
     /// Rows for x, with unit covariance, and their right-hand side.
     rows: DMatrix<f64>,

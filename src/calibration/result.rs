@@ -110,7 +110,7 @@ pub enum MethodRefusal {
     /// Refusal of weighted least squares.
     #[error(transparent)]
     LeastSquares(#[from] NoLeastSquares),
-    /// One of the paper's methods, asked for another model than the paper's.
+    /// Method of the paper that was asked for another model than the paper's.
     #[error(
         "the method has only the paper's model with one constant drift; the general model, a drift in time, and turn-ons \
          that did not all visit the same positions need least squares"
@@ -133,7 +133,7 @@ pub struct Cycle {
 pub struct Drift {
     /// Drift about x and y, °/h per hour.
     pub deg_per_h_per_h: Vector2<f64>,
-    /// Its standard uncertainties, °/h per hour.
+    /// Standard uncertainties of the drift, °/h per hour.
     pub standard_uncertainty_deg_per_h_per_h: Vector2<f64>,
 }
 

@@ -65,7 +65,7 @@ fn words(error: &clap::Error) -> String {
     words.strip_prefix("error: ").unwrap_or(words).split('\n').map(printable).collect::<Vec<_>>().join("\n")
 }
 
-/// What a missing option is, and where it comes from.
+/// Meaning and source of each option that is often missing.
 const MISSING: [(&str, &str); 4] = [
     (
         "--trust",

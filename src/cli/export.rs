@@ -35,7 +35,7 @@ pub(super) struct Options {
     /// Passports; in a workspace also their identifiers
     #[arg(required = true, value_name = "PASSPORT", value_parser = defaults::passport())]
     passports: Vec<PathBuf>,
-    /// What to export, separated by commas
+    /// Forms to export, separated by commas
     #[arg(long, value_enum, value_delimiter = ',', required = true, value_name = "FORM")]
     to: Vec<Form>,
     #[command(flatten)]

@@ -144,7 +144,7 @@ pub(crate) struct Done {
     pub setup: Setup,
     pub readings: Readings,
     pub calibration: Calibration,
-    /// Inputs whose uncertainty nobody states.
+    /// Inputs without a stated uncertainty.
     pub missing: Vec<NotStated>,
     /// Result as `calibrate` writes it, with the verdict and the change.
     pub document: CalibrationDocument,

@@ -1,4 +1,4 @@
-//! What plans are compared by: one number from the information of all visits, smaller is better.
+//! Criteria by which plans are compared: one number from the information of all visits, smaller is better.
 //!
 //! All quantities are in units of the tolerances, so that parameters of different kinds can be added.
 

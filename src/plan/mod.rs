@@ -44,7 +44,7 @@ pub(crate) const MOST_READINGS: u32 = 256;
 /// Smallest growth of an uncertainty that is reported.
 const GROWTH: f64 = 1.005;
 
-/// What a plan is for.
+/// Purpose and limits of a plan.
 #[derive(Debug, Clone)]
 pub(crate) struct Question<'a> {
     /// Site; its azimuth of the frame's axis is replaced by each of `azimuths_deg`.
@@ -61,7 +61,7 @@ pub(crate) struct Question<'a> {
     pub readings: u32,
     /// Azimuths of the frame's axis to choose from, degrees; at least one.
     pub azimuths_deg: Vec<f64>,
-    /// What plans are compared by.
+    /// Criterion by which plans are compared.
     pub criterion: Criterion,
 }
 

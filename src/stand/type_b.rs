@@ -6,7 +6,7 @@ use crate::coefficients::PositionIndex;
 use crate::text::{Path, Problems, record, word_of_a_key, words};
 
 words! {
-    /// What a contribution of type B turns.
+    /// Part of the stand that a contribution of type B rotates.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     #[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(rename_all = "snake_case"))]
     #[non_exhaustive]

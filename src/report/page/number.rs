@@ -156,8 +156,7 @@ impl Number {
     }
 }
 
-/// What follows the decimal mark of a printed number: the mark itself, digits, spaces between their groups, and a power
-/// of ten.
+/// Part of a printed number from its decimal mark on: the mark, digits, spaces between their groups, and a power of ten.
 #[derive(Debug, Clone, Default)]
 struct Tail {
     /// Number of characters of each of the `KINDS`.

@@ -250,7 +250,7 @@ pub(crate) struct Column {
     pub heading: Markup,
     /// A cell for each row.
     pub cells: Vec<Markup>,
-    /// What stands below the cells, such as the axis of strips. Most columns have nothing there.
+    /// Content below the cells, such as the axis of strips; empty in most columns.
     pub foot: Markup,
 }
 
