@@ -252,7 +252,7 @@ fn of_gyro_and_meter(setup: &Setup, repeats: &Repeats, estimates: &Estimates) ->
 
 impl Input {
     /// Creates an input, or returns `None` if its uncertainty is 0.
-    fn new(cause: Cause, standard_uncertainty: f64, basis: Basis, degrees_of_freedom: f64) -> Option<Self> {
+    pub(crate) fn new(cause: Cause, standard_uncertainty: f64, basis: Basis, degrees_of_freedom: f64) -> Option<Self> {
         let input = Self { cause, standard_uncertainty, degrees_of_freedom, basis };
         (standard_uncertainty > 0.0).then_some(input)
     }

@@ -5,8 +5,8 @@
 //! platform, seat and repeatability). A small rotation by a vector δ is exactly v + s₁ v×δ + s₂ (v×δ)×δ with
 //! s₁ = sin|δ|/|δ| and s₂ = (1 − cos|δ|)/δ².
 
-use super::plan::{Drawn, Plan, Slot};
-use crate::calibration::Setup;
+use super::plan::{BASE_AT_SITE, Plan, Slot};
+use crate::calibration::{Cause, Setup};
 use crate::statistics::elementary::{SMALL_RAD, small_cos_less_one, small_sin};
 use crate::statistics::wide_random::{Column, WIDTH};
 use nalgebra::{Matrix3, Vector2, Vector3};
@@ -76,9 +76,9 @@ const LARGEST_NORMAL: f64 = 8.5;
 impl Kernel {
     pub(crate) fn new(setup: &Setup, means_ma: &[Vector2<f64>], plan: &Plan) -> Self {
         let earth = setup.earth_rate_east_north_up();
-        let each = setup.turns.iter().zip(means_ma).enumerate();
+        let each = setup.coefficients().positions.iter().zip(&setup.turns).zip(means_ma);
         let places: Vec<Place> = each
-            .map(|(place, (turn, means_ma))| {
+            .map(|((at, turn), means_ma)| {
                 let certified = turn.certified;
                 let angles_rad = [certified.alpha_rad, certified.beta_rad, certified.gamma_rad];
                 Place {
@@ -87,18 +87,18 @@ impl Kernel {
                     vertical: turn.nominal.column(2).into_owned(),
                     earth: turn.nominal * earth,
                     nominal: turn.nominal,
-                    angles: [0, 1, 2].map(|angle| plan.slot(Drawn::Angle(place, angle))),
-                    returns: [0, 1, 2].map(|axis| plan.slot(Drawn::Return(place, axis))),
+                    angles: [0, 1, 2].map(|angle| plan.slot(Cause::Angle(at.index, angle))),
+                    returns: [0, 1, 2].map(|axis| plan.slot(Cause::Return(at.index, axis))),
                     means_ma: *means_ma,
-                    currents: [0, 1].map(|axis| plan.slot(Drawn::Current(place, axis))),
-                    noise: [0, 1].map(|axis| plan.slot(Drawn::Noise(place, axis))),
-                    visits: [0, 1].map(|axis| plan.slot(Drawn::Visits(place, axis))),
+                    currents: [0, 1].map(|axis| plan.slot(Cause::Reading(at.index, axis))),
+                    noise: [0, 1].map(|axis| plan.slot(Cause::Noise(at.index, axis))),
+                    visits: [0, 1].map(|axis| plan.slot(Cause::Visits(at.index, axis))),
                 }
             })
             .collect();
-        let case = [0, 1, 2].map(|axis| [Drawn::Case(axis), Drawn::Platform(axis)].map(|what| plan.slot(what)));
-        let base = [0, 1, 2].map(|axis| [Drawn::Base(axis), Drawn::StandBase(axis)].map(|what| plan.slot(what)));
-        let latitude = plan.slot(Drawn::Latitude);
+        let case = [0, 1, 2].map(|axis| [Cause::Seat(axis), Cause::Platform(axis)].map(|cause| plan.slot(cause)));
+        let base = [0, 1, 2].map(|axis| [BASE_AT_SITE[axis], Cause::Base(axis)].map(|cause| plan.slot(cause)));
+        let latitude = plan.slot(Cause::Latitude);
         let drawn = |inputs: &[Scaled]| inputs.iter().any(|(slot, _)| *slot > 0);
         let case_turns = drawn(case.as_flattened()) || places.iter().any(|place| drawn(&place.returns));
         let base_turns = drawn(base.as_flattened()) || drawn(&[latitude]);
@@ -110,8 +110,8 @@ impl Kernel {
             .chain(base.as_flattened());
         let largest = largest.chain([&latitude]).fold(0.0, |largest: f64, (_, u)| largest.max(*u));
         let may_be_large = plan.has_long_tails() || 4.0 * LARGEST_NORMAL * largest > SMALL_RAD;
-        let (gain, offset) = (plan.slot(Drawn::Gain), plan.slot(Drawn::Offset));
-        let turn_on = [0, 1].map(|axis| plan.slot(Drawn::TurnOn(axis)));
+        let (gain, offset) = (plan.slot(Cause::Gain), plan.slot(Cause::Offset));
+        let turn_on = [0, 1].map(|axis| plan.slot(Cause::TurnOn(axis)));
         let drifts = drawn(&turn_on) || places.iter().any(|place| drawn(&place.visits));
         Self {
             places,

@@ -5,66 +5,28 @@
 //! degrees of freedom (6.4.9).
 
 use super::{ReadingShape, student};
-use crate::calibration::Setup;
 use crate::calibration::estimates::{Basis, Estimates};
 use crate::calibration::repeats::Repeats;
+use crate::calibration::{Cause, Input, Setup};
 use crate::statistics::wide_random::{Column, WIDTH, WideRandom};
 use nalgebra::Vector2;
 
 /// Place of a column of standard deviates; column 0 is all zeros.
 pub(crate) type Slot = usize;
 
-/// Kind of an input of the engine.
-///
-/// Normal inputs that rotate the same part about the same axis are combined into one with the sum of their variances,
-/// so there are fewer inputs than in a budget.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Drawn {
-    /// Certified angle of the position at a place: 0, 1, 2 are α, β, γ.
-    Angle(usize, usize),
-    /// Repeatability of the position at a place, about axis 0, 1, 2 of the case.
-    Return(usize, usize),
-    /// Specification of the meter for a current (0 or 1) of the position at a place.
-    Current(usize, usize),
-    /// Noise of the readings of a current (0 or 1) of the position at a place, in their mean.
-    Noise(usize, usize),
-    /// Gyro noise of the position at a place, in the mean of its visits, about axis 0 or 1 of the case.
-    Visits(usize, usize),
-    /// Mean of the turn-ons, about axis 0 or 1 of the case.
-    TurnOn(usize),
-    /// Platform and seat, about axis 0, 1, 2 of the case.
-    Case(usize),
-    /// Platform alone, if its uncertainty is an estimate with few degrees of freedom.
-    Platform(usize),
-    /// Base, level, azimuth and mark, about axis 0, 1, 2 of the base.
-    Base(usize),
-    /// Base of the stand alone, if its uncertainty is an estimate with few degrees of freedom.
-    StandBase(usize),
-    /// Latitude and deflection.
-    Latitude,
-    /// Gain of the meter.
-    Gain,
-    /// Offset of the meter.
-    Offset,
-}
-
-/// Input that is drawn.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct DrawnInput {
-    /// Kind of the input.
-    pub what: Drawn,
-    /// Standard uncertainty: rad, mA, or a share.
-    pub standard_uncertainty: f64,
-    /// Degrees of freedom of that uncertainty.
-    pub degrees_of_freedom: f64,
-    basis: Basis,
-    shape: ReadingShape,
-}
+/// What the base adds to [`Cause::Base`] about its axes east, north and up: level, level, and azimuth with the mark.
+pub(crate) const BASE_AT_SITE: [Cause; 3] = [Cause::Level(0), Cause::Level(1), Cause::Azimuth];
 
 /// Inputs that are drawn, in the order of their columns.
 #[derive(Debug, Clone)]
 pub(crate) struct Plan {
-    pub(crate) inputs: Vec<DrawnInput>,
+    /// Normal inputs that rotate the same part about the same axis are combined into one with the sum of their variances,
+    /// so there are fewer inputs than in a budget: the seat takes the platform with it, and what the base adds at its site
+    /// takes the base of the stand, unless that uncertainty is an estimate with few degrees of freedom. A reading is
+    /// drawn with its floor, the latitude with the deflection.
+    pub(crate) inputs: Vec<Input>,
+    /// Distribution of [`Cause::Reading`].
+    shape: ReadingShape,
     /// Degrees of freedom of the estimates that some inputs depend on.
     estimates: Vec<f64>,
 }
@@ -74,22 +36,19 @@ impl Plan {
         let u = setup.uncertainty();
         let estimates = Estimates::new(setup, repeats);
         let mut inputs = Vec::new();
-        let mut add = |what, standard_uncertainty: f64, basis, shape| {
-            if standard_uncertainty > 0.0 {
-                let degrees_of_freedom = estimates.degrees_of_freedom(basis);
-                inputs.push(DrawnInput { what, standard_uncertainty, degrees_of_freedom, basis, shape });
-            }
+        let mut add = |cause, u: f64, basis| {
+            inputs.extend(Input::new(cause, u, basis, estimates.degrees_of_freedom(basis)));
         };
-        let normal = ReadingShape::Normal;
-        for place in 0..means_ma.len() {
+        let positions = &setup.coefficients().positions;
+        for (place, at) in positions.iter().enumerate() {
             for (angle, u_rad) in u.angles_rad.get(place).copied().unwrap_or_default().into_iter().enumerate() {
-                add(Drawn::Angle(place, angle), u_rad, estimates.angles[place][angle], normal);
+                add(Cause::Angle(at.index, angle), u_rad, estimates.angles[place][angle]);
             }
         }
-        for place in 0..means_ma.len() {
+        for (place, at) in positions.iter().enumerate() {
             let of_mean = u.repeatability_rad * repeats.return_share(place).sqrt();
             for axis in 0..3 {
-                add(Drawn::Return(place, axis), of_mean, estimates.returns, normal);
+                add(Cause::Return(at.index, axis), of_mean, estimates.returns);
             }
         }
         // A part that is known exactly is drawn together with the inputs that act in the same way.
@@ -97,28 +56,28 @@ impl Plan {
         let (platform, platform_alone) = known(u.common_platform_rad, estimates.platform);
         let (base, base_alone) = known(u.common_base_rad, estimates.base);
         for axis in 0..3 {
-            add(Drawn::Case(axis), libm::hypot(platform, u.seating_rad[axis]), Basis::Known, normal);
-            add(Drawn::Platform(axis), platform_alone, estimates.platform, normal);
+            add(Cause::Seat(axis), libm::hypot(platform, u.seating_rad[axis]), Basis::Known);
+            add(Cause::Platform(axis), platform_alone, estimates.platform);
             let own = if axis == 2 { libm::hypot(u.azimuth_rad, u.mark_rad) } else { u.level_rad };
-            add(Drawn::Base(axis), libm::hypot(base, own), Basis::Known, normal);
-            add(Drawn::StandBase(axis), base_alone, estimates.base, normal);
+            add(BASE_AT_SITE[axis], libm::hypot(base, own), Basis::Known);
+            add(Cause::Base(axis), base_alone, estimates.base);
         }
-        add(Drawn::Latitude, libm::hypot(u.latitude_rad, u.deflection_rad), Basis::Known, normal);
-        add(Drawn::Gain, u.meter.gain, Basis::Known, normal);
-        add(Drawn::Offset, u.meter.offset_ma, Basis::Known, normal);
-        for (place, current_ma) in means_ma.iter().enumerate() {
+        add(Cause::Latitude, libm::hypot(u.latitude_rad, u.deflection_rad), Basis::Known);
+        add(Cause::Gain, u.meter.gain, Basis::Known);
+        add(Cause::Offset, u.meter.offset_ma, Basis::Known);
+        for (place, (at, current_ma)) in positions.iter().zip(means_ma).enumerate() {
             let noise = repeats.noise_variance_ma2(place).sqrt();
             for axis in 0..2 {
                 let own = u.meter.own_variance_ma2(current_ma[axis]).sqrt();
-                add(Drawn::Current(place, axis), own, Basis::Known, shape);
-                add(Drawn::Noise(place, axis), noise, estimates.noise, normal);
-                add(Drawn::Visits(place, axis), repeats.drift_variance(place).sqrt(), estimates.visits, normal);
+                add(Cause::Reading(at.index, axis), own, Basis::Known);
+                add(Cause::Noise(at.index, axis), noise, estimates.noise);
+                add(Cause::Visits(at.index, axis), repeats.drift_variance(place).sqrt(), estimates.visits);
             }
         }
         for axis in 0..2 {
-            add(Drawn::TurnOn(axis), repeats.turn_on_of_mean_deg_per_h(), estimates.turn_ons, normal);
+            add(Cause::TurnOn(axis), repeats.turn_on_of_mean_deg_per_h(), estimates.turn_ons);
         }
-        Self { inputs, estimates: estimates.degrees_of_freedom }
+        Self { inputs, shape, estimates: estimates.degrees_of_freedom }
     }
 
     /// Returns the number of columns of standard deviates, including the column of zeros and one for each estimate.
@@ -127,8 +86,8 @@ impl Plan {
     }
 
     /// Returns the column of an input's deviates and its standard uncertainty; zeros if it is not drawn.
-    pub(crate) fn slot(&self, what: Drawn) -> (Slot, f64) {
-        let found = self.inputs.iter().position(|input| input.what == what);
+    pub(crate) fn slot(&self, cause: Cause) -> (Slot, f64) {
+        let found = self.inputs.iter().position(|input| input.cause == cause);
         found.map_or((0, 0.0), |place| (place + 1, self.inputs[place].standard_uncertainty))
     }
 
@@ -144,7 +103,8 @@ impl Plan {
         let mut waiting: Option<usize> = None;
         for (place, input) in self.inputs.iter().enumerate() {
             let slot = place + 1;
-            match (input.shape, waiting) {
+            let shape = if matches!(input.cause, Cause::Reading(..)) { self.shape } else { ReadingShape::Normal };
+            match (shape, waiting) {
                 (ReadingShape::Uniform, _) => {
                     lanes.uniform(&mut deviates[slot]);
                     deviates[slot].iter_mut().for_each(|value| *value *= ROOT_OF_THREE);

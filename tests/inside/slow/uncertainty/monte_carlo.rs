@@ -3,11 +3,11 @@
 use super::cases::{Case, three};
 use crate::inside::reference::*;
 use dtg_passport::attitude::{self, Deviation};
-use dtg_passport::calibration::{InputUncertainty, Method, Model, Options, analytic, least_squares};
+use dtg_passport::calibration::{Cause, InputUncertainty, Method, Model, Options, analytic, least_squares};
 use dtg_passport::coefficients::{Coefficients, EIGHT_POSITIONS, Matrices, PositionCoefficients, pair_differences};
 use dtg_passport::statistics::random::Stream;
 use dtg_passport::statistics::wide_random::WIDTH;
-use dtg_passport::uncertainty::engine::plan::Drawn;
+use dtg_passport::uncertainty::engine::plan::BASE_AT_SITE;
 use dtg_passport::uncertainty::engine::{BLOCK, Engine, ReadingShape};
 use dtg_passport::uncertainty::monte_carlo::{Trials, tolerance};
 use dtg_passport::uncertainty::{Budget, monte_carlo};
@@ -32,24 +32,24 @@ fn rotation(turn: Vector3<f64>) -> Matrix3<f64> {
 /// Coefficients and currents of one trial, by nalgebra and libm, one thing after the other.
 fn exactly(case: &Case, engine: &Engine, deviates: &[f64]) -> (Coefficients, Vec<Vector2<f64>>) {
     let inputs = &engine.plan.inputs;
-    let value = |what: Drawn| {
-        let place = inputs.iter().position(|input| input.what == what);
+    let value = |cause: Cause| {
+        let place = inputs.iter().position(|input| input.cause == cause);
         place.map_or(0.0, |place| deviates[place] * inputs[place].standard_uncertainty)
     };
-    let vector = |of: &dyn Fn(usize) -> Drawn| Vector3::from_fn(|axis, _| value(of(axis)));
-    let base = case.base() * rotation(vector(&Drawn::Base));
-    let latitude = radians_from_degrees(case.latitude_deg) + value(Drawn::Latitude);
+    let vector = |of: &dyn Fn(usize) -> Cause| Vector3::from_fn(|axis, _| value(of(axis)));
+    let base = case.base() * rotation(vector(&|axis| BASE_AT_SITE[axis]));
+    let latitude = radians_from_degrees(case.latitude_deg) + value(Cause::Latitude);
     let (sin, cos) = libm::sincos(latitude);
     let earth = Vector3::new(0.0, cos, sin) * dtg_passport::earth::rotation_deg_per_h();
     let mut positions = Vec::new();
     let mut currents = Vec::new();
-    for (place, (at, mean)) in case.positions.iter().zip(case.readings.means_ma()).enumerate() {
+    for (at, mean) in case.positions.iter().zip(case.readings.means_ma()) {
         let deviation = Deviation {
-            alpha_rad: at.deviation.alpha_rad + value(Drawn::Angle(place, 0)),
-            beta_rad: at.deviation.beta_rad + value(Drawn::Angle(place, 1)),
-            gamma_rad: at.deviation.gamma_rad + value(Drawn::Angle(place, 2)),
+            alpha_rad: at.deviation.alpha_rad + value(Cause::Angle(at.index, 0)),
+            beta_rad: at.deviation.beta_rad + value(Cause::Angle(at.index, 1)),
+            gamma_rad: at.deviation.gamma_rad + value(Cause::Angle(at.index, 2)),
         };
-        let case_turn = vector(&Drawn::Case) + vector(&|axis| Drawn::Return(place, axis));
+        let case_turn = vector(&Cause::Seat) + vector(&|axis| Cause::Return(at.index, axis));
         let attitude = rotation(case_turn) * attitude::actual(at.theta_deg, at.phi_deg, &deviation) * base;
         let rate = attitude * earth;
         positions.push(PositionCoefficients {
@@ -58,8 +58,8 @@ fn exactly(case: &Case, engine: &Engine, deviates: &[f64]) -> (Coefficients, Vec
             specific_force_z_g: attitude.m33,
             earth_rate_deg_per_h: rate.xy(),
         });
-        let read = mean + Vector2::from_fn(|axis, _| value(Drawn::Current(place, axis)));
-        currents.push(read * (1.0 + value(Drawn::Gain)) + Vector2::repeat(value(Drawn::Offset)));
+        let read = mean + Vector2::from_fn(|axis, _| value(Cause::Reading(at.index, axis)));
+        currents.push(read * (1.0 + value(Cause::Gain)) + Vector2::repeat(value(Cause::Offset)));
     }
     let find = |place: usize| positions.iter().find(|at| at.index == EIGHT_POSITIONS[place].0).expect("all eight");
     let (n1, n2) = pair_differences(|place| find(place).specific_force_g);
@@ -97,7 +97,7 @@ fn the_fast_path_agrees_with_the_exact_one() {
             let mut trials = deviates(&engine, seed, 1.0);
             for trial in &mut trials {
                 for (deviate, input) in trial.iter_mut().zip(&engine.plan.inputs) {
-                    if matches!(input.what, Drawn::Angle(..) | Drawn::Case(_) | Drawn::Base(_)) {
+                    if matches!(input.cause, Cause::Angle(..) | Cause::Seat(_)) || BASE_AT_SITE.contains(&input.cause) {
                         *deviate *= factor;
                     }
                 }
