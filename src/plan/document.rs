@@ -1,6 +1,6 @@
 //! The plan as JSON, and what templates take from it.
 
-use super::sensitivity::Effect;
+use super::sensitivity::{CommonError, Effect};
 use super::{Evaluation, MOST_READINGS, Plan, Visited};
 use crate::calibration::NotStated;
 use crate::coefficients::PositionIndex;
@@ -184,8 +184,8 @@ impl Plan {
 fn common_errors<'a>(plan: &'a Evaluation, paper: Option<&'a Evaluation>) -> Vec<EffectDocument<'a>> {
     let of_paper = |place: usize| paper.and_then(|paper| paper.effects.get(place));
     let each = plan.effects.iter().enumerate().map(|(place, effect)| {
-        let (size, unit) = effect.error.size();
-        EffectDocument { error: effect.error.name(), size, unit, plan: effect, paper: of_paper(place) }
+        let CommonError { name, size, cause } = effect.error;
+        EffectDocument { error: name, size, unit: cause.unit(), plan: effect, paper: of_paper(place) }
     });
     each.collect()
 }

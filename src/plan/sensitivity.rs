@@ -6,59 +6,38 @@
 use super::candidates::Design;
 use crate::calibration::causes::Cause;
 use crate::calibration::sensitivity::Sensitivity;
-use crate::text::words;
 use crate::units::radians_from_arcseconds;
 use serde::Serialize;
 
-words! {
-    /// Error that all positions share, in the order of tables; its word is its name.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    pub(crate) enum CommonError: pub(crate) name {
-        Azimuth = "azimuth of the base",
-        LevelAboutNorth = "level about north",
-        LevelAboutEast = "level about east",
-        SeatAboutZ = "gyro seat about z",
-        SeatAboutX = "gyro seat about x",
-        SeatAboutY = "gyro seat about y",
-        Latitude = "latitude",
-        Gain = "gain of the meter",
-        Offset = "offset of the meter",
-    }
+/// Error that all positions share.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct CommonError {
+    pub cause: Cause,
+    pub name: &'static str,
+    /// Size for which the effects are stated, in the [unit](Cause::unit) of the cause.
+    pub size: f64,
 }
 
-impl CommonError {
-    /// Returns the size for which the effects are stated, and its unit.
-    pub(crate) fn size(self) -> (f64, &'static str) {
-        match self {
-            Self::Azimuth | Self::SeatAboutZ => (30.0, "arcsec"),
-            Self::LevelAboutNorth | Self::LevelAboutEast | Self::SeatAboutX | Self::SeatAboutY => (5.0, "arcsec"),
-            Self::Latitude => (10.0, "arcsec"),
-            Self::Gain => (0.01, "%"),
-            Self::Offset => (1e-4, "mA"),
-        }
-    }
+/// Errors in the order of tables.
+const COMMON_ERRORS: [CommonError; 9] = [
+    CommonError { cause: Cause::Azimuth, name: "azimuth of the base", size: 30.0 },
+    CommonError { cause: Cause::Level(1), name: "level about north", size: 5.0 },
+    CommonError { cause: Cause::Level(0), name: "level about east", size: 5.0 },
+    CommonError { cause: Cause::Seat(2), name: "gyro seat about z", size: 30.0 },
+    CommonError { cause: Cause::Seat(0), name: "gyro seat about x", size: 5.0 },
+    CommonError { cause: Cause::Seat(1), name: "gyro seat about y", size: 5.0 },
+    CommonError { cause: Cause::Latitude, name: "latitude", size: 10.0 },
+    CommonError { cause: Cause::Gain, name: "gain of the meter", size: 0.01 },
+    CommonError { cause: Cause::Offset, name: "offset of the meter", size: 1e-4 },
+];
 
+impl CommonError {
     /// Returns the size in the unit of the sensitivities: rad, share, or mA.
     fn in_model_unit(self) -> f64 {
-        let (size, unit) = self.size();
-        match unit {
-            "arcsec" => radians_from_arcseconds(size),
-            "%" => size / 100.0,
-            _ => size,
-        }
-    }
-
-    fn cause(self) -> Cause {
-        match self {
-            Self::Azimuth => Cause::Azimuth,
-            Self::LevelAboutNorth => Cause::Level(1),
-            Self::LevelAboutEast => Cause::Level(0),
-            Self::SeatAboutZ => Cause::Seat(2),
-            Self::SeatAboutX => Cause::Seat(0),
-            Self::SeatAboutY => Cause::Seat(1),
-            Self::Latitude => Cause::Latitude,
-            Self::Gain => Cause::Gain,
-            Self::Offset => Cause::Offset,
+        match self.cause.unit() {
+            "arcsec" => radians_from_arcseconds(self.size),
+            "%" => self.size / 100.0,
+            _ => self.size,
         }
     }
 }
@@ -97,13 +76,12 @@ impl Effect {
 /// Returns the effect of every common error on a design.
 pub(crate) fn effects(design: &Design) -> Vec<Effect> {
     let sensitivity = Sensitivity::new(&design.candidates.setup, &design.candidates.unknowns);
-    let each = CommonError::ALL.map(|error| effect(design, &sensitivity, error));
-    each.to_vec()
+    COMMON_ERRORS.map(|error| effect(design, &sensitivity, error)).to_vec()
 }
 
 fn effect(design: &Design, sensitivity: &Sensitivity, error: CommonError) -> Effect {
     let currents_ma = &design.candidates.currents_ma;
-    let misclosure = |place: usize| sensitivity.to(place, &currents_ma[place], error.cause()) * error.in_model_unit();
+    let misclosure = |place: usize| sensitivity.to(place, &currents_ma[place], error.cause) * error.in_model_unit();
     let mut over_tolerance = [0.0; 8];
     for (place, _) in design.visited() {
         let (of_axes, misclosure) = (design.response(place), misclosure(place));

@@ -3,7 +3,7 @@
 use super::columns;
 use crate::calibration::parameter::Parameter;
 use crate::plan::criterion::Criterion;
-use crate::plan::sensitivity::Effect;
+use crate::plan::sensitivity::{CommonError, Effect};
 use crate::plan::{Plan, Visited};
 use crate::text::number::decimal;
 use crate::units::printed;
@@ -143,8 +143,8 @@ fn common_errors(out: &mut String, plan: &Plan) {
         [percent(effect.largest_over_tolerance), residual]
     };
     let rows = plan.evaluation.effects.iter().enumerate().map(|(place, effect)| {
-        let (size, unit) = effect.error.size();
-        let mut row = vec![effect.error.name().to_owned(), format!("{size} {unit}")];
+        let CommonError { name, size, cause } = effect.error;
+        let mut row = vec![name.to_owned(), format!("{size} {}", cause.unit())];
         row.extend(cells(effect));
         row.extend(plan.paper.iter().flat_map(|paper| cells(&paper.effects[place])));
         row
@@ -185,7 +185,7 @@ fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<String> {
     ];
     for (words, is) in kinds {
         let effects = plan.evaluation.effects.iter().filter(|effect| is(effect));
-        let names: Vec<&str> = effects.map(|effect| effect.error.name()).collect();
+        let names: Vec<&str> = effects.map(|effect| effect.error.name).collect();
         if !names.is_empty() {
             remarks.push(format!("{words}: {}.", names.join(", ")));
         }

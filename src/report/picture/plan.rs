@@ -4,7 +4,7 @@
 use super::drawing::{Anchor, Point, Scale, label, number, plain_symbol, rectangle, symbol, symbols, words};
 use super::file::{caption, file};
 use crate::calibration::parameter::Parameter;
-use crate::plan::sensitivity::Effect;
+use crate::plan::sensitivity::{CommonError, Effect};
 use crate::plan::{Evaluation, Plan};
 use crate::report::page::language::Language;
 use crate::report::page::number::Number;
@@ -56,12 +56,12 @@ pub(crate) fn plan(plan: &Plan) -> String {
 }
 
 fn name_of(effect: &Effect) -> String {
-    let (size, unit) = effect.error.size();
-    let unit = match unit {
+    let CommonError { name, size, cause } = effect.error;
+    let unit = match cause.unit() {
         "arcsec" => "″".to_owned(),
         unit => format!("\u{a0}{unit}"),
     };
-    format!("{} {size}{unit}", effect.error.name())
+    format!("{name} {size}{unit}")
 }
 
 fn key(plan: &Plan) -> Markup {
