@@ -70,13 +70,6 @@ impl Default for Histograms {
 }
 
 impl Histograms {
-    /// Adds the counts of another one; the order does not affect the result.
-    pub(crate) fn merge(&mut self, other: &Self) {
-        for (count, more) in self.counts.iter_mut().zip(&other.counts) {
-            *count += more;
-        }
-    }
-
     /// Returns the bins of a parameter.
     pub(crate) fn of(&self, place: usize) -> Bins<'_, u64> {
         Bins::new(&self.counts[place * BINS..(place + 1) * BINS])
@@ -87,9 +80,8 @@ impl Histograms {
 #[derive(Debug, Clone)]
 pub(crate) struct Accumulator {
     scale: Scale,
-    /// Counts of the current block; `all` has those of all finished blocks.
+    /// Counts of the current block.
     block: Vec<u32>,
-    pub(crate) all: Histograms,
     sums: [Column; PARAMETERS],
     products: [Column; PAIRS],
     count: u64,
@@ -102,7 +94,6 @@ impl Accumulator {
         Self {
             scale,
             block: vec![0; PARAMETERS * BINS],
-            all: Histograms::default(),
             sums: [[0.0; WIDTH]; PARAMETERS],
             products: [[0.0; WIDTH]; PAIRS],
             count: 0,
@@ -172,14 +163,14 @@ impl Accumulator {
         }
     }
 
-    /// Returns the summary of the block and starts the next one.
-    pub(crate) fn end_of_block(&mut self) -> BlockSummary {
+    /// Returns the summary of the block, adds its counts to those of `all` blocks, and starts the next one.
+    pub(crate) fn end_of_block(&mut self, all: &mut Histograms) -> BlockSummary {
         let mut quantiles = [[0.0; 2]; PARAMETERS];
         for (place, quantiles) in quantiles.iter_mut().enumerate() {
             let bins = Bins::new(&self.block[place * BINS..(place + 1) * BINS]);
             *quantiles = [0.025, 0.975].map(|share| bins.quantile(share));
         }
-        for (all, count) in self.all.counts.iter_mut().zip(&mut self.block) {
+        for (all, count) in all.counts.iter_mut().zip(&mut self.block) {
             *all += u64::from(*count);
             *count = 0;
         }
@@ -221,10 +212,11 @@ mod tests {
             });
             tally.add(&[column; PARAMETERS]);
         }
-        let summary = tally.end_of_block();
+        let mut all = Histograms::default();
+        let summary = tally.end_of_block(&mut all);
         assert_eq!((summary.count, summary.failed), ((chunks * WIDTH) as u64, 0));
         for place in 0..PARAMETERS {
-            let bins = tally.all.of(place);
+            let bins = all.of(place);
             for share in [0.025, 0.3, 0.5, 0.975] {
                 assert!((bins.quantile(share) - normal_quantile(share)).abs() < 2e-4, "{share}");
             }
@@ -241,7 +233,7 @@ mod tests {
         column[3] = f64::NAN;
         column[4] = f64::INFINITY;
         tally.add(&[column; PARAMETERS]);
-        let summary = tally.end_of_block();
+        let summary = tally.end_of_block(&mut Histograms::default());
         assert_eq!((summary.count, summary.failed), (WIDTH as u64 - 2, 2));
         assert!((summary.sums[0] - 15.0).abs() < 1e-12);
         // The rest is all in one bin: so are its lowest and its highest value.

@@ -65,6 +65,10 @@ impl Trials<'_> {
         let threads = parallel::processors();
         Self { trials: None, seed, threads, cancel: None, progress: None }
     }
+
+    fn is_cancelled(&self) -> bool {
+        self.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed))
+    }
 }
 
 /// Result of a Monte Carlo run; as JSON the key `monte_carlo` of `calibrate`.
@@ -149,8 +153,7 @@ pub fn monte_carlo(engine: &Engine, budget: &Budget, run: &Trials) -> MonteCarlo
     let asked = run.trials.map(|trials| trials.div_ceil(BLOCK).max(1));
     let mut due = asked.unwrap_or(FIRST_BLOCKS);
     let mut stable = false;
-    let cancelled = || run.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed));
-    while series.blocks < due && !cancelled() {
+    while series.blocks < due && !run.is_cancelled() {
         let wave = (due - series.blocks).min(MOST_BLOCKS_IN_A_WAVE);
         series.wave(engine, wave, run);
         let ratio = series.instability(budget);
@@ -216,45 +219,25 @@ impl Series {
         }
     }
 
-    /// Runs `blocks` blocks on the threads of `run`, and adds them in their order.
+    /// Runs `blocks` blocks on the threads of `run`, and adds them in their order; after a cancellation no further block
+    /// is started.
     fn wave(&mut self, engine: &Engine, blocks: u64, run: &Trials) {
-        let queue = Mutex::new((0, self.lanes.clone()));
-        let done: Mutex<(Vec<(u64, BlockSummary)>, Histograms)> = Mutex::default();
-        let worker = || {
-            let mut tally = Accumulator::new(self.scale);
-            let mut work = engine.workspace();
-            let mut summaries = Vec::new();
-            loop {
-                let (block, mut lanes) = {
-                    let mut queue = queue.lock().unwrap_or_else(PoisonError::into_inner);
-                    let cancelled = run.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed));
-                    if queue.0 == blocks || cancelled {
-                        break;
-                    }
-                    let taken = queue.clone();
-                    queue.0 += 1;
-                    queue.1.jump();
-                    taken
-                };
-                engine.block(&mut lanes, &mut work, |solutions| tally.add(solutions));
-                summaries.push((block, tally.end_of_block()));
-            }
-            let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
-            done.0.append(&mut summaries);
-            done.1.merge(&tally.all);
-        };
-        let helpers = run.threads.saturating_sub(1).min(usize::try_from(blocks - 1).unwrap_or(usize::MAX));
-        std::thread::scope(|scope| {
-            for _ in 0..helpers {
-                scope.spawn(worker);
-            }
-            worker();
+        let own_lanes = (0..blocks).map(|_| {
+            let lanes = self.lanes.clone();
+            self.lanes.jump();
+            lanes
         });
-        self.lanes = queue.into_inner().unwrap_or_else(PoisonError::into_inner).1;
-        let (mut summaries, histograms) = done.into_inner().unwrap_or_else(PoisonError::into_inner);
-        summaries.sort_unstable_by_key(|(block, _)| *block);
-        summaries.iter().for_each(|(_, summary)| self.add(summary));
-        self.histograms.merge(&histograms);
+        let own_lanes: Vec<WideRandom> = own_lanes.collect();
+        let histograms = Mutex::new(&mut self.histograms);
+        let of_thread = || (Accumulator::new(self.scale), engine.workspace());
+        let summaries = parallel::map_with(&own_lanes, run.threads, of_thread, |(tally, work), lanes| {
+            if run.is_cancelled() {
+                return None;
+            }
+            engine.block(&mut lanes.clone(), work, |solutions| tally.add(solutions));
+            Some(tally.end_of_block(&mut histograms.lock().unwrap_or_else(PoisonError::into_inner)))
+        });
+        summaries.iter().flatten().for_each(|summary| self.add(summary));
     }
 
     fn add(&mut self, summary: &BlockSummary) {
