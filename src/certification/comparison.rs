@@ -219,12 +219,12 @@ impl Differences {
         let positions: Vec<_> = certificate.positions.iter().map(CertifiedPosition::to_model).collect();
         let certified: Vec<_> = certificate.positions.iter().map(|at| Vector3::from(at.angles_arcsec())).collect();
         let turns = turns_at(&positions, &certified);
-        let model = RunModel::new(&turns).ok_or(NotCompared::TooFewPositions)?;
-        let rows = 3 * turns.len();
+        let model = RunModel::new(turns).ok_or(NotCompared::TooFewPositions)?;
+        let rows = 3 * positions.len();
         let (mut turned, mut u) = (DVector::zeros(rows), DVector::zeros(rows));
         let of_check = scatter.value / readings.runs.len() as f64;
         let mut freedom = f64::INFINITY;
-        for (place, turn) in turns.iter().enumerate() {
+        for (place, turn) in model.turns.iter().enumerate() {
             let change = readings.means_arcsec()[place] - certified[place];
             turned.fixed_rows_mut::<3>(3 * place).copy_from(&case_turn(turn, &change));
             let position = &certificate.positions[place];

@@ -84,10 +84,28 @@ pub(crate) struct Components {
     pub(crate) residuals: Vec<DVector<f64>>,
     /// Share of the scatter of each row in the residual of each row of one run: rows × rows, `[3 position + axis]`.
     pub(crate) keeps: DMatrix<f64>,
+    /// Model of a run, at the means of the readings.
+    pub(crate) model: RunModel,
+}
+
+/// Length, in readings, below which a combination of rotations cannot be distinguished from those of the whole run.
+const LEAST_LENGTH: f64 = 0.5;
+
+/// Orthonormal combinations of what a rotation of the whole run leaves of rotations of some of its positions.
+pub(crate) struct Combinations {
+    /// Combinations: rows × combinations.
+    pub(crate) shared: DMatrix<f64>,
+    /// Length of each combination, in readings.
+    pub(crate) lengths: DVector<f64>,
+    /// Shares of the rotations: combinations × rotations.
+    pub(crate) shares: DMatrix<f64>,
 }
 
 /// Linear model of the rotations of platform and base in one run.
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RunModel {
+    /// Rotations of the positions.
+    pub(crate) turns: Vec<Turn>,
     pub(crate) design: DMatrix<f64>,
     /// Axes of the base for the columns from 3 on: 3 × their number.
     pub(crate) base_axes: DMatrix<f64>,
@@ -98,8 +116,8 @@ pub(crate) struct RunModel {
 impl RunModel {
     /// Creates the model of positions rotated by `turns`, or returns `None` if they do not even determine a rotation of
     /// the platform.
-    pub(crate) fn new(turns: &[Turn]) -> Option<Self> {
-        let full = design(turns, &DMatrix::identity(3, 3));
+    pub(crate) fn new(turns: Vec<Turn>) -> Option<Self> {
+        let full = design(&turns, &DMatrix::identity(3, 3));
         let undetermined = condition(&full, CONDITION_LIMIT)?.undetermined;
         // Rotations that both can make are assigned to the platform: in the certified positions both act alike.
         let mut base_axes = DMatrix::identity(3, 3);
@@ -110,13 +128,19 @@ impl RunModel {
             let columns: Vec<_> = (0..3).filter(|&at| eigen.eigenvalues[at] > 0.5).collect();
             base_axes = eigen.eigenvectors.select_columns(&columns);
         }
-        let design = design(turns, &base_axes);
+        let design = design(&turns, &base_axes);
         let factorised = Factorised::new(design.clone())?;
         let (rows, columns) = design.shape();
         let mut rotated = DMatrix::identity(rows, rows);
         factorised.rotate(&mut rotated);
         let solve = &factorised.r_inverse * rotated.rows(0, columns);
-        Some(Self { design, base_axes, solve })
+        Some(Self { turns, design, base_axes, solve })
+    }
+
+    /// Returns the share of each row in the residual of each row, or `None` if the rotations leave no degrees of freedom.
+    pub(crate) fn keeps(&self) -> Option<DMatrix<f64>> {
+        let (rows, columns) = self.design.shape();
+        (rows > columns).then(|| DMatrix::identity(rows, rows) - &self.design * &self.solve)
     }
 }
 
@@ -153,13 +177,14 @@ pub(crate) fn turns_at(positions: &[Position], means_arcsec: &[Vector3<f64>]) ->
 /// # Errors
 /// Returns [`NotCertified::TooFewPositions`] if the positions do not separate the components, and
 /// [`NotCertified::NoScatter`] if the residuals are zero.
-pub(crate) fn estimate(turns: &[Turn], runs: &[u32], differences: &[DVector<f64>]) -> Result<Components, NotCertified> {
+pub(crate) fn estimate(
+    turns: Vec<Turn>,
+    runs: &[u32],
+    differences: &[DVector<f64>],
+) -> Result<Components, NotCertified> {
     let model = RunModel::new(turns).ok_or(NotCertified::TooFewPositions)?;
+    let keeps = model.keeps().ok_or(NotCertified::TooFewPositions)?;
     let (rows, columns) = model.design.shape();
-    if rows <= columns {
-        return Err(NotCertified::TooFewPositions);
-    }
-    let keeps = DMatrix::identity(rows, rows) - &model.design * &model.solve;
     let changes = runs.len() as f64 - 1.0;
     let effects: Vec<DVector<f64>> = differences.iter().map(|run| &model.solve * run).collect();
     let residuals: Vec<DVector<f64>> =
@@ -195,6 +220,7 @@ pub(crate) fn estimate(turns: &[Turn], runs: &[u32], differences: &[DVector<f64>
         run_turns: runs.iter().zip(&effects).map(|(run, effect)| run_turn(*run, effect, &model)).collect(),
         residuals,
         keeps,
+        model,
     })
 }
 
@@ -221,6 +247,18 @@ impl Components {
                 degrees_of_freedom: square.degrees_of_freedom * kept,
             };
         }
+    }
+
+    /// Returns the combinations of `rotations` (rows × rotations) that can be distinguished from rotations of the whole run.
+    pub(crate) fn combinations(&self, rotations: &DMatrix<f64>) -> Option<Combinations> {
+        let svd = (&self.keeps * rotations).svd(true, true);
+        let kept: Vec<usize> =
+            (0..svd.singular_values.len()).filter(|&at| svd.singular_values[at] > LEAST_LENGTH).collect();
+        Some(Combinations {
+            shared: svd.u?.select_columns(&kept),
+            lengths: svd.singular_values.select_rows(&kept),
+            shares: svd.v_t?.select_rows(&kept),
+        })
     }
 
     /// Returns −2 ln of the likelihood, up to a constant, of readings that leave these sums of squared residuals about x, y, z,

@@ -173,14 +173,13 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     }
     let (readings, deletion) = predicted(header, readings)?;
     let readings = &readings;
-    let turns = turns_of(header, readings);
-    let mut components = components::estimate(&turns, runs, &differences(&turns, readings))?;
+    let mut components = fitted(header, readings)?;
     if let Some(deletion) = &deletion {
         components.without(deletion.squares_arcsec2, &readings.missing);
     }
-    let shared_settings = shared_settings::find(header, &turns, &components);
+    let shared_settings = shared_settings::find(header, &components);
     // Positions that share a setting seem to have moved together within a run.
-    let suspects = Suspects::of(header, readings, &turns, &components, shared_settings.is_empty());
+    let suspects = Suspects::of(header, readings, &components, shared_settings.is_empty());
     let scatter = suspects.scatter(&components);
     let mut stand = Stand {
         stand: header.stand.clone(),
@@ -189,7 +188,7 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
         positions: Vec::new(),
     };
     let number = runs.len() as f64;
-    let each = header.positions.iter().zip(readings.means_arcsec()).zip(&turns).enumerate();
+    let each = header.positions.iter().zip(readings.means_arcsec()).zip(&components.model.turns).enumerate();
     stand.positions = each
         .map(|(place, ((nominal, mean), turn))| {
             let of_position = scatter.as_ref().map(|scatter| scatter[place]);
@@ -267,10 +266,9 @@ pub(crate) fn predicted(
     let angles: Vec<deletion::Angle> =
         readings.missing.iter().flat_map(|(place, run)| (0..3).map(move |axis| (*run, 3 * place + axis))).collect();
     let fit = |readings: &AngleReadings| {
-        let turns = turns_of(header, readings);
-        let components = components::estimate(&turns, &readings.runs, &differences(&turns, readings))?;
+        let components = fitted(header, readings)?;
         let deletion = Deletion::of(&components, angles.clone()).filter(Deletion::is_determined);
-        Ok((turns, deletion.ok_or(NotCertified::Undetermined)?))
+        Ok((components.model.turns, deletion.ok_or(NotCertified::Undetermined)?))
     };
     let mut completed = readings.clone();
     // The axes of a position depend on its mean, so the second pass removes what is left of the second order.
@@ -307,10 +305,12 @@ fn constant(readings: &AngleReadings) -> Option<&'static str> {
     (0..3).find(|axis| same(*axis)).map(|axis| ANGLES[axis])
 }
 
-/// Returns the rotation of every position at the mean of its readings.
-pub(crate) fn turns_of(header: &Header, readings: &AngleReadings) -> Vec<Turn> {
+/// Estimates the variance components of readings, at their means.
+fn fitted(header: &Header, readings: &AngleReadings) -> Result<Components, NotCertified> {
     let positions: Vec<_> = header.positions.iter().map(|at| at.with_angles([0.0; 3]).to_model()).collect();
-    turns_at(&positions, &readings.means_arcsec())
+    let turns = turns_at(&positions, &readings.means_arcsec());
+    let differences = differences(&turns, readings);
+    components::estimate(turns, &readings.runs, &differences)
 }
 
 /// Returns the rotations of all positions from their means, one vector per run, `[3 position + axis]`, arcsec along the

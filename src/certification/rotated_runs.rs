@@ -16,9 +16,9 @@
 //! leaves. Bonferroni's bound counts them with the runs, and only the least probable is named, so a cause has one name. A
 //! move after the first or before the last run is that run's.
 
-use super::components::{Components, RunModel, RunTurn};
+use super::components::{Components, RunTurn};
 use super::suspects::{AXES, OUTLIER, Outlier, STEPS_OF_ROUNDING, STRAGGLER};
-use super::{AngleReadings, Header, turns_of};
+use super::{AngleReadings, Header};
 use crate::statistics::outlier::bonferroni_student;
 use nalgebra::Vector3;
 use std::ops::Range;
@@ -130,7 +130,7 @@ pub(crate) fn bumped(
     components: &Components,
     outliers: &[Outlier],
 ) -> Vec<RotatedRuns> {
-    let mut left = without(header, readings, components, outliers);
+    let mut left = without(header, components, outliers);
     let runs = left.len();
     let mut found: Vec<RotatedRuns> = Vec::new();
     while left.len() >= FEWEST_RUNS {
@@ -182,14 +182,12 @@ fn turns(components: &Components) -> Vec<Turn> {
 }
 
 /// Returns the rotations of the runs as they are with the `outliers` brought to where the other readings put them.
-pub(super) fn without(
-    header: &Header,
-    readings: &AngleReadings,
-    components: &Components,
-    outliers: &[Outlier],
-) -> Vec<Turn> {
+pub(super) fn without(header: &Header, components: &Components, outliers: &[Outlier]) -> Vec<Turn> {
     let mut turns = turns(components);
-    let Some(model) = RunModel::new(&turns_of(header, readings)).filter(|_| turns.len() > 2) else { return turns };
+    if turns.len() <= 2 {
+        return turns;
+    }
+    let model = &components.model;
     let runs = turns.len() as f64;
     for out in outliers {
         let Some(place) = header.positions.iter().position(|at| at.index() == out.index) else { continue };

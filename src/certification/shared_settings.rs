@@ -43,16 +43,14 @@ pub(crate) struct SharedSetting {
     pub probability: f64,
 }
 
-/// Length, in readings, below which a combination of shared rotations cannot be distinguished from those of the whole run.
-const LEAST_LENGTH: f64 = 0.5;
-
 /// Returns the angles whose settings are shared.
-pub(crate) fn find(header: &Header, turns: &[Turn], components: &Components) -> Vec<SharedSetting> {
-    let each = Setting::ALL.into_iter().filter_map(|setting| of(setting, header, turns, components));
+pub(crate) fn find(header: &Header, components: &Components) -> Vec<SharedSetting> {
+    let each = Setting::ALL.into_iter().filter_map(|setting| of(setting, header, components));
     each.filter(|at| at.probability < OUTLIER).collect()
 }
 
-fn of(setting: Setting, header: &Header, turns: &[Turn], components: &Components) -> Option<SharedSetting> {
+fn of(setting: Setting, header: &Header, components: &Components) -> Option<SharedSetting> {
+    let turns = &components.model.turns;
     let angle = |at: &NominalPosition| if setting == Setting::Theta { at.theta_deg } else { at.phi_deg };
     let axis = |turn: &Turn| match setting {
         // The axis of the frame does not turn with θ: along the base it is x.
@@ -74,11 +72,7 @@ fn of(setting: Setting, header: &Header, turns: &[Turn], components: &Components
             rotations.fixed_view_mut::<3, 1>(3 * place, column).copy_from(&axis(turn));
         }
     }
-    // Orthonormal combinations of what a rotation common to the whole run leaves of them.
-    let svd = (&components.keeps * &rotations).svd(true, false);
-    let left = svd.u?;
-    let kept: Vec<usize> = (0..left.ncols()).filter(|&at| svd.singular_values[at] > LEAST_LENGTH).collect();
-    let shared = left.select_columns(&kept);
+    let shared = components.combinations(&rotations)?.shared;
     let length = shared.tr_mul(&rotations).norm_squared();
     let runs = &components.residuals;
     // An error that is shared shows in every run, one wrong reading only in its own.

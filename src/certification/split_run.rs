@@ -4,7 +4,7 @@
 //! ones. So a rotation of the platform, or of the base, is fitted to the positions after each reading of each run, in the order
 //! of the rows, and compared with what it leaves (F test).
 
-use super::components::{Components, RunModel};
+use super::components::{Combinations, Components};
 use super::rotated_runs::CommonAxis;
 use super::suspects::OUTLIER;
 use super::{AngleReadings, Header};
@@ -19,9 +19,6 @@ const FEWEST_RUNS: usize = 3;
 
 /// Fewest positions before the change, and after it: one alone is a suspect reading.
 const FEWEST_POSITIONS: usize = 2;
-
-/// Length, in readings, below which a rotation cannot be distinguished from those of the whole run.
-const LEAST_LENGTH: f64 = 0.5;
 
 /// Run that changed within itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,13 +42,15 @@ pub(crate) struct SplitRun {
 pub(super) fn find(
     header: &Header,
     readings: &AngleReadings,
-    turns: &[Turn],
     components: &Components,
     relative: &[f64],
 ) -> Option<SplitRun> {
     let runs = components.residuals.len();
-    let model = RunModel::new(turns).filter(|_| runs >= FEWEST_RUNS)?;
-    let parts = [DMatrix::identity(3, 3), model.base_axes];
+    if runs < FEWEST_RUNS {
+        return None;
+    }
+    let turns = &components.model.turns;
+    let parts = [DMatrix::identity(3, 3), components.model.base_axes.clone()];
     let mut sums_arcsec2 = [0.0; 3];
     for residual in &components.residuals {
         residual.iter().enumerate().for_each(|(row, left)| sums_arcsec2[row % 3] += left * left);
@@ -105,17 +104,12 @@ impl Fit {
         run: usize,
     ) -> Option<Self> {
         let runs = components.residuals.len() as f64;
-        // Orthonormal combinations of what a rotation of the whole run leaves of it.
-        let svd = (&components.keeps * rotation).svd(true, true);
-        let (left, right) = (svd.u?, svd.v_t?);
-        let kept: Vec<usize> = (0..left.ncols()).filter(|&at| svd.singular_values[at] > LEAST_LENGTH).collect();
-        let shared = left.select_columns(&kept);
+        let Combinations { shared, lengths, shares } = components.combinations(rotation)?;
         let residual = &components.residuals[run];
         let effect = shared.tr_mul(residual);
         // The mean over the runs takes 1/R of a rotation.
         let of_all = runs / (runs - 1.0);
-        let lengths = DVector::from_iterator(kept.len(), kept.iter().map(|at| svd.singular_values[*at]));
-        let turn = right.select_rows(&kept).tr_mul(&effect.component_div(&lengths)) * of_all;
+        let turn = shares.tr_mul(&effect.component_div(&lengths)) * of_all;
         let fitted = &shared * &effect;
         let mut shares = [0.0; 3];
         for row in 0..fitted.len() {

@@ -5,7 +5,6 @@ use super::deletion::Deletion;
 use super::split_run::{self, SplitRun};
 use super::worse_groups::{self, WorseGroup};
 use super::{AngleReadings, Header};
-use crate::calibration::inputs::Turn;
 use crate::coefficients::PositionIndex;
 use crate::statistics::outlier::{Bartlett, bartlett, bonferroni_student, cochran_probability};
 use serde::Serialize;
@@ -87,21 +86,15 @@ pub(crate) struct Suspects {
 
 impl Suspects {
     /// Returns what is suspect; a run that changed within itself is looked for if `may_split`.
-    pub(crate) fn of(
-        header: &Header,
-        readings: &AngleReadings,
-        turns: &[Turn],
-        components: &Components,
-        may_split: bool,
-    ) -> Self {
+    pub(crate) fn of(header: &Header, readings: &AngleReadings, components: &Components, may_split: bool) -> Self {
         let alike = vec![1.0; header.positions.len()];
         let found = Self::relative_to(header, readings, components, &alike);
         let is_coarse = readings.is_coarse(components.pooled_arcsec2.value.sqrt());
         // One position that scatters more is not taken for a group.
-        let group = worse_groups::find(header, turns, components, &found.outliers);
+        let group = worse_groups::find(header, components, &found.outliers);
         let group = group.filter(|group| !is_coarse && found.worse.iter().all(|at| group.probability < at.probability));
         let relative = group.as_ref().map_or(alike, WorseGroup::relative);
-        let split = split_run::find(header, readings, turns, components, &relative).filter(|_| may_split);
+        let split = split_run::find(header, readings, components, &relative).filter(|_| may_split);
         if let Some(split) = split.filter(|split| !found.explains(split, header, readings, components)) {
             let (positions, axes, worse, outliers) = (None, None, Vec::new(), Vec::new());
             return Self { positions, axes, worse, outliers, split: Some(split), ..found };

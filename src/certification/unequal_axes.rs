@@ -1,9 +1,9 @@
 //! Axes about which whole runs rotate more than about the others, although the common parts are pooled from all three.
 
-use super::components::{Components, RunModel};
+use super::components::Components;
 use super::rotated_runs::{CommonAxis, RotatedRuns, left_squares, without};
 use super::suspects::{OUTLIER, Outlier};
-use super::{AngleReadings, Header, turns_of};
+use super::{AngleReadings, Header};
 use crate::calibration::recorded::rounding_of;
 use crate::statistics::beta::student_factor;
 use crate::statistics::outlier::cochran_probability;
@@ -34,8 +34,8 @@ pub(crate) fn find(
     outliers: &[Outlier],
     rotated: &[RotatedRuns],
 ) -> Vec<UnequalAxis> {
-    let Some(model) = RunModel::new(&turns_of(header, readings)) else { return Vec::new() };
-    let (squares, changes) = left_squares(without(header, readings, components, outliers), rotated);
+    let model = &components.model;
+    let (squares, changes) = left_squares(without(header, components, outliers), rotated);
     let changes = changes as f64;
     // The variance of a single axis has few degrees of freedom, and those of the common parts are not in the file.
     let widened = student_factor(0.05, changes) / student_factor(0.05, f64::INFINITY);

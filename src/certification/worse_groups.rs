@@ -7,9 +7,8 @@
 use super::Header;
 use super::components::{Components, RunModel, Variance};
 use super::suspects::{OUTLIER, Outlier, STRAGGLER};
-use crate::calibration::inputs::Turn;
 use crate::statistics::beta::f_beyond;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 /// Positions with the same θ that scatter more than the others.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,12 +35,7 @@ impl WorseGroup {
 
 /// Returns the least probable group, if its probability is that of an outlier. Positions with `outliers`, which are suspect
 /// already, do not count.
-pub(super) fn find(
-    header: &Header,
-    turns: &[Turn],
-    components: &Components,
-    outliers: &[Outlier],
-) -> Option<WorseGroup> {
+pub(super) fn find(header: &Header, components: &Components, outliers: &[Outlier]) -> Option<WorseGroup> {
     let all = &header.positions;
     let mut angles: Vec<f64> = all.iter().map(|at| at.theta_deg).collect();
     angles.sort_by(f64::total_cmp);
@@ -51,13 +45,13 @@ pub(super) fn find(
     let each = angles.into_iter().filter_map(|theta_deg| {
         let (places, others): (Vec<usize>, Vec<usize>) = (0..all.len()).partition(|at| all[*at].theta_deg == theta_deg);
         let [good, rest] = [&places, &others].map(|group| group.iter().copied().filter(is_good).collect::<Vec<_>>());
-        let (square, rest_square) = (mean_square(&good, turns, components)?, mean_square(&rest, turns, components)?);
+        let (square, rest_square) = (mean_square(&good, components)?, mean_square(&rest, components)?);
         let beyond = |of: Variance| {
             f_beyond(of.value / rest_square.value, of.degrees_of_freedom, rest_square.degrees_of_freedom)
         };
         for out in 0..if outliers.is_empty() { good.len() } else { 0 } {
             let left = [&good[..out], &good[out + 1..]].concat();
-            mean_square(&left, turns, components).filter(|left| beyond(*left) < STRAGGLER)?;
+            mean_square(&left, components).filter(|left| beyond(*left) < STRAGGLER)?;
         }
         let scatter = (0..all.len()).map(|place| if places.contains(&place) { square } else { rest_square }).collect();
         let ratio = (square.value / rest_square.value).sqrt();
@@ -68,14 +62,10 @@ pub(super) fn find(
 
 /// Returns the mean square of the residuals of positions from their own common rotations, relative to the variances of the
 /// axes; `None` if these rotations leave no degrees of freedom.
-fn mean_square(places: &[usize], turns: &[Turn], components: &Components) -> Option<Variance> {
-    let own: Vec<Turn> = places.iter().map(|place| turns[*place]).collect();
-    let model = RunModel::new(&own)?;
+fn mean_square(places: &[usize], components: &Components) -> Option<Variance> {
+    let model = RunModel::new(places.iter().map(|place| components.model.turns[*place]).collect())?;
+    let keeps = model.keeps()?;
     let (rows, columns) = model.design.shape();
-    if rows <= columns {
-        return None;
-    }
-    let keeps = DMatrix::identity(rows, rows) - &model.design * &model.solve;
     let residuals = |run: &DVector<f64>| &keeps * DVector::from_fn(rows, |row, _| run[3 * places[row / 3] + row % 3]);
     let square = |(row, residual): (usize, &f64)| residual * residual / components.own_arcsec2[row % 3].value;
     let sum: f64 =
