@@ -17,17 +17,9 @@ pub(crate) struct AnalyticSolution {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoAnalyticSolution {
-    /// Some of the paper's eight positions are missing, and the method requires all of them.
+    /// Some of the paper's eight positions have no currents, and the method requires all of them.
     #[error("some of the eight positions that the analytic method requires have no readings")]
     EightPositionsMissing,
-    /// A number of current pairs that differs from the number of positions.
-    #[error("found {found} pairs of currents, expected {expected}, one for each position")]
-    WrongNumberOfCurrents {
-        /// Number of pairs of currents given.
-        found: usize,
-        /// Number of positions of the stand.
-        expected: usize,
-    },
     /// The matrix J_1 − J_2 Δ has no inverse.
     #[error("the currents do not determine K: J_1 - J_2 Delta has no inverse")]
     SingularCurrents,
@@ -39,8 +31,7 @@ pub enum NoAnalyticSolution {
 /// `currents_ma` contains (J_x, J_y) of `coefficients.positions`, in the same order.
 ///
 /// # Errors
-/// Returns [`NoAnalyticSolution`] if the eight positions are incomplete, the number of currents is wrong, or
-/// J_1 − J_2 Δ is singular.
+/// Returns [`NoAnalyticSolution`] if the eight positions are incomplete or J_1 − J_2 Δ is singular.
 pub(crate) fn solve(
     coefficients: &Coefficients,
     currents_ma: &[Vector2<f64>],
@@ -51,6 +42,16 @@ pub(crate) fn solve(
     let omega_n = matrices.c_deg_per_h_per_g - k * j2 * matrices.n2_inverse;
     let omega0 = mean_misclosure(coefficients, currents_ma, &k, &omega_n);
     Ok(AnalyticSolution::new(k, omega_n, omega0))
+}
+
+/// Returns the paper's matrices, and the places of its eight positions; `None` if one is missing, or if there is not one pair
+/// of currents for each position.
+pub(super) fn of_the_eight<'a>(
+    coefficients: &'a Coefficients,
+    currents_ma: &[Vector2<f64>],
+) -> Option<(&'a Matrices, [usize; 8])> {
+    let has_currents = currents_ma.len() == coefficients.positions.len();
+    coefficients.matrices.as_ref().zip(coefficients.eight()).filter(|_| has_currents)
 }
 
 /// First-order response of the analytic solution to misclosures of the equations.
@@ -78,12 +79,8 @@ impl<'a> AnalyticMap<'a> {
         coefficients: &'a Coefficients,
         currents_ma: &'a [Vector2<f64>],
     ) -> Result<Self, NoAnalyticSolution> {
-        let (found, expected) = (currents_ma.len(), coefficients.positions.len());
-        if found != expected {
-            return Err(NoAnalyticSolution::WrongNumberOfCurrents { found, expected });
-        }
-        let eight = coefficients.matrices.as_ref().zip(coefficients.eight());
-        let (matrices, eight) = eight.ok_or(NoAnalyticSolution::EightPositionsMissing)?;
+        let (matrices, eight) =
+            of_the_eight(coefficients, currents_ma).ok_or(NoAnalyticSolution::EightPositionsMissing)?;
         let (j1, j2) = pair_differences(|position| currents_ma[eight[position]]);
         let inverse = (j1 - j2 * matrices.delta).try_inverse().ok_or(NoAnalyticSolution::SingularCurrents)?;
         Ok(Self { coefficients, currents_ma, inverse, j2, matrices, eight })

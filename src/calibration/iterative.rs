@@ -4,7 +4,7 @@
 //! spectral radius ρ(T) < 1, and its fixed point is the analytic solution (13). After any step the remainder is exactly
 //! (K_λ − K_{λ−1}) T (1 − T)⁻¹. The size of a step is no bound of the remainder, because T is not normal.
 
-use super::analytic::{AnalyticSolution, mean_misclosure};
+use super::analytic::{AnalyticSolution, mean_misclosure, of_the_eight};
 use crate::coefficients::{Coefficients, Matrices, pair_differences};
 use crate::gyro::GyroParameters;
 use nalgebra::{Matrix2, Vector2};
@@ -34,20 +34,12 @@ impl Default for StopRule {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoIterativeSolution {
-    /// Some of the paper's eight positions are missing, and the method requires all of them.
+    /// Some of the paper's eight positions have no currents, and the method requires all of them.
     #[error(
         "some of the eight positions that the iterative method requires have no readings; use least squares, which \
              takes any positions"
     )]
     EightPositionsMissing,
-    /// A number of current pairs that differs from the number of positions.
-    #[error("found {found} pairs of currents, expected {expected}, one for each position")]
-    WrongNumberOfCurrents {
-        /// Number of pairs of currents given.
-        found: usize,
-        /// Number of positions of the stand.
-        expected: usize,
-    },
     /// The matrix J_1 has no inverse, so there is no first approximation.
     #[error("there is no first approximation, because J_1 has no inverse; use the analytic method or least squares")]
     SingularCurrents,
@@ -133,14 +125,10 @@ impl Plan {
     /// Creates the plan from the currents (J_x, J_y) of `coefficients.positions`, mA, in the same order.
     ///
     /// # Errors
-    /// Returns one of the first three variants of [`NoIterativeSolution`].
+    /// Returns one of the first two variants of [`NoIterativeSolution`].
     pub(crate) fn new(coefficients: &Coefficients, currents_ma: &[Vector2<f64>]) -> Result<Self, NoIterativeSolution> {
-        let (found, expected) = (currents_ma.len(), coefficients.positions.len());
-        if found != expected {
-            return Err(NoIterativeSolution::WrongNumberOfCurrents { found, expected });
-        }
-        let eight = coefficients.matrices.zip(coefficients.eight());
-        let (matrices, eight) = eight.ok_or(NoIterativeSolution::EightPositionsMissing)?;
+        let eight = of_the_eight(coefficients, currents_ma);
+        let (&matrices, eight) = eight.ok_or(NoIterativeSolution::EightPositionsMissing)?;
         let (j1, j2) = pair_differences(|position| currents_ma[eight[position]]);
         let j1_inverse = j1.try_inverse().ok_or(NoIterativeSolution::SingularCurrents)?;
         let plan = Self {

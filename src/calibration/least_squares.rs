@@ -198,8 +198,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
     fn conditioned(&self, unit_ma: f64) -> Result<Factorised, NoLeastSquares> {
         let positions = &self.coefficients.positions;
         if self.currents_ma.len() != positions.len() {
-            let (found, expected) = (self.currents_ma.len(), positions.len());
-            return Err(NoLeastSquares::WrongNumberOfCurrents { found, expected });
+            return Err(NoLeastSquares::OtherPositions);
         }
         if self.offsets.columns() > 0 {
             self.offsets_determined(self.currents_ma)?;

@@ -9,14 +9,6 @@ use nalgebra::DVector;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoLeastSquares {
-    /// A number of current pairs that differs from the number of positions.
-    #[error("found {found} pairs of currents, expected {expected}, one for each position")]
-    WrongNumberOfCurrents {
-        /// Number of pairs of currents given.
-        found: usize,
-        /// Number of positions of the stand.
-        expected: usize,
-    },
     /// Readings of other positions than those of the coefficients, or in another order.
     #[error("the readings and the coefficients are for different positions")]
     OtherPositions,
