@@ -22,7 +22,7 @@ pub(crate) use administrative::Administrative;
 pub(crate) use gyro::{Calibrated, of_gyro};
 pub(crate) use stand::of_stand;
 
-use crate::text::{Identifier, NotAnIdentifier};
+use crate::text::scalar::is_device;
 
 #[derive(Debug)]
 pub(crate) struct Dcc {
@@ -39,9 +39,8 @@ impl Dcc {
         let stem: String = self.number.trim().chars().map(safe).take(LONGEST).collect();
         // Windows reserves some names, with or without an extension.
         let first = stem.split('.').next().unwrap_or_default().trim_end();
-        let is_device = Identifier::new(first).is_err_and(|why| matches!(why, NotAnIdentifier::Device(_)));
         let is_hidden_or_option = stem.starts_with(['.', '-']);
-        let prefix = if is_device || is_hidden_or_option { "certificate_" } else { "" };
+        let prefix = if is_device(first) || is_hidden_or_option { "certificate_" } else { "" };
         format!("{prefix}{stem}.xml")
     }
 }

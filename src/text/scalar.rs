@@ -30,7 +30,7 @@ const DEVICES: [&str; 4] = ["con", "prn", "aux", "nul"];
 const PORTS: [&str; 2] = ["com", "lpt"];
 
 /// Returns `true` if Windows takes a name for a device.
-fn is_device(text: &str) -> bool {
+pub(crate) fn is_device(text: &str) -> bool {
     let name = text.split('.').next().unwrap_or_default().to_ascii_lowercase();
     let is_port = |port: &&str| name.strip_prefix(*port).is_some_and(|rest| matches!(rest.as_bytes(), [b'0'..=b'9']));
     DEVICES.contains(&name.as_str()) || PORTS.iter().any(is_port)
@@ -38,30 +38,8 @@ fn is_device(text: &str) -> bool {
 
 /// Fault of a text that is not an [`Identifier`]; its words complete a message "found …, expected …".
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum NotAnIdentifier {
-    /// Empty text.
-    #[error("empty text")]
-    Empty,
-    /// A character that is not permitted, and the text.
-    #[error("{found} in {1:?}", found = character(*.0))]
-    Character(char, String),
-    /// A first character that is not a letter or digit, and the text.
-    #[error("{0:?} at the start of {1:?}")]
-    Start(char, String),
-    /// Too many characters.
-    #[error("{0} characters")]
-    Length(usize),
-    /// Two dots in a row.
-    #[error("\"..\" in {0:?}")]
-    Dots(String),
-    /// A dot at the end.
-    #[error("a dot at the end of {0:?}")]
-    DotAtEnd(String),
-    /// A device name of Windows.
-    #[error("{0:?}, a device name of Windows")]
-    Device(String),
-}
+#[error("{0}")]
+pub struct NotAnIdentifier(String);
 
 impl FromStr for Identifier {
     type Err = NotAnIdentifier;
@@ -73,20 +51,18 @@ impl FromStr for Identifier {
 
 impl Identifier {
     pub(crate) fn new(text: &str) -> Result<Self, NotAnIdentifier> {
-        let whole = || text.to_owned();
         let odd = text.chars().find(|&c| !c.is_ascii_alphanumeric() && !"._-".contains(c));
-        if let Some(odd) = odd {
-            return Err(NotAnIdentifier::Character(odd, whole()));
-        }
-        match text.chars().next() {
-            None => Err(NotAnIdentifier::Empty),
-            Some(first) if !first.is_ascii_alphanumeric() => Err(NotAnIdentifier::Start(first, whole())),
-            _ if text.len() > 64 => Err(NotAnIdentifier::Length(text.len())),
-            _ if text.contains("..") => Err(NotAnIdentifier::Dots(whole())),
-            _ if text.ends_with('.') => Err(NotAnIdentifier::DotAtEnd(whole())),
-            _ if is_device(text) => Err(NotAnIdentifier::Device(whole())),
-            _ => Ok(Self(whole())),
-        }
+        let fault = match (odd, text.chars().next()) {
+            (Some(odd), _) => format!("{} in {text:?}", character(odd)),
+            (_, None) => "empty text".to_owned(),
+            (_, Some(first)) if !first.is_ascii_alphanumeric() => format!("{first:?} at the start of {text:?}"),
+            _ if text.len() > 64 => format!("{} characters", text.len()),
+            _ if text.contains("..") => format!("\"..\" in {text:?}"),
+            _ if text.ends_with('.') => format!("a dot at the end of {text:?}"),
+            _ if is_device(text) => format!("{text:?}, a device name of Windows"),
+            _ => return Ok(Self(text.to_owned())),
+        };
+        Err(NotAnIdentifier(fault))
     }
 
     /// Returns the identifier as text.
