@@ -89,19 +89,11 @@ pub(crate) enum Outcome {
     /// Passport that exists now, new or unchanged.
     There(Issued),
     /// Passport that would be issued without the dry run.
-    Planned(Planned),
+    Planned { id: String, path: PathBuf, remarks: Remarks },
     /// Passport of the folder that is not re-issued.
     Skipped { id: String, file: PathBuf, why: String },
     /// Failure of an order, or of an input and all passports that depend on it.
     Failed(Failure),
-}
-
-/// Passport that a dry run would issue.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Planned {
-    pub id: String,
-    pub path: PathBuf,
-    pub remarks: Remarks,
 }
 
 impl From<Next> for Outcome {
@@ -109,7 +101,7 @@ impl From<Next> for Outcome {
         let id = next.id().to_owned();
         match next {
             Next::There(issued) => Self::There(issued),
-            Next::New(new) => Self::Planned(Planned { id, remarks: new.draft.remarks(), path: new.path }),
+            Next::New { path, draft } => Self::Planned { id, path, remarks: draft.remarks() },
         }
     }
 }
@@ -119,7 +111,7 @@ impl Outcome {
     /// existing one were printed when it was issued.
     pub(crate) fn remarks(&self) -> Option<(&str, &Remarks)> {
         match self {
-            Self::There(Issued { id, remarks, new: true, .. }) | Self::Planned(Planned { id, remarks, .. }) => {
+            Self::There(Issued { id, remarks, new: true, .. }) | Self::Planned { id, remarks, .. } => {
                 Some((id, remarks))
             }
             _ => None,

@@ -83,16 +83,8 @@ pub struct Issued {
 pub(crate) enum Next {
     /// Equal passport that already exists.
     There(Issued),
-    /// New passport, which is yet to be signed and written.
-    New(Unwritten),
-}
-
-/// Passport that was computed and checked, but not yet signed and written.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Unwritten {
-    pub path: PathBuf,
-    /// Passport, not yet signed.
-    pub draft: Box<Draft>,
+    /// New passport, computed and checked, which is yet to be signed and written.
+    New { path: PathBuf, draft: Box<Draft> },
 }
 
 impl Next {
@@ -100,7 +92,7 @@ impl Next {
     pub(crate) fn id(&self) -> &str {
         match self {
             Self::There(issued) => &issued.id,
-            Self::New(new) => &new.draft.content().passport.id,
+            Self::New { draft, .. } => &draft.content().passport.id,
         }
     }
 }
@@ -236,7 +228,7 @@ impl Folder {
                 let changed = there.differences(stand, site, draft.content());
                 Err(FolderRefused::OtherContent { path: there.path, changed })
             }
-            None => Ok(Next::New(Unwritten { path, draft })),
+            None => Ok(Next::New { path, draft }),
         }
     }
 
@@ -256,8 +248,8 @@ impl Folder {
             let path = self.path_of(&successor.stand().stand, &successor.site.id, revision);
             let Some(there) = self.existing(&path)? else {
                 return match successor.rival.as_deref() {
-                    Some(rival) => Err(FolderRefused::Fork { path: rival.to_owned() }),
-                    None => Ok(Next::New(Unwritten { path, draft })),
+                    Some(rival) => Err(FolderRefused::Fork(rival.to_owned())),
+                    None => Ok(Next::New { path, draft }),
                 };
             };
             if same(&there.content, draft.content()) {
@@ -265,12 +257,12 @@ impl Folder {
             }
             let predecessor = there.content.passport.reissued_from.as_ref();
             if predecessor.is_some_and(|predecessor| predecessor.sha256 == successor.old_sha256()) {
-                return Err(FolderRefused::OtherSuccessor { path: there.path });
+                return Err(FolderRefused::OtherSuccessor(there.path));
             }
             // At the predecessor's site only one revision can be the next one; at another site, try the next free
             // revision.
             if successor.same_site {
-                return Err(FolderRefused::LaterRevision { path: there.path });
+                return Err(FolderRefused::LaterRevision(there.path));
             }
             revision = revision.saturating_add(1);
         }
@@ -284,7 +276,7 @@ impl Folder {
     pub(crate) fn seal(&self, next: Next, seal: Seal) -> Result<Sealed, FolderRefused> {
         match next {
             Next::There(issued) => Ok(Sealed { issued, text: None }),
-            Next::New(Unwritten { path, draft }) => {
+            Next::New { path, draft } => {
                 let text = draft.sign(seal.signer)?;
                 if let Some(trust) = seal.trust {
                     check_verifiable(&path, &text, &draft, trust)?;
@@ -320,7 +312,7 @@ impl Folder {
         self.no_links.visit(folder, || {
             let mut way = folder.ancestors().take_while(|folder| *folder != self.root);
             match way.find(|folder| folder.is_symlink()) {
-                Some(link) => Err(FolderRefused::Link { path: link.to_owned() }),
+                Some(link) => Err(FolderRefused::Link(link.to_owned())),
                 None => Ok(folder.is_dir()),
             }
         })
@@ -347,7 +339,7 @@ impl Folder {
             Err(error) => return Err(FileError::Read { path: path.to_owned(), error }.into()),
         };
         if found.is_symlink() {
-            return Err(FolderRefused::Link { path: path.to_owned() });
+            return Err(FolderRefused::Link(path.to_owned()));
         }
         // Opening a pipe of that name could block indefinitely.
         if !found.is_file() && !found.is_dir() {

@@ -24,30 +24,21 @@ pub enum FolderRefused {
     /// Existing successor of the predecessor for this site, with other content.
     #[error(
         "{}: is already a successor of this passport for this site, with other content; re-issue that successor",
-        shown(path)
+        shown(.0)
     )]
-    OtherSuccessor {
-        /// Path of the existing successor.
-        path: PathBuf,
-    },
+    OtherSuccessor(PathBuf),
     /// Existing passport that supersedes the predecessor for another site or in another folder.
     #[error(
         "{}: already supersedes this passport; re-issue that successor, because a second one would be a fork",
-        shown(path)
+        shown(.0)
     )]
-    Fork {
-        /// Path of the existing successor.
-        path: PathBuf,
-    },
+    Fork(PathBuf),
     /// Existing next revision that was re-issued from another passport.
     #[error(
         "{}: is already the next revision for this site, re-issued from another passport; re-issue that revision",
-        shown(path)
+        shown(.0)
     )]
-    LaterRevision {
-        /// Path of the existing revision.
-        path: PathBuf,
-    },
+    LaterRevision(PathBuf),
     /// Existing file of this name that is not a passport.
     #[error(
         "{}: already exists and cannot be compared as a passport ({reason}); move it to another folder",
@@ -60,11 +51,8 @@ pub enum FolderRefused {
         reason: String,
     },
     /// Link in the path of the passport.
-    #[error("{}: is a link; specify its target with --out, because links may lead out of the folder", shown(path))]
-    Link {
-        /// Path of the link.
-        path: PathBuf,
-    },
+    #[error("{}: is a link; specify its target with --out, because links may lead out of the folder", shown(.0))]
+    Link(PathBuf),
     /// Existing name that differs only in case.
     #[error(
         "{}: found {}, which differs only in case; use the same spelling, or rename one, because Windows and macOS do \

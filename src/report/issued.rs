@@ -4,7 +4,7 @@
 //! for many it contains only the failures and a summary.
 
 use super::columns::csv_row;
-use crate::batch::{Failure, Outcome, Planned};
+use crate::batch::{Failure, Outcome};
 use crate::calibration::prediction::NoiseGrowth;
 use crate::folder::Issued;
 use crate::passport::issue::Remarks;
@@ -76,7 +76,7 @@ impl Report {
                 sha256: Some(sha256.clone()),
                 ..Self::new(id.clone(), if *new { State::Issued } else { State::Unchanged }).with(remarks)
             },
-            Outcome::Planned(Planned { id, path, remarks }) => {
+            Outcome::Planned { id, path, remarks } => {
                 Self { file: Some(name_of(path)), ..Self::new(id.clone(), State::Planned).with(remarks) }
             }
             Outcome::Skipped { id, file, why } => {
