@@ -73,11 +73,8 @@ pub enum KeyFileError {
         private: PathBuf,
     },
     /// File that is not text.
-    #[error("{}: found binary data, expected a private key in OpenSSH format or a .pub file", shown(path))]
-    NotText {
-        /// Path of the key file.
-        path: PathBuf,
-    },
+    #[error("{}: found binary data, expected a private key in OpenSSH format or a .pub file", shown(.0))]
+    NotText(PathBuf),
 }
 
 /// Function that asks for the passphrase of a key file; it is called only for an encrypted key.
@@ -204,7 +201,7 @@ fn private_text(path: &Path) -> Result<Zeroizing<String>, KeyFileError> {
 
 fn text(path: &Path) -> Result<Zeroizing<String>, KeyFileError> {
     let bytes = Zeroizing::new(files::read(path, LARGEST_KEY_FILE_BYTES)?);
-    let text = std::str::from_utf8(&bytes).map_err(|_| KeyFileError::NotText { path: path.to_owned() })?;
+    let text = std::str::from_utf8(&bytes).map_err(|_| KeyFileError::NotText(path.to_owned()))?;
     Ok(Zeroizing::new(text.to_owned()))
 }
 

@@ -8,20 +8,14 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum KeyError {
     /// The text is not a line of OpenSSH's public key format.
-    #[error("found {}, expected a public key in one line, such as `ssh-ed25519 AAAA… comment`", Printable(found))]
-    NotAPublicKey {
-        /// Text that was found instead.
-        found: String,
-    },
+    #[error("found {}, expected a public key in one line, such as `ssh-ed25519 AAAA… comment`", Printable(.0))]
+    NotAPublicKey(String),
     /// The base64 or the content of the public key is inconsistent.
     #[error("the public key is damaged: {}; copy the whole line again", Printable(.0))]
     DamagedPublicKey(String),
     /// The key is correct, but its type cannot sign passports.
-    #[error("found a key of type {}, expected ssh-ed25519 or sk-ssh-ed25519@openssh.com", Printable(found))]
-    OtherKeyType {
-        /// Key type as OpenSSH names it.
-        found: String,
-    },
+    #[error("found a key of type {}, expected ssh-ed25519 or sk-ssh-ed25519@openssh.com", Printable(.0))]
+    OtherKeyType(String),
     /// The file is not an OpenSSH private key file.
     #[error("found {found}, expected a private key file of OpenSSH (`-----BEGIN OPENSSH PRIVATE KEY-----`); {advice}")]
     NotAPrivateKey {
@@ -52,15 +46,12 @@ pub enum KeyError {
     /// The passphrase for a new private key is empty.
     #[error("the passphrase is empty; give one, or request an unencrypted key")]
     EmptyPassphrase,
-    /// The private key is encrypted in an unsupported way.
+    /// The private key is encrypted with this cipher, or with this other property, which is not supported.
     #[error(
         "the private key is encrypted with {}, which is not supported; encrypt it again with `ssh-keygen -p -f KEY`",
-        Printable(found)
+        Printable(.0)
     )]
-    Encryption {
-        /// Cipher, or unsupported property of the encryption.
-        found: String,
-    },
+    Encryption(String),
     /// The content of the private key file is inconsistent.
     #[error("the private key file is damaged: {}; restore it from a copy", Printable(.0))]
     DamagedPrivateKey(String),
@@ -83,29 +74,17 @@ pub enum SignatureError {
     #[error("the signature block is damaged or not from OpenSSH: {}", Printable(.0))]
     Damaged(String),
     /// The format version is not 1. The version is not signed, so only one can be accepted.
-    #[error("the signature block has format version {found}, expected 1")]
-    Version {
-        /// Format version found.
-        found: u32,
-    },
+    #[error("the signature block has format version {0}, expected 1")]
+    Version(u32),
     /// The reserved field is not empty.
-    #[error("the signature block has {length} reserved bytes, expected none")]
-    Reserved {
-        /// Number of bytes in the reserved field.
-        length: usize,
-    },
+    #[error("the signature block has {0} reserved bytes, expected none")]
+    Reserved(usize),
     /// The message was hashed with another algorithm.
-    #[error("the signed text was hashed with {}, expected sha512", Printable(found))]
-    HashAlgorithm {
-        /// Hash algorithm found.
-        found: String,
-    },
+    #[error("the signed text was hashed with {}, expected sha512", Printable(.0))]
+    HashAlgorithm(String),
     /// The key type cannot sign passports.
-    #[error("signed with {}, expected a key of type ssh-ed25519 or sk-ssh-ed25519@openssh.com", Printable(found))]
-    KeyType {
-        /// Key type found.
-        found: String,
-    },
+    #[error("signed with {}, expected a key of type ssh-ed25519 or sk-ssh-ed25519@openssh.com", Printable(.0))]
+    KeyType(String),
     /// The algorithm of the signature does not match the type of the key.
     #[error("the key has type {}, but its signature type {}", Printable(key), Printable(signature))]
     Algorithm {

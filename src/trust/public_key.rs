@@ -89,7 +89,7 @@ impl PublicKey {
         }
         match data.algorithm() {
             Algorithm::Ed25519 | Algorithm::SkEd25519 => {}
-            other => return Err(KeyError::OtherKeyType { found: other.to_string() }),
+            other => return Err(KeyError::OtherKeyType(other.to_string())),
         }
         let damaged = |error: ssh_key::Error| KeyError::DamagedPublicKey(error.to_string());
         let blob = ssh_key::PublicKey::from(data.clone()).to_bytes().map_err(damaged)?;
@@ -98,7 +98,7 @@ impl PublicKey {
 }
 
 fn not_a_public_key<T>(found: &str) -> Result<T, KeyError> {
-    Err(KeyError::NotAPublicKey { found: found.to_owned() })
+    Err(KeyError::NotAPublicKey(found.to_owned()))
 }
 
 /// Public key of any type that OpenSSH knows, because lists may contain keys that cannot sign passports.
@@ -134,7 +134,7 @@ impl AnyKey {
     /// Converts the key to one that can sign passports.
     pub(super) fn signing(self) -> Result<PublicKey, KeyError> {
         if self.algorithm != KEY_TYPES[0].0 && self.algorithm != KEY_TYPES[1].0 {
-            return Err(KeyError::OtherKeyType { found: self.algorithm.to_owned() });
+            return Err(KeyError::OtherKeyType(self.algorithm.to_owned()));
         }
         let key = ssh_key::PublicKey::from_bytes(&self.blob)
             .map_err(|error| KeyError::DamagedPublicKey(error.to_string()))?;
@@ -227,6 +227,6 @@ mod tests {
     fn other_key_types_are_named() {
         let blob = b"\0\0\0\x07ssh-rsa\0\0\0\x03\x01\0\x01\0\0\0\x03\x05\0\x01";
         let line = format!("ssh-rsa {}", Base64::encode_string(blob));
-        assert_eq!(PublicKey::from_openssh(&line), Err(KeyError::OtherKeyType { found: "ssh-rsa".to_owned() }));
+        assert_eq!(PublicKey::from_openssh(&line), Err(KeyError::OtherKeyType("ssh-rsa".to_owned())));
     }
 }

@@ -262,7 +262,7 @@ pub(super) fn read_key(line: &Line, at: usize) -> Result<AnyKey, Problem> {
         return Err(line.problem(at, "key", found, EXPECTED, "copy the whole line of the .pub file"));
     }
     AnyKey::read(algorithm, base64).map_err(|error| match error {
-        KeyError::NotAPublicKey { found } => {
+        KeyError::NotAPublicKey(found) => {
             line.problem(at, "key", found, EXPECTED, "copy the whole line of the .pub file")
         }
         KeyError::DamagedPublicKey(reason) => {

@@ -63,7 +63,7 @@ impl SigningKey {
                 let key = ed25519_dalek::SigningKey::try_from(pair).map_err(damaged)?;
                 Ok(Self { key })
             }
-            _ => Err(KeyError::OtherKeyType { found: opened.algorithm().to_string() }),
+            _ => Err(KeyError::OtherKeyType(opened.algorithm().to_string())),
         }
     }
 
@@ -140,7 +140,7 @@ fn decrypted(file: &PrivateKey, passphrase: Option<&str>) -> Result<PrivateKey, 
     if let Kdf::Bcrypt { rounds, .. } = file.kdf()
         && *rounds > MOST_BCRYPT_ROUNDS
     {
-        return Err(KeyError::Encryption { found: format!("{rounds} rounds of bcrypt") });
+        return Err(KeyError::Encryption(format!("{rounds} rounds of bcrypt")));
     }
     file.decrypt(passphrase.ok_or(KeyError::Encrypted)?).map_err(|error| match error {
         ssh_key::Error::Crypto => KeyError::WrongPassphrase,
@@ -209,10 +209,10 @@ fn check_header(pem: &str) -> Result<(), KeyError> {
         "sk-ssh-ed25519@openssh.com" | "sk-ecdsa-sha2-nistp256@openssh.com" => {
             return Err(if cipher == "none" { KeyError::SecurityKey } else { KeyError::EncryptedSecurityKey });
         }
-        other => return Err(KeyError::OtherKeyType { found: shortened(other) }),
+        other => return Err(KeyError::OtherKeyType(shortened(other))),
     }
     match cipher.parse::<Cipher>() {
-        Ok(Cipher::TDesCbc) | Err(_) => Err(KeyError::Encryption { found: shortened(&cipher) }),
+        Ok(Cipher::TDesCbc) | Err(_) => Err(KeyError::Encryption(shortened(&cipher))),
         Ok(_) => Ok(()),
     }
 }
@@ -307,8 +307,8 @@ mod tests {
             let file = [b"openssh-key-v1\0", &string(cipher.as_bytes())[..], &kdf, &count, &key].concat();
             check_header(&armored(&file))
         };
-        let other = |found: &str| Err(KeyError::OtherKeyType { found: found.to_owned() });
-        let encryption = |found: &str| Err(KeyError::Encryption { found: found.to_owned() });
+        let other = |found: &str| Err(KeyError::OtherKeyType(found.to_owned()));
+        let encryption = |found: &str| Err(KeyError::Encryption(found.to_owned()));
         for (cipher, key_type, expected) in [
             ("none", "ssh-ed25519", Ok(())),
             ("aes256-ctr", "ssh-ed25519", Ok(())),
@@ -336,7 +336,7 @@ mod tests {
         bytes[rounds..rounds + 4].copy_from_slice(&10_001_u32.to_be_bytes());
         let found = "10001 rounds of bcrypt".to_owned();
         let refused = SigningKey::from_openssh(&armored(&bytes), Some("x")).unwrap_err();
-        assert_eq!(refused, KeyError::Encryption { found });
+        assert_eq!(refused, KeyError::Encryption(found));
     }
 
     #[test]

@@ -70,17 +70,17 @@ impl Signature {
     /// Checks the fields of a block that has this armor.
     fn checked(inner: SshSig, armor: String) -> Result<Self, SignatureError> {
         if inner.version() != SshSig::VERSION {
-            return Err(SignatureError::Version { found: inner.version() });
+            return Err(SignatureError::Version(inner.version()));
         }
         if !inner.reserved().is_empty() {
-            return Err(SignatureError::Reserved { length: inner.reserved().len() });
+            return Err(SignatureError::Reserved(inner.reserved().len()));
         }
         if inner.hash_alg() != HashAlg::Sha512 {
-            return Err(SignatureError::HashAlgorithm { found: inner.hash_alg().to_string() });
+            return Err(SignatureError::HashAlgorithm(inner.hash_alg().to_string()));
         }
         let key_type = inner.public_key().algorithm();
         let key = PublicKey::from_data(inner.public_key().clone()).map_err(|error| match error {
-            KeyError::OtherKeyType { found } => SignatureError::KeyType { found },
+            KeyError::OtherKeyType(found) => SignatureError::KeyType(found),
             damaged => SignatureError::Damaged(damaged.to_string()),
         })?;
         if inner.algorithm() != key_type {
@@ -228,9 +228,9 @@ fn point_bytes(key: &PublicKey) -> Option<&[u8; 32]> {
 
 fn refusal(error: ssh_key::Error) -> SignatureError {
     match error {
-        ssh_key::Error::Version { number } => SignatureError::Version { found: number },
-        ssh_key::Error::AlgorithmUnknown => SignatureError::KeyType { found: "a key of another type".to_owned() },
-        ssh_key::Error::AlgorithmUnsupported { algorithm } => SignatureError::KeyType { found: algorithm.to_string() },
+        ssh_key::Error::Version { number } => SignatureError::Version(number),
+        ssh_key::Error::AlgorithmUnknown => SignatureError::KeyType("a key of another type".to_owned()),
+        ssh_key::Error::AlgorithmUnsupported { algorithm } => SignatureError::KeyType(algorithm.to_string()),
         other => SignatureError::Damaged(other.to_string()),
     }
 }
@@ -323,16 +323,16 @@ mod tests {
         for version in [0, 2] {
             let mut altered = good.clone();
             altered[9] = version;
-            assert_eq!(refused(&altered, 70), SignatureError::Version { found: u32::from(version) });
+            assert_eq!(refused(&altered, 70), SignatureError::Version(u32::from(version)));
         }
         // The reserved field and the name of the hash algorithm follow the preamble, the version, the key and the
         // namespace.
         let reserved = 6 + 4 + (4 + 51) + (4 + NAMESPACE.len());
         assert_eq!(&good[reserved..reserved + 14], b"\0\0\0\0\0\0\0\x06sha512");
         let with_reserved = [&good[..reserved], b"\0\0\0\x02xy", &good[reserved + 4..]].concat();
-        assert_eq!(refused(&with_reserved, 70), SignatureError::Reserved { length: 2 });
+        assert_eq!(refused(&with_reserved, 70), SignatureError::Reserved(2));
         let sha256 = [&good[..reserved + 8], b"sha256", &good[reserved + 14..]].concat();
-        assert_eq!(refused(&sha256, 70), SignatureError::HashAlgorithm { found: "sha256".to_owned() });
+        assert_eq!(refused(&sha256, 70), SignatureError::HashAlgorithm("sha256".to_owned()));
         assert_eq!(refused(&good, 64), SignatureError::NotCanonical);
         assert_eq!(refused(&good, 76), SignatureError::NotCanonical);
         let longer = [&good[..], b"x"].concat();

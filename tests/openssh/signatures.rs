@@ -81,11 +81,11 @@ fn other_hashes_and_key_types_are_refused_by_name() {
     let mut command = std::process::Command::new("ssh-keygen");
     command.args(["-Y", "sign", "-q", "-O", "hashalg=sha256", "-f", "key", "-n", NAMESPACE]);
     let armor = bench.run(&mut command, b"text").output;
-    assert_eq!(Signature::from_armor(&armor), Err(SignatureError::HashAlgorithm { found: "sha256".to_owned() }));
+    assert_eq!(Signature::from_armor(&armor), Err(SignatureError::HashAlgorithm("sha256".to_owned())));
     for (kind, bits) in [("rsa", "2048"), ("ecdsa", "256")] {
         assert!(bench.keygen(&["-q", "-t", kind, "-b", bits, "-N", "", "-f", kind]).good);
         let refused = Signature::from_armor(&bench.sign(kind, b"text"));
-        assert!(matches!(refused, Err(SignatureError::KeyType { .. })), "{kind}: {refused:?}");
+        assert!(matches!(refused, Err(SignatureError::KeyType(_))), "{kind}: {refused:?}");
     }
 }
 
