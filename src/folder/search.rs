@@ -44,30 +44,24 @@ pub(crate) struct Found {
 /// Returns [`FileError::Read`] if `root` cannot be read; errors of its subfolders are in [`Found::unreadable`].
 pub(crate) fn find(root: &Path) -> Result<Found, FileError> {
     let mut found = Found::default();
-    for entry in Walk::deep(root, is_lasting) {
-        match entry {
-            Ok(Entry::Link(path)) if is_yaml(&path) || path.is_dir() => found.links.push(path),
-            Ok(Entry::Special(path)) if is_yaml(&path) => found.special.push(path),
-            Ok(Entry::Link(_) | Entry::Special(_)) => {}
-            Ok(Entry::File(path)) => found.files.push(path),
-            Err(error) if error.path() == root => return Err(error),
-            Err(error) => found.unreadable.push(error),
-        }
+    found.add(root);
+    match found.unreadable.iter().position(|error| error.path() == root) {
+        Some(of_root) => Err(found.unreadable.swap_remove(of_root)),
+        None => Ok(found),
     }
-    Ok(found)
 }
 
 impl Found {
-    /// Adds what is in another folder. If that cannot be read, the error is one of a subfolder.
+    /// Adds what is under a folder; an error of the folder itself is one more.
     fn add(&mut self, folder: &Path) {
-        match find(folder) {
-            Ok(more) => {
-                self.files.extend(more.files);
-                self.links.extend(more.links);
-                self.special.extend(more.special);
-                self.unreadable.extend(more.unreadable);
+        for entry in Walk::deep(folder, is_lasting) {
+            match entry {
+                Ok(Entry::Link(path)) if is_yaml(&path) || path.is_dir() => self.links.push(path),
+                Ok(Entry::Special(path)) if is_yaml(&path) => self.special.push(path),
+                Ok(Entry::Link(_) | Entry::Special(_)) => {}
+                Ok(Entry::File(path)) => self.files.push(path),
+                Err(error) => self.unreadable.push(error),
             }
-            Err(error) => self.unreadable.push(error),
         }
     }
 }
@@ -156,17 +150,10 @@ pub(crate) fn register_of(
         Seen::of(root, path, bytes, elsewhere, |bytes| examine(&name_of(path), bytes, &trust, asked))
     });
     let (mut examined, mut lists) = (Vec::with_capacity(seen.len()), Vec::new());
-    for seen in seen {
-        match seen {
-            Seen::Passport(passport) => examined.push(*passport),
-            Seen::Damaged(passport, alarm) => {
-                examined.push(*passport);
-                alarms.push(alarm);
-            }
-            Seen::List(list) => lists.push(list),
-            Seen::Alarm(alarm) => alarms.push(alarm),
-            Seen::Nothing => {}
-        }
+    for Seen { passport, list, alarm } in seen {
+        examined.extend(passport.map(|passport| *passport));
+        lists.extend(list);
+        alarms.extend(alarm);
     }
     let trust = withdraw(lists, lists_above(root), trust, asked.question.time, &mut alarms);
     let register = Register::of(examined, &trust.withdrawn, alarms);
@@ -199,12 +186,12 @@ pub(crate) fn history(
 /// Name and content of a file that claims to be a list.
 type Claimed = (PathBuf, Vec<u8>);
 
-enum Seen {
-    Passport(Box<Examined>),
-    Damaged(Box<Examined>, Alarm),
-    List(Claimed),
-    Alarm(Alarm),
-    Nothing,
+/// What a file is; a damaged one is a passport with an alarm, any other file nothing.
+#[derive(Default)]
+struct Seen {
+    passport: Option<Box<Examined>>,
+    list: Option<Claimed>,
+    alarm: Option<Alarm>,
 }
 
 impl Seen {
@@ -217,31 +204,33 @@ impl Seen {
     ) -> Self {
         let read = files::read_into(bytes, path, LARGEST_DOCUMENT_BYTES);
         if let Err(error @ (FileError::Read { .. } | FileError::Folder { .. })) = read {
-            return Self::Alarm(unreadable(root, &error));
+            return Self { alarm: Some(unreadable(root, &error)), ..Self::default() };
         }
         if elsewhere(path, bytes) {
-            return Self::Nothing;
+            return Self::default();
         }
         // For a file that is too large, `bytes` has its beginning.
-        let examined = Box::new(examine(bytes));
-        if examined.is_readable() {
-            return Self::Passport(examined);
+        let examined = examine(bytes);
+        let is_readable = examined.is_readable();
+        let passport = Self { passport: Some(Box::new(examined)), ..Self::default() };
+        if is_readable {
+            return passport;
         }
         match Claim::of(path, bytes) {
-            Some(Claim::List) => Self::List((path.to_owned(), bytes.clone())),
+            Some(Claim::List) => Self { list: Some((path.to_owned(), bytes.clone())), ..Self::default() },
             Some(Claim::Passport) => {
                 let what = if bytes.is_empty() { "an empty file" } else { "a damaged passport or list" };
                 let words = format!("{what}, which may supersede or withdraw other passports");
                 let alarm = Alarm::of_file(AlarmKind::Damaged, &words, &name_of(path));
-                Self::Damaged(examined, alarm.concerning(concern(root, path)))
+                Self { alarm: Some(alarm.concerning(concern(root, path))), ..passport }
             }
-            None if !path.file_name().is_some_and(is_numbered) => Self::Nothing,
+            None if !path.file_name().is_some_and(is_numbered) => Self::default(),
             None if read.is_err() => {
                 let words =
                     format!("not read: it has more than {LARGEST_DOCUMENT_BYTES} bytes, the limit for a passport");
-                Self::Alarm(Alarm::of_file(AlarmKind::TooLarge, &words, &name_of(path)))
+                Self { alarm: Some(Alarm::of_file(AlarmKind::TooLarge, &words, &name_of(path))), ..Self::default() }
             }
-            None => Self::Passport(examined),
+            None => passport,
         }
     }
 }
