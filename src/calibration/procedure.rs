@@ -1,6 +1,6 @@
 //! The whole calibration: every requested method with its uncertainty and its fit.
 
-use super::analytic::{self, AnalyticMap, NoAnalyticSolution};
+use super::analytic::{self, AnalyticMap, AnalyticSolution, NoAnalyticSolution};
 use super::causes;
 use super::chi_square::{ChiSquare, chi_square};
 use super::data::{Data, Observation};
@@ -307,33 +307,31 @@ impl<'a> Evaluation<'a> {
     fn analytic(&self, closed: Option<&Closed>) -> Result<MethodResult, NoAnalyticSolution> {
         let solution = analytic::solve(self.setup.coefficients(), &self.data.currents_ma)?;
         let closed = closed.ok_or(NoAnalyticSolution::SingularCurrents)?;
-        let (parameters, omega_n) = (solution.parameters, solution.omega_n_deg_per_h_per_g);
-        Ok(self.of_the_paper(Method::Analytic, parameters, omega_n, None, closed))
+        Ok(self.of_the_paper(Method::Analytic, &solution, None, closed))
     }
 
     fn iterative(&self, closed: Option<&Closed>, rule: &StopRule) -> Result<MethodResult, MethodRefusal> {
-        let found = iterative::solve(self.setup.coefficients(), &self.data.currents_ma, rule)?;
+        let (solution, iteration) = iterative::solve(self.setup.coefficients(), &self.data.currents_ma, rule)?;
         let closed = closed.ok_or(NoIterativeSolution::SingularCurrents)?;
-        let (parameters, omega_n) = (found.parameters, found.omega_n_deg_per_h_per_g);
-        Ok(self.of_the_paper(Method::Iterative, parameters, omega_n, Some(found.iteration), closed))
+        Ok(self.of_the_paper(Method::Iterative, &solution, Some(iteration), closed))
     }
 
     /// Returns the result of one of the paper's methods. The remainder of the iteration is stated separately.
     fn of_the_paper(
         &self,
         method: Method,
-        parameters: GyroParameters,
-        omega_n: Matrix2<f64>,
+        solution: &AnalyticSolution,
         iteration: Option<Iteration>,
         closed: &Closed,
     ) -> MethodResult {
+        let AnalyticSolution { parameters, omega_n_deg_per_h_per_g } = *solution;
         let (found, answer) = (parameters.to_vector(), self.fit.unknowns.parameters.to_vector());
         let difference = |place| in_units(found[place] - answer[place], closed.from_least_squares[place]);
         MethodResult {
             method,
             model: Model::Paper,
             parameters,
-            omega_n_deg_per_h_per_g: omega_n,
+            omega_n_deg_per_h_per_g,
             anisoelasticity_deg_per_h_per_g2: None,
             g_matrix: None,
             model_test: None,
