@@ -163,13 +163,18 @@ impl Drift {
 
 /// Tests the slope of every line, and replaces the lines that their own residuals reject.
 fn test_lines(series: &mut [Series]) {
-    let tested: Vec<usize> = (0..series.len()).filter(|at| series[*at].line.is_some()).collect();
-    let probabilities: Vec<f64> =
-        tested.iter().filter_map(|at| Some(series[*at].line.as_ref()?.probability())).collect();
-    for (at, corrected) in tested.into_iter().zip(holm(&probabilities)) {
+    for (at, corrected) in corrected(series, |at| Some(at.line?.probability())) {
         series[at].corrected_probability = Some(corrected);
     }
     reject_lines(series);
+}
+
+/// Returns the places of the series that have a `probability`, with this probability corrected for their number by Holm's
+/// procedure.
+fn corrected(series: &[Series], probability: impl Fn(&Series) -> Option<f64>) -> Vec<(usize, f64)> {
+    let tested = series.iter().enumerate().filter_map(|(at, one)| Some((at, probability(one)?)));
+    let (places, probabilities): (Vec<usize>, Vec<f64>) = tested.unzip();
+    places.into_iter().zip(holm(&probabilities)).collect()
 }
 
 /// Returns the years from the first certificate to the measurement of another one.
@@ -178,8 +183,8 @@ pub(super) fn years(first: Date, certificate: &Certificate) -> f64 {
     f64::from(days) / DAYS_PER_YEAR
 }
 
-/// Replaces the lines that their own residuals reject by the largest change. The tests are corrected for their number by
-/// Holm's procedure, and F allows for the degrees of freedom of the uncertainties.
+/// Replaces the lines that their own residuals reject by the largest change. F allows for the degrees of freedom of the
+/// uncertainties.
 fn reject_lines(series: &mut [Series]) {
     let probability = |at: &Series| {
         let line = at.line.filter(|line| line.degrees_of_freedom > 0)?;
@@ -187,9 +192,7 @@ fn reject_lines(series: &mut [Series]) {
         let ratio = line.chi_square / line.degrees_of_freedom as f64;
         Some(f_larger(ratio, line.degrees_of_freedom, fewest))
     };
-    let (tested, probabilities): (Vec<usize>, Vec<f64>) =
-        series.iter().enumerate().filter_map(|(at, one)| Some((at, probability(one)?))).unzip();
-    for (at, corrected) in tested.into_iter().zip(holm(&probabilities)) {
+    for (at, corrected) in corrected(series, probability) {
         let one = &mut series[at];
         if corrected < DRIFTS
             && let Some(jump) = one.largest_change(corrected)
