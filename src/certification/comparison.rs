@@ -69,15 +69,14 @@ pub struct Comparison {
     pub words: Vec<String>,
 }
 
-/// Differences between check and certificate as rotations of the case, with their standard uncertainties and the design
-/// matrix of the common rotation.
+/// Differences between check and certificate as rotations of the case, with their standard uncertainties and the model of
+/// the common rotation.
 #[derive(Clone)]
 struct Differences {
     turns_arcsec: DVector<f64>,
     u_arcsec: DVector<f64>,
     degrees_of_freedom: f64,
-    design: DMatrix<f64>,
-    base_axes: DMatrix<f64>,
+    model: RunModel,
 }
 
 impl Comparison {
@@ -239,21 +238,15 @@ impl Differences {
                 freedom = freedom.min(both[axis] * both[axis] / parts);
             }
         }
-        Ok(Self {
-            turns_arcsec: turned,
-            u_arcsec: u,
-            degrees_of_freedom: freedom,
-            design: model.design,
-            base_axes: model.base_axes,
-        })
+        Ok(Self { turns_arcsec: turned, u_arcsec: u, degrees_of_freedom: freedom, model })
     }
 
     /// Returns the rotation common to `places` by weighted least squares, the R⁻¹ of the fit, and the residual
     /// chi-square; `None` if these positions do not determine it.
     fn shared(&self, places: &[usize]) -> Option<(DVector<f64>, DMatrix<f64>, f64)> {
         let rows: Vec<usize> = places.iter().flat_map(|place| (3 * place)..(3 * place + 3)).collect();
-        let weighted = DMatrix::from_fn(rows.len(), self.design.ncols(), |row, column| {
-            self.design[(rows[row], column)] / self.u_arcsec[rows[row]]
+        let weighted = DMatrix::from_fn(rows.len(), self.model.design.ncols(), |row, column| {
+            self.model.design[(rows[row], column)] / self.u_arcsec[rows[row]]
         });
         let mut right =
             DMatrix::from_fn(rows.len(), 1, |row, _| self.turns_arcsec[rows[row]] / self.u_arcsec[rows[row]]);
@@ -278,7 +271,7 @@ impl Differences {
 
     /// Returns the chi-square test of positions relative to each other, or `None` if they leave no degrees of freedom.
     fn rest(&self, places: &[usize]) -> Option<Test> {
-        let degrees_of_freedom = (3 * places.len()).checked_sub(self.design.ncols()).filter(|rest| *rest > 0)?;
+        let degrees_of_freedom = (3 * places.len()).checked_sub(self.model.design.ncols()).filter(|rest| *rest > 0)?;
         let (_, _, chi_square) = self.shared(places)?;
         Some(self.test(chi_square, degrees_of_freedom))
     }
@@ -297,7 +290,7 @@ impl Differences {
     fn of_position(&self, place: usize, others: &[usize]) -> Option<([f64; 3], [f64; 3], Test)> {
         let others: Vec<usize> = others.iter().copied().filter(|other| *other != place).collect();
         let (shared, r_inverse, _) = self.shared(&others)?;
-        let design = self.design.rows(3 * place, 3);
+        let design = self.model.design.rows(3 * place, 3);
         let turn: Vector3<f64> = self.turns_arcsec.fixed_rows::<3>(3 * place) - design * shared;
         let spread = design * r_inverse;
         let own = self.u_arcsec.fixed_rows::<3>(3 * place).map(|u| u * u);
@@ -331,14 +324,10 @@ impl Differences {
     fn common(&self, repeating: &[usize], certificate: &Stand, between: Option<&Between>) -> Option<CommonTurn> {
         let every: Vec<usize> = (0..certificate.positions.len()).collect();
         let (shared, r_inverse, _) = self.shared(if repeating.is_empty() { &every } else { repeating })?;
-        let base = &self.base_axes * shared.rows(3, shared.len() - 3);
+        let [platform_arcsec, base_arcsec] = self.model.rotations(&shared);
         let certificate = &certificate.certificate;
         let test = between.and_then(|between| self.common_test(&shared, &r_inverse, certificate, between));
-        Some(CommonTurn {
-            platform_arcsec: [shared[0], shared[1], shared[2]],
-            base_arcsec: [base[0], base[1], base[2]],
-            test,
-        })
+        Some(CommonTurn { platform_arcsec, base_arcsec, test })
     }
 
     /// Tests the common rotation against the variation between whole runs; returns `None` if the certificate does not

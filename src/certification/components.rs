@@ -137,6 +137,12 @@ impl RunModel {
         Some(Self { turns, design, base_axes, solve })
     }
 
+    /// Returns the rotations about x, y, z of the platform, and about east, north, up of the base, of a solution.
+    pub(crate) fn rotations(&self, solution: &DVector<f64>) -> [[f64; 3]; 2] {
+        let base = &self.base_axes * solution.rows(3, solution.len() - 3);
+        [[solution[0], solution[1], solution[2]], [base[0], base[1], base[2]]]
+    }
+
     /// Returns the share of each row in the residual of each row, or `None` if the rotations leave no degrees of freedom.
     pub(crate) fn keeps(&self) -> Option<DMatrix<f64>> {
         let (rows, columns) = self.design.shape();
@@ -209,6 +215,10 @@ pub(crate) fn estimate(
         (seen, of_scatter)
     };
     let common = |from: usize, to: usize| common((from..to).map(of_effect).collect(), changes, &pooled_arcsec2);
+    let turn = |run, effect: &DVector<f64>| {
+        let [platform_arcsec, base_arcsec] = model.rotations(effect);
+        RunTurn { run, platform_arcsec, base_arcsec }
+    };
     Ok(Components {
         own_arcsec2,
         pooled_arcsec2,
@@ -217,7 +227,7 @@ pub(crate) fn estimate(
         platform: common(0, 3),
         base: (columns > 3).then(|| common(3, columns)),
         base_axes: columns - 3,
-        run_turns: runs.iter().zip(&effects).map(|(run, effect)| run_turn(*run, effect, &model)).collect(),
+        run_turns: runs.iter().zip(&effects).map(|(run, effect)| turn(*run, effect)).collect(),
         residuals,
         keeps,
         model,
@@ -292,11 +302,6 @@ fn mean_squares(residuals: &[DVector<f64>]) -> DVector<f64> {
     let changes = residuals.len() as f64 - 1.0;
     let rows = residuals.first().map_or(0, DVector::len);
     DVector::from_fn(rows, |row, _| residuals.iter().map(|run| run[row] * run[row]).sum::<f64>() / changes)
-}
-
-fn run_turn(run: u32, effect: &DVector<f64>, model: &RunModel) -> RunTurn {
-    let base = &model.base_axes * effect.rows(3, effect.len() - 3);
-    RunTurn { run, platform_arcsec: [effect[0], effect[1], effect[2]], base_arcsec: [base[0], base[1], base[2]] }
 }
 
 /// Group of rows; its degrees of freedom are those that one more run adds.

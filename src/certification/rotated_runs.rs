@@ -192,14 +192,11 @@ pub(super) fn without(header: &Header, components: &Components, outliers: &[Outl
     for out in outliers {
         let Some(place) = header.positions.iter().position(|at| at.index() == out.index) else { continue };
         let effect = model.solve.column(3 * place + out.axis) * out.residual_arcsec;
-        let base = &model.base_axes * effect.rows(3, effect.len() - 3);
+        let effect = model.rotations(&effect);
         for (run, turn) in &mut turns {
             // The shift of one reading also moves the mean of the runs.
             let share = f64::from(u8::from(*run == out.run)) - 1.0 / runs;
-            for axis in 0..3 {
-                turn[axis] -= share * effect[axis];
-                turn[3 + axis] -= share * base[axis];
-            }
+            turn.iter_mut().zip(effect.as_flattened()).for_each(|(turn, effect)| *turn -= share * effect);
         }
     }
     turns
