@@ -36,11 +36,11 @@ pub enum Decision {
 /// Comparison of a result with a specification or an earlier result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Verdict {
-    /// Overall decision: fail if a parameter fails by guarded acceptance, pass if all pass, otherwise undecided.
+    /// Overall decision: fail if a parameter fails by guarded acceptance, pass if all eight pass, otherwise undecided.
     pub overall: Decision,
     /// Value of g to which the drifts of the type refer and at which drifts are compared, m/s².
     pub gravity_m_per_s2: f64,
-    /// Decisions, one for each parameter.
+    /// Decisions, one for each parameter; the general model has no ω_g and ω_k.
     pub parameters: Vec<ParameterVerdict>,
 }
 
@@ -226,6 +226,12 @@ impl Verdict {
         Parameter::EIGHT.into_iter().find(|parameter| parameter.key() == worst.parameter)
     }
 
+    /// Returns the parameters with a tolerance that were not found, because the general model does not have them.
+    pub(crate) fn not_found(&self) -> Vec<Parameter> {
+        let found = |parameter: &Parameter| self.parameters.iter().any(|row| row.parameter == parameter.key());
+        Parameter::AS_IN_THE_PAPER.into_iter().filter(|parameter| !found(parameter)).collect()
+    }
+
     /// Returns the comparison with nothing decided, for parameters that are not valid.
     pub(crate) fn undecided(mut self) -> Self {
         for row in &mut self.parameters {
@@ -235,10 +241,11 @@ impl Verdict {
     }
 
     fn of(gravity_m_per_s2: f64, parameters: Vec<ParameterVerdict>) -> Self {
-        let all = |decision| parameters.iter().all(|parameter| parameter.guarded == decision);
-        let overall = if parameters.iter().any(|parameter| parameter.guarded == Decision::Fail) {
+        let number = |decision| parameters.iter().filter(|parameter| parameter.guarded == decision).count();
+        let overall = if number(Decision::Fail) > 0 {
             Decision::Fail
-        } else if all(Decision::Pass) {
+        } else if number(Decision::Pass) == Parameter::EIGHT.len() {
+            // A parameter that was not found has not passed.
             Decision::Pass
         } else {
             Decision::Undecided

@@ -57,6 +57,7 @@ pub(crate) fn text(done: &Done, gyro_type: Option<&str>, meter_assumed: bool) ->
     }
     if let Some((_, verdict)) = verdict
         && verdict.gravity_m_per_s2 != document.gravity_m_per_s2
+        && verdict.not_found().is_empty()
     {
         let words = format!("ω_g and ω_k are decided at the type's g, {} m/s² (see below).", verdict.gravity_m_per_s2);
         columns::paragraph(&mut out, "", &words);

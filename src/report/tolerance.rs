@@ -1,5 +1,7 @@
 //! Decisions on the tolerances of a gyro type as text.
 
+use super::page::language::Language;
+use super::page::texts::calibration as texts;
 use super::{columns, style};
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
@@ -13,12 +15,15 @@ pub(super) fn headline(name: &str, verdict: &Verdict) -> (fn(&str) -> String, St
         let rows = verdict.parameters.iter().filter(|row| row.guarded == decision);
         rows.map(|row| symbol_of(row.parameter)).collect()
     };
-    let (passed, all) = (of(Decision::Pass).len(), verdict.parameters.len());
+    let (passed, all) = (of(Decision::Pass).len(), Parameter::EIGHT.len());
     let mut words = format!("gyro type {}: {passed} of {all} parameters pass", printable(name));
     for (what, which) in [("fail", of(Decision::Fail)), ("undecided", of(Decision::Undecided))] {
         if !which.is_empty() {
             let _ = write!(words, "; {what}: {}", which.join(", "));
         }
+    }
+    if let Some(not_found) = not_found(verdict) {
+        let _ = write!(words, "; {not_found}");
     }
     let (style, mark): (fn(&str) -> String, _) = match verdict.overall {
         Decision::Pass => (style::good, style::PASSED),
@@ -26,6 +31,13 @@ pub(super) fn headline(name: &str, verdict: &Verdict) -> (fn(&str) -> String, St
         Decision::Undecided => (style::heading, style::NOT_ASKED),
     };
     (style, format!("{mark} {}", word(verdict.overall).to_uppercase()), words)
+}
+
+/// Returns which parameters were not decided, because the general model does not have them.
+fn not_found(verdict: &Verdict) -> Option<String> {
+    let names: Vec<&str> = verdict.not_found().into_iter().map(Parameter::symbol).collect();
+    let words = || texts::NOT_IN_THE_MODEL.filled(Language::English, &[("names", &names.join(", "))]);
+    (!names.is_empty()).then(words)
 }
 
 pub(super) fn word(decision: Decision) -> &'static str {
@@ -69,6 +81,9 @@ pub(super) fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str
     let _ = writeln!(out, "  Overall, by guarded acceptance: {}", word(verdict.overall).to_uppercase());
     if verdict.parameters.iter().any(ParameterVerdict::is_close) && verdict.overall == Decision::Undecided {
         columns::paragraph(out, "  ", "undecided: the uncertainty does not permit a decision.");
+    }
+    if let Some(not_found) = not_found(verdict) {
+        columns::paragraph(out, "  ", &format!("{not_found}."));
     }
     for row in verdict.parameters.iter().filter(|row| row.is_mostly_from_gravity()) {
         let words = format!(

@@ -62,6 +62,25 @@ fn decisions() {
     assert_eq!((exact.parameters[4].guarded, exact.parameters[4].specific_risk), (Decision::Fail, 0.0));
 }
 
+/// Expected by hand: the general model has no ω_g and ω_k, so a gyro cannot be within all eight tolerances, however good
+/// the other six are; one of these out of tolerance is enough to fail. The same is true of a change.
+#[test]
+fn a_gyro_without_omega_g_and_omega_k_does_not_pass() {
+    let general = |out: f64| {
+        let per_g = |v: &mut [f64; 8]| {
+            v[4] += out;
+            (v[6], v[7]) = (f64::NAN, f64::NAN);
+        };
+        found(per_g, SMALL)
+    };
+    let verdict = against_type(&general(0.0), &GyroType::gvk_6());
+    assert_eq!((verdict.overall, verdict.parameters.len()), (Decision::Undecided, 6));
+    assert!(verdict.parameters.iter().all(|row| row.guarded == Decision::Pass));
+    assert_eq!(verdict.not_found(), [Parameter::OmegaG, Parameter::OmegaK]);
+    assert_eq!(against_type(&general(0.02), &GyroType::gvk_6()).overall, Decision::Fail);
+    assert_eq!(against_earlier(&general(0.0), &found(|_| {}, SMALL), &GyroType::gvk_6()).overall, Decision::Undecided);
+}
+
 /// Expected: the factors for 95.45 % in table G.2 of JCGM 100; the risks P(T < -1) + P(T < -9) from mpmath.
 #[test]
 fn few_degrees_of_freedom_need_a_larger_factor() {

@@ -55,7 +55,10 @@ pub(super) fn counted(verdict: &Verdict, of_what: Option<Text>, languages: &Lang
     let names = |decision: Decision| {
         html! { @for (place, row) in of(decision).enumerate() { @if place > 0 { ", " } (parameter(row)) } }
     };
-    let values = [("passed", html! { (of(Decision::Pass).count()) }), ("all", html! { (verdict.parameters.len()) })];
+    let values = [("passed", html! { (of(Decision::Pass).count()) }), ("all", html! { (Parameter::EIGHT.len()) })];
+    let not_found = verdict.not_found();
+    let not_found_names =
+        html! { @for (place, one) in not_found.iter().enumerate() { @if place > 0 { ", " } (name_of(one.symbol())) } };
     let rest = [(Decision::Undecided, texts::ARE_UNDECIDED), (Decision::Fail, texts::FAIL)];
     languages.paragraph_with(|language| {
         html! {
@@ -63,6 +66,9 @@ pub(super) fn counted(verdict: &Verdict, of_what: Option<Text>, languages: &Lang
             (texts::PASSED.marked_up(language, &values))
             @for (decision, text) in rest.iter().filter(|(decision, _)| of(*decision).count() > 0) {
                 (text.marked_up(language, &[("names", names(*decision))]))
+            }
+            @if !not_found.is_empty() {
+                "; " (texts::NOT_IN_THE_MODEL.marked_up(language, &[("names", not_found_names.clone())]))
             }
             "."
         }

@@ -158,6 +158,10 @@ texts! {
     CHANGE_COUNTED { en: "Change since the previous calibration:", ru: "Изменение после предыдущей калибровки." }
     ARE_UNDECIDED { en: "; undecided: {names}", ru: "; не определено: {names}" }
     FAIL { en: "; fail: {names}", ru: "; не соответствуют: {names}" }
+    NOT_IN_THE_MODEL {
+        en: "not decided, because the general model does not contain them: {names}",
+        ru: "не оценивались, так как их нет в общей модели: {names}"
+    }
     PLUS_MINUS { en: "± U", ru: "± U" }
     IN_TOLERANCE { en: "% of the tolerance", ru: "% допуска" }
     METHODS { en: "Methods and convergence", ru: "Методы и сходимость" }
