@@ -87,7 +87,8 @@ pub enum ReissueRefused {
     /// The given certificate is older than that of the predecessor.
     #[error(
         "certificate {given} was measured on {given_measured}, before certificate {old} ({old_measured}) of the \
-         predecessor; use the newest stand file, or withdraw the predecessor first if its certificate is wrong"
+         predecessor; use the newest stand file; if the certificate of the predecessor is wrong, withdraw the \
+         predecessor, then pass the list with --revoked, and --stand and --site"
     )]
     OlderCertificate {
         /// Number of the certificate in the stand file.
@@ -123,7 +124,7 @@ pub struct Successor {
 }
 
 /// Prepares the successor of a passport. If every check passed, the whole predecessor is used. If its key is no longer
-/// trusted or it has expired, only its id and its hash are used. Otherwise it cannot be re-issued.
+/// trusted, or it was withdrawn or has expired, only its id and its hash are used. Otherwise it cannot be re-issued.
 ///
 /// `old_bytes` is the whole file of the predecessor, `verification` the result of verifying it.
 ///
@@ -192,7 +193,7 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
 }
 
 /// Returns the check, with its detail, because of which only the id and the hash of a predecessor may be used: the key was
-/// lost or revoked, or the passport has expired; `None` if the whole content may be used.
+/// lost or revoked, or the passport was withdrawn or has expired; `None` if the whole content may be used.
 fn limit(verification: &Verification) -> Result<Option<(&'static str, String)>, ReissueRefused> {
     let mut limit = None;
     for check in verification.checks() {
@@ -201,7 +202,7 @@ fn limit(verification: &Verification) -> Result<Option<(&'static str, String)>, 
             // A predecessor whose signer is no longer trusted is not recomputed, but it can still be referenced.
             (_, Code::Ok) | (CheckName::Recomputed | CheckName::InForce, Code::NotRun) => {}
             (CheckName::Signer, Code::UnknownKey)
-            | (CheckName::Revocation, Code::KeyRevoked)
+            | (CheckName::Revocation, Code::KeyRevoked | Code::PassportRevoked)
             | (CheckName::InForce, Code::Expired) => limit = Some((name, detail)),
             _ => return Err(ReissueRefused::OldDoesNotHold { check: name, detail }),
         }
