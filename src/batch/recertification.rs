@@ -267,7 +267,7 @@ impl Recertification<'_> {
         let readings = AngleReadings::from_csv_without(name, bytes, &header.positions, self.excluded)?;
         let (readings, _) = predicted(header, &readings).map_err(|why| of_readings(&why))?;
         let certification = certify(header, &readings).map_err(|why| of_readings(&why))?;
-        if certification.check_number(old).is_err() || old.certificate.number == self.number {
+        if certification.stand.check_number(old).is_err() || old.certificate.number == self.number {
             let number = self.number;
             return Err(refused(format!(
                 "certificate {number} is the certificate of the passport; give the new certificate its own number with \
@@ -306,7 +306,7 @@ impl Recertification<'_> {
             Err(error) => Err(error.into()),
             Ok(bytes) => {
                 let there = Stand::from_yaml(&name_of(path), &bytes)?;
-                new.check_number(&there).map_err(|why| refused(format!("{}: {why}", shown(path))))
+                new.stand.check_number(&there).map_err(|why| refused(format!("{}: {why}", shown(path))))
             }
         }
     }

@@ -46,7 +46,6 @@ use suspects::Suspects;
 
 use crate::attitude::ANGLES;
 use crate::calibration::inputs::Turn;
-use crate::coefficients::PositionIndex;
 use crate::stand::{self, ActsOn, Certificate, CertifiedPosition, Evidence, Stand};
 use components::{case_turn, turns_at};
 use deletion::Deletion;
@@ -91,43 +90,6 @@ pub enum NotCertified {
     /// Readings that do not scatter once the common rotation of each run is removed.
     #[error("the readings do not vary; check whether the runs are shifted copies of each other")]
     NoScatter,
-}
-
-/// Certificate number that is already used for other angles.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "certificate {number} already states other angles for this stand, first for position {index}; give the new \
-     certificate its own number and dates in the header (--stand)"
-)]
-pub(crate) struct NumberInUse {
-    /// Number of the certificate.
-    pub number: String,
-    /// First position with other angles.
-    pub index: PositionIndex,
-}
-
-impl Certification {
-    /// Checks that the new certificate does not use the number of the existing one, `there`, for other angles.
-    ///
-    /// # Errors
-    /// Returns [`NumberInUse`] if it does.
-    pub(crate) fn check_number(&self, there: &Stand) -> Result<(), NumberInUse> {
-        let number = &self.stand.certificate.number;
-        // The same file with other exclusions gives other angles.
-        let of = |stand: &Stand| stand.certificate.evidence.clone();
-        let same_readings = of(there).is_some() && of(there) == of(&self.stand);
-        if *number != there.certificate.number || same_readings {
-            return Ok(());
-        }
-        let kept = |at: &CertifiedPosition, among: &[CertifiedPosition]| {
-            among.iter().any(|other| other.index() == at.index() && other.angles_arcsec() == at.angles_arcsec())
-        };
-        let new = self.stand.positions.iter().find(|at| !kept(at, &there.positions));
-        match new.or_else(|| there.positions.iter().find(|at| !kept(at, &self.stand.positions))) {
-            Some(at) => Err(NumberInUse { number: number.clone(), index: at.index() }),
-            None => Ok(()),
-        }
-    }
 }
 
 /// Certified stand, with the evidence for its numbers.

@@ -147,7 +147,7 @@ fn write(path: &Path, certified: &Certification, known: &[&Stand], force: bool) 
     // An existing output file need not be a stand file; --force replaces it in any case.
     let there = inputs::stand(path).ok();
     for stand in known.iter().copied().chain(&there) {
-        certified.check_number(stand).map_err(Failure::refused)?;
+        certified.stand.check_number(stand).map_err(Failure::refused)?;
     }
     let text = certified.to_yaml(&name_of(path)).map_err(Failure::refused)?;
     let superseded = Superseded::of(path, text.as_bytes()).map_err(Failure::file)?.filter(|_| force);
@@ -195,7 +195,7 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
     files::check_replaceable(page.as_ref().map(|(path, _)| *path), options.force).map_err(Failure::file)?;
     if let (Some(path), Some(certified)) = (&options.output, &certified) {
         if options.stand.is_none() {
-            against.iter().try_for_each(|stand| certified.check_number(stand)).map_err(Failure::refused)?;
+            against.iter().try_for_each(|stand| certified.stand.check_number(stand)).map_err(Failure::refused)?;
             let words = "-o requires --stand HEADER.yaml, because a new certificate has its own number and dates";
             return Err(Failure::unusable(words));
         }

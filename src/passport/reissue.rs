@@ -8,6 +8,7 @@ use super::issue::{Draft, Issue, IssueRefused, PreparedStand, Reissued};
 use super::verification::Verification;
 use crate::document::sha256_hex;
 use crate::site::Site;
+use crate::stand::number::NumberInUse;
 use crate::stand::{Certificate, Identity, Stand};
 use crate::text::{Field, Node, number, rule};
 use jiff::Timestamp;
@@ -100,6 +101,9 @@ pub enum ReissueRefused {
         /// Date on which the stand was measured for it, or its date of issue if none is stated.
         old_measured: Date,
     },
+    /// The given certificate has the number of that of the predecessor, but other angles.
+    #[error(transparent)]
+    NumberInUse(#[from] NumberInUse),
     /// The new passport cannot be issued.
     #[error(transparent)]
     Issue(#[from] IssueRefused),
@@ -157,6 +161,9 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
     if limit.is_none() && given_measured < old_measured {
         let [given, old] = [&stand.certificate, &old.certificate].map(|certificate| certificate.number.clone());
         return Err(ReissueRefused::OlderCertificate { given, given_measured, old, old_measured });
+    }
+    if limit.is_none() {
+        stand.check_number(&old.to_stand())?;
     }
     let same_site = site.id == old.site.id;
     if same_site && order.moved {
