@@ -255,10 +255,10 @@ impl Register {
     /// Creates the register of all examined files.
     ///
     /// A passport is superseded by an authentic one that was issued by the time of verification, states that it
-    /// supersedes, and references the passport's SHA-256, its id, or a later revision. This also applies if the
-    /// successor was later withdrawn or has expired, so that older numbers do not come back into force. If several
-    /// files have one id, none is in force until all but one are withdrawn. If a file cannot be read, no passport that
-    /// it may affect is in force.
+    /// supersedes, and references the passport's SHA-256, its id, or a later revision; or by a later revision for its
+    /// site. This also applies if the successor was later withdrawn or has expired, so that older numbers do not come
+    /// back into force. If several files have one id, none is in force until all but one are withdrawn. If a file cannot
+    /// be read, no passport that it may affect is in force.
     ///
     /// `withdrawn` applies to every file; `alarms` are those raised while searching for the files.
     pub fn of(mut files: Vec<Examined>, withdrawn: &Series, mut alarms: Vec<Alarm>) -> Self {

@@ -20,7 +20,8 @@ pub(super) struct Successor {
 ///
 /// A successor references its predecessor by the SHA-256 of its file and by its id. By the id it also supersedes every
 /// other file with that id and every earlier revision for that site. These do not come back into force if a file in
-/// between is removed.
+/// between is removed. A later revision supersedes the earlier ones for its site, also if it was re-issued from a passport
+/// for another site.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(super) struct Successors {
     of_file: BTreeMap<String, Superseded>,
@@ -45,17 +46,17 @@ impl Superseded {
 impl Successors {
     pub(super) fn of(files: &[Examined]) -> Self {
         let mut successors = Self::default();
-        for file in files {
-            let (Some(from), Some(id)) = (file.superseding(), &file.line.id) else { continue };
+        let counted = files.iter().filter(|file| file.counts && (file.revision > 1 || file.predecessor.is_some()));
+        for file in counted {
+            let Some(id) = &file.line.id else { continue };
             let Line { file: name, sha256, state, .. } = file.line.clone();
-            successors.predecessors.insert(sha256.clone(), from.sha256.clone());
             let (series, withdrawn) = (file.series.clone(), state == State::Revoked);
             let successor = Successor { id: id.clone(), file: name, sha256, series, withdrawn, issued: file.issued };
+            successors.supersede(&file.series, file.revision.saturating_sub(1), &successor);
+            let Some(from) = file.superseding() else { continue };
+            successors.predecessors.insert(successor.sha256.clone(), from.sha256.clone());
             let (old_series, old_revision) = series_of(&from.id);
-            let last = successors.of_series.get(old_series).map_or(0, |(revision, _)| *revision);
-            if file.issued && old_revision > last {
-                successors.of_series.insert(old_series.to_owned(), (old_revision, successor.clone()));
-            }
+            successors.supersede(old_series, old_revision, &successor);
             let new = || Superseded { id: from.id.clone(), by: Vec::new() };
             let known = &mut successors.of_file.entry(from.sha256.clone()).or_insert_with(new).by;
             // A copy of the same file is not a second successor.
@@ -64,6 +65,14 @@ impl Successors {
             }
         }
         successors
+    }
+
+    /// Notes that `by` supersedes a series up to a revision.
+    fn supersede(&mut self, series: &str, revision: u32, by: &Successor) {
+        let last = self.of_series.get(series).map_or(0, |(revision, _)| *revision);
+        if by.issued && revision > last {
+            self.of_series.insert(series.to_owned(), (revision, by.clone()));
+        }
     }
 
     /// Returns an alarm for each passport with several successors that are not withdrawn. The file of the passport
