@@ -3,14 +3,18 @@
 //! Let K, ω_0, ω_n be the actual values and K′, ω_0′, ω_n′ those found. Currents J′ = 10^p P J instead of J, where P is
 //! a signed permutation of x and y, give K′ = K P⁻¹ 10^−p and leave the drifts unchanged. A passport of another place,
 //! with ω_Γ′ and ω_B′ instead of the acting ω_Γ and ω_B, gives K′ = sK, ω_0′ = sω_0, ω_n′ = sω_n + (ω_B′ − sω_B)·1 with
-//! s = ω_Γ′/ω_Γ. Each of these errors can be undone.
+//! s = ω_Γ′/ω_Γ. A gyro turned by δ about its spin axis gives K′ = R⁻¹K, ω_0′ = R⁻¹ω_0, ω_n′ = ω_n, where R is Rz(δ) of the
+//! x and y axes. A base turned by δ clockwise gives K′ = RK, ω_0′ = Rω_0, W′ − ω_n′ = R(W − ω_n), where W is ω_B·1 − ω_Γ sin(90° −
+//! ψ − δ)·R(−90°), and W′ is W for δ = 0: exactly for 180°, for quarter turns on a stand of the paper's eight positions
+//! without deviations. Each of these errors can be undone.
 
 use super::result::Calibration;
 use super::verdict::{Found, Verdict, against_type};
 use crate::coefficients::EarthRate;
 use crate::earth::{NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2, normal_gravity_m_per_s2};
 use crate::gyro::{GyroParameters, GyroType};
-use nalgebra::Matrix2;
+use crate::units::sin_cos_of_degrees;
+use nalgebra::{Matrix2, Vector2};
 use serde::{Deserialize, Serialize};
 
 /// Ratio of distances above which an error clearly explains a result: the result as read, or with any other error
@@ -38,6 +42,16 @@ pub enum Mistake {
     OtherPlace {
         /// Astronomic latitude of the place that would explain the result, degrees; the longitude has no effect.
         latitude_deg: f64,
+    },
+    /// A gyro turned in its seat about the spin axis.
+    GyroTurned {
+        /// Angle from the seat to the gyro, counterclockwise about z: 90, 180 or 270 degrees.
+        by_deg: u16,
+    },
+    /// A base that was set up with the frame's axis to another quarter.
+    OtherAxis {
+        /// Azimuth of the frame's axis that would explain the result, degrees clockwise from north.
+        frame_axis_azimuth_deg: f64,
     },
 }
 
@@ -98,7 +112,11 @@ fn by_type(found: &Found, used: &EarthRate, gyro_type: &GyroType) -> Option<Mist
     let mut candidates: Vec<(f64, Mistake)> = CurrentsMistaken::all(power_of_ten(found, &nominal))
         .map(|mistaken| (distance(&mistaken.undone(found)), Mistake::Currents(mistaken)))
         .collect();
+    let of_currents = candidates.iter().map(|(distance, _)| *distance).fold(f64::INFINITY, f64::min);
     candidates.extend(other_place(found, used, &nominal, distance));
+    // A gyro with small drifts that is turned has the currents of exchanged or reversed columns, whose words name the seat.
+    let turned = turned(found, used).map(|(undone, mistake)| (distance(&undone), mistake));
+    candidates.extend(turned.filter(|(near, _)| *near < CLEARLY && of_currents >= CLEARLY * near.max(1.0)));
     candidates.sort_by(|(one, _), (other, _)| one.total_cmp(other));
     let &(best, mistake) = candidates.first()?;
     let second = candidates.get(1).map_or(as_read, |(second, _)| second.min(as_read));
@@ -146,6 +164,38 @@ impl CurrentsMistaken {
         undone.standard_uncertainty[..4].copy_from_slice(&[u.m11, u.m12, u.m21, u.m22]);
         undone
     }
+}
+
+/// Returns the result with each turn of the gyro or of the base by a quarter, a half and three quarters undone.
+fn turned(found: &Found, used: &EarthRate) -> impl Iterator<Item = (Found, Mistake)> {
+    [90_u16, 180, 270].into_iter().flat_map(move |by_deg| {
+        let (sin, cos) = sin_cos_of_degrees(f64::from(by_deg));
+        let turn = Matrix2::new(cos, -sin, sin, cos);
+        let gyro = (turned_back(found, &turn.transpose()), Mistake::GyroTurned { by_deg });
+        // ω_n and W have the form [[g, −k], [k, g]], and so has R: (g, k) stands for the matrix.
+        let rate = |azimuth_deg: f64| {
+            let (sin, _) = sin_cos_of_degrees(90.0 - azimuth_deg);
+            Vector2::new(used.vertical_deg_per_h, -used.horizontal_deg_per_h * sin)
+        };
+        let azimuth_deg = used.frame_axis_azimuth_deg + f64::from(by_deg);
+        let (w_g, w_k) = (found.parameters.omega_g_deg_per_h_per_g, found.parameters.omega_k_deg_per_h_per_g);
+        let omega_n = rate(azimuth_deg) - turn * (rate(used.frame_axis_azimuth_deg) - Vector2::new(w_g, w_k));
+        let mut base = turned_back(found, &turn);
+        base.parameters.omega_g_deg_per_h_per_g = omega_n.x;
+        base.parameters.omega_k_deg_per_h_per_g = omega_n.y;
+        [gyro, (base, Mistake::OtherAxis { frame_axis_azimuth_deg: azimuth_deg % 360.0 })]
+    })
+}
+
+/// Returns the result with R K and R ω_0 in place of K and ω_0.
+fn turned_back(found: &Found, turn: &Matrix2<f64>) -> Found {
+    let mut back = *found;
+    back.parameters.k_deg_per_h_per_ma = turn * found.parameters.k_deg_per_h_per_ma;
+    back.parameters.omega0_deg_per_h = turn * found.parameters.omega0_deg_per_h;
+    let [x_x, x_y, y_x, y_y, x, y, ..] = found.standard_uncertainty;
+    let (k, omega0) = (turn.abs() * Matrix2::new(x_x, x_y, y_x, y_y), turn.abs() * Vector2::new(x, y));
+    back.standard_uncertainty[..6].copy_from_slice(&[k.m11, k.m12, k.m21, k.m22, omega0.x, omega0.y]);
+    back
 }
 
 /// Returns the latitude whose passport would give the result nearest to the expected one, with its distance. Returns

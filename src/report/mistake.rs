@@ -19,6 +19,10 @@ pub(crate) fn words(mistake: &Mistake, language: Language) -> String {
             let latitude = Number::fixed(*latitude_deg, 1).text(language);
             texts::MISTAKE_PLACE.filled(language, &[("latitude", &latitude)])
         }
+        Mistake::GyroTurned { by_deg } => texts::MISTAKE_GYRO_TURNED.filled(language, &[("angle", by_deg)]),
+        Mistake::OtherAxis { frame_axis_azimuth_deg } => {
+            texts::MISTAKE_OTHER_AXIS.filled(language, &[("azimuth", frame_axis_azimuth_deg)])
+        }
     }
 }
 

@@ -357,6 +357,40 @@ fn the_passport_of_another_place_is_recognised() {
     assert!((k.m11 - 95.0 * 1.7472).abs() < 0.01, "{k}");
 }
 
+/// A gyro turned in its seat by quarter turns, on stands of 3°, and a frame's axis to another quarter than the passport's: the
+/// opposite one on stands of 3°, the others on stands of 7″, because on worse ones the readings do not fit.
+///
+/// Expected: the currents of the drift model, eq. (5), with n and ω_3 in the turned axes, or of the stand as it is set up.
+#[test]
+fn a_turned_gyro_and_a_turned_base_are_recognised() {
+    let mut stream = Stream::new(25);
+    for _ in 0..50 {
+        let stand = drawn_stand(&mut stream, 3.0);
+        let gyro = good_gyro(&mut stream, LATITUDE_DEG);
+        for by_deg in [90_u16, 180, 270] {
+            let (sin, cos) = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)][usize::from(by_deg / 90)];
+            let turn = |v: Vector2<f64>| Vector2::new(cos * v.x + sin * v.y, cos * v.y - sin * v.x);
+            let setup = setup(&stand, LATITUDE_DEG);
+            let currents = setup.coefficients().positions.iter().map(|at| {
+                let (n, omega) = (turn(at.specific_force_g), turn(at.earth_rate_deg_per_h));
+                let (w_g, w_k) = (gyro.omega_g_deg_per_h_per_g, gyro.omega_k_deg_per_h_per_g);
+                let drift = gyro.omega0_deg_per_h + Vector2::new(w_g * n.x - w_k * n.y, w_k * n.x + w_g * n.y);
+                gyro.k_deg_per_h_per_ma.try_inverse().unwrap() * (omega - drift)
+            });
+            let currents = noisy(&mut stream, &currents.collect::<Vec<_>>());
+            assert_eq!(explained(&stand, LATITUDE_DEG, &currents), [Some(Mistake::GyroTurned { by_deg }), None]);
+        }
+        for (frame_axis_azimuth_deg, limit_deg) in [(0.0, 0.002), (180.0, 0.002), (270.0, 3.0)] {
+            let stand = drawn_stand(&mut stream, limit_deg);
+            let rate = EarthRate { frame_axis_azimuth_deg, ..EarthRate::at_astronomic_latitude(LATITUDE_DEG) };
+            let setup = Setup::new(&stand, rate, InputUncertainty::of_meter(paper_meter())).unwrap();
+            let currents = noisy(&mut stream, &currents(&setup, &gyro));
+            let due = Mistake::OtherAxis { frame_axis_azimuth_deg };
+            assert_eq!(explained(&stand, LATITUDE_DEG, &currents), [Some(due), None]);
+        }
+    }
+}
+
 /// Nothing is explained away: good gyros, gyros out of tolerance in one parameter or in all, a meter with a wrong gain, and
 /// readings that do not fit at all get no word of a mistake.
 #[test]

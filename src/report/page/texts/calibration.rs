@@ -65,6 +65,22 @@ texts! {
              паспорт выдан для другого места установки, а стенд находится на широте около {latitude}°. Следует \
              проверить место установки стенда и повторить калибровку по паспорту для этого места."
     }
+    MISTAKE_GYRO_TURNED {
+        en: "The readings fit, but the parameters do not match this gyro. One error explains this: the gyro is turned by \
+             {angle}° about its spin axis, or φ is counted from another position. Check how the gyro is seated; then \
+             calibrate again.",
+        ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: \
+             гироскоп повёрнут вокруг оси собственного вращения на {angle}°, или угол φ отсчитан от другого \
+             положения. Следует проверить установку гироскопа и повторить калибровку."
+    }
+    MISTAKE_OTHER_AXIS {
+        en: "The readings fit, but the parameters do not match this gyro. One error explains this: the frame’s axis of the \
+             stand points to the azimuth {azimuth}°, and not to that of the passport. Check the set-up of the base; then \
+             calibrate again, or request a passport for this azimuth.",
+        ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: ось \
+             рамки стенда направлена по азимуту {azimuth}°, а не по указанному в паспорте. Следует проверить выставку \
+             основания и повторить калибровку или запросить паспорт для этого азимута."
+    }
     MISTAKE_AND { en: "and", ru: "и" }
     MISTAKE_EXCHANGED { en: "the x and y columns are exchanged", ru: "столбцы x и y переставлены" }
     MISTAKE_X_REVERSED { en: "the sign of the x column is reversed", ru: "знак столбца x изменён" }
