@@ -6,6 +6,7 @@
 use super::Site;
 use crate::earth::{self, Place};
 use crate::text::{Path, Problems};
+use crate::units::radians_from_degrees;
 
 /// Largest distance of the pillar from the site, m.
 const FARTHEST_PILLAR_M: f64 = 5_000.0;
@@ -140,8 +141,32 @@ impl Site {
         if self.deflection_arcsec.as_ref().is_some_and(|deflection| deflection.u.is_none()) {
             odd.push("deflection_arcsec counts as exact, because no uncertainty is stated; state its u".to_owned());
         }
+        odd.extend(self.few_digits_of_mark());
         odd
     }
+
+    /// Returns a sentence if mark and pillar were written with fewer digits than their uncertainty needs.
+    fn few_digits_of_mark(&self) -> Option<String> {
+        let mark = self.azimuth_mark.as_ref()?;
+        let stated_m = mark.position_u_m?;
+        let coordinates = [mark.latitude_deg, mark.longitude_deg, mark.pillar_latitude_deg, mark.pillar_longitude_deg];
+        let step_deg = coordinates.map(last_digit_deg).into_iter().fold(1.0, f64::min);
+        // GUM, F.2.2.1.
+        let rounding_m = radians_from_degrees(step_deg) * earth::MEAN_RADIUS_M / 12_f64.sqrt();
+        (stated_m < rounding_m).then(|| {
+            format!(
+                "azimuth_mark: mark and pillar are rounded to {step_deg} degrees, which alone gives u = {rounding_m:.2} m, but \
+                 position_u_m is {stated_m}; state all digits of the survey, or a larger position_u_m"
+            )
+        })
+    }
+}
+
+/// Returns the place value of the last digit of a coordinate, degrees.
+fn last_digit_deg(coordinate_deg: f64) -> f64 {
+    let text = coordinate_deg.to_string();
+    let decimals = text.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    format!("1e-{decimals}").parse().unwrap_or(1.0)
 }
 
 /// Returns the distance in metres, or `None` if it is within the limit or a place has coordinates out of range.

@@ -74,6 +74,20 @@ fn values_without_an_uncertainty_are_named() {
     }
 }
 
+/// Expected by hand: 1e-5 degrees are 1.11 m on the ground, u = 1.11/√12 = 0.32 m.
+#[test]
+fn a_mark_with_too_few_digits_is_named() {
+    let mark = |u: &str| {
+        let keys = "latitude_deg: 55.76582\nazimuth_mark: {latitude_deg: 55.77602, longitude_deg: 37.6857, \
+                    pillar_latitude_deg: 55.7658, pillar_longitude_deg: 37.68563, position_u_m: ";
+        site(&format!("{keys}{u}}}\n")).odd()
+    };
+    let [words] = &mark("0.02")[..] else { panic!("one sentence") };
+    let due = "rounded to 0.00001 degrees, which alone gives u = 0.32 m, but position_u_m is 0.02;";
+    assert!(words.contains(due), "{words}");
+    assert!(mark("0.4").is_empty());
+}
+
 #[test]
 fn the_azimuth_of_the_frames_axis_is_a_full_circle() {
     let with = |azimuth: &str| format!("latitude_deg: 45.0\nframe_axis_azimuth_deg: {azimuth}");
