@@ -1,6 +1,6 @@
 //! Whom to trust and what to ask, and the answer on each passport.
 
-use super::{Failed, Stopped, Verdict, asked, json};
+use super::{Asked, Failed, Stopped, Verdict, json};
 use crate::document::sha256_hex;
 use crate::earth::Place;
 #[cfg(feature = "factory")]
@@ -9,14 +9,15 @@ use crate::passport::{Question, Trust, Verification, verify};
 use crate::register::Register;
 use crate::revocation::{RevocationList, Series, claims_to_be_a_list};
 use crate::text::scalar::{day, impossible_date};
+use crate::text::{Field, Node, Path, Problems};
 #[cfg(feature = "factory")]
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
 use crate::trust::{AllowedSigners, RevokedKeys};
 use jiff::Timestamp;
 use jiff::civil::{Date, DateTime};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 #[cfg(feature = "factory")]
-use std::path::{Path, PathBuf};
+use std::path::{Path as FilePath, PathBuf};
 
 /// Trusted keys and the question to verify passports for.
 #[derive(Debug)]
@@ -62,25 +63,6 @@ struct Remarked<'a> {
     remarks: &'a [String],
 }
 
-/// Question as JSON.
-#[derive(Deserialize, Default)]
-#[serde(deny_unknown_fields, default)]
-struct Asked {
-    time: Option<String>,
-    serial: Option<String>,
-    at: Option<Vec<f64>>,
-    issuer: Option<String>,
-    revoked: Vec<Listed>,
-}
-
-/// Revocation list as JSON: text, or bytes as a list of numbers.
-#[derive(Deserialize)]
-#[serde(untagged, expecting = "revoked: expected the text of a list, or its bytes")]
-enum Listed {
-    Text(String),
-    Bytes(Vec<u8>),
-}
-
 impl Enquiry {
     /// Creates an enquiry that trusts `signers`, the name and content of an allowed_signers file.
     ///
@@ -96,28 +78,22 @@ impl Enquiry {
         question: &str,
         now: Timestamp,
     ) -> Result<Self, Failed> {
-        let asked: Asked = asked("question", question)?;
-        let given = asked.time.as_deref().map(|text| read("time", text, time)).transpose()?;
+        let mut asked = Asked::new("question", question)?;
+        let (given, at) = (asked.key("time", String::read), asked.key("at", Vec::read));
+        let (serial, issuer) = (asked.key("serial", name), asked.key("issuer", name));
+        let listed = asked.key("revoked", lists).unwrap_or_default();
+        asked.done()?;
+        let given = given.map(|text| read("time", &text, time)).transpose()?;
         let time = given.unwrap_or_else(|| Timestamp::from_second(now.as_second()).unwrap_or(now));
-        for (key, value) in [("serial", &asked.serial), ("issuer", &asked.issuer)] {
-            if value.as_ref().is_some_and(|value| value.trim().is_empty()) {
-                return Err(Failed::unusable(format!(
-                    "{key}: found an empty text; leave the key out if it is not asked"
-                )));
-            }
-        }
-        let place = asked.at.map(|at| match at[..] {
+        let place = at.map(|at: Vec<f64>| match at[..] {
             [latitude_deg, longitude_deg] => place(latitude_deg, longitude_deg),
             _ => Err(format!("found {at:?}, expected [latitude, longitude] in degrees")),
         });
         let place = place.transpose().map_err(|why| Failed::unusable(format!("at: {why}")))?;
-        let listed = asked.revoked.into_iter().enumerate().map(|(index, list)| match list {
-            Listed::Text(text) => (format!("revoked[{index}]"), text.into_bytes()),
-            Listed::Bytes(bytes) => (format!("revoked[{index}]"), bytes),
-        });
+        let listed = listed.into_iter().enumerate().map(|(index, list)| (format!("revoked[{index}]"), list));
         let revoked: Vec<_> = revoked.iter().cloned().chain(listed).collect();
         let (trust, remarks) = trust(signers, &revoked, time)?;
-        let question = Question { time, issuer: asked.issuer, serial: asked.serial, place };
+        let question = Question { time, issuer, serial, place };
         Ok(Self { trust, question, register: None, remarks })
     }
 
@@ -127,7 +103,7 @@ impl Enquiry {
     /// # Errors
     /// Returns an error if the folder cannot be read.
     #[cfg(feature = "factory")]
-    pub fn with_register(self, folder: &Path) -> Result<Self, FileError> {
+    pub fn with_register(self, folder: &FilePath) -> Result<Self, FileError> {
         let asked = crate::register::Asked::at(self.question.time);
         let threads = crate::parallel::processors();
         let (register, trust) = crate::folder::register(folder, self.trust, &asked, threads)?;
@@ -157,6 +133,31 @@ impl Enquiry {
             Ok(self.verify(&name_of(path), &bytes))
         })
     }
+}
+
+/// Reads a name that a question asks for. An empty one would be a question that is left out.
+fn name(node: &Node, at: &Path, problems: &mut Problems) -> Option<String> {
+    let name = String::read(node, at, problems)?;
+    if name.trim().is_empty() {
+        problems.at(at, "empty text", "text", "leave the key out if it is not asked");
+        return None;
+    }
+    Some(name)
+}
+
+/// Reads revocation lists, each as text or as a list of its bytes.
+fn lists(node: &Node, at: &Path, problems: &mut Problems) -> Option<Vec<Vec<u8>>> {
+    let byte = |node: &Node| if let Node::Integer(byte) = node { u8::try_from(*byte).ok() } else { None };
+    let list = |list: &Node| match list {
+        Node::Text(text) => Some(text.clone().into_bytes()),
+        Node::List(bytes) => bytes.iter().map(byte).collect(),
+        _ => None,
+    };
+    let lists = if let Node::List(all) = node { all.iter().map(list).collect() } else { None };
+    if lists.is_none() {
+        problems.at(at, node.describe(), "a list of revocation lists, each its text or a list of its bytes", "");
+    }
+    lists
 }
 
 /// Returns the trust in `signers` without what `revoked` revokes, and the alarms that do not prevent its use. The files
@@ -260,18 +261,22 @@ mod tests {
     fn what_cannot_be_asked_is_refused_with_its_key() {
         for (question, words) in [
             ("", "not usable JSON"),
-            (r#"{"times": "2026-11-20"}"#, "unknown field `times`"),
+            (r#"{"times": "2026-11-20"}"#, "unknown key \"times\""),
             (r#"{"time": "tomorrow"}"#, "time: found \"tomorrow\"; expected a time such as"),
             (r#"{"time": "2026-02-30"}"#, "time: found \"2026-02-30\"; month 02 of 2026 has 28 days"),
             (r#"{"time": "2026-11-20T10:00:00"}"#, "the time zone is missing"),
-            (r#"{"serial": 17}"#, "serial: found integer `17`, expected a string"),
-            (r#"{"serial": " "}"#, "serial: found an empty text"),
-            (r#"{"issuer": ""}"#, "issuer: found an empty text"),
+            (r#"{"serial": 17}"#, "serial: found 17, expected text"),
+            (r#"{"serial": " "}"#, "serial: found empty text"),
+            (r#"{"issuer": ""}"#, "issuer: found empty text"),
             (r#"{"time": "2026-11-20T10:00:00.5Z"}"#, "whole seconds"),
             (r#"{"at": [91, 0]}"#, "latitude 91"),
             (r#"{"at": [0, 181]}"#, "longitude 181"),
+            (r#"{"serial": "0018", "serial": "0017"}"#, "duplicate key \"serial\""),
+            (r#"["0017"]"#, "found a list of 1 items, expected a mapping with the keys time, at, serial"),
             (r#"{"at": [1e999, 0]}"#, "JSON"),
             (r#"{"at": [0]}"#, "at: found [0.0], expected [latitude, longitude]"),
+            (r#"{"revoked": "rubbish"}"#, "revoked: found \"rubbish\", expected a list"),
+            (r#"{"revoked": [[256]]}"#, "revoked: found a list of 1 items, expected a list of revocation lists, each"),
             (r#"{"revoked": ["rubbish"]}"#, "revoked[0]"),
             (r#"{"revoked": [[83, 83, 72, 75, 82, 76, 10, 0]]}"#, "revoked[0]"),
         ] {

@@ -1,7 +1,7 @@
 //! Issue of one passport into a folder.
 
 use super::enquiry::{date, read, time, trust};
-use super::{Failed, UNWRITABLE, asked};
+use super::{Asked, Failed, UNWRITABLE};
 use crate::folder::{Folder, FolderRefused, Issued, Seal};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
@@ -10,24 +10,13 @@ use crate::passport::issue::{Issue, PreparedStand, time_of_issue};
 use crate::signing::{Signer, own_trust};
 use crate::site::Site;
 use crate::stand::Stand;
+use crate::text::Field;
 use crate::text::placeholder::filled_in;
 use jiff::Timestamp;
-use serde::Deserialize;
 use std::path::Path;
 
 /// Name and content of a file.
 type File<'a> = (&'a str, &'a [u8]);
-
-/// Order as JSON.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Asked {
-    identity: String,
-    issued_at: Option<String>,
-    valid_until: Option<String>,
-    #[serde(default)]
-    allow_uncalibratable: bool,
-}
 
 /// Issues the passport of a stand for a site into the folder `out`, as the program's `issue` does. An equal passport is
 /// left unchanged, and no file is replaced.
@@ -73,15 +62,17 @@ pub fn issue(
 
 /// Parses an order; its accuracy is not in it.
 fn ordered(order: &str, now: Timestamp) -> Result<Issue, Failed> {
-    let asked: Asked = asked("order", order)?;
-    let issued_at = asked.issued_at.map(|text| read("issued_at", &text, time));
-    let valid_until = asked.valid_until.map(|text| read("valid_until", &text, date));
+    let mut asked = Asked::new("order", order)?;
+    let identity = asked.key("identity", String::read);
+    let (issued_at, valid_until) = (asked.key("issued_at", String::read), asked.key("valid_until", String::read));
+    let allow_uncalibratable = asked.key("allow_uncalibratable", bool::read).unwrap_or_default();
+    asked.done()?;
+    let identity = identity.ok_or_else(|| Failed::unusable("identity: missing, expected the principal of the key"))?;
+    let issued_at = issued_at.map(|text| read("issued_at", &text, time));
+    let valid_until = valid_until.map(|text| read("valid_until", &text, date));
     let issued_at = time_of_issue(issued_at.transpose()?, now).map_err(Failed::refused)?;
-    Ok(Issue {
-        valid_until: valid_until.transpose()?,
-        allow_uncalibratable: asked.allow_uncalibratable,
-        ..Issue::first(&asked.identity, issued_at)
-    })
+    let first = Issue::first(&identity, issued_at);
+    Ok(Issue { valid_until: valid_until.transpose()?, allow_uncalibratable, ..first })
 }
 
 /// Reads a gyro type and a laboratory, by default those of the paper.
@@ -110,7 +101,7 @@ mod tests {
     fn what_cannot_be_issued_leaves_no_file() {
         let folder = tempfile::tempdir().unwrap();
         for (asked, code, words) in [
-            ("{}", "unusable", "missing field `identity`"),
+            ("{}", "unusable", "identity: missing"),
             (r#"{"identity": "a b"}"#, "unusable", "a b"),
             (r#"{"identity": "w", "issued_at": "2026-11-10T08:00"}"#, "unusable", "the time zone is missing"),
             (r#"{"identity": "w", "issued_at": "2026-12-20"}"#, "refused", "later than the clock"),

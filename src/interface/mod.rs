@@ -46,9 +46,8 @@ use crate::files::FileError;
 use crate::passport::{Check, Content, Verification};
 #[cfg(feature = "factory")]
 use crate::text::name_of;
-use crate::text::{Problem, Unreadable, printable};
+use crate::text::{Node, Path, Problem, Problems, Unreadable, printable, record};
 use serde::Serialize;
-use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
 
 /// Codes of failures.
@@ -199,25 +198,38 @@ pub fn content_json(content: &Content) -> String {
     json(content)
 }
 
-/// Reads a question or an order, a JSON object; `what` names it in messages.
-fn asked<T: DeserializeOwned>(what: &str, text: &str) -> Result<T, Failed> {
-    // An array could give the values without their keys.
-    let object: serde_json::Result<serde_json::Map<_, _>> = serde_json::from_str(text);
-    let asked = object.as_ref().map_err(ToString::to_string);
-    let asked =
-        asked.and_then(|object| serde_json::from_value(object.clone().into()).map_err(|error| error.to_string()));
-    asked.map_err(|error| {
-        let wrong = object.iter().flatten().find_map(|(key, value)| wrong::<T>(key, value));
-        Failed::unusable(wrong.unwrap_or_else(|| format!("the {what} is not usable JSON: {error}")))
-    })
+/// Question or order, a JSON object, whose keys may all be absent or null.
+struct Asked {
+    /// Name in messages.
+    what: &'static str,
+    node: Node,
+    known: Vec<&'static str>,
+    problems: Problems,
 }
 
-/// Returns what is wrong with the value of a key, or `None` if it can be used.
-fn wrong<T: DeserializeOwned>(key: &str, value: &serde_json::Value) -> Option<String> {
-    let alone = serde_json::Map::from_iter([(key.to_owned(), value.clone())]);
-    let error = serde_json::from_value::<T>(alone.into()).err()?.to_string();
-    let found = error.strip_prefix("invalid type: ").or(error.strip_prefix("invalid value: "))?;
-    Some(format!("{key}: found {found}"))
+impl Asked {
+    fn new(what: &'static str, text: &str) -> Result<Self, Failed> {
+        let unusable = |error| Failed::unusable(format!("the {what} is not usable JSON: {error}"));
+        let node = Node::from_json(text).map_err(unusable)?;
+        Ok(Self { what, node, known: Vec::new(), problems: Problems::new() })
+    }
+
+    /// Returns the value of a key as `read` reads it; `None` if there is none, or after an error.
+    fn key<T>(&mut self, key: &'static str, read: impl FnOnce(&Node, &Path, &mut Problems) -> Option<T>) -> Option<T> {
+        self.known.push(key);
+        let node = self.node.get(key).filter(|node| **node != Node::Null)?;
+        read(node, &Path::Root.key(key), &mut self.problems)
+    }
+
+    /// Refuses keys that were not asked for, duplicate keys, and every value with an error.
+    fn done(mut self) -> Result<(), Failed> {
+        record::entries(&self.node, &Path::Root, &mut self.problems, &self.known);
+        if self.problems.is_empty() {
+            return Ok(());
+        }
+        let error = self.problems.refuse_by_field(self.what);
+        Err(Failed::new(UNUSABLE, error.to_string(), Place::each(&error)))
+    }
 }
 
 /// Returns a value as JSON with invisible characters escaped. The values of this module have only text keys and finite

@@ -1,7 +1,7 @@
 //! The best positions to certify or to read.
 
 use super::issued::stated;
-use super::{Failed, asked, json};
+use super::{Asked, Failed, json};
 use crate::passport::Stated;
 use crate::plan::candidates::Angles;
 use crate::plan::criterion::Criterion;
@@ -9,24 +9,7 @@ use crate::plan::document::PlanDocument;
 use crate::plan::{FEWEST_READINGS, MOST_READINGS, Question};
 use crate::site::Site;
 use crate::stand::Stand;
-use serde::Deserialize;
-
-/// Question as JSON.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, default)]
-struct Asked {
-    readings: u32,
-    step_deg: Option<f64>,
-    frame_axis_azimuths_deg: Vec<f64>,
-    criterion: String,
-}
-
-impl Default for Asked {
-    fn default() -> Self {
-        let criterion = Criterion::A.key().to_owned();
-        Self { readings: 8, step_deg: None, frame_axis_azimuths_deg: Vec::new(), criterion }
-    }
-}
+use crate::text::Field;
 
 /// Finds the best positions to certify, or with a stand which of its positions to read, as the program's `plan` does.
 /// Returns the JSON of `plan`.
@@ -47,22 +30,21 @@ pub fn plan(
     let site = Site::from_yaml(site, bytes)?;
     let stand = stand.map(|(name, bytes)| Stand::from_yaml(name, bytes)).transpose()?;
     let Stated { gyro, laboratory } = stated([gyro, laboratory])?;
-    let asked: Asked = asked("question", question)?;
-    if !(FEWEST_READINGS..=MOST_READINGS).contains(&asked.readings) {
-        let found = asked.readings;
+    let mut asked = Asked::new("question", question)?;
+    let (readings, step_deg) = (asked.key("readings", u32::read).unwrap_or(8), asked.key("step_deg", f64::read));
+    let mut azimuths_deg: Vec<f64> = asked.key("frame_axis_azimuths_deg", Vec::read).unwrap_or_default();
+    let criterion = asked.key("criterion", Criterion::read).unwrap_or(Criterion::A);
+    asked.done()?;
+    if !(FEWEST_READINGS..=MOST_READINGS).contains(&readings) {
         return Err(Failed::unusable(format!(
-            "readings: found {found}, expected {FEWEST_READINGS} to {MOST_READINGS}"
+            "readings: found {readings}, expected {FEWEST_READINGS} to {MOST_READINGS}"
         )));
     }
-    let angles = match asked.step_deg {
+    let angles = match step_deg {
         None => Angles::QUADRANTS,
         Some(step_deg) => Angles::every(step_deg)
             .ok_or_else(|| Failed::unusable(format!("step_deg: found {step_deg}, expected {}", Angles::EXPECTED)))?,
     };
-    let criterion = Criterion::ALL.into_iter().find(|criterion| criterion.key() == asked.criterion);
-    let unknown = || Failed::unusable(format!("criterion: found {:?}, expected a, d or worst", asked.criterion));
-    let criterion = criterion.ok_or_else(unknown)?;
-    let mut azimuths_deg = asked.frame_axis_azimuths_deg;
     if let Some(found) = azimuths_deg.iter().find(|azimuth| !(0.0..360.0).contains(*azimuth)) {
         return Err(Failed::unusable(format!(
             "frame_axis_azimuths_deg: found {found}, expected 0 or more and below 360"
@@ -71,7 +53,7 @@ pub fn plan(
     if azimuths_deg.is_empty() {
         azimuths_deg.push(site.frame_axis_azimuth_deg());
     }
-    let (readings, stand, site, gyro, laboratory) = (asked.readings, stand.as_ref(), &site, &gyro, &laboratory);
+    let (stand, site, gyro, laboratory) = (stand.as_ref(), &site, &gyro, &laboratory);
     let question = Question { site, stand, angles, gyro, laboratory, readings, azimuths_deg, criterion };
     let found = crate::plan::plan(&question).map_err(Failed::refused)?;
     Ok(json(&PlanDocument::from(&found)))
@@ -86,11 +68,11 @@ mod tests {
     #[test]
     fn what_cannot_be_asked_is_named() {
         for (question, words) in [
-            (r#"{"reading": 8}"#, "unknown field `reading`"),
+            (r#"{"reading": 8}"#, "unknown key \"reading\""),
             (r#"{"readings": 3}"#, "readings: found 3, expected 4 to 256"),
             (r#"{"step_deg": 7}"#, "step_deg: found 7"),
             (r#"{"frame_axis_azimuths_deg": [90, 360]}"#, "found 360"),
-            (r#"{"criterion": "A"}"#, "expected a, d or worst"),
+            (r#"{"criterion": "A"}"#, "expected \"a\", \"d\" or \"worst\""),
         ] {
             let failed = plan(SITE, None, None, None, question).unwrap_err();
             assert!(failed.code == "unusable" && failed.message.contains(words), "{question}: {failed}");

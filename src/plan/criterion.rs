@@ -2,7 +2,7 @@
 //!
 //! All quantities are in units of the tolerances, so that parameters of different kinds can be added.
 
-use crate::text::words;
+use crate::text::{word_of_a_key, words};
 
 /// Symmetric matrix, 8×8, of which the lower triangle counts.
 pub(crate) type Symmetric = [[f64; 8]; 8];
@@ -26,6 +26,8 @@ words! {
         Worst = "worst",
     }
 }
+
+word_of_a_key!(Criterion, key, "");
 
 impl Criterion {
     /// Returns the value for the information matrix `information` in units of the tolerances; `turn_on` is the variance

@@ -4,7 +4,10 @@
 use super::excerpt::Location;
 use super::problem::Unreadable;
 use super::{Field, LARGEST_DOCUMENT_BYTES};
+use serde::de::{self, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::{Serialize, Serializer};
+use std::cell::Cell;
+use std::fmt;
 
 /// Value in a document.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -25,6 +28,14 @@ pub(crate) enum Node {
 }
 
 impl Node {
+    /// Reads JSON.
+    pub(crate) fn from_json(text: &str) -> Result<Self, serde_json::Error> {
+        let mut json = serde_json::Deserializer::from_str(text);
+        // JSON has no aliases, so no text becomes much larger.
+        let node = Builder(&Cell::new(usize::MAX)).deserialize(&mut json)?;
+        json.end().map(|()| node)
+    }
+
     /// Describes the value for a message: the value itself if it is short, otherwise its kind.
     pub(crate) fn describe(&self) -> String {
         match self {
@@ -143,7 +154,79 @@ pub(crate) trait Sink: Sized {
     fn key(&mut self, key: &str) -> bool;
 }
 
-/// Builder of a [`Node`].
+/// Error message for a document that exceeds its budget.
+pub(super) const REPEATED: &str = "aliases that repeat too much";
+
+/// Deserialiser of the whole tree, with the amount that may still be built. It limits aliases, because they can make a small
+/// text very large.
+#[derive(Clone, Copy)]
+pub(super) struct Builder<'a>(pub(super) &'a Cell<usize>);
+
+impl Builder<'_> {
+    fn spend<E: de::Error>(self, cost: usize) -> Result<(), E> {
+        let left = self.0.get().checked_sub(cost).ok_or_else(|| E::custom(REPEATED))?;
+        self.0.set(left);
+        Ok(())
+    }
+}
+
+impl<'de> DeserializeSeed<'de> for Builder<'_> {
+    type Value = Node;
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Node, D::Error> {
+        self.spend(1)?;
+        deserializer.deserialize_any(self)
+    }
+}
+
+impl<'de> Visitor<'de> for Builder<'_> {
+    type Value = Node;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a plain YAML value without a tag")
+    }
+    fn visit_unit<E: de::Error>(self) -> Result<Node, E> {
+        Ok(Node::Null)
+    }
+    fn visit_bool<E: de::Error>(self, value: bool) -> Result<Node, E> {
+        Ok(Node::Bool(value))
+    }
+    fn visit_i64<E: de::Error>(self, value: i64) -> Result<Node, E> {
+        Ok(Node::Integer(value))
+    }
+    fn visit_u64<E: de::Error>(self, value: u64) -> Result<Node, E> {
+        Ok(i64::try_from(value).map_or(Node::Number(value as f64), Node::Integer))
+    }
+    fn visit_f64<E: de::Error>(self, value: f64) -> Result<Node, E> {
+        Ok(Node::Number(value))
+    }
+    fn visit_str<E: de::Error>(self, value: &str) -> Result<Node, E> {
+        self.spend(value.len())?;
+        Ok(Node::Text(value.to_owned()))
+    }
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Node, A::Error> {
+        let mut items = Vec::new();
+        while let Some(item) = list.next_element_seed(self)? {
+            items.push(item);
+        }
+        Ok(Node::List(items))
+    }
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Node, A::Error> {
+        let mut entries = Vec::new();
+        while let Some(key) = map.next_key_seed(self)? {
+            let key = match key {
+                Node::Text(key) => key,
+                // In braces, `alpha_arcsec: 12,4` contains a key 4 without a value. It is kept, so that it is refused
+                // by name.
+                Node::Integer(key) => key.to_string(),
+                other => return Err(de::Error::custom(format!("{} as a key", other.describe()))),
+            };
+            entries.push((key, map.next_value_seed(self)?));
+        }
+        Ok(Node::Map(entries))
+    }
+}
+
+/// Destination that is a [`Node`].
 #[derive(Default)]
 pub(super) struct Tree {
     keys: Vec<String>,

@@ -2,6 +2,7 @@
 
 use super::canonical::Scanner;
 use super::node::{Sink, Tree};
+use super::scalar::{STRAIGHT_QUOTES, latin, typographic_quote};
 use super::{Node, Path, Problems, known_name, number_advice};
 use std::collections::HashSet;
 
@@ -67,10 +68,29 @@ pub(crate) trait Document: Record {
 pub(crate) struct File<T>(pub(crate) T);
 
 impl<T: Document> Field for File<T> {
+    /// Of a file of another format only the format is reported.
     fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
-        if let (Node::Map(_), None) = (node, node.get("format")) {
-            let advice = "add the format in the first line, or check that this is the right file";
-            problems.missing(at, "format", format!("{:?}", T::FORMAT), advice);
+        const RIGHT_FILE: &str = "check that this is the right file";
+        let format = T::FORMAT;
+        match node.get("format") {
+            Some(Node::Text(found)) if found == format => {}
+            Some(found) => {
+                let advice = match found {
+                    Node::Text(text) if typographic_quote(text).is_some() => STRAIGHT_QUOTES.to_owned(),
+                    Node::Text(text) => latin(text).filter(|(latin, _)| latin == format).map_or_else(
+                        || RIGHT_FILE.to_owned(),
+                        |(_, odd)| format!("type the {odd} again, as a Latin letter"),
+                    ),
+                    _ => RIGHT_FILE.to_owned(),
+                };
+                problems.at(&at.key("format"), found.describe(), format!("{format:?}"), advice);
+                return None;
+            }
+            None if matches!(node, Node::Map(_)) => {
+                let advice = "add the format in the first line, or check that this is the right file";
+                problems.missing(at, "format", format!("{format:?}"), advice);
+            }
+            None => {}
         }
         T::read_beside(node, &["format"], at, problems).map(Self)
     }

@@ -2,10 +2,9 @@
 
 use super::excerpt::Location;
 use super::kind::{Kind, mistaken};
-use super::node::{MOST_BRACKETS, hand_written_text, location_of};
+use super::node::{Builder, MOST_BRACKETS, REPEATED, hand_written_text, location_of};
 use super::problem::{Problems, Step, Unreadable};
 use super::record::{Document, File};
-use super::scalar::{STRAIGHT_QUOTES, latin, typographic_quote};
 use super::{Field, Node, Path};
 use serde::de::{self, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use std::cell::Cell;
@@ -26,7 +25,7 @@ pub(crate) fn tree(name: &str, bytes: &[u8]) -> Result<(Node, String), Unreadabl
     // Every value and every byte of a string takes space in the text unless an alias repeats it, so no document without
     // aliases needs this much.
     let budget = Cell::new(4 * text.len() + 64);
-    match Whole(&budget).deserialize(serde_yaml::Deserializer::from_str(&text)) {
+    match Builder(&budget).deserialize(serde_yaml::Deserializer::from_str(&text)) {
         Ok(node) => Ok((node, text)),
         Err(error) => Err(unreadable_yaml(name, &text, &error)),
     }
@@ -147,78 +146,6 @@ fn refuse_deep(name: &str, text: &str) -> Result<(), Unreadable> {
     Ok(())
 }
 
-/// Error message for a document that exceeds its budget.
-const REPEATED: &str = "aliases that repeat too much";
-
-/// Deserialiser of the whole tree, with the amount that may still be built. It limits aliases, because they can make a small
-/// text very large.
-#[derive(Clone, Copy)]
-struct Whole<'a>(&'a Cell<usize>);
-
-impl Whole<'_> {
-    fn spend<E: de::Error>(self, cost: usize) -> Result<(), E> {
-        let left = self.0.get().checked_sub(cost).ok_or_else(|| E::custom(REPEATED))?;
-        self.0.set(left);
-        Ok(())
-    }
-}
-
-impl<'de> DeserializeSeed<'de> for Whole<'_> {
-    type Value = Node;
-    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Node, D::Error> {
-        self.spend(1)?;
-        deserializer.deserialize_any(self)
-    }
-}
-
-impl<'de> Visitor<'de> for Whole<'_> {
-    type Value = Node;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a plain YAML value without a tag")
-    }
-    fn visit_unit<E: de::Error>(self) -> Result<Node, E> {
-        Ok(Node::Null)
-    }
-    fn visit_bool<E: de::Error>(self, value: bool) -> Result<Node, E> {
-        Ok(Node::Bool(value))
-    }
-    fn visit_i64<E: de::Error>(self, value: i64) -> Result<Node, E> {
-        Ok(Node::Integer(value))
-    }
-    fn visit_u64<E: de::Error>(self, value: u64) -> Result<Node, E> {
-        Ok(i64::try_from(value).map_or(Node::Number(value as f64), Node::Integer))
-    }
-    fn visit_f64<E: de::Error>(self, value: f64) -> Result<Node, E> {
-        Ok(Node::Number(value))
-    }
-    fn visit_str<E: de::Error>(self, value: &str) -> Result<Node, E> {
-        self.spend(value.len())?;
-        Ok(Node::Text(value.to_owned()))
-    }
-    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Node, A::Error> {
-        let mut items = Vec::new();
-        while let Some(item) = list.next_element_seed(self)? {
-            items.push(item);
-        }
-        Ok(Node::List(items))
-    }
-    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Node, A::Error> {
-        let mut entries = Vec::new();
-        while let Some(key) = map.next_key_seed(self)? {
-            let key = match key {
-                Node::Text(key) => key,
-                // In braces, `alpha_arcsec: 12,4` contains a key 4 without a value. It is kept, so that it is refused
-                // by name.
-                Node::Integer(key) => key.to_string(),
-                other => return Err(de::Error::custom(format!("{} as a key", other.describe()))),
-            };
-            entries.push((key, map.next_value_seed(self)?));
-        }
-        Ok(Node::Map(entries))
-    }
-}
-
 /// Deserialiser that fails at the target, so that `serde_yaml` reports its location: at a scalar because it expects none.
 #[derive(Clone, Copy)]
 struct Probe<'a>(&'a [Step]);
@@ -268,8 +195,6 @@ impl<'de> Visitor<'de> for Probe<'_> {
     }
 }
 
-const RIGHT_FILE: &str = "check that this is the right file";
-
 /// Reads a document of the record type `T`: first the tree, then its `format`, then the fields, and finally the rules
 /// of its content (`check`). Every error of the stage that fails is reported.
 pub(crate) fn read_document<T: Document>(
@@ -288,18 +213,6 @@ pub(crate) fn read_document<T: Document>(
 fn parse<T: Document>(name: &str, bytes: &[u8], check: impl FnOnce(&T, &mut Problems)) -> Result<T, Unreadable> {
     let (node, text) = tree(name, bytes)?;
     let mut problems = Problems::new();
-    let format = T::FORMAT;
-    if let Some(found) = node.get("format").filter(|found| **found != Node::Text(format.to_owned())) {
-        let advice = match found {
-            Node::Text(text) if typographic_quote(text).is_some() => STRAIGHT_QUOTES.to_owned(),
-            Node::Text(text) => latin(text)
-                .filter(|(latin, _)| latin == format)
-                .map_or_else(|| RIGHT_FILE.to_owned(), |(_, odd)| format!("type the {odd} again, as a Latin letter")),
-            _ => RIGHT_FILE.to_owned(),
-        };
-        problems.at(&Path::Root.key("format"), found.describe(), format!("{format:?}"), advice);
-        return Err(problems.refuse(name, &text));
-    }
     let value = File::<T>::read(&node, &Path::Root, &mut problems).map(|File(value)| value);
     if let Some(value) = &value {
         check(value, &mut problems);
