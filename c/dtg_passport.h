@@ -85,12 +85,27 @@ int dtg_position(const dtg_passport *passport,
 /*
  Calibrates a gyro.
 
- `currents` has `rows` rows of four numbers: i, j, and the currents along x and y in mA. `method` is NULL or
- "least-squares", "analytic", "iterative". Uncertainties are those of the paper's meter, 0.015 % of the reading.
+ `currents_csv` is the content of a CSV file with the columns i, j, jx_ma, jy_ma, and if present cycle, visit, time_s.
+ `order_json` is NULL or JSON, `{"method": "least-squares", "model": "paper", "drift": false, "exclude": [{"i": 2, "j": 4,
+ "visit": 1, "cycle": 3, "why": "door opened"}], "laboratory": {…}, "gyro": {…}}`; every key may be absent. `method` may
+ also be "analytic" or "iterative", `model` "general". `laboratory` and `gyro` have the keys of the files
+ dtg-laboratory/1 and dtg-gyro/1. Without a laboratory the uncertainties are those of the paper's meter, 0.015 % of the
+ reading; without a gyro type there is no verdict.
 
  `result_json`, unless NULL, receives a text to be freed with dtg_string_free: the JSON of the command `calibrate`,
  or `{"error": …}` as from dtg_load. Returns DTG_OK; DTG_REFUSED if the readings do not give a result; DTG_UNUSABLE if
- an argument or a current cannot be used.
+ an argument, the order or a current cannot be used.
+ */
+int dtg_calibrate_csv(const dtg_passport *passport,
+                      const char *currents_csv,
+                      const char *order_json,
+                      char **result_json);
+
+/*
+ Calibrates a gyro with the paper's meter, as dtg_calibrate_csv does.
+
+ `currents` has `rows` rows of four numbers: i, j, and the currents along x and y in mA. `method` is NULL or
+ "least-squares", "analytic", "iterative".
  */
 int dtg_calibrate(const dtg_passport *passport,
                   const double *currents,
@@ -99,8 +114,9 @@ int dtg_calibrate(const dtg_passport *passport,
                   char **result_json);
 
 /*
- Copies the eight parameters of a result of dtg_calibrate and their standard uncertainties: K_x, K_xy, K_yx, K_y in
- degrees per hour and mA, omega_0x and omega_0y in degrees per hour, omega_g and omega_k in degrees per hour and g.
+ Copies the eight parameters of a result of dtg_calibrate_csv or dtg_calibrate and their standard uncertainties: K_x,
+ K_xy, K_yx, K_y in degrees per hour and mA, omega_0x and omega_0y in degrees per hour, omega_g and omega_k in degrees per
+ hour and g; these two are NaN in the general model.
 
  Returns DTG_OK if they may be used; DTG_REFUSED, with the same numbers, if the readings do not fit the stand, or if a
  mistake such as currents in another unit explains the parameters: `remarks` in the result says which; DTG_UNUSABLE if

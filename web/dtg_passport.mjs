@@ -10,7 +10,7 @@
 // date, or a Date; default: now), `serial`, `at: [latitude, longitude]` in degrees, `issuer`, and `revoked`, a list of
 // revocation lists as text or bytes. Input that cannot be used throws an Error whose `cause` is {code, message,
 // problems}; a refusal, one whose `cause` is {valid, id, checks}. A question is a plain object without other keys, and no
-// key may be `undefined`: a check that was silently left out would look like one that passed.
+// value may be `undefined`: a check that was silently left out would look like one that passed.
 
 const WASM = "@WASM@"; // base64 of the module, compressed with gzip
 
@@ -34,33 +34,32 @@ function isPlain(value) {
     return prototype === null || Object.getPrototypeOf(prototype) === null; // of any window
 }
 
-function question(asked) {
+/** Returns a question or an order as JSON, with dates and bytes as the module reads them. Nothing is lost silently. */
+function json(what, asked) {
+    if (typeof asked === "string") return asked;
     if (!isPlain(asked)) {
         const found = asked?.constructor?.name ?? String(asked);
-        throw new TypeError(`question: found ${found}, expected a plain object such as { serial: "0017" }`);
+        throw new TypeError(`${what}: found ${found}, expected a plain object such as { serial: "0017" }`);
     }
-    for (const [key, value] of Object.entries(asked)) {
-        if (["undefined", "function", "symbol", "bigint"].includes(typeof value)) {
-            throw new TypeError(`${key}: found ${typeof value}; leave the key out if it is not asked`);
+    return JSON.stringify(asked, function (key, value) {
+        const given = this[key]; // before toJSON
+        if (given instanceof Date) return `${given.toISOString().slice(0, 19)}Z`;
+        if (given instanceof Uint8Array || given instanceof ArrayBuffer) return Array.from(bytes(given));
+        const found = typeof given === "number" ? String(given) : typeof given;
+        const lost = ["undefined", "function", "symbol", "bigint", "NaN", "Infinity", "-Infinity"].includes(found);
+        if (lost || given !== value) {
+            throw new TypeError(`${what}: ${key}: found ${found}; leave the key out if it is not asked`);
         }
-    }
-    const { time, at, revoked = [] } = asked;
-    if (at?.some?.((degrees) => !Number.isFinite(degrees))) {
-        throw new TypeError(`at: found [${at}], expected latitude and longitude in degrees`);
-    }
-    if (!Array.isArray(revoked)) throw new TypeError("revoked: expected a list of revocation lists");
-    return JSON.stringify({
-        ...asked, // with keys that are unknown: the module names them
-        time: time instanceof Date ? `${time.toISOString().slice(0, 19)}Z` : time,
-        revoked: revoked.map((list) => (typeof list === "string" ? list : Array.from(bytes(list)))),
+        return value;
     });
 }
 
 /** Calls a function of a new instance of the module; returns its text. */
-async function call(name, passport, allowedSigners, asked = {}, currents = "") {
+async function call(name, passport, allowedSigners, question = {}, currents = "", order = {}) {
     module ??= compiled();
     const { exports } = await WebAssembly.instantiate(await module, {});
-    const parts = [passport, allowedSigners, question(asked), currents].map(bytes);
+    const asked = [json("question", question), currents, json("order", order)];
+    const parts = [passport, allowedSigners, ...asked].map(bytes);
     const places = parts.map((part) => exports.room(part.length));
     const inputs = exports.room(4 * 2 * parts.length);
     // Only now, because allocating can move the memory.
@@ -91,31 +90,33 @@ function refuse({ id, checks }) {
  * Verifies a passport: {valid, id, checks: [{name, passed, code, detail}]}, and `remarks` if there is something to know
  * about the revocation lists, such as ALARM: two of them contradict.
  */
-export async function verify(passport, allowedSigners, asked) {
-    const { valid, id, checks, remarks } = parsed(await call("verify", passport, allowedSigners, asked));
+export async function verify(passport, allowedSigners, question) {
+    const { valid, id, checks, remarks } = parsed(await call("verify", passport, allowedSigners, question));
     return { valid, id, checks, ...(remarks && { remarks }) };
 }
 
 /** Verifies a passport and returns its content: the keys of the file but `signature`. Throws if a check failed. */
-export async function content(passport, allowedSigners, asked) {
-    const found = parsed(await call("content", passport, allowedSigners, asked));
+export async function content(passport, allowedSigners, question) {
+    const found = parsed(await call("content", passport, allowedSigners, question));
     if (refused(found)) throw refuse(found);
     return found;
 }
 
 /** Verifies a passport and returns it in printed form, one HTML document. Throws if the passport is not authentic. */
-export async function print(passport, allowedSigners, asked) {
-    const text = await call("print", passport, allowedSigners, asked);
+export async function print(passport, allowedSigners, question) {
+    const text = await call("print", passport, allowedSigners, question);
     if (text.startsWith("{")) throw refuse(parsed(text));
     return text;
 }
 
 /**
- * Verifies a passport and calibrates a gyro from currents as CSV, by least squares: the JSON of `calibrate`. Throws if
- * refused. Use the parameters only if `consistent` is true and `mistake` is absent; `remarks` has what else to show.
+ * Verifies a passport and calibrates a gyro from currents as CSV: the JSON of `calibrate`. Throws if refused. The keys of
+ * `order` may all be absent: `method`, `model`, `drift`, `exclude: [{i, j, visit, cycle, why}]`, `laboratory` and `gyro`
+ * with the keys of the files dtg-laboratory/1 (default: the paper's meter) and dtg-gyro/1 (default: no verdict). Use the
+ * parameters only if `consistent` is true and `mistake` is absent; `remarks` has what else to show.
  */
-export async function calibrate(passport, allowedSigners, currents, asked) {
-    const found = parsed(await call("calibrated", passport, allowedSigners, asked, currents));
+export async function calibrate(passport, allowedSigners, currents, question, order) {
+    const found = parsed(await call("calibrated", passport, allowedSigners, question, currents, order));
     if (refused(found)) throw refuse(found);
     return found;
 }

@@ -47,17 +47,19 @@ function numbers(found) {
     return parts;
 }
 
-function parameters({ consistent, mistake, remarks = [], results: [found] }) {
+function parameters({ consistent, mistake, verdict, remarks = [], results: [found] }) {
     const unusable = !consistent || mistake !== undefined;
     const rows = [];
     const u = found.standard_uncertainty;
     for (const [key, unit] of [["k_deg_per_h_per_ma", "°/(h·mA)"], ["omega0_deg_per_h", "°/h"],
-        ["omega_g_deg_per_h_per_g", "°/(h·g)"], ["omega_k_deg_per_h_per_g", "°/(h·g)"]]) {
-        rows.push([key, [found[key]].flat(2).join("  "), [u[key]].flat(2).join("  "), unit]);
+        ["omega_g_deg_per_h_per_g", "°/(h·g)"], ["omega_k_deg_per_h_per_g", "°/(h·g)"],
+        ["g_matrix_deg_per_h_per_g", "°/(h·g)"], ["drift_deg_per_h_per_h", "°/h²"]]) {
+        if (found[key] !== undefined) rows.push([key, [found[key]].flat(2).join("  "), [u[key]].flat(2).join("  "), unit]);
     }
     const { value, degrees_of_freedom, probability } = found.chi_square;
     const said = remarks.map((words, place) => element(unusable && place === 0 ? "strong" : "p", words));
-    return [element("h2", "Calibration by least squares"), ...said,
+    if (verdict) said.push(element("p", `Decision for the gyro type: ${verdict.overall}`));
+    return [element("h2", `Calibration by ${found.method}`), ...said,
         table(["parameter", "value", "u (k = 1)", "unit"], rows),
         element("p", `χ² ${value} with ${degrees_of_freedom} degrees of freedom, probability ${probability ?? "-"}`)];
 }
@@ -93,7 +95,8 @@ async function answer() {
     parts.push(...numbers(await content(passport, signers, question)));
     const currents = await read(file("currents"));
     const failed = (error) => [element("h2", "No calibration"), element("pre", error.message)];
-    if (currents) parts.push(...(await calibrate(passport, signers, currents, question).then(parameters, failed)));
+    const order = await file("order")?.text();
+    if (currents) parts.push(...(await calibrate(passport, signers, currents, question, order).then(parameters, failed)));
     parts.push(...printed(await print(passport, signers, question), verdict.id));
     return parts;
 }
@@ -116,7 +119,8 @@ document.addEventListener("dragover", (event) => event.preventDefault());
 document.addEventListener("drop", (event) => {
     event.preventDefault();
     for (const one of event.dataTransfer.files) {
-        const id = /\.ya?ml$/i.test(one.name) ? "passport" : /\.csv$/i.test(one.name) ? "currents" : "signers-file";
+        const kinds = [["passport", /\.ya?ml$/i], ["currents", /\.csv$/i], ["order", /\.json$/i], ["signers-file", /$/]];
+        const [id] = kinds.find(([, ending]) => ending.test(one.name));
         // The inputs show the name of what they hold.
         const held = new DataTransfer();
         held.items.add(one);

@@ -2,7 +2,7 @@
 //!
 //! The comments of the functions are those of the header `dtg_passport.h`.
 
-use passports::interface::{Enquiry, Failed, calibrate, currents_csv, parameters};
+use passports::interface::{Enquiry, Failed, calibrate, parameters};
 use passports::jiff::Timestamp;
 use passports::passport::Content;
 use passports::text::LARGEST_DOCUMENT_BYTES;
@@ -137,12 +137,36 @@ pub unsafe extern "C" fn dtg_position(
 
 /// Calibrates a gyro.
 ///
-/// `currents` has `rows` rows of four numbers: i, j, and the currents along x and y in mA. `method` is NULL or
-/// "least-squares", "analytic", "iterative". Uncertainties are those of the paper's meter, 0.015 % of the reading.
+/// `currents_csv` is the content of a CSV file with the columns i, j, jx_ma, jy_ma, and if present cycle, visit, time_s.
+/// `order_json` is NULL or JSON, `{"method": "least-squares", "model": "paper", "drift": false, "exclude": [{"i": 2, "j": 4,
+/// "visit": 1, "cycle": 3, "why": "door opened"}], "laboratory": {…}, "gyro": {…}}`; every key may be absent. `method` may
+/// also be "analytic" or "iterative", `model` "general". `laboratory` and `gyro` have the keys of the files
+/// dtg-laboratory/1 and dtg-gyro/1. Without a laboratory the uncertainties are those of the paper's meter, 0.015 % of the
+/// reading; without a gyro type there is no verdict.
 ///
 /// `result_json`, unless NULL, receives a text to be freed with dtg_string_free: the JSON of the command `calibrate`,
 /// or `{"error": …}` as from dtg_load. Returns DTG_OK; DTG_REFUSED if the readings do not give a result; DTG_UNUSABLE if
-/// an argument or a current cannot be used.
+/// an argument, the order or a current cannot be used.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dtg_calibrate_csv(
+    passport: *const dtg_passport,
+    currents_csv: *const c_char,
+    order_json: *const c_char,
+    result_json: *mut *mut c_char,
+) -> c_int {
+    // SAFETY: the caller passes NULL, or a passport of dtg_load and texts.
+    unsafe {
+        guarded(result_json, || {
+            let order = if order_json.is_null() { "{}" } else { text(order_json, "order_json")? };
+            calibrated(given(passport, "passport")?, text(currents_csv, "currents_csv")?, order)
+        })
+    }
+}
+
+/// Calibrates a gyro with the paper's meter, as dtg_calibrate_csv does.
+///
+/// `currents` has `rows` rows of four numbers: i, j, and the currents along x and y in mA. `method` is NULL or
+/// "least-squares", "analytic", "iterative".
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dtg_calibrate(
     passport: *const dtg_passport,
@@ -160,16 +184,16 @@ pub unsafe extern "C" fn dtg_calibrate(
             let numbers = rows.checked_mul(4).filter(|count| *count <= isize::MAX as usize / size_of::<c_double>());
             let numbers = numbers.ok_or_else(|| Failed::unusable("rows is too large"))?;
             let (rows, _) = std::slice::from_raw_parts(currents, numbers).as_chunks::<4>();
-            let csv = currents_csv(rows);
-            let verified_as_of = Some(passport.verified_as_of);
-            let found = calibrate(&passport.content, verified_as_of, ("currents", &csv), method, None, None)?;
-            Ok((DTG_OK, found.json))
+            let rows = rows.iter().map(|[i, j, jx_ma, jy_ma]| format!("{i},{j},{jx_ma},{jy_ma}\n"));
+            let csv = "i,j,jx_ma,jy_ma\n".to_owned() + &rows.collect::<String>();
+            calibrated(passport, &csv, &format!(r#"{{"method": {method:?}}}"#))
         })
     }
 }
 
-/// Copies the eight parameters of a result of dtg_calibrate and their standard uncertainties: K_x, K_xy, K_yx, K_y in
-/// degrees per hour and mA, omega_0x and omega_0y in degrees per hour, omega_g and omega_k in degrees per hour and g.
+/// Copies the eight parameters of a result of dtg_calibrate_csv or dtg_calibrate and their standard uncertainties: K_x,
+/// K_xy, K_yx, K_y in degrees per hour and mA, omega_0x and omega_0y in degrees per hour, omega_g and omega_k in degrees per
+/// hour and g; these two are NaN in the general model.
 ///
 /// Returns DTG_OK if they may be used; DTG_REFUSED, with the same numbers, if the readings do not fit the stand, or if a
 /// mistake such as currents in another unit explains the parameters: `remarks` in the result says which; DTG_UNUSABLE if
@@ -204,6 +228,12 @@ pub unsafe extern "C" fn dtg_string_free(text: *mut c_char) {
         // SAFETY: the caller passes a text of this library that was not freed.
         drop(unsafe { CString::from_raw(text) });
     }
+}
+
+fn calibrated(passport: &dtg_passport, csv: &str, order: &str) -> Result<(c_int, String), Failed> {
+    let verified_as_of = Some(passport.verified_as_of);
+    let found = calibrate(&passport.content, verified_as_of, ("currents", csv.as_bytes()), &order.parse()?)?;
+    Ok((DTG_OK, found.json))
 }
 
 /// Runs `work`, hands out its text, and returns its code. A panic becomes DTG_UNUSABLE.

@@ -23,9 +23,9 @@ class Parameters(NamedTuple):
     omega_0: Array
     """Constant drift about x and y, deg/h, shape (2,)."""
     omega_g: float
-    """g-sensitive drift omega_g, deg/h per local g."""
+    """g-sensitive drift omega_g, deg/h per local g; NaN in the general model."""
     omega_k: float
-    """g-sensitive drift omega_k, deg/h per local g."""
+    """g-sensitive drift omega_k, deg/h per local g; NaN in the general model."""
 
 
 class MonteCarlo(NamedTuple):
@@ -54,8 +54,8 @@ def parameters(result: dict[str, Any]) -> Parameters:
     return Parameters(
         frozen(result["k_deg_per_h_per_ma"], 2, 2),
         frozen(result["omega0_deg_per_h"], 2),
-        result["omega_g_deg_per_h_per_g"],
-        result["omega_k_deg_per_h_per_g"],
+        result.get("omega_g_deg_per_h_per_g", np.nan),
+        result.get("omega_k_deg_per_h_per_g", np.nan),
     )
 
 
@@ -280,7 +280,8 @@ class Calibration(Frozen):
         uncertainties = optional("uncertainties", "uncertainties")
         K, omega_0, omega_g, omega_k = self.parameters
         values = (*K.ravel().tolist(), *omega_0.tolist(), omega_g, omega_k)
-        return dict(zip(NAMES, uncertainties.correlated_values(values, self.covariance)))
+        known = 6 if np.isnan(omega_g) else 8  # omega_g and omega_k come last
+        return dict(zip(NAMES, uncertainties.correlated_values(values[:known], self.covariance[:known, :known])))
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the residuals with their expanded uncertainties (k = 2), deg/h; return the matplotlib axes."""

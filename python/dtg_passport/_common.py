@@ -97,10 +97,15 @@ def whole(name: str, value: Any, least: int, most: int) -> int:
 
 
 def document(file: File, name: str) -> tuple[str, bytes]:
-    """Return the name and the content of a file or of a mapping. A mapping becomes JSON, which is also YAML."""
+    """Return the name and the content of a file or of a mapping."""
     if not isinstance(file, Mapping):
         return named(file)
-    return name, json.dumps(dict(file), default=_plain, ensure_ascii=False, indent=1).encode()
+    return name, json_text(file).encode()
+
+
+def json_text(values: Mapping[str, Any]) -> str:
+    """Return values as JSON, which is also YAML."""
+    return json.dumps(dict(values), default=_plain, ensure_ascii=False, indent=1)
 
 
 def documents(gyro: File | None, laboratory: File | None) -> tuple[tuple[str, bytes] | None, tuple[str, bytes] | None]:

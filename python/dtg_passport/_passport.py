@@ -7,7 +7,7 @@ import json
 import os
 import re
 import warnings
-from collections.abc import Callable, Mapping, Sequence, Set
+from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -16,7 +16,7 @@ import numpy.typing as npt
 
 from . import _dtg_passport
 from ._calibration import NAMES, Calibration, Parameters
-from ._common import Array, File, Frozen, array, documents, named, optional
+from ._common import Array, File, Frozen, array, documents, json_text, named, optional
 
 UNITS: Mapping[str, str] = MappingProxyType(
     {
@@ -261,6 +261,9 @@ class Passport(Frozen):
         laboratory: File | None = None,
         gyro: File | None = None,
         method: str = "least-squares",
+        model: str = "paper",
+        drift: bool = False,
+        exclude: Iterable[Mapping[str, Any]] = (),
     ) -> Calibration:
         """Calibrate a gyro from its currents in every position.
 
@@ -275,6 +278,13 @@ class Passport(Frozen):
             Gyro type, `dtg-gyro/1`, for the verdict: path of the file, or a mapping.
         method
             `least-squares`, `analytic` or `iterative`.
+        model
+            Model of the g-sensitive drift: `paper`, or `general` for the full 2x3 matrix `G`; omega_g and omega_k are
+            then NaN.
+        drift
+            Whether to fit a linear drift of omega_0 in time; needs `time_s`.
+        exclude
+            Visits to leave out, with the keys `i`, `j`, `visit`, if needed `cycle`, and `why`, the reason.
 
         Returns
         -------
@@ -284,7 +294,8 @@ class Passport(Frozen):
         Raises
         ------
         ValueError
-            If the currents cannot be used, or do not determine the parameters; with the line and column.
+            If the currents cannot be used, or do not determine the parameters; with the line and column. Or if an
+            argument cannot be used.
 
         Examples
         --------
@@ -297,7 +308,8 @@ class Passport(Frozen):
         >>> found.verdict["overall"]
         'undecided'
         """
-        inputs = (_csv(currents), method, documents(gyro, laboratory))
+        order = {"method": method, "model": model, "drift": drift, "exclude": list(exclude)}
+        inputs = (_csv(currents), json_text(order), documents(gyro, laboratory))
         text, covariance, remarks = self._content.calibrate(*inputs)
         for remark in remarks:
             warnings.warn(remark, stacklevel=2)

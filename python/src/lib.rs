@@ -2,7 +2,7 @@
 
 use dtg_passport::folder::FileError;
 use dtg_passport::gyro::{GyroType, Parameters};
-use dtg_passport::interface::{self, Failed};
+use dtg_passport::interface::{self, Failed, Order};
 use dtg_passport::jiff::Timestamp;
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::passport::{Content as Passport, SelfCheck, content_from_anyone};
@@ -36,12 +36,19 @@ fn given((name, bytes): &File) -> (&str, &[u8]) {
     (name, bytes)
 }
 
-/// Reads a gyro type and a laboratory.
-fn read((gyro, laboratory): Files) -> PyResult<(Option<GyroType>, Option<Laboratory>)> {
-    let unreadable = |error: dtg_passport::text::Unreadable| failed(error.into());
-    let gyro = gyro.map(|(name, bytes)| GyroType::from_yaml(&name, &bytes)).transpose();
-    let laboratory = laboratory.map(|(name, bytes)| Laboratory::from_yaml(&name, &bytes)).transpose();
-    Ok((gyro.map_err(unreadable)?, laboratory.map_err(unreadable)?))
+/// Reads an order of a calibration, with the files of its gyro type and its laboratory.
+fn ordered(order: &str, (gyro, laboratory): Files) -> PyResult<Order> {
+    let read = || {
+        let mut order: Order = order.parse()?;
+        if let Some((name, bytes)) = gyro {
+            order.gyro = Some(GyroType::from_yaml(&name, &bytes)?);
+        }
+        if let Some((name, bytes)) = laboratory {
+            order.laboratory = Laboratory::from_yaml(&name, &bytes)?;
+        }
+        Ok(order)
+    };
+    read().map_err(failed)
 }
 
 /// Converts an error of a file to the subclass of OSError that Python users expect.
@@ -183,14 +190,11 @@ impl Content {
         &self,
         py: Python<'py>,
         currents: File,
-        method: &str,
+        order: &str,
         files: Files,
     ) -> PyResult<(String, Bound<'py, PyBytes>, Vec<String>)> {
-        let (gyro, laboratory) = read(files)?;
-        let (passport, time) = (&self.passport, self.verified_as_of);
-        let found = py.detach(|| {
-            interface::calibrate(passport, time, given(&currents), method, laboratory.as_ref(), gyro.as_ref())
-        });
+        let (passport, order) = (&self.passport, ordered(order, files)?);
+        let found = py.detach(|| interface::calibrate(passport, self.verified_as_of, given(&currents), &order));
         let found = found.map_err(failed)?;
         let covariance: Vec<u8> = found.covariance.into_iter().flatten().flat_map(f64::to_ne_bytes).collect();
         Ok((found.json, PyBytes::new(py, &covariance), found.remarks))
@@ -203,14 +207,14 @@ impl Content {
         &self,
         py: Python,
         currents: File,
-        method: &str,
+        order: &str,
         files: Files,
         trials: Option<u64>,
         seed: u64,
         threads: Option<usize>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<String> {
-        let (gyro, laboratory) = read(files)?;
+        let order = ordered(order, files)?;
         let (cancel, raised) = (AtomicBool::new(false), Mutex::new(None));
         let tell = |done: u64, due: u64| {
             let told = Python::attach(|py| {
@@ -224,10 +228,8 @@ impl Content {
         };
         let mut run = Trials { trials, cancel: Some(&cancel), progress: Some(&tell), ..Trials::adaptive(seed) };
         run.threads = threads.unwrap_or(run.threads);
-        let (laboratory, gyro, passport) = (laboratory.as_ref(), gyro.as_ref(), &self.passport);
-        let found = py
-            .detach(|| interface::monte_carlo(passport, given(&currents), method, laboratory, gyro, &run))
-            .map_err(failed);
+        let found =
+            py.detach(|| interface::monte_carlo(&self.passport, given(&currents), &order, &run)).map_err(failed);
         raised.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(found, Err)
     }
 

@@ -7,8 +7,9 @@ pub(crate) mod csv;
 
 use super::recorded::Recorded;
 use crate::coefficients::{Coefficients, PositionIndex};
+use crate::text::record;
 use nalgebra::Vector2;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// One row of the file: one reading of the two currents.
@@ -52,21 +53,22 @@ pub struct PositionReadings {
     pub mean_ma: Vector2<f64>,
 }
 
-/// Visit that is left out of a calibration.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "struct ExclusionDocument")]
-pub(crate) struct Exclusion {
-    /// Frame index.
-    pub i: u32,
-    /// Platform index.
-    pub j: u32,
-    /// Number of the visit within its cycle and position.
-    pub visit: u32,
-    /// Turn-on of the gyro; `None` if there is no other visit of that number to the position.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub cycle: Option<u32>,
-    /// Reason.
-    pub why: String,
+record! {
+    /// Visit that is left out of a calibration.
+    #[derive(Eq, Deserialize)]
+    #[serde(deny_unknown_fields, expecting = "struct ExclusionDocument")]
+    pub(crate) struct Exclusion {
+        /// Frame index.
+        pub i: u32,
+        /// Platform index.
+        pub j: u32,
+        /// Number of the visit within its cycle and position.
+        pub visit: u32,
+        /// Turn-on of the gyro; `None` if there is no other visit of that number to the position.
+        pub cycle: Option<u32>,
+        /// Reason.
+        pub why: String,
+    }
 }
 
 impl PositionReadings {

@@ -14,36 +14,27 @@ use super::unknowns::Model;
 use crate::coefficients::PositionIndex;
 use crate::gyro::GyroParameters;
 use crate::statistics::beta::f_larger;
+use crate::text::{word_of_a_key, words};
 use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2};
 use serde::{Deserialize, Serialize};
 
-/// Method of calibration.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
-#[serde(rename_all = "kebab-case")]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
-#[non_exhaustive]
-pub enum Method {
-    /// The paper's analytic method.
-    Analytic,
-    /// The paper's iterative method.
-    Iterative,
-    /// Weighted least squares on all readings.
-    LeastSquares,
-}
-
-impl Method {
-    /// All methods, in the order of results; the last one gives the adopted result.
-    pub const ALL: [Self; 3] = [Self::Analytic, Self::Iterative, Self::LeastSquares];
-
-    /// Returns the name of the method in options and results.
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::Analytic => "analytic",
-            Self::Iterative => "iterative",
-            Self::LeastSquares => "least-squares",
-        }
+words! {
+    /// Method of calibration, in the order of results; the last one gives the adopted result.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+    #[serde(rename_all = "kebab-case")]
+    #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+    #[non_exhaustive]
+    pub enum Method: pub key {
+        /// The paper's analytic method.
+        Analytic = "analytic",
+        /// The paper's iterative method.
+        Iterative = "iterative",
+        /// Weighted least squares on all readings.
+        LeastSquares = "least-squares",
     }
 }
+
+word_of_a_key!(Method, key, "");
 
 /// The result of a calibration.
 #[derive(Debug, Clone, PartialEq)]

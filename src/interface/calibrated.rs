@@ -1,6 +1,6 @@
 //! Calibration with a passport: from currents as CSV to the JSON of `calibrate`.
 
-use super::{Failed, Stopped, json};
+use super::{Failed, Order, Stopped, json};
 #[cfg(not(feature = "report"))]
 use crate::calibration::diagnosis::INCONSISTENT;
 use crate::calibration::document::{NoChange, Subject};
@@ -25,7 +25,8 @@ use std::collections::BTreeMap;
 pub struct Calibrated {
     /// The JSON of `calibrate`, with one element in `results`.
     pub json: String,
-    /// Covariance of the parameters, 8×8, in the order and units of [`Parameter::EIGHT`].
+    /// Covariance of the parameters, 8×8, in the order and units of [`Parameter::EIGHT`]; NaN for ω_g and ω_k in the
+    /// general model.
     pub covariance: [[f64; 8]; 8],
     /// Remarks on the currents, the laboratory and the fit, a sentence each; also in the JSON.
     pub remarks: Vec<String>,
@@ -34,36 +35,40 @@ pub struct Calibrated {
 /// Calibrates a gyro with the content of a passport. `verified_as_of` is the time for which the passport was verified, or
 /// `None` if it was not.
 ///
-/// `currents` are the name and content of a CSV file with the columns `i`, `j`, `jx_ma`, `jy_ma`; `method` is
-/// `analytic`, `iterative` or `least-squares`. Without a laboratory the paper's meter is used; without a gyro type the
-/// result has no verdict.
+/// `currents` are the name and content of a CSV file with the columns `i`, `j`, `jx_ma`, `jy_ma`, and if present `cycle`,
+/// `visit`, `time_s`.
 ///
 /// # Errors
-/// Returns [`Failed`] if the method is unknown, if the currents cannot be read, or if they do not determine the
-/// parameters.
+/// Returns [`Failed`] if the currents cannot be read, if a visit to leave out is not among them, or if they do not
+/// determine the parameters.
 pub fn calibrate(
     content: &Content,
     verified_as_of: Option<Timestamp>,
-    (name, currents): (&str, &[u8]),
-    method: &str,
-    laboratory: Option<&Laboratory>,
-    gyro_type: Option<&GyroType>,
+    currents: (&str, &[u8]),
+    order: &Order,
 ) -> Result<Calibrated, Failed> {
-    let (paper, options) = (Laboratory::paper(), by(method)?);
-    let prepared = Prepared::new(content, laboratory.unwrap_or(&paper), gyro_type, (name, currents))?;
     let subject = Subject { passport_verified_as_of: verified_as_of, ..Subject::default() };
-    let done = prepared.run(&options, subject, &[])?;
+    let done = prepared(content, currents, order)?.run(&order.options, subject, &[])?;
     // The document has an answer, so the calibration has one.
     let result = done.calibration.answer().ok_or_else(|| Failed::refused("no result"))?;
-    let place = |index: usize| Parameter::EIGHT[index].place();
-    let covariance = |row, column| result.covariance.get((place(row), place(column))).copied().unwrap_or(f64::NAN);
-    let covariance = std::array::from_fn(|row| std::array::from_fn(|column| covariance(row, column)));
+    let columns = Parameter::EIGHT.map(|parameter| result.model.column(parameter));
+    let element = |row: Option<usize>, column: Option<usize>| Some(result.covariance[(row?, column?)]);
+    let covariance = columns.map(|row| columns.map(|column| element(row, column).unwrap_or(f64::NAN)));
     Ok(Calibrated { json: json(&done.document), covariance, remarks: done.document.remarks })
+}
+
+/// Reads the currents, and leaves out the visits that `order` names.
+fn prepared<'a>(content: &'a Content, currents: (&str, &[u8]), order: &'a Order) -> Result<Prepared<'a>, Stopped> {
+    let mut prepared = Prepared::new(content, &order.laboratory, order.gyro.as_ref(), currents)?;
+    for exclusion in &order.exclude {
+        prepared.readings.exclude(exclusion.clone()).map_err(Stopped::Unusable)?;
+    }
+    Ok(prepared)
 }
 
 /// Returns the parameters of the adopted result and their standard uncertainties, in the order and units of
 /// [`Parameter::EIGHT`], and whether they may be used: the readings fit the stand, and no mistake explains the parameters
-/// better. `result` is the JSON of [`calibrate`].
+/// better. ω_g and ω_k are NaN in the general model. `result` is the JSON of [`calibrate`].
 ///
 /// # Errors
 /// Returns [`Failed`] if `result` is no such JSON.
@@ -73,35 +78,21 @@ pub fn parameters(result: &str) -> Result<([f64; 8], [f64; 8], bool), Failed> {
     Ok((found.parameters.to_vector(), found.standard_uncertainty, document.is_valid()))
 }
 
-/// Returns the options of a calibration by one method.
-fn by(method: &str) -> Result<Options, Failed> {
-    let known = Method::ALL.iter().copied().find(|known| known.key() == method);
-    let names = Method::ALL.map(Method::key).join(", ");
-    let method = known.ok_or_else(|| Failed::unusable(format!("method {method:?}, expected one of {names}")))?;
-    Ok(Options { methods: vec![method], ..Options::default() })
-}
-
 /// Returns the distributions of the parameters by Monte Carlo (JCGM 101), as the key `monte_carlo` of `calibrate`.
 ///
 /// The inputs are those of [`calibrate`]. A seed gives the same numbers on any number of threads.
 ///
 /// # Errors
-/// Returns the errors of [`calibrate`], and [`Failed`] if the run was cancelled before its first trials were complete.
+/// Returns the errors of [`calibrate`], and [`Failed`] if the trials do not have the model of `order`, or if the run was
+/// cancelled before its first trials were complete.
 #[cfg(feature = "monte-carlo")]
-pub fn monte_carlo(
-    content: &Content,
-    currents: (&str, &[u8]),
-    method: &str,
-    laboratory: Option<&Laboratory>,
-    gyro_type: Option<&GyroType>,
-    run: &Trials,
-) -> Result<String, Failed> {
-    let (paper, options) = (Laboratory::paper(), by(method)?);
-    let prepared = Prepared::new(content, laboratory.unwrap_or(&paper), gyro_type, currents)?;
-    let Done { setup, readings, calibration, .. } = prepared.run(&options, Subject::default(), &[])?;
+pub fn monte_carlo(content: &Content, currents: (&str, &[u8]), order: &Order, run: &Trials) -> Result<String, Failed> {
+    let options = &order.options;
+    let prepared = prepared(content, currents, order)?;
+    let Done { setup, readings, calibration, .. } = prepared.run(options, Subject::default(), &[])?;
     let method = calibration.answer().map_or(Method::LeastSquares, |answer| answer.method);
-    let budget = Budget::new(&setup, &readings, method, &options).map_err(Failed::refused)?;
-    Ok(json(&distributions(&setup, &readings, (&budget, &options), run)?))
+    let budget = Budget::new(&setup, &readings, method, options).map_err(Failed::refused)?;
+    Ok(json(&distributions(&setup, &readings, (&budget, options), run)?))
 }
 
 /// Runs the trials of a calibration.
@@ -255,33 +246,30 @@ fn remarks(calibration: &Calibration, _: &Readings, mistake: Option<&Mistake>) -
     hint.chain(mistake).collect()
 }
 
-/// Returns rows of i, j, J_x, J_y (mA) as the CSV that [`calibrate`] reads, each number to its last bit.
-pub fn currents_csv(rows: &[[f64; 4]]) -> Vec<u8> {
-    let mut csv = "i,j,jx_ma,jy_ma\n".to_owned();
-    for [i, j, jx_ma, jy_ma] in rows {
-        csv += &format!("{i},{j},{jx_ma},{jy_ma}\n");
-    }
-    csv.into_bytes()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     #[cfg(feature = "report")]
     use crate::calibration::diagnosis::INCONSISTENT;
+    use crate::passport::content::PositionCurrents;
     use crate::passport::content_from_anyone;
 
     const PASSPORT: &[u8] = include_bytes!("../../passports/SPS-2/0017/moscow-bmstu-1.yaml");
+
+    fn default() -> Order {
+        "{}".parse().unwrap()
+    }
 
     /// Expected: the parameters stated in the self-check, and the limit of 1e-9 of each.
     #[test]
     fn the_currents_of_the_self_check_give_its_gyro_by_every_method() {
         let content = content_from_anyone("p", PASSPORT).unwrap();
         let check = content.self_check.clone().unwrap();
-        let rows: Vec<_> =
-            check.currents.iter().map(|at| [f64::from(at.i), f64::from(at.j), at.jx_ma, at.jy_ma]).collect();
+        let row = |at: &PositionCurrents| format!("{},{},{},{}\n", at.i, at.j, at.jx_ma, at.jy_ma);
+        let csv = "i,j,jx_ma,jy_ma\n".to_owned() + &check.currents.iter().map(row).collect::<String>();
         for method in ["analytic", "least-squares"] {
-            let found = calibrate(&content, None, ("c", &currents_csv(&rows)), method, None, None).unwrap();
+            let order = format!(r#"{{"method": "{method}"}}"#).parse().unwrap();
+            let found = calibrate(&content, None, ("c", csv.as_bytes()), &order).unwrap();
             let document = CalibrationDocument::from_json("r", found.json.as_bytes()).unwrap();
             let result = document.answer().unwrap();
             let errors = check.errors(&result.parameters);
@@ -302,12 +290,13 @@ mod tests {
         (wide.tolerance.k_main_percent, wide.tolerance.k_cross_percent) = (1e3, 1e3);
         (wide.tolerance.omega0_deg_per_h, wide.tolerance.omega_g_deg_per_h_per_g) = (1e3, 1e3);
         wide.tolerance.omega_k_deg_per_h_per_g = 1e3;
-        let found = calibrate(&content, None, currents, "least-squares", None, Some(&wide)).unwrap();
+        let order = Order { gyro: Some(wide), ..default() };
+        let found = calibrate(&content, None, currents, &order).unwrap();
         let json: serde_json::Value = serde_json::from_str(&found.json).unwrap();
         assert_eq!((&json["consistent"], &json["verdict"]["overall"]), (&false.into(), &"undecided".into()));
         assert!(found.remarks.iter().any(|remark| remark.starts_with(INCONSISTENT)), "{:?}", found.remarks);
         let content = content_from_anyone("p", PASSPORT).unwrap();
-        let found = calibrate(&content, None, currents, "least-squares", None, Some(&wide)).unwrap();
+        let found = calibrate(&content, None, currents, &order).unwrap();
         let json: serde_json::Value = serde_json::from_str(&found.json).unwrap();
         assert_eq!((&json["consistent"], &json["verdict"]["overall"]), (&true.into(), &"pass".into()));
         assert_eq!((&json["adopted"], found.remarks), (&"least-squares".into(), Vec::new()));
@@ -319,19 +308,17 @@ mod tests {
         let currents: (&str, &[u8]) = ("c", include_bytes!("../../docs/currents.csv"));
         let mut gyro = GyroType::gvk_6();
         gyro.nominal.k_deg_per_h_per_ma[0][1] = 0.0;
-        let refused = calibrate(&content, None, currents, "least-squares", None, Some(&gyro)).unwrap_err();
+        let refused = calibrate(&content, None, currents, &Order { gyro: Some(gyro), ..default() }).unwrap_err();
         assert!(refused.to_string().contains("no tolerance of K_xy"), "{refused}");
     }
 
     #[test]
     fn what_is_no_current_is_refused_with_its_line() {
         let content = content_from_anyone("p", PASSPORT).unwrap();
-        let rows = [[1.0, 1.0, 0.1, 0.1], [1.5, 2.0, 0.1, 0.1], [1.0, 3.0, f64::NAN, f64::INFINITY]];
-        let failed = calibrate(&content, None, ("c", &currents_csv(&rows)), "analytic", None, None).unwrap_err();
+        let csv = b"i,j,jx_ma,jy_ma\n1,1,0.1,0.1\n1.5,2,0.1,0.1\n1,3,NaN,inf\n";
+        let failed = calibrate(&content, None, ("c", csv), &default()).unwrap_err();
         for place in ["c:3:1", "c:4:5", "c:4:9"] {
             assert!(failed.message.contains(place), "{failed}");
         }
-        let failed = calibrate(&content, None, ("c", b""), "exact", None, None).unwrap_err();
-        assert!(failed.message.contains("expected one of analytic, iterative, least-squares"), "{failed}");
     }
 }

@@ -4,7 +4,8 @@
 //! checks and computes the same numbers to the bit.
 //!
 //! * [`Enquiry`]: whom to trust and what to ask, and the verification of many passports.
-//! * [`calibrate`]: currents to the parameters of a gyro; [`parameters`]: the numbers of its result; `monte_carlo` (with `monte-carlo`): their distributions.
+//! * [`Order`], [`calibrate`]: currents to the parameters of a gyro; [`parameters`]: the numbers of its result;
+//!   `monte_carlo` (with `monte-carlo`): their distributions.
 //! * `issue` (with `factory`), `plan` (with `monte-carlo` too): a signed passport; the best positions.
 //! * [`Failed`]: refusals as JSON.
 //!
@@ -20,7 +21,8 @@
 //!
 //! assert!(content_json(passport.content()).contains("b_deg_per_h"));
 //! let currents = include_bytes!("../../docs/currents.csv");
-//! let found = calibrate(passport.content(), Some(answer.time), ("currents.csv", currents), "least-squares", None, None)?;
+//! let order = r#"{"method": "least-squares"}"#.parse()?;
+//! let found = calibrate(passport.content(), Some(answer.time), ("currents.csv", currents), &order)?;
 //! assert!(found.json.contains("chi_square"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -29,15 +31,17 @@ pub(crate) mod calibrated;
 pub(crate) mod enquiry;
 #[cfg(feature = "factory")]
 mod issued;
+mod order;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod planned;
 
 #[cfg(feature = "monte-carlo")]
 pub use calibrated::monte_carlo;
-pub use calibrated::{Calibrated, calibrate, currents_csv, parameters};
+pub use calibrated::{Calibrated, calibrate, parameters};
 pub use enquiry::{Answer, Enquiry};
 #[cfg(feature = "factory")]
 pub use issued::issue;
+pub use order::Order;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 pub use planned::plan;
 

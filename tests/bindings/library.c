@@ -69,6 +69,7 @@ static void misuse(void) {
     EXPECT(dtg_calibrate(NULL, numbers, 1, NULL, &text) == DTG_UNUSABLE && strstr(text, "passport is NULL"));
     dtg_string_free(text);
     EXPECT(dtg_calibrate(NULL, NULL, (size_t)-1, NULL, NULL) == DTG_UNUSABLE);
+    EXPECT(dtg_calibrate_csv(NULL, NULL, NULL, NULL) == DTG_UNUSABLE);
     dtg_free(NULL);
     dtg_string_free(NULL);
     puts("misused");
@@ -84,9 +85,15 @@ static void misuse_of(dtg_passport *passport) {
     EXPECT(dtg_position(passport, 0, NULL, numbers, numbers) == DTG_UNUSABLE);
     EXPECT(dtg_calibrate(passport, NULL, 2, NULL, NULL) == DTG_UNUSABLE);
     EXPECT(dtg_calibrate(passport, numbers, (size_t)-1, NULL, NULL) == DTG_UNUSABLE);
-    EXPECT(dtg_calibrate(passport, numbers, 2, "exact", &text) == DTG_UNUSABLE && strstr(text, "expected one of"));
+    EXPECT(dtg_calibrate(passport, numbers, 2, "exact", &text) == DTG_UNUSABLE && strstr(text, "method: found"));
     dtg_string_free(text);
     EXPECT(dtg_calibrate(passport, numbers, 2, NULL, &text) == DTG_REFUSED && strstr(text, "\"refused\""));
+    dtg_string_free(text);
+    EXPECT(dtg_calibrate_csv(passport, NULL, "{}", &text) == DTG_UNUSABLE && strstr(text, "currents_csv is NULL"));
+    dtg_string_free(text);
+    EXPECT(dtg_calibrate_csv(passport, "", NULL, &text) == DTG_UNUSABLE && strstr(text, "\"unreadable\""));
+    dtg_string_free(text);
+    EXPECT(dtg_calibrate_csv(passport, "\xff", "\xff", &text) == DTG_UNUSABLE && strstr(text, "UTF-8"));
     dtg_string_free(text);
     numbers[2] = 1e9; /* mA, beyond the range of any meter */
     EXPECT(dtg_calibrate(passport, numbers, 2, NULL, &text) == DTG_UNUSABLE && strstr(text, "\"column\""));

@@ -8,15 +8,29 @@ import os
 import re
 import struct
 import subprocess
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 import yaml
-from conftest import PROJECT, SIGNERS, TIME, Corpus, program
+from conftest import (
+    CURRENTS,
+    GYRO,
+    LABORATORY,
+    ORDERS,
+    PASSPORT,
+    PROJECT,
+    REFUSED,
+    RUN,
+    SIGNERS,
+    TIME,
+    Corpus,
+    calibrated,
+    program,
+)
 
 LIBRARIES = PROJECT / "target/debug"
-PASSPORT = PROJECT / "passports/SPS-2/0017/moscow-bmstu-1.yaml"
 QUESTION = json.dumps({"time": TIME})
 SANITIZERS = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
 KEYS = ["delta", "b_deg_per_h", "c_deg_per_h_per_g", "n1", "n2", "n2_inverse", "omega1_deg_per_h", "omega2_deg_per_h"]
@@ -59,7 +73,6 @@ def test_the_header_is_good_c_and_c_plus_plus(tmp_path: Path) -> None:
         run(tmp_path / "a")
 
 
-CURRENTS = PROJECT / "docs/currents.csv"
 OTHER = PROJECT / "passports/SPS-1/0203/moscow-bmstu-1.yaml"  # not the stand of these currents
 
 
@@ -69,20 +82,20 @@ def test_the_example_calibrates(tmp_path: Path, how: str) -> None:
     example = compiled(PROJECT / "c/examples/calibrate.c", tmp_path / "calibrate", *options, static=how == "static")
     before = ["valgrind", "--quiet", "--leak-check=full", "--error-exitcode=9"] if how == "valgrind" else []
     printed = run(*before, example, PASSPORT, SIGNERS, QUESTION, given=CURRENTS.read_text())
-    decoder = json.JSONDecoder()
-    report, end = decoder.raw_decode(printed)
-    result, end = decoder.raw_decode(printed[end:].lstrip())
+    report, _, rest = printed.partition("\n}\n")
     due = json.loads(program("verify", PASSPORT, "--trust", SIGNERS, "--time", TIME, "--format", "json"))
-    assert [report] == due
-    options = ["--trust", SIGNERS, "--time", TIME, "--method", "least-squares", "--format", "json"]
-    calibrated = json.loads(program("calibrate", PASSPORT, PROJECT / "docs/currents.csv", *options))
-    # The SHA-256 of the currents is that of another text with the same numbers.
-    assert result | {"subject": None} == calibrated | {"subject": None}
+    assert [json.loads(report + "}")] == due
+    assert rest.startswith(calibrated(tmp_path, CURRENTS, {}))
     # The paper's equation (13) in the example, and in the program.
-    analytic = program("calibrate", PASSPORT, PROJECT / "docs/currents.csv", *options[:5], "analytic", *options[6:])
-    K = np.array(json.loads(analytic)["results"][0]["k_deg_per_h_per_ma"]).ravel()
+    analytic = json.loads(calibrated(tmp_path, CURRENTS, {"method": "analytic"}))
+    K = np.array(analytic["results"][0]["k_deg_per_h_per_ma"]).ravel()
     found = printed.splitlines()[-1].split()
     assert found[4] == "deg/(h*mA)" and np.allclose([float(number) for number in found[:4]], K, rtol=0, atol=1e-6)
+
+    order = (PROJECT / "docs/order.json").read_text()
+    assert {key: json.loads(order)[key] for key in ("laboratory", "gyro")} == {"laboratory": LABORATORY, "gyro": GYRO}
+    printed = run(*before, example, PASSPORT, SIGNERS, QUESTION, order, given=RUN.read_text())
+    assert printed.endswith("\n}\n" + calibrated(tmp_path, *ORDERS["drift"]))
 
     (tmp_path / "altered.yaml").write_bytes(PASSPORT.read_bytes().replace(b"serial", b"Serial", 1))
     rows = CURRENTS.read_text()
@@ -97,7 +110,8 @@ def test_the_example_reads_every_row_or_none(tmp_path: Path) -> None:
     example = compiled(PROJECT / "c/examples/calibrate.c", tmp_path / "calibrate", *SANITIZERS)
     rows = CURRENTS.read_text()
     for malformed in (rows.replace("1,3,", "1;3;"), rows + "1,1,-0.2,-0.1,9\n", rows.replace("1,3,-0.1", "1,3,-O.1"), "", "#\n"):
-        assert run(example, PASSPORT, SIGNERS, QUESTION, given=malformed, accept=2) == ""
+        printed = run(example, PASSPORT, SIGNERS, QUESTION, given=malformed, accept=2)
+        assert json.loads(printed.partition("\n}\n")[2])["error"]["code"] == "unreadable"
     # Without one of the eight positions there is no K by equation (13).
     seven = "".join(line for line in rows.splitlines(keepends=True) if not line.startswith("2,4,"))
     assert "deg/(h*mA)" not in run(example, PASSPORT, SIGNERS, QUESTION, given=seven)
@@ -182,6 +196,36 @@ def test_the_parameters_are_numbers_and_say_whether_they_may_be_used() -> None:
     c.dtg_free(passport)
 
 
+@pytest.fixture(scope="module")
+def ordered() -> Callable[[bytes, bytes], tuple[int, str]]:
+    """Calibrates by dtg_calibrate_csv; the sanitized program above frees what it got."""
+    import ctypes
+
+    c = ctypes.CDLL(str(LIBRARIES / "libdtg_passport.so"))
+    passport, result = ctypes.c_void_p(), ctypes.c_char_p()
+    paths = (str(PASSPORT).encode(), str(SIGNERS).encode(), QUESTION.encode())
+    assert c.dtg_load(*paths, ctypes.byref(passport), None) == 0
+    return lambda csv, order: (c.dtg_calibrate_csv(passport, csv, order, ctypes.byref(result)), result.value.decode())
+
+
+@pytest.mark.parametrize("name", ORDERS)
+def test_every_order_gives_the_bytes_of_the_program(ordered: Callable, tmp_path: Path, name: str) -> None:
+    currents, order = ORDERS[name]
+    assert ordered(currents.read_bytes(), json.dumps(order).encode()) == (0, calibrated(tmp_path, currents, order)[:-1])
+
+
+def test_an_order_that_cannot_be_carried_out_is_refused_with_its_field(ordered: Callable, tmp_path: Path) -> None:
+    assert ordered(CURRENTS.read_bytes(), None) == (0, calibrated(tmp_path, CURRENTS, {})[:-1])
+    for currents, order, code, words in REFUSED:
+        got, found = ordered(currents.read_bytes(), json.dumps(order).encode())
+        error = json.loads(found)["error"]
+        assert (got, error["code"]) == (1 if code == "refused" else 2, code) and words in error["message"], found
+    for order, words in ((b'{"drift": true, "drift": false}', 'duplicate key "drift"'), (b'{"metod": 1}', "did you mean method?"),
+                         (b"[]", "expected a mapping with the keys method"), (b"{", "not usable JSON"), (b"\xff", "UTF-8")):  # fmt: skip
+        got, found = ordered(CURRENTS.read_bytes(), order)
+        assert got == 2 and words in json.loads(found)["error"]["message"], found
+
+
 def test_the_library_is_looked_for_by_its_name() -> None:
     dynamic = run("readelf", "--dynamic", LIBRARIES / "libdtg_passport.so")
     assert "soname: [libdtg_passport.so]" in dynamic
@@ -242,8 +286,7 @@ def test_lists_are_arrays_in_octave(corpus: Corpus, tmp_path: Path) -> None:
 def test_octave_and_matlab_functions(tmp_path: Path) -> None:
     """docs/matlab in Octave: numbers to one unit in the last place, which is what its jsondecode gives."""
     due = yaml.safe_load(PASSPORT.read_bytes().partition(b"signature: |")[0])
-    options = ["--trust", SIGNERS, "--time", TIME, "--method", "least-squares", "--format", "json"]
-    calibrated = json.loads(program("calibrate", PASSPORT, PROJECT / "docs/currents.csv", *options))["results"][0]
+    [result] = json.loads(calibrated(tmp_path, CURRENTS, {}))["results"]
     rows = ";".join(line for line in CURRENTS.read_text().splitlines() if line[:1].isdigit())
     script = tmp_path / "test.m"
     script.write_text(f"""
@@ -270,9 +313,9 @@ def test_octave_and_matlab_functions(tmp_path: Path) -> None:
     loaded, found, *refused = octave(script).splitlines()
     ulp = lambda printed, numbers: np.testing.assert_array_max_ulp(np.array(printed.split(), dtype=float), np.array(numbers), 1)
     ulp(loaded, np.concatenate([np.ravel(due["matrices"][key]) for key in ("b_deg_per_h", "delta")]))
-    ulp(found, [*np.ravel(calibrated["k_deg_per_h_per_ma"]), *calibrated["omega0_deg_per_h"],
-                calibrated["omega_g_deg_per_h_per_g"], calibrated["omega_k_deg_per_h_per_g"],
-                *np.ravel(calibrated["standard_uncertainty"]["k_deg_per_h_per_ma"])])  # fmt: skip
+    ulp(found, [*np.ravel(result["k_deg_per_h_per_ma"]), *result["omega0_deg_per_h"],
+                result["omega_g_deg_per_h_per_g"], result["omega_k_deg_per_h_per_g"],
+                *np.ravel(result["standard_uncertainty"]["k_deg_per_h_per_ma"])])  # fmt: skip
     expected = ["refused", "option", "unusable", "option", "option", "unusable", "unusable", "unusable"]
     assert refused[:8] == [f"dtg:{identifier}" for identifier in expected]
     assert re.fullmatch(r"exit code 1: \d+ m from moscow-bmstu; .*", refused[8])

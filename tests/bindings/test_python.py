@@ -8,6 +8,7 @@ import doctest
 import json
 import os
 import pickle
+import re
 import subprocess
 import sys
 import threading
@@ -19,11 +20,7 @@ import dtg_passport
 import numpy as np
 import pytest
 import yaml
-from conftest import PROJECT, SHIPPED, SIGNERS, TIME, Corpus, program
-
-PASSPORT = PROJECT / "passports/SPS-2/0017/moscow-bmstu-1.yaml"
-CURRENTS = PROJECT / "docs/currents.csv"
-
+from conftest import CURRENTS, ORDERS, PASSPORT, PROJECT, REFUSED, RUN, SHIPPED, SIGNERS, TIME, Corpus, calibrated, plain, program
 
 def load(path: Path = PASSPORT, **asked: object) -> dtg_passport.Passport:
     return dtg_passport.load(path, SIGNERS, **{"time": TIME, **asked})
@@ -410,6 +407,34 @@ def test_a_calibration_is_that_of_the_program(method: str) -> None:
     assert (found.chi_square, found.dof) == (result["chi_square"]["value"], result["chi_square"]["degrees_of_freedom"])
 
 
+@pytest.mark.parametrize("name", ORDERS)
+def test_every_order_is_carried_out_as_by_the_program(tmp_path: Path, name: str) -> None:
+    currents, order = ORDERS[name]
+    found, due = load().calibrate(currents, **order), json.loads(calibrated(tmp_path, currents, order))
+    assert json.dumps(found.document) == json.dumps(due)
+    files = {key: tmp_path / f"{key}.yaml" for key in ("laboratory", "gyro") if key in order}
+    assert load().calibrate(currents, **{**order, **files}).document == due
+
+
+def test_an_order_that_cannot_be_carried_out_is_refused_with_its_field() -> None:
+    for currents, order, _, words in REFUSED:
+        with pytest.raises(ValueError, match=re.escape(words)):
+            load().calibrate(currents, **order)
+
+
+def test_the_general_model_has_no_numbers_of_the_papers() -> None:
+    """Its covariance is that of K and ω_0; the elements of G take the places of ω_g and ω_k inside the library."""
+    found = load().calibrate(RUN, model="general")
+    u, of_the_paper = eight(found.u), np.array([False] * 6 + [True] * 2)
+    assert (np.isnan(eight(found.parameters)) == of_the_paper).all() and (np.isnan(u) == of_the_paper).all()
+    assert (np.isnan(found.covariance) == (of_the_paper[:, None] | of_the_paper)).all()
+    assert np.allclose(np.sqrt(np.diag(found.covariance))[:6], u[:6], rtol=1e-14)
+    numbers = found.ufloats()
+    assert list(numbers) == ["K_x", "K_xy", "K_yx", "K_y", "ω_0x", "ω_0y"] and numbers["K_x"].n == found.K[0, 0]
+    with pytest.raises(ValueError, match="model"):
+        found.monte_carlo(1)
+
+
 def test_currents_come_in_every_form() -> None:
     import pandas
 
@@ -428,8 +453,6 @@ def test_currents_come_in_every_form() -> None:
             passport.calibrate(currents)
     with pytest.raises(ValueError, match="currents:4:5.*jx_ma"):
         passport.calibrate(np.vstack([array[:2], [[1, 3, 5.0, 0.1]], array[3:]]))
-    with pytest.raises(ValueError, match="expected one of"):
-        passport.calibrate(CURRENTS, method="exact")
     with pytest.raises(ValueError, match="laboratory|currents.csv"):
         passport.calibrate(CURRENTS, laboratory=CURRENTS)
 
@@ -546,10 +569,6 @@ def issue(corpus: Corpus, out: Path, **asked: object) -> dtg_passport.Issued:
     given = {"stand": STAND, "site": SITE, "key": corpus.folder / "key", "identity": "factory@example.org",
              "issued_at": "2026-11-10T00:00:00Z", "out": out}  # fmt: skip
     return dtg_passport.issue(**{**given, **asked})
-
-
-def plain(path: Path) -> dict:
-    return yaml.safe_load(path.read_text())
 
 
 @pytest.mark.parametrize(
@@ -830,7 +849,7 @@ def test_types_and_stubs_hold(tmp_path: Path) -> None:
         "K, g = p.calibrate('c').K, p.calibrate('c').omega_g\n"
         "g + 1.0, B @ K\n"
         "for q in dtg_passport.load_many(['p'], 't', threads=2): q.id.upper()\n"
-        "m = p.calibrate('c', gyro={}).monte_carlo(5, progress=lambda done, due: print(done / due))\n"
+        "m = p.calibrate('c', gyro={}, model='general', exclude=[{'i': 1}]).monte_carlo(5, progress=lambda done, due: print(done / due))\n"
         "m.interval[0].K @ B, m.trials + 1\n"
         "dtg_passport.issue('s', {'format': 'dtg-site/1'}, key='k', identity='w').path.upper()\n"
         "u = dtg_passport.plan('s', frame_axis_azimuths=[90]).paper_u\n"

@@ -10,13 +10,12 @@ import re
 import subprocess
 from pathlib import Path
 
+import numpy as np
 import pytest
 import yaml
-from conftest import PROJECT, SIGNERS, TIME, Corpus, program
+from conftest import CURRENTS, ORDERS, PASSPORT, PROJECT, REFUSED, RUN, SIGNERS, TIME, Corpus, calibrated, program
 
 WEB = PROJECT / "target/web"
-PASSPORT = PROJECT / "passports/SPS-2/0017/moscow-bmstu-1.yaml"
-CURRENTS = PROJECT / "docs/currents.csv"
 
 
 def node(script: str, given: object = None) -> subprocess.CompletedProcess[str]:
@@ -94,7 +93,7 @@ ASK = """
 """
 
 
-def test_every_function_and_question() -> None:
+def test_every_function_and_question(tmp_path: Path) -> None:
     files = ", ".join(json.dumps(str(path)) for path in (PASSPORT, SIGNERS, CURRENTS))
     found = json.loads(node(ASK % (WEB / "dtg_passport.mjs", files, PROJECT / "tests/keys/examples.pub")).stdout)
     good, asked, *refused = found[:8]
@@ -107,11 +106,40 @@ def test_every_function_and_question() -> None:
     assert found[8]["checks"][-1]["name"] == "in_force" and found[8]["checks"][-1]["passed"] is not None
     assert 'time: found "tomorrow"; expected a time' in found[9]["message"] and found[10]["code"] == "unreadable" and found[10]["problems"]
     assert found[11]["valid"] is False and found[11]["checks"][0]["code"] == "malformed"
-    due = program("calibrate", PASSPORT, CURRENTS, "--trust", SIGNERS, "--time", TIME, "--method", "least-squares", "--format", "json")
-    assert found[12] == json.loads(due)
+    assert found[12] == json.loads(calibrated(tmp_path, CURRENTS, {}))
     assert found[13]["code"] == "unreadable" and found[14]["valid"] is False
     assert found[15].startswith("<!DOCTYPE html>") and "SPS-2/0017/moscow-bmstu/1" in found[15]
     assert found[16]["valid"] is False
+
+
+ORDERED = """
+    import { readFileSync } from "node:fs";
+    import { calibrate } from "%s";
+    const [passport, signers] = [%s].map((path) => readFileSync(path));
+    const answer = ([currents, order]) => calibrate(passport, signers, readFileSync(currents), { time: "%s" }, order)
+        .catch((error) => error.cause ?? error.message);
+    const orders = JSON.parse(readFileSync(0, "utf8"));
+    const lost = [{ gyro: undefined }, { drift: () => true }, { laboratory: { meter: { noise_ma: NaN } } }, new Map(), null];
+    console.log(JSON.stringify(await Promise.all([...orders, ...lost.map((order) => [orders[0][0], order])].map(answer))));
+"""
+
+
+def test_every_order_is_carried_out_as_by_the_program_or_refused(tmp_path: Path) -> None:
+    """Also as JSON, whose duplicate keys JavaScript would lose, and never without a key that is undefined."""
+    files = ", ".join(json.dumps(str(path)) for path in (PASSPORT, SIGNERS))
+    texts = [('{"drift": true, "drift": false}', 'duplicate key "drift"'), ('{"metod": 1}', "did you mean method?")]
+    orders = [*ORDERS.values(), *(case[:2] for case in REFUSED), *((CURRENTS, text) for text, _ in texts)]
+    given = [(str(currents), order) for currents, order in orders]
+    found = iter(json.loads(node(ORDERED % (WEB / "dtg_passport.mjs", files, TIME), given).stdout))
+    for currents, order in ORDERS.values():
+        assert next(found) == json.loads(calibrated(tmp_path, currents, order))
+    for _, order, code, words in REFUSED:
+        refused = next(found)
+        assert refused["code"] == code and words in refused["message"], (order, refused)
+    for _, words in texts:
+        assert words in next(found)["message"]
+    words = ["gyro: found undefined", "drift: found function", "noise_ma: found NaN", "found Map", "found null"]
+    assert all(due in said for due, said in zip(words, found, strict=True))
 
 
 MISUSED = """
@@ -149,7 +177,7 @@ def test_a_question_is_never_left_out_and_remarks_are_handed_on(corpus: Corpus, 
     found = json.loads(node(MISUSED % (WEB / "dtg_passport.mjs", paths)).stdout)
     assert not [said for said in found["refused"] if said.startswith("valid")], found["refused"]
     for words in ("question: found Map", "serial: found undefined; leave the key out", "serial: found empty text",
-                  "serial: found 18, expected text", "at: found [NaN,37]"):  # fmt: skip
+                  "serial: found 18, expected text", "0: found NaN"):  # fmt: skip
         assert any(words in said for said in found["refused"]), (words, found["refused"])
     assert found["other_world"] == "valid false"
     assert any("ALARM: fork" in remark for remark in found["forked"]["remarks"])
@@ -175,6 +203,7 @@ def test_the_page_in_chromium(tmp_path: Path) -> None:
     hostile.write_bytes(b'<script>alert(1)</script>: "<img src=x onerror=alert(1)>"\n')
     files = {"passport": str(PASSPORT), "signers-file": str(SIGNERS)}
     revoked = str(PROJECT / "tests/keys/examples.pub")
+    (tmp_path / "order.json").write_text(json.dumps(ORDERS["general"][1]))
     asked = {"time": TIME}
     cases = [
         {"files": {**files, "currents": str(CURRENTS)}, "fields": {**asked, "serial": "0017", "latitude": "55.766", "longitude": "37.685"}},
@@ -186,9 +215,10 @@ def test_the_page_in_chromium(tmp_path: Path) -> None:
         {"files": {}, "fields": {}},
         {"files": {"passport": [str(PASSPORT), str(SIGNERS), str(CURRENTS)]}, "fields": asked, "drop": True},
         {"files": files, "fields": asked},
+        {"files": {"passport": [str(PASSPORT), str(SIGNERS), str(RUN), str(tmp_path / "order.json")]}, "fields": asked, "drop": True},
     ]
     found = json.loads(node(str(PROJECT / "tests/bindings/page.cjs"), {"page": str(WEB / "verify.html"), "cases": cases}).stdout)
-    good, changed, withdrawn, strange, no_time, typed, nothing, dropped, again = found["results"]
+    good, changed, withdrawn, strange, no_time, typed, nothing, dropped, again, general = found["results"]
     for result in (good, typed, dropped, again):
         assert "VALID" in result["text"] and result["headings"][:2] == ["Answer", "Numbers"]
         assert result["frame"] > 10_000 and "SPS-2/0017/moscow-bmstu/1" in result["text"]
@@ -202,10 +232,15 @@ def test_the_page_in_chromium(tmp_path: Path) -> None:
     for row, at, vector in zip(positions, content["positions"], content["vectors"], strict=True):
         due = [at["i"], at["j"], at["alpha_arcsec"], at["beta_arcsec"], at["gamma_arcsec"]]
         assert [float(cell) for cell in row] == [*due, *vector["specific_force_g"], *vector["omega_deg_per_h"]]
-    due = program("calibrate", PASSPORT, CURRENTS, "--trust", SIGNERS, "--time", TIME, "--method", "least-squares", "--format", "json")
-    K = json.loads(due)["results"][0]["k_deg_per_h_per_ma"]
-    assert [float(number) for number in parameters[0][1].split()] == sum(K, [])
-    assert "Calibration by least squares" in dropped["headings"] and "Calibration by least squares" not in again["headings"]
+    [result] = json.loads(calibrated(tmp_path, CURRENTS, {}))["results"]
+    assert [float(number) for number in parameters[0][1].split()] == sum(result["k_deg_per_h_per_ma"], [])
+    assert "Calibration by least-squares" in dropped["headings"] and "Calibration by least-squares" not in again["headings"]
+    currents, order = ORDERS["general"]
+    due = json.loads(calibrated(tmp_path, currents, order))
+    shown = {key: [float(number) for number in u.split()] for key, _, u, _ in general["rows"][3]}
+    u = due["results"][0]["standard_uncertainty"]
+    assert shown == {key: [*np.ravel(u[key])] for key in ("k_deg_per_h_per_ma", "omega0_deg_per_h", "g_matrix_deg_per_h_per_g")}
+    assert f"Decision for the gyro type: {due['verdict']['overall']}" in general["text"]
 
     for result, code in ((changed, "altered"), (withdrawn, "key_revoked"), (strange, "malformed")):
         assert "REFUSED" in result["text"] and code in [row[2] for row in result["rows"][0]]

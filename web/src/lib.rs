@@ -21,6 +21,7 @@ pub struct Inputs {
     signers: Slice,
     question: Slice,
     currents: Slice,
+    order: Slice,
 }
 
 /// Returns room for `length` bytes, at an address that fits [`Inputs`].
@@ -56,24 +57,21 @@ pub extern "C" fn print(inputs: &Inputs, now_s: f64) -> *const Slice {
     })
 }
 
-/// Verifies a passport and calibrates a gyro from currents as CSV, by least squares; or gives the answer of [`verify`]
-/// if a check failed.
+/// Verifies a passport and calibrates a gyro from currents as CSV, with an order as JSON; or gives the answer of
+/// [`verify`] if a check failed.
 #[unsafe(no_mangle)]
 pub extern "C" fn calibrated(inputs: &Inputs, now_s: f64) -> *const Slice {
-    let currents = ("currents", inputs.currents.bytes());
-    run(inputs, now_s, |_, answer| match answer.verification.passport() {
-        None => Ok(answer.to_json()),
-        Some(passport) => {
-            Ok(calibrate(passport.content(), Some(answer.time), currents, "least-squares", None, None)?.json)
-        }
+    run(inputs, now_s, |_, answer| {
+        let order = inputs.order.text()?.parse()?;
+        let Some(passport) = answer.verification.passport() else { return Ok(answer.to_json()) };
+        Ok(calibrate(passport.content(), Some(answer.time), ("currents", inputs.currents.bytes()), &order)?.json)
     })
 }
 
 fn run(inputs: &Inputs, now_s: f64, give: impl FnOnce(&Enquiry, &Answer) -> Result<String, Failed>) -> *const Slice {
     let found = || {
-        let question = std::str::from_utf8(inputs.question.bytes()).map_err(Failed::unusable)?;
         let now = Timestamp::from_second(now_s as i64).map_err(Failed::unusable)?;
-        let enquiry = Enquiry::new(("allowed_signers", inputs.signers.bytes()), &[], question, now)?;
+        let enquiry = Enquiry::new(("allowed_signers", inputs.signers.bytes()), &[], inputs.question.text()?, now)?;
         give(&enquiry, &enquiry.verify("passport", inputs.passport.bytes()))
     };
     let text: &'static str = Box::leak(found().unwrap_or_else(|failed| failed.to_json()).into_boxed_str());
@@ -81,6 +79,10 @@ fn run(inputs: &Inputs, now_s: f64, give: impl FnOnce(&Enquiry, &Answer) -> Resu
 }
 
 impl Slice {
+    fn text(&self) -> Result<&str, Failed> {
+        std::str::from_utf8(self.bytes()).map_err(Failed::unusable)
+    }
+
     fn bytes(&self) -> &[u8] {
         if self.length == 0 {
             return &[];

@@ -1,0 +1,145 @@
+//! Orders of a calibration.
+
+use super::{Asked, Failed};
+use crate::calibration::readings::Exclusion;
+use crate::calibration::{Method, Model, Options};
+use crate::gyro::GyroType;
+use crate::laboratory::Laboratory;
+use crate::text::record::{Document, File};
+use crate::text::words::listed;
+use crate::text::{Field, Node, Path, Problems};
+use std::str::FromStr;
+
+/// Order of a calibration: the laboratory's meter and seat, the gyro type, and how to calibrate.
+///
+/// It is read from JSON, `{method, model, drift, exclude: [{i, j, visit, cycle, why}], laboratory, gyro}`, in which every
+/// key may be absent: `method` is `least-squares` (the default), `analytic` or `iterative`; `model` of the g-sensitive
+/// drift is `paper` (the default) or `general`; `drift` is `true` to fit a linear drift of ω_0 in time; `exclude` are
+/// visits to leave out, each with its reason, and with its `cycle` if several have a visit of that number. `laboratory`
+/// and `gyro` have the keys of the files `dtg-laboratory/1` and `dtg-gyro/1`.
+///
+/// ```
+/// use dtg_passport::interface::Order;
+///
+/// let order: Order = r#"{"method": "analytic"}"#.parse()?;
+/// assert!(order.gyro.is_none() && order.laboratory.meter.range_ma == 1.0);
+/// let refused = r#"{"metod": "analytic"}"#.parse::<Order>().unwrap_err();
+/// assert!(refused.message.contains("did you mean method?"));
+/// # Ok::<(), dtg_passport::interface::Failed>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Order {
+    pub(super) options: Options,
+    pub(super) exclude: Vec<Exclusion>,
+    /// Laboratory; by default that of the paper's meter.
+    pub laboratory: Laboratory,
+    /// Gyro type for the verdict, or `None` for no verdict.
+    pub gyro: Option<GyroType>,
+}
+
+impl FromStr for Order {
+    type Err = Failed;
+
+    fn from_str(text: &str) -> Result<Self, Failed> {
+        let mut asked = Asked::new("order", text)?;
+        let order = Self {
+            options: Options {
+                methods: vec![asked.key("method", Method::read).unwrap_or(Method::LeastSquares)],
+                model: asked.key("model", model).unwrap_or_default(),
+                drift: asked.key("drift", bool::read).unwrap_or_default(),
+                ..Options::default()
+            },
+            exclude: asked.key("exclude", Vec::read).unwrap_or_default(),
+            laboratory: asked.key("laboratory", file(Laboratory::check)).unwrap_or_else(Laboratory::paper),
+            gyro: asked.key("gyro", file(GyroType::check)),
+        };
+        asked.done().map(|()| order)
+    }
+}
+
+/// Reads a model. The anisoelastic one has the key of the paper's.
+fn model(node: &Node, at: &Path, problems: &mut Problems) -> Option<Model> {
+    let models = [Model::Paper, Model::General];
+    let found = models.into_iter().find(|model| *node == Node::Text(model.key().to_owned()));
+    if found.is_none() {
+        problems.at(at, node.describe(), listed(&models.map(Model::key)), "");
+    }
+    found
+}
+
+/// Returns a reader of the content of a file, with the checks that its file has.
+fn file<T: Document>(check: fn(&T, &Path, &mut Problems)) -> impl Fn(&Node, &Path, &mut Problems) -> Option<T> {
+    move |node, at, problems| {
+        let File(content) = Field::read(node, at, problems)?;
+        check(&content, at, problems);
+        Some(content)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A laboratory and a gyro type as in the contract, in JSON.
+    const LABORATORY: &str = r#"{"format": "dtg-laboratory/1", "meter": {"range_ma": 0.5, "reading_percent": 0.01,
+        "gain_percent": 0, "offset_ma": 0, "floor_ma": 1e-6}, "seating_arcsec": {"about_x": 5, "about_y": 5, "about_z": 10}}"#;
+    const GYRO: &str = r#"{"format": "dtg-gyro/1", "type": "T", "nominal": {"k_deg_per_h_per_ma": [[95, 9.5], [9.5, 95]],
+        "omega0_deg_per_h": [20, 20], "omega_g_deg_per_h_per_g": 10, "omega_k_deg_per_h_per_g": 10},
+        "tolerance": {"k_main_percent": 0.05, "k_cross_percent": 0.5, "omega0_deg_per_h": 0.01,
+        "omega_g_deg_per_h_per_g": 0.01, "omega_k_deg_per_h_per_g": 0.01}}"#;
+
+    #[test]
+    fn every_key_of_an_order_is_used() {
+        let text = format!(
+            r#"{{"method": "iterative", "model": "general", "drift": true, "laboratory": {LABORATORY}, "gyro": {GYRO},
+                "exclude": [{{"i": 2, "j": 4, "visit": 1, "cycle": 3, "why": "door"}}, {{"i": 1, "j": 1, "visit": 2, "why": "a"}}]}}"#
+        );
+        let order: Order = text.parse().unwrap();
+        let Options { methods, model, drift, .. } = order.options;
+        assert_eq!((methods, model, drift), (vec![Method::Iterative], Model::General, true));
+        let excluded = |i, j, visit, cycle, why: &str| Exclusion { i, j, visit, cycle, why: why.to_owned() };
+        assert_eq!(order.exclude, [excluded(2, 4, 1, Some(3), "door"), excluded(1, 1, 2, None, "a")]);
+        assert_eq!((order.laboratory.meter.range_ma, order.laboratory.seating_arcsec.unwrap().about_z), (0.5, 10.0));
+        assert_eq!(order.gyro, Some(GyroType { r#type: "T".to_owned(), ..GyroType::gvk_6() }));
+        let default: Order = r#"{"gyro": null}"#.parse().unwrap();
+        assert_eq!((default.options.methods, default.laboratory), (vec![Method::LeastSquares], Laboratory::paper()));
+    }
+
+    /// Expected: the words for the same error in a file.
+    #[test]
+    fn every_error_of_an_order_is_named_with_its_field() {
+        let laboratory = |from: &str, to: &str| format!(r#"{{"laboratory": {}}}"#, LABORATORY.replacen(from, to, 1));
+        let gyro = |from: &str, to: &str| format!(r#"{{"gyro": {}}}"#, GYRO.replacen(from, to, 1));
+        for (text, words) in [
+            ("[]".to_owned(), "order: found a list of 0 items, expected a mapping with the keys method, model, drift"),
+            ("{".to_owned(), "the order is not usable JSON"),
+            (r#"{"drift": 1}"#.to_owned(), "drift: found 1, expected true or false"),
+            (r#"{"model": "anisoelastic"}"#.to_owned(), "expected \"paper\" or \"general\""),
+            (
+                r#"{"method": "exact"}"#.to_owned(),
+                "method: found \"exact\", expected \"analytic\", \"iterative\" or \"least-squares\"",
+            ),
+            (r#"{"drift": true, "drift": false}"#.to_owned(), "duplicate key \"drift\""),
+            (r#"{"exclude": [{"i": 1, "j": 2, "visit": 1}]}"#.to_owned(), "exclude[0].why: missing, expected text"),
+            (r#"{"exclude": [{"i": 1.5, "j": 2, "visit": 1, "why": ""}]}"#.to_owned(), "exclude[0].i: found 1.5"),
+            (laboratory("1e-6", "0"), "order: laboratory.meter.floor_ma: found 0, expected a positive number; use at"),
+            (laboratory("1e-6", "null"), "laboratory.meter.floor_ma: found nothing, expected a number in milliamperes"),
+            (laboratory("about_x", "about_w"), "laboratory.seating_arcsec: found unknown key \"about_w\""),
+            (laboratory("\"meter\"", "\"meter\": 1, \"meter\""), "laboratory: found duplicate key \"meter\""),
+            (
+                laboratory("dtg-laboratory/1", "dtg-gyro/1"),
+                "laboratory.format: found \"dtg-gyro/1\", expected \"dtg-lab",
+            ),
+            (
+                laboratory("\"format\": \"dtg-laboratory/1\",", ""),
+                "laboratory.format: missing, expected \"dtg-laboratory/1\"",
+            ),
+            (gyro("0.05", "-1"), "gyro.tolerance.k_main_percent: found -1, expected a non-negative number"),
+        ] {
+            let failed = text.parse::<Order>().unwrap_err();
+            assert!(failed.code == "unusable" && failed.message.contains(words), "{text}: {failed}");
+        }
+        let both = laboratory("1e-6", "0").replacen('{', r#"{"methods": 1, "#, 1).parse::<Order>().unwrap_err();
+        assert_eq!(both.message.lines().count(), 2, "{both}");
+    }
+}
