@@ -9,6 +9,11 @@ function text = dtg_run(verb, words, options, known, files)
             error('dtg:option', 'unknown option %s, expected one of: %s', char(name), strjoin(known, ', '));
         elseif strcmp(name, 'at') && isnumeric(value)
             value = sprintf('%.10f,%.10f', value);
+        elseif islogical(value)
+            if value
+                words{end + 1} = ['--', name];
+            end
+            continue
         elseif isnumeric(value)
             error('dtg:option', 'option %s is a number, expected text such as ''0017''', name);
         end

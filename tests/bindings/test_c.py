@@ -309,6 +309,12 @@ def test_octave_and_matlab_functions(tmp_path: Path) -> None:
         [~, identifier] = lastwarn(); disp(identifier);
         dtg_calibrate('{PASSPORT}', '{SIGNERS}', [{rows}] * diag([1 1 1e-3 1e-3]), 'time', '{TIME}');
         [words, identifier] = lastwarn(); disp(identifier); disp(words);
+        g = dtg_calibrate('{PASSPORT}', '{SIGNERS}', '{RUN}', 'time', '{TIME}', 'model', 'general', 'drift', false);
+        printf('%.17g ', g.G', g.u.G'); printf('\\n'); disp(isfield(g, 'omega_g'));
+        d = dtg_calibrate('{PASSPORT}', '{SIGNERS}', '{RUN}', 'time', '{TIME}', 'laboratory', '{PROJECT}/docs/laboratory.yaml', ...
+            'gyro', '{PROJECT}/docs/gvk-6.yaml', 'drift', true, 'exclude', '2,4,1,3', 'why', 'door opened');
+        printf('%.17g ', d.K', d.u.omega_g, d.document.results.drift_deg_per_h_per_h); printf('\\n');
+        disp(d.document.verdict.overall); disp(d.document.excluded.why);
     """)
     loaded, found, *refused = octave(script).splitlines()
     ulp = lambda printed, numbers: np.testing.assert_array_max_ulp(np.array(printed.split(), dtype=float), np.array(numbers), 1)
@@ -320,3 +326,10 @@ def test_octave_and_matlab_functions(tmp_path: Path) -> None:
     assert refused[:8] == [f"dtg:{identifier}" for identifier in expected]
     assert re.fullmatch(r"exit code 1: \d+ m from moscow-bmstu; .*", refused[8])
     assert refused[9:11] == ["dtg:inconsistent", "dtg:mistake"] and "too small by a factor of 1000" in refused[11]
+    general, drift = (json.loads(calibrated(tmp_path, *ORDERS[name])) for name in ("general", "drift"))
+    [due], printed, absent, of_the_run, verdict, why = general["results"], *refused[12:]
+    ulp(printed, np.ravel([due["g_matrix_deg_per_h_per_g"], due["standard_uncertainty"]["g_matrix_deg_per_h_per_g"]]))
+    [due] = drift["results"]
+    ulp(of_the_run, [*np.ravel(due["k_deg_per_h_per_ma"]), due["standard_uncertainty"]["omega_g_deg_per_h_per_g"],
+                     *due["drift_deg_per_h_per_h"]])  # fmt: skip
+    assert (absent, verdict, why) == ("0", drift["verdict"]["overall"], "door opened")
