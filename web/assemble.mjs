@@ -1,6 +1,6 @@
 // Puts the WebAssembly module into dtg_passport.mjs, and that into verify.html: assemble.mjs MODULE.wasm FOLDER
 import { createHash } from "node:crypto";
-import { readFileSync, writeFileSync } from "node:fs";
+import { copyFileSync, readFileSync, writeFileSync } from "node:fs";
 import { gzipSync } from "node:zlib";
 
 const [wasm, folder] = process.argv.slice(2);
@@ -10,6 +10,7 @@ const digest = (text) => `'sha256-${createHash("sha256").update(text).digest("ba
 const compressed = gzipSync(readFileSync(wasm), { level: 9 }).toString("base64");
 const module = here("dtg_passport.mjs").replace("@WASM@", () => compressed);
 writeFileSync(`${folder}/dtg_passport.mjs`, module);
+copyFileSync(new URL("dtg_passport.d.mts", import.meta.url), `${folder}/dtg_passport.d.mts`);
 
 // In the page the functions are in the same script as their callers.
 const script = `${module.replaceAll(/^export /gm, "")}\n${here("verify.js")}`;

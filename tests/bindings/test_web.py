@@ -142,6 +142,32 @@ def test_every_order_is_carried_out_as_by_the_program_or_refused(tmp_path: Path)
     assert all(due in said for due, said in zip(words, found, strict=True))
 
 
+TYPED = """
+    import { calibrate, content, print, verify, type Order, type Question } from "./dtg_passport.mjs";
+    const passport = new Uint8Array();
+    const question: Question = { serial: "0017", time: new Date(), at: [55.766, 37.685], revoked: [passport, "text"] };
+    const visit = { i: 2, j: 4, visit: 1, why: "door opened" };
+    const order: Order = { method: "least-squares", model: "general", drift: true, exclude: [visit], laboratory: {}, gyro: {} };
+    const { valid, checks } = await verify(passport, "signers", question);
+    const found = await calibrate(passport.buffer, passport, "i,j,jx_ma,jy_ma", question, order);
+    const said: string[] = [...(found.remarks ?? []), await print(passport, "signers"), ...checks.map(({ code }) => code)];
+    const numbers: number[] = found.results[0]?.["omega0_deg_per_h"];
+    export { valid, said, numbers, content };
+"""
+
+
+def test_the_types_for_typescript_hold(tmp_path: Path) -> None:
+    """A user with the strictest options, and one error each: in a question, an order, an answer."""
+    (tmp_path / "dtg_passport.d.mts").write_bytes((WEB / "dtg_passport.d.mts").read_bytes())
+    tsc = PROJECT / "target/bindings/node_modules/typescript/bin/tsc"
+    strict = ["--noEmit", "--strict", "--exactOptionalPropertyTypes", "--noUncheckedIndexedAccess", "--module", "nodenext", "--target", "es2022"]
+    for right, wrong, words in (("", "", ""), ("serial:", "serail:", "'serail' does not exist"), ('"general"', '"full"', '"full"'),
+                                ("checks }", "check }", "'check' does not exist"), ("[55.766, 37.685]", "[55.766]", "not assignable")):  # fmt: skip
+        (tmp_path / "user.mts").write_text(TYPED.replace(right, wrong) if right else TYPED)
+        done = subprocess.run(["node", tsc, *strict, tmp_path / "user.mts"], capture_output=True, text=True)
+        assert (done.returncode == 0) == (words == "") and words in done.stdout, done.stdout
+
+
 MISUSED = """
     import { readFileSync } from "node:fs";
     import * as dtg from "%s";
