@@ -2,7 +2,7 @@
 
 use super::language::{Language, Languages, Text};
 use super::number::Number;
-use super::spacing::BLANK;
+use super::spacing::{BLANK, unbroken};
 use super::symbols::index;
 use super::texts::{calibration, record, units, words};
 use base64ct::{Base64, Encoding};
@@ -180,19 +180,10 @@ pub(crate) fn verbatim(lang: &str, text: &str, end: &Markup) -> Markup {
         div.file {
             pre lang=(lang) translate="no" tabindex="0" aria-labelledby="annex-heading" {
                 @for line in text.split_inclusive('\n') {
-                    span class=[kind(line)] { (unbroken_powers(line)) }
+                    span class=[kind(line)] { (unbroken(line)) }
                 }
             }
             p.end { (end) }
-        }
-    }
-}
-
-/// Writes a line so that it is not broken at the minus of a power of ten, where browsers see a hyphen.
-fn unbroken_powers(line: &str) -> Markup {
-    html! {
-        @for word in line.split_inclusive(' ') {
-            @if word.contains("e-") { span.n { (word.trim_end()) } (&word[word.trim_end().len()..]) } @else { (word) }
         }
     }
 }

@@ -1,5 +1,7 @@
-//! Non-breaking spaces of a text: numbers stay with their units, and short words with the words they belong to
+//! Places of a text where no line ends: numbers stay with their units, and short words with the words they belong to
 //! (SI Brochure, 5.4.3; GOST 8.417, 5.3).
+
+use maud::{Markup, html};
 
 /// Non-breaking space.
 pub(crate) const BLANK: char = '\u{00A0}';
@@ -24,6 +26,23 @@ pub(crate) fn spaced(text: &str) -> String {
         spaced.push_str(word);
     }
     spaced
+}
+
+/// Writes words so that no line ends at the hyphen of a date or the minus of a power of ten, where browsers see a hyphen.
+pub(crate) fn unbroken(words: &str) -> Markup {
+    let is_within_number = |around: &[u8]| match around {
+        [before, b'-', after] => (before.is_ascii_digit() || *before == b'e') && after.is_ascii_digit(),
+        _ => false,
+    };
+    html! {
+        @for word in words.split_inclusive(' ') {
+            @if word.as_bytes().windows(3).any(is_within_number) {
+                span.n { (word.trim_end()) } (&word[word.trim_end().len()..])
+            } @else {
+                (word)
+            }
+        }
+    }
 }
 
 /// Returns `true` if no line ends between two words.
@@ -75,6 +94,15 @@ mod tests {
             let due = due.replace("от_", "от ").replace("to_(", "to (").replace("< {", "<_{").replace('_', "\u{a0}");
             assert_eq!(spaced(&due.replace(BLANK, " ")), due);
             assert_eq!(spaced(&due), due);
+        }
+    }
+
+    /// Between `[` and `]`: a date, a number with an exponent. Hyphens of words and names are no part of a number.
+    #[test]
+    fn no_line_ends_within_a_number() {
+        for due in ["until [2028-11-01] (inclusive)", "u: [3.2e-05,] C-18, g-sensitive", "[a-1-2]"] {
+            let written = unbroken(&due.replace(['[', ']'], "")).into_string();
+            assert_eq!(written.replace("<span class=\"n\">", "[").replace("</span>", "]"), due);
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Symbols of quantities within texts: italic, with their subscripts. Units stay upright (SI Brochure, 5.4.1).
 
+use super::spacing::unbroken;
 use maud::{Markup, html};
 
 /// Latin letters that are symbols wherever they stand alone.
@@ -75,7 +76,7 @@ pub(crate) fn italic(text: &str) -> Markup {
     html! {
         @for piece in pieces(text) {
             @match piece {
-                Piece::Words(words) => (words),
+                Piece::Words(words) => (unbroken(words)),
                 Piece::Symbol(letter, "") => i { (letter) },
                 Piece::Symbol(letter, below) => { i { (letter) } (index(below)) },
             }
