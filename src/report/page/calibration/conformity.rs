@@ -120,7 +120,7 @@ fn table(
     for (risk, row) in risks.iter_mut().zip(rows) {
         // Without a model that fits, a risk has no meaning.
         *risk = if page.fits() {
-            html! { span.marked { (mark_of(languages, row)) " " (risk) } }
+            html! { span.marked { (mark_of(languages, row)) " " span { (risk) } } }
         } else {
             html! { "–" }
         };

@@ -89,7 +89,7 @@ fn rotations(comparison: &Comparison, languages: &Languages) -> Markup {
     columns.push(Column::named(languages, checks::RESULT, positions.iter().map(|at| found(at.repeats)).collect()));
     let names = positions.iter().map(|at| vec![html! { (at.index.to_string()) }]).collect();
     let table = Table::of(vec![languages.label(texts::POSITION)], names, &columns);
-    table.markup(languages.spoken(texts::ROTATIONS))
+    Table { class: "numbers rotations", ..table }.markup(languages.spoken(texts::ROTATIONS))
 }
 
 /// Writes the deviations of both certificates, and their change as a number and as a bar.
