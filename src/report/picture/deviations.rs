@@ -72,7 +72,7 @@ impl Bars {
     pub(crate) fn axis(&self, languages: &Languages) -> Markup {
         let [low, high] = self.scale.values;
         if high.max(-low) <= LARGEST_IN_ARCSEC {
-            return strip_axis(languages, &self.scale, WIDTH, "");
+            return strip_axis(languages, &self.scale, WIDTH, "″");
         }
         let degrees = [low, high].map(|arcsec| arcsec / ARCSECONDS_PER_DEGREE);
         strip_axis(languages, &Scale { values: degrees, ..self.scale }, WIDTH, "°")

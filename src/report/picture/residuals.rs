@@ -4,14 +4,13 @@
 use super::drawing::{Anchor, Scale, Ticks, crowding, legend, line, power, power_of_ten, rectangle, strip, words};
 use crate::calibration::document::{ResidualDocument, ResultDocument};
 use crate::report::page::language::{Languages, Text};
-use crate::report::page::number::times;
-use crate::report::page::texts::pictures as texts;
+use crate::report::page::texts::{pictures as texts, units};
 use maud::{Markup, html};
 
 const WIDTH: f64 = 170.0;
 const HEIGHT: f64 = 13.0;
-/// Left and right end of the bars; the factor of the axis is to their right.
-const BARS: [f64; 2] = [8.0, 132.0];
+/// Left and right end of the bars; the unit of the axis is to their right.
+const BARS: [f64; 2] = [8.0, 118.0];
 
 /// Limits, in standard uncertainties of the residual on either side.
 pub(crate) const LIMIT: f64 = 2.0;
@@ -52,21 +51,24 @@ impl Bars {
         strip([WIDTH, HEIGHT], &drawing)
     }
 
-    /// Draws the axis of a column.
-    pub(crate) fn axis(&self, languages: &Languages) -> Markup {
+    /// Draws the axis of a column, with its unit and the factor of the unit; arcseconds have a mark at each number instead.
+    pub(crate) fn axis(&self, languages: &Languages, unit: Text) -> Markup {
         let Self(scale) = self;
         let exponent = crowding(scale.values[1]);
         let factor = power_of_ten(exponent);
         let shown = Scale { values: scale.values.map(|value| value / factor), ..*scale };
         let language = languages.first();
+        let mark = if exponent == 0 && unit == units::ARCSEC { unit.of(language) } else { "" };
+        let unit = match exponent {
+            0 => unit.of(language).to_owned(),
+            exponent => format!("{}\u{a0}{}", power(exponent, language), unit.of(language)),
+        };
         let drawing = html! {
-            @if exponent != 0 {
-                (words([WIDTH, 14.0], Anchor::End, "small", &format!("{}\u{202f}{}", times(language), power(exponent, language))))
-            }
+            @if mark.is_empty() { (words([WIDTH, 14.0], Anchor::End, "small", &unit)) }
             @for (value, text) in Ticks::along(&shown, language).marks(language) {
                 @let x = shown.place(value);
                 (line([x, 0.0], [x, 4.0], "grid"))
-                (words([x, 14.0], Anchor::Middle, "small", &text))
+                (words([x, 14.0], Anchor::Middle, "small", &(text + mark)))
             }
         };
         strip([WIDTH, 17.0], &drawing)

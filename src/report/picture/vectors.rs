@@ -180,8 +180,9 @@ impl Plane {
                 (words([left - 4.0, y + 4.0], Anchor::End, "small", &text))
             }
             (rectangle([left, top], [right, bottom], "frame-line", None))
-            (label([right, bottom + 27.0], Anchor::End, "", &html! { tspan.letter { "x" } ", " (unit) }))
-            (label([left + 5.0, top + 13.0], Anchor::Start, "", &html! { tspan.letter { "y" } ", " (unit) }))
+            // Both axes have one scale, whose unit stands where no vector can cross it.
+            (label([right, bottom + 27.0], Anchor::End, "", &html! { tspan.letter { "x" } ", " tspan.letter { "y" } ": " (unit) }))
+            (label([left + 5.0, top + 13.0], Anchor::Start, "", &html! { tspan.letter { "y" } }))
         }
     }
 }
@@ -200,7 +201,7 @@ fn differences_of(
     let lines: Vec<Point> = tips.iter().flat_map(|(tip, _)| along(origin, *tip)).collect();
     let named: Vec<(Point, String)> = tips.iter().map(|(at, index)| (*at, index.to_string())).collect();
     let [[left, top], [right, bottom]] = plane.layout.field;
-    let axis = labels::Area { low: [left, top], high: [left + 86.0, top + 18.0] };
+    let axis = labels::Area { low: [left, top], high: [left + 18.0, top + 18.0] };
     let field = labels::Area { low: [left, top], high: [right, bottom] };
     let title = |language: Language| match pairs.first().filter(|_| part.is_some()) {
         Some(pair) => subject.of_frame.filled(language, &[("i", &pair.index.i)]),

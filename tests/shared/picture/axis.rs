@@ -90,17 +90,19 @@ pub fn words(text: Node) -> String {
 /// Returns the number of a mark; one in degrees in arcseconds.
 fn said(text: Node) -> Option<f64> {
     let words = words(text);
-    let (words, factor) = words.strip_suffix('°').map_or((words.as_str(), 1.0), |degrees| (degrees, 3600.0));
+    let words = words.trim_end_matches('″');
+    let (words, factor) = words.strip_suffix('°').map_or((words, 1.0), |degrees| (degrees, 3600.0));
     let number: Option<f64> = words.replace('\u{2212}', "-").replace('\u{202f}', "").replace(',', ".").parse().ok();
     number.map(|number| factor * number)
 }
 
 /// Returns the power of ten that is factored out of the numbers of a picture's axes.
 fn factor(svg: Node) -> f64 {
-    // The factor stands before a unit or alone. The numbers of decades are powers of ten themselves.
+    // The factor stands before a unit. The numbers of decades are powers of ten themselves.
     let units =
         svg.descendants().filter(|node| node.has_tag_name("text") && node.attribute("text-anchor") == Some("end"));
-    let unit = units.map(words).find(|words| words.starts_with("x, ") || words.starts_with(['×', '·']));
+    let unit =
+        units.map(words).find(|words| words.starts_with("x, ") || words.starts_with("10") && words.contains('\u{a0}'));
     unit.and_then(|words| power(&words)).map_or(1.0, |exponent| 10_f64.powi(exponent))
 }
 

@@ -109,7 +109,7 @@ fn table(changes: &[NumberDifference], caption: Markup, languages: &Languages) -
         of(texts::DIFFERENCE, NumberDifference::difference),
         Column::new(symbol("u", ""), column(languages, us)),
         Column::named(languages, texts::DIFFERENCE_IN_U, column(languages, ratios)),
-        Column { heading: html! {}, cells: drawn.collect(), foot: bars.axis(languages) },
+        Column { heading: html! {}, cells: drawn.collect(), foot: bars.axis(languages, units::ARCSEC) },
     ];
     let names = changes.iter().map(|at| {
         let (index, angle) = of_key(&at.key);
