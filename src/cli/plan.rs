@@ -96,7 +96,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     };
     let found = plan(&question).map_err(Failure::refused)?;
     if let Some(path) = &options.output {
-        output::saved(path, &picture::plan(&found), options.force)?;
+        output::saved(path, &picture::plan(&found, site.id.as_str()), options.force)?;
     }
     options.format.write(|| PlanDocument::from(&found), || report::text(&found, site.id.as_str(), of_site))?;
     Ok(0)

@@ -4,7 +4,7 @@ use super::spacing::unbroken;
 use maud::{Markup, html};
 
 /// Latin letters that are symbols wherever they stand alone.
-const LATIN: &str = "FJKUgijknpsuxyz";
+const LATIN: &str = "DFJKRUgijknpsuxyz";
 
 /// A part of a text.
 #[derive(Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! Picture files: SVG with its own style, which other pictures get from their page.
 
-use super::drawing::{Anchor, Panel, Point, coordinate, words};
+use super::drawing::{Anchor, Panel, Point, coordinate, label, symbols};
 use super::label::width;
 use crate::report::page::language::Language;
 use maud::{Markup, PreEscaped, html};
@@ -35,12 +35,12 @@ pub(crate) fn caption([x, y]: Point, axis: &str, entries: &[(Markup, &str)]) -> 
         end += SAMPLE + width(name) + GAP;
         html! {
             g transform={ "translate(" (coordinate(at)) " " (coordinate(y - 11.0)) ")" } { (sample) }
-            (words([at + SAMPLE, y], Anchor::Start, "small", name))
+            (label([at + SAMPLE, y], Anchor::Start, "small", &symbols(name)))
         }
     };
     let entries: Vec<Markup> = entries.iter().map(entry).collect();
     html! {
-        (words([x, y], Anchor::Start, "small", axis))
+        (label([x, y], Anchor::Start, "small", &symbols(axis)))
         @for entry in &entries { (entry) }
     }
 }

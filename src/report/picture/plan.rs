@@ -26,8 +26,8 @@ struct Row {
     paper: Option<f64>,
 }
 
-/// Draws a plan, in black and white.
-pub(crate) fn plan(plan: &Plan) -> String {
+/// Draws a plan for `site`, in black and white.
+pub(crate) fn plan(plan: &Plan, site: &str) -> String {
     let uncertainties = Parameter::AS_IN_THE_PAPER.map(|parameter| {
         let (name, place) = (parameter.symbol(), parameter.place());
         let share = |of: &Evaluation| 100.0 * of.standard_uncertainty[place] / plan.tolerance[place];
@@ -42,7 +42,7 @@ pub(crate) fn plan(plan: &Plan) -> String {
     let errors: Vec<Row> = errors.collect();
     let rows = uncertainties.len().max(errors.len());
     let readings: u32 = plan.readings.iter().map(|visited| visited.visits).sum();
-    let title = format!("Plan of {readings} readings in {} positions", plan.readings.len());
+    let title = format!("Plan for {site}: {readings} readings in {} positions", plan.readings.len());
     let drawing = [
         words([14.0, 18.0], Anchor::Start, "title", &title),
         key(plan),

@@ -1,10 +1,11 @@
 //! The paper's Fig. 4 as a picture file: steps of the iterative method against the limit of the deviations.
 
 use super::chart::{Field, Look, sample};
-use super::drawing::{Anchor, Point, Scale, Ticks, line, words};
+use super::drawing::{Anchor, Point, Scale, Ticks, label, line, symbols, words};
 use super::file::{caption, file};
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::report::page::language::Language;
+use crate::report::page::number::Number;
 use crate::simulation::convergence::{Convergence, ConvergenceRow};
 use maud::{Markup, html};
 
@@ -38,13 +39,14 @@ const KINDS: [(&str, &str); 2] = [("uniform", "uniform within ±D"), ("corners",
 pub(crate) fn convergence(found: &Convergence) -> Option<String> {
     let farthest = found.rows.iter().map(|row| row.limit_deg).reduce(f64::max)?;
     let x = Scale { values: [0.0, farthest.max(1.0)], places: ACROSS };
-    let title = format!("Steps of the iterative method, {} stands at each limit D", found.trials);
+    let trials = Number::exact(found.trials as f64).text(Language::English);
+    let title = format!("Steps of the iterative method, {trials} stands at each limit D");
     let [left, right] = ACROSS;
     let drawing = [
-        words([left, 18.0], Anchor::Start, "title", &title),
+        label([left, 18.0], Anchor::Start, "title", &symbols(&title)),
         html! { g { (steps(x, &found.rows)) } },
         html! { g { (share(x, &found.rows)) } },
-        words([right, SHARE[0] + 32.0], Anchor::End, "small", "limit D of the deviations, degrees"),
+        label([right, SHARE[0] + 32.0], Anchor::End, "small", &symbols("limit D of the deviations, degrees")),
     ];
     Some(file("steps", SIZE, &title, &in_words(&found.rows), &drawing))
 }

@@ -28,7 +28,7 @@ fn found(readings: u32) -> Plan {
 #[test]
 fn bars_are_as_long_as_numbers() {
     let plan = found(8);
-    let text = picture::plan(&plan);
+    let text = picture::plan(&plan, "bench");
     let page = Document::parse(&text).unwrap();
     let of_paper = of_class(page.root(), "open");
     let of_plan = of_class(page.root(), "bar").into_iter().filter(|bar| !of_paper.contains(bar)).collect::<Vec<_>>();
@@ -50,7 +50,7 @@ fn bars_are_as_long_as_numbers() {
 /// Expected: eight does not divide nine, so there is nothing to compare with.
 #[test]
 fn without_a_comparison_there_are_bars_of_the_plan_alone() {
-    let text = picture::plan(&found(9));
+    let text = picture::plan(&found(9), "bench");
     assert!(!text.contains("paper"));
     assert!(of_class(Document::parse(&text).unwrap().root(), "open").is_empty());
 }
