@@ -6,8 +6,8 @@ use crate::calibration::document::ResultDocument;
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::parameter::Parameter;
 use crate::report::page::language::{Languages, Text};
-use crate::report::page::number::{Cell, Number};
-use crate::report::page::parts::{Table, field, fields, figure, heading, quantity, symbol};
+use crate::report::page::number::{Cell, Number, column};
+use crate::report::page::parts::{Column, Table, field, fields, figure, heading, quantity, symbol, symbol_and_unit};
 use crate::report::page::passport::numbers::parameters;
 use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
@@ -93,14 +93,18 @@ fn with_uncertainty(languages: &Languages, value: f64, u: f64, unit: Text) -> Ma
 fn general(result: &ResultDocument, languages: &Languages) -> Markup {
     let u = result.standard_uncertainty.g_matrix_deg_per_h_per_g;
     let Some((matrix, u)) = result.g_matrix_deg_per_h_per_g.zip(u) else { return html! {} };
-    let elements = matrix.iter().flatten().zip(u.iter().flatten()).zip(["xx", "xy", "xz", "yx", "yy", "yz"]);
+    let (elements, us) = (matrix.as_flattened(), u.as_flattened());
+    let values = elements.iter().zip(us).map(|(value, u)| Number::measured(*value, *u));
+    let columns = [
+        Column::named(languages, texts::FOUND, column(languages, values)),
+        Column::new(symbol("u", ""), column(languages, us.iter().map(|u| Number::uncertainty(*u)))),
+    ];
+    let name = |index| vec![symbol_and_unit(languages, &symbol("G", index), units::DEG_PER_H_PER_G)];
+    let names = ["xx", "xy", "xz", "yx", "yy", "yz"].map(name).to_vec();
+    let table = Table::of(vec![languages.label(texts::PARAMETER)], names, &columns);
     html! {
         (heading(languages, texts::G_MATRIX))
-        ul {
-            @for ((value, u), index) in elements {
-                li { (symbol("G", index)) " = " (with_uncertainty(languages, *value, *u, units::DEG_PER_H_PER_G)) }
-            }
-        }
+        (Table { class: "numbers narrow", ..table }.markup(languages.spoken(texts::G_MATRIX)))
         @if let Some(test) = &result.model_test {
             (languages.paragraph_with(|language| {
                 let [further, rest] = &test.degrees_of_freedom;
@@ -114,22 +118,10 @@ fn general(result: &ResultDocument, languages: &Languages) -> Markup {
 /// Writes ω_0 of each turn-on and the drift in time.
 fn changing(result: &ResultDocument, languages: &Languages) -> Markup {
     let drift = result.drift_deg_per_h_per_h.zip(result.standard_uncertainty.drift_deg_per_h_per_h);
-    let u = result.standard_uncertainty.omega0_deg_per_h;
     html! {
         @if result.method == "least-squares" && !result.cycles.is_empty() {
             (heading(languages, texts::CYCLES))
-            ul {
-                @for at in &result.cycles {
-                    li {
-                        (at.cycle) ": "
-                        @for ((value, u), axis) in at.omega0_deg_per_h.iter().zip(u).zip(["0x", "0y"]) {
-                            @if axis == "0y" { ", " }
-                            (symbol("ω", axis)) " = "
-                            (quantity(languages, &Number::measured(*value, u), units::DEG_PER_H))
-                        }
-                    }
-                }
-            }
+            (turn_ons(result, languages))
         }
         @if let Some((drift, u)) = drift {
             (fields([texts::DRIFT_X, texts::DRIFT_Y].into_iter().zip(drift.into_iter().zip(u)).map(|(name, (drift, u))| {
@@ -137,6 +129,19 @@ fn changing(result: &ResultDocument, languages: &Languages) -> Markup {
             })))
         }
     }
+}
+
+/// Writes ω_0 of each turn-on, to the digits of their mean.
+fn turn_ons(result: &ResultDocument, languages: &Languages) -> Markup {
+    let us = result.standard_uncertainty.omega0_deg_per_h;
+    let columns = [("0x", 0), ("0y", 1)].map(|(index, axis)| {
+        let values = result.cycles.iter().map(|at| Number::measured(at.omega0_deg_per_h[axis], us[axis]));
+        let heading = symbol_and_unit(languages, &symbol("ω", index), units::DEG_PER_H);
+        Column::new(heading, column(languages, values))
+    });
+    let names = result.cycles.iter().map(|at| vec![html! { (at.cycle) }]).collect();
+    let table = Table::of(vec![languages.label(texts::CYCLE)], names, &columns);
+    Table { class: "numbers narrow", ..table }.markup(languages.spoken(texts::CYCLES))
 }
 
 /// Writes the spectral radius and the steps of the iterative method, or nothing for the other methods.

@@ -126,10 +126,15 @@ fn self_check(check: &SelfCheck, languages: &Languages) -> Markup {
 }
 
 /// Returns a table of the eight parameters of a gyro in the paper's groups, one row for each quantity. Cells have the
-/// order of [`numbers_of`].
+/// order of [`numbers_of`]. A group without any number is omitted: the general model has no ω_g and ω_k.
 pub(crate) fn parameters(languages: &Languages, rows: Vec<(Markup, [Cell; 8])>) -> Table {
     let symbols = [("K", "x"), ("K", "y"), ("K", "xy"), ("K", "yx"), ("ω", "0x"), ("ω", "0y"), ("ω", "g"), ("ω", "k")];
-    let columns = symbols.into_iter().enumerate().map(|(place, (letter, subscript))| {
+    let is_number = |place: usize| rows.iter().any(|(_, cells)| matches!(cells[place], Cell::Number(_)));
+    let shown = |group: &usize| is_number(2 * group) || is_number(2 * group + 1);
+    let shown: Vec<usize> = (0..4).filter(shown).collect();
+    let places = shown.iter().flat_map(|group| [2 * group, 2 * group + 1]);
+    let columns = places.map(|place| {
+        let (letter, subscript) = symbols[place];
         let cells = rows.iter().map(|(_, cells)| cells[place].clone());
         Column::new(symbol(letter, subscript), column(languages, cells))
     });
@@ -140,12 +145,13 @@ pub(crate) fn parameters(languages: &Languages, rows: Vec<(Markup, [Cell; 8])>) 
         (texts::DRIFT_CONSTANT, units::DEG_PER_H),
         (texts::DRIFT_G, units::DEG_PER_H_PER_G),
     ];
-    let groups = groups.map(|(name, unit)| {
-        let heading = |language| format!("{}, {}", name.words(language), unit.of(language));
-        (2, languages.label_with(heading))
+    let groups = shown.iter().map(|group| {
+        let (name, unit) = groups[*group];
+        (2, languages.label_with(|language| format!("{}, {}", name.words(language), unit.of(language))))
     });
+    let groups = groups.collect();
     let names = rows.into_iter().map(|(name, _)| vec![name]).collect();
-    Table { groups: groups.into(), class: "numbers parameters", ..Table::of(vec![html! {}], names, &columns) }
+    Table { groups, class: "numbers parameters", ..Table::of(vec![html! {}], names, &columns) }
 }
 
 /// Returns the numbers of the eight parameters: K_x, K_y, K_xy, K_yx, ω_0x, ω_0y, ω_g, ω_k.

@@ -314,6 +314,7 @@ texts! {
         ru: "Проверка достаточности ω_g и ω_k: F = {f} при {further} и {rest} степенях свободы, вероятность большего значения {p}."
     }
     CYCLES { en: "Turn-ons", ru: "Запуски" }
+    CYCLE { en: "Turn-on", ru: "Запуск" }
     DRIFT_X { en: "Drift in time about x", ru: "Изменение дрейфа во времени, ось x" }
     DRIFT_Y { en: "Drift in time about y", ru: "Изменение дрейфа во времени, ось y" }
     ENLARGED { en: "Factor applied to the variance", ru: "Коэффициент увеличения дисперсии" }
