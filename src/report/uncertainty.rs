@@ -64,7 +64,10 @@ fn contribution(part: &Contribution, digits: usize) -> Vec<String> {
     let size = if low < 0.99 * high { format!("{low:.2}–{high:.2}") } else { short(high) };
     vec![
         part.cause.kind(),
-        format!("{size} {}", printed(part.cause.unit())),
+        match part.cause.unit() {
+            "1" => size,
+            unit => format!("{size} {}", printed(unit)),
+        },
         part.inputs.to_string(),
         format!("{:.digits$}", part.contribution),
         format!("{:.2}", 100.0 * part.share),

@@ -198,7 +198,7 @@ fn of_input(cause: Cause, u: f64, language: Language) -> String {
         "%" => (units::PERCENT, "\u{a0}"),
         "mA" => (units::MILLIAMPERES, "\u{a0}"),
         "deg/h" => (units::DEG_PER_H, "\u{a0}"),
-        "1" => (units::ONE, "\u{a0}"),
+        "1" => return Number::scientific(u, 2).text(language),
         _ => (units::ARCSEC, ""),
     };
     format!("{}{blank}{}", Number::scientific(u, 2).text(language), unit.of(language))
