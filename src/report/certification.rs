@@ -176,7 +176,7 @@ fn components(out: &mut String, found: &Certification) {
         columns::paragraph(out, "", &words);
     }
     let rows = components.run_turns.iter().map(|turn| {
-        let numbers = turn.platform_arcsec.iter().chain(&turn.base_arcsec).map(|value| format!("{value:+.2}"));
+        let numbers = turn.platform_arcsec.iter().chain(&turn.base_arcsec).map(|value| columns::signed(*value, 2));
         std::iter::once(turn.run.to_string()).chain(numbers).collect()
     });
     columns::table(out, &["run", "platform x", "y", "z", "base east", "north", "up"], rows);
@@ -246,7 +246,7 @@ pub(crate) fn comparison(found: &Comparison) -> String {
     let rows = found.positions.iter().map(|at| {
         let mut row = vec![at.index.i.to_string(), at.index.j.to_string()];
         for (turn, u) in at.turn_arcsec.iter().zip(&at.u_arcsec) {
-            row.extend([format!("{turn:+.2}"), format!("{u:.2}")]);
+            row.extend([columns::signed(*turn, 2), format!("{u:.2}")]);
         }
         row.push(format!("{:.2}", at.test.chi_square));
         row.push(columns::probability(at.test.probability));
@@ -255,7 +255,7 @@ pub(crate) fn comparison(found: &Comparison) -> String {
     });
     let names = ["i", "j", "x, arcsec", "u", "y, arcsec", "u", "z, arcsec", "u", "chi-square", "p", ""];
     columns::table(&mut out, &names, rows);
-    let turned = |turn: &[f64; 3]| turn.map(|value| format!("{value:+.2}")).join(", ");
+    let turned = |turn: &[f64; 3]| turn.map(|value| columns::signed(value, 2)).join(", ");
     let judged = found.common.test.as_ref().map_or_else(|| "not tested".to_owned(), line);
     let words = format!(
         "Common rotation, arcsec: platform {} about x, y, z, base {} about east, north, up; {judged}",

@@ -259,7 +259,7 @@ pub(crate) fn signed(value: f64, decimals: usize) -> String {
 pub(crate) fn probability(p: f64) -> String {
     if p < 1e-6 {
         "< 10⁻⁶".to_owned()
-    } else if p < 0.01 {
+    } else if p < 0.1 {
         two_digits(p)
     } else {
         format!("{p:.2}")

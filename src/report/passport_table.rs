@@ -176,7 +176,7 @@ fn matrices(out: &mut String, content: &Content) {
         heading(out, "Matrices: none, because some of the eight positions are not certified");
         return;
     };
-    heading(out, "Matrices, eq. (12), (13), (15)");
+    heading(out, "Matrices at the site, by rows; eq. (9) to (15)");
     let row = |name: &str, unit: &str, [[a, b], [c, d]]: &Rows| {
         let mut row = vec![name.to_owned(), unit.to_owned()];
         row.extend([a, b, c, d].map(|value| format!("{value:.9}")));
