@@ -53,7 +53,7 @@ pub fn all() -> Vec<Case> {
         case("hostile-both", &hostile(fixtures::ARC_MINUTES), fixtures::SITE, &[Russian, English]),
         case("hostile-en", &hostile(fixtures::DEGREES), BARE_SITE, &[English]),
         many("many-en", &[English]),
-        case("many-ru", &many_positions(), fixtures::SITE, &[Russian]),
+        many("many-ru", &[Russian]),
         case("four-ru", &four_positions(), BARE_SITE, &[Russian]),
         case("north-both", fixtures::DEGREES, &pointing(0.0), &[Russian, English]),
         case("many-north-west-en", &many_positions(), &pointing(321.5), &[English]),

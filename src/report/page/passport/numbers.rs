@@ -26,7 +26,6 @@ pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
         }))
         @match &content.matrices {
             Some(m) => {
-                (heading(languages, texts::MATRICES))
                 (matrices(m, languages))
                 (languages.paragraph(texts::FORMULAS))
                 (formulas(languages))

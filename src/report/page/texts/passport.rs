@@ -169,7 +169,6 @@ texts! {
     FIGURE_RADIUS { en: "Area of validity of the passport.", ru: "Область применимости паспорта." }
 
     NUMBERS { en: "Calibration data", ru: "Данные для калибровки" }
-    MATRICES { en: "Matrices", ru: "Матрицы" }
     MATRICES_CAPTION {
         en: "Matrices at the site, by rows; eq. (9) to\u{a0}(15)",
         ru: "Матрицы для места установки, по строкам; формулы (9)–(15)"
