@@ -12,65 +12,8 @@ Exit codes:
   1  a document or a result is refused
   2  wrong usage, or a file that cannot be read as what it should be";
 
-/// Two examples for each verb, without the name of the program.
-#[rustfmt::skip]
-const EXAMPLES: [&str; 48] = [
-    "demo",
-    "demo --out story",
-    "init factory --identity factory@example.org",
-    "init laboratory",
-    "new site sites/moscow-bmstu.yaml --at 55.7658,37.6856 --height-m 150",
-    "new readings readings.csv --runs 5 --from-plan plan.json",
-    "status --workspace factory",
-    "status --workspace factory --format json",
-    "keygen factory.key --identity factory@example.org",
-    "keygen factory.key --identity factory@example.org --allowed-signers allowed_signers",
-    "certify angles.csv --stand header.yaml -o stand.yaml",
-    "certify readings --stand headers --out stands",
-    "issue stand.yaml --site sites/moscow-bmstu.yaml --key factory.key --identity factory@example.org",
-    "issue stands --site sites --key factory.key --identity factory@example.org --dry-run",
-    "reissue moscow-bmstu-1.yaml --site sites/beijing-nim.yaml --moved --reason \"moved to Beijing\" --key \
-     factory.key --identity factory@example.org --trust allowed_signers",
-    "reissue passports --reason \"new key\" --key 2027.key --identity factory@example.org --trust allowed_signers",
-    "verify moscow-bmstu-1.yaml --trust allowed_signers --serial 0017 --at 55.7660,37.6850",
-    "verify moscow-bmstu-1.yaml --trust allowed_signers --register passports --format json",
-    "show moscow-bmstu-1.yaml --trust allowed_signers",
-    "show passports --trust allowed_signers --format json",
-    "render moscow-bmstu-1.yaml -o passport.html --trust allowed_signers",
-    "render 'passports/SPS-2/*/*.yaml' --out pages --trust allowed_signers --lang en,ru",
-    "calibrate moscow-bmstu-1.yaml currents.csv --trust allowed_signers --serial 0017 --gyro gvk-6.yaml --laboratory \
-     laboratory.yaml",
-    "calibrate moscow-bmstu-1.yaml gyros --trust allowed_signers --gyro gvk-6.yaml --laboratory laboratory.yaml --out \
-     results",
-    "register passports --trust allowed_signers",
-    "register passports --trust allowed_signers --state expiring --within 90 --format csv",
-    "revoke SPS-2/0017/moscow-bmstu/1 --reason \"stand dropped\" --list passports --key factory.key --identity \
-     factory@example.org --trust allowed_signers",
-    "revoke passports/SPS-2/0017/moscow-bmstu-1.yaml --reason \"wrong site\" --list passports --key factory.key \
-     --identity factory@example.org --trust allowed_signers",
-    "plan --site sites/moscow-bmstu.yaml",
-    "plan --site sites/moscow-bmstu.yaml --readings 24 --frame-axis east,north --criterion worst -o plan.svg",
-    "recertify passports/SPS-2/0017/moscow-bmstu-1.yaml angles.csv --number C-2027-0009 --issued 2027-11-02 --reason \
-     \"yearly\" --key factory.key --identity factory@example.org --trust allowed_signers --dry-run",
-    "recertify moscow-bmstu-1.yaml angles.csv --number C-2027-0009 --issued 2027-11-02 --reason \"yearly\" --key \
-     factory.key --identity factory@example.org --trust allowed_signers --out passports",
-    "history SPS-2/0017 --passports passports --trust allowed_signers",
-    "history SPS-2/0017 --passports passports --trust allowed_signers -o history.svg",
-    "diff moscow-bmstu-1.yaml moscow-bmstu-2.yaml --trust allowed_signers",
-    "diff moscow-bmstu-1.yaml moscow-bmstu-2.yaml --trust allowed_signers --format json",
-    "export moscow-bmstu-1.yaml --to stand,site --out files --trust allowed_signers",
-    "export moscow-bmstu-1.yaml --to dcc --administrative dcc.yaml --trust allowed_signers",
-    "simulate accuracy --trials 100000",
-    "simulate convergence -o convergence.svg",
-    "selftest",
-    "selftest --format json",
-    "schema stand",
-    "schema stand,site,passport --format markdown",
-    "completions bash",
-    "completions fish",
-    "man man1",
-    "man man1 --force",
-];
+/// Two examples for each verb, one a line, without the name of the program.
+const EXAMPLES: &str = include_str!("examples.txt");
 
 /// How to install completions, where shells look for them.
 const COMPLETIONS: &str = "\
@@ -94,7 +37,7 @@ pub(super) fn command() -> Command {
 }
 
 fn examples(verb: &str) -> impl Iterator<Item = &'static str> {
-    EXAMPLES.into_iter().filter(move |example| example.split(' ').next() == Some(verb))
+    EXAMPLES.lines().filter(move |example| example.split(' ').next() == Some(verb))
 }
 
 /// Width of a terminal in which every line of the help fits.

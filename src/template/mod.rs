@@ -14,38 +14,10 @@ pub(crate) use positions::Positions;
 use std::fmt::Write;
 
 /// First lines of a stand file and of a header, up to the measured numbers.
-const STAND: &str = r#"format: "dtg-stand/1"
-stand:
-  manufacturer: "CHANGE"
-  model: "MODEL"                     # CHANGE
-  serial: "0000"                     # CHANGE; both are names of folders too: letters, digits, '.', '_' and '-'
-  configuration: "A"
-  # name: "Two-axis test stand"
-  # customer: "…"
-certificate:
-  number: "C-0000"                   # CHANGE; a number is never used for other angles
-  issued: "2026-01-01"               # CHANGE; UTC date, as year, month, day
-  # performed: "2025-12-20"
-  # valid_until: "2027-12-31"        # inclusive; without it the user decides when to recertify
-  # valid_until_basis: "agreed with the customer"
-  laboratory: "CHANGE"
-  # address: "…"
-  # authorized_by: "…"
-  # accreditation: "…"
-  method: "CHANGE: instruments, set-up, number of runs"
-  traceability: "CHANGE: certificates of the instruments"
-  # temperature_c: 20.0
-  # temperature_range_c: [18.0, 22.0]
-"#;
+const STAND: &str = include_str!("certificate.yaml");
 
 /// Type B components and datum of both.
-const TYPE_B_AND_DATUM: &str = r#"  # type_b:                          # what repeating cannot show; each line is also part of u_* or common_*
-  #   - {source: "autocollimator, calibration C-17", acts_on: "position", u_arcsec: 0.3}
-datum:                               # CHANGE; the surfaces that realise the axes on this stand
-  level: "CHANGE: surface that is levelled"
-  azimuth: "CHANGE: surface or mirror that faces north"
-  gyro_seat: "CHANGE: surface and pins that locate the gyro"
-"#;
+const TYPE_B_AND_DATUM: &str = include_str!("datum.yaml");
 
 /// Returns a stand file with all deviations 0.
 pub(crate) fn stand(positions: &Positions) -> String {
@@ -148,108 +120,37 @@ const EXAMPLE: Place = Place { latitude_deg: 55.7658, longitude_deg: 37.6856 };
 
 /// Returns a site file with the identifier `id`; `place` and `height_m` (above the ellipsoid) are filled in if known.
 pub(crate) fn site(id: &str, place: Option<Place>, height_m: Option<f64>) -> String {
-    let change = if place.is_some() { "" } else { "CHANGE; " };
     let Place { latitude_deg, longitude_deg } = place.unwrap_or(EXAMPLE);
-    let gravity = normal_gravity_m_per_s2(latitude_deg, height_m.unwrap_or(0.0));
     let (height, u, at_height) = match height_m {
         Some(height) => (format!("height_m: {height:?}"), NORMAL_GRAVITY_U_M_PER_S2, "this height"),
         None => ("# height_m: 150.0".to_owned(), NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2, "0 m"),
     };
-    let number = |text: &str| format!("{text:<36} ");
-    let lines = [
-        "# Site (dtg-site/1). Replace every CHANGE, and survey what you can: what is absent is taken as stated here,\n\
-         # and the passport lists its effect.\n\
-         format: \"dtg-site/1\"\n"
-            .to_owned(),
-        number(&format!("id: \"{id}\"")) + "# also the name of the file\n",
-        "# name: \"…\"\n".to_owned(),
-        number(&format!("latitude_deg: {latitude_deg:?}")) + "# " + change + "geodetic, WGS 84, north positive\n",
-        number(&format!("longitude_deg: {longitude_deg:?}")) + "# " + change + "east positive\n",
-        number(&height) + "# above the ellipsoid (a satellite receiver shows it; a map shows another)\n",
-        "# Survey: deflection of the vertical, from the national geodetic service. Unknown: 0 with u = 10 arcsec.\n\
-         # deflection_arcsec: {xi: -3.2, eta: 4.1, u: 1.0}\n"
-            .to_owned(),
-        format!(
-            "# Survey: gravity. As long as this is a comment, normal gravity applies: {gravity:.5} m/s2 for this\n\
-             # latitude and {at_height}, with a standard uncertainty of {u} m/s2.\n\
-             # gravity_m_per_s2: {gravity:.5}\n\
-             # gravity_u_m_per_s2: {u}\n"
-        ),
-        "# Survey: azimuth mark, which defines north; both points geodetic. Or another reference, in `uncertainty`.\n\
-         # azimuth_mark: {name: \"…\", latitude_deg: …, longitude_deg: …, pillar_latitude_deg: …, \
-         pillar_longitude_deg: …, position_u_m: 0.02}\n\
-         # Standard uncertainties of the base as set up here: latitude; from the mark to the base; level per axis.\n\
-         # uncertainty: {latitude_arcsec: 1.0, azimuth_arcsec: 30.0, level_arcsec: 5.0}\n\
-         # Azimuth of the frame's axis, clockwise from north, if it does not point east:\n\
-         # frame_axis_azimuth_deg: 90.0\n\
-         # Change of the Earth-rate components that limits the distance from here at which the passport may be used:\n\
-         # valid_within_deg_per_h: 0.001\n"
-            .to_owned(),
-        "source: \"CHANGE: where the numbers come from\"\n".to_owned(),
+    let gravity = normal_gravity_m_per_s2(latitude_deg, height_m.unwrap_or(0.0));
+    let values = [
+        ("{id}", id.to_owned()),
+        ("{latitude_deg}", format!("{latitude_deg:?}")),
+        ("{longitude_deg}", format!("{longitude_deg:?}")),
+        ("{change}", if place.is_some() { "" } else { "CHANGE; " }.to_owned()),
+        ("{height}", height),
+        ("{at_height}", at_height.to_owned()),
+        ("{gravity}", format!("{gravity:.5}")),
+        ("{u}", u.to_string()),
     ];
-    lines.concat()
+    let line = |line: &str| {
+        let filled = values.iter().fold(line.to_owned(), |filled, (name, value)| filled.replace(name, value));
+        match filled.split_once(" # ").filter(|_| filled != line) {
+            Some((value, comment)) => format!("{value:<36} # {comment}\n"),
+            None => filled + "\n",
+        }
+    };
+    SITE.lines().map(line).collect()
 }
 
-pub(crate) const GYRO: &str = r#"# Gyro type (dtg-gyro/1). The numbers are those of the paper's gyro; replace them by those of the type.
-format: "dtg-gyro/1"
-type: "GVK-6"                        # CHANGE
-nominal:
-  k_deg_per_h_per_ma: [[95, 9.5], [9.5, 95]]    # [[K_x, K_xy], [K_yx, K_y]]
-  omega0_deg_per_h: [20, 20]         # constant drift, x and y
-  omega_g_deg_per_h_per_g: 10        # g-sensitive drift
-  omega_k_deg_per_h_per_g: 10
-tolerance:                           # largest permitted deviations from the nominal values
-  k_main_percent: 0.05               # of K_x and K_y
-  k_cross_percent: 0.5               # of K_xy and K_yx
-  omega0_deg_per_h: 0.01
-  omega_g_deg_per_h_per_g: 0.01
-  omega_k_deg_per_h_per_g: 0.01
-# gravity_m_per_s2: 9.80665          # the g to which the drifts refer
-# noise: {visit_deg_per_h: 0.001, turn_on_deg_per_h: 0.005}    # of the drift, from visit to visit and between turn-ons
-"#;
+/// Site file with names of values in braces.
+const SITE: &str = include_str!("site.yaml");
 
-pub(crate) const LABORATORY: &str = r#"# Laboratory (dtg-laboratory/1). All numbers but the range are standard uncertainties (k = 1): divide the limits of a
-# data sheet by 1.73. Replace them by those of your meter, gyro seat and base.
-format: "dtg-laboratory/1"
-name: "CHANGE"
-meter:
-  range_ma: 1.0                      # largest current in either direction
-  reading_percent: 0.0087            # of the reading; own of every position and channel
-  gain_percent: 0.0                  # of the reading; common to all readings
-  offset_ma: 0.0                     # common to all readings
-  floor_ma: 1.0e-06                  # independent of the reading
-  # noise_ma: 0.0                    # own of every reading; absent: estimated from repeated rows, else 0
-seating_arcsec:                      # of the gyro on the platform
-  about_x: 5.0
-  about_y: 5.0
-  about_z: 10.0
-# base: {azimuth_arcsec: 10.0, level_arcsec: 3.0}    # replaces the site's, if you measured it
-# temperature_c: 21.0
-"#;
+pub(crate) const GYRO: &str = include_str!("gyro.yaml");
 
-pub(crate) const DCC: &str = r#"# Administrative data of a Digital Calibration Certificate (dtg-dcc/1): what PTB's format demands and no passport states.
-# Replace every CHANGE; delete the lines that do not apply. What the passport states is not repeated here.
-format: "dtg-dcc/1"
-# country: "DE"                      # CHANGE; where the certificate is issued: two letters of ISO 3166-1
-language: "en"                       # the mandatory language: en or ru
-# location: "laboratory"             # CHANGE; of the measurements: laboratory, customer, laboratoryBranch, customerBranch, other
-laboratory:
-  city: "CHANGE"
-  # name: "CHANGE"                   # for a gyro, unless its laboratory file states it
-  # street: "CHANGE"
-  # street_no: "1"
-  # post_code: "00000"
-  # country: "DE"
-  # email: "laboratory@example.org"
-  # phone: "+00 000 0000"
-customer:
-  name: "CHANGE"
-  city: "CHANGE"
-responsible: ["CHANGE"]              # besides the person who authorised the certificate
-# performed: {from: "2026-01-01", to: "2026-01-02"}    # if the passport does not state the day, or it was several
-# method: "CHANGE"                   # if the passport states none
-# temperature_c: 20.0                # if the passport states none
-# traceable: true                    # the certificate's traceability is a chain of calibrations to the SI
-# number: "G-0000"                   # of the certificate of a gyro; that of a stand is in its passport
-# issued: "2026-01-03"
-"#;
+pub(crate) const LABORATORY: &str = include_str!("laboratory.yaml");
+
+pub(crate) const DCC: &str = include_str!("dcc.yaml");

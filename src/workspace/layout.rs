@@ -9,36 +9,6 @@ use std::path::{Path, PathBuf};
 
 const FOLDERS: [&str; 5] = ["stands", "sites", "readings", "passports", LISTS_FOLDER];
 
-const GITIGNORE: &str = "# Private keys stay on the machine that signs.\n*.key\n";
-
-const GITATTRIBUTES: &str =
-    "# Passports are signed byte for byte: git must not change their line ends.\n*.yaml -text\n";
-
-const READ_ME: &str = "# Workspace of dtg-passport\n\
-     \n\
-     This folder holds calibration passports of gyro test stands, and what they are made from.\n\
-     \n\
-     | path | content |\n\
-     |---|---|\n\
-     | `dtg-passport.toml` | key, issuer, trusted keys and folders that the commands use |\n\
-     | `factory.key` | the signing key: secret, never copied, never in version control |\n\
-     | `allowed_signers` | the trusted keys: protect it from changes |\n\
-     | `stands/MODEL/SERIAL/stand.yaml` | certified deviations of a stand |\n\
-     | `sites/ID.yaml` | a place of use |\n\
-     | `readings/` | measured angles and currents |\n\
-     | `passports/MODEL/SERIAL/SITE-REVISION.yaml` | signed passports: never edited, never deleted |\n\
-     | `revocations/revocation-N.yaml` | signed lists of withdrawn passports: never deleted, copied with the passports |\n\
-     \n\
-     In this folder:\n\
-     \n\
-     ```sh\n\
-     export DTG_PASSPORT_WORKSPACE=\"$PWD\"\n\
-     dtg-passport status                                   # what is here, in force, expiring, wrong\n\
-     dtg-passport issue MODEL/SERIAL --site ID             # a passport\n\
-     dtg-passport verify MODEL/SERIAL/ID/1                 # may it be used?\n\
-     dtg-passport revoke MODEL/SERIAL/ID/1 --reason TEXT   # withdraw it\n\
-     ```\n";
-
 /// Reason why a workspace was not made.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum NotMade {
@@ -57,9 +27,9 @@ pub(crate) enum NotMade {
 pub(crate) fn make(root: &Path, identity: Option<&str>, force: bool) -> Result<Vec<PathBuf>, NotMade> {
     let written = [
         (root.join(WORKSPACE_FILE), settings(identity)?),
-        (root.join(".gitignore"), GITIGNORE.to_owned()),
-        (root.join(".gitattributes"), GITATTRIBUTES.to_owned()),
-        (root.join("README.md"), READ_ME.to_owned()),
+        (root.join(".gitignore"), include_str!("new/gitignore").to_owned()),
+        (root.join(".gitattributes"), include_str!("new/gitattributes").to_owned()),
+        (root.join("README.md"), include_str!("new/README.md").to_owned()),
     ];
     files::check_replaceable(written.iter().map(|(path, _)| path), force)?;
     let mut made = Made::default();
@@ -123,23 +93,7 @@ fn settings(identity: Option<&str>) -> Result<String, NotMade> {
         }
         Some(_) => return Err(NotMade::Identity),
     };
-    Ok(format!(
-        "# Workspace of dtg-passport: what its commands take where an option is not given. It is used only if\n\
-         # --workspace or DTG_PASSPORT_WORKSPACE names this folder. Paths are relative to this folder.\n\
-         \n\
-         # Signing key. `dtg-passport keygen factory.key --allowed-signers allowed_signers` creates it here.\n\
-         key = \"factory.key\"\n\
-         # Issuer: the name before that key in allowed_signers.\n\
-         {identity}\n\
-         # Trusted keys: your own, and those of factories whose passports you use.\n\
-         trust = \"allowed_signers\"\n\
-         \n\
-         # Passports; new signed lists of withdrawn passports are in the folder revocations next to this one.\n\
-         passports = \"passports\"\n\
-         # Files of stands (MODEL/SERIAL/stand.yaml) and of sites.\n\
-         stands = \"stands\"\n\
-         sites = \"sites\"\n"
-    ))
+    Ok(include_str!("new/dtg-passport.toml").replace("{identity}", &identity))
 }
 
 #[cfg(test)]
