@@ -2,7 +2,6 @@
 
 use super::output::{self, Format};
 use super::{Code, Failure, help};
-use crate::files;
 use crate::text::{name_of, shown};
 use clap::{Args, Command};
 use serde_json::json;
@@ -27,15 +26,13 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     command.build();
     let mut pages = Vec::new();
     render(&command, &mut pages)?;
+    let file = |(name, page): (String, String)| (options.folder.join(format!("{name}.1")), page);
+    let pages: Vec<(PathBuf, String)> = pages.into_iter().map(file).collect();
     // All or none: the page of an older version would contradict the others.
-    let paths: Vec<PathBuf> = pages.iter().map(|(name, _)| options.folder.join(format!("{name}.1"))).collect();
-    files::check_replaceable(&paths, options.force).map_err(Failure::file)?;
-    for (path, (_, page)) in paths.iter().zip(&pages) {
-        output::file(path, page, options.force)?;
-    }
+    output::together(&pages, options.force)?;
     output::say(&format!("wrote {} pages into {}", pages.len(), shown(&options.folder)));
     if options.format == Format::Json {
-        output::json(&json!({ "pages": paths.iter().map(|path| name_of(path)).collect::<Vec<_>>() }))?;
+        output::json(&json!({ "pages": pages.iter().map(|(path, _)| name_of(path)).collect::<Vec<_>>() }))?;
     }
     Ok(0)
 }

@@ -1,7 +1,8 @@
 //! A new workspace: its folders and files.
 
 use super::WORKSPACE_FILE;
-use crate::files::{self, Access, FileError};
+use crate::files::together::write_replaceable_together;
+use crate::files::{self, FileError};
 use crate::folder::search::LISTS_FOLDER;
 use crate::text::rule;
 use std::fs;
@@ -32,57 +33,28 @@ pub(crate) fn make(root: &Path, identity: Option<&str>, force: bool) -> Result<V
         (root.join("README.md"), include_str!("new/README.md").to_owned()),
     ];
     files::check_replaceable(written.iter().map(|(path, _)| path), force)?;
-    let mut made = Made::default();
-    let done =
-        made.folders(root).and_then(|()| written.iter().try_for_each(|(path, text)| made.file(path, text, force)));
-    if let Err(error) = done {
-        made.undo();
+    let mut made = Vec::new();
+    if let Err(error) = folders(root, &mut made).and_then(|()| write_replaceable_together(&written, force)) {
+        // What cannot be removed is left, because the first error counts.
+        made.iter().rev().for_each(|folder| drop(fs::remove_dir(folder)));
         return Err(error.into());
     }
     let folders = FOLDERS.iter().map(|name| root.join(name));
     Ok(written.iter().map(|(path, _)| path.clone()).chain(folders).collect())
 }
 
-/// New files and folders, in the order of their creation.
-#[derive(Default)]
-struct Made {
-    files: Vec<PathBuf>,
-    folders: Vec<PathBuf>,
-}
-
-impl Made {
-    fn folders(&mut self, root: &Path) -> Result<(), FileError> {
-        let missing: Vec<&Path> = root.ancestors().take_while(|folder| !folder.exists()).collect();
-        // The path of the current folder is empty.
-        let missing = missing.into_iter().rev().filter(|folder| !folder.as_os_str().is_empty()).map(Path::to_owned);
-        for folder in missing.chain(FOLDERS.iter().map(|name| root.join(name))).collect::<Vec<_>>() {
-            if folder.is_dir() {
-                continue;
-            }
+/// Makes the folders that are missing, and adds them to `made` in the order of their creation.
+fn folders(root: &Path, made: &mut Vec<PathBuf>) -> Result<(), FileError> {
+    let missing: Vec<&Path> = root.ancestors().take_while(|folder| !folder.exists()).collect();
+    // The path of the current folder is empty.
+    let missing = missing.into_iter().rev().filter(|folder| !folder.as_os_str().is_empty()).map(Path::to_owned);
+    for folder in missing.chain(FOLDERS.iter().map(|name| root.join(name))) {
+        if !folder.is_dir() {
             fs::create_dir(&folder).map_err(|error| FileError::Write { path: folder.clone(), error })?;
-            self.folders.push(folder);
+            made.push(folder);
         }
-        Ok(())
     }
-
-    fn file(&mut self, path: &Path, text: &str, force: bool) -> Result<(), FileError> {
-        let is_new = !path.exists();
-        if force {
-            files::write_replaceable(path, text.as_bytes(), force)?;
-        } else {
-            files::write_new(path, text.as_bytes(), Access::Shared)?;
-        }
-        if is_new {
-            self.files.push(path.to_owned());
-        }
-        Ok(())
-    }
-
-    /// Removes what was made; what cannot be removed is left, because the first error counts.
-    fn undo(self) {
-        self.files.iter().for_each(|path| drop(fs::remove_file(path)));
-        self.folders.iter().rev().for_each(|path| drop(fs::remove_dir(path)));
-    }
+    Ok(())
 }
 
 fn settings(identity: Option<&str>) -> Result<String, NotMade> {
