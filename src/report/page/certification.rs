@@ -9,8 +9,8 @@ mod change;
 mod evidence;
 pub(crate) mod remarks;
 
-use super::language::{Languages, Text};
-use super::parts::{boxed, contents, data_address, file_name, given, heading, section as part, signatures, verbatim};
+use super::language::Languages;
+use super::parts::{boxed, contents, data_address, file_name, given, heading, numbered, section, signatures, verbatim};
 use super::passport::{characteristics, general};
 use super::shell::{Margins, document};
 use super::texts::{calibration as calibration_texts, certification as texts, passport as passport_texts};
@@ -30,17 +30,6 @@ pub(crate) struct CertificationPage<'a> {
     /// `true` if the certificate was not written, only computed.
     pub dry_run: bool,
 }
-
-/// Anchor and heading of each section of the record.
-const SECTIONS: [(&str, Text); 7] = [
-    ("subject", texts::SUBJECT),
-    ("readings", texts::READINGS),
-    ("result", texts::RESULT),
-    ("uncertainty", texts::UNCERTAINTY),
-    ("tests", texts::TESTS),
-    ("change", texts::CHANGE),
-    ("annex", texts::ANNEX),
-];
 
 impl CertificationPage<'_> {
     /// Returns the record as one self-contained HTML document.
@@ -63,44 +52,51 @@ impl CertificationPage<'_> {
     fn body(&self, languages: &Languages) -> Markup {
         let stand = &self.certification.stand;
         let who = [texts::MEASURED_BY, texts::CHECKED_BY, passport_texts::AUTHORISED_BY];
+        let address = data_address("text/csv", self.readings.1);
+        let sections = [
+            ("subject", texts::SUBJECT, self.subject(languages)),
+            ("readings", texts::READINGS, evidence::readings(self, languages)),
+            ("result", texts::RESULT, self.result(languages)),
+            ("uncertainty", texts::UNCERTAINTY, evidence::uncertainty(self, languages)),
+            ("tests", texts::TESTS, evidence::tests(self, languages)),
+            ("change", texts::CHANGE, change::section(self, languages)),
+        ];
         html! {
             header.title {
                 p.kind { (languages.label(texts::TITLE)) }
                 h1 { (given(stand.stand.model.as_str())) " №\u{a0}" (given(stand.stand.serial.as_str())) ", " (given(&stand.certificate.number)) }
                 p.subject { (languages.label(texts::SUBTITLE)) }
             }
-            (contents(languages, texts::SAVE, (&data_address("text/csv", self.readings.1), file_name(self.readings.0)), &SECTIONS))
+            (contents(languages, texts::SAVE, (&address, file_name(self.readings.0)), &sections, texts::ANNEX))
             main {
                 @if self.dry_run {
                     (boxed("verdict refused", languages.label(texts::DRAFT), languages.paragraph(texts::DRAFT_WORDS)))
                 }
                 (change::verdict(self, languages))
-                (part(languages, "subject", "1", texts::SUBJECT, &html! {
-                    (general::stand(&stand.stand, languages))
-                    (general::certificate(&stand.certificate, languages))
-                    (heading(languages, passport_texts::DATUM))
-                    (characteristics::datum(stand.datum.as_ref(), languages))
-                }))
-                (evidence::readings(self, languages))
-                (self.result(languages))
-                (evidence::uncertainty(self, languages))
-                (evidence::tests(self, languages))
-                (change::section(self, languages))
+                (numbered(languages, &sections))
                 @if !self.dry_run {
-                    (part(languages, "signatures", "", calibration_texts::SIGNATURES, &signatures(languages, who)))
+                    (section(languages, "signatures", calibration_texts::SIGNATURES, signatures(languages, who)))
                 }
                 (self.annex(languages))
             }
         }
     }
 
+    fn subject(&self, languages: &Languages) -> Markup {
+        let stand = &self.certification.stand;
+        html! {
+            (general::stand(&stand.stand, languages))
+            (general::certificate(&stand.certificate, languages))
+            (heading(languages, passport_texts::DATUM))
+            (characteristics::datum(stand.datum.as_ref(), languages))
+        }
+    }
+
     fn result(&self, languages: &Languages) -> Markup {
-        let positions = &self.certification.stand.positions;
-        let body = html! {
-            (characteristics::positions(positions, languages))
+        html! {
+            (characteristics::positions(&self.certification.stand.positions, languages))
             (languages.paragraph(passport_texts::DEVIATIONS_NOTE))
-        };
-        part(languages, "result", "3", texts::RESULT, &body)
+        }
     }
 
     /// Writes the file of readings verbatim.
@@ -110,6 +106,6 @@ impl CertificationPage<'_> {
         let text = String::from_utf8_lossy(bytes).replace("\r\n", "\n");
         let end = languages.label_with(|language| texts::END.filled(language, &[("number", number)]));
         let body = html! { (languages.paragraph(texts::ANNEX_NOTE)) (verbatim("", &text, &end)) };
-        part(languages, "annex", "", texts::ANNEX, &body)
+        section(languages, "annex", texts::ANNEX, body)
     }
 }

@@ -12,14 +12,26 @@ use jiff::tz::TimeZone;
 use maud::{Markup, html};
 use std::path::Path;
 
-/// Writes a section with its number and heading; `id` is its anchor.
-pub(crate) fn section(languages: &Languages, id: &str, number: &str, heading: Text, body: &Markup) -> Markup {
+/// Anchor, heading and content of a section.
+pub(crate) type Section = (&'static str, Text, Markup);
+
+/// Writes sections with their numbers.
+pub(crate) fn numbered(languages: &Languages, sections: &[Section]) -> Markup {
+    html! { @for (number, section) in (1..).zip(sections) { (section_of(languages, Some(number), section)) } }
+}
+
+/// Writes a section without a number.
+pub(crate) fn section(languages: &Languages, id: &'static str, heading: Text, body: Markup) -> Markup {
+    section_of(languages, None, &(id, heading, body))
+}
+
+fn section_of(languages: &Languages, number: Option<usize>, (id, heading, body): &Section) -> Markup {
     let heading_id = format!("{id}-heading");
     html! {
         section id=(id) aria-labelledby=(heading_id) {
             h2 id=(heading_id) {
-                @if !number.is_empty() { span.number { (number) } " " }
-                (languages.label(heading))
+                @if let Some(number) = number { span.number { (number) } " " }
+                (languages.label(*heading))
             }
             (body)
         }
@@ -198,16 +210,18 @@ pub(crate) fn data_address(kind: &str, bytes: &[u8]) -> String {
     format!("data:{kind};base64,{}", Base64::encode_string(bytes))
 }
 
-/// Writes what only a screen needs: the file to save, and links to the sections.
+/// Writes what only a screen needs: the file to save, and links to the sections and to the annex.
 pub(crate) fn contents(
     languages: &Languages,
     save: Text,
     (address, name): (&str, &str),
-    sections: &[(&str, Text)],
+    sections: &[Section],
+    annex: Text,
 ) -> Markup {
+    let headings = sections.iter().map(|(id, heading, _)| (*id, *heading)).chain([("annex", annex)]);
     html! {
         nav.screen aria-label=(languages.spoken(words::CONTENTS)) {
-            ol { @for (id, heading) in sections { li { a href={ "#" (id) } { (languages.inline(*heading)) } } } }
+            ol { @for (id, heading) in headings { li { a href={ "#" (id) } { (languages.inline(heading)) } } } }
             a.button href=(address) download=(name) { (languages.inline(save)) }
         }
     }

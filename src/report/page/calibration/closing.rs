@@ -2,7 +2,7 @@
 
 use super::CalibrationPage;
 use crate::report::page::language::Languages;
-use crate::report::page::parts::{section as part, signatures, verbatim};
+use crate::report::page::parts::{section, signatures, verbatim};
 use crate::report::page::texts::calibration as texts;
 use maud::{Markup, html};
 use serde::Serialize;
@@ -16,7 +16,7 @@ pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup 
         (signatures(languages, [texts::CALIBRATED_BY, texts::APPROVED_BY]))
     };
     html! {
-        (part(languages, "signatures", "", texts::SIGNATURES, &signed))
+        (section(languages, "signatures", texts::SIGNATURES, signed))
         (annex(page, languages))
     }
 }
@@ -36,7 +36,7 @@ pub(super) fn json(page: &CalibrationPage) -> String {
 fn annex(page: &CalibrationPage, languages: &Languages) -> Markup {
     let end = languages.label_with(|language| texts::END.filled(language, &[("name", &page.name(language))]));
     let body = html! { (languages.paragraph(texts::ANNEX_NOTE)) (verbatim("en", &json(page), &end)) };
-    part(languages, "annex", "", texts::ANNEX, &body)
+    section(languages, "annex", texts::ANNEX, body)
 }
 
 /// A JSON formatter that writes each key of the document and of each result on its own line, and so each object of a list.

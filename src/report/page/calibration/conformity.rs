@@ -2,7 +2,7 @@
 //! its change since an earlier result.
 
 use super::parameters::{self, name_of};
-use super::{CalibrationPage, Section, history};
+use super::{CalibrationPage, history};
 use crate::calibration::document::CalibrationDocument;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
@@ -21,7 +21,7 @@ const LEAST_RISK: f64 = 1e-6;
 
 pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
     let adopted = page.adopted();
-    let body = html! {
+    html! {
         @match page.judged() {
             Some((gyro, verdict)) => (compared(page, gyro, verdict, languages)),
             None => (alone(page, languages)),
@@ -35,8 +35,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
             (table(page, languages, change, texts::CHANGE_CAPTION, [texts::EARLIER, texts::CHANGED_BY], false))
         }
         (history::table(page, languages))
-    };
-    page.section(languages, Section::Result, &body)
+    }
 }
 
 fn compared(page: &CalibrationPage, gyro: &GyroType, verdict: &Verdict, languages: &Languages) -> Markup {

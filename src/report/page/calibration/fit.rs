@@ -1,7 +1,7 @@
 //! Agreement of the readings with the fit, possible causes of disagreement, and errors that the residuals do not show.
 
+use super::CalibrationPage;
 use super::conformity::probability;
-use super::{CalibrationPage, Section};
 use crate::calibration::Calibration;
 use crate::calibration::diagnosis::{Explanation, Hint};
 use crate::calibration::document::{ResidualDocument, ResultDocument};
@@ -17,11 +17,10 @@ use crate::report::picture::residuals::{AXES, Bars, key};
 use crate::report::recorded;
 use maud::{Markup, html};
 
-pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let answer = page.adopted();
-    let fit = html! {
+pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
+    html! {
         @if let Some(hint) = &page.calibration.hint { (what_may_be_wrong(hint, languages)) }
-        @if let Some(result) = answer {
+        @if let Some(result) = page.adopted() {
             @if result.chi_square.degrees_of_freedom == 0 {
                 (languages.paragraph(texts::NOT_JUDGED))
                 (scatter(page, languages))
@@ -32,8 +31,12 @@ pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup 
                 (key(languages))
             }
         }
-    };
-    let blind = html! {
+    }
+}
+
+/// Writes which errors the residuals do not show.
+pub(super) fn blind(page: &CalibrationPage, languages: &Languages) -> Markup {
+    html! {
         (languages.paragraph(texts::CANNOT_TELL))
         @if page.missing.is_empty() {
             (languages.paragraph(texts::ALL_STATED))
@@ -41,10 +44,6 @@ pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup 
             (languages.paragraph(texts::NOT_STATED))
             ul.absences { @for what in page.missing { li { (languages.label(not_stated(*what))) } } }
         }
-    };
-    html! {
-        (page.section(languages, Section::Fit, &fit))
-        (page.section(languages, Section::Blind, &blind))
     }
 }
 

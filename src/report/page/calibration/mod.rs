@@ -21,7 +21,7 @@ mod uncertainty;
 pub(crate) use fit::not_stated;
 
 use super::language::{Language, Languages, Text};
-use super::parts::{self, boxed};
+use super::parts::{Section, boxed, contents, data_address, numbered};
 use super::passport::PassportPage;
 use super::shell::{Margins, document};
 use super::symbols::italic;
@@ -65,37 +65,6 @@ impl UsedPassport<'_> {
         match self {
             Self::Verified(page) => &page.sha256,
             Self::NotVerified { sha256, .. } => sha256,
-        }
-    }
-}
-
-/// A numbered section of the report.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Section {
-    Result,
-    Fit,
-    Blind,
-    Budget,
-    MonteCarlo,
-    Methods,
-    Subject,
-}
-
-impl Section {
-    /// All sections, in the order of the page.
-    const ALL: [Self; 7] =
-        [Self::Result, Self::Fit, Self::Blind, Self::Budget, Self::MonteCarlo, Self::Methods, Self::Subject];
-
-    /// Returns the anchor of the section in the HTML document, and its heading.
-    fn named(self) -> (&'static str, Text) {
-        match self {
-            Self::Result => ("result", texts::RESULT),
-            Self::Fit => ("fit", texts::FIT),
-            Self::Blind => ("blind", texts::BLIND),
-            Self::Budget => ("budget", texts::BUDGET),
-            Self::MonteCarlo => ("monte-carlo", texts::MONTE_CARLO),
-            Self::Methods => ("methods", texts::METHODS),
-            Self::Subject => ("subject", texts::SUBJECT),
         }
     }
 }
@@ -148,20 +117,22 @@ impl CalibrationPage<'_> {
         self.passport.content()
     }
 
-    /// Returns the sections that this report contains.
-    fn sections(&self) -> impl Iterator<Item = Section> {
-        Section::ALL.into_iter().filter(|one| match one {
-            Section::Budget => self.budget.is_some(),
-            Section::MonteCarlo => self.monte_carlo.is_some(),
-            Section::Result | Section::Fit | Section::Blind | Section::Methods | Section::Subject => true,
-        })
-    }
-
-    /// Returns a section with its number. Only the sections that this report contains are numbered.
-    fn section(&self, languages: &Languages, section: Section, body: &Markup) -> Markup {
-        let number = 1 + self.sections().take_while(|one| *one != section).count();
-        let (id, heading) = section.named();
-        parts::section(languages, id, &number.to_string(), heading, body)
+    /// Returns the numbered sections: those on request only if they were requested.
+    fn sections(&self, languages: &Languages) -> Vec<Section> {
+        let mut sections = vec![
+            ("result", texts::RESULT, conformity::section(self, languages)),
+            ("fit", texts::FIT, fit::section(self, languages)),
+            ("blind", texts::BLIND, fit::blind(self, languages)),
+        ];
+        if let Some(budget) = self.budget {
+            sections.push(("budget", texts::BUDGET, uncertainty::budget(self, budget, languages)));
+        }
+        if let Some(found) = self.monte_carlo {
+            sections.push(("monte-carlo", texts::MONTE_CARLO, uncertainty::monte_carlo(found, languages)));
+        }
+        sections.push(("methods", texts::METHODS, parameters::section(self, languages)));
+        sections.push(("subject", texts::SUBJECT, subject::section(self, languages)));
+        sections
     }
 
     /// Returns the gyro type and the verdict against it, or `None` if no type was specified.
@@ -206,26 +177,19 @@ impl CalibrationPage<'_> {
     }
 
     fn body(&self, languages: &Languages) -> Markup {
+        let address = data_address("application/json", closing::json(self).as_bytes());
+        let sections = self.sections(languages);
         html! {
             header.title {
                 p.kind { (languages.label(texts::TITLE)) }
                 h1 { (languages.label_with(|language| self.gyro_name(language))) }
                 p.subject { (languages.label(texts::SUBTITLE)) }
             }
-            (parts::contents(
-                languages,
-                texts::SAVE,
-                (&parts::data_address("application/json", closing::json(self).as_bytes()), "calibration.json"),
-                &self.sections().map(Section::named).chain([("annex", texts::ANNEX)]).collect::<Vec<_>>(),
-            ))
+            (contents(languages, texts::SAVE, (&address, "calibration.json"), &sections, texts::ANNEX))
             main {
                 (self.headlines(languages))
                 (subject::band(self, languages))
-                (conformity::section(self, languages))
-                (fit::sections(self, languages))
-                (uncertainty::sections(self, languages))
-                (parameters::section(self, languages))
-                (subject::section(self, languages))
+                (numbered(languages, &sections))
                 (closing::sections(self, languages))
             }
         }

@@ -1,7 +1,7 @@
 //! Parameters by every method, and what the methods say besides: steps, matrices, drift in time.
 
 use super::conformity::with_gravity;
-use super::{CalibrationPage, Section, method};
+use super::{CalibrationPage, method};
 use crate::calibration::document::ResultDocument;
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::parameter::Parameter;
@@ -19,7 +19,7 @@ const NEGLIGIBLE: f64 = 1e-3;
 
 pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
     let results = &page.document.results;
-    let body = html! {
+    html! {
         (table(page, languages))
         @if results.iter().any(|result| result.from_least_squares.is_some()) { (languages.paragraph(texts::OFF_BY_NOTE)) }
         @for result in results { (iteration(result, languages)) }
@@ -29,8 +29,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
                 html! { (texts::NO_RESULT.filled(language, &[("method", &name)])) }
             }))
         }
-    };
-    page.section(languages, Section::Methods, &body)
+    }
 }
 
 fn table(page: &CalibrationPage, languages: &Languages) -> Markup {

@@ -1,6 +1,6 @@
 //! Object of the calibration: gyro, stand, passport and readings.
 
-use super::{CalibrationPage, Section, UsedPassport};
+use super::{CalibrationPage, UsedPassport};
 use crate::calibration::readings::Exclusion;
 use crate::calibration::stated::TemperatureOutside;
 use crate::laboratory::Laboratory;
@@ -14,14 +14,13 @@ use crate::report::page::texts::{calibration as texts, passport as passport_text
 use maud::{Markup, html};
 
 pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let body = html! {
+    html! {
         (gyro(page, languages))
         (heading(languages, texts::PASSPORT))
         (passport(page, languages))
         (heading(languages, passport_texts::LABORATORY))
         (laboratory(page, languages))
-    };
-    page.section(languages, Section::Subject, &body)
+    }
 }
 
 /// Writes which gyro was calibrated on which stand, on whose word, and from which file.

@@ -1,7 +1,7 @@
 //! Uncertainty budget and Monte Carlo with the test of linear propagation. Both appear only on request.
 
+use super::CalibrationPage;
 use super::parameters::name_of;
-use super::{CalibrationPage, Section};
 use crate::calibration::causes::Cause;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::ParameterVerdict;
@@ -28,26 +28,19 @@ const MANY: f64 = 1e4;
 const LEAST_NAMED: f64 = 0.02;
 const LEAST_SHOWN: f64 = 1e-3;
 
-pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
+pub(super) fn budget(page: &CalibrationPage, budget: &Budget, languages: &Languages) -> Markup {
+    let tolerance = page.gyro.map(|gyro| &gyro.tolerance);
+    let worst = match page.judged() {
+        None => texts::BUDGET_WORST_OF_SIZE,
+        Some((_, verdict)) if verdict.parameters.iter().any(ParameterVerdict::is_mostly_from_gravity) => {
+            texts::BUDGET_WORST_BUT_GRAVITY
+        }
+        Some(_) => texts::BUDGET_WORST,
+    };
     html! {
-        @if let Some(budget) = page.budget {
-            @let tolerance = page.gyro.map(|gyro| &gyro.tolerance);
-            @let worst = match page.judged() {
-                None => texts::BUDGET_WORST_OF_SIZE,
-                Some((_, verdict)) if verdict.parameters.iter().any(ParameterVerdict::is_mostly_from_gravity) => {
-                    texts::BUDGET_WORST_BUT_GRAVITY
-                }
-                Some(_) => texts::BUDGET_WORST,
-            };
-            (page.section(languages, Section::Budget, &html! {
-                @if let Some(remedy) = Dominant::of(budget, tolerance) { (sentences(&remedy, worst, languages)) }
-                (shares(budget, languages))
-                (budget_table(budget, languages))
-            }))
-        }
-        @if let Some(found) = page.monte_carlo {
-            (page.section(languages, Section::MonteCarlo, &monte_carlo(found, languages)))
-        }
+        @if let Some(remedy) = Dominant::of(budget, tolerance) { (sentences(&remedy, worst, languages)) }
+        (shares(budget, languages))
+        (budget_table(budget, languages))
     }
 }
 
@@ -235,7 +228,7 @@ fn cause(cause: Cause, language: Language) -> String {
     }
 }
 
-fn monte_carlo(found: &MonteCarlo, languages: &Languages) -> Markup {
+pub(super) fn monte_carlo(found: &MonteCarlo, languages: &Languages) -> Markup {
     let line = |parameter: Parameter| found.parameters.iter().find(|line| line.parameter == parameter);
     let each = |cell: &dyn Fn(&Distribution) -> Cell| {
         Parameter::AS_IN_THE_PAPER.map(|parameter| line(parameter).map_or_else(Cell::none, cell))

@@ -7,9 +7,7 @@ use crate::certification::suspects::AXES;
 use crate::passport::difference::NumberDifference;
 use crate::report::page::language::{Languages, Text};
 use crate::report::page::number::{Number, column};
-use crate::report::page::parts::{
-    Column, Table, boxed, field, fields, heading, section as part, starts, symbol, symbol_and_unit,
-};
+use crate::report::page::parts::{Column, Table, boxed, field, fields, heading, starts, symbol, symbol_and_unit};
 use crate::report::page::texts::{certification as texts, checks, pictures, units};
 use crate::report::picture::residuals::{Bars, key_of};
 use maud::{Markup, html};
@@ -41,11 +39,10 @@ pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup
 }
 
 pub(super) fn section(page: &CertificationPage, languages: &Languages) -> Markup {
-    let body = match &page.change {
+    match &page.change {
         None => languages.paragraph(texts::NOT_COMPARED),
         Some((comparison, changes)) => compared(comparison, changes, languages),
-    };
-    part(languages, "change", "6", texts::CHANGE, &body)
+    }
 }
 
 fn compared(comparison: &Comparison, changes: &[NumberDifference], languages: &Languages) -> Markup {

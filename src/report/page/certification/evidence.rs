@@ -7,7 +7,7 @@ use crate::certification::suspects::AXES;
 use crate::report::page::language::{Languages, Text};
 use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{
-    Column, Table, field, fields, file_name, given, heading, section as part, symbol, symbol_and_unit, wide_field,
+    Column, Table, field, fields, file_name, given, heading, symbol, symbol_and_unit, wide_field,
 };
 use crate::report::page::passport::characteristics;
 use crate::report::page::texts::{calibration, certification as texts, units, words};
@@ -31,7 +31,7 @@ pub(super) fn readings(page: &CertificationPage, languages: &Languages) -> Marku
         rows: rows.collect(),
         ..Table::default()
     };
-    let body = html! {
+    html! {
         (fields([
             field(languages, texts::FILE, Some(given(file_name(page.readings.0)))),
             field(languages, texts::RUNS, Some(html! { (runs.len()) " (" (runs.join(", ")) ")" })),
@@ -46,12 +46,11 @@ pub(super) fn readings(page: &CertificationPage, languages: &Languages) -> Marku
             (table.markup(languages.spoken(texts::EXCLUSIONS)))
             (languages.paragraph(texts::EXCLUSIONS_NOTE))
         }
-    };
-    part(languages, "readings", "2", texts::READINGS, &body)
+    }
 }
 
 pub(super) fn uncertainty(page: &CertificationPage, languages: &Languages) -> Markup {
-    let body = html! {
+    html! {
         (heading(languages, texts::BUDGET))
         (characteristics::common(&page.certification.stand.certificate, languages))
         (heading(languages, texts::COMPONENTS))
@@ -59,8 +58,7 @@ pub(super) fn uncertainty(page: &CertificationPage, languages: &Languages) -> Ma
         (languages.paragraph(texts::COMPONENTS_NOTE))
         (heading(languages, texts::RUN_TURNS))
         (run_turns(page, languages))
-    };
-    part(languages, "uncertainty", "4", texts::UNCERTAINTY, &body)
+    }
 }
 
 fn components(page: &CertificationPage, languages: &Languages) -> Markup {
@@ -161,7 +159,7 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
     let columns = columns.map(|(heading, cells)| Column::named(languages, heading, cells));
     let names = found.into_iter().map(|(name, ..)| vec![name]).collect();
     let table = Table::of(vec![languages.label(texts::TEST)], names, &columns);
-    let body = html! {
+    html! {
         (table.markup(languages.spoken(texts::TESTS)))
         (languages.paragraph(texts::TESTS_NOTE))
         @if !page.certification.remarks.is_empty() {
@@ -172,6 +170,5 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
                 }
             }
         }
-    };
-    part(languages, "tests", "5", texts::TESTS, &body)
+    }
 }

@@ -8,9 +8,7 @@ use crate::passport::accuracy::Accuracy;
 use crate::passport::annotations::{Absence, absent};
 use crate::report::page::language::{Languages, Text};
 use crate::report::page::number::{Cell, Number};
-use crate::report::page::parts::{
-    fields, figure, given, heading, quantity, section as part, stated, symbol, wide_stated,
-};
+use crate::report::page::parts::{fields, figure, given, heading, quantity, stated, symbol, wide_stated};
 use crate::report::page::texts::{absences, passport as texts, units};
 use crate::report::picture::accuracy::accuracy as picture;
 use crate::site::{LATITUDE_MARGIN_ARCSEC, UNKNOWN_DEFLECTION_U_ARCSEC};
@@ -21,7 +19,7 @@ const GRAVITY_SLOPE_M_PER_S2_PER_M: f64 = 3.1e-6;
 
 pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let content = &page.content;
-    let body = html! {
+    html! {
         @match &content.accuracy {
             Some(accuracy) => {
                 (stated_for(accuracy, languages))
@@ -32,8 +30,7 @@ pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
         }
         (heading(languages, texts::ABSENCES))
         (not_stated(page, languages))
-    };
-    part(languages, "accuracy", "4", texts::ACCURACY, &body)
+    }
 }
 
 fn stated_for(accuracy: &Accuracy, languages: &Languages) -> Markup {

@@ -4,8 +4,8 @@ use super::PassportPage;
 use crate::report::page::language::{Language, Languages};
 use crate::report::page::number::{LARGEST_IN_ARCSEC, Number, column};
 use crate::report::page::parts::{
-    Column, Table, fields, figure, given, heading, not_stated, quantity, section as part, starts, stated, symbol,
-    symbol_and_unit, wide_stated,
+    Column, Table, fields, figure, given, heading, not_stated, quantity, starts, stated, symbol, symbol_and_unit,
+    wide_stated,
 };
 use crate::report::page::texts::{passport as texts, units};
 use crate::report::picture::deviations::{ANGLES, Bars};
@@ -18,7 +18,7 @@ use maud::{Markup, html};
 pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let content = &page.content;
     let stand = picture::positions(languages, &content.positions, content.site.frame_axis_azimuth_deg());
-    let body = html! {
+    html! {
         (heading(languages, texts::DEVIATIONS))
         (positions(&content.positions, languages))
         (languages.paragraph(texts::DEVIATIONS_NOTE))
@@ -39,8 +39,7 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
         } @else {
             (the_earth(&content.site, &content.earth, languages))
         }
-    };
-    part(languages, "characteristics", "2", texts::CHARACTERISTICS, &body)
+    }
 }
 
 /// Writes the deviations with their bars.

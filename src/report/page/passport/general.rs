@@ -4,19 +4,18 @@
 use super::PassportPage;
 use crate::report::page::language::Languages;
 use crate::report::page::number::Number;
-use crate::report::page::parts::{date, field, fields, given, heading, quantity, section as part, stated, wide_stated};
+use crate::report::page::parts::{date, field, fields, given, heading, quantity, stated, wide_stated};
 use crate::report::page::texts::{passport as texts, record, units};
 use crate::stand::{Certificate, Identity};
 use maud::{Markup, html};
 
 pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
-    let body = html! {
+    html! {
         (stand(&page.content.stand, languages))
         (certificate(&page.content.certificate, languages))
         (left_to_the_laboratory(languages))
         div.statement { (languages.paragraph(texts::THIS_ITEM_ONLY)) }
-    };
-    part(languages, "general", "1", texts::GENERAL, &body)
+    }
 }
 
 pub(crate) fn stand(stand: &Identity, languages: &Languages) -> Markup {

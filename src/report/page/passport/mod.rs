@@ -20,8 +20,8 @@ pub(super) mod general;
 pub(super) mod numbers;
 mod record;
 
-use super::language::{Languages, Text};
-use super::parts::{contents, data_address, section as part, verbatim};
+use super::language::Languages;
+use super::parts::{contents, data_address, numbered, section, verbatim};
 use super::shell::{Margins, document};
 use super::texts::{passport as texts, record as record_texts};
 use crate::document::sha256_hex;
@@ -43,16 +43,6 @@ pub struct PassportPage<'a> {
     /// Key that signed the passport.
     pub(crate) key: PublicKey,
 }
-
-/// Anchor and heading of each section of the page.
-const SECTIONS: [(&str, Text); 6] = [
-    ("general", texts::GENERAL),
-    ("characteristics", texts::CHARACTERISTICS),
-    ("numbers", texts::NUMBERS),
-    ("accuracy", texts::ACCURACY),
-    ("record", record_texts::RECORD),
-    ("annex", texts::ANNEX),
-];
 
 impl<'a> PassportPage<'a> {
     /// Verifies the bytes of a passport, and with `register` also whether another passport supersedes it. `name` is the
@@ -124,16 +114,20 @@ impl<'a> PassportPage<'a> {
     }
 
     fn body(&self, languages: &Languages) -> Markup {
+        let address = data_address("application/yaml", self.text.as_bytes());
+        let sections = [
+            ("general", texts::GENERAL, general::section(self, languages)),
+            ("characteristics", texts::CHARACTERISTICS, characteristics::section(self, languages)),
+            ("numbers", texts::NUMBERS, numbers::section(self, languages)),
+            ("accuracy", texts::ACCURACY, accuracy::section(self, languages)),
+            ("record", record_texts::RECORD, record::section(self, languages)),
+        ];
         html! {
             (front::title(self, languages))
-            (contents(languages, texts::SAVE, (&data_address("application/yaml", self.text.as_bytes()), &self.file_name()), &SECTIONS))
+            (contents(languages, texts::SAVE, (&address, &self.file_name()), &sections, texts::ANNEX))
             main {
                 (front::section(self, languages))
-                (general::section(self, languages))
-                (characteristics::section(self, languages))
-                (numbers::section(self, languages))
-                (accuracy::section(self, languages))
-                (record::section(self, languages))
+                (numbered(languages, &sections))
                 (self.annex(languages))
             }
         }
@@ -148,6 +142,6 @@ impl<'a> PassportPage<'a> {
             (languages.paragraph_with(|language| html! { (texts::ANNEX_NOTE.filled(language, &[("name", &name)])) }))
             (verbatim("en", self.text, &end))
         };
-        part(languages, "annex", "", texts::ANNEX, &body)
+        section(languages, "annex", texts::ANNEX, body)
     }
 }

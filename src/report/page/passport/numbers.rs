@@ -7,7 +7,7 @@ use crate::passport::Content;
 use crate::passport::content::{MatrixRows, Rows, SelfCheck};
 use crate::report::page::language::{Languages, Text};
 use crate::report::page::number::{Cell, Number, column};
-use crate::report::page::parts::{Column, Table, figure, heading, section as part, starts, symbol, symbol_and_unit};
+use crate::report::page::parts::{Column, Table, figure, heading, starts, symbol, symbol_and_unit};
 use crate::report::page::texts::{passport as texts, units};
 use crate::report::picture::vectors::vectors as picture;
 use maud::{Markup, html};
@@ -20,7 +20,7 @@ const DECIMALS: usize = 9;
 
 pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let content = &page.content;
-    let body = html! {
+    html! {
         (languages.paragraph_with(|language| {
             html! { (texts::DIGITS_NOTE.words(language)) " " (texts::EQUATIONS_NOTE.filled(language, &[("source", &PAPER)])) }
         }))
@@ -40,8 +40,7 @@ pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
             (languages.paragraph(texts::SELF_CHECK_NOTE))
             (self_check(check, languages))
         }
-    };
-    part(languages, "numbers", "3", texts::NUMBERS, &body)
+    }
 }
 
 fn numbers(languages: &Languages, values: &[Option<f64>]) -> Vec<Markup> {

@@ -4,7 +4,7 @@
 
 use super::PassportPage;
 use crate::report::page::language::{Languages, Text};
-use crate::report::page::parts::{Table, blank, field, fields, given, heading, section as part};
+use crate::report::page::parts::{Table, blank, field, fields, given, heading};
 use crate::report::page::texts::{passport, record as texts};
 use maud::{Markup, html};
 
@@ -18,7 +18,7 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
             }
         }
     };
-    let body = html! {
+    html! {
         p.save { (languages.inline(texts::ON_PAPER)) }
         (completeness(page, languages))
         (words(texts::WARRANTY, &[
@@ -49,8 +49,7 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
             div.part.pen { (heading(languages, texts::DISPOSAL)) (lines(languages)) }
             div.part.pen { (heading(languages, texts::SPECIAL)) (lines(languages)) }
         }
-    };
-    part(languages, "record", "5", texts::RECORD, &body)
+    }
 }
 
 fn empty(rows: usize, columns: usize) -> Vec<Vec<Markup>> {
