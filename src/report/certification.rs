@@ -131,11 +131,7 @@ pub(crate) fn certification(found: &Certification) -> String {
     let names = ["i", "j", "α, arcsec", "u", "β, arcsec", "u", "γ, arcsec", "u", "deg. of freedom"];
     let rows = stand.positions.iter().map(|at| {
         let mut row = vec![at.i.to_string(), at.j.to_string()];
-        for (value, u) in [
-            (at.alpha_arcsec, at.u_alpha_arcsec),
-            (at.beta_arcsec, at.u_beta_arcsec),
-            (at.gamma_arcsec, at.u_gamma_arcsec),
-        ] {
+        for (value, u) in at.angles_arcsec().into_iter().zip(at.u_arcsec()) {
             let u = u.unwrap_or(0.0);
             let digits = columns::decimals(u);
             row.extend([format!("{value:.digits$}"), format!("{u:.digits$}")]);

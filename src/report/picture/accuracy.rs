@@ -1,8 +1,6 @@
 //! Expected calibration uncertainty: the standard uncertainty of every parameter against the tolerance of a gyro type.
 
-use super::drawing::{
-    Anchor, Panel, Scale, Ticks, label, legend, line, panels, plain_symbol, rectangle, symbol, words,
-};
+use super::drawing::{Anchor, Panel, Scale, Ticks, label, legend, line, plain_symbol, rectangle, symbol, words};
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{COVERAGE_FACTOR, Found, against_type};
 use crate::passport::accuracy::Accuracy;
@@ -46,12 +44,8 @@ pub(crate) fn accuracy(languages: &Languages, accuracy: &Accuracy, gravity_m_per
         line([BARS[0], TOP], [BARS[0], bottom], "zero"),
         line([scale.place(1.0), TOP - 5.0], [scale.place(1.0), bottom + 5.0], "limit"),
     ];
-    let svg = panel.svg(
-        |language| texts::ACCURACY_TITLE.of(language).to_owned(),
-        |language| in_words(language, &rows),
-        &drawing,
-    );
-    panels(1, PANEL_PIXELS, &[svg], &key(languages))
+    let description = |language| in_words(language, &rows);
+    panel.alone(PANEL_PIXELS, texts::ACCURACY_TITLE, description, &drawing, &key(languages))
 }
 
 fn key(languages: &Languages) -> Markup {

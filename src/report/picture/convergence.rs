@@ -1,7 +1,7 @@
 //! Convergence of the iterative method: the change in each step, relative to the stop limit.
 
 use super::chart::{Field, Look, sample};
-use super::drawing::{Anchor, Panel, Point, Scale, Ticks, label, legend, line, panels, power};
+use super::drawing::{Anchor, Panel, Point, Scale, Ticks, label, legend, line, power};
 use crate::calibration::document::ResultDocument;
 use crate::calibration::iterative::{StepChange, StopRule};
 use crate::report::page::language::{Language, Languages};
@@ -42,12 +42,8 @@ pub(crate) fn convergence(languages: &Languages, result: &ResultDocument) -> Opt
         let point = |change: &StepChange| [f64::from(change.step), power_of(share(change, &rule))];
         field.series(&changes.iter().map(point).collect::<Vec<_>>(), look)
     }));
-    let svg = panel.svg(
-        |language| texts::CONVERGENCE_TITLE.of(language).to_owned(),
-        |language| in_words(language, changes, &rule),
-        &drawing,
-    );
-    Some(panels(1, PANEL_PIXELS, &[svg], &key(languages)))
+    let description = |language| in_words(language, changes, &rule);
+    Some(panel.alone(PANEL_PIXELS, texts::CONVERGENCE_TITLE, description, &drawing, &key(languages)))
 }
 
 fn key(languages: &Languages) -> Markup {

@@ -18,16 +18,6 @@ const BAR_HALF: f64 = 4.0;
 /// Largest value on an axis, arcsec: 180°. The uncertainties themselves have no limit.
 const LARGEST_ARCSEC: f64 = 648_000.0;
 
-/// A function that returns one deviation of a position and its standard uncertainty, arcsec.
-pub(crate) type OfPosition = fn(&CertifiedPosition) -> (f64, Option<f64>);
-
-/// Letter of each angle, and the function that returns it.
-pub(crate) const ANGLES: [(&str, OfPosition); 3] = [
-    ("α", |at| (at.alpha_arcsec, at.u_alpha_arcsec)),
-    ("β", |at| (at.beta_arcsec, at.u_beta_arcsec)),
-    ("γ", |at| (at.gamma_arcsec, at.u_gamma_arcsec)),
-];
-
 /// Returns a scale whose longer bars have a number on their own side of 0: an end not far from one moves out to it.
 fn widened([low, high]: [f64; 2]) -> Scale {
     let scale = Scale { values: [low, high], places: BARS };
@@ -45,7 +35,7 @@ pub(crate) struct Bars {
 impl Bars {
     /// Creates bars to the scale of the largest deviation of `positions`.
     pub(crate) fn of(positions: &[CertifiedPosition]) -> Self {
-        let all = positions.iter().flat_map(|at| ANGLES.map(|(_, of)| of(at)));
+        let all = positions.iter().flat_map(|at| at.angles_arcsec().into_iter().zip(at.u_arcsec()));
         let ends = all.clone().flat_map(|(value, u)| {
             let half = COVERAGE_FACTOR * u.unwrap_or(0.0);
             [value - half, value + half]

@@ -57,6 +57,19 @@ impl Panel<'_> {
         }
     }
 
+    /// Returns the drawing as a picture by itself, `pixels` wide, with its legend below.
+    pub(crate) fn alone(
+        &self,
+        pixels: u32,
+        title: Text,
+        description: impl Fn(Language) -> String,
+        drawing: &[Markup],
+        legend: &Markup,
+    ) -> Markup {
+        let svg = self.svg(|language| title.of(language).to_owned(), description, drawing);
+        panels(1, pixels, &[svg], legend)
+    }
+
     /// Draws a hatch pattern with the id of `part`, for a `fill` by [`Panel::filled_with`].
     pub(crate) fn hatch(&self, part: &str) -> Markup {
         html! {

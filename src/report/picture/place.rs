@@ -1,8 +1,6 @@
 //! Area where a passport is valid: a schematic map around the site, north at the top.
 
-use super::drawing::{
-    Anchor, Panel, Point, arrow, coordinate, legend, line, number, panels, rectangle, round_below, words,
-};
+use super::drawing::{Anchor, Panel, Point, arrow, coordinate, legend, line, number, rectangle, round_below, words};
 use crate::passport::content::Content;
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::{Number, localised};
@@ -38,12 +36,8 @@ pub(crate) fn place(languages: &Languages, content: &Content) -> Markup {
         scale_bar(languages, content.earth.valid_radius_m),
         coordinates(languages, content),
     ];
-    let svg = panel.svg(
-        |language| texts::PLACE_TITLE.of(language).to_owned(),
-        |language| in_words(language, content),
-        &drawing,
-    );
-    panels(1, PANEL_PIXELS, &[svg], &key(languages, content))
+    let description = |language| in_words(language, content);
+    panel.alone(PANEL_PIXELS, texts::PLACE_TITLE, description, &drawing, &key(languages, content))
 }
 
 fn key(languages: &Languages, content: &Content) -> Markup {

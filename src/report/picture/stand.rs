@@ -1,7 +1,7 @@
 //! The stand in one large drawing with its parts, axes and angles named; the small pictures of the positions leave the
 //! names out. The frame's axis points to its azimuth at the site.
 
-use super::drawing::{Anchor, Panel, Point, arrow, label, line, list, panels, symbols, words};
+use super::drawing::{Anchor, Panel, Point, arrow, label, line, list, symbols, words};
 use super::label::width;
 use super::positions::{AXIS, AXIS_HEIGHT, GYRO, GYRO_HEIGHT, View, plate, rows, stand as parts};
 use crate::attitude;
@@ -73,12 +73,8 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
         leaders(&named),
     ];
     let panel = Panel { name: "stand", languages, size: SIZE };
-    let svg = panel.svg(
-        |language| texts::STAND_TITLE.of(language).to_owned(),
-        |language| texts::STAND_DESCRIPTION.filled(language, &[("azimuth", &azimuth(language))]),
-        &drawing,
-    );
-    panels(1, PANEL_PIXELS, &[svg], &html! {})
+    let description = |language| texts::STAND_DESCRIPTION.filled(language, &[("azimuth", &azimuth(language))]);
+    panel.alone(PANEL_PIXELS, texts::STAND_TITLE, description, &drawing, &html! {})
 }
 
 /// Returns a point of the plate near its rightmost corner, beside the posts.

@@ -5,7 +5,7 @@ use crate::inside::fixtures;
 use crate::inside::picture::{Axis, end, english, middle, number, of_class, reach, row, svgs, tip, whole, words};
 use dtg_passport::passport::content::Content;
 use dtg_passport::passport::read;
-use dtg_passport::report::picture::deviations::{ANGLES, Bars};
+use dtg_passport::report::picture::deviations::Bars;
 use dtg_passport::report::picture::{accuracy, positions, vectors};
 use roxmltree::{Document, Node};
 
@@ -32,8 +32,8 @@ fn deviations_are_where_their_axes_say() {
         let axis_text = whole(&[bars.axis(&english())]);
         let axis_page = Document::parse(&axis_text).unwrap();
         let axis = Axis::along_x(axis_page.root_element());
-        for (at, (_, of)) in content.positions.iter().flat_map(|at| ANGLES.map(|angle| (at, angle))) {
-            let (value, u) = of(at);
+        let deviations = content.positions.iter().flat_map(|at| at.angles_arcsec().into_iter().zip(at.u_arcsec()));
+        for (value, u) in deviations {
             let text = whole(&[bars.bar((value, u))]);
             let page = Document::parse(&text).unwrap();
             axis.says(number(of_class(page.root(), "zero")[0], "x1"), 0.0);

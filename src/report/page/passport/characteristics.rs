@@ -8,7 +8,8 @@ use crate::report::page::parts::{
     wide_stated,
 };
 use crate::report::page::texts::{passport as texts, units};
-use crate::report::picture::deviations::{ANGLES, Bars};
+use crate::report::picture::deviations::Bars;
+use crate::report::picture::history::LETTERS;
 use crate::report::picture::{place as map, positions as picture};
 use crate::site::{Earth, Site};
 use crate::stand::{ActsOn, Certificate, CertifiedPosition, Datum, Excluded, TypeB};
@@ -54,8 +55,10 @@ pub(crate) fn positions(positions: &[CertifiedPosition], languages: &Languages) 
         numbers(with(symbol("φ", ""), units::DEGREES), &|at| Some(Number::exact(at.phi_deg))),
     ];
     // One angle with degrees and minutes, and all are marked in their cells.
-    let large = positions.iter().any(|at| ANGLES.iter().any(|(_, of)| of(at).0.abs() > LARGEST_IN_ARCSEC));
-    for (name, of) in ANGLES {
+    let large =
+        positions.iter().flat_map(CertifiedPosition::angles_arcsec).any(|angle| angle.abs() > LARGEST_IN_ARCSEC);
+    for (axis, name) in LETTERS.into_iter().enumerate() {
+        let of = |at: &CertifiedPosition| (at.angles_arcsec()[axis], at.u_arcsec()[axis]);
         let heading = if large { symbol(name, "") } else { with(symbol(name, ""), units::ARCSEC) };
         let mut angles = numbers(heading, &|at| Some(Number::angle(of(at).0, of(at).1.unwrap_or(0.0))));
         if large {
