@@ -17,10 +17,9 @@ use crate::laboratory::Laboratory;
 use crate::passport::Content;
 use crate::report::Languages;
 use crate::report::page::calibration::not_stated;
-use crate::report::page::language::Text;
+use crate::report::page::language::{Text, values};
 use crate::report::page::texts::calibration as texts;
 use crate::text::Problems;
-use std::fmt::Display;
 
 /// Publication of the drift model and of the equations.
 const PAPER: &str = "https://doi.org/10.18698/2308-6033-2017-10-1691";
@@ -111,7 +110,7 @@ fn statements(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
         Element::new("dcc:statement")
             .with("id", RULE_ID)
             .with("refType", "basic_conformity")
-            .and(filled("dcc:name", words::CONFORMITY, &[("type", &gyro_type.r#type)], languages))
+            .and(filled("dcc:name", words::CONFORMITY, values! { type: gyro_type.r#type }, languages))
             .and(in_words("dcc:declaration", words::RULE, languages))
             .and(Element::text("dcc:conformity", decided(verdict.overall, verdict.parameters.iter().all(passes))))
     });
@@ -128,8 +127,8 @@ fn statements(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
     let certificate = &calibrated.content.certificate;
     let outside = TemperatureOutside::of(certificate, calibrated.subject, calibrated.laboratory).map(|outside| {
         let TemperatureOutside { here_c, low_c, high_c } = outside;
-        let values: [(&str, &dyn Display); 3] = [("here", &here_c), ("low", &low_c), ("high", &high_c)];
-        let declaration = filled("dcc:declaration", texts::TEMPERATURE_OUTSIDE, &values, languages);
+        let values = values! { here: here_c, low: low_c, high: high_c };
+        let declaration = filled("dcc:declaration", texts::TEMPERATURE_OUTSIDE, values, languages);
         parts::statement(texts::TEMPERATURE_IS_OUTSIDE, None, languages).and(declaration)
     });
     conformity.into_iter().chain([currents]).chain(excluded).chain(outside).chain(missing).collect()

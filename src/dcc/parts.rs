@@ -5,9 +5,8 @@ use super::facts::{Facts, stated};
 use super::words;
 use super::xml::Element;
 use crate::report::Languages;
-use crate::report::page::language::Text;
+use crate::report::page::language::{Text, Values};
 use base64ct::{Base64, Encoding};
-use std::fmt::Display;
 
 const SCHEMA_VERSION: &str = "3.3.0";
 
@@ -33,12 +32,7 @@ pub(super) fn in_words(name: &'static str, text: Text, languages: &Languages) ->
 }
 
 /// Returns an element with a text in every language of the DCC, with values in it.
-pub(super) fn filled(
-    name: &'static str,
-    text: Text,
-    values: &[(&str, &dyn Display)],
-    languages: &Languages,
-) -> Element {
+pub(super) fn filled(name: &'static str, text: Text, values: Values, languages: &Languages) -> Element {
     let content = |language: crate::report::Language| {
         Element::text("dcc:content", text.filled(language, values)).with("lang", language.tag())
     };

@@ -8,7 +8,7 @@ use super::{Administrative, Dcc};
 use crate::document::sha256_hex;
 use crate::passport::Content;
 use crate::report::Languages;
-use crate::report::page::language::Text;
+use crate::report::page::language::{Text, values};
 use crate::report::page::texts::calibration as texts;
 use crate::stand::{CertifiedPosition, Datum};
 use crate::text::Problems;
@@ -38,7 +38,7 @@ pub(crate) fn of_stand(
         "dcc:document",
         [
             in_words("dcc:name", words::PASSPORT, languages),
-            parts::filled("dcc:description", words::PASSPORT_NOTE, &[("id", id), ("sha256", &sha256)], languages),
+            parts::filled("dcc:description", words::PASSPORT_NOTE, values! { id, sha256 }, languages),
         ],
         (&file_name, "application/yaml", bytes),
     );

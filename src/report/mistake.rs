@@ -1,7 +1,7 @@
 //! Sentences about a mistake that explains a result, for the terminal and for pages.
 
 use super::page::Number;
-use super::page::language::{Language, Text};
+use super::page::language::{Language, Text, values};
 use super::page::texts::calibration as texts;
 use crate::calibration::mistake::{CurrentsMistaken, Mistake};
 
@@ -13,11 +13,10 @@ pub(crate) fn words(mistake: &Mistake, language: Language) -> String {
     match mistake {
         Mistake::Currents(mistaken) => {
             let causes = causes(mistaken, language).join(&format!(", {} ", texts::MISTAKE_AND.words(language)));
-            texts::MISTAKE_CURRENTS.filled(language, &[("causes", &causes)])
+            texts::MISTAKE_CURRENTS.filled(language, values! { causes })
         }
         Mistake::OtherPlace { latitude_deg } => {
-            let latitude = Number::fixed(*latitude_deg, 1).text(language);
-            texts::MISTAKE_PLACE.filled(language, &[("latitude", &latitude)])
+            texts::MISTAKE_PLACE.filled(language, values! { latitude: Number::fixed(*latitude_deg, 1) })
         }
         Mistake::GyroTurned { by_deg } => texts::MISTAKE_GYRO_TURNED.filled(language, &[("angle", by_deg)]),
         Mistake::OtherAxis { frame_axis_azimuth_deg } => {
@@ -38,8 +37,8 @@ fn causes(mistaken: &CurrentsMistaken, language: Language) -> Vec<String> {
         (false, true) => add(texts::MISTAKE_Y_REVERSED),
         (false, false) => {}
     }
-    let factor = Number::fixed(libm::pow(10.0, f64::from(mistaken.power_of_ten.abs())), 0).text(language);
-    let too = |text: Text| text.filled(language, &[("factor", &factor)]);
+    let factor = Number::fixed(libm::pow(10.0, f64::from(mistaken.power_of_ten.abs())), 0);
+    let too = |text: Text| text.filled(language, values! { factor });
     match mistaken.power_of_ten {
         0 => {}
         MICROAMPERES => add(texts::MISTAKE_MICROAMPERES),

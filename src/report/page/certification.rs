@@ -9,7 +9,7 @@ mod change;
 mod evidence;
 pub(crate) mod remarks;
 
-use super::language::Languages;
+use super::language::{Languages, values};
 use super::parts::{boxed, contents, data_address, file_name, given, heading, numbered, section, signatures, verbatim};
 use super::passport::{characteristics, general};
 use super::shell::{Margins, document};
@@ -36,9 +36,9 @@ impl CertificationPage<'_> {
     pub(crate) fn html(&self, languages: &Languages) -> String {
         let number = &self.certification.stand.certificate.number;
         let margins = Margins {
-            top_left: texts::MARGIN.filled(languages.first(), &[("number", number)]),
+            top_left: texts::MARGIN.filled(languages.first(), values! { number }),
             top_right: if self.dry_run { languages.plain(texts::DRAFT) } else { String::new() },
-            bottom_left: texts::MARGIN_SHA256.filled(languages.first(), &[("sha256", &self.sha256())]),
+            bottom_left: texts::MARGIN_SHA256.filled(languages.first(), values! { sha256: self.sha256() }),
         };
         let title = format!("{} {number}", languages.plain(texts::TITLE));
         document(languages, &title, &margins, &self.body(languages))
@@ -104,7 +104,7 @@ impl CertificationPage<'_> {
         let (_, bytes) = self.readings;
         let number = &self.certification.stand.certificate.number;
         let text = String::from_utf8_lossy(bytes).replace("\r\n", "\n");
-        let end = languages.label_with(|language| texts::END.filled(language, &[("number", number)]));
+        let end = languages.label_with(|language| texts::END.filled(language, values! { number }));
         let body = html! { (languages.paragraph(texts::ANNEX_NOTE)) (verbatim("", &text, &end)) };
         section(languages, "annex", texts::ANNEX, body)
     }

@@ -46,10 +46,10 @@ impl Text {
     }
 
     /// Returns the text in `language` with every `{name}` replaced by its value.
-    pub(crate) fn filled(&self, language: Language, values: &[(&str, &dyn Display)]) -> String {
+    pub(crate) fn filled(&self, language: Language, values: Values) -> String {
         let piece = |piece: Piece| match piece {
             Piece::Words(words) => Some(words.to_owned()),
-            Piece::Name(name) => values.iter().find(|(key, _)| *key == name).map(|(_, value)| value.to_string()),
+            Piece::Name(name) => values.iter().find(|(key, _)| *key == name).map(|(_, value)| value.said(language)),
         };
         pieces(&self.words(language)).into_iter().filter_map(piece).collect()
     }
@@ -74,6 +74,44 @@ impl Text {
         }
     }
 }
+
+/// A value in a text.
+pub(crate) trait Value {
+    /// Returns the value as `language` writes it.
+    fn said(&self, language: Language) -> String;
+}
+
+/// Names, words from the file and whole numbers are written alike in every language.
+impl<T: Display> Value for T {
+    fn said(&self, _: Language) -> String {
+        self.to_string()
+    }
+}
+
+impl Value for Text {
+    fn said(&self, language: Language) -> String {
+        self.words(language)
+    }
+}
+
+impl Value for Number {
+    fn said(&self, language: Language) -> String {
+        self.text(language)
+    }
+}
+
+/// Names of values in a text, and the values.
+pub(crate) type Values<'a> = &'a [(&'a str, &'a dyn Value)];
+
+/// Names the values of a text: `values! { run, index: at.index }`.
+macro_rules! values {
+    (@ $name:ident) => { &$name };
+    (@ $name:ident $value:expr) => { &$value };
+    ($($name:ident $(: $value:expr)?),*) => {
+        &[$((stringify!($name), values!(@ $name $($value)?) as &dyn $crate::report::page::language::Value)),*]
+    };
+}
+pub(crate) use values;
 
 /// Returns words with a capital first letter, as at the beginning of a row or a sentence.
 pub(crate) fn capital(words: &str) -> String {

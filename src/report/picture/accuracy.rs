@@ -4,7 +4,7 @@ use super::drawing::{Anchor, Panel, Scale, Ticks, label, legend, line, plain_sym
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{COVERAGE_FACTOR, Found, against_type};
 use crate::passport::accuracy::Accuracy;
-use crate::report::page::language::{Language, Languages, Text};
+use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::Number;
 use crate::report::page::texts::{calibration, pictures as texts, units};
 use maud::{Markup, html};
@@ -114,13 +114,12 @@ fn bar(row: &Row, scale: &Scale, y: f64) -> Markup {
 
 fn in_words(language: Language, rows: &[Row]) -> String {
     let each = rows.iter().map(|row| {
-        let (name, u) = (plain_symbol(row.parameter.symbol()), Number::uncertainty(row.u).text(language));
-        let unit = unit(row.parameter).of(language);
-        let (text, share) = match row.share {
-            Some(share) => (texts::ACCURACY_IN_WORDS, Number::whole_or_two_digits(100.0 * share).text(language)),
-            None => (texts::ACCURACY_NO_TOLERANCE_IN_WORDS, String::new()),
-        };
-        text.filled(language, &[("parameter", &name), ("u", &u), ("unit", &unit), ("share", &share)])
+        let (parameter, u, unit) =
+            (plain_symbol(row.parameter.symbol()), Number::uncertainty(row.u), unit(row.parameter));
+        match row.share.map(|share| Number::whole_or_two_digits(100.0 * share)) {
+            Some(share) => texts::ACCURACY_IN_WORDS.filled(language, values! { parameter, u, unit, share }),
+            None => texts::ACCURACY_NO_TOLERANCE_IN_WORDS.filled(language, values! { parameter, u, unit }),
+        }
     });
     each.collect::<Vec<_>>().join("; ") + "."
 }

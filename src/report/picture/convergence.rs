@@ -4,7 +4,7 @@ use super::chart::{Field, Look, sample};
 use super::drawing::{Anchor, Panel, Point, Scale, Ticks, label, legend, line, power};
 use crate::calibration::document::ResultDocument;
 use crate::calibration::iterative::{StepChange, StopRule};
-use crate::report::page::language::{Language, Languages};
+use crate::report::page::language::{Language, Languages, values};
 use crate::report::page::number::Number;
 use crate::report::page::texts::pictures as texts;
 use maud::{Markup, html};
@@ -99,10 +99,10 @@ fn decade(exponent: i32, language: Language) -> String {
 fn in_words(language: Language, changes: &[StepChange], rule: &StopRule) -> String {
     let each = changes.iter().map(|change| {
         let [k, g] = [change.main_scale_factors_percent, change.g_drifts_deg_per_h_per_g]
-            .map(|value| Number::scientific(value, 2).text(language));
-        texts::CONVERGENCE_IN_WORDS.filled(language, &[("step", &change.step), ("k", &k), ("g", &g)])
+            .map(|value| Number::scientific(value, 2));
+        texts::CONVERGENCE_IN_WORDS.filled(language, values! { step: change.step, k, g })
     });
     let list = each.collect::<Vec<_>>().join("; ");
-    let [k, g] = [rule.delta1_percent, rule.delta2_deg_per_h].map(|value| Number::exact(value).text(language));
-    texts::CONVERGENCE_DESCRIPTION.filled(language, &[("list", &list), ("k", &k), ("g", &g)])
+    let [k, g] = [rule.delta1_percent, rule.delta2_deg_per_h].map(Number::exact);
+    texts::CONVERGENCE_DESCRIPTION.filled(language, values! { list, k, g })
 }

@@ -2,7 +2,7 @@
 
 use super::drawing::{Anchor, Panel, Point, arrow, coordinate, legend, line, number, rectangle, round_below, words};
 use crate::passport::content::Content;
-use crate::report::page::language::{Language, Languages, Text};
+use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::{Number, localised};
 use crate::report::page::texts::{pictures as texts, units};
 use crate::units::{ARCSECONDS_PER_DEGREE, sin_cos_of_degrees};
@@ -179,15 +179,13 @@ fn short(value: f64) -> Number {
 
 fn in_words(language: Language, content: &Content) -> String {
     let earth = &content.earth;
-    let radius = Number::fixed(earth.valid_radius_m, 0).text(language);
-    let latitude = short(latitude_deg(content)).text(language);
-    let area = match content.site.longitude_deg.map(|value| short(value).text(language)) {
-        Some(longitude) => texts::PLACE_CIRCLE
-            .filled(language, &[("radius", &radius), ("latitude", &latitude), ("longitude", &longitude)]),
-        None => texts::PLACE_BAND.filled(language, &[("radius", &radius), ("latitude", &latitude)]),
+    let (radius, latitude) = (Number::fixed(earth.valid_radius_m, 0), short(latitude_deg(content)));
+    let area = match content.site.longitude_deg.map(short) {
+        Some(longitude) => texts::PLACE_CIRCLE.filled(language, values! { radius, latitude, longitude }),
+        None => texts::PLACE_BAND.filled(language, values! { radius, latitude }),
     };
-    let mark = match earth.azimuth_deg.map(|value| azimuth(content, value).text(language)) {
-        Some(azimuth) => texts::PLACE_MARK_IN_WORDS.filled(language, &[("azimuth", &azimuth)]),
+    let mark = match earth.azimuth_deg.map(|value| azimuth(content, value)) {
+        Some(azimuth) => texts::PLACE_MARK_IN_WORDS.filled(language, values! { azimuth }),
         None => texts::PLACE_NO_MARK_IN_WORDS.of(language).to_owned(),
     };
     area + " " + &mark

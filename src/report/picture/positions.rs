@@ -8,14 +8,13 @@
 use super::drawing::{Anchor, Panel, Point, arrow, label, legend, line, panels, polygon, words};
 use super::label::Area;
 use crate::attitude::{self, Deviation};
-use crate::report::page::language::{Language, Languages, Text};
+use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::Number;
 use crate::report::page::texts::{pictures as texts, words as compass};
 use crate::stand::CertifiedPosition;
 use crate::units::{degrees_from_radians, sin_cos_of_degrees};
 use maud::{Markup, html};
 use nalgebra::{Matrix3, Vector3};
-use std::fmt::Display;
 
 /// Pixels that a panel needs for readable letters.
 const PANEL_PIXELS: u32 = 155;
@@ -66,7 +65,7 @@ fn key(languages: &Languages, factor: f64) -> Markup {
         @if factor > 1.0 {
             p.legend {
                 (languages.label_with(|language| {
-                    texts::EXAGGERATED.filled(language, &[("factor", &Number::exact(factor).text(language))])
+                    texts::EXAGGERATED.filled(language, values! { factor: Number::exact(factor) })
                 }))
             }
         }
@@ -169,7 +168,7 @@ fn position(languages: &Languages, at: &CertifiedPosition, base_axes: &Matrix3<f
         axes(&view, &designed, &real),
     ];
     panel.svg(
-        |language| texts::POSITION_TITLE.filled(language, &[("index", &position.index)]),
+        |language| texts::POSITION_TITLE.filled(language, values! { index: position.index }),
         |language| in_words(language, at, &true_axes),
         &drawing,
     )
@@ -286,26 +285,13 @@ pub(super) fn rows(matrix: &Matrix3<f64>) -> [Vector3<f64>; 3] {
 
 /// Describes the direction of every axis: the nearest of east, west, north, south, up, down, and the angle from it.
 fn in_words(language: Language, at: &CertifiedPosition, real: &Matrix3<f64>) -> String {
-    let [theta, phi] = [at.theta_deg, at.phi_deg].map(|value| Number::exact(value).text(language));
-    let [(x, x_angle), (y, y_angle), (z, z_angle)] = rows(real).map(|axis| {
-        let (whither, angle_deg) = nearest(&axis);
-        (whither.of(language), Number::significant(angle_deg, 2).text(language))
-    });
-    let values: [(&str, &dyn Display); 8] = [
-        ("theta", &theta),
-        ("phi", &phi),
-        ("x", &x),
-        ("y", &y),
-        ("z", &z),
-        ("x_angle", &x_angle),
-        ("y_angle", &y_angle),
-        ("z_angle", &z_angle),
-    ];
-    texts::POSITION_DESCRIPTION.filled(language, &values)
+    let [theta, phi] = [at.theta_deg, at.phi_deg].map(Number::exact);
+    let [(x, x_angle), (y, y_angle), (z, z_angle)] = rows(real).map(|axis| nearest(&axis));
+    texts::POSITION_DESCRIPTION.filled(language, values! { theta, phi, x, y, z, x_angle, y_angle, z_angle })
 }
 
 /// Returns the nearest of six directions, and the angle from it in degrees.
-fn nearest(axis: &Vector3<f64>) -> (Text, f64) {
+fn nearest(axis: &Vector3<f64>) -> (Text, Number) {
     let names = [(compass::EAST, compass::WEST), (compass::NORTH, compass::SOUTH), (compass::UP, texts::DOWNWARDS)];
     let largest = axis.iamax();
     let (positive, negative) = names[largest];
@@ -313,5 +299,6 @@ fn nearest(axis: &Vector3<f64>) -> (Text, f64) {
     let mut rest = *axis;
     rest[largest] = 0.0;
     // From sine and cosine, because an arc cosine is inaccurate for small angles.
-    (name, degrees_from_radians(libm::atan2(rest.norm(), axis[largest].abs())))
+    let angle_deg = degrees_from_radians(libm::atan2(rest.norm(), axis[largest].abs()));
+    (name, Number::significant(angle_deg, 2))
 }

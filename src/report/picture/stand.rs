@@ -5,7 +5,7 @@ use super::drawing::{Anchor, Panel, Point, arrow, label, line, list, symbols, wo
 use super::label::width;
 use super::positions::{AXIS, AXIS_HEIGHT, GYRO, GYRO_HEIGHT, View, plate, rows, stand as parts};
 use crate::attitude;
-use crate::report::page::language::Languages;
+use crate::report::page::language::{Languages, values};
 use crate::report::page::number::Number;
 use crate::report::page::texts::{pictures as texts, words as compass};
 use maud::{Markup, html};
@@ -42,7 +42,7 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
     let axis = |direction: &Vector3<f64>, from: f64| {
         arrow(view.point(&(direction * from)), view.point(&(direction * AXIS)), "axis")
     };
-    let azimuth = |language| Number::exact(frame_axis_azimuth_deg).text(language);
+    let azimuth = Number::exact(frame_axis_azimuth_deg);
     let named = [
         (texts::PART_FRAME, across * 0.8 + xi * 0.4),
         (texts::PART_PLATFORM, x * -0.12 - y * 0.5),
@@ -52,7 +52,7 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
         (texts::PART_AXIS, xi * 1.5),
     ];
     let named = named.map(|(text, at)| {
-        let name = |language| text.filled(language, &[("azimuth", &azimuth(language))]);
+        let name = |language| text.filled(language, values! { azimuth });
         (languages.iter().map(name).collect(), view.point(&at))
     });
     let drawing = [
@@ -73,7 +73,7 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
         leaders(&named),
     ];
     let panel = Panel { name: "stand", languages, size: SIZE };
-    let description = |language| texts::STAND_DESCRIPTION.filled(language, &[("azimuth", &azimuth(language))]);
+    let description = |language| texts::STAND_DESCRIPTION.filled(language, values! { azimuth });
     panel.alone(PANEL_PIXELS, texts::STAND_TITLE, description, &drawing, &html! {})
 }
 

@@ -9,7 +9,7 @@ use super::label as labels;
 use crate::attitude;
 use crate::coefficients::PositionIndex;
 use crate::passport::content::Content;
-use crate::report::page::language::{Language, Languages, Text};
+use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::Number;
 use crate::report::page::texts::{pictures as texts, units};
 use maud::{Markup, html};
@@ -204,7 +204,7 @@ fn differences_of(
     let axis = labels::Area { low: [left, top], high: [left + 18.0, top + 18.0] };
     let field = labels::Area { low: [left, top], high: [right, bottom] };
     let title = |language: Language| match pairs.first().filter(|_| part.is_some()) {
-        Some(pair) => subject.of_frame.filled(language, &[("i", &pair.index.i)]),
+        Some(pair) => subject.of_frame.filled(language, values! { i: pair.index.i }),
         None => subject.title.words(language),
     };
     let (title_lines, more) = heading_with(languages, [2.0, 13.0], title);
@@ -236,9 +236,9 @@ fn along(from: Point, to: Point) -> Vec<Point> {
 
 fn in_words(language: Language, unit: Text, pairs: &[Pair]) -> String {
     let each = pairs.iter().map(|pair| {
-        let [x, y] = pair.difference().map(|value| Number::significant(value, 5).text(language));
-        texts::VECTOR_IN_WORDS.filled(language, &[("index", &pair.index), ("x", &x), ("y", &y)])
+        let [x, y] = pair.difference().map(|value| Number::significant(value, 5));
+        texts::VECTOR_IN_WORDS.filled(language, values! { index: pair.index, x, y })
     });
     let list = each.collect::<Vec<_>>().join("; ");
-    texts::VECTORS_DESCRIPTION.filled(language, &[("unit", &unit.of(language)), ("list", &list)])
+    texts::VECTORS_DESCRIPTION.filled(language, values! { unit, list })
 }

@@ -1,7 +1,7 @@
 //! Signature lines of the calibration report, and its annex: the result as JSON.
 
 use super::CalibrationPage;
-use crate::report::page::language::Languages;
+use crate::report::page::language::{Languages, values};
 use crate::report::page::parts::{section, signatures, verbatim};
 use crate::report::page::texts::calibration as texts;
 use maud::{Markup, html};
@@ -34,7 +34,7 @@ pub(super) fn json(page: &CalibrationPage) -> String {
 }
 
 fn annex(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let end = languages.label_with(|language| texts::END.filled(language, &[("name", &page.name(language))]));
+    let end = languages.label_with(|language| texts::END.filled(language, values! { name: page.name(language) }));
     let body = html! { (languages.paragraph(texts::ANNEX_NOTE)) (verbatim("en", &json(page), &end)) };
     section(languages, "annex", texts::ANNEX, body)
 }

@@ -7,7 +7,7 @@ use crate::calibration::document::CalibrationDocument;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::gyro::GyroType;
-use crate::report::page::language::{Language, Languages, Text};
+use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::{Cell, Number, column};
 use crate::report::page::parts::{Column, Table, date_text, heading, quantity, symbol_and_unit};
 use crate::report::page::symbols::italic;
@@ -30,7 +30,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
         @if let Some(change) = &page.document.change {
             (heading(languages, texts::CHANGE))
             @if let Some(day) = page.previous.last().and_then(CalibrationDocument::date) {
-                (languages.paragraph_with(|language| italic(&texts::PREVIOUS_DAY.filled(language, &[("day", &date_text(language, day))]))))
+                (languages.paragraph_with(|language| italic(&texts::PREVIOUS_DAY.filled(language, values! { day: date_text(language, day) }))))
             }
             (table(page, languages, change, texts::CHANGE_CAPTION, [texts::EARLIER, texts::CHANGED_BY], false))
         }
@@ -40,7 +40,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
 
 fn compared(page: &CalibrationPage, gyro: &GyroType, verdict: &Verdict, languages: &Languages) -> Markup {
     html! {
-        h3 { (languages.label_with(|language| texts::CONFORMITY.filled(language, &[("type", &gyro.r#type)]))) }
+        h3 { (languages.label_with(|language| texts::CONFORMITY.filled(language, values! { type: gyro.r#type }))) }
         (table(page, languages, verdict, texts::VERDICT_CAPTION, [texts::NOMINAL, texts::DEVIATION], true))
         (key(languages))
         @if page.fits() { (languages.paragraph(texts::RISK_NOTE)) }
@@ -153,7 +153,7 @@ fn table(
 
 /// Writes the caption of a table whose drifts refer to this g.
 pub(super) fn with_gravity(languages: &Languages, caption: Text, gravity_m_per_s2: &Number) -> Markup {
-    languages.label_with(|language| caption.filled(language, &[("g", &gravity_m_per_s2.text(language))]))
+    languages.label_with(|language| caption.filled(language, values! { g: *gravity_m_per_s2 }))
 }
 
 /// Writes the expanded uncertainty that the local g adds to the drifts converted to the type's g, where it is most of it.
@@ -211,7 +211,7 @@ pub(super) fn probability(languages: &Languages, p: f64) -> Markup {
 fn probability_cell(languages: &Languages, p: f64) -> Cell {
     if p < LEAST_RISK {
         let limit = Number::scientific(LEAST_RISK, 1).text(languages.first());
-        Cell::Words(languages.inline_with(|language| texts::BELOW.filled(language, &[("limit", &limit)])))
+        Cell::Words(languages.inline_with(|language| texts::BELOW.filled(language, values! { limit })))
     } else if p < 0.1 {
         Cell::Number(Number::scientific(p, 2))
     } else {

@@ -8,7 +8,7 @@ use crate::calibration::document::{ResidualDocument, ResultDocument};
 use crate::calibration::noise::NoiseSource;
 use crate::calibration::scatter::{Agreement, Scatter};
 use crate::calibration::stated::NotStated;
-use crate::report::page::language::{Language, Languages, Text};
+use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{Column, Table, field, fields, heading, quantity, starts, symbol, symbol_and_unit};
 use crate::report::page::symbols::italic;
@@ -93,7 +93,7 @@ fn scatter(page: &CalibrationPage, languages: &Languages) -> Markup {
         }
         (noise(calibration, languages))
         @if calibration.drift_test.is_some_and(|test| test.is_significant()) {
-            (languages.paragraph_with(|language| italic(&texts::DRIFTS.filled(language, &[("option", &"--drift")]))))
+            (languages.paragraph_with(|language| italic(&texts::DRIFTS.filled(language, values! { option: "--drift" }))))
         }
         @if calibration.drift_or_noise { (languages.paragraph(texts::DRIFT_OR_NOISE)) }
     }
@@ -107,9 +107,8 @@ fn noise(calibration: &Calibration, languages: &Languages) -> Markup {
         let value = html! {
             (quantity(languages, &Number::scientific(noise.deg_per_h, 2), units::DEG_PER_H)) " ("
             (languages.label_with(|language| {
-                let known = Number::fixed(noise.degrees_of_freedom, 0).text(language);
                 let text = if estimated { texts::NOISE_ESTIMATED } else { texts::NOISE_STATED };
-                text.filled(language, &[("known", &known)])
+                text.filled(language, values! { known: Number::fixed(noise.degrees_of_freedom, 0) })
             }))
             ")"
         };
@@ -158,8 +157,7 @@ fn what_may_be_wrong(hint: &Hint, languages: &Languages) -> Markup {
         (heading(languages, texts::HINT))
         @if hint.explanations.is_empty() {
             (languages.paragraph_with(|language| {
-                let size = Number::significant(hint.size_arcsec, 2).text(language);
-                italic(&texts::HINT_NOTHING.filled(language, &[("size", &size)]))
+                italic(&texts::HINT_NOTHING.filled(language, values! { size: Number::significant(hint.size_arcsec, 2) }))
             }))
         }
         @for explanation in &hint.explanations {
@@ -170,13 +168,11 @@ fn what_may_be_wrong(hint: &Hint, languages: &Languages) -> Markup {
 
 fn explained(explanation: &Explanation, language: Language) -> String {
     match explanation {
-        Explanation::Exchanged(one, other) => texts::HINT_EXCHANGED.filled(language, &[("one", one), ("other", other)]),
+        Explanation::Exchanged(one, other) => texts::HINT_EXCHANGED.filled(language, values! { one, other }),
         Explanation::DidNotRepeat { index, angle_arcsec, current_ua } => {
-            let angle = Number::significant(*angle_arcsec, 2).text(language);
-            let place = Number::place_of(current_ua.amax());
-            let [jx, jy] = [current_ua.x, current_ua.y].map(|error| Number::to_place(error, place).text(language));
-            texts::HINT_DID_NOT_REPEAT
-                .filled(language, &[("index", index), ("angle", &angle), ("jx", &jx), ("jy", &jy)])
+            let (angle, place) = (Number::significant(*angle_arcsec, 2), Number::place_of(current_ua.amax()));
+            let [jx, jy] = [current_ua.x, current_ua.y].map(|error| Number::to_place(error, place));
+            texts::HINT_DID_NOT_REPEAT.filled(language, values! { index, angle, jx, jy })
         }
     }
 }

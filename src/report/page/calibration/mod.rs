@@ -20,7 +20,7 @@ mod uncertainty;
 
 pub(crate) use fit::not_stated;
 
-use super::language::{Language, Languages, Text};
+use super::language::{Language, Languages, Text, values};
 use super::parts::{Section, boxed, contents, data_address, numbered};
 use super::passport::PassportPage;
 use super::shell::{Margins, document};
@@ -101,13 +101,13 @@ impl CalibrationPage<'_> {
     pub fn html(&self, languages: &Languages) -> String {
         let name = self.name(languages.first());
         let margins = Margins {
-            top_left: texts::MARGIN.filled(languages.first(), &[("name", &name)]),
+            top_left: texts::MARGIN.filled(languages.first(), values! { name }),
             top_right: match (self.verified(), self.fits()) {
                 (false, _) => languages.plain(texts::NOT_VERIFIED),
                 (true, false) => languages.plain(texts::DOES_NOT_FIT),
                 (true, true) => String::new(),
             },
-            bottom_left: texts::MARGIN_SHA256.filled(languages.first(), &[("sha256", &self.currents.1)]),
+            bottom_left: texts::MARGIN_SHA256.filled(languages.first(), values! { sha256: self.currents.1 }),
         };
         let title = format!("{} {name}", languages.plain(texts::TITLE));
         document(languages, &title, &margins, &self.body(languages))
@@ -164,7 +164,7 @@ impl CalibrationPage<'_> {
         match (self.gyro, self.serial()) {
             (_, Some(_)) => self.gyro_name(language),
             (Some(gyro), None) => format!("{}, {id}", gyro.r#type),
-            (None, None) => texts::WITH_PASSPORT.filled(language, &[("id", id)]),
+            (None, None) => texts::WITH_PASSPORT.filled(language, values! { id }),
         }
     }
 
@@ -219,7 +219,7 @@ impl CalibrationPage<'_> {
             return boxed("verdict neutral", languages.label(texts::NO_TYPE), words);
         };
         if !self.fits() {
-            let name = |language: Language| texts::NO_STATEMENT.filled(language, &[("type", &gyro.r#type)]);
+            let name = |language: Language| texts::NO_STATEMENT.filled(language, values! { type: gyro.r#type });
             return boxed("verdict neutral", languages.label_with(name), html! {});
         }
         let (class, text) = match verdict.overall {
@@ -227,7 +227,7 @@ impl CalibrationPage<'_> {
             Decision::Undecided => ("verdict neutral", texts::UNDECIDED),
             Decision::Fail => ("verdict refused", texts::CONFORMS_NOT),
         };
-        let name = |language: Language| text.filled(language, &[("type", &gyro.r#type)]);
+        let name = |language: Language| text.filled(language, values! { type: gyro.r#type });
         let words = html! {
             (conformity::counted(verdict, None, languages))
             @if let Some(change) = &self.document.change {

@@ -5,7 +5,7 @@ use super::{CalibrationPage, method};
 use crate::calibration::document::ResultDocument;
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::parameter::Parameter;
-use crate::report::page::language::{Languages, Text};
+use crate::report::page::language::{Languages, Text, values};
 use crate::report::page::number::{Cell, Number, column};
 use crate::report::page::parts::{Column, Table, field, fields, figure, heading, quantity, symbol, symbol_and_unit};
 use crate::report::page::passport::numbers::parameters;
@@ -25,8 +25,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
         @for result in results { (iteration(result, languages)) }
         @for (refused, _) in &page.calibration.refused {
             (languages.paragraph_with(|language| {
-                let name = method(refused.key()).words(language);
-                html! { (texts::NO_RESULT.filled(language, &[("method", &name)])) }
+                html! { (texts::NO_RESULT.filled(language, values! { method: method(refused.key()) })) }
             }))
         }
     }
@@ -43,9 +42,10 @@ fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
             Parameter::AS_IN_THE_PAPER.map(|parameter| Cell::from(Some(parameter).filter(found).map(number)))
         };
         let adopted = page.adopted().is_some_and(|adopted| adopted.method == result.method);
-        let name = languages.label_with(|language| match (adopted, method(&result.method).words(language)) {
-            (true, name) => texts::ADOPTED.filled(language, &[("method", &name)]),
-            (false, name) => name,
+        let method = method(&result.method);
+        let name = languages.label_with(|language| match adopted {
+            true => texts::ADOPTED.filled(language, values! { method }),
+            false => method.words(language),
         });
         let found = cells(&|parameter| Number::measured(values[parameter.place()], u[parameter.place()]));
         let uncertainty = cells(&|parameter| Number::uncertainty(u[parameter.place()]));
@@ -107,8 +107,8 @@ fn general(result: &ResultDocument, languages: &Languages) -> Markup {
         @if let Some(test) = &result.model_test {
             (languages.paragraph_with(|language| {
                 let [further, rest] = &test.degrees_of_freedom;
-                let (f, p) = (Number::significant(test.f, 3).text(language), Number::significant(test.probability, 2).text(language));
-                italic(&texts::MODEL_TEST.filled(language, &[("f", &f), ("further", further), ("rest", rest), ("p", &p)]))
+                let (f, p) = (Number::significant(test.f, 3), Number::significant(test.probability, 2));
+                italic(&texts::MODEL_TEST.filled(language, values! { f, further, rest, p }))
             }))
         }
     }
@@ -161,9 +161,8 @@ fn iteration(result: &ResultDocument, languages: &Languages) -> Markup {
     let whole = |steps: u32| html! { data value=(steps) { (steps) } };
     let predicted = match result.iterations_predicted {
         Some(steps) => whole(steps),
-        None => {
-            languages.inline_with(|language| texts::STEPS_OVER.filled(language, &[("most", &LARGEST_NUMBER_OF_STEPS)]))
-        }
+        None => languages
+            .inline_with(|language| texts::STEPS_OVER.filled(language, values! { most: LARGEST_NUMBER_OF_STEPS })),
     };
     let steps = fields([
         field(languages, texts::SPECTRAL_RADIUS, Some(Number::scientific(radius, 2).markup(languages))),

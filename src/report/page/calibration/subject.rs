@@ -4,7 +4,7 @@ use super::{CalibrationPage, UsedPassport};
 use crate::calibration::readings::Exclusion;
 use crate::calibration::stated::TemperatureOutside;
 use crate::laboratory::Laboratory;
-use crate::report::page::language::Languages;
+use crate::report::page::language::{Languages, values};
 use crate::report::page::number::Number;
 use crate::report::page::parts::{
     self, blank, boxed, date, date_text, field, fields, file_name, given, heading, quantity, time, wide_field,
@@ -141,7 +141,7 @@ pub(super) fn date_of_readings(page: &CalibrationPage, languages: &Languages) ->
     };
     let words = languages.paragraph_with(|language| {
         let [date, performed] = days.map(|day| date_text(language, day));
-        html! { (texts::READINGS_OLDER.filled(language, &[("date", &date), ("performed", &performed)])) }
+        html! { (texts::READINGS_OLDER.filled(language, values! { date, performed })) }
     });
     boxed("verdict neutral", languages.label(texts::READINGS_ARE_OLDER), words)
 }

@@ -5,7 +5,7 @@ use super::parameters::name_of;
 use crate::calibration::causes::Cause;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::ParameterVerdict;
-use crate::report::page::language::{Language, Languages, Text, capital};
+use crate::report::page::language::{Language, Languages, Text, capital, values};
 use crate::report::page::number::{Cell, Number, column};
 use crate::report::page::parts::{Column, Table, symbol, symbol_and_unit};
 use crate::report::page::passport::numbers::parameters;
@@ -60,18 +60,18 @@ fn sentences(remedy: &Dominant, worst: Text, languages: &Languages) -> Markup {
         format!("{}{BLANK}{}", Number::scientific(u, 2).text(language), unit.of(language))
     };
     languages.paragraph_with(|language| {
-        let percent = Number::fixed(100.0 * first.share, 0).text(language);
+        let percent = Number::fixed(100.0 * first.share, 0);
         let effect = match remedy.effect {
             Effect::HalvesAt(limit) => {
-                texts::BUDGET_HALVES.filled(language, &[("limit", &of_input(first.cause, limit, language))])
+                texts::BUDGET_HALVES.filled(language, values! { limit: of_input(first.cause, limit, language) })
             }
-            Effect::Leaves(rest) => texts::BUDGET_LEAVES.filled(language, &[("rest", &amount(rest, language))]),
+            Effect::Leaves(rest) => texts::BUDGET_LEAVES.filled(language, values! { rest: amount(rest, language) }),
         };
         let u = html! { (amount(line.standard_uncertainty, language)) };
         let known = [("parameter", name_of(line.parameter.symbol())), ("u", u)];
         html! {
             (worst.marked_up(language, &known)) " "
-            (italic(&share.filled(language, &[("share", &percent), ("source", &cause(first.cause, language))]))) " "
+            (italic(&share.filled(language, values! { share: percent, source: cause(first.cause, language) }))) " "
             (italic(&effect))
         }
     })
@@ -151,7 +151,7 @@ fn budget_table(budget: &Budget, languages: &Languages) -> Markup {
         @if !small.is_empty() {
             (languages.paragraph_with(|language| {
                 let names: Vec<String> = small.iter().map(|kind| cause(kind.cause, language)).collect();
-                italic(&texts::BUDGET_NOT_SHOWN.filled(language, &[("names", &names.join(", "))]))
+                italic(&texts::BUDGET_NOT_SHOWN.filled(language, values! { names: names.join(", ") }))
             }))
         }
     }
@@ -180,7 +180,7 @@ fn input(part: &Contribution, languages: &Languages) -> Markup {
         if language != languages.first() {
             return name;
         }
-        texts::INPUT.filled(language, &[("input", &name), ("u", &of_input(part.cause, u, language))])
+        texts::INPUT.filled(language, values! { input: name, u: of_input(part.cause, u, language) })
     })
 }
 
@@ -198,7 +198,7 @@ fn of_input(cause: Cause, u: f64, language: Language) -> String {
 }
 
 fn cause(cause: Cause, language: Language) -> String {
-    let about = |text: Text, axis: &str| text.filled(language, &[("axis", &axis)]);
+    let about = |text: Text, axis: &str| text.filled(language, values! { axis });
     let case = |axis: usize| ["x", "y", "z"].get(axis).copied().unwrap_or_default();
     // No letters of the base axes, because the frame's axis ξ may point to any azimuth.
     let base = |axis: usize| {
@@ -251,8 +251,8 @@ pub(super) fn monte_carlo(found: &MonteCarlo, languages: &Languages) -> Markup {
         rows.push((languages.label(texts::FIRST_ORDER), valid));
     }
     let caption = Some(languages.label_with(|language| {
-        let trials = Number::fixed(found.trials as f64, 0).text(language);
-        texts::MONTE_CARLO_CAPTION.filled(language, &[("trials", &trials), ("seed", &found.seed)])
+        let trials = Number::fixed(found.trials as f64, 0);
+        texts::MONTE_CARLO_CAPTION.filled(language, values! { trials, seed: found.seed })
     }));
     let table = Table { caption, ..parameters(languages, rows) };
     html! {

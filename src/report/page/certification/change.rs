@@ -5,7 +5,7 @@ use crate::certification::compared::Test;
 use crate::certification::comparison::Comparison;
 use crate::certification::suspects::AXES;
 use crate::passport::difference::NumberDifference;
-use crate::report::page::language::{Languages, Text};
+use crate::report::page::language::{Languages, Text, values};
 use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{Column, Table, boxed, field, fields, heading, starts, symbol, symbol_and_unit};
 use crate::report::page::texts::{certification as texts, checks, pictures, units};
@@ -16,8 +16,7 @@ use maud::{Markup, html};
 pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup {
     let Some((comparison, _)) = &page.change else {
         let (positions, runs) = (page.certification.stand.positions.len(), page.certification.runs.len());
-        let headline = languages
-            .label_with(|language| texts::CERTIFIED.filled(language, &[("positions", &positions), ("runs", &runs)]));
+        let headline = languages.label_with(|language| texts::CERTIFIED.filled(language, values! { positions, runs }));
         return boxed("verdict neutral", headline, languages.paragraph(texts::NOT_COMPARED));
     };
     let (class, verdict) = match comparison.same_stand {
@@ -25,7 +24,8 @@ pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup
         false if comparison.is_undecided() => ("verdict refused", texts::UNDECIDED),
         false => ("verdict refused", texts::CHANGED),
     };
-    let headline = languages.label_with(|language| verdict.filled(language, &[("number", &comparison.certificate)]));
+    let headline =
+        languages.label_with(|language| verdict.filled(language, values! { number: comparison.certificate }));
     let reasons = html! {
         @if !comparison.findings.is_empty() {
             ul {
@@ -46,7 +46,7 @@ pub(super) fn section(page: &CertificationPage, languages: &Languages) -> Markup
 }
 
 fn compared(comparison: &Comparison, changes: &[NumberDifference], languages: &Languages) -> Markup {
-    let caption = |language| texts::CHANGE_CAPTION.filled(language, &[("number", &comparison.certificate)]);
+    let caption = |language| texts::CHANGE_CAPTION.filled(language, values! { number: comparison.certificate });
     let common = comparison.common.test.as_ref();
     html! {
         (heading(languages, texts::ROTATIONS))

@@ -4,7 +4,7 @@ use super::{CertificationPage, remarks};
 use crate::certification::components::{Common, Variance};
 use crate::certification::rotated_runs::Pattern;
 use crate::certification::suspects::AXES;
-use crate::report::page::language::{Languages, Text};
+use crate::report::page::language::{Languages, Text, values};
 use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{
     Column, Table, field, fields, file_name, given, heading, symbol, symbol_and_unit, wide_field,
@@ -124,12 +124,12 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
     found.extend(suspects.positions.iter().map(|test| bartlett(texts::BARTLETT_POSITIONS, test)));
     found.extend(suspects.axes.iter().map(|test| bartlett(texts::BARTLETT_AXES, test)));
     found.extend(suspects.worse.iter().map(|at| {
-        let name = languages.label_with(|language| texts::COCHRAN.filled(language, &[("index", &at.index)]));
+        let name = languages.label_with(|language| texts::COCHRAN.filled(language, values! { index: at.index }));
         (name, Some(Number::fixed(at.ratio, 2)), None, Some(at.probability))
     }));
     found.extend(suspects.outliers.iter().map(|out| {
         let name = languages.label_with(|language| {
-            texts::GRUBBS.filled(language, &[("index", &out.index), ("run", &out.run), ("axis", &AXES[out.axis])])
+            texts::GRUBBS.filled(language, values! { index: out.index, run: out.run, axis: AXES[out.axis] })
         });
         (name, Some(Number::fixed(out.residual_arcsec, 2)), None, Some(out.probability))
     }));
@@ -142,14 +142,13 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
             (Pattern::Drift, true) => (texts::DRIFT_BASE, 0),
             (Pattern::Drift, false) => (texts::DRIFT_PLATFORM, 0),
         };
-        let name = languages.label_with(|language| {
-            of.filled(language, &[("run", &run), ("axis", &remarks::axis_name(at.axis, language))])
-        });
+        let name =
+            languages.label_with(|language| of.filled(language, values! { run, axis: remarks::axis_name(at.axis) }));
         (name, Some(Number::fixed(at.turn_arcsec(), 2)), None, Some(at.probability))
     }));
     if suspects.outliers.is_empty() && suspects.split.is_none() {
         let count = page.certification.runs.len() * page.certification.components.keeps.nrows();
-        let name = languages.label_with(|language| texts::NO_OUTLIER.filled(language, &[("count", &count)]));
+        let name = languages.label_with(|language| texts::NO_OUTLIER.filled(language, values! { count }));
         found.push((name, None, None, None));
     }
     let statistic = column(languages, found.iter().map(|(_, value, ..)| value.clone()));

@@ -1,7 +1,7 @@
 //! Characteristics: the certified deviations with their uncertainties, the datum surfaces, the site.
 
 use super::PassportPage;
-use crate::report::page::language::{Language, Languages};
+use crate::report::page::language::{Language, Languages, values};
 use crate::report::page::number::{LARGEST_IN_ARCSEC, Number, column};
 use crate::report::page::parts::{
     Column, Table, fields, figure, given, heading, not_stated, quantity, starts, stated, symbol, symbol_and_unit,
@@ -83,8 +83,8 @@ pub(crate) fn positions(positions: &[CertifiedPosition], languages: &Languages) 
 fn exclusion(excluded: &Excluded, languages: &Languages) -> Markup {
     let run = &excluded.run;
     let words = |language: Language| match excluded.index() {
-        Some(index) => texts::EXCLUDED_READING.filled(language, &[("index", &index), ("run", run)]),
-        None => texts::EXCLUDED_RUN.filled(language, &[("run", run)]),
+        Some(index) => texts::EXCLUDED_READING.filled(language, values! { index, run }),
+        None => texts::EXCLUDED_RUN.filled(language, values! { run }),
     };
     html! { (languages.inline_with(words)) ": " (given(&excluded.why)) }
 }

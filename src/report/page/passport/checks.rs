@@ -4,7 +4,7 @@
 use super::PassportPage;
 use crate::passport::place::Nearness;
 use crate::passport::{Check, CheckName, Code, Dated};
-use crate::report::page::language::{Language, Languages, Text};
+use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::Number;
 use crate::report::page::parts::{Table, boxed, date_text, time_text};
 use crate::report::page::spacing::BLANK;
@@ -55,7 +55,7 @@ pub(crate) fn line(page: &PassportPage, languages: &Languages) -> Markup {
         let [passed, not_asked, failed] = [Some(true), None, Some(false)].map(count);
         let text = if failed == 0 { texts::COUNTED } else { texts::COUNTED_FAILED };
         let time = time_text(language, page.question.time);
-        text.filled(language, &[("time", &time), ("passed", &passed), ("not_asked", &not_asked), ("failed", &failed)])
+        text.filled(language, values! { time, passed, not_asked, failed })
     };
     html! {
         (languages.paragraph_with(|language| html! { (counted(language)) }))
@@ -76,7 +76,7 @@ pub(crate) fn refusal(page: &PassportPage, languages: &Languages) -> Markup {
     if page.verification.valid() {
         return html! {};
     }
-    let time = |language| texts::GENUINE.filled(language, &[("time", &time_text(language, page.question.time))]);
+    let time = |language| texts::GENUINE.filled(language, values! { time: time_text(language, page.question.time) });
     let why = html! {
         p { (languages.label_with(time)) }
         ul { @for check in failed(page) { li { (languages.label_with(|language| words(page, check, language))) } } }
@@ -111,8 +111,9 @@ fn reason(code: Code) -> Text {
 
 /// Writes every check with its result; those that were not asked have one row.
 pub(crate) fn table(page: &PassportPage, languages: &Languages) -> Markup {
-    let caption = languages
-        .label_with(|language| texts::CAPTION.filled(language, &[("time", &time_text(language, page.question.time))]));
+    let caption = languages.label_with(|language| {
+        texts::CAPTION.filled(language, values! { time: time_text(language, page.question.time) })
+    });
     let (not_asked, asked): (Vec<_>, Vec<_>) =
         CheckName::ALL.into_iter().partition(|check| passed(page, *check).is_none());
     let found = |check| page.verification.checks().iter().find(|one| one.name == check);
@@ -177,12 +178,12 @@ fn words(page: &PassportPage, check: &Check, language: Language) -> String {
     match check.name {
         CheckName::Grammar => plain(texts::GRAMMAR_OK),
         CheckName::Signature => plain(texts::SIGNATURE_OK),
-        CheckName::Schema => texts::SCHEMA_OK.filled(language, &[("format", &content.format)]),
-        CheckName::Signer => texts::SIGNER_OK.filled(language, &[("issuer", &issuer)]),
+        CheckName::Schema => texts::SCHEMA_OK.filled(language, values! { format: content.format }),
+        CheckName::Signer => texts::SIGNER_OK.filled(language, values! { issuer }),
         CheckName::Recomputed => plain(texts::RECOMPUTED_OK),
         CheckName::Revocation => revocation(page, language),
         CheckName::InForce => validity(page, check.code, language),
-        CheckName::Issuer => texts::ISSUER_OK.filled(language, &[("issuer", &issuer)]),
+        CheckName::Issuer => texts::ISSUER_OK.filled(language, values! { issuer }),
         CheckName::Stand => stand(page, check.code, language),
         CheckName::Place => place(page, language),
         CheckName::Register if check.code == Code::Ok => plain(texts::REGISTER_OK),
@@ -195,12 +196,12 @@ fn revocation(page: &PassportPage, language: Language) -> String {
     let withdrawn = &page.trust.withdrawn;
     if let Some(entry) = withdrawn.entry(&page.sha256) {
         let time = time_text(language, entry.revoked_at);
-        return texts::REVOCATION_WITHDRAWN.filled(language, &[("time", &time), ("reason", &entry.reason)]);
+        return texts::REVOCATION_WITHDRAWN.filled(language, values! { time, reason: entry.reason });
     }
     match withdrawn.newest() {
         Some(list) => {
             let time = time_text(language, list.issued_at);
-            texts::REVOCATION_LIST.filled(language, &[("sequence", &list.sequence), ("time", &time)])
+            texts::REVOCATION_LIST.filled(language, values! { sequence: list.sequence, time })
         }
         None => texts::REVOCATION_KEYS_ONLY.words(language),
     }
@@ -212,20 +213,20 @@ fn validity(page: &PassportPage, code: Code, language: Language) -> String {
     let text = match (code, last) {
         (Code::NotYetValid, _) => {
             let time = time_text(language, page.content.passport.issued_at);
-            return texts::VALIDITY_NOT_YET.filled(language, &[("time", &time)]);
+            return texts::VALIDITY_NOT_YET.filled(language, values! { time });
         }
         (Code::Ok, None) => texts::VALIDITY_NO_END,
         (Code::Ok, Some(_)) => texts::VALIDITY_OK,
         (_, Some((_, Dated::Certificate))) => texts::VALIDITY_CERTIFICATE_EXPIRED,
         _ => texts::VALIDITY_EXPIRED,
     };
-    text.filled(language, &[("day", &day)])
+    text.filled(language, values! { day })
 }
 
 fn stand(page: &PassportPage, code: Code, language: Language) -> String {
     let text = if code == Code::Ok { texts::STAND_OK } else { texts::STAND_WRONG };
     let asked = page.question.serial.as_deref().unwrap_or_default();
-    text.filled(language, &[("serial", &page.content.stand.serial), ("asked", &asked)])
+    text.filled(language, values! { serial: page.content.stand.serial, asked })
 }
 
 fn place(page: &PassportPage, language: Language) -> String {
@@ -233,7 +234,7 @@ fn place(page: &PassportPage, language: Language) -> String {
     let nearness = Nearness::of(&page.content, place);
     let text = if nearness.within() { texts::PLACE_OK } else { texts::PLACE_WRONG };
     let [distance, radius] = [nearness.distance_m, nearness.radius_m].map(|metres| length(metres, language));
-    text.filled(language, &[("distance", &distance), ("radius", &radius)])
+    text.filled(language, values! { distance, radius })
 }
 
 /// Returns a length in metres, or in kilometres above 10 km.

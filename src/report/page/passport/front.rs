@@ -2,7 +2,7 @@
 
 use super::{PassportPage, checks};
 use crate::report::page::code;
-use crate::report::page::language::Languages;
+use crate::report::page::language::{Languages, values};
 use crate::report::page::number::Number;
 use crate::report::page::parts::{
     band, date, date_text, fields, figure, given, quantity, signature, stated, time, wide_stated,
@@ -60,7 +60,7 @@ fn answers(page: &PassportPage, languages: &Languages) -> Markup {
         }
         // Below "Not to be used", "until" would say that it may be used later.
         Some((day, _)) => html! {
-            p { (languages.label_with(|language| texts::PERIOD.filled(language, &[("day", &date_text(language, day))]))) }
+            p { (languages.label_with(|language| texts::PERIOD.filled(language, values! { day: date_text(language, day) }))) }
         },
         None => html! { p { (languages.label(if unchecked { texts::NO_END_NOT_CHECKED } else { texts::NO_END })) } },
     };

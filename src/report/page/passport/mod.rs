@@ -20,7 +20,7 @@ pub(super) mod general;
 pub(super) mod numbers;
 mod record;
 
-use super::language::Languages;
+use super::language::{Languages, values};
 use super::parts::{contents, data_address, numbered, section, verbatim};
 use super::shell::{Margins, document};
 use super::texts::{passport as texts, record as record_texts};
@@ -95,7 +95,7 @@ impl<'a> PassportPage<'a> {
             } else {
                 checks::headline(self, languages.first())
             },
-            bottom_left: texts::MARGIN_SHA256.filled(languages.first(), &[("sha256", &self.sha256)]),
+            bottom_left: texts::MARGIN_SHA256.filled(languages.first(), values! { sha256: self.sha256 }),
         };
         let title = format!("{} {}", languages.spoken(texts::TITLE), header.id);
         document(languages, &title, &margins, &self.body(languages))
@@ -110,7 +110,7 @@ impl<'a> PassportPage<'a> {
         let (stand, site) = (&self.content.stand, &self.content.site.id);
         let stand = format!("{}/{}", stand.model, stand.serial);
         let revision = &self.content.passport.revision;
-        texts::MARGIN_PASSPORT.filled(languages.first(), &[("stand", &stand), ("site", site), ("revision", revision)])
+        texts::MARGIN_PASSPORT.filled(languages.first(), values! { stand, site, revision })
     }
 
     fn body(&self, languages: &Languages) -> Markup {
@@ -136,10 +136,10 @@ impl<'a> PassportPage<'a> {
     /// Writes the signed file verbatim, to read, to copy and to save.
     fn annex(&self, languages: &Languages) -> Markup {
         let (id, name) = (&self.content.passport.id, self.file_name());
-        let end = languages.label_with(|language| texts::END.filled(language, &[("id", id)]));
+        let end = languages.label_with(|language| texts::END.filled(language, values! { id }));
         let body = html! {
             (checks::table(self, languages))
-            (languages.paragraph_with(|language| html! { (texts::ANNEX_NOTE.filled(language, &[("name", &name)])) }))
+            (languages.paragraph_with(|language| html! { (texts::ANNEX_NOTE.filled(language, values! { name })) }))
             (verbatim("en", self.text, &end))
         };
         section(languages, "annex", texts::ANNEX, body)

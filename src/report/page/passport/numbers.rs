@@ -5,7 +5,7 @@ use crate::calibration::parameter::Parameter;
 use crate::gyro::Parameters;
 use crate::passport::Content;
 use crate::passport::content::{MatrixRows, Rows, SelfCheck};
-use crate::report::page::language::{Languages, Text};
+use crate::report::page::language::{Languages, Text, values};
 use crate::report::page::number::{Cell, Number, column};
 use crate::report::page::parts::{Column, Table, figure, heading, starts, symbol, symbol_and_unit};
 use crate::report::page::texts::{passport as texts, units};
@@ -22,7 +22,7 @@ pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let content = &page.content;
     html! {
         (languages.paragraph_with(|language| {
-            html! { (texts::DIGITS_NOTE.words(language)) " " (texts::EQUATIONS_NOTE.filled(language, &[("source", &PAPER)])) }
+            html! { (texts::DIGITS_NOTE.words(language)) " " (texts::EQUATIONS_NOTE.filled(language, values! { source: PAPER })) }
         }))
         @match &content.matrices {
             Some(m) => {
