@@ -83,22 +83,24 @@ pub(crate) fn sentence(drift: &Drift, angles: [&str; 3]) -> String {
     }
 }
 
+/// Formats a change with its unit and its standard uncertainty.
+fn measured(value: f64, unit: &str, u: f64) -> String {
+    let decimals = columns::decimals(u);
+    format!("{} {unit} (u {u:.decimals$})", columns::signed(value, decimals))
+}
+
 /// Returns the sentence on a change of one deviation that the parts common to all positions hide.
 fn relative(drift: &Drift, angles: [&str; 3], series: &Series) -> String {
     let name = format!("{} of position {}", angles[series.angle], series.index);
     let (what, probability) = match (&series.jump, &series.line) {
         (Some(Jump { certificates: [from, to], change_arcsec, u_arcsec, corrected_probability, .. }), _) => {
-            let decimals = columns::decimals(*u_arcsec);
-            let change = columns::signed(*change_arcsec, decimals);
-            let words =
-                format!("has jumped by {change} arcsec (u {u_arcsec:.decimals$}) between certificates {from} and {to}");
-            (words, *corrected_probability)
+            let change = measured(*change_arcsec, "arcsec", *u_arcsec);
+            (format!("has jumped by {change} between certificates {from} and {to}"), *corrected_probability)
         }
         (None, line) => {
             let (slope, u) = line.map_or((0.0, 0.0), |line| (line.slope, line.u_slope));
-            let decimals = columns::decimals(u);
-            let words = format!("drifts by {} arcsec per year (u {u:.decimals$})", columns::signed(slope, decimals));
-            (words, series.corrected_probability.unwrap_or(1.0))
+            let slope = measured(slope, "arcsec per year", u);
+            (format!("drifts by {slope}"), series.corrected_probability.unwrap_or(1.0))
         }
     };
     format!(
@@ -111,18 +113,16 @@ fn relative(drift: &Drift, angles: [&str; 3], series: &Series) -> String {
 
 /// Returns the sentence on the deviations that are not on a line.
 fn jumped(drift: &Drift, angles: [&str; 3], series: &Series, jump: &Jump) -> String {
-    let decimals = columns::decimals(jump.u_arcsec);
     let [from, to] = &jump.certificates;
     format!(
         "the stand has jumped: {} of {} deviations are not on a straight line and have no rate of drift; most significant \
-         is {} of position {}, {} arcsec (u {:.decimals$}) between certificates {from} and {to}, chi-square of the line \
-         {:.1} with {} degrees of freedom, probability {}, corrected for {} tests",
+         is {} of position {}, {} between certificates {from} and {to}, chi-square of the line {:.1} with {} degrees of \
+         freedom, probability {}, corrected for {} tests",
         drift.jumps().count(),
         drift.tested(),
         angles[series.angle],
         series.index,
-        columns::signed(jump.change_arcsec, decimals),
-        jump.u_arcsec,
+        measured(jump.change_arcsec, "arcsec", jump.u_arcsec),
         jump.line.chi_square,
         jump.line.degrees_of_freedom,
         columns::probability(jump.corrected_probability),
@@ -142,10 +142,7 @@ fn of_lines(drift: &Drift, angles: [&str; 3]) -> String {
     let tested = drift.tested();
     let p = columns::probability(probability);
     let by = format!("probability {p}, corrected for {tested} tests");
-    let slope = worst.line.map_or_else(String::new, |line| {
-        let decimals = columns::decimals(line.u_slope);
-        format!("{} arcsec per year (u {:.decimals$})", columns::signed(line.slope, decimals), line.u_slope)
-    });
+    let slope = worst.line.map_or_else(String::new, |line| measured(line.slope, "arcsec per year", line.u_slope));
     let drifting = drift.series.iter().filter(|at| at.corrected_probability.is_some_and(|p| p < DRIFTS)).count();
     if probability < DRIFTS {
         format!("the stand drifts: {drifting} of {tested} deviations; most significant is {name}, {slope}, {by}")
