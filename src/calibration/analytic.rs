@@ -4,7 +4,7 @@ use crate::coefficients::{Coefficients, Matrices, pair_differences};
 use crate::gyro::GyroParameters;
 use nalgebra::{Matrix2, Vector2};
 
-/// Solution by one of the paper's methods: ω_n as the four numbers of (15), and the parameters of (2) computed from it.
+/// Solution by the analytic method: ω_n as the four numbers of (15), and the parameters of (2) computed from it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct AnalyticSolution {
     /// Parameters K, ω_0, ω_g and ω_k (paper, eq. (8), (13), (14), (16)).

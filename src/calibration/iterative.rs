@@ -6,6 +6,7 @@
 
 use super::analytic::{AnalyticSolution, mean_misclosure, of_the_eight};
 use crate::coefficients::{Coefficients, Matrices, pair_differences};
+use crate::gyro::GyroParameters;
 use nalgebra::{Matrix2, Vector2};
 use serde::{Deserialize, Serialize};
 
@@ -72,6 +73,19 @@ pub struct StepChange {
     pub main_scale_factors_percent: f64,
     /// Larger change of ω_g and ω_k, °/(h·g).
     pub g_drifts_deg_per_h_per_g: f64,
+}
+
+/// Solution by the iterative method.
+#[derive(Debug, Clone, PartialEq)]
+pub struct IterativeSolution {
+    /// Parameters K, ω_0, ω_g and ω_k at the last step.
+    pub parameters: GyroParameters,
+    /// ω_n at the last step, °/(h·g), 2×2, four independent numbers.
+    pub omega_n_deg_per_h_per_g: Matrix2<f64>,
+    /// Course of the iteration.
+    pub iteration: Iteration,
+    /// Last change of K, K_λ − K_{λ−1}, °/(h·mA), 2×2.
+    pub last_change_k_deg_per_h_per_ma: Matrix2<f64>,
 }
 
 /// Course of the iterative method.
@@ -235,18 +249,18 @@ fn meets(rule: &StopRule, k: &Matrix2<f64>, change: &Matrix2<f64>, change_omega_
         && omega_k.abs() <= rule.delta2_deg_per_h
 }
 
-/// Solves for the gyro parameters by the iterative method, with ω_0 from (8): the solution at the last step.
+/// Solves for the gyro parameters by the iterative method, with ω_0 from (8).
 ///
 /// `currents_ma` contains (J_x, J_y) of `coefficients.positions`, in the same order.
 ///
 /// # Errors
-/// Returns [`NoIterativeSolution`] if the eight positions are incomplete, J_1 is singular, or the iteration does not
-/// converge.
-pub(crate) fn solve(
+/// Returns [`NoIterativeSolution`] if the eight positions are incomplete, the number of currents is wrong, J_1 is
+/// singular, or the iteration does not converge.
+pub fn solve(
     coefficients: &Coefficients,
     currents_ma: &[Vector2<f64>],
     rule: &StopRule,
-) -> Result<(AnalyticSolution, Iteration), NoIterativeSolution> {
+) -> Result<IterativeSolution, NoIterativeSolution> {
     let plan = Plan::new(coefficients, currents_ma)?;
     let spectral_radius = plan.spectral_radius();
     if spectral_radius >= 1.0 {
@@ -267,5 +281,7 @@ pub(crate) fn solve(
         remainder_k_deg_per_h_per_ma: remainder,
         remainder_omega_n_deg_per_h_per_g: -remainder * plan.j2_per_n2,
     };
-    Ok((AnalyticSolution::new(k, omega_n, omega0), iteration))
+    let parameters = AnalyticSolution::new(k, omega_n, omega0).parameters;
+    let (omega_n_deg_per_h_per_g, last_change_k_deg_per_h_per_ma) = (omega_n, change);
+    Ok(IterativeSolution { parameters, omega_n_deg_per_h_per_g, iteration, last_change_k_deg_per_h_per_ma })
 }

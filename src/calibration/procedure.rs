@@ -1,6 +1,6 @@
 //! The whole calibration: every requested method with its uncertainty and its fit.
 
-use super::analytic::{self, AnalyticMap, AnalyticSolution, NoAnalyticSolution};
+use super::analytic::{self, AnalyticMap, NoAnalyticSolution};
 use super::causes;
 use super::chi_square::{ChiSquare, chi_square};
 use super::data::{Data, Observation};
@@ -307,31 +307,33 @@ impl<'a> Evaluation<'a> {
     fn analytic(&self, closed: Option<&Closed>) -> Result<MethodResult, NoAnalyticSolution> {
         let solution = analytic::solve(self.setup.coefficients(), &self.data.currents_ma)?;
         let closed = closed.ok_or(NoAnalyticSolution::SingularCurrents)?;
-        Ok(self.of_the_paper(Method::Analytic, &solution, None, closed))
+        let (parameters, omega_n) = (solution.parameters, solution.omega_n_deg_per_h_per_g);
+        Ok(self.of_the_paper(Method::Analytic, parameters, omega_n, None, closed))
     }
 
     fn iterative(&self, closed: Option<&Closed>, rule: &StopRule) -> Result<MethodResult, MethodRefusal> {
-        let (solution, iteration) = iterative::solve(self.setup.coefficients(), &self.data.currents_ma, rule)?;
+        let found = iterative::solve(self.setup.coefficients(), &self.data.currents_ma, rule)?;
         let closed = closed.ok_or(NoIterativeSolution::SingularCurrents)?;
-        Ok(self.of_the_paper(Method::Iterative, &solution, Some(iteration), closed))
+        let (parameters, omega_n) = (found.parameters, found.omega_n_deg_per_h_per_g);
+        Ok(self.of_the_paper(Method::Iterative, parameters, omega_n, Some(found.iteration), closed))
     }
 
     /// Returns the result of one of the paper's methods. The remainder of the iteration is stated separately.
     fn of_the_paper(
         &self,
         method: Method,
-        solution: &AnalyticSolution,
+        parameters: GyroParameters,
+        omega_n: Matrix2<f64>,
         iteration: Option<Iteration>,
         closed: &Closed,
     ) -> MethodResult {
-        let AnalyticSolution { parameters, omega_n_deg_per_h_per_g } = *solution;
         let (found, answer) = (parameters.to_vector(), self.fit.unknowns.parameters.to_vector());
         let difference = |place| in_units(found[place] - answer[place], closed.from_least_squares[place]);
         MethodResult {
             method,
             model: Model::Paper,
             parameters,
-            omega_n_deg_per_h_per_g,
+            omega_n_deg_per_h_per_g: omega_n,
             anisoelasticity_deg_per_h_per_g2: None,
             g_matrix: None,
             model_test: None,

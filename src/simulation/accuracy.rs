@@ -206,7 +206,7 @@ impl<'a> Simulation<'a> {
         match method {
             Method::Analytic => analytic::solve(at, currents_ma).ok().map(|found| found.parameters),
             Method::Iterative => {
-                iterative::solve(at, currents_ma, &StopRule::default()).ok().map(|(found, _)| found.parameters)
+                iterative::solve(at, currents_ma, &StopRule::default()).ok().map(|found| found.parameters)
             }
             Method::LeastSquares => least_squares::solve(at, currents_ma, &self.meter, Model::Paper).ok(),
         }
