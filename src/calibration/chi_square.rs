@@ -5,6 +5,7 @@ use super::data::Data;
 use super::estimates::{Basis, Estimates};
 use super::inputs::Setup;
 use super::least_squares::{Fit, multiply_rows};
+use super::propagation;
 use super::sensitivity::Sensitivity;
 use crate::statistics::scaled_f::{self, Part, ScaledF};
 use nalgebra::{DMatrix, DVector, DVectorView, Matrix2};
@@ -150,7 +151,7 @@ fn estimated(
             product.rows_range_mut(2 * fit.whitening.len()..).fill(0.0);
         }
         if common.ncols() > 0 {
-            product += common * common.tr_mul(&m);
+            product += propagation::product(common, &common.tr_mul(&m));
         }
         let square = (0..rows).map(|row| product.row(row).tr_dot(&product.column(row))).sum();
         let degrees_of_freedom = estimates.degrees_of_freedom[estimate];
@@ -197,10 +198,10 @@ fn absorbed(fit: &Fit, data: &Data, shared: &DMatrix<f64>, lower: Option<DMatrix
     for (place, whiten) in fit.whitening.iter().enumerate() {
         multiply_rows(&mut taken, place, whiten);
     }
-    taken *= &fit.model.r_inverse;
-    let mut inner = shared - &taken * taken.tr_mul(shared);
+    taken = propagation::product(&taken, &fit.model.r_inverse);
+    let mut inner = shared - propagation::product(&taken, &taken.tr_mul(shared));
     if let Some(inverse) = lower.and_then(|lower| lower.try_inverse()) {
-        inner *= inverse.transpose();
+        inner = propagation::product(&inner, &inverse.transpose());
     }
     let columns = taken.ncols();
     let mut v = taken.resize_horizontally(columns + inner.ncols(), 0.0);
