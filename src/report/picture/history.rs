@@ -2,7 +2,7 @@
 //! first certificate, all to one scale.
 
 use super::chart::Field;
-use super::drawing::{Anchor, Point, Scale, Ticks, coordinate, line, mark, rectangle, words};
+use super::drawing::{Anchor, Point, Scale, Ticks, coordinate, label, line, mark, rectangle, symbols, words};
 use super::file::{caption, file};
 use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::history::drift::{DRIFTS, Drift, Series};
@@ -215,7 +215,7 @@ fn panel(series: &Series, field: &Field, lowest: bool) -> Markup {
                 }
                 (mark([x, field.y.clamped(at.arcsec - first)], 1, "mark"))
             }
-            (words([right, field.y.places[1] - 3.0], Anchor::End, if drifts { "title" } else { "small" }, &title))
+            (label([right, field.y.places[1] - 3.0], Anchor::End, if drifts { "title" } else { "small" }, &symbols(&title)))
         }
     }
 }
