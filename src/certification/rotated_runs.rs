@@ -24,7 +24,7 @@ use nalgebra::Vector3;
 use std::ops::Range;
 
 /// Smallest number of runs that shows which one is wrong.
-const FEWEST_RUNS: usize = 3;
+pub(crate) const FEWEST_RUNS: usize = 3;
 
 /// Smallest number of runs that shows a move: two before it and two after it, because one is a bumped run.
 pub(crate) const FEWEST_RUNS_OF_A_MOVE: usize = 4;

@@ -3,7 +3,7 @@
 use crate::certification::compared::Test;
 use crate::certification::comparison::Comparison;
 use crate::certification::components::{Common, Variance};
-use crate::certification::rotated_runs::{FEWEST_RUNS_OF_A_MOVE, Pattern, RotatedRuns};
+use crate::certification::rotated_runs::{FEWEST_RUNS, FEWEST_RUNS_OF_A_MOVE, Pattern, RotatedRuns};
 use crate::certification::suspects::{AXES, OUTLIER};
 use crate::certification::{Certification, NotCertified};
 use crate::report::{columns, style};
@@ -195,7 +195,7 @@ fn tests(out: &mut String, found: &Certification) {
     if found.suspects.split.is_none() {
         let _ = writeln!(out, "Grubbs' test of {readings} angles: {named}");
     }
-    if found.runs.len() > 2 {
+    if found.runs.len() >= FEWEST_RUNS {
         let axes = 3 + found.components.base_axes;
         let (bumped, moved): (Vec<&RotatedRuns>, Vec<_>) = found.rotated_runs.iter().partition(|at| at.run().is_some());
         let named = graded(bumped.iter().map(|at| at.probability));

@@ -2,7 +2,7 @@
 
 use super::{CertificationPage, remarks};
 use crate::certification::components::{Common, Variance};
-use crate::certification::rotated_runs::Pattern;
+use crate::certification::rotated_runs::{FEWEST_RUNS, FEWEST_RUNS_OF_A_MOVE, Pattern, RotatedRuns};
 use crate::certification::suspects::AXES;
 use crate::report::page::language::{Languages, Text, values};
 use crate::report::page::number::{Number, column};
@@ -146,11 +146,21 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
             languages.label_with(|language| of.filled(language, values! { run, axis: remarks::axis_name(at.axis) }));
         (name, Some(Number::fixed(at.turn_arcsec(), 2)), None, Some(at.probability))
     }));
-    if suspects.outliers.is_empty() && suspects.split.is_none() {
-        let count = page.certification.runs.len() * page.certification.components.keeps.nrows();
-        let name = languages.label_with(|language| texts::NO_OUTLIER.filled(language, values! { count }));
-        found.push((name, None, None, None));
-    }
+    let components = &page.certification.components;
+    let (runs, axes) = (page.certification.runs.len(), 3 + components.base_axes);
+    let (bumped, moved): (Vec<&RotatedRuns>, Vec<_>) =
+        page.certification.rotated_runs.iter().partition(|at| at.run().is_some());
+    // Tests that were made and name nothing.
+    let none = [
+        (texts::NO_OUTLIER, suspects.outliers.is_empty() && suspects.split.is_none()),
+        (texts::NO_ROTATED_RUN, bumped.is_empty() && runs >= FEWEST_RUNS),
+        (texts::NO_MOVE, moved.is_empty() && runs >= FEWEST_RUNS_OF_A_MOVE),
+    ];
+    let count = runs * components.keeps.nrows();
+    found.extend(none.into_iter().filter(|(_, is_none)| *is_none).map(|(text, _)| {
+        let name = languages.label_with(|language| text.filled(language, values! { count, runs, axes }));
+        (name, None, None, None)
+    }));
     let statistic = column(languages, found.iter().map(|(_, value, ..)| value.clone()));
     let freedom = column(languages, found.iter().map(|(_, _, freedom, _)| freedom.clone()));
     let p = column(languages, found.iter().map(|(.., p)| p.map(|p| Number::scientific(p, 2))));

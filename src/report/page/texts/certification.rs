@@ -97,6 +97,14 @@ texts! {
         en: "Grubbs: no straggler or outlier (5 %) among {count} angles",
         ru: "Граббса: среди показаний углов ({count}) нет ни квазивыбросов, ни выбросов (5 %)"
     }
+    NO_ROTATED_RUN {
+        en: "Grubbs: no straggler or outlier (5 %) among {runs} runs about {axes} axes",
+        ru: "Граббса: среди серий ({runs}) нет ни квазивыбросов, ни выбросов по осям ({axes}; 5 %)"
+    }
+    NO_MOVE {
+        en: "Student: no move or drift of the stand (5 %) in {runs} runs",
+        ru: "Стьюдента: за серии ({runs}) не выявлено ни смещения, ни дрейфа стенда (5 %)"
+    }
     TESTS_NOTE {
         en: "Probability of a result at least as extreme by chance. Below 5 % it is a straggler, below 1 % an \
              outlier. The tests exclude nothing.",
