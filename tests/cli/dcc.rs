@@ -555,7 +555,7 @@ fn a_gyro_has_its_certificate_with_decisions() {
         assert_good(judged, xml);
         assert_eq!(
             (&judged["number"], &judged["day"], &judged["laboratory"]),
-            (&"G-7".into(), &"2026-11-19".into(), &"Lab".into())
+            (&"G-7".into(), &"2026-11-19".into(), &"Gyro laboratory".into())
         );
         let best = result["results"].as_array().unwrap().last().unwrap();
         assert_eq!(best["method"], "least-squares");
