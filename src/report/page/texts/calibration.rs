@@ -39,10 +39,10 @@ texts! {
     }
     UNDECIDED { en: "Conformity with gyro type {type} is undecided", ru: "Соответствие типу {type} не определено" }
     RULE {
-        en: "Decision rule: guarded acceptance with a guard band equal to the expanded uncertainty U, \
-             k = 2 or that of Student’s t (JCGM 106, 8.3).",
-        ru: "Правило принятия решения: приёмка с защитной полосой, равной расширенной неопределённости \
-             U, k = 2 или коэффициент Стьюдента (JCGM 106, 8.3)."
+        en: "Decision rule: guarded acceptance with a guard band equal to the expanded uncertainty U (JCGM 106, 8.3). \
+             Coverage factor k = 2, for few degrees of freedom that of Student’s t; coverage probability 95.45 %.",
+        ru: "Правило принятия решения: приёмка с защитной полосой, равной расширенной неопределённости U (JCGM 106, \
+             8.3). Коэффициент охвата k = 2, при малом числе степеней свободы — коэффициент Стьюдента; вероятность охвата 95,45 %."
     }
     NO_TYPE { en: "Parameters determined", ru: "Параметры определены" }
     NO_TYPE_WORDS {
@@ -166,9 +166,10 @@ texts! {
     PARAMETERS { en: "Parameters", ru: "Параметры" }
     RESULT { en: "Result", ru: "Результат" }
     RESULT_CAPTION {
-        en: "Parameters with their expanded uncertainty U (k = 2, or Student’s t); drifts refer to local g",
-        ru: "Параметры и их расширенная неопределённость U (k = 2 или коэффициент Стьюдента); составляющие дрейфа \
-             отнесены к местному g"
+        en: "Parameters with their expanded uncertainty U (coverage factor k = 2, for few degrees of freedom that of \
+             Student’s t; coverage probability 95.45 %); drifts refer to local g",
+        ru: "Параметры и их расширенная неопределённость U (коэффициент охвата k = 2, при малом числе степеней свободы — \
+             коэффициент Стьюдента; вероятность охвата 95,45 %); составляющие дрейфа отнесены к местному g"
     }
     PASSED { en: "{passed} of {all} parameters pass", ru: "Соответствуют допускам {passed} из {all} параметров" }
     CHANGE_COUNTED { en: "Change since the previous calibration:", ru: "Изменение после предыдущей калибровки." }
@@ -218,25 +219,29 @@ texts! {
 
     CONFORMITY { en: "Comparison with gyro type {type}", ru: "Сравнение с типом {type}" }
     VERDICT_CAPTION {
-        en: "Deviation from the nominal value in the unit of the tolerance; expanded uncertainty U (k = 2, or Student’s \
-             t); drifts refer to the g of the type, {g} m/s²",
-        ru: "Отклонение от номинального значения в тех же единицах, что и допуск; расширенная неопределённость U (k = 2 \
-             или коэффициент Стьюдента); составляющие дрейфа отнесены к g, указанному для типа: {g} м/с²"
+        en: "Deviation from the nominal value in the unit of the tolerance; expanded uncertainty U (coverage factor \
+             k = 2, for few degrees of freedom that of Student’s t; coverage probability 95.45 %); drifts refer to the g \
+             of the type, {g} m/s²",
+        ru: "Отклонение от номинального значения в тех же единицах, что и допуск; расширенная неопределённость U \
+             (коэффициент охвата k = 2, при малом числе степеней свободы — коэффициент Стьюдента; вероятность охвата \
+             95,45 %); составляющие дрейфа отнесены к g, указанному для типа: {g} м/с²"
     }
     CHANGE { en: "Change since the previous calibration", ru: "Изменение после предыдущей калибровки" }
     HISTORY { en: "All calibrations of this gyro", ru: "Все калибровки этого гироскопа" }
     HISTORY_CAPTION {
-        en: "Parameters from the earliest calibration to this one, with expanded uncertainty U\u{a0}=\u{a0}2u (for the \
-             marks, U after Student’s t); drifts refer to one g",
-        ru: "Параметры от первой калибровки до этой, с расширенной неопределённостью U\u{a0}=\u{a0}2u (для отметок U — \
-             с коэффициентом Стьюдента); составляющие дрейфа отнесены к одному g"
+        en: "Parameters from the earliest calibration to this one, with expanded uncertainty U\u{a0}=\u{a0}2u \
+             (coverage factor k = 2; for the marks, U of coverage probability 95.45 %); drifts refer to one g",
+        ru: "Параметры от первой калибровки до этой, с расширенной неопределённостью U\u{a0}=\u{a0}2u \
+             (коэффициент охвата k = 2; для отметок — U для вероятности охвата 95,45 %); составляющие дрейфа отнесены к одному g"
     }
     CALIBRATED { en: "Calibration", ru: "Калибровка" }
     CHANGE_CAPTION {
-        en: "Change in the unit of the tolerance, which also limits the instability; expanded uncertainty U (k = 2, or \
-             Student’s t); drifts refer to the g of the type, {g} m/s²",
+        en: "Change in the unit of the tolerance, which also limits the instability; expanded uncertainty U (coverage \
+             factor k = 2, for few degrees of freedom that of Student’s t; coverage probability 95.45 %); drifts refer to \
+             the g of the type, {g} m/s²",
         ru: "Изменение в тех же единицах, что и допуск (он же — допуск на нестабильность); расширенная неопределённость \
-             U (k = 2 или коэффициент Стьюдента); составляющие дрейфа отнесены к g, указанному для типа: {g} м/с²"
+             U (коэффициент охвата k = 2, при малом числе степеней свободы — коэффициент Стьюдента; вероятность охвата \
+             95,45 %); составляющие дрейфа отнесены к g, указанному для типа: {g} м/с²"
     }
     PARAMETER { en: "Parameter", ru: "Параметр" }
     NOMINAL { en: "Nominal", ru: "Номин. значение" }
@@ -453,7 +458,10 @@ texts! {
     BUDGET_LEAVES { en: "Without this source, u would be {rest}.", ru: "Без этого источника u составила бы {rest}." }
     COMBINED { en: "Combined, u", ru: "Суммарная, u" }
     EFFECTIVE_FREEDOM { en: "Effective degrees of freedom", ru: "Эффективное число степеней свободы" }
-    EXPANDED { en: "Half of the 95 % interval (Student’s t)", ru: "Полуширина интервала 95 % (Стьюдент)" }
+    EXPANDED {
+        en: "Half-width of the 95 % coverage interval (k = 1.96, or Student’s t)",
+        ru: "Полуширина интервала охвата 95 % (k = 1,96 или коэффициент Стьюдента)"
+    }
     INPUT { en: "{input}: u = {u}", ru: "{input}: u = {u}" }
     CAUSE_ANGLE { en: "certified angles", ru: "аттестованные углы" }
     CAUSE_RETURN { en: "repeatability of positioning", ru: "повторяемость положений" }
