@@ -7,7 +7,8 @@ use crate::report::page::number::Number;
 use crate::report::page::parts::{
     band, date, date_text, fields, figure, given, quantity, signature, stated, time, wide_stated,
 };
-use crate::report::page::texts::{checks as check_texts, passport as texts, record, units, words};
+use crate::report::page::spacing::BLANK;
+use crate::report::page::texts::{checks as check_texts, passport as texts, pictures, record, units, words};
 use crate::report::picture::stand::stand as picture;
 use maud::{Markup, html};
 
@@ -66,10 +67,15 @@ fn answers(page: &PassportPage, languages: &Languages) -> Markup {
     };
     let degrees = |value: f64| quantity(languages, &Number::exact(value), units::DEGREES);
     let latitude = site.latitude_deg.or(site.astronomic_latitude_deg).unwrap_or(content.earth.latitude_deg);
-    let whither = if site.longitude_deg.is_some() { texts::AROUND } else { texts::AROUND_PARALLEL };
+    let named = |name, value| html! { (languages.inline(name)) (BLANK) (degrees(value)) };
     let place = html! {
-        p { (languages.label(whither)) }
-        p { (degrees(latitude)) @if let Some(longitude) = site.longitude_deg { ", " (degrees(longitude)) } }
+        @if let Some(longitude) = site.longitude_deg {
+            p { (languages.label(texts::AROUND)) }
+            p { (named(pictures::LATITUDE, latitude)) ", " (named(pictures::LONGITUDE, longitude)) }
+        } @else {
+            p { (languages.label(texts::AROUND_PARALLEL)) }
+            p { (degrees(latitude)) }
+        }
         p { (given(site.name.as_deref().unwrap_or(site.id.as_str()))) }
     };
     let word = html! {
