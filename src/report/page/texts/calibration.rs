@@ -258,14 +258,14 @@ texts! {
     DEVIATION { en: "Deviation", ru: "Отклонение" }
     CHANGED_BY { en: "Change", ru: "Изменение" }
     TOLERANCE { en: "Tolerance", ru: "Допуск" }
-    SIMPLE { en: "Simple acceptance, risk", ru: "Простая приёмка, риск" }
+    SIMPLE { en: "Simple acceptance; risk of error", ru: "Простая приёмка; риск ошибки" }
     GUARDED { en: "Guarded acceptance", ru: "С защитной полосой" }
     RISK_NOTE {
         en: "Simple acceptance: no guard band. Guarded acceptance: undecided where the uncertainty does not permit a \
-             decision. Specific risk: probability that the decision by simple acceptance is wrong.",
+             decision. Risk of error (specific risk): probability that the decision by simple acceptance is wrong.",
         ru: "Простая приёмка: без учёта неопределённости. Приёмка с защитной полосой: решение не определено, если \
-             неопределённость не позволяет его принять. Риск: вероятность того, что решение при простой приёмке \
-             ошибочно."
+             неопределённость не позволяет его принять. Риск ошибки: вероятность того, что решение при простой \
+             приёмке ошибочно."
     }
     BELOW { en: "< {limit}", ru: "< {limit}" }
 
