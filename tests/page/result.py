@@ -26,7 +26,7 @@ TOKEN = re.compile(
 DAY = re.compile(r"\d{4}-\d\d-\d\d|\d\d\.\d\d\.\d{4}")
 # What is no number of the result: clauses of standards, coverage, the sum's name, ids, times of day, the limit of risks.
 NAMES = re.compile(
-    r"JCGM[\u00a0 ]\d+, [\d.]+|k[\u00a0 ]=[\u00a0 ](?:1[.,]96|[12])\b|95(?:[.,]45)?[\u00a0 ]?%|SHA-256|[A-Z]+-\d+(?:/\w+/[\w-]+/\d+)?|\d\d:\d\d:\d\d|< 1\u202f[·×]\u202f10⁻⁶"
+    r"JCGM[\u00a0 ]\d+, [\d.]+|k[\u00a0 ]=[\u00a0 ]1\b|^[\u00a0 ]=[\u00a0 ]1[.,]96\b|95(?:[.,]45)?[\u00a0 ]?%|SHA-256|[A-Z]+-\d+(?:/\w+/[\w-]+/\d+)?|\d\d:\d\d:\d\d|< 1\u202f[·×]\u202f10⁻⁶"
 )
 # The eight of every table of parameters, by their symbols.
 PLACES = {
