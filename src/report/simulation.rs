@@ -1,8 +1,10 @@
 //! Tables of simulations, with the paper's figures next to ours.
 
+use super::columns;
 use super::tolerance::symbol_of;
 use crate::simulation::accuracy::Accuracy;
-use crate::simulation::convergence::Convergence;
+use crate::simulation::convergence::{Convergence, ConvergenceRow};
+use crate::statistics::summary::upper_limit_without_a_case;
 use crate::units::printed;
 use std::fmt::Write;
 
@@ -59,8 +61,52 @@ pub(crate) fn convergence(found: &Convergence) -> String {
             or_dash(row.mean.map(|mean| format!("{mean:.2}"))),
             or_dash(row.percentile_95.map(|steps| steps.to_string())),
             or_dash(row.most.map(|steps| steps.to_string())),
-            format!("{:.2} ± {:.2}", row.not_converged_percent, row.not_converged_u_percent),
+            not_converged(row),
         );
     }
+    out.push_str("  ±: standard uncertainty; < and >: limit at 95 %, where all stands converged or none did\n");
     out
+}
+
+/// Formats the share of stands that did not converge, percent. If all converged or none did, the binomial standard error
+/// is 0, which would claim a certainty that no number of stands gives.
+fn not_converged(row: &ConvergenceRow) -> String {
+    let (percent, u) = (row.not_converged_percent, row.not_converged_u_percent);
+    if u > 0.0 {
+        let decimals = columns::decimals(u);
+        return format!("{percent:.decimals$} ± {u:.decimals$}");
+    }
+    let limit = 100.0 * upper_limit_without_a_case(row.stands);
+    if percent == 0.0 {
+        format!("< {}", columns::two_digits(limit))
+    } else {
+        format!("> {:.*}", columns::decimals(limit), 100.0 - limit)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Expected by hand from the binomial distribution: 17 of 200 are 8.5 % ± √(0.085 · 0.915 / 200) = 1.97 %; no case in
+    /// 200 has the probability 0.05 if the share is 1.49 %, as 0.9851²⁰⁰ = 0.0497.
+    #[test]
+    fn a_share_of_none_or_all_is_a_limit() {
+        for (not_converged_percent, not_converged_u_percent, due) in
+            [(8.5, 1.97, "8.5 ± 2.0"), (0.0, 0.0, "< 1.5"), (100.0, 0.0, "> 98.5")]
+        {
+            let (mean, percentile_95, most) = (None, None, None);
+            let row = ConvergenceRow {
+                limit_deg: 15.0,
+                deviations: "corners",
+                mean,
+                percentile_95,
+                most,
+                not_converged_percent,
+                not_converged_u_percent,
+                stands: 200,
+            };
+            assert_eq!(not_converged(&row), due);
+        }
+    }
 }

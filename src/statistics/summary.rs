@@ -64,6 +64,12 @@ pub(crate) fn binomial_standard_error(part: u64, whole: u64) -> f64 {
     (share * (1.0 - share) / whole as f64).sqrt()
 }
 
+/// Returns the upper limit, at 95 % and one-sided, of a share of which `whole` independent trials showed no case: the
+/// share p with (1 − p)ⁿ = 0.05.
+pub(crate) fn upper_limit_without_a_case(whole: u64) -> f64 {
+    -libm::expm1(libm::log(0.05) / whole as f64)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -93,5 +99,13 @@ mod tests {
         );
         assert_eq!(percentile::<u16>(&[], 0.5), None);
         assert!((binomial_standard_error(50, 100) - 0.05).abs() < 1e-15);
+    }
+
+    /// Expected by hand: no case in two trials has the probability (1 − p)², which is 0.05 if p = 1 − √0.05.
+    #[test]
+    fn no_case_does_not_mean_never() {
+        for (whole, limit) in [(1, 0.95), (2, 1.0 - 0.05_f64.sqrt())] {
+            assert!((upper_limit_without_a_case(whole) - limit).abs() < 1e-15, "{whole}");
+        }
     }
 }
