@@ -99,7 +99,7 @@ fn uncertainties(out: &mut String, plan: &Plan) {
             parameter.symbol().to_owned(),
             printed(parameter.unit()),
             shown(u),
-            format!("{:.1}", 100.0 * u / plan.tolerance[place]),
+            percent_of_tolerance(u / plan.tolerance[place]),
         ];
         if let Some(paper) = &plan.paper {
             let other = paper.standard_uncertainty[place];
@@ -152,8 +152,13 @@ fn common_errors(out: &mut String, plan: &Plan) {
     columns::table(out, &names, rows);
 }
 
+/// Formats a standard uncertainty as a share of the tolerance, in percent.
+pub(crate) fn percent_of_tolerance(share: f64) -> String {
+    format!("{:.1}", 100.0 * share)
+}
+
 /// Formats a share in percent: two digits, or 0 where only rounding is left.
-fn percent(share: f64) -> String {
+pub(crate) fn percent(share: f64) -> String {
     let percent = 100.0 * share;
     match percent {
         small if small < 1e-6 => "0".to_owned(),

@@ -6,8 +6,7 @@ use super::file::{caption, file};
 use crate::calibration::parameter::Parameter;
 use crate::plan::sensitivity::{CommonError, Effect};
 use crate::plan::{Evaluation, Plan};
-use crate::report::page::language::Language;
-use crate::report::page::number::Number;
+use crate::report::plan::{percent, percent_of_tolerance};
 use maud::{Markup, html};
 
 /// Left and right end of the bars of both panels. Names are to their left, numbers to their right.
@@ -17,8 +16,14 @@ const TOP: f64 = 82.0;
 const ROW: f64 = 30.0;
 const BAR: f64 = 12.0;
 
-/// A row of a panel: its name as drawn and in words, and the values of the plan and of the paper's eight, % of the
-/// tolerance.
+/// A panel: its rows, and how the terminal's table prints their shares.
+struct Panel {
+    rows: Vec<Row>,
+    printed: fn(f64) -> String,
+}
+
+/// A row of a panel: its name as drawn and in words, and the values of the plan and of the paper's eight as shares of
+/// the tolerance.
 struct Row {
     drawn: Markup,
     name: String,
@@ -30,17 +35,23 @@ struct Row {
 pub(crate) fn plan(plan: &Plan, site: &str) -> String {
     let uncertainties = Parameter::AS_IN_THE_PAPER.map(|parameter| {
         let (name, place) = (parameter.symbol(), parameter.place());
-        let share = |of: &Evaluation| 100.0 * of.standard_uncertainty[place] / plan.tolerance[place];
+        let share = |of: &Evaluation| of.standard_uncertainty[place] / plan.tolerance[place];
         let (drawn, paper) = (symbol(name), plan.paper.as_ref().map(share));
         Row { drawn, name: plain_symbol(name), plan: share(&plan.evaluation), paper }
     });
     let errors = plan.evaluation.effects.iter().enumerate().map(|(place, effect)| {
-        let percent = |effect: &Effect| 100.0 * effect.largest_over_tolerance;
-        let (name, paper) = (name_of(effect), plan.paper.as_ref().map(|paper| percent(&paper.effects[place])));
-        Row { drawn: symbols(&name), name, plan: percent(effect), paper }
+        let paper = plan.paper.as_ref().map(|paper| paper.effects[place].largest_over_tolerance);
+        let name = name_of(effect);
+        Row { drawn: symbols(&name), name, plan: effect.largest_over_tolerance, paper }
     });
-    let errors: Vec<Row> = errors.collect();
-    let rows = uncertainties.len().max(errors.len());
+    let panels = [
+        Panel { rows: uncertainties.into(), printed: percent_of_tolerance },
+        Panel { rows: errors.collect(), printed: percent },
+    ];
+    let rows = panels.iter().map(|panel| panel.rows.len()).max().unwrap_or(0);
+    // One scale, so that bars of both panels can be compared.
+    let shares = panels.iter().flat_map(|panel| &panel.rows).flat_map(|row| [row.plan, row.paper.unwrap_or(0.0)]);
+    let longest = shares.fold(0.0, f64::max);
     let readings: u32 = plan.readings.iter().map(|visited| visited.visits).sum();
     let title = format!("Plan for {site}: {readings} readings in {} positions", plan.readings.len());
     let drawing = [
@@ -48,11 +59,11 @@ pub(crate) fn plan(plan: &Plan, site: &str) -> String {
         key(plan),
         words([14.0, TOP - 12.0], Anchor::Start, "title", "Standard uncertainty, % of the tolerance"),
         words([400.0, TOP - 12.0], Anchor::Start, "title", "Largest change by a common error, % of the tolerance"),
-        panel(&uncertainties, BARS[0]),
-        panel(&errors, BARS[1]),
+        panel(&panels[0], longest, BARS[0]),
+        panel(&panels[1], longest, BARS[1]),
     ];
     let size = [WIDTH, TOP + ROW * rows as f64 + 10.0];
-    file("plan", size, &title, &in_words(&uncertainties, &errors), &drawing)
+    file("plan", size, &title, &in_words(&panels), &drawing)
 }
 
 fn name_of(effect: &Effect) -> String {
@@ -74,20 +85,20 @@ fn key(plan: &Plan) -> Markup {
     caption([14.0, 40.0], "", &entries)
 }
 
-fn panel(rows: &[Row], [left, right]: Point) -> Markup {
-    let longest = rows.iter().flat_map(|row| [row.plan, row.paper.unwrap_or(0.0)]).fold(0.0, f64::max);
+fn panel(panel: &Panel, longest: f64, [left, right]: Point) -> Markup {
     // Without any length any scale will do.
     let scale = Scale { values: [0.0, if longest > 0.0 { longest } else { 1.0 }], places: [left, right] };
-    let bar = |value: f64, top: f64, class: &str| {
+    let bar = |share: f64, top: f64, class: &str| {
         // A bar of no visible length has no outline either.
-        let width = scale.place(value) - left;
+        let width = scale.place(share) - left;
+        let (percent, printed) = (100.0 * share, (panel.printed)(share));
         html! {
             @if width >= 0.3 { (rectangle([left, top], [left + width, top + BAR - 1.0], class, None)) }
-            (number([left + width + 5.0, top + BAR - 2.0], Anchor::Start, "small", value, &percent(value)))
+            (number([left + width + 5.0, top + BAR - 2.0], Anchor::Start, "small", percent, &printed))
         }
     };
     html! {
-        @for (place, row) in rows.iter().enumerate() {
+        @for (place, row) in panel.rows.iter().enumerate() {
             @let top = TOP + ROW * place as f64;
             (label([left - 7.0, top + BAR + 3.0], Anchor::End, "", &row.drawn))
             @if let Some(paper) = row.paper {
@@ -100,22 +111,16 @@ fn panel(rows: &[Row], [left, right]: Point) -> Markup {
     }
 }
 
-/// Formats a percentage, as 0 where only rounding is left.
-fn percent(value: f64) -> String {
-    if value < 1e-6 { "0".to_owned() } else { Number::whole_or_two_digits(value).text(Language::English) }
-}
-
-fn in_words(uncertainties: &[Row], errors: &[Row]) -> String {
-    let listed = |rows: &[Row]| {
+fn in_words(panels: &[Panel; 2]) -> String {
+    let [uncertainties, errors] = panels.each_ref().map(|Panel { rows, printed }| {
         let each = rows.iter().map(|Row { name, plan, paper, .. }| {
-            let paper = paper.map_or_else(String::new, |paper| format!(" (paper’s eight: {} %)", percent(paper)));
-            format!("{name} {} %{paper}", percent(*plan))
+            let paper = paper.map_or_else(String::new, |paper| format!(" (paper’s eight: {} %)", printed(paper)));
+            format!("{name} {} %{paper}", printed(*plan))
         });
         each.collect::<Vec<_>>().join("; ")
-    };
+    });
     format!(
-        "Standard uncertainty in % of the tolerance: {}. Largest change of a parameter in % of its tolerance: {}.",
-        listed(uncertainties),
-        listed(errors)
+        "Standard uncertainty in % of the tolerance: {uncertainties}. Largest change of a parameter in % of its tolerance: \
+         {errors}."
     )
 }

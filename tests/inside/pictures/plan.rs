@@ -6,7 +6,7 @@ use dtg_passport::gyro::GyroType;
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::plan::candidates::Angles;
 use dtg_passport::plan::criterion::Criterion;
-use dtg_passport::plan::{Plan, Question, plan};
+use dtg_passport::plan::{Evaluation, Plan, Question, plan};
 use dtg_passport::report::picture::plan as picture;
 use roxmltree::Document;
 
@@ -24,7 +24,8 @@ fn found(readings: u32) -> Plan {
     plan(&question).unwrap()
 }
 
-/// Expected: bars of u/T of K_x and ω_0x in the ratio of these numbers, of plan and paper; no bar where an error has no effect.
+/// Expected: bars of u/T of K_x and ω_0x in the ratio of these numbers, of plan and paper; those of the errors on the same
+/// scale; no bar where an error has no effect.
 #[test]
 fn bars_are_as_long_as_numbers() {
     let plan = found(8);
@@ -36,7 +37,10 @@ fn bars_are_as_long_as_numbers() {
     assert_eq!((of_plan.len(), of_paper.len()), (1 + 8 + 5, 1 + 8 + 9));
     let share = |u: &[f64; 8], place: usize| u[place] / plan.tolerance[place];
     let (plan_u, paper_u) = (&plan.evaluation.standard_uncertainty, &plan.paper.as_ref().unwrap().standard_uncertainty);
-    let scale = number(of_plan[1], "width") / share(plan_u, 0);
+    let longest = |bars: &[roxmltree::Node]| bars[9..].iter().map(|bar| number(*bar, "width")).fold(0.0, f64::max);
+    let largest = |of: &Evaluation| of.effects.iter().map(|effect| effect.largest_over_tolerance).fold(0.0, f64::max);
+    // From the longest bar, because coordinates have one decimal.
+    let scale = longest(&of_plan) / largest(&plan.evaluation);
     // The order of the paper's table: K_x, K_y, K_xy, K_yx, ω_0x, …
     for (row, place) in [(1, 0), (2, 3), (3, 1), (5, 4), (8, 7)] {
         for (bars, u) in [(&of_plan, plan_u), (&of_paper, paper_u)] {
@@ -44,6 +48,7 @@ fn bars_are_as_long_as_numbers() {
             assert!((width - scale * share(u, place)).abs() < 0.3, "row {row}: {width}");
         }
     }
+    assert!((longest(&of_paper) - scale * largest(plan.paper.as_ref().unwrap())).abs() < 0.3);
     assert!(text.contains("frame’s axis at 0°") && text.contains("paper’s eight positions, axis at 90°"));
 }
 
