@@ -251,6 +251,13 @@ pub(crate) fn comparison(found: &Comparison) -> String {
     });
     let names = ["i", "j", "x, arcsec", "u", "y, arcsec", "u", "z, arcsec", "u", "chi-square", "p", ""];
     columns::table(&mut out, &names, rows);
+    let positions = found.positions.len();
+    let words = format!(
+        "CHANGED: p < {OUTLIER} / {positions}, a probability of {} % for the {positions} positions together. If no more than \
+         half of the positions repeat, all are CHANGED.",
+        100.0 * OUTLIER
+    );
+    columns::paragraph(&mut out, "", &words);
     let turned = |turn: &[f64; 3]| turn.map(|value| columns::signed(value, 2)).join(", ");
     let judged = found.common.test.as_ref().map_or_else(|| "not tested".to_owned(), line);
     let words = format!(
