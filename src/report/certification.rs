@@ -136,7 +136,7 @@ pub(crate) fn certification(found: &Certification) -> String {
             let digits = columns::decimals(u);
             row.extend([format!("{value:.digits$}"), format!("{u:.digits$}")]);
         }
-        row.push(format!("{:.1}", at.degrees_of_freedom.unwrap_or(f64::INFINITY)));
+        row.push(columns::degrees_of_freedom(at.degrees_of_freedom.unwrap_or(f64::INFINITY)));
         row
     });
     let _ = writeln!(out);
@@ -154,9 +154,9 @@ fn components(out: &mut String, found: &Certification) {
     let own = components.own_arcsec2.map(|variance| format!("{:.2}", variance.value.sqrt()));
     let _ = writeln!(
         out,
-        "\nRepeatability of one visit: {:.2} arcsec per axis ({:.1} degrees of freedom); about x, y, z: {}",
+        "\nRepeatability of one visit: {:.2} arcsec per axis ({} degrees of freedom); about x, y, z: {}",
         components.pooled_arcsec2.value.sqrt(),
-        components.pooled_arcsec2.degrees_of_freedom,
+        columns::degrees_of_freedom(components.pooled_arcsec2.degrees_of_freedom),
         own.join(", ")
     );
     let root = (found.runs.len() as f64).sqrt();

@@ -248,6 +248,12 @@ pub(crate) fn decimals(u: f64) -> usize {
     usize::try_from(1 - crate::text::number::exponent_as_printed(u, 2)).unwrap_or(0).min(12)
 }
 
+/// Formats degrees of freedom with one decimal, or none if it is 0.
+pub(crate) fn degrees_of_freedom(value: f64) -> String {
+    let printed = format!("{value:.1}");
+    printed.strip_suffix(".0").map_or_else(|| printed.clone(), str::to_owned)
+}
+
 /// Formats a value with its sign; a value that rounds to zero has none.
 pub(crate) fn signed(value: f64, decimals: usize) -> String {
     let printed = format!("{value:+.decimals$}");
@@ -305,6 +311,13 @@ mod tests {
     fn an_uncertainty_has_two_digits() {
         for (u, decimals_due) in [(0.0123, 3), (0.0996, 2), (1.5, 1), (15.0, 0), (150.0, 0), (2.0e-5, 6)] {
             assert_eq!(decimals(u), decimals_due, "{u}");
+        }
+    }
+
+    #[test]
+    fn whole_degrees_of_freedom_have_no_decimal() {
+        for (value, due) in [(4.0, "4"), (20.0, "20"), (22.98, "23"), (7.25, "7.2"), (f64::INFINITY, "inf")] {
+            assert_eq!(degrees_of_freedom(value), due);
         }
     }
 

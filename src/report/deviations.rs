@@ -28,7 +28,7 @@ pub(crate) fn picture(out: &mut String, positions: &[CertifiedPosition]) {
         let bars = at.angles_arcsec().map(|angle| bar(angle / largest, side));
         let _ = writeln!(out, "{}", format!("{:>3}{:>3}  {}", at.i, at.j, bars.join("  ")).trim_end());
     }
-    let _ = writeln!(out, "  the longest bar is {largest} arcsec; bars to the left are negative");
+    let _ = writeln!(out, "  the longest bar is {largest}″; bars to the left are negative");
 }
 
 /// Returns a bar for a value from -1 to 1, around the axis in its middle, with `side` characters on each side.

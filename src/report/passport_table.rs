@@ -72,15 +72,15 @@ fn stand(out: &mut String, content: &Content) {
     option(out, "basis of validity", certificate.valid_until_basis.as_ref());
     option(out, "method", certificate.method.as_ref());
     option(out, "traceability", certificate.traceability.as_ref());
-    option(out, "temperature, deg C", certificate.temperature_c);
-    option(out, "from, to, deg C", certificate.temperature_range_c.map(|[low, high]| format!("{low}, {high}")));
-    option(out, "repeatability, arcsec", certificate.repeatability_arcsec);
+    option(out, "temperature, °C", certificate.temperature_c);
+    option(out, "from, to, °C", certificate.temperature_range_c.map(|[low, high]| format!("{low}, {high}")));
+    option(out, "repeatability, ″", certificate.repeatability_arcsec);
     option(out, "degrees of freedom", certificate.repeatability_degrees_of_freedom);
-    option(out, "common platform, arcsec", certificate.common_platform_arcsec);
-    option(out, "common base, arcsec", certificate.common_base_arcsec);
+    option(out, "common platform, ″", certificate.common_platform_arcsec);
+    option(out, "common base, ″", certificate.common_base_arcsec);
     for TypeB { source, acts_on, u_arcsec, degrees_of_freedom } in certificate.type_b.iter().flatten() {
         let known = degrees_of_freedom.map_or_else(String::new, |known| format!(" ({known} degrees of freedom)"));
-        line(out, &format!("type B, {}, arcsec", acts_on.word()), format!("{u_arcsec}{known}: {source}"));
+        line(out, &format!("type B, {}, ″", acts_on.word()), format!("{u_arcsec}{known}: {source}"));
     }
     if let Some(Evidence { readings_sha256, runs, excluded }) = &certificate.evidence {
         line(out, "readings", format!("{runs} runs, sha256 {readings_sha256}"));
@@ -110,7 +110,7 @@ fn positions(out: &mut String, content: &Content) {
             row.extend([decimal(angle), maybe(u)]);
         }
         if with_freedom {
-            row.push(maybe(at.degrees_of_freedom));
+            row.push(at.degrees_of_freedom.map_or_else(|| "-".to_owned(), columns::degrees_of_freedom));
         }
         row
     });
@@ -136,13 +136,13 @@ fn site(out: &mut String, content: &Content) {
     heading(out, "Site");
     line(out, "id", &site.id);
     option(out, "name", site.name.as_ref());
-    option(out, "latitude, deg", site.latitude_deg);
-    option(out, "astronomic lat., deg", site.astronomic_latitude_deg);
-    option(out, "longitude, deg", site.longitude_deg);
+    option(out, "latitude, °", site.latitude_deg);
+    option(out, "astronomic lat., °", site.astronomic_latitude_deg);
+    option(out, "longitude, °", site.longitude_deg);
     option(out, "height, m", site.height_m);
     if let Some(deflection) = &site.deflection_arcsec {
         let (xi, eta) = (deflection.xi, deflection.eta);
-        line(out, "deflection, arcsec", format!("ξ {xi}, η {eta}{}", with_u(deflection.u)));
+        line(out, "deflection, ″", format!("ξ {xi}, η {eta}{}", with_u(deflection.u)));
     }
     let gravity = site.gravity_m_per_s2.map(|gravity| format!("{gravity}{}", with_u(site.gravity_u_m_per_s2)));
     option(out, "measured gravity, m/s²", gravity);
@@ -153,22 +153,22 @@ fn site(out: &mut String, content: &Content) {
         line(out, "pillar", pillar);
         option(out, "u of both, m", mark.position_u_m);
     }
-    option(out, "frame axis azimuth, deg", site.frame_axis_azimuth_deg);
+    option(out, "frame axis azimuth, °", site.frame_axis_azimuth_deg);
     if let Some(base) = &site.uncertainty {
-        option(out, "u of latitude, arcsec", base.latitude_arcsec);
-        option(out, "u of base azimuth, arcsec", base.azimuth_arcsec);
-        option(out, "u of base level, arcsec", base.level_arcsec);
+        option(out, "u of latitude, ″", base.latitude_arcsec);
+        option(out, "u of base azimuth, ″", base.azimuth_arcsec);
+        option(out, "u of base level, ″", base.level_arcsec);
     }
     option(out, "source", site.source.as_ref());
     heading(out, "Earth at the site");
-    line(out, "astronomic latitude, deg", earth.latitude_deg);
+    line(out, "astronomic latitude, °", earth.latitude_deg);
     line(out, "horizontal rate, °/h", format!("{:.9}", earth.horizontal_deg_per_h));
     line(out, "vertical rate, °/h", format!("{:.9}", earth.vertical_deg_per_h));
     line(out, "gravity, m/s²", measured(earth.gravity_m_per_s2, site.gravity_u_m_per_s2()));
     let radius = format!("{:.0} (Earth rate within {} °/h)", earth.valid_radius_m, earth.valid_within_deg_per_h);
     line(out, "validity radius, m", radius);
-    option(out, "azimuth of mark, deg", earth.azimuth_deg);
-    option(out, "u of azimuth, arcsec", earth.azimuth_u_arcsec);
+    option(out, "azimuth of mark, °", earth.azimuth_deg);
+    option(out, "u of azimuth, ″", earth.azimuth_u_arcsec);
 }
 
 fn matrices(out: &mut String, content: &Content) {
@@ -225,7 +225,7 @@ fn accuracy(out: &mut String, content: &Content) {
     );
     line(out, "meter", words);
     let seat = laboratory.seating_arcsec.as_ref();
-    option(out, "gyro seat, arcsec", seat.map(|seat| format!("{}, {}, {}", seat.about_x, seat.about_y, seat.about_z)));
+    option(out, "gyro seat, ″", seat.map(|seat| format!("{}, {}, {}", seat.about_x, seat.about_y, seat.about_z)));
     let u = &accuracy.standard_uncertainty;
     let (us, nominal) = (u.to_model().to_vector(), gyro.nominal.to_model().to_vector());
     let rows = Parameter::AS_IN_THE_PAPER.map(|parameter| {

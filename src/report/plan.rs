@@ -47,7 +47,7 @@ fn azimuth(azimuth_deg: f64) -> String {
         270.0 => " (west)",
         _ => "",
     };
-    format!("{azimuth_deg} deg{name}")
+    format!("{azimuth_deg}°{name}")
 }
 
 fn of_criterion(criterion: Criterion) -> &'static str {
@@ -60,7 +60,7 @@ fn of_criterion(criterion: Criterion) -> &'static str {
 
 fn positions(out: &mut String, plan: &Plan) {
     let certified = plan.readings.iter().any(|at| at.index.is_some());
-    let mut names = vec!["θ, deg", "φ, deg", "visits"];
+    let mut names = vec!["θ, °", "φ, °", "visits"];
     if certified {
         names.splice(0..0, ["i", "j"]);
     }
@@ -143,13 +143,21 @@ fn common_errors(out: &mut String, plan: &Plan) {
         [percent(effect.largest_over_tolerance), residual]
     };
     let rows = plan.evaluation.effects.iter().enumerate().map(|(place, effect)| {
-        let CommonError { name, size, cause } = effect.error;
-        let mut row = vec![name.to_owned(), format!("{size} {}", cause.unit())];
+        let mut row = vec![effect.error.name.to_owned(), size(effect)];
         row.extend(cells(effect));
         row.extend(plan.paper.iter().flat_map(|paper| cells(&paper.effects[place])));
         row
     });
     columns::table(out, &names, rows);
+}
+
+/// Returns the size of an error with its unit.
+pub(crate) fn size(effect: &Effect) -> String {
+    let CommonError { size, cause, .. } = effect.error;
+    match cause.unit() {
+        "arcsec" => format!("{size}″"),
+        unit => format!("{size} {unit}"),
+    }
 }
 
 /// Formats a standard uncertainty as a share of the tolerance, in percent.

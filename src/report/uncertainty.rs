@@ -32,7 +32,7 @@ fn parameter(out: &mut String, line: &ParameterBudget) {
     let freedom = match line.effective_degrees_of_freedom {
         known if known.is_infinite() => "infinite".to_owned(),
         known if known > 1e4 => "more than 10,000".to_owned(),
-        known => format!("{known:.1}"),
+        known => columns::degrees_of_freedom(known),
     };
     let _ = writeln!(
         out,

@@ -4,9 +4,8 @@
 use super::drawing::{Anchor, Point, Scale, label, number, plain_symbol, rectangle, symbol, symbols, words};
 use super::file::{caption, file};
 use crate::calibration::parameter::Parameter;
-use crate::plan::sensitivity::{CommonError, Effect};
 use crate::plan::{Evaluation, Plan};
-use crate::report::plan::{percent, percent_of_tolerance};
+use crate::report::plan::{percent, percent_of_tolerance, size};
 use maud::{Markup, html};
 
 /// Left and right end of the bars of both panels. Names are to their left, numbers to their right.
@@ -41,7 +40,7 @@ pub(crate) fn plan(plan: &Plan, site: &str) -> String {
     });
     let errors = plan.evaluation.effects.iter().enumerate().map(|(place, effect)| {
         let paper = plan.paper.as_ref().map(|paper| paper.effects[place].largest_over_tolerance);
-        let name = name_of(effect);
+        let name = format!("{} {}", effect.error.name, size(effect).replace(' ', "\u{a0}"));
         Row { drawn: symbols(&name), name, plan: effect.largest_over_tolerance, paper }
     });
     let panels = [
@@ -64,15 +63,6 @@ pub(crate) fn plan(plan: &Plan, site: &str) -> String {
     ];
     let size = [WIDTH, TOP + ROW * rows as f64 + 10.0];
     file("plan", size, &title, &in_words(&panels), &drawing)
-}
-
-fn name_of(effect: &Effect) -> String {
-    let CommonError { name, size, cause } = effect.error;
-    let unit = match cause.unit() {
-        "arcsec" => "″".to_owned(),
-        unit => format!("\u{a0}{unit}"),
-    };
-    format!("{name} {size}{unit}")
 }
 
 fn key(plan: &Plan) -> Markup {
