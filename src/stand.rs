@@ -1,5 +1,6 @@
 //! Test stands and their calibration certificates: the file `stand.yaml` (`dtg-stand/1`).
 
+#[cfg(feature = "factory")]
 pub(crate) mod number;
 pub(crate) mod remarks;
 pub(crate) mod type_b;

@@ -289,7 +289,7 @@ fn a_number_keeps_its_angles() {
     ] {
         let (code, _, said) = run(&folder, arguments);
         assert_eq!(code, 1, "{arguments}: {said}");
-        assert!(said.contains("certificate C-2026-0201") && said.contains("position (1, 1)"), "{said}");
+        assert!(said.contains("certificate C-2026-0143") && said.contains("position (1, 1)"), "{said}");
         assert!(
             !folder.join("new.yaml").exists() && fs::read(folder.join("stand.yaml")).unwrap() == old,
             "{arguments}"
@@ -298,7 +298,7 @@ fn a_number_keeps_its_angles() {
     // The same angles under the old number, and no header that says when: nothing to write.
     let (code, _, said) = run(&folder, "angles.csv --against stand.yaml -o new.yaml");
     assert!(code == 2 && said.contains("--stand HEADER.yaml"), "{said}");
-    let header = example("header.yaml").replace("C-2026-0201", "C-2027-0007");
+    let header = example("header.yaml").replace("C-2026-0143", "C-2027-0007");
     fs::write(folder.join("header.yaml"), header).unwrap();
     let (code, _, said) = run(&folder, "new.csv --against stand.yaml --stand header.yaml -o new.yaml");
     assert!(said.contains("wrote new.yaml"), "{code} {said}");

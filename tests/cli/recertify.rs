@@ -116,13 +116,13 @@ fn all_places_get_the_new_certificate() {
     let expected = [
         "here-1.yaml",
         "here-2.yaml",
-        "stand-C-2026-0142.superseded.yaml",
+        "stand-C-2026-0143.superseded.yaml",
         "stand.yaml",
         "there-1.yaml",
         "there-2.yaml",
     ];
     assert_eq!(names, expected);
-    assert_eq!(after["stand-C-2026-0142.superseded.yaml"], before["stand.yaml"]);
+    assert_eq!(after["stand-C-2026-0143.superseded.yaml"], before["stand.yaml"]);
     before.iter().filter(|(name, _)| *name != "stand.yaml").for_each(|(name, bytes)| assert_eq!(&after[name], bytes));
 
     // Expected: `certify` with a header that omits the results and the dates of the old measurement.
@@ -168,7 +168,7 @@ fn a_header_and_a_place_can_be_chosen() {
     assert_eq!(code, 0, "{said}");
     assert!(stdout.contains("issued     SPS-2/0017/here/2") && !stdout.contains("there/2"), "{stdout}");
     let words = stdout.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(words.contains("WARNING: in force under certificate C-2026-0142 still: SPS-2/0017/there/1"), "{stdout}");
+    assert!(words.contains("WARNING: in force under certificate C-2026-0143 still: SPS-2/0017/there/1"), "{stdout}");
     let stand = String::from_utf8(factory.passports()["stand.yaml"].clone()).unwrap();
     assert!(stand.contains("valid_until: \"2028-11-19\"") && stand.contains("performed: \"2026-10-29\""), "{stand}");
     // The other place follows, with a corrected site.
@@ -231,9 +231,9 @@ fn a_refusal_writes_nothing() {
             "no passport of the stand is in force for site nowhere; found here, there",
         ),
         (
-            format!("{HERE} new.csv {}", number("C-2026-0142")),
+            format!("{HERE} new.csv {}", number("C-2026-0143")),
             1,
-            "certificate C-2026-0142 is the certificate of the passport",
+            "certificate C-2026-0143 is the certificate of the passport",
         ),
         (format!("{HERE} one.csv {good}"), 1, "found one run, expected at least two"),
         (format!("{HERE} rotated.csv {good}"), 1, "check that these are the readings of this stand"),
@@ -289,12 +289,12 @@ fn a_passport_is_enough_for_a_check() {
 fn a_superseded_stand_file_is_kept() {
     let factory = Factory::new();
     let old = factory.passports()["stand.yaml"].clone();
-    let header = fs::read_to_string(factory.path("header.yaml")).unwrap().replace("C-2026-0142", "C 2026/0300");
+    let header = fs::read_to_string(factory.path("header.yaml")).unwrap().replace("C-2026-0143", "C 2026/0300");
     fs::write(factory.path("header.yaml"), header).unwrap();
     let certify = "certify new.csv --stand header.yaml -o passports/SPS-2/0017/stand.yaml --force";
     let (code, _, said) = factory.run(certify);
-    assert!(code == 0 && said.contains("stand-C-2026-0142.superseded.yaml"), "{said}");
-    assert_eq!(factory.passports()["stand-C-2026-0142.superseded.yaml"], old);
+    assert!(code == 0 && said.contains("stand-C-2026-0143.superseded.yaml"), "{said}");
+    assert_eq!(factory.passports()["stand-C-2026-0143.superseded.yaml"], old);
     // The same file again is not superseded.
     factory.good(certify);
     assert_eq!(factory.passports().len(), 4);
@@ -358,7 +358,7 @@ fn in_a_workspace_the_stand_file_is_among_the_stands() {
     fs::rename(factory.path("passports/SPS-2/0017/stand.yaml"), &stand).unwrap();
     factory.good(&format!("recertify SPS-2/0017/here/1 new.csv {ORDER} --workspace . --time 2026-11-21"));
     assert!(fs::read_to_string(&stand).unwrap().contains("C-2026-0300"));
-    assert!(factory.path("stands/SPS-2/0017/stand-C-2026-0142.superseded.yaml").exists());
+    assert!(factory.path("stands/SPS-2/0017/stand-C-2026-0143.superseded.yaml").exists());
     assert!(!factory.path("passports/SPS-2/0017/stand.yaml").exists());
     assert!(factory.path("passports/SPS-2/0017/there-2.yaml").exists());
 }

@@ -70,7 +70,7 @@ impl Certified {
             name: record.name,
             folder: &self.folder,
             languages,
-            own_words: "C-2028-0007 C-2026-0201",
+            own_words: "C-2028-0007 C-2026-0143",
             found: &self.found[record.name],
         })
     }
@@ -114,7 +114,7 @@ fn files(folder: &Path) {
     programs::output(certify(folder, "angles.csv", "first-header.yaml", "first.yaml"));
     let type_b = "  type_b: [{source: \"autocollimator\", acts_on: \"position\", u_arcsec: 0.3}, \
                   {source: \"level\", acts_on: \"base\", u_arcsec: 0.4, degrees_of_freedom: 8}]\ndatum:";
-    write("header.yaml", &header.replace("C-2026-0201", "C-2028-0007").replace("datum:", type_b));
+    write("header.yaml", &header.replace("C-2026-0143", "C-2028-0007").replace("datum:", type_b));
     write("later.csv", &changed(&|cells| if cells[0] == "2" && cells[1] == "3" { 9.0 } else { 0.0 }));
     write("odd.csv", &changed(&|cells| if cells[..3] == ["1", "2", "3"] { 60.0 } else { 0.0 }));
 }
@@ -188,7 +188,7 @@ fn a_record_says_whether_the_stand_has_changed() {
     assert_eq!(headline("record-en"), "Positions certified: 8; runs: 5");
     assert_eq!(
         headline("record-both"),
-        "Стенд изменился после сертификата C-2026-0201 Changed since certificate C-2026-0201"
+        "Стенд изменился после сертификата C-2026-0143 Changed since certificate C-2026-0143"
     );
     let said = &CERTIFIED.found["record-both"]["said"];
     assert_eq!(strings(&said["sections"]), ["1", "2", "3", "4", "5", "6"]);
