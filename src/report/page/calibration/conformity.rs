@@ -10,7 +10,6 @@ use crate::gyro::GyroType;
 use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::{Cell, Number, column};
 use crate::report::page::parts::{Column, Table, date_text, heading, quantity, symbol_and_unit};
-use crate::report::page::spacing::BLANK;
 use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::accuracy::unit;
@@ -125,21 +124,17 @@ fn table(
             html! { "–" }
         };
     }
-    // Deviation and tolerance of a scale factor are in percent of it, not in its unit.
-    let in_units = |heading, number: &dyn Fn(&ParameterVerdict) -> Number| {
-        let mut column = numbers(heading, number);
-        for (cell, row) in column.cells.iter_mut().zip(rows) {
-            *cell = html! { (cell) (BLANK) span.unit { (languages.spoken(unit_of(row))) } };
-        }
-        column
-    };
+    let mut tolerances = numbers(texts::TOLERANCE, &|row| Number::exact(row.tolerance));
+    for (tolerance, row) in tolerances.cells.iter_mut().zip(rows) {
+        *tolerance = html! { (tolerance) " " span.unit { (languages.spoken(unit_of(row))) } };
+    }
     let mut columns = vec![
         numbers(texts::FOUND, &|row| Number::measured(row.value, expanded(row))),
         numbers(texts::PLUS_MINUS, &|row| Number::uncertainty(expanded(row))),
         numbers(reference, &|row| Number::measured(row.reference_value, expanded(row))),
-        in_units(deviation, &|row| printed(row).0),
+        numbers(deviation, &|row| printed(row).0),
         numbers(texts::PLUS_MINUS, &|row| printed(row).1),
-        in_units(texts::TOLERANCE, &|row| Number::exact(row.tolerance)),
+        tolerances,
         Column { foot: strips.axis(languages), ..each(texts::IN_TOLERANCE, &|row| strips.strip(row)) },
         each(texts::GUARDED, &|row| decided(languages, row.guarded)),
         Column::named(languages, texts::SIMPLE, risks),
