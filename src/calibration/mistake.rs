@@ -187,7 +187,7 @@ fn turned(found: &Found, used: &EarthRate) -> impl Iterator<Item = (Found, Mista
     })
 }
 
-/// Returns the result with R K and R ω_0 in place of K and ω_0.
+/// Returns the result with R K and R ω_0 instead of K and ω_0.
 fn turned_back(found: &Found, turn: &Matrix2<f64>) -> Found {
     let mut back = *found;
     back.parameters.k_deg_per_h_per_ma = turn * found.parameters.k_deg_per_h_per_ma;

@@ -186,7 +186,7 @@ pub(crate) fn history(
 /// Name and content of a file that claims to be a list.
 type Claimed = (PathBuf, Vec<u8>);
 
-/// What a file is; a damaged one is a passport with an alarm, any other file nothing.
+/// Findings in one file: a damaged passport has an alarm too, and a file of another kind has none of the three.
 #[derive(Default)]
 struct Seen {
     passport: Option<Box<Examined>>,

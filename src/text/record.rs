@@ -68,7 +68,7 @@ pub(crate) trait Document: Record {
 pub(crate) struct File<T>(pub(crate) T);
 
 impl<T: Document> Field for File<T> {
-    /// Of a file of another format only the format is reported.
+    /// If a file has another format, only the format is reported.
     fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
         const RIGHT_FILE: &str = "check that this is the right file";
         let format = T::FORMAT;

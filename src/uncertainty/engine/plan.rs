@@ -14,7 +14,8 @@ use nalgebra::Vector2;
 /// Place of a column of standard deviates; column 0 is all zeros.
 pub(crate) type Slot = usize;
 
-/// What the base adds to [`Cause::Base`] about its axes east, north and up: level, level, and azimuth with the mark.
+/// Causes at the site that add to [`Cause::Base`] about the axes east, north and up: level, level, and azimuth with the
+/// mark.
 pub(crate) const BASE_AT_SITE: [Cause; 3] = [Cause::Level(0), Cause::Level(1), Cause::Azimuth];
 
 /// Inputs that are drawn, in the order of their columns.
