@@ -9,7 +9,6 @@ import subprocess
 from pathlib import Path
 
 import pytest
-import yaml
 
 PROJECT = Path(__file__).parents[2]
 PROGRAM = os.environ["DTG_PASSPORT"]
@@ -29,64 +28,6 @@ def program(*arguments: object, accept: tuple[int, ...] = (0,)) -> str:
     done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
     assert done.returncode in accept, (arguments, done.stderr)
     return done.stdout
-
-
-PASSPORT = PROJECT / "passports/SPS-2/0017/moscow-bmstu-1.yaml"
-CURRENTS, RUN = PROJECT / "docs/currents.csv", PROJECT / "docs/run.csv"
-
-
-def plain(path: Path) -> dict:
-    return yaml.safe_load(path.read_text())
-
-
-LABORATORY, GYRO = plain(PROJECT / "docs/laboratory.yaml"), plain(PROJECT / "docs/gvk-6.yaml")
-# A meter that is not the paper's, a gyro that states its noise, and tolerances that every and no gyro meets.
-OWN = {**LABORATORY, "meter": {**LABORATORY["meter"], "reading_percent": 0.02, "noise_ma": 1e-7}, "temperature_c": 35.0}
-NOISY = {**GYRO, "noise": {"visit_deg_per_h": 0.001, "turn_on_deg_per_h": 0.01}}
-WIDE, NARROW = ({**GYRO, "tolerance": dict.fromkeys(GYRO["tolerance"], limit)} for limit in (1e3, 1e-6))
-DOOR = {"i": 2, "j": 4, "visit": 1, "cycle": 3, "why": "door opened"}
-
-# Currents and order of calibrations.
-ORDERS: dict[str, tuple[Path, dict]] = {
-    "nothing": (CURRENTS, {}),
-    "laboratory": (CURRENTS, {"laboratory": OWN, "method": "iterative"}),
-    "pass": (CURRENTS, {"laboratory": LABORATORY, "gyro": WIDE, "method": "analytic"}),
-    "fail": (CURRENTS, {"gyro": NARROW}),
-    "turn-ons": (RUN, {"laboratory": OWN, "gyro": NOISY}),
-    "drift": (RUN, json.loads((PROJECT / "docs/order.json").read_text())),
-    "two excluded": (RUN, {"exclude": [DOOR, {**DOOR, "cycle": 1, "why": "read late"}]}),
-    "general": (RUN, {"model": "general", "gyro": GYRO}),
-}
-
-# Orders that are refused, the code of the refusal, and words of it that are also those for a file.
-REFUSED: list[tuple[Path, dict, str, str]] = [
-    (CURRENTS, {"laboratory": {**OWN, "meter": {**OWN["meter"], "floor_ma": 0.0}}}, "unusable", "meter.floor_ma: found 0, expected a positive number"),
-    (CURRENTS, {"laboratory": {**OWN, "meters": {}}}, "unusable", "unknown key \"meters\""),
-    (CURRENTS, {"laboratory": GYRO}, "unusable", "format: found \"dtg-gyro/1\", expected \"dtg-laboratory/1\""),
-    (CURRENTS, {"gyro": {key: GYRO[key] for key in GYRO if key != "tolerance"}}, "unusable", "tolerance: missing"),
-    (CURRENTS, {"method": "exact"}, "unusable", "method: found \"exact\", expected \"analytic\""),
-    (CURRENTS, {"model": "full"}, "unusable", "model: found \"full\", expected \"paper\" or \"general\""),
-    (CURRENTS, {"drift": 1}, "unusable", "drift: found 1, expected true or false"),
-    (RUN, {"exclude": [{"i": 2, "j": 4, "visit": 1, "why": "door opened"}]}, "unusable", "has a visit 1 in the cycles [1, 2, 3]"),
-    (RUN, {"exclude": [{**DOOR, "visit": 9}]}, "unusable", "found no visit 9 to position (2, 4)"),
-    (RUN, {"exclude": [{**DOOR, "why": ""}]}, "unusable", "exclude[0].why: found empty text"),
-    (CURRENTS, {"drift": True}, "refused", "time_s"),
-    (CURRENTS, {"model": "general", "method": "analytic"}, "refused", "has only the paper's model"),
-]
-
-
-def calibrated(folder: Path, currents: Path, order: dict) -> str:
-    """Return the JSON that the program prints for an order."""
-    options: list[object] = ["--method", order.get("method", "least-squares"), "--model", order.get("model", "paper")]
-    options += ["--drift"] if order.get("drift") else []
-    for visit in order.get("exclude", ()):
-        options += ["--exclude", ",".join(str(visit[key]) for key in ("i", "j", "visit", "cycle")), "--why", visit["why"]]
-    for key in ("laboratory", "gyro"):
-        if key in order:
-            (folder / f"{key}.yaml").write_text(yaml.safe_dump(order[key]))
-            options += [f"--{key}", folder / f"{key}.yaml"]
-    verified = ("--trust", SIGNERS, "--time", TIME, "--format", "json")
-    return program("calibrate", PASSPORT, currents, *verified, *options, accept=(0, 1))
 
 
 def altered(good: list[bytes], count: int) -> list[bytes]:

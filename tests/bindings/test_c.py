@@ -14,21 +14,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
-from conftest import (
-    CURRENTS,
-    GYRO,
-    LABORATORY,
-    ORDERS,
-    PASSPORT,
-    PROJECT,
-    REFUSED,
-    RUN,
-    SIGNERS,
-    TIME,
-    Corpus,
-    calibrated,
-    program,
-)
+from conftest import PROJECT, SIGNERS, TIME, Corpus, program
+from orders import CURRENTS, GYRO, LABORATORY, ORDERS, PASSPORT, REFUSED, RUN, calibrated
 
 LIBRARIES = PROJECT / "target/debug"
 QUESTION = json.dumps({"time": TIME})

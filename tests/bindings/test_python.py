@@ -20,7 +20,8 @@ import dtg_passport
 import numpy as np
 import pytest
 import yaml
-from conftest import CURRENTS, ORDERS, PASSPORT, PROJECT, REFUSED, RUN, SHIPPED, SIGNERS, TIME, Corpus, calibrated, plain, program
+from conftest import PROJECT, SHIPPED, SIGNERS, TIME, Corpus, program
+from orders import CURRENTS, ORDERS, PASSPORT, REFUSED, RUN, calibrated, plain
 
 def load(path: Path = PASSPORT, **asked: object) -> dtg_passport.Passport:
     return dtg_passport.load(path, SIGNERS, **{"time": TIME, **asked})

@@ -13,7 +13,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
-from conftest import CURRENTS, ORDERS, PASSPORT, PROJECT, REFUSED, RUN, SIGNERS, TIME, Corpus, calibrated, program
+from conftest import PROJECT, SIGNERS, TIME, Corpus, program
+from orders import CURRENTS, ORDERS, PASSPORT, REFUSED, RUN, calibrated
 
 WEB = PROJECT / "target/web"
 
