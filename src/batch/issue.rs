@@ -1,7 +1,7 @@
 //! Batch that issues revision 1 of every stand at every site.
 
 use super::catalogue::{Catalogue, Listed};
-use super::{Batch, Event, Listener, Outcome, Purpose, fail, parallel, paths, sweep};
+use super::{Batch, Event, Failure, Listener, Outcome, Purpose, fail, parallel, paths, sweep};
 use crate::files::folder_of;
 use crate::folder::{Folder, Visited, search};
 use crate::passport::Trust;
@@ -40,7 +40,8 @@ impl Batch<'_> {
     /// Issues a passport of every stand for every site.
     ///
     /// All files are read first, so that every error in them is reported before anything is signed. An unusable file
-    /// costs only its own passports. A stand that already has passports from another certificate is remarked upon.
+    /// costs only its own passports. A stand whose passports state other angles under the
+    /// number of its certificate is refused; one with passports from another certificate is remarked upon.
     pub(crate) fn issue(&self, job: &Job, list: &mut dyn BufRead, tell: Listener) {
         let (stands, bad_stands) = Catalogue::read(paths::files(job.stands, list, Purpose::Stands), self.threads, tell);
         let (sites, bad_sites) = Catalogue::read(paths::files(job.sites, list, Purpose::Sites), self.threads, tell);
@@ -72,7 +73,7 @@ impl Run<'_> {
     fn all(&mut self, stands: &Catalogue<PreparedStand>, sites: &Catalogue<Site>, tell: Listener) {
         for some_stands in ranges(stands.len(), STANDS_AT_ONCE) {
             let loaded_stands = self.load(stands, some_stands, sites.len(), tell);
-            self.remark_on_certificates(&loaded_stands, tell);
+            let loaded_stands = self.without_contradictions(loaded_stands, sites.len(), tell);
             for some_sites in ranges(sites.len(), SITES_AT_ONCE) {
                 let loaded_sites = self.load(sites, some_sites, loaded_stands.len(), tell);
                 for stand in &loaded_stands {
@@ -92,15 +93,35 @@ impl Run<'_> {
         self.chunk(tell);
     }
 
-    /// Reports the other certificates from which these stands have passports.
-    fn remark_on_certificates(&self, stands: &[Arc<PreparedStand>], tell: Listener) {
-        let Some((trust, time)) = self.job.known else { return };
-        let remarks = parallel::map(stands, self.batch.threads, |stand| {
-            self.job.folder.against_certificate(stand.stand(), trust, time)
-        });
-        for (stand, remarks) in stands.iter().zip(remarks) {
-            remarks.into_iter().for_each(|words| tell(Event::Remark { file: stand.stand().stand.id(), words }));
+    /// Returns the stands whose existing passports do not contradict their certificates; the others are refused. Reports
+    /// the other certificates from which stands have passports.
+    fn without_contradictions(
+        &self,
+        stands: Vec<Arc<PreparedStand>>,
+        each_costs: usize,
+        tell: Listener,
+    ) -> Vec<Arc<PreparedStand>> {
+        let Some((trust, time)) = self.job.known else { return stands };
+        let found =
+            parallel::map(&stands, self.batch.threads, |stand| self.job.folder.against_certificate(stand, trust, time));
+        let mut good = Vec::new();
+        for (stand, found) in stands.into_iter().zip(found) {
+            let id = stand.stand().stand.id();
+            match found {
+                Ok(remarks) => {
+                    remarks.into_iter().for_each(|words| tell(Event::Remark { file: id.clone(), words }));
+                    good.push(stand);
+                }
+                Err(why) => self.lost(Failure::of(id, why.to_string(), why.is_unusable()), each_costs, tell),
+            }
         }
+        good
+    }
+
+    /// Reports a failure that costs passports already counted as planned.
+    fn lost(&self, failure: Failure, each_costs: usize, tell: Listener) {
+        fail(vec![failure], each_costs as u64, tell);
+        tell(Event::Lost(self.batch.shard.share(each_costs as u64)));
     }
 
     /// Loads the documents at `places`, and reports files that have become unusable since they were first read.
@@ -115,10 +136,7 @@ impl Run<'_> {
         for loaded in catalogue.load(places, self.batch.threads) {
             match loaded {
                 Ok(value) => good.push(value),
-                Err(failure) => {
-                    fail(vec![failure], each_costs as u64, tell);
-                    tell(Event::Lost(self.batch.shard.share(each_costs as u64)));
-                }
+                Err(failure) => self.lost(failure, each_costs, tell),
             }
         }
         good

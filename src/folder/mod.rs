@@ -30,7 +30,7 @@ use crate::passport::issue::{Draft, Issue, PreparedStand, Remarks};
 use crate::passport::reissue::{Successor, changes};
 use crate::passport::verification::{Question, Trust, verify};
 use crate::passport::{NAMESPACE, read};
-use crate::register::Asked;
+use crate::register::{Asked, Line, State};
 use crate::site::Site;
 use crate::stand::{Identity, Stand};
 use crate::text::scalar::Identifier;
@@ -185,19 +185,35 @@ impl Folder {
         near.filter(|(distance, _)| *distance <= most).min().map(|(_, id)| id)
     }
 
-    /// Returns the objections to a further passport from the certificate of `stand`, in words: the certificate was
-    /// replaced, or another one is in force. Only existing passports of the stand that are authentic by `trust` are
+    /// Returns remarks on a further passport from the certificate of `stand`: the certificate was replaced, or another
+    /// one is in force. Only existing passports of the stand that are authentic by `trust` and not withdrawn are
     /// considered.
-    pub(crate) fn against_certificate(&self, stand: &Stand, trust: &Trust, time: Timestamp) -> Vec<String> {
+    ///
+    /// # Errors
+    /// Returns [`FolderRefused::NumberInUse`] if one of them states other angles under the number of the certificate.
+    pub(crate) fn against_certificate(
+        &self,
+        stand: &PreparedStand,
+        trust: &Trust,
+        time: Timestamp,
+    ) -> Result<Vec<String>, FolderRefused> {
+        let (text, stand) = (stand.text(), stand.stand());
         let folder = self.root.join(stand.stand.model.as_str()).join(stand.stand.serial.as_str());
+        if !superseding::may_contradict(&folder, text) {
+            return Ok(Vec::new());
+        }
+        let Ok((register, _)) = search::register(&folder, trust.clone(), &Asked::at(time), 1) else {
+            return Ok(Vec::new());
+        };
         let number = &stand.certificate.number;
-        if !superseding::has_other_certificate(&folder, number) {
-            return Vec::new();
+        let valid = |line: &&Line| !matches!(line.state, State::Broken | State::Revoked);
+        for line in register.passports.iter().filter(valid).filter(|line| line.certificate.as_ref() == Some(number)) {
+            let path = PathBuf::from(&line.file);
+            let there = Existing::of(&path, &files::read(&path, LARGEST_DOCUMENT_BYTES)?)?;
+            let unlike = stand.check_number(&there.content.to_stand());
+            unlike.map_err(|error| FolderRefused::NumberInUse { path, error })?;
         }
-        match search::register(&folder, trust.clone(), &Asked::at(time), 1) {
-            Ok((register, _)) => register.against_certificate(&stand.stand.id(), number),
-            Err(_) => Vec::new(),
-        }
+        Ok(register.against_certificate(&stand.stand.id(), number))
     }
 
     /// Issues revision 1 of a stand for a site.

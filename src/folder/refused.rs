@@ -2,6 +2,7 @@
 
 use crate::files::FileError;
 use crate::passport::issue::IssueRefused;
+use crate::stand::number::NumberInUse;
 use crate::text::shown;
 use std::path::PathBuf;
 
@@ -65,6 +66,14 @@ pub enum FolderRefused {
         path: PathBuf,
         /// Path of the existing folder or file.
         there: PathBuf,
+    },
+    /// Existing passport that states other angles under the number of the certificate.
+    #[error("{}: {error}", shown(path))]
+    NumberInUse {
+        /// Path of the existing file.
+        path: PathBuf,
+        /// First position with other angles.
+        error: NumberInUse,
     },
     /// New passport that fails verification with the given trust.
     #[error("the new passport failed verification ({check}: {detail}); nothing was written")]

@@ -32,16 +32,16 @@ impl Superseding {
     }
 }
 
-/// Returns `true` if a file in the folder of a stand supersedes another one, or is not from the certificate `number`.
+/// Returns `true` if a file in the folder of a stand supersedes another one, or states the stand and its certificate
+/// otherwise than the text `of_stand`.
 ///
 /// This quick test avoids a full search in the usual case that all passports are from one certificate.
-pub(super) fn has_other_certificate(folder: &Path, number: &str) -> bool {
-    let own = format!("\n  number: \"{number}\"\n");
+pub(super) fn may_contradict(folder: &Path, of_stand: &str) -> bool {
     let has = |bytes: &[u8], text: &[u8]| memchr::memmem::find(bytes, text).is_some();
     let mut bytes = Vec::new();
     files_of(folder).any(|path| {
         let read = files::read_into(&mut bytes, &path, LARGEST_DOCUMENT_BYTES);
-        read.is_ok() && (has(&bytes, SUPERSEDES) || !has(&bytes, own.as_bytes()))
+        read.is_ok() && (has(&bytes, SUPERSEDES) || !has(&bytes, of_stand.as_bytes()))
     })
 }
 

@@ -46,14 +46,14 @@ pub fn issue(
     let trust = signers.map(|signers| trust(signers, &[], now)).transpose()?.map(|(trust, _)| trust);
     let folder = Folder::new(out);
     let believed = trust.clone().or_else(|| own_trust(&order.issuer, &signer.public_key()?));
-    let known = |trust| folder.against_certificate(stand.stand(), &trust, now.max(order.issued_at));
-    let mut words = believed.map_or_else(Vec::new, known);
-    let issued = folder.issue(&stand, &site, &order, Seal { signer, trust: trust.as_ref() });
-    let issued = issued.map_err(|refused| match refused {
+    let known = |trust| folder.against_certificate(&stand, &trust, now.max(order.issued_at));
+    let failed = |refused| match refused {
         FolderRefused::File(error) => Failed { code: UNWRITABLE, ..error.into() },
         refused if refused.is_unusable() => Failed::unusable(refused),
         refused => Failed::refused(refused),
-    })?;
+    };
+    let mut words = believed.map_or_else(|| Ok(Vec::new()), known).map_err(failed)?;
+    let issued = folder.issue(&stand, &site, &order, Seal { signer, trust: trust.as_ref() }).map_err(failed)?;
     if issued.new {
         words.extend(issued.remarks.words());
     }

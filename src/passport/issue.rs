@@ -120,6 +120,11 @@ impl PreparedStand {
         &self.stand
     }
 
+    /// Returns the part of the payload that is the same at every site; empty if n_2 has no inverse.
+    pub(crate) fn text(&self) -> &str {
+        self.geometry.as_ref().map_or("", |(_, text)| text)
+    }
+
     /// Computes all numbers of the passport at `site`, writes the text, and reads it back as a check.
     ///
     /// # Errors

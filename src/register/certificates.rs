@@ -1,21 +1,30 @@
 //! Certificates under which the passports of a stand were issued. A certificate is superseded if a passport based on it
-//! was re-issued under another one. A stand in force under two certificates has two sets of deviations.
+//! was re-issued under another one. A stand in force under two certificates has two sets of deviations, and so has one
+//! whose certificate states other angles in one passport than in another.
 
 use super::{Alarm, AlarmKind, Examined, State};
 use crate::text::words::first_few;
 use std::collections::{BTreeMap, HashMap};
 
-/// Certificates of each stand, `<model>/<serial>`, that has more than one.
+/// Certificates of each stand, `<model>/<serial>`, whose passports differ in their certificate or its angles.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(super) struct Certificates(BTreeMap<String, OfStand>);
 
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 struct OfStand {
-    /// Ids and files of the passports in force, by certificate number.
-    in_force: BTreeMap<String, Vec<(String, String)>>,
+    /// Passports in force, by certificate number.
+    in_force: BTreeMap<String, Vec<InForce>>,
     /// Number of the replacing certificate and the id of the passport that shows this, by the number of the replaced
     /// one.
     replaced: BTreeMap<String, (String, String)>,
+}
+
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct InForce {
+    id: String,
+    file: String,
+    /// Fingerprint of the certified angles.
+    angles: u64,
 }
 
 impl Certificates {
@@ -23,8 +32,8 @@ impl Certificates {
     pub(super) fn of(files: &[Examined]) -> Self {
         let counted: Vec<&Examined> = files.iter().filter(|file| file.counts && file.issued).collect();
         let of_stand = counted.chunk_by(|a, b| a.line.stand == b.line.stand);
-        let several =
-            of_stand.filter(|files| files.windows(2).any(|pair| pair[0].certificate() != pair[1].certificate()));
+        let of = |file: &Examined| (file.line.certificate.clone(), file.angles);
+        let several = of_stand.filter(|files| files.windows(2).any(|pair| of(pair[0]) != of(pair[1])));
         let several = several.map(|files| (files[0].line.stand.clone().unwrap_or_default(), OfStand::of(files)));
         Self(several.collect())
     }
@@ -39,8 +48,7 @@ impl Certificates {
         let replaced = known.replaced.get(number).map(|by| replaced(number, by));
         let others = known.in_force.iter().filter(|(other, _)| *other != number);
         let others = others.map(|(other, passports)| {
-            let ids: Vec<&str> = passports.iter().map(|(id, _)| id.as_str()).collect();
-            format!("the stand is also in force under certificate {other}: {}", first_few(&ids))
+            format!("the stand is also in force under certificate {other}: {}", ids(passports))
         });
         replaced.into_iter().chain(others).collect()
     }
@@ -63,7 +71,8 @@ impl OfStand {
                 known.replaced.insert((*old).to_owned(), (number.to_owned(), id.clone()));
             }
             if matches!(file.line.state, State::InForce | State::Expiring | State::Unknown) {
-                known.in_force.entry(number.to_owned()).or_default().push((id, file.line.file.clone()));
+                let in_force = InForce { id, file: file.line.file.clone(), angles: file.angles };
+                known.in_force.entry(number.to_owned()).or_default().push(in_force);
             }
         }
         known
@@ -72,17 +81,24 @@ impl OfStand {
     fn alarm(&self, stand: &str) -> Option<Alarm> {
         let outdated = self.in_force.keys().filter_map(|number| Some(replaced(number, self.replaced.get(number)?)));
         let mut words: Vec<String> = outdated.collect();
-        let numbers: Vec<&str> = self.in_force.keys().map(String::as_str).collect();
-        if words.is_empty() && numbers.len() < 2 {
+        let differ = |of: &[InForce]| of.iter().any(|passport| passport.angles != of[0].angles);
+        if words.is_empty() && self.in_force.len() < 2 && !self.in_force.values().any(|of| differ(of)) {
             return None;
         }
-        words.insert(
-            0,
-            format!("{stand} has passports in force under certificate {}", numbers.join(" and certificate ")),
-        );
-        let files = self.in_force.values().flatten().map(|(_, file)| file.clone()).collect();
+        let numbers = self.in_force.iter().map(|(number, of)| match differ(of) {
+            false => format!("certificate {number}"),
+            true => format!("certificate {number}, with different angles ({})", ids(of)),
+        });
+        let numbers: Vec<String> = numbers.collect();
+        words.insert(0, format!("{stand} has passports in force under {}", numbers.join(" and ")));
+        let files = self.in_force.values().flatten().map(|passport| passport.file.clone()).collect();
         Some(Alarm::of_files(AlarmKind::Certificates, words.join("; "), files))
     }
+}
+
+fn ids(passports: &[InForce]) -> String {
+    let ids: Vec<&str> = passports.iter().map(|passport| passport.id.as_str()).collect();
+    first_few(&ids)
 }
 
 fn replaced(number: &str, (by, id): &(String, String)) -> String {

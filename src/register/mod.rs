@@ -13,6 +13,7 @@ use crate::passport::checks::{Check, CheckName, Code};
 use crate::passport::content::Content;
 use crate::passport::verification::{Question, Trust, Verification, verify};
 use crate::revocation::Series;
+use crate::stand::number::fingerprint;
 use crate::text::words;
 use alarm::{absent_predecessors, duplicate_ids, gaps, misplaced};
 use certificates::Certificates;
@@ -103,6 +104,8 @@ pub struct Examined {
     series: String,
     revision: u32,
     predecessor: Option<Predecessor>,
+    /// Fingerprint of the certified angles.
+    angles: u64,
     /// Whether the passport is authentic: text, signature, numbers and signer are correct, and its key is not revoked.
     counts: bool,
     issued_at: Option<Timestamp>,
@@ -175,6 +178,7 @@ pub fn examine(file: &str, bytes: &[u8], trust: &Trust, asked: &Asked) -> Examin
         series: content.map_or_else(String::new, |content| series_of(&content.passport.id).0.to_owned()),
         revision: content.map_or(0, |content| content.passport.revision),
         predecessor,
+        angles: content.map_or(0, |content| fingerprint(&content.positions)),
         counts: verification.authentic().is_some(),
         issued_at: content.map(|content| content.passport.issued_at),
         issued: content.is_some_and(|content| content.passport.issued_at <= time),
