@@ -65,8 +65,8 @@ impl ScaledF {
     }
 }
 
-/// Weight, relative to the largest, below which [`larger`] leaves out the rest of a distribution.
-const NEGLIGIBLE: f64 = 1e-40;
+/// Weight, relative to the sum, below which [`larger`] leaves out the rest of a distribution.
+const NEGLIGIBLE: f64 = 1e-17;
 
 /// Returns the probability by chance of a quadratic form in `numerator` dimensions that is larger than the one found.
 ///
@@ -85,7 +85,8 @@ pub(crate) fn larger(numerator: usize, parts: &[Part], averaged: Option<usize>, 
     let half = others.remove(averaged).degrees_of_freedom / 2.0;
     let of_others = ScaledF::new(numerator, &others);
     // With w = e^(−s) the density is analytic and falls off exponentially, so that equal steps are enough.
-    let step = 0.35 / half.sqrt().max(1.0);
+    // The step is limited by the width of the density, and for few degrees of freedom by its growth off the real axis.
+    let step = f64::min(0.35, 0.6 / half.sqrt());
     let (mut sum, mut weights) = (0.0, 0.0);
     for direction in [-step, step] {
         let mut number = if direction > 0.0 { 1.0 } else { 0.0 };
@@ -95,7 +96,8 @@ pub(crate) fn larger(numerator: usize, parts: &[Part], averaged: Option<usize>, 
             sum += weight * of_others.larger(value(libm::exp(-s)));
             weights += weight;
             number += 1.0;
-            if weight.is_nan() || weight < NEGLIGIBLE {
+            // No probability is larger than 1, so the rest is at most of the order of this weight.
+            if weight.is_nan() || weight < NEGLIGIBLE * sum {
                 break;
             }
         }
