@@ -32,6 +32,8 @@ pub(crate) struct Observation {
     pub(crate) data: Data,
     pub(crate) fit: Fit,
     pub(crate) seen: Observed,
+    /// Differences between the visits to each position; `None` if no position has two.
+    pub(crate) differences: Option<Differences>,
 }
 
 impl Observation {
@@ -42,8 +44,7 @@ impl Observation {
         data.offsets = Offsets::new(readings, drift);
         let stated = data.repeats.clone();
         let differences = Differences::new(readings, &data.offsets);
-        let differences = differences.as_ref();
-        let mut seen = data.repeats.observe(setup, readings, differences, &mut data.offsets, &fit);
+        let mut seen = data.repeats.observe(setup, readings, differences.as_ref(), &mut data.offsets, &fit);
         if data.repeats != stated || data.offsets.columns() > 0 {
             fit = data.problem(setup, model).solve_again(&fit)?;
         }
@@ -54,7 +55,7 @@ impl Observation {
             }
             let before = fit.changing.clone();
             data.repeats = stated.clone();
-            seen = data.repeats.observe(setup, readings, differences, &mut data.offsets, &fit);
+            seen = data.repeats.observe(setup, readings, differences.as_ref(), &mut data.offsets, &fit);
             fit = data.problem(setup, model).solve_again(&fit)?;
             let u = fit.own_uncertainties_of_offsets();
             let close = |((now, before), u): ((&f64, &f64), f64)| {
@@ -65,7 +66,7 @@ impl Observation {
             }
         }
         seen.turn_ons = data.repeats.observe_turn_ons(&data.offsets, &fit);
-        Ok(Self { data, fit, seen })
+        Ok(Self { data, fit, seen, differences })
     }
 }
 

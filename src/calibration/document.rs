@@ -11,6 +11,7 @@ use super::recorded::Digits;
 use super::result::Calibration;
 use super::scatter::Scatter;
 use super::stated::NotStated;
+use super::suspect::Suspect;
 use super::verdict::{Found, Verdict, against_earlier, against_type};
 use crate::coefficients::PositionIndex;
 use crate::gyro::GyroType;
@@ -75,6 +76,9 @@ pub struct CalibrationDocument {
     /// Scatter of the rows of a visit; present if there are several rows.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) row_scatter: Option<RowScatterDocument>,
+    /// Readings that differ from the others by more than chance explains: a row, a visit, or both.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub(crate) suspects: Vec<Suspect>,
     /// Rounding of the currents, and repeated readings without scatter; absent if there is nothing to state.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) digits: Option<Digits>,
@@ -200,6 +204,7 @@ impl CalibrationDocument {
             turn_on_scatter: calibration.turn_on_scatter,
             drift_probability: calibration.drift_test.map(|test| test.probability),
             row_scatter: calibration.row_scatter.as_ref().map(RowScatterDocument::new),
+            suspects: calibration.suspects.clone(),
             digits: calibration.digits,
             hint: calibration.hint.as_ref().map(ToString::to_string),
             ..Self::default()

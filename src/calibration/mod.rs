@@ -11,6 +11,7 @@
 //! * `recorded`: rounding of the readings, and repeated readings without scatter.
 //! * `repeats`: numbers of visits and readings, and the errors assumed for each.
 //! * `scatter`: agreement of the rows of a visit, of the visits of a position and of the turn-ons with what was stated.
+//! * `suspect`: the visit or row that agrees least with the others.
 //! * `noise`: the gyro's own noise; `offsets`: drift that changes during a run.
 //! * `diagnosis`: possible causes if the readings do not fit.
 //! * `verdict`: comparison with a type's specification and with an earlier calibration.
@@ -68,6 +69,7 @@ pub(crate) mod result;
 pub(crate) mod scatter;
 pub(crate) mod sensitivity;
 pub(crate) mod stated;
+pub(crate) mod suspect;
 pub(crate) mod unknowns;
 pub(crate) mod verdict;
 
@@ -89,5 +91,6 @@ pub use readings::{NoReadings, PositionReadings, Reading, Readings, Visit};
 pub use result::{Calibration, Method, MethodRefusal, MethodResult, Residual};
 pub use scatter::{Agreement, RowScatter, Scatter};
 pub use stated::NotStated;
+pub use suspect::Suspect;
 pub use unknowns::Model;
 pub use verdict::{Decision, Found, ParameterVerdict, Verdict, against_earlier, against_type};

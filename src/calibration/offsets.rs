@@ -6,6 +6,7 @@
 //! errors of visits, because everything else is the same. What they say of x is condensed into at most as many rows as x
 //! has components, and the rest is the scatter of visits.
 
+use super::least_squares::whitening_of;
 use super::readings::{PositionReadings, Readings, Visit};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use std::ops::{AddAssign, SubAssign};
@@ -154,6 +155,25 @@ pub(crate) struct Condensed {
     pub(crate) degrees_of_freedom: usize,
 }
 
+/// All visits as rows of unit covariance.
+pub(crate) struct VisitRows {
+    /// Two rows for each visit; the columns are x.
+    pub(crate) design: DMatrix<f64>,
+    /// Rates −K J less the mean of the position, whitened.
+    pub(crate) rates: DVector<f64>,
+    pub(crate) each: Vec<VisitRow>,
+}
+
+/// Visit with the matrices of its rows.
+pub(crate) struct VisitRow {
+    pub(crate) place: usize,
+    pub(crate) visit: usize,
+    /// L⁻¹ of the covariance L L' of the errors of the visit, (°/h)².
+    pub(crate) whitening: Matrix2<f64>,
+    /// Covariance of the mean of the visits to the position, (°/h)².
+    pub(crate) of_mean: Matrix2<f64>,
+}
+
 impl Differences {
     /// Returns the differences between visits, or `None` if no position has two.
     pub(crate) fn new(readings: &Readings, offsets: &Offsets) -> Option<Self> {
@@ -190,6 +210,45 @@ impl Differences {
     /// Returns the number of differences that no x explains.
     pub(crate) fn degrees_of_freedom(&self) -> usize {
         self.count - 2 * self.determined.as_ref().map_or(self.terms, DMatrix::ncols)
+    }
+
+    /// Returns all visits as rows of unit covariance for x, two for each, from which the best mean of their position is
+    /// taken. `k` and `covariance` are those of [`Self::condensed`]; the result is `None` if a covariance has no inverse.
+    pub(crate) fn rows(
+        &self,
+        k: &Matrix2<f64>,
+        covariance: impl Fn(usize, usize) -> Matrix2<f64>,
+    ) -> Option<VisitRows> {
+        let visits: usize = self.positions.iter().map(|(_, departures)| departures.len()).sum();
+        let combinations = self.determined.as_ref().map_or(self.terms, DMatrix::ncols);
+        let mut design = DMatrix::zeros(2 * visits, 2 * combinations);
+        let (mut rates, mut each) = (DVector::zeros(2 * visits), Vec::with_capacity(visits));
+        for (place, departures) in &self.positions {
+            let first = each.len();
+            let mut weight = Matrix2::zeros();
+            for visit in 0..departures.len() {
+                let whitening = whitening_of(&covariance(*place, visit))?;
+                weight += whitening.transpose() * whitening;
+                each.push(VisitRow { place: *place, visit, whitening, of_mean: Matrix2::zeros() });
+            }
+            let of_mean = weight.try_inverse()?;
+            let (mut mean, mut mean_terms) = (Vector2::zeros(), vec![Matrix2::zeros(); combinations]);
+            for (departure, row) in departures.iter().zip(&mut each[first..]) {
+                row.of_mean = of_mean;
+                let share = of_mean * row.whitening.transpose() * row.whitening;
+                mean -= share * (k * departure.current_ma);
+                mean_terms.iter_mut().zip(&departure.combinations).for_each(|(mean, a)| *mean += share * *a);
+            }
+            for (at, departure) in departures.iter().enumerate() {
+                let (row, whitening) = (2 * (first + at), each[first + at].whitening);
+                rates.fixed_rows_mut::<2>(row).copy_from(&(whitening * (-(k * departure.current_ma) - mean)));
+                for (term, (a, mean)) in departure.combinations.iter().zip(&mean_terms).enumerate() {
+                    let own = whitening * (Matrix2::from_diagonal_element(*a) - mean);
+                    design.fixed_view_mut::<2, 2>(row, 2 * term).copy_from(&own);
+                }
+            }
+        }
+        Some(VisitRows { design, rates, each })
     }
 
     /// Returns what the differences say of x; `k` is K, and `covariance` returns the covariance of the errors of a visit,

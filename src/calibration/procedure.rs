@@ -16,6 +16,7 @@ use super::readings::Readings;
 use super::result::{
     Calibration, Cycle, Drift, DriftTest, GMatrix, Method, MethodRefusal, MethodResult, ModelTest, Residual,
 };
+use super::suspect;
 use super::unknowns::{Model, Unknowns};
 use crate::gyro::GyroParameters;
 use crate::statistics::scaled_f::{self, Part};
@@ -57,13 +58,14 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
         possible.clone()?;
     }
     // If the positions do not determine the model, least squares alone has no result.
-    let (Observation { data, fit, seen }, refused) =
-        match Observation::new(setup, readings, options.model, options.drift) {
-            Err(refusal) if options.model != Model::Paper => {
-                (Observation::new(setup, readings, Model::Paper, options.drift)?, Some(refusal))
-            }
-            found => (found?, None),
-        };
+    let (observation, refused) = match Observation::new(setup, readings, options.model, options.drift) {
+        Err(refusal) if options.model != Model::Paper => {
+            (Observation::new(setup, readings, Model::Paper, options.drift)?, Some(refusal))
+        }
+        found => (found?, None),
+    };
+    let suspects = suspect::all(setup, readings, &observation);
+    let Observation { data, fit, seen, .. } = observation;
     let evaluation = Evaluation::new(setup, &data, &fit);
     let hint = diagnosis::hint(setup, &data, fit.of, &evaluation.chi_square);
     let mut calibration = Calibration {
@@ -73,6 +75,7 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
         scatter: seen.visits,
         row_scatter: seen.rows,
         turn_on_scatter: seen.turn_ons,
+        suspects,
         visit_noise: data.repeats.visit,
         turn_on_noise: data.repeats.turn_on,
         drift_test: if possible.is_ok() && !options.drift { drift_test(setup, readings, options) } else { None },

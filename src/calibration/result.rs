@@ -10,6 +10,7 @@ use super::parameter::Parameter;
 use super::recorded::Digits;
 use super::scatter::{RowScatter, Scatter};
 use super::stated::NotStated;
+use super::suspect::Suspect;
 use super::unknowns::Model;
 use crate::coefficients::PositionIndex;
 use crate::gyro::GyroParameters;
@@ -51,6 +52,8 @@ pub struct Calibration {
     pub row_scatter: Option<RowScatter>,
     /// Comparison of the turn-ons with what the gyro type states; `None` if there is one, or nothing is stated.
     pub turn_on_scatter: Option<Scatter>,
+    /// Readings that differ from the others by more than chance explains: a row, a visit, or none.
+    pub suspects: Vec<Suspect>,
     /// Noise of the gyro's drift from visit to visit, each axis.
     pub visit_noise: DriftNoise,
     /// Noise of ω_0 from one turn-on of the gyro to the next, each axis.

@@ -8,7 +8,7 @@ use super::inputs::Setup;
 use super::least_squares::{Fit, whitening_of};
 use super::noise::{self, DriftNoise, NoiseSource};
 use super::offsets::{Differences, Offsets};
-use super::readings::{Readings, Visit};
+use super::readings::{PositionReadings, Readings, Visit};
 use super::repeats::Repeats;
 use super::sensitivity::Sensitivity;
 use crate::statistics::distributions::chi_square_larger;
@@ -121,22 +121,13 @@ impl Repeats {
         offsets: &mut Offsets,
         fit: &Fit,
     ) -> Option<Scatter> {
-        let sensitivity = Sensitivity::new(setup, &fit.unknowns);
         let k = fit.unknowns.parameters.k_deg_per_h_per_ma;
-        let positions = readings.positions();
-        let returns: Vec<_> = (0..positions.len()).map(|place| sensitivity.of_return(place)).collect();
-        let reading = k * k.transpose() * (self.noise_ma * self.noise_ma);
-        let of_noise = |place: usize, visit: usize| reading / positions[place].visits[visit].each_ma.len() as f64;
-        // Each visit has its own rounding, so the visits differ by it.
-        let meter = &setup.uncertainty().meter;
-        let rounding_ma = Some(readings.recorded.rounding_ma(meter)).filter(|rounding| *rounding >= meter.floor_ma);
-        let rounding = k * k.transpose() * rounding_ma.unwrap_or(0.0).powi(2);
-        let known = |place: usize, visit: usize| returns[place] + rounding + of_noise(place, visit);
-        let stated = self.visit.deg_per_h * self.visit.deg_per_h;
-        let of_stated = |place, visit| known(place, visit) + Matrix2::from_diagonal_element(stated);
+        let errors = VisitErrors::new(setup, readings, fit, self.noise_ma);
+        let known = |place, visit| errors.known(place, visit);
+        let of_stated = |place, visit| errors.with_noise(place, visit, self.visit.deg_per_h);
         let found = differences.condensed(&k, of_stated);
         let scatter = found.as_ref().filter(|found| found.degrees_of_freedom > 0).map(|found| {
-            let parts = self.parts(setup, readings, &returns, of_noise, of_stated);
+            let parts = self.parts(setup, &errors, of_stated);
             let probability = ScaledF::new(found.degrees_of_freedom, &parts).larger(found.chi_square);
             Scatter::new(found.chi_square, found.degrees_of_freedom, probability)
         });
@@ -147,28 +138,21 @@ impl Repeats {
             if deg_per_h > 0.0 {
                 self.visit_degrees_of_freedom = degrees_of_freedom as f64;
             }
-            let variance = Matrix2::from_diagonal_element(deg_per_h.max(LEAST_DEG_PER_H).powi(2));
-            offsets.with(differences.condensed(&k, |place, visit| known(place, visit) + variance)?);
+            let of_visit = |place, visit| errors.with_noise(place, visit, deg_per_h.max(LEAST_DEG_PER_H));
+            offsets.with(differences.condensed(&k, of_visit)?);
             return scatter.map(|scatter| Scatter { variance_factor: 1.0, ..scatter });
         }
+        let factor = scatter.map_or(1.0, |scatter| scatter.variance_factor);
+        offsets.with(differences.condensed(&k, |place, visit| of_stated(place, visit) * factor)?);
         if let Some(scatter) = scatter.filter(|scatter| scatter.variance_factor > 1.0) {
             self.visit_factor = scatter.variance_factor;
             self.visit_degrees_of_freedom = scatter.degrees_of_freedom as f64;
         }
-        let factor = self.visit_factor;
-        offsets.with(differences.condensed(&k, |place, visit| of_stated(place, visit) * factor)?);
         scatter
     }
 
     /// Returns the parts of the covariance of the visits that rest on estimates.
-    fn parts(
-        &self,
-        setup: &Setup,
-        readings: &Readings,
-        returns: &[Matrix2<f64>],
-        of_noise: impl Fn(usize, usize) -> Matrix2<f64>,
-        of_visit: impl Fn(usize, usize) -> Matrix2<f64>,
-    ) -> Vec<Part> {
+    fn parts(&self, setup: &Setup, errors: &VisitErrors, of_visit: impl Fn(usize, usize) -> Matrix2<f64>) -> Vec<Part> {
         let estimates = Estimates::new(setup, self);
         let part = |&degrees_of_freedom: &f64| Part { degrees_of_freedom, trace: 0.0, square: 0.0 };
         let mut parts: Vec<Part> = estimates.degrees_of_freedom.iter().map(part).collect();
@@ -179,7 +163,7 @@ impl Repeats {
                 parts[place].square += kept * (part * part).trace();
             }
         };
-        for (place, at) in readings.positions().iter().enumerate().filter(|(_, at)| at.visits.len() > 1) {
+        for (place, at) in errors.positions.iter().enumerate().filter(|(_, at)| at.visits.len() > 1) {
             // Visits with the same number of rows have the same covariance.
             let mut first = 0;
             for visits in at.visits.chunk_by(|one, other| one.each_ma.len() == other.each_ma.len()) {
@@ -187,8 +171,8 @@ impl Repeats {
                 let visit = first;
                 first += visits.len();
                 let Some(w) = whitening_of(&of_visit(place, visit)) else { continue };
-                add(estimates.returns, kept, w * returns[place] * w.transpose());
-                add(estimates.noise, kept, w * of_noise(place, visit) * w.transpose());
+                add(estimates.returns, kept, w * errors.returns[place] * w.transpose());
+                add(estimates.noise, kept, w * errors.of_noise(place, visit) * w.transpose());
             }
         }
         parts
@@ -226,6 +210,49 @@ impl Repeats {
             self.turn_on = estimate;
         }
         Some(found)
+    }
+}
+
+/// Covariances of the errors of single visits, (°/h)², 2×2.
+pub(crate) struct VisitErrors<'a> {
+    positions: &'a [PositionReadings],
+    /// Repeatability of each position.
+    returns: Vec<Matrix2<f64>>,
+    /// Noise of a single reading.
+    reading: Matrix2<f64>,
+    rounding: Matrix2<f64>,
+}
+
+impl<'a> VisitErrors<'a> {
+    /// Creates the errors with which the visits of `readings` differ, given the noise of a reading.
+    pub(crate) fn new(setup: &Setup, readings: &'a Readings, fit: &Fit, noise_ma: f64) -> Self {
+        let sensitivity = Sensitivity::new(setup, &fit.unknowns);
+        let k = fit.unknowns.parameters.k_deg_per_h_per_ma;
+        let positions = readings.positions();
+        // Each visit has its own rounding, so the visits differ by it.
+        let meter = &setup.uncertainty().meter;
+        let rounding_ma = Some(readings.recorded.rounding_ma(meter)).filter(|rounding| *rounding >= meter.floor_ma);
+        let of_current = |ma: f64| k * k.transpose() * (ma * ma);
+        Self {
+            positions,
+            returns: (0..positions.len()).map(|place| sensitivity.of_return(place)).collect(),
+            reading: of_current(noise_ma),
+            rounding: of_current(rounding_ma.unwrap_or(0.0)),
+        }
+    }
+
+    fn of_noise(&self, place: usize, visit: usize) -> Matrix2<f64> {
+        self.reading / self.positions[place].visits[visit].each_ma.len() as f64
+    }
+
+    /// Returns the covariance from stand and meter.
+    fn known(&self, place: usize, visit: usize) -> Matrix2<f64> {
+        self.returns[place] + self.rounding + self.of_noise(place, visit)
+    }
+
+    /// Returns the covariance with the gyro's noise from visit to visit.
+    pub(crate) fn with_noise(&self, place: usize, visit: usize, deg_per_h: f64) -> Matrix2<f64> {
+        self.known(place, visit) + Matrix2::from_diagonal_element(deg_per_h * deg_per_h)
     }
 }
 

@@ -4,6 +4,7 @@ use super::columns;
 use crate::calibration::Calibration;
 use crate::calibration::noise::NoiseSource;
 use crate::calibration::scatter::{Agreement, Scatter};
+use crate::calibration::suspect::Suspect;
 
 /// Weight of a sentence. Programs show remarks and warnings with the parameters.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -46,6 +47,9 @@ pub(super) fn scatter(calibration: &Calibration) -> Vec<(Weight, String)> {
             say(agreement(what, found, less), of(found));
         }
     }
+    for suspect in &calibration.suspects {
+        say(suspicion(suspect), Weight::Warning);
+    }
     let each = [("visit to visit", &calibration.visit_noise), ("turn-on to turn-on", &calibration.turn_on_noise)];
     for (between, noise) in each.into_iter().filter(|(_, noise)| noise.source == NoiseSource::Estimated) {
         let words = format!(
@@ -71,6 +75,23 @@ pub(super) fn scatter(calibration: &Calibration) -> Vec<(Weight, String)> {
         say(words, Weight::Warning);
     }
     said
+}
+
+/// Returns the sentence on a reading that differs from the others.
+fn suspicion(suspect: &Suspect) -> String {
+    let Suspect { i, j, cycle, visit, .. } = *suspect;
+    let of_visit = format!("visit {visit} to position ({i}, {j}) in turn-on {cycle}");
+    let what = match suspect.row {
+        None => format!("{of_visit} differs from the other visits"),
+        Some(row) => format!("row {row} of {of_visit} differs from the other rows of the visit"),
+    };
+    let either = if suspect.one_of_two { " There are only two, so the other one may be wrong instead." } else { "" };
+    let [jx, jy] = suspect.difference_ma.map(|difference| with_sign(1000.0 * difference));
+    format!(
+        "{what} by ({jx}, {jy}) uA (probability of as much by chance: {}).{either} Look for the cause; if there is one, \
+         leave the visit out with --exclude {i},{j},{visit},{cycle} and --why.",
+        columns::probability(suspect.probability)
+    )
 }
 
 /// Formats a value with two significant digits and its sign.

@@ -6,7 +6,7 @@ use dtg_passport::calibration::parameter::Parameter;
 use dtg_passport::calibration::readings::Reading;
 use dtg_passport::calibration::scatter::Agreement;
 use dtg_passport::calibration::{
-    Calibration, CalibrationDocument, InputUncertainty, Method, Options, Readings, Setup, calibrate,
+    Calibration, CalibrationDocument, InputUncertainty, Method, Options, Readings, Setup, Suspect, calibrate,
 };
 use dtg_passport::interface::calibrated::Done;
 use dtg_passport::report::calibration as report;
@@ -249,4 +249,98 @@ fn too_few_readings_to_judge() {
     let text = report::text(&done, None, false);
     assert!(text.contains("The fit cannot be tested") && !text.contains("chi-square"), "{text}");
     assert!(!text.contains("x, °/h"), "{text}");
+}
+
+/// Runs in which the gyro drifts from visit to visit by 0.001 °/h, not stated, with `cycles` turn-ons (0.01 °/h), `visits`
+/// to each position and `count` rows of each, whose noise is 1e-6 mA; rounded to `digits`. `error` is added to one row.
+fn run(
+    stream: &mut Stream,
+    [cycles, visits, count]: [u32; 3],
+    digits: usize,
+    error: impl Fn([u32; 3]) -> f64,
+) -> String {
+    let setup = bench(0.0);
+    let gyro = currents(&setup, &gvk_6());
+    let mut text = "i,j,jx_ma,jy_ma,cycle,visit\n".to_owned();
+    for cycle in 1..=cycles {
+        let turn_on = Vector2::new(stream.normal(), stream.normal()) * (0.01 / 95.0);
+        for visit in 1..=visits {
+            for (place, (at, exact)) in setup.coefficients().positions.iter().zip(&gyro).enumerate() {
+                let of_visit = exact + turn_on + Vector2::new(stream.normal(), stream.normal()) * (0.001 / 95.0);
+                for row in 1..=count {
+                    let noise = Vector2::new(stream.normal(), stream.normal()) * 1e-6;
+                    let off = if place == 6 { error([cycle, visit, row]) } else { 0.0 };
+                    let [x, y] = (of_visit + noise).data.0[0];
+                    let (i, j) = (at.index.i, at.index.j);
+                    text += &format!("{i},{j},{:.digits$},{y:.digits$},{cycle},{visit}\n", x + off);
+                }
+            }
+        }
+    }
+    text
+}
+
+fn suspects(text: &str) -> Vec<Suspect> {
+    let mut setup = bench(0.0);
+    setup = with_uncertainty(
+        &drawn_stand(&mut Stream::new(8), 2.0),
+        LATITUDE_DEG,
+        InputUncertainty { visit_deg_per_h: None, ..setup.uncertainty().clone() },
+    );
+    let readings = Readings::from_csv("run.csv", text.as_bytes(), setup.coefficients(), 1.0).unwrap();
+    calibrate(&setup, &readings, &Options { methods: vec![Method::LeastSquares], ..Options::default() })
+        .unwrap()
+        .suspects
+}
+
+/// Designs: turn-ons, visits and rows, and the digits of the currents. In the last the rows differ by hardly a digit.
+const DESIGNS: [([u32; 3], usize); 5] =
+    [([3, 1, 1], 9), ([1, 2, 1], 9), ([1, 4, 1], 9), ([1, 2, 10], 9), ([1, 2, 10], 6)];
+
+/// Digits with which the visits of [`run`] hardly differ.
+const COARSE: [([u32; 3], usize); 3] = [([1, 2, 1], 4), ([1, 4, 1], 4), ([1, 2, 10], 4)];
+
+/// Good readings are suspect as rarely as the probability says: 0.1 % for the visits, and again for the rows.
+#[test]
+fn good_readings_are_hardly_ever_suspect() {
+    const RUNS: u32 = 2000;
+    for (number, (design, digits)) in DESIGNS.into_iter().chain(COARSE).enumerate() {
+        let mut stream = Stream::new(400 + number as u64);
+        let suspect = (0..RUNS).filter(|_| !suspects(&run(&mut stream, design, digits, |_| 0.0)).is_empty()).count();
+        println!("{design:?} (turn-ons, visits, rows), {digits} digits: {suspect} of {RUNS} good runs with a suspect");
+        // Of 2000, 2 or 4 are expected; more than 12 have a probability below 1e-3.
+        assert!(suspect <= 12, "{design:?}: {suspect}");
+    }
+}
+
+/// A visit that is off by 19 times the gyro's noise and a row that is off by 20 times the meter's are named, and no other.
+#[test]
+fn one_visit_off_and_one_row_off_are_named() {
+    const RUNS: u32 = 200;
+    for (number, (design @ [cycles, visits, rows], digits)) in DESIGNS.into_iter().enumerate() {
+        let mut stream = Stream::new(500 + number as u64);
+        let (mut named, mut others) = (0, 0);
+        for _ in 0..RUNS {
+            let of_visit = run(&mut stream, design, digits, |at| if at[..2] == [cycles, visits] { 2e-4 } else { 0.0 });
+            let found = suspects(&of_visit);
+            let right = |found: &&Suspect| {
+                let either = found.one_of_two && cycles == 1;
+                (found.i, found.j) == (2, 3)
+                    && (either || (found.cycle, found.visit) == (cycles, visits))
+                    && found.row.is_none()
+            };
+            named += u32::from(found.iter().any(|one| right(&one)));
+            others += found.iter().filter(|one| !right(one)).count();
+        }
+        println!("{design:?}, {digits} digits: {named} of {RUNS} wrong visits named, {others} others");
+        assert!(named > 9 * RUNS / 10 && others <= 4, "{design:?}: {named}, {others}");
+        if rows > 1 {
+            let at = |place: [u32; 3]| if place == [1, 2, 4] { 2e-5 } else { 0.0 };
+            let found = (0..RUNS).map(|_| suspects(&run(&mut stream, design, digits, at)));
+            let named = |found: &Vec<Suspect>| {
+                found.first().is_some_and(|one| (one.i, one.j, one.visit, one.row) == (2, 3, 2, Some(4)))
+            };
+            assert!(found.filter(named).count() as u32 > 9 * RUNS / 10);
+        }
+    }
 }

@@ -8,6 +8,7 @@ use crate::calibration::document::{ResidualDocument, ResultDocument};
 use crate::calibration::noise::NoiseSource;
 use crate::calibration::scatter::{Agreement, Scatter};
 use crate::calibration::stated::NotStated;
+use crate::calibration::suspect::Suspect;
 use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{Column, Table, field, fields, heading, quantity, starts, symbol, symbol_and_unit};
@@ -91,12 +92,30 @@ fn scatter(page: &CalibrationPage, languages: &Languages) -> Markup {
         @if let Some(turn_ons) = &calibration.turn_on_scatter {
             (agreement(turn_ons, texts::TURN_ON_SCATTER, languages))
         }
+        @for suspect in &calibration.suspects {
+            (suspicion(suspect, languages))
+        }
         (noise(calibration, languages))
         @if calibration.drift_test.is_some_and(|test| test.is_significant()) {
             (languages.paragraph_with(|language| italic(&texts::DRIFTS.filled(language, values! { option: "--drift" }))))
         }
         @if calibration.drift_or_noise { (languages.paragraph(texts::DRIFT_OR_NOISE)) }
     }
+}
+
+/// Writes that a reading differs from the others.
+fn suspicion(suspect: &Suspect, languages: &Languages) -> Markup {
+    let difference_ua = suspect.difference_ma.map(|difference| 1000.0 * difference);
+    let place = Number::place_of(difference_ua[0].abs().max(difference_ua[1].abs()));
+    let [jx, jy] = difference_ua.map(|difference| Number::to_place(difference, place));
+    let Suspect { cycle, visit, .. } = *suspect;
+    let (index, row) = (suspect.index(), suspect.row.unwrap_or(0));
+    let text = if suspect.row.is_some() { texts::SUSPECT_ROW } else { texts::SUSPECT_VISIT };
+    languages.paragraph_with(|language| {
+        let words = text.filled(language, values! { row, visit, cycle, index, jx, jy });
+        let either = suspect.one_of_two.then(|| texts::EITHER_OF_TWO.words(language));
+        html! { (words) @if let Some(either) = either { " " (either) } }
+    })
 }
 
 /// Writes the noise of the gyro that the uncertainties contain.

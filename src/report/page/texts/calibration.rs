@@ -305,6 +305,24 @@ texts! {
         en: "estimated, {known} degrees of freedom",
         ru: "оценка, число степеней свободы {known}"
     }
+    SUSPECT_VISIT {
+        en: "Visit {visit} to position {index} in turn-on {cycle} differs from the other visits by {jx} µA along x and {jy} µA \
+             along y, more than chance explains (probability below 0.001). It is included in the result.",
+        ru: "Установка {visit} в положение {index} в запуске {cycle} отличается от других установок на {jx} мкА по x и \
+             {jy} мкА по y; случайностью это не объяснить (вероятность меньше 0,001). Она учтена в результате."
+    }
+    SUSPECT_ROW {
+        en: "Row {row} of visit {visit} to position {index} in turn-on {cycle} differs from the other rows of the visit by \
+             {jx} µA along x and {jy} µA along y, more than chance explains (probability below 0.001). It is included in \
+             the result.",
+        ru: "Показание {row} установки {visit} в положение {index} в запуске {cycle} отличается от других показаний этой \
+             установки на {jx} мкА по x и {jy} мкА по y; случайностью это не объяснить (вероятность меньше 0,001). Оно \
+             учтено в результате."
+    }
+    EITHER_OF_TWO {
+        en: "There are only two, so the other one may be wrong instead.",
+        ru: "Их всего два, поэтому ошибочно может быть и другое."
+    }
     DRIFTS {
         en: "The residuals change with time more than chance explains: the gyro drifted during the run. Fit a linear drift with {option}.",
         ru: "Остатки меняются со временем больше, чем можно объяснить случайностью: за\u{a0}время измерений гироскоп дрейфовал. Учтите линейное изменение: {option}."

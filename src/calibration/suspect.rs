@@ -1,0 +1,221 @@
+//! The visit, or the row of a visit, that agrees least with the others, if chance does not explain how little.
+//!
+//! Each is compared with what all others predict of it, in both components together. In units of the scatter of the
+//! others this is Fisher's F with 2 degrees of freedom and those of the others; for one component it is Student's t of
+//! [Stefansky's test](crate::bibliography::Bibliography::Stefansky72). The probability is Bonferroni's bound for as many
+//! comparisons as there are visits or rows.
+
+use super::data::{Data, Observation};
+use super::inputs::Setup;
+use super::noise::NoiseSource;
+use super::offsets::{Differences, VisitRow, VisitRows};
+use super::readings::Readings;
+use super::scatter::{IMPROBABLE, RowScatter, VisitErrors};
+use crate::coefficients::PositionIndex;
+use crate::statistics::beta::f_larger;
+use nalgebra::{Matrix2, Vector2};
+use serde::{Deserialize, Serialize};
+
+/// Determinant of the part of its covariance that the residual of a visit keeps, below which nothing is kept but rounding.
+const ALONE: f64 = 1e-9;
+
+/// Relative difference of two sums of squares that are equal but for rounding.
+const EQUAL: f64 = 1e-6;
+
+/// Visit, or row of a visit, that differs from the others by more than chance explains.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "struct SuspectDocument")]
+pub struct Suspect {
+    /// Frame index.
+    pub i: u32,
+    /// Platform index.
+    pub j: u32,
+    /// Turn-on of the gyro.
+    pub cycle: u32,
+    /// Number of the visit within its cycle and position.
+    pub visit: u32,
+    /// Number of the row within the visit; absent if the visit as a whole is meant.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub row: Option<usize>,
+    /// `true` if there are only two, so that the other one may be wrong instead.
+    pub one_of_two: bool,
+    /// Difference of the currents (J_x, J_y) from what the others predict, mA.
+    pub difference_ma: [f64; 2],
+    /// Probability that any visit, or any row, differs as much by chance.
+    pub probability: f64,
+}
+
+impl Suspect {
+    /// Returns the index of the position.
+    pub(crate) fn index(&self) -> PositionIndex {
+        PositionIndex { i: self.i, j: self.j }
+    }
+}
+
+/// Residual of a visit or row: the place where it is, and what its removal takes from the sum of squares.
+struct Deletion {
+    place: usize,
+    visit: usize,
+    row: Option<usize>,
+    squares: f64,
+    difference_ma: Vector2<f64>,
+}
+
+/// Returns the row and the visit that chance does not explain, as far as there are any.
+pub(crate) fn all(setup: &Setup, readings: &Readings, observation: &Observation) -> Vec<Suspect> {
+    let Observation { data: Data { repeats, .. }, fit, seen, differences } = observation;
+    let rounding_ma = readings.recorded.rounding_ma(&setup.uncertainty().meter);
+    let row = seen.rows.and_then(|scatter| of_rows(readings, &scatter, rounding_ma));
+    let visit = differences.as_ref().and_then(|differences| {
+        let errors = VisitErrors::new(setup, readings, fit, repeats.noise_ma);
+        let of_visit = |place, visit| errors.with_noise(place, visit, repeats.visit.deg_per_h);
+        // An estimated noise contains what is suspect; what is stated explains this much of the scatter in any case.
+        let stated = if repeats.visit.source == NoiseSource::Estimated { 0.0 } else { repeats.visit.deg_per_h };
+        let explained = |place, visit| errors.with_noise(place, visit, stated).trace() / of_visit(place, visit).trace();
+        let k = &fit.unknowns.parameters.k_deg_per_h_per_ma;
+        of_visits(readings, differences, k, of_visit, explained)
+    });
+    row.into_iter().chain(visit).collect()
+}
+
+/// Returns the visit that agrees least with the others.
+///
+/// `k` is K, °/(h·mA), and `covariance` returns the covariance of the errors of a visit, (°/h)², by the indices of
+/// position and visit. Its scale is that of the scatter, but not less than the share that `explained` returns. The result
+/// is `None` if no visit is suspect, or without enough repeated visits.
+fn of_visits(
+    readings: &Readings,
+    differences: &Differences,
+    k: &Matrix2<f64>,
+    covariance: impl Fn(usize, usize) -> Matrix2<f64>,
+    explained: impl Fn(usize, usize) -> f64,
+) -> Option<Suspect> {
+    let k_inverse = k.try_inverse()?;
+    let VisitRows { design, rates, each } = differences.rows(k, covariance)?;
+    // B = L⁻¹ A' for the normal equations A'A = L L': B'B projects onto what x explains.
+    let lower = (design.tr_mul(&design)).cholesky()?.unpack();
+    let of_x = lower.solve_lower_triangular(&design.transpose())?;
+    let residuals = &rates - of_x.tr_mul(&(&of_x * &rates));
+    let deletions = each.iter().enumerate().filter_map(|(at, row)| {
+        let VisitRow { place, visit, whitening, of_mean } = *row;
+        let own = of_x.fixed_columns::<2>(2 * at);
+        let kept = Matrix2::identity() - whitening * of_mean * whitening.transpose() - own.tr_mul(&own);
+        // Of a visit that alone determines an unknown nothing is kept.
+        let inverse = kept.try_inverse().filter(|_| kept.determinant() > ALONE)?;
+        let residual = residuals.fixed_rows::<2>(2 * at).into_owned();
+        let predicted = inverse * residual;
+        let difference_ma = -(k_inverse * (whitening.try_inverse()? * predicted));
+        Some(Deletion { place, visit, row: None, squares: residual.dot(&predicted), difference_ma })
+    });
+    let freedom = differences.degrees_of_freedom();
+    let least = each.iter().map(|row| explained(row.place, row.visit)).fold(1.0, f64::min);
+    largest(readings, deletions, each.len(), residuals.norm_squared(), freedom, least)
+}
+
+/// Returns the row that agrees least with the other rows of its visit, given the scatter of all rows; `rounding_ma` is
+/// the standard uncertainty of the rounding of a reading, below which nothing differs.
+fn of_rows(readings: &Readings, scatter: &RowScatter, rounding_ma: f64) -> Option<Suspect> {
+    let freedom = scatter.degrees_of_freedom;
+    let squares = scatter.standard_deviation_ma.powi(2) * freedom as f64;
+    let visits = readings
+        .positions()
+        .iter()
+        .enumerate()
+        .flat_map(|(place, at)| at.visits.iter().enumerate().map(move |(visit, found)| (place, visit, found)));
+    let several = visits.filter(|(_, _, found)| found.each_ma.len() > 1);
+    let deletions = several.clone().flat_map(|(place, visit, found)| {
+        let count = found.each_ma.len() as f64;
+        found.each_ma.iter().enumerate().map(move |(row, current_ma)| {
+            let residual = current_ma - found.mean_ma;
+            let difference_ma = residual * (count / (count - 1.0));
+            Deletion { place, visit, row: Some(row), squares: residual.dot(&difference_ma), difference_ma }
+        })
+    });
+    let count = several.map(|(_, _, found)| found.each_ma.len()).sum();
+    largest(readings, deletions, count, squares, freedom, rounding_ma.powi(2))
+}
+
+/// Returns the largest of `count` deletions if chance does not explain it, given the sum of squares of all residuals,
+/// its degrees of freedom, and the least variance that one of them has.
+fn largest(
+    readings: &Readings,
+    deletions: impl Iterator<Item = Deletion>,
+    count: usize,
+    all_squares: f64,
+    degrees_of_freedom: usize,
+    least_variance: f64,
+) -> Option<Suspect> {
+    let rest = degrees_of_freedom.checked_sub(2).filter(|rest| *rest > 0)? as f64;
+    let mut largest: Option<Deletion> = None;
+    for deletion in deletions {
+        // Of two that are equal, the first is named.
+        if largest.as_ref().is_none_or(|known| deletion.squares > known.squares * (1.0 + EQUAL)) {
+            largest = Some(deletion);
+        }
+    }
+    let Deletion { place, visit, row, squares, difference_ma } = largest?;
+    let variance = ((all_squares - squares).max(0.0) / rest).max(least_variance);
+    let probability = (count as f64 * f_larger(squares / 2.0 / variance, 2, rest)).min(1.0);
+    let at = &readings.positions()[place];
+    let found = &at.visits[visit];
+    (probability < IMPROBABLE).then(|| Suspect {
+        i: at.index.i,
+        j: at.index.j,
+        cycle: found.cycle,
+        visit: found.number,
+        row: row.map(|row| row + 1),
+        one_of_two: if row.is_some() { found.each_ma.len() } else { at.visits.len() } == 2,
+        difference_ma: difference_ma.into(),
+        probability,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::attitude::Deviation;
+    use crate::calibration::InputUncertainty;
+    use crate::calibration::offsets::Offsets;
+    use crate::coefficients::{EIGHT_POSITIONS, EarthRate, Position};
+    use crate::laboratory::Laboratory;
+
+    /// Expected: NumPy, the model of all visits fitted with and without each of them, by `lstsq`; the tail of F with 2 and
+    /// ν degrees of freedom is (1 + 2 F/ν)^(−ν/2).
+    #[test]
+    fn a_visit_that_numpy_finds() {
+        let none = Deviation { alpha_rad: 0.0, beta_rad: 0.0, gamma_rad: 0.0 };
+        let stand =
+            EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| Position { index, theta_deg, phi_deg, deviation: none });
+        let meter = InputUncertainty::of_meter((&Laboratory::paper().meter).into());
+        let setup = Setup::new(&stand, EarthRate::at_astronomic_latitude(55.7658), meter).unwrap();
+        let moved = include_str!("../../docs/run.csv").replace("2,4,-0.22799247,", "2,4,-0.22749247,");
+        assert_ne!(moved, include_str!("../../docs/run.csv"));
+        let readings = Readings::from_csv("run.csv", moved.as_bytes(), setup.coefficients(), 1.0).unwrap();
+        let k = Matrix2::new(95.0, 9.5, 9.5, 95.0);
+        let unlike = |place: usize, visit: usize| {
+            Matrix2::new(1.0, 0.3, 0.3, 2.0) * (1.0 + ((place % 4 + 1) * (visit + 1)) as f64 / 4.0)
+        };
+        type Covariance<'a> = &'a dyn Fn(usize, usize) -> Matrix2<f64>;
+        let cases: [(Covariance, bool, f64, [f64; 2]); 3] = [
+            (&|_, _| Matrix2::identity(), false, 6.375_051_471_998_137e-19, [5.292_392_86e-4, 2.347_071_43e-5]),
+            (&unlike, false, 5.532_272_870_865_271e-19, [5.327_358_16e-4, 2.395_163_64e-5]),
+            (&unlike, true, 1.227_381_674_506_125_3e-16, [5.078_959_51e-4, 1.034_736_65e-5]),
+        ];
+        for (covariance, drift, probability, difference_ma) in cases {
+            let found = of_visits(&readings, &differences_of(&readings, drift), &k, covariance, |_, _| 0.0).unwrap();
+            assert_eq!((found.index().to_string().as_str(), found.cycle, found.visit), ("(2, 4)", 2, 1));
+            assert!((found.probability / probability - 1.0).abs() < 1e-6, "{found:?}");
+            for (found, expected) in found.difference_ma.iter().zip(difference_ma) {
+                assert!((found / expected - 1.0).abs() < 1e-7, "{found} {expected}");
+            }
+            assert!(!found.one_of_two && found.row.is_none());
+            let good =
+                Readings::from_csv("run.csv", include_bytes!("../../docs/run.csv"), setup.coefficients(), 1.0).unwrap();
+            assert_eq!(of_visits(&good, &differences_of(&good, drift), &k, covariance, |_, _| 0.0), None);
+        }
+    }
+
+    fn differences_of(readings: &Readings, drift: bool) -> Differences {
+        Differences::new(readings, &Offsets::new(readings, drift)).unwrap()
+    }
+}
