@@ -282,14 +282,14 @@ impl Bench<'_> {
         if let Some(path) = &options.report {
             output::saved(path, &self.page(&found)?, options.uncertainty.force)?;
         }
+        let trials = found.uncertainty.monte_carlo.as_ref();
         match options.format {
             Format::Json => {
-                let warnings = report::warnings(&done.calibration, done.document.mistake.as_ref());
-                warnings.iter().for_each(|warning| output::complain(warning));
+                report::warnings(done, trials).iter().for_each(|warning| output::complain(warning));
                 output::json(&found.whole())?;
             }
             Format::Text => {
-                let text = report::text(done, self.gyro_name(), options.laboratory.is_none());
+                let text = report::text(done, trials, self.gyro_name(), options.laboratory.is_none());
                 output::text(&(text + &found.uncertainty.text()))?;
             }
         }
@@ -319,7 +319,8 @@ impl Bench<'_> {
         inputs::each(&options.currents, Purpose::Tables, calibrate, |done| match done {
             Each::Done(found) => {
                 let file = found.currents.0.as_str();
-                let text = report::line(file, &found.done, self.gyro_name());
+                let trials = found.uncertainty.monte_carlo.as_ref();
+                let text = report::line(file, &found.done, trials, self.gyro_name());
                 inputs::print(&Each::Done((Line { file, result: found.whole() }, text)), options.format)
             }
             Each::Refused { file, refusal } => {

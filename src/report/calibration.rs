@@ -2,6 +2,7 @@
 
 use super::scatter::{Weight, scatter};
 use super::tolerance::{factors, headline, verdict_table, word};
+use super::uncertainty::not_linear;
 use crate::calibration::diagnosis::INCONSISTENT;
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::mistake::Mistake;
@@ -17,6 +18,7 @@ use crate::report::page::calibration::why_no_change;
 use crate::report::page::texts::calibration as texts;
 use crate::report::{columns, mistake, recorded};
 use crate::text::printable::printable;
+use crate::uncertainty::MonteCarlo;
 use crate::units::printed;
 use std::fmt::Write;
 
@@ -30,11 +32,11 @@ const LEAST_EFFECT_PERCENT: f64 = 1.0;
 /// Returns the whole result: decision, parameters, fit; then methods, residuals, comparisons, and errors that the
 /// residuals do not show. `gyro_type` is the name of the type that the verdict is for; without a laboratory the meter of
 /// the paper was assumed.
-pub(crate) fn text(done: &Done, gyro_type: Option<&str>, meter_assumed: bool) -> String {
+pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&str>, meter_assumed: bool) -> String {
     let Done { calibration, document, readings, .. } = done;
     let verdict = gyro_type.zip(document.verdict.as_ref());
     let mut out = String::new();
-    for warning in warnings(calibration, document.mistake.as_ref()) {
+    for warning in warnings(done, trials) {
         columns::paragraph(&mut out, "", &warning);
     }
     if let Some((name, verdict)) = verdict {
@@ -92,10 +94,11 @@ pub(crate) fn text(done: &Done, gyro_type: Option<&str>, meter_assumed: bool) ->
     out
 }
 
-/// Returns what makes the parameters unusable, a sentence each.
-pub(crate) fn warnings(calibration: &Calibration, mistake: Option<&Mistake>) -> Vec<String> {
+/// Returns what makes the parameters or their uncertainties unusable, a sentence each.
+pub(crate) fn warnings(Done { calibration, document, .. }: &Done, trials: Option<&MonteCarlo>) -> Vec<String> {
     let inconsistent = calibration.hint.iter().map(|_| format!("{INCONSISTENT}."));
-    inconsistent.chain(not_of_this_gyro(calibration, mistake)).map(|words| format!("WARNING: {words}")).collect()
+    let warnings = inconsistent.chain(not_of_this_gyro(calibration, document.mistake.as_ref()));
+    warnings.chain(trials.and_then(not_linear)).map(|words| format!("WARNING: {words}")).collect()
 }
 
 /// Returns what makes the parameters unusable although the readings fit.
@@ -125,7 +128,7 @@ pub(crate) fn remarks(calibration: &Calibration, readings: &Readings, mistake: O
 
 /// Returns the result for one of several gyros in one line: the decision for the type of this name, or the fit if there is
 /// none.
-pub(crate) fn line(file: &str, done: &Done, gyro_type: Option<&str>) -> String {
+pub(crate) fn line(file: &str, done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&str>) -> String {
     let Done { calibration, document, .. } = done;
     let file = printable(file);
     let mut out = match (gyro_type.zip(document.verdict.as_ref()), calibration.answer()) {
@@ -144,6 +147,9 @@ pub(crate) fn line(file: &str, done: &Done, gyro_type: Option<&str>) -> String {
     }
     if let Some(mistake) = &document.mistake {
         let _ = write!(out, "; WARNING: {}", mistake::words(mistake, Language::English));
+    }
+    if let Some(words) = trials.and_then(not_linear) {
+        let _ = write!(out, "; WARNING: {words}");
     }
     out.push('\n');
     out

@@ -124,6 +124,16 @@ fn stated(mut object: Value) -> Value {
     object
 }
 
+/// Returns which parameters the linear approximation is not valid for (JCGM 101, clause 8) and what to use in its place, or
+/// `None` if there are none.
+pub(crate) fn not_linear(found: &MonteCarlo) -> Option<String> {
+    let lines = Parameter::in_paper_order(&found.parameters, |line| line.parameter);
+    let invalid = lines.into_iter().filter(|line| line.first_order.valid == Some(false));
+    let names: Vec<&str> = invalid.map(|line| line.parameter.symbol()).collect();
+    let names = (!names.is_empty()).then(|| names.join(", "))?;
+    Some(format!("the linear approximation is not valid for {names}; use their Monte Carlo intervals."))
+}
+
 /// Returns uncertainties and coverage intervals, and for every parameter whether the linear approximation is valid.
 pub(crate) fn monte_carlo(found: &MonteCarlo) -> String {
     let mut out = String::new();
