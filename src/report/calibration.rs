@@ -1,7 +1,7 @@
 //! Result of a calibration as text: the decision, the parameters and the fit come first, the evidence below.
 
 use super::scatter::{Weight, scatter};
-use super::tolerance::{factors, headline, verdict_table, word};
+use super::tolerance::{decided, factors, headline, overall, verdict_table};
 use super::uncertainty::not_linear;
 use crate::calibration::diagnosis::INCONSISTENT;
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
@@ -40,8 +40,7 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
         columns::paragraph(&mut out, "", &warning);
     }
     if let Some((name, verdict)) = verdict {
-        let (style, mark, words) = headline(name, verdict);
-        let _ = writeln!(out, "{}", style(&format!("{mark}  {words}")));
+        let _ = writeln!(out, "{}  {}", overall(verdict, 0), headline(name, verdict));
     }
     let verified_as_of = document.subject.as_ref().and_then(|subject| subject.passport_verified_as_of);
     let state = verified_as_of.map_or_else(|| "NOT VERIFIED".to_owned(), |time| format!("verified as of {time}"));
@@ -133,8 +132,7 @@ pub(crate) fn line(file: &str, done: &Done, trials: Option<&MonteCarlo>, gyro_ty
     let file = printable(file);
     let mut out = match (gyro_type.zip(document.verdict.as_ref()), calibration.answer()) {
         (Some((name, verdict)), _) => {
-            let (style, mark, words) = headline(name, verdict);
-            format!("{}  {file}  {words}", style(&format!("{mark:<11}")))
+            format!("{}  {file}  {}", overall(verdict, 9), headline(name, verdict))
         }
         (None, answer) => {
             let fit = answer.map(|answer| columns::probability(answer.chi_square.probability));
@@ -190,9 +188,9 @@ fn parameters(out: &mut String, calibration: &Calibration, verdict: Option<&Verd
         let digits = columns::decimals(u);
         let mut row = vec![parameter.symbol().to_owned(), printed(parameter.unit())];
         row.extend([format!("{value:.digits$}"), format!("{u:.digits$}")]);
-        let decided = verdict.iter().flat_map(|verdict| &verdict.parameters);
-        let decided = decided.filter(|row| row.parameter == parameter.key());
-        row.extend(decided.map(|row| word(row.guarded).to_owned()));
+        let decisions = verdict.iter().flat_map(|verdict| &verdict.parameters);
+        let decisions = decisions.filter(|row| row.parameter == parameter.key());
+        row.extend(decisions.map(|row| decided(row.guarded)));
         Some(row)
     });
     let _ = writeln!(out);

@@ -102,8 +102,9 @@ fn certification_json(found: &Certification) -> Value {
 pub(crate) fn line(found: &Certification, file: &str) -> String {
     let (stand, runs) = (&found.stand, found.runs.len());
     let certificate = Printable(&stand.certificate.number);
+    let certified = style::marked(Some(true), "certified");
     format!(
-        "certified  {}  {}  certificate {certificate}, {} positions, {runs} runs\n",
+        "{certified}  {}  {}  certificate {certificate}, {} positions, {runs} runs\n",
         stand.stand.id(),
         Printable(file),
         stand.positions.len()
@@ -221,9 +222,9 @@ fn graded(probabilities: impl Iterator<Item = f64>) -> String {
 pub(crate) fn comparison(found: &Comparison) -> String {
     let mut out = String::new();
     let answer = match found.same_stand {
-        true => style::good(&format!("{} THE SAME STAND", style::PASSED)),
-        false if found.is_undecided() => style::bad(&format!("{} UNDECIDED", style::FAILED)),
-        false => style::bad(&format!("{} NOT AS CERTIFIED", style::FAILED)),
+        true => style::marked(Some(true), "THE SAME STAND"),
+        false if found.is_undecided() => style::marked(None, "UNDECIDED"),
+        false => style::marked(Some(false), "NOT AS CERTIFIED"),
     };
     let runs = if found.runs == 1 { "run" } else { "runs" };
     let _ = writeln!(out, "{answer}  check against certificate {}, {} {runs}", found.certificate, found.runs);
@@ -246,7 +247,7 @@ pub(crate) fn comparison(found: &Comparison) -> String {
         }
         row.push(format!("{:.2}", at.test.chi_square));
         row.push(columns::probability(at.test.probability));
-        row.push(if at.repeats { "unchanged" } else { "CHANGED" }.to_owned());
+        row.push(style::marked(Some(at.repeats), if at.repeats { "unchanged" } else { "CHANGED" }));
         row
     });
     let names = ["i", "j", "x, arcsec", "u", "y, arcsec", "u", "z, arcsec", "u", "chi-square", "p", ""];

@@ -4,6 +4,7 @@
 //! for many it contains only the failures and a summary.
 
 use super::columns::csv_row;
+use super::style;
 use crate::batch::{Failure, Outcome};
 use crate::calibration::prediction::NoiseGrowth;
 use crate::folder::Issued;
@@ -13,6 +14,9 @@ use crate::text::words;
 use crate::text::{Printable, name_of, printable};
 use serde::Serialize;
 use std::fmt::Write;
+
+/// Indent of the details of an order, below its id.
+const INDENT: &str = "             ";
 
 /// Largest number of orders for which the text is complete.
 const FEW: usize = 20;
@@ -35,6 +39,17 @@ words! {
         Skipped = "skipped",
         /// Nothing was written.
         Refused = "refused",
+    }
+}
+
+impl State {
+    /// Returns whether the passport is there, or `None` if nothing was done.
+    fn passed(self) -> Option<bool> {
+        match self {
+            Self::Issued | Self::Unchanged => Some(true),
+            Self::Planned | Self::Skipped => None,
+            Self::Refused => Some(false),
+        }
     }
 }
 
@@ -111,7 +126,7 @@ pub(crate) fn failure(failure: &Failure) -> String {
 
 /// Returns the line of an order, and the SHA-256 of its passport below.
 pub(super) fn named(report: &Report) -> String {
-    let sha256 = report.sha256.as_ref().map(|sha256| format!("           sha256 {sha256}\n"));
+    let sha256 = report.sha256.as_ref().map(|sha256| format!("{INDENT}sha256 {sha256}\n"));
     line(report) + &sha256.unwrap_or_default()
 }
 
@@ -121,24 +136,30 @@ fn text(report: &Report) -> String {
     if let Some(NoiseGrowth { k, omega0, omega_g, omega_k }) = report.noise_growth {
         let _ = writeln!(
             text,
-            "           noise relative to an ideal stand: K {k:.2}, omega_0 {omega0:.2}, omega_g {omega_g:.2}, \
+            "{INDENT}noise relative to an ideal stand: K {k:.2}, omega_0 {omega0:.2}, omega_g {omega_g:.2}, \
              omega_k {omega_k:.2}"
         );
     }
     if let (Some(why), State::Skipped) = (&report.reason, report.state) {
-        let _ = writeln!(text, "           {}", Printable(why));
+        let _ = writeln!(text, "{INDENT}{}", Printable(why));
     }
     text
 }
 
+/// Returns the word for an outcome with its mark, padded to the width of the longest.
+pub(super) fn marked(passed: Option<bool>, word: &str) -> String {
+    style::marked(passed, &format!("{word:<9}"))
+}
+
 fn line(report: &Report) -> String {
     let file = report.file.as_deref().unwrap_or("nothing was written");
-    format!("{:<9}  {}  {}\n", report.state.key(), Printable(&report.id), Printable(file))
+    let state = marked(report.state.passed(), report.state.key());
+    format!("{state}  {}  {}\n", Printable(&report.id), Printable(file))
 }
 
 /// Returns the line of an input that was refused.
 pub(crate) fn refused_line(file: &str) -> String {
-    format!("{:<9}  {}\n", State::Refused.key(), Printable(file))
+    format!("{}  {}\n", marked(Some(false), State::Refused.key()), Printable(file))
 }
 
 /// Formats a number with commas between groups of three digits.
@@ -321,9 +342,9 @@ mod tests {
             text += &reports.add(Report::new(number.to_string(), state));
         }
         text += &reports.end();
-        let due = "refused    7  nothing was written\nrefused    1007  nothing was written\n\
+        let due = "✕ refused    7  nothing was written\n✕ refused    1007  nothing was written\n\
                    issued 1,998, unchanged 0, refused 2\n";
-        assert_eq!(text, due);
+        assert_eq!(style::plain(&text), due);
     }
 
     #[test]

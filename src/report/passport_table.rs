@@ -16,7 +16,10 @@ const NAME_COLUMNS: usize = 26;
 pub(crate) fn text(content: &Content, verified: bool) -> String {
     let mut out = String::new();
     let header = &content.passport;
-    let state = if verified { style::good("verified") } else { style::bad("NOT VERIFIED") };
+    let state = match verified {
+        true => style::marked(Some(true), "verified"),
+        false => style::marked(None, &style::bad("NOT VERIFIED")),
+    };
     let _ = writeln!(out, "{}  ({state})", style::heading(&format!("Passport {}", header.id)));
     line(&mut out, "issued", format!("{} by {}", header.issued_at, header.issuer));
     option(&mut out, "program", header.issued_with.as_ref());

@@ -45,11 +45,10 @@ pub(crate) fn text(found: &Recertified, dry_run: bool) -> String {
     difference::numbers(&mut out, &found.changes);
     let _ = writeln!(out);
     out.extend(reports(found).map(|report| issued::named(&report)));
-    let verb = if dry_run { "planned" } else { "certified" };
-    let _ = writeln!(out, "{verb:<9}  certificate {number}  {}", shown(&found.stand_file));
+    let done = |verb| if dry_run { issued::marked(None, "planned") } else { issued::marked(Some(true), verb) };
+    let _ = writeln!(out, "{}  certificate {number}  {}", done("certified"), shown(&found.stand_file));
     if let Some(path) = &found.superseded {
-        let verb = if dry_run { "planned" } else { "kept" };
-        let _ = writeln!(out, "{verb:<9}  certificate {}  {}", found.old_number, shown(path));
+        let _ = writeln!(out, "{}  certificate {}  {}", done("kept"), found.old_number, shown(path));
     }
     if !found.remaining.is_empty() {
         let words = format!(

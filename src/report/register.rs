@@ -1,13 +1,18 @@
 //! Register as text for a terminal and as CSV.
 
 use crate::register::{Register, State};
-use crate::report::columns;
+use crate::report::{columns, style};
 use crate::text::{Printable, printable};
 use std::fmt::Write;
 
 impl State {
     pub(crate) fn words(self) -> String {
         if self == Self::Broken { "BROKEN".to_owned() } else { self.key().replace('_', " ") }
+    }
+
+    /// Returns whether the passport may be used, or `None` if that is unknown.
+    fn passed(self) -> Option<bool> {
+        (self != Self::Unknown).then_some(matches!(self, Self::InForce | Self::Expiring))
     }
 }
 
@@ -16,8 +21,9 @@ pub(crate) fn text(register: &Register) -> String {
     let mut out = String::new();
     for line in &register.passports {
         let id = line.id.as_deref().unwrap_or("(id not verified)");
-        let _ = writeln!(out, "{:<13}  {id}  {}", line.state.words(), Printable(&line.file));
-        columns::paragraph(&mut out, "               ", &printable(&line.why));
+        let state = style::marked(line.state.passed(), &format!("{:<13}", line.state.words()));
+        let _ = writeln!(out, "{state}  {id}  {}", Printable(&line.file));
+        columns::paragraph(&mut out, "                 ", &printable(&line.why));
     }
     for alarm in &register.alarms {
         columns::paragraph(&mut out, "", &alarm.to_string());

@@ -1,6 +1,6 @@
 //! Reference cases as text for a terminal and as JSON.
 
-use crate::report::columns;
+use crate::report::{columns, style};
 use crate::selftest::Case;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -66,6 +66,6 @@ fn row(case: &Case, digits: bool) -> Vec<String> {
     // As printed in the source: its digits show its precision.
     let expected = if digits { number(case.expected) } else { format!("{}", case.expected) };
     let last = case.digits.map_or_else(|| columns::two_digits(case.tolerance), |digits| format!("{digits:.1}"));
-    let verdict = if case.passed() { "ok" } else { "FAILED" };
-    vec![case.quantity.clone(), expected, number(case.found), last, verdict.to_owned()]
+    let verdict = style::marked(Some(case.passed()), if case.passed() { "ok" } else { "FAILED" });
+    vec![case.quantity.clone(), expected, number(case.found), last, verdict]
 }

@@ -21,14 +21,15 @@ pub(crate) fn bad(words: &str) -> String {
     styled(AnsiColor::Red.on_default().bold(), words)
 }
 
-/// Mark of what passed, as on paper.
-pub(crate) const PASSED: &str = "●";
-
-/// Mark of what was not asked, or cannot be decided.
-pub(crate) const NOT_ASKED: &str = "○";
-
-/// Mark of what failed.
-pub(crate) const FAILED: &str = "✕";
+/// Formats a result with its mark, the same as on paper; `None` if it was not asked, or is undecided. The mark only repeats
+/// the words, so that they can be read without it.
+pub(crate) fn marked(passed: Option<bool>, words: &str) -> String {
+    match passed {
+        Some(true) => good(&format!("● {words}")),
+        Some(false) => bad(&format!("✕ {words}")),
+        None => format!("○ {words}"),
+    }
+}
 
 /// ANSI codes used here, without the escape character; [`outgoing`] lets no other code pass.
 const CODES: [&str; 5] = ["[0m", "[1m", "[2m", "[31m", "[32m"];
@@ -53,8 +54,17 @@ mod tests {
 
     #[test]
     fn every_emphasis_goes_out() {
-        for text in [heading("a"), faint("b"), good("c"), bad("d")] {
+        for text in [heading("a"), faint("b"), good("c"), bad("d"), marked(Some(true), "e"), marked(Some(false), "f")] {
             assert_eq!(outgoing(&text), text);
+        }
+    }
+
+    /// Expected: the marks of the printed pages.
+    #[test]
+    fn a_result_has_one_of_three_marks() {
+        let marks = [(Some(true), "● a"), (None, "○ a"), (Some(false), "✕ a")];
+        for (passed, due) in marks {
+            assert_eq!(plain(&marked(passed, "a")), due);
         }
     }
 }

@@ -9,8 +9,8 @@ use crate::text::printable::printable;
 use crate::units::printed;
 use std::fmt::Write;
 
-/// Returns the decision for the type with its mark and emphasis, and which parameters pass, fail and are undecided.
-pub(super) fn headline(name: &str, verdict: &Verdict) -> (fn(&str) -> String, String, String) {
+/// Returns which parameters pass, fail and are undecided.
+pub(super) fn headline(name: &str, verdict: &Verdict) -> String {
     let of = |decision: Decision| -> Vec<&str> {
         let rows = verdict.parameters.iter().filter(|row| row.guarded == decision);
         rows.map(|row| symbol_of(row.parameter)).collect()
@@ -25,12 +25,7 @@ pub(super) fn headline(name: &str, verdict: &Verdict) -> (fn(&str) -> String, St
     if let Some(not_found) = not_found(verdict) {
         let _ = write!(words, "; {not_found}");
     }
-    let (style, mark): (fn(&str) -> String, _) = match verdict.overall {
-        Decision::Pass => (style::good, style::PASSED),
-        Decision::Fail => (style::bad, style::FAILED),
-        Decision::Undecided => (style::heading, style::NOT_ASKED),
-    };
-    (style, format!("{mark} {}", word(verdict.overall).to_uppercase()), words)
+    words
 }
 
 /// Returns which parameters were not decided, because the general model does not have them.
@@ -40,11 +35,23 @@ fn not_found(verdict: &Verdict) -> Option<String> {
     (!names.is_empty()).then(words)
 }
 
-pub(super) fn word(decision: Decision) -> &'static str {
+/// Returns a decision with its mark.
+pub(super) fn decided(decision: Decision) -> String {
+    let (passed, word) = words(decision);
+    style::marked(passed, word)
+}
+
+/// Returns the decision for a type with its mark, padded to `width`.
+pub(super) fn overall(verdict: &Verdict, width: usize) -> String {
+    let (passed, word) = words(verdict.overall);
+    style::marked(passed, &format!("{:<width$}", word.to_uppercase()))
+}
+
+fn words(decision: Decision) -> (Option<bool>, &'static str) {
     match decision {
-        Decision::Pass => "pass",
-        Decision::Fail => "FAIL",
-        Decision::Undecided => "undecided",
+        Decision::Pass => (Some(true), "pass"),
+        Decision::Fail => (Some(false), "FAIL"),
+        Decision::Undecided => (None, "undecided"),
     }
 }
 
@@ -72,13 +79,13 @@ pub(super) fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str
             columns::signed(row.deviation, digits),
             format!("{:.digits$}", row.expanded_uncertainty),
             format!("{} {}", row.tolerance, printed(row.unit)),
-            word(row.simple).to_owned(),
+            decided(row.simple),
             columns::probability(row.specific_risk),
-            word(row.guarded).to_owned(),
+            decided(row.guarded),
         ]
     });
     columns::table(out, &["", "result", deviation, "U", "tolerance", "simple", "risk", "guarded"], rows);
-    let _ = writeln!(out, "  Overall, by guarded acceptance: {}", word(verdict.overall).to_uppercase());
+    let _ = writeln!(out, "  Overall, by guarded acceptance: {}", overall(verdict, 0));
     if verdict.parameters.iter().any(ParameterVerdict::is_close) && verdict.overall == Decision::Undecided {
         columns::paragraph(out, "  ", "undecided: the uncertainty does not permit a decision.");
     }

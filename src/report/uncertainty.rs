@@ -2,7 +2,7 @@
 
 use crate::calibration::document::finite;
 use crate::calibration::parameter::Parameter;
-use crate::report::columns;
+use crate::report::{columns, style};
 use crate::uncertainty::budget::{COVERAGE, Contribution, ParameterBudget};
 use crate::uncertainty::monte_carlo::Distribution;
 use crate::uncertainty::{Budget, MonteCarlo};
@@ -150,7 +150,7 @@ pub(crate) fn monte_carlo(found: &MonteCarlo) -> String {
     columns::table(&mut out, &names, rows.into_iter().map(distribution));
     let words = "difference: of the ends of the interval by linear approximation from those of the symmetric one (the \
                  larger of the two); allowed: half a unit of the second digit of u (JCGM 101, clause 8); linear: \
-                 whether the linear approximation is valid.";
+                 whether the linear approximation is valid (undecided: too few trials).";
     columns::paragraph(&mut out, "  ", words);
     if !found.stable {
         let words = "WARNING: not all stated digits are stable; more trials (JCGM 101, 7.9) would change some of them.";
@@ -175,10 +175,6 @@ fn distribution(line: &Distribution) -> Vec<String> {
         interval(line.shortest),
         format!("{:.*}", digits + 2, first.differences[0].max(first.differences[1])),
         format!("{:.*}", digits + 1, first.tolerance),
-        match first.valid {
-            Some(true) => "valid".to_owned(),
-            Some(false) => "NOT VALID".to_owned(),
-            None => "too few trials".to_owned(),
-        },
+        style::marked(first.valid, first.valid.map_or("undecided", |valid| if valid { "valid" } else { "NOT VALID" })),
     ]
 }

@@ -13,22 +13,20 @@ const ON_REQUEST: [CheckName; 4] = [CheckName::Issuer, CheckName::Stand, CheckNa
 pub(crate) fn text(verdicts: &[Verdict]) -> String {
     let mut text = String::new();
     for verdict in verdicts {
-        let answer = match verdict.valid {
-            true => style::good(&format!("{} VALID", style::PASSED)),
-            false => style::bad(&format!("{} REFUSED", style::FAILED)),
-        };
+        let answer = style::marked(Some(verdict.valid), if verdict.valid { "VALID" } else { "REFUSED" });
         let id = verdict.id.as_deref().unwrap_or("(id not verified)");
         let _ = writeln!(text, "{answer}  {id}  {}", Printable(&verdict.file));
         let _ = writeln!(text, "  {}", counts(verdict));
         for check in &verdict.checks {
-            let mark = match check.passed() {
-                Some(true) if !check.was_asked() => format!("{} not asked", style::NOT_ASKED),
-                Some(true) => style::good(&format!("{} passed   ", style::PASSED)),
-                Some(false) => style::bad(&format!("{} FAILED   ", style::FAILED)),
-                None => "- not run  ".to_owned(),
+            let (passed, word) = match check.passed() {
+                Some(true) if !check.was_asked() => (None, "not asked"),
+                Some(true) => (Some(true), "passed"),
+                Some(false) => (Some(false), "FAILED"),
+                None => (None, "not run"),
             };
+            let result = style::marked(passed, &format!("{word:<9}"));
             let detail = check.detail.replace('\n', "\n                           ");
-            let _ = writeln!(text, "  {mark}  {:<10}  {detail}", check.name.as_str());
+            let _ = writeln!(text, "  {result}  {:<10}  {detail}", check.name.as_str());
         }
     }
     text

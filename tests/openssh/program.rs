@@ -41,7 +41,7 @@ fn issue(bench: &Bench, key: &str, environment: &[(&str, &Path)]) -> Finished {
 }
 
 fn assert_issued(bench: &Bench, issued: &Finished) {
-    assert!(issued.good && issued.output.starts_with("issued"), "{}{}", issued.output, issued.errors);
+    assert!(issued.good && issued.output.starts_with("● issued"), "{}{}", issued.output, issued.errors);
     let key = PublicKey::from_openssh(&bench.read("key.pub")).unwrap();
     bench.write("signers", format!("factory {}\n", key.to_openssh()));
     let mut program = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
