@@ -42,6 +42,9 @@ pub(crate) struct PastPassport {
     /// Time from which the passport was no longer in force: superseded, moved, expired or withdrawn; null if it still
     /// is, or was never.
     pub ended_at: Option<Timestamp>,
+    /// Time at which a passport in force expires, if it does; for pictures.
+    #[serde(skip)]
+    pub expires_at: Option<Timestamp>,
     /// Identifier of the predecessor.
     pub predecessor: Option<String>,
     /// Reason for the re-issue.
@@ -202,10 +205,12 @@ fn passports(recorded: &[Recorded], trust: &Trust, now: Timestamp) -> Vec<PastPa
             let expired = content.as_ref().and_then(Content::last_day).map(|(last, _)| day(last).1);
             let withdrawn = trust.withdrawn.entry(&line.sha256).map(|entry| entry.revoked_at);
             let ends = [superseded.get(line.sha256.as_str()).copied(), expired, withdrawn];
+            let end = header.and(ends.into_iter().flatten().min());
             PastPassport {
                 line: line.clone(),
                 issued_at: header.map(|header| header.issued_at),
-                ended_at: header.and(ends.into_iter().flatten().min()).filter(|end| *end <= now),
+                ended_at: end.filter(|end| *end <= now),
+                expires_at: end.filter(|end| *end > now && matches!(line.state, State::InForce | State::Expiring)),
                 predecessor: header.and_then(|header| Some(header.reissued_from.as_ref()?.id.clone())),
                 reason: header.and_then(|header| Some(header.reissued_from.as_ref()?.reason.clone())),
             }

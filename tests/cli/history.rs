@@ -135,3 +135,32 @@ fn the_drift_is_what_scipy_finds() {
     python.args(["-c", count]).arg(at("years.svg"));
     assert_eq!(programs::output(python).trim(), format!("{} True", 24 * 4 + 4 + 2));
 }
+
+/// Returns the widths of the bars of a class, without that of the legend.
+fn widths(svg: &str, class: &str) -> Vec<f64> {
+    let bars = svg.split("<rect ").filter(|tag| tag.starts_with(&format!("class=\"{class}\"")));
+    let width = |tag: &str| tag.split_once("width=\"").unwrap().1.split_once('"').unwrap().0.parse().unwrap();
+    bars.skip(1).map(width).collect()
+}
+
+/// Expected by hand: both passports are of 2026-11-09, 09:00, which is 295.6 days before 2027-09-01; 428 days later, at the
+/// end of 2028-11-01, the certificate expires. A bar is long as the time, but for the leap year: 0.3 %.
+#[test]
+fn a_bar_continues_paler_until_its_passport_expires() {
+    let folder = tempfile::tempdir().unwrap();
+    let svg_at = |time: &str| {
+        let [passports, signers] = ["passports", "docs/allowed_signers"].map(programs::project);
+        let arguments = format!("--passports {} --trust {}", passports.display(), signers.display());
+        run(folder.path(), &format!("history SPS-2/0017 {arguments} --time {time} -o {time}.svg"));
+        fs::read_to_string(folder.path().join(format!("{time}.svg"))).unwrap()
+    };
+    let during = svg_at("2027-09-01");
+    let (past, ahead) = (widths(&during, "bar"), widths(&during, "grid"));
+    assert_eq!([past.len(), ahead.len()], [2, 2]);
+    for (past, ahead) in past.iter().zip(&ahead) {
+        assert!((past / ahead / (295.6 / 428.0) - 1.0).abs() < 0.005, "{past} {ahead}");
+    }
+    assert!(during.contains("in force, expires 2028-11-01T23:59:59Z") && during.contains(">as of 2027-09-01<"));
+    let after = svg_at("2029-01-01");
+    assert_eq!([widths(&after, "bar").len(), widths(&after, "grid").len()], [2, 0]);
+}

@@ -40,10 +40,11 @@ pub(crate) fn history(history: &History, now: Timestamp) -> String {
     let positions = history.drift.series.len().div_ceil(LETTERS.len()) as f64;
     let height = if changes { panels_top + PANEL_ROW * positions + 24.0 } else { bottom + 40.0 };
     let day = now.to_zoned(jiff::tz::TimeZone::UTC).date();
-    let title = format!("Stand {} over the years, as of {day}", history.stand);
+    let as_of = format!("as of {day}");
+    let title = format!("Stand {} over the years, {as_of}", history.stand);
     let drawing = [
         words([20.0, 20.0], Anchor::Start, "title", &title),
-        time_line(history, now, &time, bottom),
+        time_line(history, (now, &as_of), &time, bottom),
         if changes {
             drift(&history.drift, panels_top)
         } else {
@@ -67,8 +68,10 @@ fn year_of_time(time: Timestamp) -> f64 {
 fn time_scale(history: &History, now: Timestamp) -> Scale {
     let certificates = history.certificates.iter().map(|at| year_of(at.stand.certificate.measured()));
     let issued = history.passports.iter().filter_map(|at| at.issued_at).map(year_of_time);
+    let ends = history.passports.iter().filter_map(|at| at.expires_at).map(year_of_time);
     let (low, high) = certificates
         .chain(issued)
+        .chain(ends)
         .chain([year_of_time(now)])
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (f64::min(low, at), f64::max(high, at)));
     // A day of one year alone would have no length.
@@ -96,14 +99,16 @@ fn marks(time: &Scale) -> Vec<(f64, String)> {
     MONTHS.into_iter().map(every).find(|marks| marks.len() <= MOST_MARKS).unwrap_or_default()
 }
 
-fn time_line(history: &History, now: Timestamp, time: &Scale, bottom: f64) -> Markup {
+fn time_line(history: &History, (now, as_of): (Timestamp, &str), time: &Scale, bottom: f64) -> Markup {
     let (sure, unsure) = ("bar", "frame-line");
     let row = |place: usize| TOP + ROW * place as f64;
     html! {
         (caption([20.0, 42.0], "", &[
             (rectangle([2.0, 2.5], [26.0, 11.5], sure, None), "in force"),
+            (ahead([2.0, 2.5], [26.0, 11.5]), "until it expires"),
             (rectangle([2.0, 2.5], [26.0, 11.5], unsure, None), "withdrawn later"),
             (mark([14.0, 7.0], 1, "mark"), "measured for a certificate"),
+            (line([14.0, 0.0], [14.0, 14.0], "zero"), as_of),
         ]))
         @for (year, name) in marks(time) {
             @let x = time.place(year);
@@ -120,16 +125,27 @@ fn time_line(history: &History, now: Timestamp, time: &Scale, bottom: f64) -> Ma
                 (bar(passport, history, now, time, row(place)))
             }
         }
+        @let x = time.place(year_of_time(now));
+        (line([x, TOP - 10.0], [x, bottom], "zero"))
     }
 }
 
-/// Draws the time in which a passport was in force, until `now` if it still is.
+/// Draws the time in which a passport was in force; if it still is, until `now`, and paler from then until it expires.
 fn bar(passport: &PastPassport, history: &History, now: Timestamp, time: &Scale, y: f64) -> Markup {
     let Some(from) = passport.issued_at.map(year_of_time) else { return html! {} };
     let until = year_of_time(passport.ended_at.unwrap_or(now));
     let withdrawn = history.withdrawals.iter().any(|entry| entry.sha256 == passport.line.sha256);
     let class = if withdrawn { "frame-line" } else { "bar" };
-    rectangle([time.clamped(from), y - BAR_HALF], [time.clamped(until), y + BAR_HALF], class, None)
+    let corner = |at: f64, side: f64| [time.clamped(at), y + side * BAR_HALF];
+    html! {
+        (rectangle(corner(from, -1.0), corner(until, 1.0), class, None))
+        @if let Some(end) = passport.expires_at { (ahead(corner(until, -1.0), corner(year_of_time(end), 1.0))) }
+    }
+}
+
+/// Draws the part of a bar that is later than the history.
+fn ahead(one: Point, other: Point) -> Markup {
+    rectangle(one, other, "grid", Some("#dddddd"))
 }
 
 /// Shortens the name of a site to the room on the left.
@@ -231,7 +247,8 @@ fn in_words(history: &History) -> String {
         format!("certificate {} measured on {}", at.stand.certificate.number, at.stand.certificate.measured())
     });
     let passports = history.passports.iter().filter_map(|at| {
-        let ended = at.ended_at.map_or_else(|| "in force".to_owned(), |end| format!("until {end}"));
+        let expires = at.expires_at.map_or_else(String::new, |end| format!(", expires {end}"));
+        let ended = at.ended_at.map_or_else(|| format!("in force{expires}"), |end| format!("until {end}"));
         Some(format!("passport {} from {}, {ended}", at.line.id.as_deref()?, at.issued_at?))
     });
     let drifts = history.drift.series.iter().filter_map(|series| {
