@@ -62,9 +62,42 @@ pub(crate) fn printed(unit: &str) -> String {
     }
 }
 
+/// Returns a value with its unit in printed form; a space separates them, but not before ″ (SI Brochure, 5.4.3).
+pub(crate) fn quantity(value: &str, unit: &str) -> String {
+    match unit {
+        "arcsec" => format!("{value}″"),
+        unit => format!("{value} {}", printed(unit)),
+    }
+}
+
+/// Returns a distance for people: in metres, from 10 km on in kilometres with three digits or more.
+pub(crate) fn distance(metres: f64) -> String {
+    let km = metres / 1000.0;
+    match km {
+        ..9.9995 => format!("{metres:.0} m"),
+        ..99.95 => format!("{km:.1} km"),
+        _ => format!("{km:.0} km"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Expected: SI Brochure, 5.4.3: a space before every unit but °, ′ and ″.
+    #[test]
+    fn no_space_is_before_arcseconds() {
+        assert_eq!(quantity("1.5", "arcsec"), "1.5″");
+        assert_eq!(quantity("0.3", "deg/h/g"), "0.3 °/(h·g)");
+    }
+
+    #[test]
+    fn a_distance_is_in_metres_or_kilometres() {
+        let cases = [(44.4, "44 m"), (9_999.4, "9999 m"), (9_999.6, "10.0 km"), (99_949.0, "99.9 km")];
+        for (metres, due) in cases.into_iter().chain([(99_951.0, "100 km"), (585_421.0, "585 km")]) {
+            assert_eq!(distance(metres), due);
+        }
+    }
 
     #[test]
     fn a_printed_unit_has_one_solidus() {

@@ -72,7 +72,7 @@ impl fmt::Display for Explanation {
                 let [x, y] = [current_ua.x, current_ua.y].map(rounded);
                 write!(
                     f,
-                    "position {index} did not repeat: by {} arcsec if the angle changed, or by {x} uA in J_x and \
+                    "position {index} did not repeat: by {}″ if the angle changed, or by {x} uA in J_x and \
                      {y} uA in J_y if the currents are wrong",
                     two_digits(*angle_arcsec)
                 )
@@ -87,7 +87,7 @@ impl fmt::Display for Hint {
             [] => write!(
                 f,
                 "the readings do not fit, and no single position and no exchange of two positions explains this; the \
-                 passport may be that of another stand (all positions differ by about {} arcsec), or the gyro may \
+                 passport may be that of another stand (all positions differ by about {}″), or the gyro may \
                  have drifted, or the stand may have moved, during the run",
                 two_digits(self.size_arcsec)
             ),

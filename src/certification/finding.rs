@@ -77,7 +77,7 @@ impl Display for Finding {
             Self::Changed(ComparedPosition { index, turn_arcsec: [x, y, z], .. }) => {
                 return write!(
                     f,
-                    "position {index} has changed: {x:+.2}, {y:+.2}, {z:+.2} arcsec about x, y, z relative to the other \
+                    "position {index} has changed: {x:+.2}″, {y:+.2}″, {z:+.2}″ about x, y, z relative to the other \
                      positions"
                 );
             }
@@ -97,20 +97,20 @@ impl Display for Finding {
                 return match at.pattern {
                     Pattern::One(run) => write!(
                         f,
-                        "all positions of run {run} of the check are rotated by {x:+.2}, {y:+.2}, {z:+.2} arcsec about \
-                         {axes} relative to its other runs; the common rotation includes {of_x:+.2}, {of_y:+.2}, \
-                         {of_z:+.2} arcsec of it; measure the run again, or exclude it with --exclude {run} and --why"
+                        "all positions of run {run} of the check are rotated by {x:+.2}″, {y:+.2}″, {z:+.2}″ about \
+                         {axes} relative to its other runs; the common rotation includes {of_x:+.2}″, {of_y:+.2}″, \
+                         {of_z:+.2}″ of it; measure the run again, or exclude it with --exclude {run} and --why"
                     ),
                     Pattern::Move(before, after) => write!(
                         f,
                         "the stand seems to have moved between runs {before} and {after} of the check: all positions \
-                         are rotated by {x:+.2}, {y:+.2}, {z:+.2} arcsec about {axes}; the common rotation is a mean \
+                         are rotated by {x:+.2}″, {y:+.2}″, {z:+.2}″ about {axes}; the common rotation is a mean \
                          of both states; find the cause and measure again"
                     ),
                     Pattern::Drift => write!(
                         f,
-                        "the stand seems to drift: from run to run of the check all positions rotate by {x:+.2}, \
-                         {y:+.2}, {z:+.2} arcsec about {axes}; the common rotation is that of the middle of the check; \
+                        "the stand seems to drift: from run to run of the check all positions rotate by {x:+.2}″, \
+                         {y:+.2}″, {z:+.2}″ about {axes}; the common rotation is that of the middle of the check; \
                          find the cause and measure again"
                     ),
                 };
@@ -119,7 +119,7 @@ impl Display for Finding {
                 return write!(
                     f,
                     "run {run} of the check seems to have changed within itself: from position {after} on, its positions \
-                     are rotated by {x:+.2}, {y:+.2}, {z:+.2} arcsec about {} relative to those up to {before}, in the \
+                     are rotated by {x:+.2}″, {y:+.2}″, {z:+.2}″ about {} relative to those up to {before}, in the \
                      order of the rows; measure the run again, or exclude it with --exclude {run} and --why",
                     axis.names()
                 );
@@ -127,8 +127,8 @@ impl Display for Finding {
             Self::Outlier(Outlier { index, run, residual_arcsec: residual, axis, .. }, mean) => {
                 return write!(
                     f,
-                    "the reading of position {index} in run {run} of the check differs by {residual:+.2} arcsec about {} from \
-                     its other runs; the change of the position includes {mean:+.2} arcsec of it; measure the run again, or \
+                    "the reading of position {index} in run {run} of the check differs by {residual:+.2}″ about {} from \
+                     its other runs; the change of the position includes {mean:+.2}″ of it; measure the run again, or \
                      exclude the reading with --exclude {},{},{run} and --why",
                     AXES[*axis], index.i, index.j
                 );

@@ -96,7 +96,7 @@ impl Display for Remark {
                 let line = out.line.map_or_else(String::new, |line| format!(" (line {line} of the readings)"));
                 write!(
                     f,
-                    "{}: position {}, run {}{line}, differs by {:+.2} arcsec from the other runs about {} (Grubbs' test: \
+                    "{}: position {}, run {}{line}, differs by {:+.2}″ from the other runs about {} (Grubbs' test: \
                      probability {}); it was not excluded; measure it again, or omit the run",
                     grade(out.probability),
                     out.index,
@@ -111,9 +111,9 @@ impl Display for Remark {
                 match at.pattern {
                     Pattern::One(run) => write!(
                         f,
-                        "{}: all positions of run {run} are rotated by {x:+.2}, {y:+.2}, {z:+.2} arcsec about {axes} \
+                        "{}: all positions of run {run} are rotated by {x:+.2}″, {y:+.2}″, {z:+.2}″ about {axes} \
                          relative to the other runs (Grubbs' test: probability {p}); it was not excluded, and changes \
-                         certified angles by up to {:.2} arcsec; find the cause, then measure the run again, or \
+                         certified angles by up to {:.2}″; find the cause, then measure the run again, or \
                          exclude it with --exclude {run} and --why",
                         grade(at.probability),
                         at.largest_effect_arcsec()
@@ -121,7 +121,7 @@ impl Display for Remark {
                     Pattern::Move(before, after) => write!(
                         f,
                         "the stand seems to have moved between runs {before} and {after}: all positions are rotated by \
-                         {x:+.2}, {y:+.2}, {z:+.2} arcsec about {axes} (Student's test of a step: probability {p}); no \
+                         {x:+.2}″, {y:+.2}″, {z:+.2}″ about {axes} (Student's test of a step: probability {p}); no \
                          run was excluded, and the certified angles are a mean of both states; find the cause and \
                          measure again, or certify the runs from {after} on by themselves: exclude each earlier one \
                          with --exclude and --why"
@@ -140,7 +140,7 @@ impl Display for Remark {
                 write!(
                     f,
                     "run {run} seems to have changed within itself: from position {after} on, its positions are rotated by \
-                     {x:+.2}, {y:+.2}, {z:+.2} arcsec about {} relative to those up to {before}, in the order of the rows \
+                     {x:+.2}″, {y:+.2}″, {z:+.2}″ about {} relative to those up to {before}, in the order of the rows \
                      (F test: probability {}); the run was not excluded, and single readings and positions were not \
                      examined; find the cause, then measure the run again, or exclude it with --exclude {run} and --why",
                     at.axis.names(),
@@ -170,9 +170,9 @@ impl Display for Remark {
                 let (part, axis) = (at.axis.part(), at.axis.name());
                 write!(
                     f,
-                    "from run to run the {part} rotates by {:.2} arcsec about {axis} and by {:.2} arcsec about its \
+                    "from run to run the {part} rotates by {:.2}″ about {axis} and by {:.2}″ about its \
                      other two axes (Cochran's test: probability {}); common_{part}_arcsec is pooled from all three, \
-                     which is too small about {axis}; state a line of type_b that acts on the {part}, of {:.2} arcsec, \
+                     which is too small about {axis}; state a line of type_b that acts on the {part}, of {:.2}″, \
                      or find the cause and measure again",
                     at.deviation_arcsec,
                     at.others_arcsec,
@@ -182,7 +182,7 @@ impl Display for Remark {
             }
             Self::SharedSetting(SharedSetting { setting, deviation_arcsec, probability: p }) => write!(
                 f,
-                "in each run the positions with the same {0} share an error of {deviation_arcsec:.2} arcsec (standard \
+                "in each run the positions with the same {0} share an error of {deviation_arcsec:.2}″ (standard \
                  deviation; F test: probability {1}), as if {0} were set once for all of them; the uncertainties take \
                  the errors of positions as independent, and are too small; set both angles again before every position, \
                  and measure again",
@@ -206,13 +206,13 @@ impl Display for Remark {
             ),
             Self::Rounding { angles, of, step_arcsec } => write!(
                 f,
-                "the readings of {angles} of {of} angles vary by less than half their step of {step_arcsec} arcsec, so their \
-                 mean does not reduce the rounding; its standard uncertainty of {:.2} arcsec is included; record more digits",
+                "the readings of {angles} of {of} angles vary by less than half their step of {step_arcsec}″, so their \
+                 mean does not reduce the rounding; its standard uncertainty of {:.2}″ is included; record more digits",
                 rounding_of(*step_arcsec)
             ),
             Self::SmallAngles(largest_arcsec) => write!(
                 f,
-                "no angle is larger than {largest_arcsec:.2} arcsec; check that the angles are in arcseconds, not degrees"
+                "no angle is larger than {largest_arcsec:.2}″; check that the angles are in arcseconds, not degrees"
             ),
             Self::Odd(odd) => odd.fmt(f),
         }

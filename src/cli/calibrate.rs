@@ -69,7 +69,7 @@ pub(super) struct Options {
     /// Stop limit of the iteration for the main scale factors, percent
     #[arg(long, value_name = "P", default_value_t = 0.1, value_parser = limit, allow_hyphen_values = true)]
     delta1_percent: f64,
-    /// Stop limit of the iteration for ω_g and ω_k, deg/(h·g)
+    /// Stop limit of the iteration for ω_g and ω_k, °/(h·g)
     #[arg(long, value_name = "D", default_value_t = 0.001, value_parser = limit, allow_hyphen_values = true)]
     delta2_deg_per_h: f64,
     /// Visit to leave out, as i,j,visit or i,j,visit,cycle; visits count within a cycle and position. May be repeated

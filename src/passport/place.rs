@@ -4,7 +4,7 @@ use super::checks::Code;
 use super::content::Content;
 use crate::earth::{self, Place};
 use crate::site::LATITUDE_MARGIN_ARCSEC;
-use crate::units::radians_from_arcseconds;
+use crate::units::{distance, radians_from_arcseconds};
 
 /// Distance of a place from a passport's site, and the limit for it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,10 +44,11 @@ pub(super) fn verdict(content: &Content, place: Place) -> (Code, String) {
     let nearness = Nearness::of(content, place);
     let Nearness { distance_m, radius_m, allowance_m } = nearness;
     let how = if site.longitude_deg.is_some() { "" } else { " in latitude (the longitude of the site is unknown)" };
-    let unknown = format!("the unknown deflection of the vertical ({LATITUDE_MARGIN_ARCSEC} arcsec)");
-    let allowance = (allowance_m > 0.0).then(|| format!(", of which {allowance_m:.0} m allow for {unknown}"));
+    let unknown = format!("the unknown deflection of the vertical ({LATITUDE_MARGIN_ARCSEC}″)");
+    let allowance = (allowance_m > 0.0).then(|| format!(", of which {} allow for {unknown}", distance(allowance_m)));
     let allowance = allowance.unwrap_or_default();
-    let words = format!("{distance_m:.0} m from {}{how}; validity radius {radius_m:.0} m{allowance}", site.id);
+    let words =
+        format!("{} from {}{how}; validity radius {}{allowance}", distance(distance_m), site.id, distance(radius_m));
     if nearness.within() {
         return (Code::Ok, words);
     }

@@ -129,7 +129,7 @@ pub(crate) fn certification(found: &Certification) -> String {
     for excluded in stand.certificate.evidence.iter().filter_map(|evidence| evidence.excluded.as_ref()).flatten() {
         columns::paragraph(&mut out, "", &format!("Excluded: {}: {}.", excluded.describe(), excluded.why));
     }
-    let names = ["i", "j", "α, arcsec", "u", "β, arcsec", "u", "γ, arcsec", "u", "deg. of freedom"];
+    let names = ["i", "j", "α, ″", "u", "β, ″", "u", "γ, ″", "u", "deg. of freedom"];
     let rows = stand.positions.iter().map(|at| {
         let mut row = vec![at.i.to_string(), at.j.to_string()];
         for (value, u) in at.angles_arcsec().into_iter().zip(at.u_arcsec()) {
@@ -155,7 +155,7 @@ fn components(out: &mut String, found: &Certification) {
     let own = components.own_arcsec2.map(|variance| format!("{:.2}", variance.value.sqrt()));
     let _ = writeln!(
         out,
-        "\nRepeatability of one visit: {:.2} arcsec per axis ({} degrees of freedom); about x, y, z: {}",
+        "\nRepeatability of one visit: {:.2}″ per axis ({} degrees of freedom); about x, y, z: {}",
         components.pooled_arcsec2.value.sqrt(),
         columns::degrees_of_freedom(components.pooled_arcsec2.degrees_of_freedom),
         own.join(", ")
@@ -165,7 +165,7 @@ fn components(out: &mut String, found: &Certification) {
         let Some(common) = common else { continue };
         let seen = common.between_runs_arcsec2.sqrt();
         let words = format!(
-            "Common part of the {what}: {seen:.2} arcsec per axis from run to run (at most {:.2} at 95 %), {:.2} in \
+            "Common part of the {what}: {seen:.2}″ per axis from run to run (at most {:.2}″ at 95 %), {:.2}″ in \
              the mean",
             common.upper_limit_arcsec2.sqrt(),
             seen / root
@@ -250,7 +250,7 @@ pub(crate) fn comparison(found: &Comparison) -> String {
         row.push(style::marked(Some(at.repeats), if at.repeats { "unchanged" } else { "CHANGED" }));
         row
     });
-    let names = ["i", "j", "x, arcsec", "u", "y, arcsec", "u", "z, arcsec", "u", "chi-square", "p", ""];
+    let names = ["i", "j", "x, ″", "u", "y, ″", "u", "z, ″", "u", "chi-square", "p", ""];
     columns::table(&mut out, &names, rows);
     let positions = found.positions.len();
     let words = format!(
@@ -262,7 +262,7 @@ pub(crate) fn comparison(found: &Comparison) -> String {
     let turned = |turn: &[f64; 3]| turn.map(|value| columns::signed(value, 2)).join(", ");
     let judged = found.common.test.as_ref().map_or_else(|| "not tested".to_owned(), line);
     let words = format!(
-        "Common rotation, arcsec: platform {} about x, y, z, base {} about east, north, up; {judged}",
+        "Common rotation, ″: platform {} about x, y, z, base {} about east, north, up; {judged}",
         turned(&found.common.platform_arcsec),
         turned(&found.common.base_arcsec)
     );

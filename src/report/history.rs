@@ -86,7 +86,7 @@ pub(crate) fn sentence(drift: &Drift, angles: [&str; 3]) -> String {
 /// Formats a change with its unit and its standard uncertainty.
 fn measured(value: f64, unit: &str, u: f64) -> String {
     let decimals = columns::decimals(u);
-    format!("{} {unit} (u {u:.decimals$})", columns::signed(value, decimals))
+    format!("{}{unit} (u {u:.decimals$})", columns::signed(value, decimals))
 }
 
 /// Returns the sentence on a change of one deviation that the parts common to all positions hide.
@@ -94,12 +94,12 @@ fn relative(drift: &Drift, angles: [&str; 3], series: &Series) -> String {
     let name = format!("{} of position {}", angles[series.angle], series.index);
     let (what, probability) = match (&series.jump, &series.line) {
         (Some(Jump { certificates: [from, to], change_arcsec, u_arcsec, corrected_probability, .. }), _) => {
-            let change = measured(*change_arcsec, "arcsec", *u_arcsec);
+            let change = measured(*change_arcsec, "″", *u_arcsec);
             (format!("has jumped by {change} between certificates {from} and {to}"), *corrected_probability)
         }
         (None, line) => {
             let (slope, u) = line.map_or((0.0, 0.0), |line| (line.slope, line.u_slope));
-            let slope = measured(slope, "arcsec per year", u);
+            let slope = measured(slope, "″ per year", u);
             (format!("drifts by {slope}"), series.corrected_probability.unwrap_or(1.0))
         }
     };
@@ -122,7 +122,7 @@ fn jumped(drift: &Drift, angles: [&str; 3], series: &Series, jump: &Jump) -> Str
         drift.tested(),
         angles[series.angle],
         series.index,
-        measured(jump.change_arcsec, "arcsec", jump.u_arcsec),
+        measured(jump.change_arcsec, "″", jump.u_arcsec),
         jump.line.chi_square,
         jump.line.degrees_of_freedom,
         columns::probability(jump.corrected_probability),
@@ -142,7 +142,7 @@ fn of_lines(drift: &Drift, angles: [&str; 3]) -> String {
     let tested = drift.tested();
     let p = columns::probability(probability);
     let by = format!("probability {p}, corrected for {tested} tests");
-    let slope = worst.line.map_or_else(String::new, |line| measured(line.slope, "arcsec per year", line.u_slope));
+    let slope = worst.line.map_or_else(String::new, |line| measured(line.slope, "″ per year", line.u_slope));
     let drifting = drift.series.iter().filter(|at| at.corrected_probability.is_some_and(|p| p < DRIFTS)).count();
     if probability < DRIFTS {
         format!("the stand drifts: {drifting} of {tested} deviations; most significant is {name}, {slope}, {by}")
@@ -270,7 +270,7 @@ fn drift(out: &mut String, drift: &Drift) {
     let rows: Vec<_> = drift.series.iter().filter_map(row).collect();
     if !rows.is_empty() {
         let _ = writeln!(out, "\n{}", style::heading("Drift of the deviations (u: standard uncertainty, k = 1)"));
-        let names = ["i", "j", "angle", "values", "change, arcsec", "arcsec/year", "u", "probability", "corrected", ""];
+        let names = ["i", "j", "angle", "values", "change, ″", "″/year", "u", "probability", "corrected", ""];
         columns::table(out, &names, rows);
     }
     let sentence = sentence(drift, LETTERS);

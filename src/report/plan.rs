@@ -6,7 +6,7 @@ use crate::plan::criterion::Criterion;
 use crate::plan::sensitivity::{CommonError, Effect};
 use crate::plan::{Plan, Visited};
 use crate::text::number::decimal;
-use crate::units::printed;
+use crate::units::{printed, quantity};
 use std::fmt::Write;
 
 /// Rise of ω_0 during the run for which the text states its effect, °/h.
@@ -154,10 +154,7 @@ fn common_errors(out: &mut String, plan: &Plan) {
 /// Returns the size of an error with its unit.
 pub(crate) fn size(effect: &Effect) -> String {
     let CommonError { size, cause, .. } = effect.error;
-    match cause.unit() {
-        "arcsec" => format!("{size}″"),
-        unit => format!("{size} {unit}"),
-    }
+    quantity(&size.to_string(), cause.unit())
 }
 
 /// Formats a standard uncertainty as a share of the tolerance, in percent.

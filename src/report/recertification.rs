@@ -40,7 +40,7 @@ pub(crate) fn text(found: &Recertified, dry_run: bool) -> String {
     let mut out = certification::certification(&found.certification);
     let _ = write!(out, "\n{}", certification::comparison(&found.comparison));
     let number = &found.certification.stand.certificate.number;
-    let heading = format!("Change of the deviations from certificate {} (A) to {number} (B), arcsec", found.old_number);
+    let heading = format!("Change of the deviations from certificate {} (A) to {number} (B), ″", found.old_number);
     let _ = writeln!(out, "\n{}", style::heading(&heading));
     difference::numbers(&mut out, &found.changes);
     let _ = writeln!(out);

@@ -12,7 +12,7 @@ use std::fmt::Write;
 pub(crate) fn accuracy(found: &Accuracy) -> String {
     let mut out = String::new();
     let stands = match found.limit_deg {
-        Some(limit) => format!("all deviations uniform within {limit} degrees"),
+        Some(limit) => format!("all deviations uniform within {limit}°"),
         None => "the specified stand".to_owned(),
     };
     let _ = writeln!(out, "{} trials, seed {}, {stands}", found.trials, found.seed);
@@ -47,7 +47,7 @@ pub(crate) fn accuracy(found: &Accuracy) -> String {
 pub(crate) fn convergence(found: &Convergence) -> String {
     let mut out = String::new();
     let _ = writeln!(out, "Steps of the iterative method, {} stands at each limit, seed {}", found.trials, found.seed);
-    let names = ["limit, deg", "angles", "mean", "95th perc.", "most", "not converged, %"];
+    let names = ["limit, °", "angles", "mean", "95th perc.", "most", "not converged, %"];
     let [limit, angles, mean, percentile, most, not] = names;
     let _ = writeln!(out, "  {limit:>10}  {angles:<8}  {mean:>7}  {percentile:>10}  {most:>5}  {not:>16}");
     for row in &found.rows {

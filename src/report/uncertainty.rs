@@ -6,7 +6,7 @@ use crate::report::{columns, style};
 use crate::uncertainty::budget::{COVERAGE, Contribution, ParameterBudget};
 use crate::uncertainty::monte_carlo::Distribution;
 use crate::uncertainty::{Budget, MonteCarlo};
-use crate::units::printed;
+use crate::units::{printed, quantity};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -66,7 +66,7 @@ fn contribution(part: &Contribution, digits: usize) -> Vec<String> {
         part.cause.kind(),
         match part.cause.unit() {
             "1" => size,
-            unit => format!("{size} {}", printed(unit)),
+            unit => quantity(&size, unit),
         },
         part.inputs.to_string(),
         format!("{:.digits$}", part.contribution),

@@ -4,7 +4,7 @@ use super::budget::{Budget, Contribution, ParameterBudget};
 use crate::calibration::causes::Cause;
 use crate::gyro::Tolerance;
 use crate::text::number::two_digits;
-use crate::units::printed;
+use crate::units::quantity;
 
 /// Smallest share of a variance that counts as "nearly all" of it.
 const NEARLY_ALL: f64 = 0.9;
@@ -107,13 +107,13 @@ pub(crate) fn percent(line: &ParameterBudget, u: f64) -> Option<f64> {
 fn amount(line: &ParameterBudget, u: f64) -> String {
     match percent(line, u) {
         Some(percent) => format!("{} %", two_digits(percent)),
-        None => format!("{} {}", two_digits(u), printed(line.parameter.unit())),
+        None => quantity(&two_digits(u), line.parameter.unit()),
     }
 }
 
 /// Returns the measure that reduces the uncertainty of an input to `limit`, in its unit.
 fn what_to_do(cause: Cause, limit: f64) -> String {
-    let to = format!("{} {}", two_digits(limit), printed(cause.unit()));
+    let to = quantity(&two_digits(limit), cause.unit());
     match cause {
         Cause::Seat(axis) => {
             format!("seat the gyro with an uncertainty of {to} about {}", ["x", "y", "the spin axis"][axis])

@@ -182,7 +182,7 @@ fn an_astronomic_latitude_without_deflection_allows_thirty_arcseconds() {
     for (metres, code) in [(1430.0, Code::Ok), (1450.0, Code::WrongPlace)] {
         let answer = ask(&here, place_at(centre, 0.0, metres));
         assert_eq!(answer.code(CheckName::Place), Some(code), "{metres}");
-        assert!(answer.checks().last().unwrap().detail.contains("30 arcsec"));
+        assert!(answer.checks().last().unwrap().detail.contains("30″"));
     }
 }
 

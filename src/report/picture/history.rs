@@ -181,7 +181,7 @@ fn drift(drift: &Drift, top: f64) -> Markup {
         (line([1.0, 7.0], [27.0, 7.0], "grid"), "other line"),
     ];
     html! {
-        (caption([20.0, top - 30.0], "arcsec over years:", &legend))
+        (caption([20.0, top - 30.0], "″ over years:", &legend))
         @for (place, series) in drift.series.iter().enumerate() {
             @let (column, row) = ((place % 3) as f64, (place / 3) as f64);
             @let left = LEFT + COLUMN * column;
