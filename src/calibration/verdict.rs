@@ -15,7 +15,7 @@ use serde::Serialize;
 pub(crate) const COVERAGE_FACTOR: f64 = 2.0;
 
 /// Probability that a normal variable is farther from its mean than [`COVERAGE_FACTOR`] standard deviations.
-const BEYOND: f64 = 0.045_500_263_896_358_42;
+pub(crate) const BEYOND: f64 = 0.045_500_263_896_358_42;
 
 /// Parameters that are drifts per g.
 const PER_G: [Parameter; 2] = [Parameter::OmegaG, Parameter::OmegaK];

@@ -10,7 +10,7 @@ use crate::calibration::parameter::Parameter;
 use crate::calibration::prediction::FurtherVisit;
 use crate::calibration::readings::Exclusion;
 use crate::calibration::stated::NotStated;
-use crate::calibration::verdict::{Verdict, change_in_uncertainties};
+use crate::calibration::verdict::{BEYOND, Verdict, change_in_uncertainties};
 use crate::calibration::{Calibration, Method, MethodResult, Readings};
 use crate::interface::calibrated::Done;
 use crate::report::page::Language;
@@ -70,12 +70,15 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
     methods(&mut out, calibration);
     residuals(&mut out, calibration);
     if let Some((name, verdict)) = verdict {
-        let _ = writeln!(
-            out,
-            "\nComparison with gyro type {name}, in the unit of the tolerance; U = k u, k = {};",
-            factors(verdict)
+        let words = format!(
+            "Comparison with gyro type {name}, in the unit of the tolerance; U = k u, k = {} (coverage probability {:.2} %); \
+             g-sensitive drifts refer to the g of the type, {} m/s²:",
+            factors(verdict),
+            100.0 * (1.0 - BEYOND),
+            verdict.gravity_m_per_s2
         );
-        let _ = writeln!(out, "g-sensitive drifts refer to the g of the type, {} m/s²:", verdict.gravity_m_per_s2);
+        let _ = writeln!(out);
+        columns::paragraph(&mut out, "", &words);
         verdict_table(&mut out, verdict, "minus nominal");
     }
     if let Some((parameter, FurtherVisit { index, ratio })) = done.further {
