@@ -115,14 +115,14 @@ pub(crate) fn line(found: &Certification, file: &str) -> String {
 pub(crate) fn certification(found: &Certification) -> String {
     let mut out = String::new();
     let (stand, runs) = (&found.stand, found.runs.len());
-    let _ = writeln!(
-        out,
+    let words = format!(
         "Certified {} {}: {} positions, {runs} runs. u: standard uncertainty (k = 1) of the mean, own part of the \
          position.",
         stand.stand.model,
         stand.stand.serial,
         stand.positions.len()
     );
+    columns::paragraph(&mut out, "", &words);
     if found.repeated_rows > 0 {
         let _ = writeln!(out, "Rows averaged with another row of the same visit: {}.", found.repeated_rows);
     }
@@ -153,13 +153,14 @@ pub(crate) fn certification(found: &Certification) -> String {
 fn components(out: &mut String, found: &Certification) {
     let components = &found.components;
     let own = components.own_arcsec2.map(|variance| format!("{:.2}", variance.value.sqrt()));
-    let _ = writeln!(
-        out,
-        "\nRepeatability of one visit: {:.2}″ per axis ({} degrees of freedom); about x, y, z: {}",
+    let words = format!(
+        "Repeatability of one visit: {:.2}″ per axis ({} degrees of freedom); about x, y, z: {}",
         components.pooled_arcsec2.value.sqrt(),
         columns::degrees_of_freedom(components.pooled_arcsec2.degrees_of_freedom),
         own.join(", ")
     );
+    let _ = writeln!(out);
+    columns::paragraph(out, "", &words);
     let root = (found.runs.len() as f64).sqrt();
     for (what, common) in [("platform", Some(&components.platform)), ("base", components.base.as_ref())] {
         let Some(common) = common else { continue };
@@ -183,13 +184,13 @@ fn tests(out: &mut String, found: &Certification) {
     let _ = writeln!(out);
     for (what, test) in [("positions", &found.suspects.positions), ("axes", &found.suspects.axes)] {
         let Some(test) = test else { continue };
-        let _ = writeln!(
-            out,
+        let words = format!(
             "Bartlett's test for equal variances of {what}: {:.2} with {} degrees of freedom, probability {}",
             test.statistic,
             test.degrees_of_freedom,
             columns::probability(test.probability)
         );
+        columns::paragraph(out, "", &words);
     }
     let readings = found.runs.len() * found.components.keeps.nrows();
     let named = graded(found.suspects.outliers.iter().map(|out| out.probability));
@@ -239,7 +240,12 @@ pub(crate) fn comparison(found: &Comparison) -> String {
             columns::probability(test.probability)
         )
     };
-    let _ = writeln!(out, "\nPositions relative to each other (p: probability): {}", line(&found.all));
+    let _ = writeln!(out);
+    columns::paragraph(
+        &mut out,
+        "",
+        &format!("Positions relative to each other (p: probability): {}", line(&found.all)),
+    );
     let rows = found.positions.iter().map(|at| {
         let mut row = vec![at.index.i.to_string(), at.index.j.to_string()];
         for (turn, u) in at.turn_arcsec.iter().zip(&at.u_arcsec) {

@@ -38,10 +38,16 @@ fn no_color_is_obeyed() {
 
 #[test]
 fn no_line_is_wider_than_100_columns() {
-    let piped = Command::new(program()).args(SHOW).output().expect("the program runs");
-    let text = String::from_utf8(piped.stdout).expect("UTF-8");
-    let widest = text.lines().map(|line| line.chars().count()).max();
-    assert!(widest.is_some_and(|columns| (60..=100).contains(&columns)), "{widest:?}");
+    let folder = tempfile::tempdir().unwrap();
+    let certify = format!("certify docs/angles.csv --stand docs/header.yaml -o {}", folder.path().join("a").display());
+    let check = "certify docs/check.csv --against passports/SPS-2/0017/stand.yaml";
+    let calibrate = format!("calibrate {} {CALIBRATE} {TRUST} --budget", SHOW[1]);
+    for command_line in [&SHOW.join(" "), &certify, check, &calibrate] {
+        let piped = Command::new(program()).args(command_line.split(' ')).output().expect("the program runs");
+        let text = String::from_utf8(piped.stdout).expect("UTF-8");
+        let widest = text.lines().max_by_key(|line| line.chars().count()).unwrap();
+        assert!((60..=100).contains(&widest.chars().count()), "{command_line}: {widest}");
+    }
 }
 
 const TRUST: &str = "--trust docs/allowed_signers --time 2026-11-20";
