@@ -72,8 +72,8 @@ impl fmt::Display for Explanation {
                 let [x, y] = [current_ua.x, current_ua.y].map(rounded);
                 write!(
                     f,
-                    "position {index} did not repeat: by {}″ if the angle changed, or by {x} uA in J_x and \
-                     {y} uA in J_y if the currents are wrong",
+                    "position {index} did not repeat: by {}″ if the angle changed, or by {x} µA in J_x and \
+                     {y} µA in J_y if the currents are wrong",
                     two_digits(*angle_arcsec)
                 )
             }

@@ -109,7 +109,7 @@ fn wrapped(out: &mut String, mut column: usize, indent: usize, words: &str, colu
 
 /// Splits a text into words; a unit belongs to the word of its number, and a sign of equality to both its sides.
 fn unbroken(text: &str) -> Vec<String> {
-    const UNITS: [&str; 9] = ["%", "arcsec", "deg", "°/h", "mA", "uA", "m", "m/s2", "m/s²"];
+    const UNITS: [&str; 9] = ["%", "arcsec", "deg", "°/h", "mA", "µA", "m", "m/s2", "m/s²"];
     let mut words: Vec<String> = Vec::new();
     for word in text.split(' ') {
         let is_unit = UNITS.contains(&word.trim_end_matches([',', ';', '.', ':', ')'])) || word.starts_with("°/(");

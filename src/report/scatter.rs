@@ -28,7 +28,7 @@ pub(super) fn scatter(calibration: &Calibration) -> Vec<(Weight, String)> {
             }
             None => {
                 let words = format!(
-                    "Readings of a visit have a standard deviation of {} uA ({freedom} degrees of freedom), \
+                    "Readings of a visit have a standard deviation of {} µA ({freedom} degrees of freedom), \
                      which was used as the noise of the meter, because noise_ma is not stated.",
                     columns::two_digits(deviation)
                 );
@@ -88,7 +88,7 @@ fn suspicion(suspect: &Suspect) -> String {
     let either = if suspect.one_of_two { " There are only two, so the other one may be wrong instead." } else { "" };
     let [jx, jy] = suspect.difference_ma.map(|difference| with_sign(1000.0 * difference));
     format!(
-        "{what} by ({jx}, {jy}) uA (probability of as much by chance: {}).{either} Look for the cause; if there is one, \
+        "{what} by ({jx}, {jy}) µA (probability of as much by chance: {}).{either} Look for the cause; if there is one, \
          leave the visit out with --exclude {i},{j},{visit},{cycle} and --why.",
         columns::probability(suspect.probability)
     )
