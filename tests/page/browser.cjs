@@ -85,7 +85,8 @@ function said() {
   };
 }
 
-/** What does not fit: elements beyond the page's edge, text wider than its box, words of a picture outside it. */
+/** What does not fit: elements beyond the page's edge, text wider than its box, words of a picture outside it, decisions that are
+ * seen only after scrolling sideways. */
 function unfit() {
   const found = [];
   const name = (element) => `${element.tagName.toLowerCase()}.${element.getAttribute("class") || ""} ${element.textContent.slice(0, 60)}`;
@@ -96,6 +97,13 @@ function unfit() {
     if (seen(link) && !seen(target)) found.push(`a link to what is not seen: ${name(link)}`);
   }
   if (document.documentElement.scrollWidth > width) found.push(`the page scrolls sideways: ${document.documentElement.scrollWidth} > ${width}`);
+  for (const row of document.querySelectorAll(".result:not(.past) tbody tr")) {
+    const seen = [...row.querySelectorAll("th .state, td:nth-last-child(2) .state")].some((mark) => {
+      const box = mark.getBoundingClientRect();
+      return box.width > 0 && box.left >= 0 && box.right <= width;
+    });
+    if (!seen) found.push(`a decision out of sight: ${name(row)}`);
+  }
   for (const element of document.querySelectorAll("body *")) {
     if (element.closest(".unseen, .pad, thead") && getComputedStyle(element.closest(".unseen, .pad, thead")).position === "absolute") continue;
     const svg = element.ownerSVGElement;

@@ -369,7 +369,8 @@ class Report:
     def verdict(self, table):
         part = "change" if any(head.startswith(("Change", "Изменение")) for head in table["heads"]) else "verdict"
         for row, line in zip(table["rows"], self.result[part]["parameters"], strict=True):
-            name = row[0]["text"].split(",")[0]
+            # The decision stands beside the name, for telephones.
+            near, name = row[0]["text"].split(",")[0].split("\u00a0")
             if name != symbol_of(line["parameter"]):
                 self.wrong.append(f"{part}: {name} stands in the row of {line['parameter']}")
             u = line["coverage_factor"] * line["standard_uncertainty"]
@@ -383,8 +384,11 @@ class Report:
             self.cell(f"{part}, {name}, deviation", row[3], line["deviation"], u)
             self.cell(f"{part}, {name}, U", row[4], line["expanded_uncertainty"], u)
             self.cell(f"{part}, {name}, tolerance", row[5], line["tolerance"])
+            marks = {"pass": "●", "undecided": "○", "fail": "✕"}
+            if near != marks[line["guarded"]]:
+                self.wrong.append(f"{part}, {name}: {near} beside the name, and {line['guarded']} in the result")
             for column, key in ((7, "guarded"), (8, "simple")):
-                mark = {"pass": "●", "undecided": "○", "fail": "✕"}[line[key]]
+                mark = marks[line[key]]
                 # Readings that do not fit have no risk, and nothing is accepted.
                 if key == "simple" and not self.result["consistent"]:
                     mark = "–"

@@ -10,6 +10,7 @@ use crate::gyro::GyroType;
 use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::{Cell, Number, column};
 use crate::report::page::parts::{Column, Table, date_text, heading, quantity, symbol_and_unit};
+use crate::report::page::spacing::BLANK;
 use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::accuracy::unit;
@@ -112,8 +113,12 @@ fn table(
         Column::named(languages, heading, rows.iter().map(cell).collect())
     };
     let with_unit = |row: &ParameterVerdict| {
-        let unit = parameter_of(row).map_or(units::PERCENT, unit);
-        html! { (parameter(row)) ", " (languages.spoken(unit)) }
+        let (unit, (class, mark)) = (parameter_of(row).map_or(units::PERCENT, unit), mark(row.guarded));
+        // A telephone shows the first column and few others: the decision is there too.
+        html! {
+            span.narrow-only aria-hidden="true" { span class=(class) { (mark) } (BLANK) }
+            (parameter(row)) ", " (languages.spoken(unit))
+        }
     };
     let mut risks = column(languages, rows.iter().map(|row| probability_cell(languages, row.specific_risk)));
     for (risk, row) in risks.iter_mut().zip(rows) {
