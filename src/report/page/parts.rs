@@ -5,6 +5,7 @@ use super::number::Number;
 use super::spacing::{BLANK, unbroken};
 use super::symbols::index;
 use super::texts::{calibration, record, units, words};
+use crate::report::style;
 use base64ct::{Base64, Encoding};
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -85,6 +86,21 @@ pub(crate) fn wide_stated(languages: &Languages, name: Text, value: Option<Marku
 /// Writes that the signed file does not state a value.
 pub(crate) fn not_stated(languages: &Languages) -> Markup {
     html! { span.absent { (languages.inline(words::NOT_STATED)) } }
+}
+
+/// Writes the mark of a result that passed, was not asked or decided, or failed; words beside it say the same.
+pub(crate) fn mark(passed: Option<bool>) -> Markup {
+    let (class, mark) = match passed {
+        Some(true) => ("state passed", style::PASSED),
+        None => ("state", style::NOT_ASKED),
+        Some(false) => ("state failed", style::FAILED),
+    };
+    html! { span class=(class) aria-hidden="true" { (mark) } }
+}
+
+/// Writes words with the mark of their result before them.
+pub(crate) fn marked(passed: Option<bool>, words: &Markup) -> Markup {
+    html! { (mark(passed)) " " (words) }
 }
 
 /// Writes a headline and words about it in a box.

@@ -9,7 +9,7 @@ use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::gyro::GyroType;
 use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::{Cell, Number, column};
-use crate::report::page::parts::{Column, Table, date_text, heading, quantity, symbol_and_unit};
+use crate::report::page::parts::{Column, Table, date_text, heading, mark, marked, quantity, symbol_and_unit};
 use crate::report::page::spacing::BLANK;
 use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
@@ -113,10 +113,10 @@ fn table(
         Column::named(languages, heading, rows.iter().map(cell).collect())
     };
     let with_unit = |row: &ParameterVerdict| {
-        let (unit, (class, mark)) = (parameter_of(row).map_or(units::PERCENT, unit), mark(row.guarded));
+        let unit = parameter_of(row).map_or(units::PERCENT, unit);
         // A telephone shows the first column and few others: the decision is there too.
         html! {
-            span.narrow-only aria-hidden="true" { span class=(class) { (mark) } (BLANK) }
+            span.narrow-only { (mark(passed(row.guarded))) (BLANK) }
             (parameter(row)) ", " (languages.spoken(unit))
         }
     };
@@ -186,23 +186,19 @@ fn parameter(row: &ParameterVerdict) -> Markup {
     name_of(parameter_of(row).map_or(row.parameter, Parameter::symbol))
 }
 
-/// Writes the mark of simple acceptance without colour, which guarded acceptance alone has; screen readers say the word.
+/// Writes the mark of simple acceptance; screen readers say the word. The style gives colour to guarded acceptance alone.
 fn mark_of(languages: &Languages, row: &ParameterVerdict) -> Markup {
-    html! { span.state { (mark(row.simple).1) span.unseen { " " (languages.spoken(decision(row.simple))) } } }
+    html! { (mark(passed(row.simple))) span.unseen { (languages.spoken(decision(row.simple))) } }
 }
 
 /// Writes a decision with its mark, in the first language only: the key below the table has the mark in all of them.
 fn decided(languages: &Languages, found: Decision) -> Markup {
-    let (class, mark) = mark(found);
-    html! { span class=(class) { (mark) " " (languages.spoken(decision(found))) } }
+    marked(passed(found), &html! { (languages.spoken(decision(found))) })
 }
 
-fn mark(found: Decision) -> (&'static str, &'static str) {
-    match found {
-        Decision::Pass => ("state passed", "●"),
-        Decision::Undecided => ("state", "○"),
-        Decision::Fail => ("state failed", "✕"),
-    }
+/// Returns a decision as the result of a check; `None` if it is undecided.
+pub(super) fn passed(found: Decision) -> Option<bool> {
+    (found != Decision::Undecided).then_some(found == Decision::Pass)
 }
 
 /// Writes a probability with two digits, or as less than `LEAST_RISK`.

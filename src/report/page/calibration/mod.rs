@@ -21,7 +21,7 @@ mod uncertainty;
 pub(crate) use fit::not_stated;
 
 use super::language::{Language, Languages, Text, values};
-use super::parts::{Section, boxed, contents, data_address, numbered};
+use super::parts::{Section, boxed, contents, data_address, marked, numbered};
 use super::passport::PassportPage;
 use super::shell::{Margins, document};
 use super::symbols::italic;
@@ -198,14 +198,14 @@ impl CalibrationPage<'_> {
     /// Writes the warnings at the head of the report, the most serious first.
     fn headlines(&self, languages: &Languages) -> Markup {
         html! {
-            @if !self.verified() { (warning(languages, texts::NOT_VERIFIED, texts::NOT_VERIFIED_WORDS)) }
-            @if !self.fits() { (warning(languages, texts::DOES_NOT_FIT, texts::DOES_NOT_FIT_WORDS)) }
+            @if !self.verified() { (warning(languages, None, texts::NOT_VERIFIED, texts::NOT_VERIFIED_WORDS)) }
+            @if !self.fits() { (warning(languages, Some(false), texts::DOES_NOT_FIT, texts::DOES_NOT_FIT_WORDS)) }
             @if let Some(mistake) = &self.document.mistake {
                 @let words = languages.paragraph_with(|language| italic(&mistake::words(mistake, language)));
-                (boxed("verdict refused", languages.label(texts::MISTAKE), words))
+                (boxed("verdict refused", marked(Some(false), &languages.label(texts::MISTAKE)), words))
             }
             @if let Some(why) = self.previous.iter().rev().find_map(|earlier| self.document.no_change(earlier)) {
-                (warning(languages, texts::NO_CHANGE, why_no_change(why)))
+                (warning(languages, None, texts::NO_CHANGE, why_no_change(why)))
             }
             (subject::temperature(self, languages))
             (subject::date_of_readings(self, languages))
@@ -216,11 +216,11 @@ impl CalibrationPage<'_> {
     fn verdict(&self, languages: &Languages) -> Markup {
         let Some((gyro, verdict)) = self.judged() else {
             let words = languages.paragraph(texts::NO_TYPE_WORDS);
-            return boxed("verdict neutral", languages.label(texts::NO_TYPE), words);
+            return boxed("verdict neutral", marked(None, &languages.label(texts::NO_TYPE)), words);
         };
         if !self.fits() {
             let name = |language: Language| texts::NO_STATEMENT.filled(language, values! { type: gyro.r#type });
-            return boxed("verdict neutral", languages.label_with(name), html! {});
+            return boxed("verdict neutral", marked(None, &languages.label_with(name)), html! {});
         }
         let (class, text) = match verdict.overall {
             Decision::Pass => ("verdict", texts::CONFORMS),
@@ -235,12 +235,12 @@ impl CalibrationPage<'_> {
             }
             (languages.paragraph(texts::RULE))
         };
-        boxed(class, languages.label_with(name), words)
+        boxed(class, marked(conformity::passed(verdict.overall), &languages.label_with(name)), words)
     }
 }
 
-fn warning(languages: &Languages, headline: Text, words: Text) -> Markup {
-    boxed("verdict refused", languages.label(headline), languages.paragraph(words))
+fn warning(languages: &Languages, passed: Option<bool>, headline: Text, words: Text) -> Markup {
+    boxed("verdict refused", marked(passed, &languages.label(headline)), languages.paragraph(words))
 }
 
 /// Returns the sentence why a difference from an earlier result is no change.

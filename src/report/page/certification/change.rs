@@ -7,7 +7,9 @@ use crate::certification::suspects::AXES;
 use crate::passport::difference::NumberDifference;
 use crate::report::page::language::{Languages, Text, values};
 use crate::report::page::number::{Number, column};
-use crate::report::page::parts::{Column, Table, boxed, field, fields, heading, starts, symbol, symbol_and_unit};
+use crate::report::page::parts::{
+    Column, Table, boxed, field, fields, heading, marked, starts, symbol, symbol_and_unit,
+};
 use crate::report::page::texts::{certification as texts, checks, pictures, units};
 use crate::report::picture::residuals::{Bars, key_of};
 use maud::{Markup, html};
@@ -17,12 +19,12 @@ pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup
     let Some((comparison, _)) = &page.change else {
         let (positions, runs) = (page.certification.stand.positions.len(), page.certification.runs.len());
         let headline = languages.label_with(|language| texts::CERTIFIED.filled(language, values! { positions, runs }));
-        return boxed("verdict neutral", headline, languages.paragraph(texts::NOT_COMPARED));
+        return boxed("verdict neutral", marked(None, &headline), languages.paragraph(texts::NOT_COMPARED));
     };
-    let (class, verdict) = match comparison.same_stand {
-        true => ("verdict", texts::SAME),
-        false if comparison.is_undecided() => ("verdict refused", texts::UNDECIDED),
-        false => ("verdict refused", texts::CHANGED),
+    let (class, passed, verdict) = match comparison.same_stand {
+        true => ("verdict", Some(true), texts::SAME),
+        false if comparison.is_undecided() => ("verdict refused", None, texts::UNDECIDED),
+        false => ("verdict refused", Some(false), texts::CHANGED),
     };
     let headline =
         languages.label_with(|language| verdict.filled(language, values! { number: comparison.certificate }));
@@ -35,7 +37,7 @@ pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup
             }
         }
     };
-    boxed(class, headline, reasons)
+    boxed(class, marked(passed, &headline), reasons)
 }
 
 pub(super) fn section(page: &CertificationPage, languages: &Languages) -> Markup {
@@ -80,8 +82,8 @@ fn rotations(comparison: &Comparison, languages: &Languages) -> Markup {
     let p = positions.iter().map(|at| Number::scientific(at.test.probability, 2));
     columns.push(Column::named(languages, texts::PROBABILITY, column(languages, p)));
     let found = |repeats: bool| match repeats {
-        true => html! { span class="state passed" { "●" } " " (languages.inline(texts::REPEATS)) },
-        false => html! { span class="state failed" { "✕" } " " (languages.inline(texts::REPEATS_NOT)) },
+        true => marked(Some(true), &languages.inline(texts::REPEATS)),
+        false => marked(Some(false), &languages.inline(texts::REPEATS_NOT)),
     };
     columns.push(Column::named(languages, checks::RESULT, positions.iter().map(|at| found(at.repeats)).collect()));
     let names = positions.iter().map(|at| vec![html! { (at.index.to_string()) }]).collect();

@@ -6,7 +6,7 @@ use crate::passport::place::Nearness;
 use crate::passport::{Check, CheckName, Code, Dated};
 use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::Number;
-use crate::report::page::parts::{Table, boxed, date_text, time_text};
+use crate::report::page::parts::{Table, boxed, date_text, marked, time_text};
 use crate::report::page::spacing::BLANK;
 use crate::report::page::texts::{checks as texts, units};
 use maud::{Markup, html};
@@ -20,27 +20,12 @@ fn passed(page: &PassportPage, name: CheckName) -> Option<bool> {
     passed.filter(|passed| !(*passed && name == CheckName::Revocation && no_list))
 }
 
-/// Writes the mark of a result.
-fn mark(passed: Option<bool>) -> Markup {
-    let (class, mark) = match passed {
-        Some(true) => ("state passed", "●"),
-        None => ("state", "○"),
-        Some(false) => ("state failed", "✕"),
-    };
-    html! { span class=(class) aria-hidden="true" { (mark) } }
-}
-
 fn word(passed: Option<bool>) -> Text {
     match passed {
         Some(true) => texts::PASSED,
         None => texts::NOT_ASKED,
         Some(false) => texts::FAILED,
     }
-}
-
-/// Writes the mark of a result and its word.
-fn named(passed: Option<bool>, languages: &Languages) -> Markup {
-    html! { (mark(passed)) " " (languages.label(word(passed))) }
 }
 
 /// Returns `true` if nothing shows whether the passport has been withdrawn.
@@ -63,7 +48,7 @@ pub(crate) fn line(page: &PassportPage, languages: &Languages) -> Markup {
             @for check in CheckName::ALL {
                 @let passed = passed(page, check);
                 li {
-                    (mark(passed)) " " (languages.inline(name(check)))
+                    (marked(passed, &languages.inline(name(check))))
                     span.unseen { ": " (languages.spoken(word(passed))) }
                 }
             }
@@ -81,7 +66,8 @@ pub(crate) fn refusal(page: &PassportPage, languages: &Languages) -> Markup {
         p { (languages.label_with(time)) }
         ul { @for check in failed(page) { li { (languages.label_with(|language| words(page, check, language))) } } }
     };
-    boxed("verdict refused", languages.label_with(|language| headline(page, language)), why)
+    let headline = languages.label_with(|language| headline(page, language));
+    boxed("verdict refused", marked(Some(false), &headline), why)
 }
 
 /// Returns "In force", or the reasons why the passport may not be used.
@@ -114,6 +100,7 @@ pub(crate) fn table(page: &PassportPage, languages: &Languages) -> Markup {
     let caption = languages.label_with(|language| {
         texts::CAPTION.filled(language, values! { time: time_text(language, page.question.time) })
     });
+    let named = |passed| marked(passed, &languages.label(word(passed)));
     let (not_asked, asked): (Vec<_>, Vec<_>) =
         CheckName::ALL.into_iter().partition(|check| passed(page, *check).is_none());
     let found = |check| page.verification.checks().iter().find(|one| one.name == check);
@@ -122,7 +109,7 @@ pub(crate) fn table(page: &PassportPage, languages: &Languages) -> Markup {
         .filter_map(found)
         .map(|found| {
             let words = languages.label_with(|language| words(page, found, language));
-            vec![languages.label(name(found.name)), named(passed(page, found.name), languages), words]
+            vec![languages.label(name(found.name)), named(passed(page, found.name)), words]
         })
         .collect();
     if !not_asked.is_empty() {
@@ -130,7 +117,7 @@ pub(crate) fn table(page: &PassportPage, languages: &Languages) -> Markup {
             let words = |language| not_asked.iter().map(|check| of(*check).words(language)).collect::<Vec<_>>();
             languages.label_with(|language| words(language).join(between))
         };
-        rows.push(vec![joined(name, ", "), named(None, languages), joined(absent, "; ")]);
+        rows.push(vec![joined(name, ", "), named(None), joined(absent, "; ")]);
     }
     let table = Table {
         headings: [texts::CHECK, texts::RESULT, texts::FOUND].map(|text| languages.label(text)).into(),

@@ -5,7 +5,7 @@ use crate::report::page::code;
 use crate::report::page::language::{Languages, values};
 use crate::report::page::number::Number;
 use crate::report::page::parts::{
-    band, date, date_text, fields, figure, given, quantity, signature, stated, time, wide_stated,
+    band, date, date_text, fields, figure, given, marked, quantity, signature, stated, time, wide_stated,
 };
 use crate::report::page::spacing::BLANK;
 use crate::report::page::texts::{checks as check_texts, passport as texts, pictures, record, units, words};
@@ -50,9 +50,8 @@ fn answers(page: &PassportPage, languages: &Languages) -> Markup {
     let (site, certificate) = (&content.site, &content.certificate);
     let valid = page.verification.valid();
     let status = if valid { check_texts::IN_FORCE } else { check_texts::NOT_TO_BE_USED };
-    let status = html! {
-        @if valid { p.headline { (languages.label(status)) } } @else { span.failed { (languages.label(status)) } }
-    };
+    let status = marked(Some(valid), &languages.label(status));
+    let status = html! { @if valid { p.headline { (status) } } @else { span.failed { (status) } } };
     let unchecked = valid && checks::withdrawal_not_checked(page);
     let until = match content.last_day() {
         Some((day, _)) if valid => {
