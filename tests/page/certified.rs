@@ -182,6 +182,24 @@ fn a_record_has_the_numbers_of_the_certificate() {
     }
 }
 
+/// Expected: the certificate's own uncertainties, before the first heading, and the deviations below that.
+#[test]
+fn a_record_begins_with_its_result() {
+    for record in RECORDS {
+        let page = fs::read_to_string(CERTIFIED.folder.join(format!("{}.html", record.name))).unwrap();
+        let (_, band) = page.split_once("<dl class=\"band\">").unwrap();
+        let (band, sections) = band.split_once("</dl>").unwrap();
+        let json = fs::read_to_string(CERTIFIED.folder.join(format!("{}.json", record.name))).unwrap();
+        let result: Value = serde_json::from_str(&json).unwrap();
+        let certificate = &result["certification"]["stand"]["certificate"];
+        for key in ["repeatability_arcsec", "common_platform_arcsec", "common_base_arcsec"] {
+            assert!(band.contains(&format!("value=\"{}\"", certificate[key])), "{}: {key} in {band}", record.name);
+        }
+        let (_, first) = sections.split_once("<section id=\"").unwrap();
+        assert!(first.starts_with("result\""), "{}", record.name);
+    }
+}
+
 #[test]
 fn a_record_says_whether_the_stand_has_changed() {
     let headline = |name: &str| CERTIFIED.found[name]["said"]["headline"].as_str().unwrap();

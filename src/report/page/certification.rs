@@ -10,10 +10,14 @@ mod evidence;
 pub(crate) mod remarks;
 
 use super::language::{Languages, values};
-use super::parts::{boxed, contents, data_address, file_name, given, heading, numbered, section, signatures, verbatim};
+use super::number::Number;
+use super::parts::{
+    band, boxed, contents, data_address, date, file_name, given, heading, not_stated, numbered, quantity, section,
+    signatures, symbol, verbatim,
+};
 use super::passport::{characteristics, general};
 use super::shell::{Margins, document};
-use super::texts::{calibration as calibration_texts, certification as texts, passport as passport_texts};
+use super::texts::{calibration as calibration_texts, certification as texts, passport as passport_texts, units};
 use crate::certification::{Certification, Comparison};
 use crate::passport::difference::NumberDifference;
 use maud::{Markup, html};
@@ -54,12 +58,12 @@ impl CertificationPage<'_> {
         let who = [texts::MEASURED_BY, texts::CHECKED_BY, passport_texts::AUTHORISED_BY];
         let address = data_address("text/csv", self.readings.1);
         let sections = [
-            ("subject", texts::SUBJECT, self.subject(languages)),
-            ("readings", texts::READINGS, evidence::readings(self, languages)),
             ("result", texts::RESULT, self.result(languages)),
+            ("change", texts::CHANGE, change::section(self, languages)),
             ("uncertainty", texts::UNCERTAINTY, evidence::uncertainty(self, languages)),
             ("tests", texts::TESTS, evidence::tests(self, languages)),
-            ("change", texts::CHANGE, change::section(self, languages)),
+            ("readings", texts::READINGS, evidence::readings(self, languages)),
+            ("subject", texts::SUBJECT, self.subject(languages)),
         ];
         html! {
             header.title {
@@ -73,6 +77,7 @@ impl CertificationPage<'_> {
                     (boxed("verdict refused", languages.label(texts::DRAFT), languages.paragraph(texts::DRAFT_WORDS)))
                 }
                 (change::verdict(self, languages))
+                (self.band(languages))
                 (numbered(languages, &sections))
                 @if !self.dry_run {
                     (section(languages, "signatures", calibration_texts::SIGNATURES, signatures(languages, who)))
@@ -80,6 +85,34 @@ impl CertificationPage<'_> {
                 (self.annex(languages))
             }
         }
+    }
+
+    /// Writes who measured the stand and when, and the uncertainties that all positions have in common.
+    fn band(&self, languages: &Languages) -> Markup {
+        let certificate = &self.certification.stand.certificate;
+        let arcsec = |u| quantity(languages, &Number::uncertainty(u), units::ARCSEC);
+        let u = |value: Option<f64>| value.map_or_else(|| not_stated(languages), arcsec);
+        let k = html! { p { (languages.label(texts::STANDARD)) } };
+        let freedom =
+            certificate.repeatability_degrees_of_freedom.map(|number| Number::exact(number).markup(languages));
+        let day = certificate.performed.map(|day| date(languages, day));
+        band(
+            languages,
+            [
+                (
+                    passport_texts::LABORATORY,
+                    given(&certificate.laboratory),
+                    html! { @if let Some(day) = day { p { (languages.inline(passport_texts::PERFORMED)) ": " (day) } } },
+                ),
+                (
+                    passport_texts::REPEATABILITY,
+                    u(certificate.repeatability_arcsec),
+                    html! { (k) @if let Some(freedom) = freedom { p { (symbol("ν", "")) " = " (freedom) } } },
+                ),
+                (passport_texts::COMMON_PLATFORM, u(certificate.common_platform_arcsec), k.clone()),
+                (passport_texts::COMMON_BASE, u(certificate.common_base_arcsec), k),
+            ],
+        )
     }
 
     fn subject(&self, languages: &Languages) -> Markup {

@@ -34,6 +34,7 @@ texts! {
     REASON { en: "Reason", ru: "Причина" }
 
     RESULT { en: "Certified deviations", ru: "Аттестованные отклонения" }
+    STANDARD { en: "standard uncertainty (k = 1)", ru: "стандартная неопределённость (k = 1)" }
 
     UNCERTAINTY { en: "Uncertainty", ru: "Неопределённость" }
     BUDGET { en: "Budget of the certificate (k = 1)", ru: "Бюджет неопределённости сертификата (k = 1)" }
