@@ -25,7 +25,8 @@ impl Page<'_> {
         line.unwrap_or_else(|| panic!("{key} in {info}")).trim().to_owned()
     }
 
-    /// The passport's id, with which every title ends.
+    /// The last word of its title: the id of a passport, the first digits of the SHA-256 of a report's currents, or the number of
+    /// a record's certificate.
     fn id(&self) -> &str {
         self.found["said"]["title"].as_str().unwrap().rsplit(' ').next().unwrap()
     }
@@ -64,7 +65,7 @@ fn six_sheets_of_a4_at_most_in_one_language() {
 fn every_sheet_says_which_passport_and_which_page_it_is() {
     for page in all_pages() {
         let sheets = page.sheets("-layout");
-        // A record has the number of its certificate instead of the id of a passport.
+        // Only the id of a passport has parts.
         let (place, revision) = page.id().rsplit_once('/').unwrap_or((page.id(), ""));
         let warning = ["Not to be used", "Не применять", "NOT VERIFIED", "НЕ ПРОВЕРЕН"];
         let headline = page.found["said"]["headline"].as_str().unwrap();

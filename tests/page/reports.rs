@@ -7,6 +7,7 @@ use dtg_passport::passport::verify;
 use dtg_passport::report::Language::{English, Russian};
 use dtg_passport::report::{Language, Languages};
 use serde_json::Value;
+use sha2::{Digest, Sha256};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -33,7 +34,11 @@ const REPORTS: &[Report] = &[
     Report { name: "calibrated-en", languages: &[English], asked: &[USUAL, CURRENTS, LABORATORY, GYRO] },
     Report { name: "calibrated-ru", languages: &[Russian], asked: &[USUAL, CURRENTS, LABORATORY, GYRO] },
     Report { name: "whole-ru", languages: &[Russian], asked: &[USUAL, CURRENTS, LABORATORY, GYRO, WHOLE, PREVIOUS] },
-    Report { name: "history-en", languages: &[English], asked: &[USUAL, CURRENTS, LABORATORY, GYRO, SEVERAL] },
+    Report {
+        name: "history-en",
+        languages: &[English],
+        asked: &[USUAL, CURRENTS, LABORATORY, GYRO, SEVERAL, &["--gyro-serial", "G-0042", "--date", "2026-11-18"]],
+    },
     // Repeated readings; a laboratory that is too warm, with a poor seat; a term more to fit.
     Report {
         name: "repeated-en",
@@ -67,6 +72,7 @@ const HOSTILE_TYPE: &str = "GVK-7 </h1></style><script>alert('x')</script> & co"
 pub struct Reported {
     folder: PathBuf,
     languages: Vec<Languages>,
+    own_words: String,
     found: Value,
 }
 
@@ -79,7 +85,9 @@ pub static REPORTED: LazyLock<Reported> = LazyLock::new(|| {
     REPORTS.iter().for_each(|report| report.write(&folder));
     let found = browsed(&folder, REPORTS.iter().map(|report| report.name));
     let languages = |report: &Report| Languages::new(report.languages[0], report.languages[1..].iter().copied());
-    Reported { languages: REPORTS.iter().map(languages).collect(), folder, found }
+    let sums: Vec<String> = REPORTS.iter().map(|report| report.sum_of_currents(&folder)).collect();
+    let own_words = format!("SPS-2/0017/moscow-bmstu/1 GVK-6 examples@dtg-passport.test {}", sums.join(" "));
+    Reported { languages: REPORTS.iter().map(languages).collect(), own_words, folder, found }
 });
 
 impl Reported {
@@ -89,7 +97,7 @@ impl Reported {
             name: report.name,
             folder: &self.folder,
             languages,
-            own_words: "SPS-2/0017/moscow-bmstu/1 GVK-6 examples@dtg-passport.test",
+            own_words: &self.own_words,
             found: &self.found[report.name],
         })
     }
@@ -100,6 +108,14 @@ impl Reported {
 }
 
 impl Report {
+    /// The first digits of the SHA-256 of its currents.
+    fn sum_of_currents(&self, folder: &Path) -> String {
+        let asked = words(folder, &self.asked.concat());
+        let currents = asked.iter().find(|file| file.extension().is_some_and(|kind| kind == "csv")).unwrap();
+        let bytes = fs::read(programs::project("").join(currents)).unwrap();
+        format!("{:x}", Sha256::digest(bytes))[..8].to_owned()
+    }
+
     /// Has the program write the page, and the result for programs.
     fn write(&self, folder: &Path) {
         let tags: Vec<&str> = self.languages.iter().map(|language| language.tag()).collect();
@@ -194,6 +210,26 @@ fn the_headline_is_the_verdict() {
         let said = REPORTED.said(name);
         assert_eq!(said["headline"].as_str().unwrap(), words, "{name}");
         assert_eq!(said["refused"].as_bool().unwrap(), refused, "{name}");
+    }
+}
+
+/// Expected: the gyro's type and serial number as they were asked for, the day, and the SHA-256 by another implementation.
+#[test]
+fn a_report_is_named_after_the_gyro_and_its_currents() {
+    let due = [
+        ("calibrated-en", "GVK-6, 2026-11-20, currents", ["not stated"; 2]),
+        ("calibrated-ru", "GVK-6, 20.11.2026, токи", ["не указан"; 2]),
+        ("plain-ru", "Тип и\u{a0}номер не указаны, 20.11.2026, токи", ["не указан"; 2]),
+        ("history-en", "GVK-6 №\u{a0}G-0042, 2026-11-18, currents", ["G-0042"; 2]),
+    ];
+    for (name, gyro, serials) in due {
+        let report = REPORTS.iter().find(|report| report.name == name).unwrap();
+        let named = format!("{gyro} {}", report.sum_of_currents(&REPORTED.folder));
+        let said = REPORTED.said(name);
+        assert!(said["title"].as_str().unwrap().ends_with(&format!(" {named}")), "{name}: {}", said["title"]);
+        assert!(strings(&said["margins"]).iter().any(|margin| margin.ends_with(&named)), "{name}: {}", said["margins"]);
+        assert!(strings(&said["blocks"]).iter().any(|block| block.ends_with(&named)), "{name}: the end");
+        assert_eq!(strings(&said["serials"]), serials, "{name}");
     }
 }
 

@@ -21,7 +21,7 @@ mod uncertainty;
 pub(crate) use fit::not_stated;
 
 use super::language::{Language, Languages, Text, values};
-use super::parts::{Section, boxed, contents, data_address, marked, numbered};
+use super::parts::{Section, boxed, contents, data_address, date_text, marked, numbered};
 use super::passport::PassportPage;
 use super::shell::{Margins, document};
 use super::symbols::italic;
@@ -36,7 +36,11 @@ use crate::passport::Content;
 use crate::report::mistake;
 use crate::uncertainty::{Budget, MonteCarlo};
 use jiff::Timestamp;
+use jiff::tz::TimeZone;
 use maud::{Markup, html};
+
+/// Digits of the SHA-256 of the currents in the name of a report.
+const NAMED_DIGITS: usize = 8;
 
 /// The passport used for a calibration.
 #[derive(Debug, Clone)]
@@ -109,7 +113,7 @@ impl CalibrationPage<'_> {
             },
             bottom_left: texts::MARGIN_SHA256.filled(languages.first(), values! { sha256: self.currents.1 }),
         };
-        let title = format!("{} {name}", languages.plain(texts::TITLE));
+        let title = format!("{}: {name}", languages.plain(texts::TITLE));
         document(languages, &title, &margins, &self.body(languages))
     }
 
@@ -158,14 +162,11 @@ impl CalibrationPage<'_> {
         if name.is_empty() { texts::GYRO_NOT_STATED.words(language) } else { name.join(" ") }
     }
 
-    /// Returns the name of the gyro, and the passport if it has no serial number.
+    /// Returns the name of the report: the gyro, the day, and the first digits of the SHA-256 of the currents.
     fn name(&self, language: Language) -> String {
-        let id = &self.content().passport.id;
-        match (self.gyro, self.serial()) {
-            (_, Some(_)) => self.gyro_name(language),
-            (Some(gyro), None) => format!("{}, {id}", gyro.r#type),
-            (None, None) => texts::WITH_PASSPORT.filled(language, values! { id }),
-        }
+        let day = self.document.date().unwrap_or_else(|| self.time.to_zoned(TimeZone::UTC).date());
+        let sha256 = self.currents.1.get(..NAMED_DIGITS).unwrap_or(&self.currents.1);
+        texts::NAME.filled(language, values! { gyro: self.gyro_name(language), day: date_text(language, day), sha256 })
     }
 
     fn verified(&self) -> bool {

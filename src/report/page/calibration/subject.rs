@@ -7,7 +7,7 @@ use crate::laboratory::Laboratory;
 use crate::report::page::language::{Languages, values};
 use crate::report::page::number::Number;
 use crate::report::page::parts::{
-    self, blank, boxed, date, date_text, field, fields, file_name, given, heading, quantity, time, wide_field,
+    self, boxed, date, date_text, field, fields, file_name, given, heading, quantity, time, wide_field,
 };
 use crate::report::page::passport::{accuracy, characteristics, checks};
 use crate::report::page::texts::{calibration as texts, passport as passport_texts, record, units};
@@ -39,7 +39,7 @@ pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
         [
             (
                 texts::SERIAL,
-                page.serial().map_or_else(|| blank(languages), given),
+                serial(page, languages),
                 html! { @if let Some(day) = day { p { (languages.inline(texts::MEASURED)) ": " (day) } } },
             ),
             (texts::STAND, stand, html! { p { (given(site)) } }),
@@ -47,6 +47,11 @@ pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
             (texts::CURRENTS, given(file_name(page.currents.0)), html! { p { "SHA-256 " code { (page.currents.1) } } }),
         ],
     )
+}
+
+/// Writes the serial number of the gyro, or that it was not stated: a report is of one gyro.
+fn serial(page: &CalibrationPage, languages: &Languages) -> Markup {
+    page.serial().map_or_else(|| html! { span.absent { (languages.inline(texts::NO_SERIAL)) } }, given)
 }
 
 fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
@@ -69,7 +74,7 @@ fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
     fields(
         [
             field(languages, texts::TYPE, page.gyro.map(|gyro| given(&gyro.r#type))),
-            field(languages, texts::SERIAL, page.serial().map(given)),
+            field(languages, texts::SERIAL, Some(serial(page, languages))),
             field(languages, texts::CONDITION, None),
             field(languages, texts::REPORT_NUMBER, None),
             field(languages, passport_texts::CUSTOMER, None),

@@ -4,7 +4,7 @@ use super::texts;
 
 texts! {
     TITLE { en: "Calibration of a dynamically tuned gyro", ru: "Калибровка динамически настраиваемого гироскопа" }
-    WITH_PASSPORT { en: "with passport {id}", ru: "по паспорту {id}" }
+    NAME { en: "{gyro}, {day}, currents {sha256}", ru: "{gyro}, {day}, токи {sha256}" }
     GYRO_NOT_STATED { en: "Type and serial number not stated", ru: "Тип и номер не указаны" }
     SUBTITLE {
         en: "Scale factors and drifts in case axes, determined from the torquer currents in the positions of a \
@@ -12,9 +12,9 @@ texts! {
         ru: "Масштабные коэффициенты и составляющие дрейфа в осях корпуса, найденные по токам датчиков момента в \
              положениях стенда с аттестованными отклонениями"
     }
-    MARGIN { en: "Calibration report {name}", ru: "Отчёт о калибровке {name}" }
+    MARGIN { en: "Calibration report: {name}", ru: "Отчёт о калибровке: {name}" }
     MARGIN_SHA256 { en: "SHA-256 of the file of currents {sha256}", ru: "SHA-256 файла токов {sha256}" }
-    END { en: "End of the calibration report {name}", ru: "Конец отчёта о калибровке {name}" }
+    END { en: "End of the calibration report: {name}", ru: "Конец отчёта о калибровке: {name}" }
 
     NOT_VERIFIED { en: "Passport NOT VERIFIED", ru: "Паспорт НЕ ПРОВЕРЕН" }
     NOT_VERIFIED_WORDS {
@@ -115,6 +115,7 @@ texts! {
     SUBJECT { en: "Object, place and equipment of the calibration", ru: "Объект, место и средства калибровки" }
     TYPE { en: "Type", ru: "Тип" }
     SERIAL { en: "Serial number of the gyro", ru: "Заводской номер гироскопа" }
+    NO_SERIAL { en: "not stated", ru: "не указан" }
     CONDITION { en: "Condition of the gyro", ru: "Состояние гироскопа" }
     RECEIVED { en: "Gyro received", ru: "Дата поступления" }
     MEASURED { en: "Date of the readings", ru: "Дата измерений" }
