@@ -233,6 +233,24 @@ fn a_report_is_named_after_the_gyro_and_its_currents() {
     }
 }
 
+/// Expected: the name in docs/laboratory.yaml, the date as it was asked for; the 64 digits have their place beside the checks.
+#[test]
+fn a_report_begins_with_laboratory_and_date() {
+    for (name, laboratory, day) in [
+        ("history-en", "Gyro laboratory", "datetime=\"2026-11-18\""),
+        ("calibrated-en", "Gyro laboratory", "not stated"),
+        ("plain-ru", "не указано", "не указано"),
+    ] {
+        let page = fs::read_to_string(REPORTED.folder.join(format!("{name}.html"))).unwrap();
+        let (_, band) = page.split_once("<dl class=\"band\">").unwrap();
+        let (band, rest) = band.split_once("</dl>").unwrap();
+        assert!(band.contains(laboratory) && band.contains(day), "{name}: {band}");
+        let report = REPORTS.iter().find(|report| report.name == name).unwrap();
+        let sum = format!("<code>{}", report.sum_of_currents(&REPORTED.folder));
+        assert!(!band.contains(&sum) && rest.contains(&sum), "{name}: {band}");
+    }
+}
+
 /// Sections that were not asked for leave no gap.
 #[test]
 fn sections_are_counted() {

@@ -7,7 +7,7 @@ use crate::laboratory::Laboratory;
 use crate::report::page::language::{Languages, values};
 use crate::report::page::number::Number;
 use crate::report::page::parts::{
-    self, boxed, date, date_text, field, fields, file_name, given, heading, quantity, time, wide_field,
+    self, boxed, date, date_text, field, fields, file_name, given, heading, not_stated, quantity, time, wide_field,
 };
 use crate::report::page::passport::{accuracy, characteristics, checks};
 use crate::report::page::texts::{calibration as texts, passport as passport_texts, record, units};
@@ -23,10 +23,12 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
     }
 }
 
-/// Writes which gyro was calibrated on which stand, on whose word, and from which file.
+/// Writes which gyro was calibrated, by whom and when, on which stand, and on whose word.
 pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
     let content = page.content();
-    let day = page.document.date().map(|day| date(languages, day));
+    let or_not = |value: Option<Markup>| value.unwrap_or_else(|| not_stated(languages));
+    let laboratory = page.laboratory.and_then(|laboratory| laboratory.name.as_deref()).map(given);
+    let day = or_not(page.document.date().map(|day| date(languages, day)));
     let stand = html! { (given(content.stand.model.as_str())) " №\u{a0}" (given(content.stand.serial.as_str())) };
     let site = content.site.name.as_deref().unwrap_or(content.site.id.as_str());
     let verified = match &page.passport {
@@ -37,14 +39,14 @@ pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
     parts::band(
         languages,
         [
+            (texts::SERIAL, serial(page, languages), html! {}),
             (
-                texts::SERIAL,
-                serial(page, languages),
-                html! { @if let Some(day) = day { p { (languages.inline(texts::MEASURED)) ": " (day) } } },
+                passport_texts::LABORATORY,
+                or_not(laboratory),
+                html! { p { (languages.inline(texts::MEASURED)) ": " (day) } },
             ),
             (texts::STAND, stand, html! { p { (given(site)) } }),
             (passport_texts::WORD, given(&content.certificate.number), certificate),
-            (texts::CURRENTS, given(file_name(page.currents.0)), html! { p { "SHA-256 " code { (page.currents.1) } } }),
         ],
     )
 }
