@@ -82,6 +82,7 @@ function said() {
     // The serial number of the gyro, in the band and among the fields, where it is seen.
     serials: all("dt").filter((name) => /^(Serial number of the gyro|Заводской номер гироскопа)/.test(name.textContent) && name.checkVisibility())
       .map((name) => name.nextElementSibling.textContent),
+    verdicts: all(".verdict").map(text),
     headline: document.querySelector(".headline").textContent,
     status: (document.querySelector(".band > div") || document.body).textContent,
     refused: document.querySelector(".verdict.refused") !== null,

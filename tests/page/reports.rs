@@ -56,6 +56,12 @@ const REPORTS: &[Report] = &[
         languages: &[English],
         asked: &[USUAL, CURRENTS, LABORATORY, &["--gyro", "@other-type.yaml"]],
     },
+    // A meter so coarse that the parameters do not follow its errors linearly.
+    Report {
+        name: "coarse-both",
+        languages: &[English, Russian],
+        asked: &[USUAL, CURRENTS, &["--laboratory", "@coarse.yaml", "--monte-carlo", "--trials", "65536"], GYRO],
+    },
     // Neither type nor laboratory, one method alone.
     Report { name: "plain-ru", languages: &[Russian], asked: &[USUAL, CURRENTS, &["--method", "iterative"]] },
     Report {
@@ -168,6 +174,8 @@ fn files(folder: &Path) {
         write(result, &programs::output(calibrate(folder, &earlier)));
     }
     let seat = example("docs/laboratory.yaml").replace("about_z: 10.0", "about_z: 100.0");
+    let coarse = example("docs/laboratory.yaml").replace("reading_percent: 0.0087", "reading_percent: 3.0");
+    write("coarse.yaml", &coarse);
     write("warm.yaml", &(seat + "temperature_c: 35.5\n"));
     let other = example("docs/gvk-6.yaml").replace("GVK-6", HOSTILE_TYPE).replace("[[95, 9.5]", "[[95.2, 9.5]");
     write("other-type.yaml", &other);
@@ -309,6 +317,34 @@ fn what_the_budget_comes_to_is_said_in_every_language() {
         assert_eq!(numbers.len(), 3, "{sentence}");
         for number in numbers {
             assert!(said.contains(number), "{name}: {number} of {sentence:?} in {said}");
+        }
+    }
+}
+
+/// Expected: `first_order_valid` of each parameter in the result for programs.
+#[test]
+fn the_verdict_says_where_the_linear_approximation_is_not_valid() {
+    for (name, words) in [
+        ("coarse-both", ["linear approximation behind U is not valid for ", "вычислена U, неприменимо для "]),
+        ("whole-ru", ["not valid", "неприменимо"]),
+    ] {
+        let json = fs::read_to_string(REPORTED.folder.join(format!("{name}.json"))).unwrap();
+        let result: Value = serde_json::from_str(&json).unwrap();
+        let lines = result["monte_carlo"]["parameters"].as_array().unwrap();
+        let refuted = lines.iter().filter(|line| line["first_order_valid"] == false);
+        let mut due: Vec<String> =
+            refuted.map(|line| line["parameter"].as_str().unwrap().replace("k_", "K").replace("omega_", "ω")).collect();
+        assert_eq!(due.is_empty(), name == "whole-ru", "{name}: {due:?}");
+        due.sort();
+        let verdicts = strings(&REPORTED.said(name)["verdicts"]).concat().replace('\u{a0}', " ");
+        for words in words {
+            let found = verdicts.split_once(words).map(|(_, rest)| {
+                let (names, _) = rest.split_once(" (JCGM 101, 8)").unwrap();
+                let mut names: Vec<&str> = names.split(", ").collect();
+                names.sort_unstable();
+                names
+            });
+            assert_eq!(found.unwrap_or_default(), due, "{name}: {verdicts}");
         }
     }
 }

@@ -142,6 +142,11 @@ pub(crate) fn band(languages: &Languages, cells: [(Text, Markup, Markup); 4]) ->
     }
 }
 
+/// Writes elements with commas between them.
+pub(crate) fn listed(each: impl IntoIterator<Item = Markup>) -> Markup {
+    html! { @for (place, one) in each.into_iter().enumerate() { @if place > 0 { ", " } (one) } }
+}
+
 /// Writes a number and its unit without a line break between them.
 pub(crate) fn quantity(languages: &Languages, number: &Number, unit: Text) -> Markup {
     // No space before the marks of angles (SI Brochure, 5.4.3).

@@ -9,7 +9,7 @@ use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::gyro::GyroType;
 use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::{Cell, Number, column};
-use crate::report::page::parts::{Column, Table, date_text, heading, mark, marked, quantity, symbol_and_unit};
+use crate::report::page::parts::{Column, Table, date_text, heading, listed, mark, marked, quantity, symbol_and_unit};
 use crate::report::page::spacing::BLANK;
 use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
@@ -52,13 +52,10 @@ fn compared(page: &CalibrationPage, gyro: &GyroType, verdict: &Verdict, language
 /// Writes how many parameters pass, and which are undecided or fail; `of` says of which comparison if it is the second.
 pub(super) fn counted(verdict: &Verdict, of_what: Option<Text>, languages: &Languages) -> Markup {
     let of = |decision: Decision| verdict.parameters.iter().filter(move |row| row.guarded == decision);
-    let names = |decision: Decision| {
-        html! { @for (place, row) in of(decision).enumerate() { @if place > 0 { ", " } (parameter(row)) } }
-    };
+    let names = |decision: Decision| listed(of(decision).map(parameter));
     let values = [("passed", html! { (of(Decision::Pass).count()) }), ("all", html! { (Parameter::EIGHT.len()) })];
     let not_found = verdict.not_found();
-    let not_found_names =
-        html! { @for (place, one) in not_found.iter().enumerate() { @if place > 0 { ", " } (name_of(one.symbol())) } };
+    let not_found_names = listed(not_found.iter().map(|one| name_of(one.symbol())));
     let rest = [(Decision::Undecided, texts::ARE_UNDECIDED), (Decision::Fail, texts::FAIL)];
     languages.paragraph_with(|language| {
         html! {
@@ -174,8 +171,7 @@ fn from_gravity(page: &CalibrationPage, verdict: &Verdict, languages: &Languages
         texts::FROM_GRAVITY_PART.marked_up(language, &[("gravity", gravity), ("parameter", parameter(row))])
     };
     languages.paragraph_with(|language| {
-        let parts =
-            html! { @for (place, row) in rows.iter().enumerate() { @if place > 0 { ", " } (part(row, language)) } };
+        let parts = listed(rows.iter().map(|row| part(row, language)));
         let u = quantity(&language.into(), &u, units::M_PER_S2);
         texts::FROM_GRAVITY.marked_up(language, &[("parts", parts), ("u", u)])
     })

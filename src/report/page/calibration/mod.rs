@@ -20,13 +20,15 @@ mod uncertainty;
 
 pub(crate) use fit::not_stated;
 
+use self::parameters::name_of;
 use super::language::{Language, Languages, Text, values};
-use super::parts::{Section, boxed, contents, data_address, date_text, marked, numbered};
+use super::parts::{Section, boxed, contents, data_address, date_text, listed, marked, numbered};
 use super::passport::PassportPage;
 use super::shell::{Margins, document};
 use super::symbols::italic;
 use super::texts::calibration as texts;
 use crate::calibration::document::{CalibrationDocument, NoChange, ResultDocument};
+use crate::calibration::parameter::Parameter;
 use crate::calibration::stated::NotStated;
 use crate::calibration::verdict::{Decision, Verdict};
 use crate::calibration::{Calibration, Method};
@@ -216,7 +218,7 @@ impl CalibrationPage<'_> {
 
     fn verdict(&self, languages: &Languages) -> Markup {
         let Some((gyro, verdict)) = self.judged() else {
-            let words = languages.paragraph(texts::NO_TYPE_WORDS);
+            let words = html! { (languages.paragraph(texts::NO_TYPE_WORDS)) (self.not_linear(languages)) };
             return boxed("verdict neutral", marked(None, &languages.label(texts::NO_TYPE)), words);
         };
         if !self.fits() {
@@ -234,9 +236,22 @@ impl CalibrationPage<'_> {
             @if let Some(change) = &self.document.change {
                 (conformity::counted(change, Some(texts::CHANGE_COUNTED), languages))
             }
+            (self.not_linear(languages))
             (languages.paragraph(texts::RULE))
         };
         boxed(class, marked(conformity::passed(verdict.overall), &languages.label_with(name)), words)
+    }
+
+    /// Writes the parameters for which a Monte Carlo run shows that the linear approximation is not valid.
+    fn not_linear(&self, languages: &Languages) -> Markup {
+        let lines = self.monte_carlo.iter().flat_map(|found| &found.parameters);
+        let refuted = lines.filter(|line| line.first_order.valid == Some(false));
+        let refuted = Parameter::in_paper_order(refuted, |line| line.parameter);
+        if refuted.is_empty() {
+            return html! {};
+        }
+        let names = listed(refuted.iter().map(|line| name_of(line.parameter.symbol())));
+        languages.paragraph_with(|language| texts::NOT_LINEAR.marked_up(language, &[("names", names.clone())]))
     }
 }
 

@@ -513,6 +513,12 @@ texts! {
     LOWER { en: "Lower end", ru: "Нижняя граница" }
     UPPER { en: "Upper end", ru: "Верхняя граница" }
     FIRST_ORDER { en: "Linear approximation valid", ru: "Линейное приближение применимо" }
+    NOT_LINEAR {
+        en: "The linear approximation behind U is not valid for {names} (JCGM 101, 8): use the coverage intervals of the \
+             Monte Carlo method.",
+        ru: "Линейное приближение, по которому вычислена U, неприменимо для {names} (JCGM 101, 8): следует использовать \
+             интервалы охвата по методу Монте-Карло."
+    }
     FIRST_ORDER_UNDECIDED {
         en: "–: not decided; this needs more trials.",
         ru: "–: не определено, требуется большее число испытаний."
