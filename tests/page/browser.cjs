@@ -57,6 +57,8 @@ function said() {
     numbers: all("data, [data-value]").map((data) => ({
       value: data.value ?? data.dataset.value,
       text: text(data),
+      // A coordinate has a letter instead of a sign.
+      negative: /°\u00a0(?:S|W|ю|з)/.test((data.closest(".quantity") ?? data).textContent),
       lang: (data.closest("p[lang], dd span[lang]") ?? document.documentElement).lang,
     })),
     tables: all("table").map((table) => ({

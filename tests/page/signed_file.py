@@ -68,6 +68,7 @@ def main():
     for number in said["numbers"]:
         value, shown = number["value"], number["text"]
         digits, place = printed(shown, number["lang"] == "ru")
+        digits = -digits if number["negative"] else digits
         if Decimal(value) in in_comments or digits in in_comments:
             continue
         if float(value) not in floats:

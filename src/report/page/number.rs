@@ -3,12 +3,17 @@
 //! [JCGM 100](crate::bibliography::Bibliography::Gum), 7.2.6: an uncertainty has two significant digits, and its value
 //! ends at the same decimal place. A narrow non-breaking space separates groups of three digits (SI Brochure, 5.4.4).
 
-use super::language::{Language, Languages};
+use super::language::{Language, Languages, Text};
+use super::texts::units;
 use crate::text::number;
 use maud::{Markup, html};
 
 /// Largest angle that is printed in arcseconds alone.
 pub(crate) const LARGEST_IN_ARCSEC: f64 = 600.0;
+
+/// Hemispheres of a latitude and of a longitude: of positive numbers, and of negative ones.
+pub(crate) const LATITUDES: [Text; 2] = [units::NORTH_LATITUDE, units::SOUTH_LATITUDE];
+pub(crate) const LONGITUDES: [Text; 2] = [units::EAST_LONGITUDE, units::WEST_LONGITUDE];
 
 /// Narrow non-breaking space, between groups of digits.
 pub(crate) const THIN_BLANK: char = '\u{202F}';
@@ -122,6 +127,14 @@ impl Number {
             Err(_) => "0".to_owned(),
         };
         Self::new(value, without_minus_zero(digits))
+    }
+
+    /// Returns a coordinate without its sign, and its hemisphere.
+    pub(crate) fn in_hemisphere(self, [positive, negative]: [Text; 2]) -> (Self, Text) {
+        match self.digits.strip_prefix('-').map(str::to_owned) {
+            Some(digits) => (Self { digits, ..self }, negative),
+            None => (self, positive),
+        }
     }
 
     /// Returns `true` if all printed digits are zeros.

@@ -142,6 +142,12 @@ pub(crate) fn band(languages: &Languages, cells: [(Text, Markup, Markup); 4]) ->
     }
 }
 
+/// Writes a coordinate in degrees, with its hemisphere instead of a sign.
+pub(crate) fn coordinate(languages: &Languages, degrees: f64, hemispheres: [Text; 2]) -> Markup {
+    let (number, hemisphere) = Number::exact(degrees).in_hemisphere(hemispheres);
+    html! { span.quantity { (number.markup(languages)) "°" (BLANK) (languages.inline(hemisphere)) } }
+}
+
 /// Writes elements with commas between them.
 pub(crate) fn listed(each: impl IntoIterator<Item = Markup>) -> Markup {
     html! { @for (place, one) in each.into_iter().enumerate() { @if place > 0 { ", " } (one) } }

@@ -38,7 +38,7 @@ pub(crate) const TABLES: [(&str, &[(&str, Text)]); 10] = [
     ("pictures", pictures::ALL),
 ];
 
-/// Units. Those of angles are written alike in both languages.
+/// Units, and what is written after coordinates in place of a sign. Those of angles are written alike in both languages.
 pub(crate) mod units {
     use super::texts;
 
@@ -56,6 +56,10 @@ pub(crate) mod units {
         DEG_PER_H_PER_MA { en: "°/(h·mA)", ru: "°/(ч·мА)" }
         M_PER_S2 { en: "m/s²", ru: "м/с²" }
         CELSIUS { en: "°C", ru: "°C" }
+        NORTH_LATITUDE { en: "N", ru: "с. ш." }
+        SOUTH_LATITUDE { en: "S", ru: "ю. ш." }
+        EAST_LONGITUDE { en: "E", ru: "в. д." }
+        WEST_LONGITUDE { en: "W", ru: "з. д." }
         PERCENT { en: "%", ru: "%" }
         PER_G { en: "1/g", ru: "1/g" }
         ONE { en: "1", ru: "1" }

@@ -3,7 +3,8 @@
 use super::drawing::{Anchor, Panel, Point, arrow, coordinate, legend, line, number, rectangle, round_below, words};
 use crate::passport::content::Content;
 use crate::report::page::language::{Language, Languages, Text, values};
-use crate::report::page::number::{Number, localised};
+use crate::report::page::number::{LATITUDES, LONGITUDES, Number, localised};
+use crate::report::page::spacing::BLANK;
 use crate::report::page::texts::{pictures as texts, units};
 use crate::units::{ARCSECONDS_PER_DEGREE, sin_cos_of_degrees};
 use maud::{Markup, html};
@@ -149,14 +150,16 @@ fn scale_bar(languages: &Languages, radius_m: f64) -> Markup {
 fn coordinates(languages: &Languages, content: &Content) -> Markup {
     let earth = &content.earth;
     let latitude = latitude_deg(content);
-    let mut rows = vec![(texts::LATITUDE, latitude, short(latitude))];
-    rows.extend(content.site.longitude_deg.map(|value| (texts::LONGITUDE, value, short(value))));
-    rows.extend(earth.azimuth_deg.map(|value| (texts::AZIMUTH, value, azimuth(content, value))));
+    let of = |value, hemispheres| in_hemisphere(languages, value, hemispheres);
+    let mut rows = vec![(texts::LATITUDE, latitude, of(latitude, LATITUDES))];
+    rows.extend(content.site.longitude_deg.map(|value| (texts::LONGITUDE, value, of(value, LONGITUDES))));
+    let azimuth = |value| azimuth(content, value).text(languages.first()) + "°";
+    rows.extend(earth.azimuth_deg.map(|value| (texts::AZIMUTH, value, azimuth(value))));
     html! {
         @for (row, (name, value, printed)) in rows.iter().enumerate() {
             @let y = BELOW + LINE * row as f64;
             (words([150.0, y], Anchor::End, "small", &languages.plain(*name)))
-            (number([158.0, y], Anchor::Start, "", *value, &(printed.text(languages.first()) + "°")))
+            (number([158.0, y], Anchor::Start, "", *value, printed))
         }
     }
 }
@@ -173,14 +176,17 @@ fn latitude_deg(content: &Content) -> f64 {
     site.latitude_deg.or(site.astronomic_latitude_deg).unwrap_or(content.earth.latitude_deg)
 }
 
-fn short(value: f64) -> Number {
-    Number::at_most(value, MOST_DECIMALS)
+/// Returns a coordinate with its hemisphere.
+fn in_hemisphere(languages: &Languages, value: f64, hemispheres: [Text; 2]) -> String {
+    let (number, hemisphere) = Number::at_most(value, MOST_DECIMALS).in_hemisphere(hemispheres);
+    format!("{}°{BLANK}{}", number.text(languages.first()), languages.plain(hemisphere))
 }
 
 fn in_words(language: Language, content: &Content) -> String {
     let earth = &content.earth;
-    let (radius, latitude) = (Number::fixed(earth.valid_radius_m, 0), short(latitude_deg(content)));
-    let area = match content.site.longitude_deg.map(short) {
+    let of = |value, hemispheres| in_hemisphere(&language.into(), value, hemispheres);
+    let (radius, latitude) = (Number::fixed(earth.valid_radius_m, 0), of(latitude_deg(content), LATITUDES));
+    let area = match content.site.longitude_deg.map(|value| of(value, LONGITUDES)) {
         Some(longitude) => texts::PLACE_CIRCLE.filled(language, values! { radius, latitude, longitude }),
         None => texts::PLACE_BAND.filled(language, values! { radius, latitude }),
     };

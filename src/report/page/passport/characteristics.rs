@@ -2,10 +2,10 @@
 
 use super::PassportPage;
 use crate::report::page::language::{Language, Languages, values};
-use crate::report::page::number::{LARGEST_IN_ARCSEC, Number, column};
+use crate::report::page::number::{LARGEST_IN_ARCSEC, LATITUDES, LONGITUDES, Number, column};
 use crate::report::page::parts::{
-    Column, Table, fields, figure, given, heading, not_stated, quantity, starts, stated, symbol, symbol_and_unit,
-    wide_stated,
+    Column, Table, coordinate, fields, figure, given, heading, not_stated, quantity, starts, stated, symbol,
+    symbol_and_unit, wide_stated,
 };
 use crate::report::page::texts::{passport as texts, units};
 use crate::report::picture::deviations::Bars;
@@ -136,7 +136,6 @@ pub(crate) fn datum(datum: Option<&Datum>, languages: &Languages) -> Markup {
 }
 
 fn place(site: &Site, languages: &Languages) -> Markup {
-    let degrees = |value: f64| quantity(languages, &Number::exact(value), units::DEGREES);
     let arcsec = |value: f64| quantity(languages, &Number::exact(value), units::ARCSEC);
     let u = |u: f64| quantity(languages, &Number::uncertainty(u), units::ARCSEC);
     let base = site.uncertainty.as_ref();
@@ -152,18 +151,20 @@ fn place(site: &Site, languages: &Languages) -> Markup {
             (symbol("ξ", "")) " " (arcsec(deflection.xi)) ", " (symbol("η", "")) " " (arcsec(deflection.eta))
         },
     });
-    let frame_axis =
-        site.frame_axis_azimuth_deg.map(|azimuth_deg| stated(languages, texts::FRAME_AXIS, Some(degrees(azimuth_deg))));
+    let frame_axis = site.frame_axis_azimuth_deg.map(|azimuth_deg| {
+        stated(languages, texts::FRAME_AXIS, Some(quantity(languages, &Number::exact(azimuth_deg), units::DEGREES)))
+    });
+    let latitude = |degrees| coordinate(languages, degrees, LATITUDES);
     // A site states one of the two latitudes, never both.
     let latitude = match site.astronomic_latitude_deg {
-        Some(astronomic) => stated(languages, texts::ASTRONOMIC_LATITUDE, Some(degrees(astronomic))),
-        None => stated(languages, texts::LATITUDE, site.latitude_deg.map(degrees)),
+        Some(astronomic) => stated(languages, texts::ASTRONOMIC_LATITUDE, Some(latitude(astronomic))),
+        None => stated(languages, texts::LATITUDE, site.latitude_deg.map(latitude)),
     };
     html! {
         (fields([
             stated(languages, texts::SITE_ID, Some(given(site.id.as_str()))),
             latitude,
-            stated(languages, texts::LONGITUDE, site.longitude_deg.map(degrees)),
+            stated(languages, texts::LONGITUDE, site.longitude_deg.map(|degrees| coordinate(languages, degrees, LONGITUDES))),
             stated(languages, texts::HEIGHT,
                 site.height_m.map(|height| quantity(languages, &Number::exact(height), units::METRES))),
             stated(languages, texts::DEFLECTION, deflection),
@@ -200,10 +201,7 @@ pub(crate) fn gravity(value: f64, u: Option<f64>, languages: &Languages) -> Mark
 fn mark(site: &Site, languages: &Languages) -> Markup {
     let Some(mark) = &site.azimuth_mark else { return html! {} };
     let pair = |latitude: f64, longitude: f64| {
-        html! {
-            (quantity(languages, &Number::exact(latitude), units::DEGREES)) ", "
-            (quantity(languages, &Number::exact(longitude), units::DEGREES))
-        }
+        html! { (coordinate(languages, latitude, LATITUDES)) ", " (coordinate(languages, longitude, LONGITUDES)) }
     };
     let metres = |u: f64| quantity(languages, &Number::uncertainty(u), units::METRES);
     fields([

@@ -3,12 +3,11 @@
 use super::{PassportPage, checks};
 use crate::report::page::code;
 use crate::report::page::language::{Languages, values};
-use crate::report::page::number::Number;
+use crate::report::page::number::{LATITUDES, LONGITUDES, Number};
 use crate::report::page::parts::{
-    band, date, date_text, fields, figure, given, marked, quantity, signature, stated, time, wide_stated,
+    band, coordinate, date, date_text, fields, figure, given, marked, quantity, signature, stated, time, wide_stated,
 };
-use crate::report::page::spacing::BLANK;
-use crate::report::page::texts::{checks as check_texts, passport as texts, pictures, record, units, words};
+use crate::report::page::texts::{checks as check_texts, passport as texts, record, units, words};
 use crate::report::picture::stand::stand as picture;
 use maud::{Markup, html};
 
@@ -64,16 +63,15 @@ fn answers(page: &PassportPage, languages: &Languages) -> Markup {
         },
         None => html! { p { (languages.label(if unchecked { texts::NO_END_NOT_CHECKED } else { texts::NO_END })) } },
     };
-    let degrees = |value: f64| quantity(languages, &Number::exact(value), units::DEGREES);
     let latitude = site.latitude_deg.or(site.astronomic_latitude_deg).unwrap_or(content.earth.latitude_deg);
-    let named = |name, value| html! { (languages.inline(name)) (BLANK) (degrees(value)) };
+    let latitude = coordinate(languages, latitude, LATITUDES);
     let place = html! {
         @if let Some(longitude) = site.longitude_deg {
             p { (languages.label(texts::AROUND)) }
-            p { (named(pictures::LATITUDE, latitude)) ", " (named(pictures::LONGITUDE, longitude)) }
+            p { (latitude) ", " (coordinate(languages, longitude, LONGITUDES)) }
         } @else {
             p { (languages.label(texts::AROUND_PARALLEL)) }
-            p { (degrees(latitude)) }
+            p { (latitude) }
         }
         p { (given(site.name.as_deref().unwrap_or(site.id.as_str()))) }
     };

@@ -140,7 +140,7 @@ texts! {
     SITE_ID { en: "Identifier", ru: "Обозначение" }
     LATITUDE { en: "Geodetic latitude (WGS 84)", ru: "Геодезическая широта (WGS 84)" }
     ASTRONOMIC_LATITUDE { en: "Astronomic latitude, given", ru: "Астрономическая широта, заданная" }
-    LONGITUDE { en: "Longitude, east", ru: "Долгота, восточная" }
+    LONGITUDE { en: "Longitude", ru: "Долгота" }
     HEIGHT { en: "Height above the ellipsoid", ru: "Высота над эллипсоидом" }
     DEFLECTION { en: "Deflection of the vertical", ru: "Уклонение отвесной линии" }
     GRAVITY_MEASURED { en: "Gravity g, measured", ru: "Ускорение g, измеренное" }

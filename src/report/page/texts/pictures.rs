@@ -68,12 +68,12 @@ texts! {
 
     PLACE_TITLE { en: "Area of validity of the passport", ru: "Область применимости паспорта" }
     PLACE_CIRCLE {
-        en: "Within {radius} m of the site at latitude {latitude}°, longitude {longitude}°.",
-        ru: "Не далее {radius} м от места с широтой {latitude}° и долготой {longitude}°."
+        en: "Within {radius} m of the site at latitude {latitude}, longitude {longitude}.",
+        ru: "Не далее {radius} м от места с широтой {latitude} и долготой {longitude}."
     }
     PLACE_BAND {
-        en: "Within {radius} m north or south of latitude {latitude}°; no longitude is stated.",
-        ru: "Не далее {radius} м к северу и югу от широты {latitude}°; долгота не указана."
+        en: "Within {radius} m north or south of latitude {latitude}; no longitude is stated.",
+        ru: "Не далее {radius} м к северу и югу от широты {latitude}; долгота не указана."
     }
     PLACE_MARK_IN_WORDS {
         en: "The azimuth of the mark is {azimuth}°, clockwise from north.",
