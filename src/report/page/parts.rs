@@ -108,16 +108,16 @@ pub(crate) fn boxed(class: &str, headline: Markup, words: Markup) -> Markup {
     html! { div class=(class) { p.headline { (headline) } (words) } }
 }
 
-/// Writes the fields of a signature.
-pub(crate) fn signature(languages: &Languages) -> Markup {
-    let names = [record::POST_AND_NAME, record::SIGNATURE, record::DATE, record::STAMP];
+/// Writes the fields of a signature; `who` asks for the person.
+pub(crate) fn signature(languages: &Languages, who: Text) -> Markup {
+    let names = [who, record::SIGNATURE, record::DATE, record::STAMP];
     fields(names.map(|name| field(languages, name, None)))
 }
 
 /// Writes forms for the signatures of some persons.
 pub(crate) fn signatures<const N: usize>(languages: &Languages, who: [Text; N]) -> Markup {
     html! {
-        div.pair { @for who in who { div.part.pen { (heading(languages, who)) (signature(languages)) } } }
+        div.pair { @for who in who { div.part.pen { (heading(languages, who)) (signature(languages, record::POST_AND_NAME)) } } }
         div.statement { (languages.paragraph(calibration::VALID_WHEN_SIGNED)) }
     }
 }
