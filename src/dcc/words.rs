@@ -80,11 +80,11 @@ texts! {
     CONFORMITY { en: "Conformity with gyro type {type}", ru: "Соответствие типу {type}" }
     RULE {
         en: "Guarded acceptance with a guard band equal to the expanded uncertainty U, with k = 2 or that of \
-             Student's t for few degrees of freedom (JCGM 106, 8.3): pass or fail. Where the uncertainty does not permit \
-             this decision, the decision by simple acceptance is conditional.",
+             Student's t for few degrees of freedom, coverage probability 95.45 % (JCGM 106, 8.3): pass or fail. Where \
+             the uncertainty does not permit this decision, the decision by simple acceptance is conditional.",
         ru: "Приёмка с защитной полосой, равной расширенной неопределённости U, k = 2 или по Стьюденту при малом числе \
-             степеней свободы (JCGM 106, 8.3). Если неопределённость не позволяет принять решение, решение при простой \
-             приёмке условное."
+             степеней свободы, вероятность охвата 95,45 % (JCGM 106, 8.3). Если неопределённость не позволяет принять \
+             решение, решение при простой приёмке условное."
     }
     DECISIONS { en: "Decisions on conformity, in the order of the values", ru: "Решения о соответствии в порядке значений" }
     LOWER_LIMIT { en: "Lower limit of the tolerance", ru: "Нижняя граница допуска" }

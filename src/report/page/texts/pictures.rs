@@ -101,8 +101,8 @@ texts! {
     }
     ACCURACY_U { en: "standard uncertainty u", ru: "стандартная неопределённость u" }
     ACCURACY_EXPANDED {
-        en: "expanded uncertainty U = 2u",
-        ru: "расширенная неопределённость U = 2u"
+        en: "expanded uncertainty U = 2u, coverage probability about 95 %",
+        ru: "расширенная неопределённость U = 2u, вероятность охвата около 95 %"
     }
     RESIDUAL { en: "residual of an equation after the fit", ru: "остаток уравнения после оценивания" }
     RESIDUAL_LIMITS {
