@@ -70,7 +70,7 @@ pub(crate) fn convergence(found: &Convergence) -> String {
 
 /// Formats the share of stands that did not converge, percent. If all converged or none did, the binomial standard error
 /// is 0, which would claim a certainty that no number of stands gives.
-fn not_converged(row: &ConvergenceRow) -> String {
+pub(crate) fn not_converged(row: &ConvergenceRow) -> String {
     let (percent, u) = (row.not_converged_percent, row.not_converged_u_percent);
     if u > 0.0 {
         let decimals = columns::decimals(u);

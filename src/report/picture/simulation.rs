@@ -6,6 +6,7 @@ use super::file::{caption, file};
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::report::page::language::Language;
 use crate::report::page::number::Number;
+use crate::report::simulation::not_converged;
 use crate::simulation::convergence::{Convergence, ConvergenceRow};
 use maud::{Markup, html};
 
@@ -106,8 +107,7 @@ fn in_words(rows: &[ConvergenceRow]) -> String {
     let row = |row: &ConvergenceRow| {
         let of = |(name, number): Steps| number(row).map(|steps| format!("{name} {steps:.1}, "));
         let numbers: String = NUMBERS.into_iter().filter_map(of).collect();
-        let (kind, limit, share) = (row.deviations, row.limit_deg, row.not_converged_percent);
-        format!("{kind}, {limit}°: {numbers}not converged {share:.2} %")
+        format!("{}, {}°: {numbers}not converged, %: {}", row.deviations, row.limit_deg, not_converged(row))
     };
     rows.iter().map(row).collect::<Vec<_>>().join("; ") + "."
 }

@@ -14,7 +14,7 @@ fn made_up(farthest: f64) -> Convergence {
         percentile_95: steps.map(|(_, percentile, _)| percentile),
         most: steps.map(|(.., most)| most),
         not_converged_percent,
-        not_converged_u_percent: 0.0,
+        not_converged_u_percent: if matches!(not_converged_percent, 0.0 | 100.0) { 0.0 } else { 15.0 },
         stands: 7,
     };
     let rows = vec![
@@ -47,6 +47,13 @@ fn lines_are_where_the_axes_say() {
     let text = simulation::convergence(&made_up(30.0)).unwrap();
     let page = Document::parse(&text).unwrap();
     let picture = of_class(page.root(), "picture")[0];
+    // By hand: no case in 7 has the probability 0.05 if the share is 1 - 0.05^(1/7), 34.8 %.
+    for words in [
+        "1°: most 4.0, 95th percentile 3.0, mean of the converged 2.5, not converged, %: < 35;",
+        "30°: not converged, %: > 65;",
+    ] {
+        assert!(text.contains(&words.replace('<', "&lt;").replace('>', "&gt;")), "{words} in {text}");
+    }
     let groups: Vec<Node> = picture.children().filter(|node| node.has_tag_name("g")).collect();
     let [steps, share] = groups.as_slice() else { panic!("{} fields", groups.len()) };
 
