@@ -132,11 +132,19 @@ function unfit() {
   return found;
 }
 
-/** Words of a picture that lie one on the other. */
+/** Words of a picture that lie one on the other, and names that lie on the base of the stand. */
 function crowded() {
   const found = [];
   for (const picture of document.querySelectorAll("svg.picture")) {
     const boxes = [...picture.querySelectorAll("text")].map((element) => [element.textContent, element.getBoundingClientRect()]);
+    if (picture.closest("#figure-stand")) {
+      const base = [...picture.querySelectorAll("polygon.base")];
+      for (const element of picture.querySelectorAll("text:not(.letter)")) {
+        const { x, y, width, height } = element.getBBox();
+        const places = [0, 0.25, 0.5, 0.75, 1].flatMap((across) => [0.3, 0.6, 0.8].map((down) => new DOMPoint(x + across * width, y + down * height)));
+        if (places.some((place) => base.some((face) => face.isPointInFill(place)))) found.push(`${element.textContent} lies on the base`);
+      }
+    }
     const boxed = boxes.filter(([, box]) => box.width > 0);
     boxed.forEach(([words, box], index) => {
       for (const [others, other] of boxed.slice(index + 1)) {

@@ -16,8 +16,9 @@ const SIZE: Point = [500.0, 282.0];
 const CENTRE: Point = [262.0, 114.0];
 const UNIT: f64 = 86.0;
 
-/// Place and unit of the three directions east, north and up.
-const COMPASS: Point = [92.0, 250.0];
+/// Places and unit of the three directions east, north and up: clear of the plate, and where a name on the left has room.
+const COMPASS: Point = [46.0, 250.0];
+const COMPASS_TO_THE_LEFT: Point = [92.0, 250.0];
 const COMPASS_UNIT: f64 = 36.0;
 
 /// Angles of the drawing: large enough for their arcs, and no position of a stand.
@@ -119,18 +120,20 @@ fn letters(view: &View, letters: &[(&str, Vector3<f64>)]) -> Markup {
 /// line.
 fn compass_rose(languages: &Languages, base: &Matrix3<f64>) -> Markup {
     const LINE: f64 = 16.0;
-    let view = View::new(COMPASS, COMPASS_UNIT, base);
-    let named = [compass::EAST, compass::NORTH, compass::UP];
-    let directions = [Vector3::x(), Vector3::y(), Vector3::z()].into_iter().zip(named);
+    let [east, north, up] = [Vector3::x(), Vector3::y(), Vector3::z()];
+    let to_the_left = |direction| View::new([0.0; 2], COMPASS_UNIT, base).point(direction)[0] < 0.0;
+    let centre = if [east, north].iter().any(to_the_left) { COMPASS_TO_THE_LEFT } else { COMPASS };
+    let view = View::new(centre, COMPASS_UNIT, base);
+    let directions = [(east, compass::EAST), (north, compass::NORTH), (up, compass::UP)];
     html! {
         @for (direction, name) in directions {
             @let ([x, y], vertical) = (view.point(&(direction * 1.1)), direction.z > 0.0);
             @let names: Vec<&str> = languages.iter().map(|language| name.of(language)).collect();
-            @let anchor = if vertical { Anchor::Middle } else if x < COMPASS[0] { Anchor::End } else { Anchor::Start };
+            @let anchor = if vertical { Anchor::Middle } else if x < centre[0] { Anchor::End } else { Anchor::Start };
             // Above an upward head, around a downward one.
-            @let share = if vertical || y < COMPASS[1] { 1.0 } else { 0.5 };
+            @let share = if vertical || y < centre[1] { 1.0 } else { 0.5 };
             @let first = y + 12.0 * (1.0 - share) - share * LINE * (names.len() - 1) as f64;
-            (arrow(COMPASS, view.point(&direction), "meridian"))
+            (arrow(centre, view.point(&direction), "meridian"))
             @for (row, name) in names.iter().enumerate() {
                 (words([x, first + LINE * row as f64], anchor, if row == 0 { "" } else { "soft" }, name))
             }
