@@ -103,6 +103,11 @@ function unfit() {
     if (seen(link) && !seen(target)) found.push(`a link to what is not seen: ${name(link)}`);
   }
   if (document.documentElement.scrollWidth > width) found.push(`the page scrolls sideways: ${document.documentElement.scrollWidth} > ${width}`);
+  // The kind of the document is not broken before its last word.
+  const kind = document.createRange();
+  kind.selectNodeContents(document.querySelector(".kind > span"));
+  const lines = [...kind.getClientRects()].map((line) => line.width);
+  if (lines.at(-1) < 0.4 * Math.max(...lines)) found.push(`a short last line: ${lines}`);
   for (const row of document.querySelectorAll(".result:not(.past) tbody tr")) {
     const seen = [...row.querySelectorAll("th .state, td:nth-last-child(2) .state")].some((mark) => {
       const box = mark.getBoundingClientRect();
