@@ -203,6 +203,25 @@ fn long_tables_repeat_their_headings() {
     }
 }
 
+/// The fields of the site, the longest list of a passport, have their heading on every sheet that they are on.
+#[test]
+fn fields_of_the_site_have_their_heading() {
+    const FIELDS: [[&str; 2]; 3] = [
+        ["Height above the ellipsoid", "Высота над эллипсоидом"],
+        ["u of the level of the base", "u горизонтирования основания"],
+        ["Source of the data", "Источник этих данных"],
+    ];
+    for page in PASSPORTS.pages() {
+        let sheets = page.sheets("-layout");
+        let of_site = sheets.iter().filter(|sheet| FIELDS.iter().flatten().any(|field| sheet.contains(field)));
+        let of_site: Vec<&String> = of_site.collect();
+        assert!(!of_site.is_empty(), "{}", page.name);
+        for sheet in of_site {
+            assert!(["Site (", "Место установки ("].iter().any(|head| sheet.contains(head)), "{}: {sheet}", page.name);
+        }
+    }
+}
+
 /// A row of the table of deviations: i, j, two angles of whole degrees, then at least six decimals.
 fn is_row(line: &str) -> bool {
     let cells: Vec<&str> = line.split_whitespace().collect();

@@ -28,8 +28,7 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
         (common(&content.certificate, languages))
         (heading(languages, texts::DATUM))
         (datum(content.datum.as_ref(), languages))
-        (heading(languages, texts::SITE))
-        (place(&content.site, languages))
+        div.titled { (heading(languages, texts::SITE)) (place(&content.site, languages)) }
         (heading(languages, texts::EARTH))
         // Without a mark the map would show the radius alone.
         @if content.earth.azimuth_deg.is_some() {
