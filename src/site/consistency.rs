@@ -6,7 +6,7 @@
 use super::Site;
 use crate::earth::{self, Place};
 use crate::text::{Path, Problems};
-use crate::units::{distance, radians_from_degrees};
+use crate::units::radians_from_degrees;
 
 /// Largest distance of the pillar from the site, m.
 const FARTHEST_PILLAR_M: f64 = 5_000.0;
@@ -70,26 +70,20 @@ impl Site {
         let in_latitude = if self.longitude_deg.is_some() { "" } else { " in latitude" };
         if let Some(metres) = farther_than(FARTHEST_PILLAR_M, site, pillar) {
             let of_site = self.longitude_deg.map_or(format!("latitude {latitude_deg}"), |_| coordinates(site));
-            let found =
-                format!("{}, {}{in_latitude} from the site at {of_site}", coordinates(pillar), distance(metres));
+            let found = format!("{}, {metres:.0} m{in_latitude} from the site at {of_site}", coordinates(pillar));
             let advice = advice("site and pillar", site, |place| earth::distance_m(place, pillar) <= FARTHEST_PILLAR_M);
             let expected = format!("a pillar within {FARTHEST_PILLAR_M} m of the site");
             problems.at(&at.key("pillar_latitude_deg"), found, expected, advice);
         }
         let [to_pillar, to_mark] = [pillar, mark].map(|to| earth::distance_m(site, to));
         if self.longitude_deg.is_some() && to_pillar <= FARTHEST_PILLAR_M && to_pillar > MARK_AT_THE_SITE * to_mark {
-            let found = format!(
-                "{}, {} from the site, but the mark {} from it",
-                coordinates(pillar),
-                distance(to_pillar),
-                distance(to_mark)
-            );
+            let found =
+                format!("{}, {to_pillar:.0} m from the site, but the mark {to_mark:.0} m from it", coordinates(pillar));
             let (expected, advice) = ("a pillar at the site", "check whether pillar and mark are exchanged");
             problems.at(&at.key("pillar_latitude_deg"), found, expected, advice);
         }
         if let Some(metres) = farther_than(FARTHEST_MARK_M, pillar, mark) {
-            let found =
-                format!("{}, {} from the pillar at {}", coordinates(mark), distance(metres), coordinates(pillar));
+            let found = format!("{}, {metres:.0} m from the pillar at {}", coordinates(mark), coordinates(pillar));
             let advice = advice("pillar and mark", mark, |place| earth::distance_m(place, pillar) <= FARTHEST_MARK_M);
             let expected = format!("a mark within {FARTHEST_MARK_M} m of the pillar");
             problems.at(&at.key("latitude_deg"), found, expected, advice);
