@@ -3,8 +3,10 @@
 //! whose certificate states other angles in one passport than in another.
 
 use super::{Alarm, AlarmKind, Examined, State};
+use crate::stand::CertifiedPosition;
 use crate::text::words::first_few;
 use std::collections::{BTreeMap, HashMap};
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// Certificates of each stand, `<model>/<serial>`, whose passports differ in their certificate or its angles.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -94,6 +96,15 @@ impl OfStand {
         let files = self.in_force.values().flatten().map(|passport| passport.file.clone()).collect();
         Some(Alarm::of_files(AlarmKind::Certificates, words.join("; "), files))
     }
+}
+
+/// Returns a number that tells sets of certified angles apart, for comparisons within one run of the program.
+pub(super) fn fingerprint(positions: &[CertifiedPosition]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    for at in positions {
+        (at.index(), at.angles_arcsec().map(f64::to_bits)).hash(&mut hasher);
+    }
+    hasher.finish()
 }
 
 fn ids(passports: &[InForce]) -> String {

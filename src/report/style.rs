@@ -21,13 +21,23 @@ pub(crate) fn bad(words: &str) -> String {
     styled(AnsiColor::Red.on_default().bold(), words)
 }
 
-/// Formats a result with its mark, the same as on paper; `None` if it was not asked, or is undecided. The mark only repeats
-/// the words, so that they can be read without it.
-pub(crate) fn marked(passed: Option<bool>, words: &str) -> String {
+/// Returns the mark of a result, in a terminal and on paper; `None` if it was not asked, or is undecided. The mark only
+/// repeats the words beside it, so that they can be read without it.
+pub(crate) fn mark(passed: Option<bool>) -> &'static str {
     match passed {
-        Some(true) => good(&format!("● {words}")),
-        Some(false) => bad(&format!("✕ {words}")),
-        None => format!("○ {words}"),
+        Some(true) => "●",
+        None => "○",
+        Some(false) => "✕",
+    }
+}
+
+/// Formats a result with its mark.
+pub(crate) fn marked(passed: Option<bool>, words: &str) -> String {
+    let words = format!("{} {words}", mark(passed));
+    match passed {
+        Some(true) => good(&words),
+        None => words,
+        Some(false) => bad(&words),
     }
 }
 

@@ -2,7 +2,6 @@
 
 use super::{CertifiedPosition, Stand};
 use crate::coefficients::PositionIndex;
-use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// Certificate number that is already used for other angles.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -15,15 +14,6 @@ pub struct NumberInUse {
     pub number: String,
     /// First position with other angles.
     pub index: PositionIndex,
-}
-
-/// Returns a number that tells sets of certified angles apart, for comparisons within one run of the program.
-pub(crate) fn fingerprint(positions: &[CertifiedPosition]) -> u64 {
-    let mut hasher = DefaultHasher::new();
-    for at in positions {
-        (at.index(), at.angles_arcsec().map(f64::to_bits)).hash(&mut hasher);
-    }
-    hasher.finish()
 }
 
 impl Stand {

@@ -90,12 +90,12 @@ pub(crate) fn not_stated(languages: &Languages) -> Markup {
 
 /// Writes the mark of a result that passed, was not asked or decided, or failed; words beside it say the same.
 pub(crate) fn mark(passed: Option<bool>) -> Markup {
-    let (class, mark) = match passed {
-        Some(true) => ("state passed", style::PASSED),
-        None => ("state", style::NOT_ASKED),
-        Some(false) => ("state failed", style::FAILED),
+    let class = match passed {
+        Some(true) => "state passed",
+        None => "state",
+        Some(false) => "state failed",
     };
-    html! { span class=(class) aria-hidden="true" { (mark) } }
+    html! { span class=(class) aria-hidden="true" { (style::mark(passed)) } }
 }
 
 /// Writes words with the mark of their result before them.
