@@ -38,7 +38,6 @@ use crate::passport::Content;
 use crate::report::mistake;
 use crate::uncertainty::{Budget, MonteCarlo};
 use jiff::Timestamp;
-use jiff::tz::TimeZone;
 use maud::{Markup, html};
 
 /// Digits of the SHA-256 of the currents in the name of a report.
@@ -164,11 +163,13 @@ impl CalibrationPage<'_> {
         if name.is_empty() { texts::GYRO_NOT_STATED.words(language) } else { name.join(" ") }
     }
 
-    /// Returns the name of the report: the gyro, the day, and the first digits of the SHA-256 of the currents.
+    /// Returns the name of the report: the gyro, the day of the readings if it was stated, and the first digits of the
+    /// SHA-256 of the currents.
     fn name(&self, language: Language) -> String {
-        let day = self.document.date().unwrap_or_else(|| self.time.to_zoned(TimeZone::UTC).date());
+        let day = self.document.date().map(|day| date_text(language, day));
+        let gyro = [self.gyro_name(language)].into_iter().chain(day).collect::<Vec<_>>().join(", ");
         let sha256 = self.currents.1.get(..NAMED_DIGITS).unwrap_or(&self.currents.1);
-        texts::NAME.filled(language, values! { gyro: self.gyro_name(language), day: date_text(language, day), sha256 })
+        texts::NAME.filled(language, values! { gyro, sha256 })
     }
 
     fn verified(&self) -> bool {

@@ -4,7 +4,7 @@ use super::texts;
 
 texts! {
     TITLE { en: "Calibration of a dynamically tuned gyro", ru: "Калибровка динамически настраиваемого гироскопа" }
-    NAME { en: "{gyro}, {day}, currents {sha256}", ru: "{gyro}, {day}, токи {sha256}" }
+    NAME { en: "{gyro}, currents {sha256}", ru: "{gyro}, токи {sha256}" }
     GYRO_NOT_STATED { en: "Type and serial number not stated", ru: "Тип и номер не указаны" }
     SUBTITLE {
         en: "Scale factors and drifts in case axes, determined from the torquer currents in the positions of a \
