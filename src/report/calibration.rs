@@ -146,10 +146,9 @@ pub(crate) fn line(file: &str, done: &Done, trials: Option<&MonteCarlo>, gyro_ty
     if calibration.hint.is_some() {
         out.push_str("; WARNING: the readings are not consistent with this stand; calibrate it by itself");
     }
-    if let Some(mistake) = &document.mistake {
-        let _ = write!(out, "; WARNING: {}", mistake::words(mistake, Language::English));
-    }
-    if let Some(words) = trials.and_then(not_linear) {
+    let mistake = document.mistake.iter().map(|mistake| mistake::words(mistake, Language::English));
+    let of_scatter = scatter(calibration).into_iter().filter(|(weight, _)| *weight == Weight::Warning);
+    for words in mistake.chain(of_scatter.map(|(_, words)| words)).chain(trials.and_then(not_linear)) {
         let _ = write!(out, "; WARNING: {words}");
     }
     out.push('\n');
