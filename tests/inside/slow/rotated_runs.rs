@@ -77,9 +77,9 @@ fn one_run_by_hand() {
     assert!((at.probability / 9.8458e-5 - 1.0).abs() < 0.01, "{at:?}");
     let words = &found.warnings[0];
     assert!(
-        words.starts_with("outlier: all positions of run 5 are rotated by +102.50, ")
-            && words.contains("arcsec about x, y, z of the platform relative")
-            && words.contains("by up to 20.50 arcsec")
+        words.starts_with("outlier: all positions of run 5 are rotated by +102.50″, ")
+            && words.contains("″ about x, y, z of the platform relative")
+            && words.contains("by up to 20.50″")
             && words.contains("--exclude 5"),
         "{words}"
     );

@@ -137,7 +137,7 @@ fn the_sentence_is_computed() {
         Budget::new(&setup, &readings, Method::LeastSquares, &Options::default()).unwrap()
     };
     let said = Dominant::of(&seat(30.0), Some(&GyroType::gvk_6().tolerance)).unwrap().sentence();
-    let due = "u(ω_0x) is 0.0029 °/h; nearly all of the variance comes from one source (gyro seat about z); to halve u, seat the gyro with an uncertainty of 14 arcsec about the spin axis";
+    let due = "u(ω_0x) is 0.0029 °/h; nearly all of the variance comes from one source (gyro seat about z); to halve u, seat the gyro with an uncertainty of 14″ about the spin axis";
     assert!(said == due || said == due.replace("0x", "0y"), "{said}");
     // Compared with their own size alone, the cross scale factors are the worst.
     let said = Dominant::of(&seat(30.0), None).unwrap().sentence();
