@@ -82,6 +82,14 @@ impl Calibration {
         each.into_iter().filter(|(noise, _)| noise.source == NoiseSource::NotStated).map(|(_, what)| what)
     }
 
+    /// Returns the standard uncertainty of ω_0 from the scatter of the turn-ons, °/h, if it is most of that of ω_0x or ω_0y.
+    pub(crate) fn mostly_from_turn_ons(&self) -> Option<f64> {
+        let answer = self.answer()?;
+        let u = self.turn_on_noise.deg_per_h / (answer.cycles.len().max(1) as f64).sqrt();
+        let most = |parameter| answer.standard_uncertainty(parameter).is_some_and(|whole| 2.0 * u * u > whole * whole);
+        (most(Parameter::Omega0x) || most(Parameter::Omega0y)).then_some(u)
+    }
+
     /// Returns the reason why no parameters are given, or `None` if the fit converged. Without convergence the
     /// parameters have no meaning.
     pub(crate) fn meaningless(&self) -> Option<String> {

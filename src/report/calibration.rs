@@ -80,14 +80,29 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
         let _ = writeln!(out);
         columns::paragraph(&mut out, "", &words);
         verdict_table(&mut out, verdict, "minus nominal");
+        if let Some(u_deg_per_h) = calibration.mostly_from_turn_ons() {
+            let words = format!(
+                "the scatter of the turn-ons contributes most of u of ω_0x and ω_0y: {} °/h; to reduce it, take more turn-ons.",
+                columns::two_digits(u_deg_per_h)
+            );
+            columns::paragraph(&mut out, "  ", &words);
+        }
     }
+    let least_certain = |parameter: Parameter| {
+        let row =
+            verdict.and_then(|(_, verdict)| verdict.parameters.iter().find(|row| row.parameter == parameter.key()));
+        let share = row.map(|row| 100.0 * row.expanded_uncertainty / row.tolerance);
+        share.map_or_else(String::new, |share| format!(": U is {} % of it", columns::two_digits(share)))
+    };
     if let Some((parameter, FurtherVisit { index, ratio })) = done.further {
         let (symbol, percent) = (parameter.symbol(), 100.0 * (1.0 - ratio));
         let effect = match percent < LEAST_EFFECT_PERCENT {
             true => format!("No single further visit would reduce it by {LEAST_EFFECT_PERCENT} %."),
             false => format!("A further visit to position {index} would reduce it most, by {percent:.0} %."),
         };
-        let words = format!("The uncertainty of {symbol} takes most of its tolerance. {effect}");
+        let of_tolerance = least_certain(parameter);
+        let words =
+            format!("Of all parameters {symbol} is the least certain for its tolerance{of_tolerance}. {effect}");
         columns::paragraph(&mut out, "  ", &words);
     }
     change(&mut out, done);

@@ -46,6 +46,12 @@ fn compared(page: &CalibrationPage, gyro: &GyroType, verdict: &Verdict, language
         (key(languages))
         @if page.fits() { (languages.paragraph(texts::RISK_NOTE)) }
         (from_gravity(page, verdict, languages))
+        @if let Some(u) = page.calibration.mostly_from_turn_ons() {
+            (languages.paragraph_with(|language| {
+                let u = quantity(&language.into(), &Number::uncertainty(u), units::DEG_PER_H);
+                texts::FROM_TURN_ONS.marked_up(language, &[("u", u)])
+            }))
+        }
     }
 }
 

@@ -256,6 +256,12 @@ texts! {
              ускорение свободного падения или указать высоту в файле места установки."
     }
     FROM_GRAVITY_PART { en: "{gravity} to U of {parameter}", ru: "{gravity} в U параметра {parameter}" }
+    FROM_TURN_ONS {
+        en: "The scatter of the turn-ons, {u}, is most of the standard uncertainty of ω_0x and ω_0y. To reduce it, take more \
+             turn-ons.",
+        ru: "Нестабильность от запуска к запуску, {u}, составляет большую часть стандартной неопределённости ω_0x и \
+             ω_0y. Для её уменьшения следует увеличить число запусков."
+    }
     DEVIATION { en: "Deviation", ru: "Отклонение" }
     CHANGED_BY { en: "Change", ru: "Изменение" }
     TOLERANCE { en: "Tolerance", ru: "Допуск" }
