@@ -115,14 +115,19 @@ pub(crate) fn line(found: &Certification, file: &str) -> String {
 pub(crate) fn certification(found: &Certification) -> String {
     let mut out = String::new();
     let (stand, runs) = (&found.stand, found.runs.len());
-    let words = format!(
-        "Certified {} {}: {} positions, {runs} runs. u: standard uncertainty (k = 1) of the mean, own part of the \
-         position.",
+    let warnings = match found.remarks.len() {
+        0 => "no warnings".to_owned(),
+        count => format!("warnings: {count} (at the end)"),
+    };
+    let _ = writeln!(
+        out,
+        "{}  {} {}: {} positions, {runs} runs; {warnings}",
+        style::marked(Some(true), "CERTIFIED"),
         stand.stand.model,
         stand.stand.serial,
         stand.positions.len()
     );
-    columns::paragraph(&mut out, "", &words);
+    columns::paragraph(&mut out, "", "u: standard uncertainty (k = 1) of the mean, own part of the position.");
     if found.repeated_rows > 0 {
         let _ = writeln!(out, "Rows averaged with another row of the same visit: {}.", found.repeated_rows);
     }

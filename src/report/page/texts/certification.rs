@@ -107,10 +107,10 @@ texts! {
         ru: "Стьюдента: за серии ({runs}) не выявлено ни смещения, ни дрейфа стенда (5 %)"
     }
     TESTS_NOTE {
-        en: "Probability of a result at least as extreme by chance. Below 5 % it is a straggler, below 1 % an \
-             outlier. The tests exclude nothing.",
-        ru: "Вероятность случайно получить столь же большое значение. Менее 5 % — квазивыброс, менее \
-             1 % — выброс. По критериям ничего не исключается."
+        en: "Probability of a result at least as extreme by chance. What a test names is a straggler below 5 %, an outlier \
+             below 1 %; Bartlett’s test names nothing. The tests exclude nothing.",
+        ru: "Вероятность случайно получить столь же большое значение. Названное по критерию — квазивыброс, если она менее \
+             5 %, и выброс, если менее 1 %; критерий Бартлетта ничего не называет. По критериям ничего не исключается."
     }
     WARNINGS { en: "Warnings of the program", ru: "Предупреждения программы" }
 
