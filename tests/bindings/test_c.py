@@ -311,7 +311,7 @@ def test_octave_and_matlab_functions(tmp_path: Path) -> None:
                 *np.ravel(result["standard_uncertainty"]["k_deg_per_h_per_ma"])])  # fmt: skip
     expected = ["refused", "option", "unusable", "option", "option", "unusable", "unusable", "unusable"]
     assert refused[:8] == [f"dtg:{identifier}" for identifier in expected]
-    assert re.fullmatch(r"exit code 1: \d+ m from moscow-bmstu; .*", refused[8])
+    assert re.fullmatch(r"exit code 1: \d+ km from moscow-bmstu; .*", refused[8])
     assert refused[9:11] == ["dtg:inconsistent", "dtg:mistake"] and "too small by a factor of 1000" in refused[11]
     general, drift = (json.loads(calibrated(tmp_path, *ORDERS[name])) for name in ("general", "drift"))
     [due], printed, absent, of_the_run, verdict, why = general["results"], *refused[12:]
