@@ -15,12 +15,22 @@ export interface Question {
 export interface Order {
     method?: "least-squares" | "analytic" | "iterative";
     model?: "paper" | "general";
+    /** Fit the anisoelastic coefficient too. */
+    anisoelasticity?: boolean;
     drift?: boolean;
     exclude?: { i: number; j: number; visit: number; cycle?: number; why: string }[];
     /** The keys of a file dtg-laboratory/1. */
     laboratory?: object;
     /** The keys of a file dtg-gyro/1. */
     gyro?: object;
+    gyro_serial?: string;
+    operator?: string;
+    /** Day of the readings, YYYY-MM-DD. */
+    date?: string;
+    /** Temperature during the readings, °C. */
+    temperature_c?: number;
+    /** Earlier results of the same gyro. */
+    previous?: Calibration[];
 }
 
 export interface Verdict {

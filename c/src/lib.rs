@@ -138,11 +138,13 @@ pub unsafe extern "C" fn dtg_position(
 /// Calibrates a gyro.
 ///
 /// `currents_csv` is the content of a CSV file with the columns i, j, jx_ma, jy_ma, and if present cycle, visit, time_s.
-/// `order_json` is NULL or JSON, `{"method": "least-squares", "model": "paper", "drift": false, "exclude": [{"i": 2, "j": 4,
-/// "visit": 1, "cycle": 3, "why": "door opened"}], "laboratory": {…}, "gyro": {…}}`; every key may be absent. `method` may
-/// also be "analytic" or "iterative", `model` "general". `laboratory` and `gyro` have the keys of the files
-/// dtg-laboratory/1 and dtg-gyro/1. Without a laboratory the uncertainties are those of the paper's meter, 0.015 % of the
-/// reading; without a gyro type there is no verdict.
+/// `order_json` is NULL or JSON, `{"method": "least-squares", "model": "paper", "anisoelasticity": false, "drift": false,
+/// "exclude": [{"i": 2, "j": 4, "visit": 1, "cycle": 3, "why": "door opened"}], "laboratory": {…}, "gyro": {…},
+/// "gyro_serial": "4711", "operator": "A. Ivanova", "date": "2026-11-20", "temperature_c": 21.5, "previous": [{…}]}`; every
+/// key may be absent. `method` may also be "analytic" or "iterative", `model` "general". `laboratory` and `gyro` have the
+/// keys of the files dtg-laboratory/1 and dtg-gyro/1. Without a laboratory the uncertainties are those of the paper's
+/// meter, 0.015 % of the reading; without a gyro type there is no verdict. `previous` are earlier results of the same
+/// gyro.
 ///
 /// `result_json`, unless NULL, receives a text to be freed with dtg_string_free: the JSON of the command `calibrate`,
 /// or `{"error": …}` as from dtg_load. Returns DTG_OK; DTG_REFUSED if the readings do not give a result; DTG_UNUSABLE if

@@ -6,8 +6,8 @@ function c = dtg_calibrate(passport, signers, currents, varargin)
 %                     'exclude', '2,4,1,3', 'why', 'door opened')
 %
 % currents has rows i, j, J_x, J_y, currents in mA, or is the path of a CSV file, which may also have cycle, visit and
-% time_s. Options are those of dtg_load, and laboratory, gyro, model, drift, exclude and why of `dtg-passport calibrate`;
-% without a laboratory the uncertainties are those of the paper's meter. c has K (deg/(h*mA)), omega_0 (deg/h), omega_g and
+% time_s. Options are those of dtg_load, and laboratory, gyro, model, anisoelasticity, drift, exclude, why, gyro-serial,
+% operator, date, temperature-c and previous (the path of an earlier result) of `dtg-passport calibrate`. Without a laboratory the uncertainties are those of the paper's meter. c has K (deg/(h*mA)), omega_0 (deg/h), omega_g and
 % omega_k (deg/h per local g) or in the general model G, u with their standard uncertainties, and document with everything
 % that `dtg-passport calibrate --format json` prints.
 %
@@ -28,7 +28,8 @@ function c = dtg_calibrate(passport, signers, currents, varargin)
         fprintf(id, '%.17g,%.17g,%.17g,%.17g\n', currents');
         fclose(id);
     end
-    known = {'serial', 'at', 'time', 'issuer', 'revoked', 'laboratory', 'gyro', 'model', 'drift', 'exclude', 'why'};
+    known = {'serial', 'at', 'time', 'issuer', 'revoked', 'laboratory', 'gyro', 'model', 'anisoelasticity', 'drift', ...
+             'exclude', 'why', 'gyro-serial', 'operator', 'date', 'temperature-c', 'previous'};
     fixed = {'--method=least-squares', ['--trust=', signers]};
     c.document = jsondecode(dtg_run('calibrate', fixed, varargin, known, {passport, file}));
     remarks = {};

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 import functools
 import json
 import os
@@ -262,8 +263,14 @@ class Passport(Frozen):
         gyro: File | None = None,
         method: str = "least-squares",
         model: str = "paper",
+        anisoelasticity: bool = False,
         drift: bool = False,
         exclude: Iterable[Mapping[str, Any]] = (),
+        gyro_serial: str | None = None,
+        operator: str | None = None,
+        date: datetime.date | str | None = None,
+        temperature_c: float | None = None,
+        previous: Iterable[Calibration | Mapping[str, Any]] = (),
     ) -> Calibration:
         """Calibrate a gyro from its currents in every position.
 
@@ -281,10 +288,18 @@ class Passport(Frozen):
         model
             Model of the g-sensitive drift: `paper`, or `general` for the full 2x3 matrix `G`; omega_g and omega_k are
             then NaN.
+        anisoelasticity
+            Whether to fit the anisoelastic coefficient too; the eight positions alone do not determine it.
         drift
             Whether to fit a linear drift of omega_0 in time; needs `time_s`.
         exclude
             Visits to leave out, with the keys `i`, `j`, `visit`, if needed `cycle`, and `why`, the reason.
+        gyro_serial, operator, date, temperature_c
+            Serial number of the gyro, name of the operator, day (`datetime.date` or `YYYY-MM-DD`) and temperature (°C)
+            of the readings; the result repeats them.
+        previous
+            Earlier results of the same gyro: a Calibration or its `document`. With `gyro`, `document["change"]` is the
+            change since the latest of them.
 
         Returns
         -------
@@ -308,7 +323,19 @@ class Passport(Frozen):
         >>> found.verdict["overall"]
         'undecided'
         """
-        order = {"method": method, "model": model, "drift": drift, "exclude": list(exclude)}
+        order = {
+            "method": method,
+            "model": model,
+            "anisoelasticity": anisoelasticity,
+            "drift": drift,
+            "exclude": list(exclude),
+            "gyro_serial": gyro_serial,
+            "operator": operator,
+            "date": date,
+            "temperature_c": temperature_c,
+            # A single document is refused as what it is, and not as a list of its keys.
+            "previous": previous if isinstance(previous, Mapping) else [getattr(each, "_document", each) for each in previous],
+        }
         inputs = (_csv(currents), json_text(order), documents(gyro, laboratory))
         text, covariance, remarks = self._content.calibrate(*inputs)
         for remark in remarks:

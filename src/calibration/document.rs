@@ -142,9 +142,28 @@ fn left_aside<'de, T, D: Deserializer<'de>>(deserializer: D) -> Result<Option<T>
 }
 
 impl Subject {
+    /// Returns a warning if the readings are from before the stand was measured for its `certificate`.
+    ///
+    /// # Errors
+    /// Refuses, in words, a day of the readings that had not begun at the time of the verification.
+    pub(crate) fn check_date(&self, certificate: &Certificate) -> Result<Option<String>, String> {
+        if let Some((date, time)) = self.day_after_verification() {
+            return Err(format!(
+                "the day of the readings, {date}, is later than the time of the verification, {time}; check the date"
+            ));
+        }
+        let early = self.day_before_certification(certificate);
+        Ok(early.map(|[date, performed]| {
+            format!(
+                "the day of the readings, {date}, is before the stand was measured for its certificate, {performed}; check \
+                 the date; nothing shows that the stand was then as it is certified"
+            )
+        }))
+    }
+
     /// Returns the day of the readings and the time of the verification if the day has not begun by then in any time zone,
     /// or `None` if it has, or if one of them is not stated.
-    pub(crate) fn day_after_verification(&self) -> Option<(Date, Timestamp)> {
+    fn day_after_verification(&self) -> Option<(Date, Timestamp)> {
         const LARGEST_OFFSET: SignedDuration = SignedDuration::from_hours(14);
         let (date, time) = self.date.zip(self.passport_verified_as_of)?;
         let latest = time.saturating_add(LARGEST_OFFSET).unwrap_or(Timestamp::MAX);
@@ -231,15 +250,20 @@ impl CalibrationDocument {
     /// Reads an earlier JSON result; `name` is the file name in messages.
     ///
     /// # Errors
-    /// Returns [`Unreadable`] with line and column if `bytes` is not such a result.
+    /// Returns [`Unreadable`] with line and column if `bytes` is not such a result, or contains no parameters.
     pub fn from_json(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        serde_json::from_slice(bytes).map_err(|error| {
+        const EXPECTED: &str = "the JSON result of an earlier calibration";
+        let read = serde_json::from_slice(bytes).map_err(|error| {
             // A line of JSON for one of several gyros begins with the name of its file.
             let advice = match bytes.trim_ascii_start().starts_with(b"{\"file\":") {
                 true => "these are the results of several gyros; `calibrate --out DIR` writes each of them to a file",
                 false => "create it with `calibrate --format json`",
             };
-            Unreadable::json(name, bytes, &error, "the JSON result of an earlier calibration", advice)
+            Unreadable::json(name, bytes, &error, EXPECTED, advice)
+        });
+        read.and_then(|document: Self| match document.results.is_empty() {
+            true => Err(Unreadable::whole(name, None, "no parameters", EXPECTED, "")),
+            false => Ok(document),
         })
     }
 

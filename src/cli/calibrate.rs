@@ -227,19 +227,9 @@ impl Bench<'_> {
 
     /// Refuses readings of a day that has not come, and warns of those from before the stand was measured.
     fn check_date(&self) -> Result<(), Failure> {
-        let subject = self.subject();
-        if let Some([date, performed]) = subject.day_before_certification(&self.passport.content.certificate) {
-            let words = "check the date; nothing shows that the stand was then as it is certified";
-            output::complain(&format!(
-                "WARNING: --date {date} is before the stand was measured for its certificate, {performed}; {words}"
-            ));
-        }
-        match subject.day_after_verification() {
-            None => Ok(()),
-            Some((date, time)) => Err(Failure::unusable(format!(
-                "--date {date} is later than the time of the verification, {time}; check the date"
-            ))),
-        }
+        let early = self.subject().check_date(&self.passport.content.certificate).map_err(Failure::unusable)?;
+        early.iter().for_each(|words| output::complain(&format!("WARNING: {words}")));
+        Ok(())
     }
 
     /// Calibrates the gyro whose currents are at `path`.
@@ -442,12 +432,8 @@ fn used<'a>(passport: &'a Read, verifier: Option<&'a Verifier>) -> Result<UsedPa
 
 /// Reads the previous results, from the earliest to the latest.
 fn previous(options: &Options) -> Result<Vec<CalibrationDocument>, Failure> {
-    let read = |path: &PathBuf| {
-        let expected = "the JSON result of an earlier calibration";
-        let document = inputs::document(path, expected, CalibrationDocument::from_json)?;
-        let empty = || Failure::unusable(format!("{}: contains no result", shown(path)));
-        document.answer().map(|_| document).ok_or_else(empty)
-    };
+    let expected = "the JSON result of an earlier calibration";
+    let read = |path: &PathBuf| inputs::document(path, expected, CalibrationDocument::from_json);
     let mut results = options.previous.iter().map(read).collect::<Result<Vec<_>, _>>()?;
     CalibrationDocument::sort(&mut results);
     Ok(results)

@@ -47,8 +47,8 @@ pub fn calibrate(
     currents: (&str, &[u8]),
     order: &Order,
 ) -> Result<Calibrated, Failed> {
-    let subject = Subject { passport_verified_as_of: verified_as_of, ..Subject::default() };
-    let done = prepared(content, currents, order)?.run(&order.options, subject, &[])?;
+    let subject = Subject { passport_verified_as_of: verified_as_of, ..order.subject.clone() };
+    let done = prepared(content, currents, order)?.run(&order.options, subject, &order.previous)?;
     // The document has an answer, so the calibration has one.
     let result = done.calibration.answer().ok_or_else(|| Failed::refused("no result"))?;
     let columns = Parameter::EIGHT.map(|parameter| result.model.column(parameter));
@@ -181,6 +181,7 @@ impl<'a> Prepared<'a> {
         previous: &[CalibrationDocument],
     ) -> Result<Done, Stopped> {
         let Self { content, laboratory, gyro_type, setup, mut missing, currents_sha256, readings } = self;
+        let early = subject.check_date(&content.certificate).map_err(Stopped::Unusable)?;
         let warning = TemperatureOutside::of(&content.certificate, &subject, Some(laboratory));
         let subject = Subject { currents_sha256, ..subject };
         if let Some([before, now]) = subject.another_gyro(previous) {
@@ -218,7 +219,9 @@ impl<'a> Prepared<'a> {
         let rate = content.earth.rate(&content.site);
         document.mistake = Mistake::explaining(&calibration, &found, &rate, gyro_type, &usual);
         document.remarks = remarks(&calibration, &readings, document.mistake.as_ref());
-        document.remarks.extend(readings.remark.iter().cloned().chain(warning.map(|warning| warning.to_string())));
+        document
+            .remarks
+            .extend(readings.remark.iter().cloned().chain(warning.map(|warning| warning.to_string())).chain(early));
         document.verdict = gyro_type.and_then(|gyro_type| document.judged(gyro_type));
         document.change = last.zip(gyro_type).and_then(|(earlier, gyro_type)| document.changed(earlier, gyro_type));
         let earlier = last.and_then(|earlier| Some((earlier.answer()?, document.no_change(earlier))));

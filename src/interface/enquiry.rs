@@ -135,11 +135,11 @@ impl Enquiry {
     }
 }
 
-/// Reads a name that a question asks for. An empty one would be a question that is left out.
-fn name(node: &Node, at: &Path, problems: &mut Problems) -> Option<String> {
+/// Reads a name that is asked for or stated. An empty one would ask or state nothing.
+pub(super) fn name(node: &Node, at: &Path, problems: &mut Problems) -> Option<String> {
     let name = String::read(node, at, problems)?;
     if name.trim().is_empty() {
-        problems.at(at, "empty text", "text", "leave the key out if it is not asked");
+        problems.at(at, "empty text", "text", "leave the key out otherwise");
         return None;
     }
     Some(name)

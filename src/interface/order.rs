@@ -1,22 +1,34 @@
 //! Orders of a calibration.
 
+use super::enquiry::name;
 use super::{Asked, Failed};
+use crate::calibration::document::Subject;
 use crate::calibration::readings::Exclusion;
-use crate::calibration::{Method, Model, Options};
+use crate::calibration::{CalibrationDocument, Method, Model, Options};
 use crate::gyro::GyroType;
-use crate::laboratory::Laboratory;
+use crate::laboratory::{Laboratory, TEMPERATURES_C};
 use crate::text::record::{Document, File};
 use crate::text::words::listed;
 use crate::text::{Field, Node, Path, Problems};
+use jiff::civil::Date;
+use serde::Deserialize;
+use serde_json::value::RawValue;
 use std::str::FromStr;
 
 /// Order of a calibration: the laboratory's meter and seat, the gyro type, and how to calibrate.
 ///
-/// It is read from JSON, `{method, model, drift, exclude: [{i, j, visit, cycle, why}], laboratory, gyro}`, in which every
-/// key may be absent: `method` is `least-squares` (the default), `analytic` or `iterative`; `model` of the g-sensitive
-/// drift is `paper` (the default) or `general`; `drift` is `true` to fit a linear drift of ω_0 in time; `exclude` are
-/// visits to leave out, each with its reason, and with its `cycle` if several have a visit of that number. `laboratory`
-/// and `gyro` have the keys of the files `dtg-laboratory/1` and `dtg-gyro/1`.
+/// It is read from JSON, `{method, model, anisoelasticity, drift, exclude: [{i, j, visit, cycle, why}], laboratory, gyro,
+/// gyro_serial, operator, date, temperature_c, previous}`, in which every key may be absent:
+///
+/// * `method` is `least-squares` (the default), `analytic` or `iterative`.
+/// * `model` of the g-sensitive drift is `paper` (the default) or `general`; `anisoelasticity` is `true` to fit the
+///   anisoelastic coefficient too, and `drift` is `true` to fit a linear drift of ω_0 in time.
+/// * `exclude` are visits to leave out, each with its reason, and with its `cycle` if several have a visit of that number.
+/// * `laboratory` and `gyro` have the keys of the files `dtg-laboratory/1` and `dtg-gyro/1`.
+/// * `gyro_serial`, `operator`, `date` (YYYY-MM-DD) and `temperature_c` (°C) say what was measured, by whom, when and at
+///   which temperature; the result repeats them.
+/// * `previous` are earlier results of the same gyro, as `calibrate` returned them. With `gyro`, the result has the change
+///   since the latest of them.
 ///
 /// ```
 /// use dtg_passport::interface::Order;
@@ -31,6 +43,8 @@ use std::str::FromStr;
 pub struct Order {
     pub(super) options: Options,
     pub(super) exclude: Vec<Exclusion>,
+    pub(super) subject: Subject,
+    pub(super) previous: Vec<CalibrationDocument>,
     /// Laboratory; by default that of the paper's meter.
     pub laboratory: Laboratory,
     /// Gyro type for the verdict, or `None` for no verdict.
@@ -42,19 +56,75 @@ impl FromStr for Order {
 
     fn from_str(text: &str) -> Result<Self, Failed> {
         let mut asked = Asked::new("order", text)?;
-        let order = Self {
+        let methods = vec![asked.key("method", Method::read).unwrap_or(Method::LeastSquares)];
+        let paper_or_general = asked.key("model", model).unwrap_or_default();
+        let anisoelastic = |node: &Node, at: &Path, problems: &mut Problems| {
+            let fitted = bool::read(node, at, problems)?;
+            if fitted && paper_or_general == Model::General {
+                problems.at(at, "true", "false with the general model, which does not have this coefficient", "");
+            }
+            Some(fitted)
+        };
+        let anisoelasticity = asked.key("anisoelasticity", anisoelastic).unwrap_or_default();
+        let mut order = Self {
             options: Options {
-                methods: vec![asked.key("method", Method::read).unwrap_or(Method::LeastSquares)],
-                model: asked.key("model", model).unwrap_or_default(),
+                methods,
+                model: if anisoelasticity { Model::Anisoelastic } else { paper_or_general },
                 drift: asked.key("drift", bool::read).unwrap_or_default(),
                 ..Options::default()
             },
             exclude: asked.key("exclude", Vec::read).unwrap_or_default(),
             laboratory: asked.key("laboratory", file(Laboratory::check)).unwrap_or_else(Laboratory::paper),
             gyro: asked.key("gyro", file(GyroType::check)),
+            subject: Subject {
+                gyro_serial: asked.key("gyro_serial", name),
+                operator: asked.key("operator", name),
+                date: asked.key("date", Date::read),
+                temperature_c: asked.key("temperature_c", temperature),
+                ..Subject::default()
+            },
+            previous: Vec::new(),
         };
-        asked.done().map(|()| order)
+        let earlier = asked.key("previous", list).is_some();
+        asked.done()?;
+        if earlier {
+            order.previous = previous(text)?;
+        }
+        Ok(order)
     }
+}
+
+/// Reads a temperature, °C; the limits are those of a laboratory file.
+fn temperature(node: &Node, at: &Path, problems: &mut Problems) -> Option<f64> {
+    let [low, high] = TEMPERATURES_C;
+    let celsius = f64::read(node, at, problems)?;
+    problems.within(at, Some(celsius), low, high);
+    Some(celsius)
+}
+
+/// Refuses earlier results that are no list.
+fn list(node: &Node, at: &Path, problems: &mut Problems) -> Option<()> {
+    if matches!(node, Node::List(_)) {
+        return Some(());
+    }
+    problems.at(at, node.describe(), "a list of results of `calibrate`", "");
+    None
+}
+
+/// Reads the earlier results in an order, from the earliest to the latest. Each is read from its own text, as a file is.
+fn previous(order: &str) -> Result<Vec<CalibrationDocument>, Failed> {
+    #[derive(Deserialize)]
+    struct Earlier<'a> {
+        #[serde(borrow)]
+        previous: Vec<&'a RawValue>,
+    }
+    let unusable = |error: serde_json::Error| Failed::unusable(format!("the order is not usable JSON: {error}"));
+    let each = serde_json::from_str::<Earlier>(order).map_err(unusable)?.previous;
+    let named = each.iter().enumerate().map(|(index, text)| (format!("previous[{index}]"), text.get().as_bytes()));
+    let read = named.map(|(name, text)| CalibrationDocument::from_json(&name, text));
+    let mut results: Vec<_> = read.collect::<Result<_, _>>()?;
+    CalibrationDocument::sort(&mut results);
+    Ok(results)
 }
 
 /// Reads a model. The anisoelastic one has the key of the paper's.
@@ -101,7 +171,13 @@ mod tests {
         assert_eq!(order.exclude, [excluded(2, 4, 1, Some(3), "door"), excluded(1, 1, 2, None, "a")]);
         assert_eq!((order.laboratory.meter.range_ma, order.laboratory.seating_arcsec.unwrap().about_z), (0.5, 10.0));
         assert_eq!(order.gyro, Some(GyroType { r#type: "T".to_owned(), ..GyroType::gvk_6() }));
-        let default: Order = r#"{"gyro": null}"#.parse().unwrap();
+        let of_gyro = r#"{"anisoelasticity": true, "gyro_serial": "4711", "operator": "A. B.", "date": "2026-11-19", "temperature_c": -5}"#;
+        let order: Order = of_gyro.parse().unwrap();
+        let Subject { gyro_serial, operator, date, temperature_c, .. } = order.subject;
+        assert_eq!((gyro_serial.as_deref(), operator.as_deref()), (Some("4711"), Some("A. B.")));
+        assert_eq!((date.unwrap().to_string(), temperature_c), ("2026-11-19".to_owned(), Some(-5.0)));
+        assert_eq!(order.options.model, Model::Anisoelastic);
+        let default: Order = r#"{"gyro": null, "previous": null}"#.parse().unwrap();
         assert_eq!((default.options.methods, default.laboratory), (vec![Method::LeastSquares], Laboratory::paper()));
     }
 
@@ -111,9 +187,18 @@ mod tests {
         let laboratory = |from: &str, to: &str| format!(r#"{{"laboratory": {}}}"#, LABORATORY.replacen(from, to, 1));
         let gyro = |from: &str, to: &str| format!(r#"{{"gyro": {}}}"#, GYRO.replacen(from, to, 1));
         for (text, words) in [
-            ("[]".to_owned(), "order: found a list of 0 items, expected a mapping with the keys method, model, drift"),
+            (
+                "[]".to_owned(),
+                "order: found a list of 0 items, expected a mapping with the keys method, model, anisoelasticity, drift",
+            ),
             ("{".to_owned(), "the order is not usable JSON"),
             (r#"{"drift": 1}"#.to_owned(), "drift: found 1, expected true or false"),
+            (
+                r#"{"model": "general", "anisoelasticity": true}"#.to_owned(),
+                "anisoelasticity: found true, expected false with the general model",
+            ),
+            (r#"{"temperature_c": -91}"#.to_owned(), "temperature_c: found -91"),
+            (r#"{"previous": {}}"#.to_owned(), "previous: found a mapping"),
             (r#"{"model": "anisoelastic"}"#.to_owned(), "expected \"paper\" or \"general\""),
             (
                 r#"{"method": "exact"}"#.to_owned(),

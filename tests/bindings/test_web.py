@@ -148,7 +148,7 @@ TYPED = """
     const passport = new Uint8Array();
     const question: Question = { serial: "0017", time: new Date(), at: [55.766, 37.685], revoked: [passport, "text"] };
     const visit = { i: 2, j: 4, visit: 1, why: "door opened" };
-    const order: Order = { method: "least-squares", model: "general", drift: true, exclude: [visit], laboratory: {}, gyro: {} };
+    const order: Order = { method: "least-squares", model: "general", drift: true, exclude: [visit], laboratory: {}, gyro: {}, date: "2026-11-19" };
     const { valid, checks } = await verify(passport, "signers", question);
     const found = await calibrate(passport.buffer, passport, "i,j,jx_ma,jy_ma", question, order);
     const said: string[] = [...(found.remarks ?? []), await print(passport, "signers"), ...checks.map(({ code }) => code)];
