@@ -11,7 +11,7 @@ use serde::Serialize;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use terminal_size::Width;
+use terminal_size::{Height, Width, terminal_size_of};
 
 /// The form of a result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -52,18 +52,24 @@ pub(super) fn path_of(format: &'static str) -> impl TypedValueParser<Value = Pat
     })
 }
 
-/// Writes a result for people; in a terminal no line is wider than the terminal.
+/// Returns the columns of a terminal or, where there is none, those that the user sets in `COLUMNS`.
+fn columns_of(terminal: Option<(Width, Height)>) -> Option<usize> {
+    let wish = || std::env::var("COLUMNS").ok()?.parse().ok().filter(|columns| *columns > 0);
+    terminal.map(|(Width(columns), _)| columns.into()).or_else(wish)
+}
+
+/// Writes a result for people; no line is wider than the terminal or `COLUMNS`.
 pub(super) fn text(text: &str) -> Result<(), Failure> {
-    match terminal_size::terminal_size_of(io::stdout()) {
+    match columns_of(terminal_size_of(io::stdout())) {
         Some(_) => result(&columns::fitted(text, columns::width())),
         None => result(text),
     }
 }
 
-/// Makes the texts for people as wide as the terminal, if standard output is one.
+/// Makes the texts for people as wide as the terminal or `COLUMNS`.
 pub(super) fn fit_to_terminal() {
-    if let Some((Width(width), _)) = terminal_size::terminal_size_of(io::stdout()) {
-        columns::set_width(width.into());
+    if let Some(columns) = columns_of(terminal_size_of(io::stdout())) {
+        columns::set_width(columns);
     }
 }
 
@@ -138,8 +144,8 @@ pub(super) fn usage(words: &str) {
 pub(super) fn complain(words: &str) {
     let lines: Vec<String> = words.trim_end().split('\n').map(printable).collect();
     let text = format!("{NAME}{}\n", lines.join(&format!("\n{:1$}", "", NAME.len())));
-    let text = match terminal_size::terminal_size_of(io::stderr()) {
-        Some((Width(width), _)) => columns::hanging(&text, NAME.len(), width.into()),
+    let text = match columns_of(terminal_size_of(io::stderr())) {
+        Some(columns) => columns::hanging(&text, NAME.len(), columns),
         None => text,
     };
     let _ = io::stderr().lock().write_all(text.as_bytes());

@@ -1,4 +1,5 @@
-//! Text in columns that fits the terminal. Where there is none, lines have at most 100 characters.
+//! Text in columns that fits the terminal. Where there is none, lines have at most 100 characters. In a wider one, tables
+//! use the width that they need, and sentences still have at most 100 characters.
 
 use super::page::number::{THIN_BLANK, superscripts};
 use super::style;
@@ -7,7 +8,7 @@ use crate::text::printable;
 use std::fmt::Write;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Width of a paragraph; longer lines are hard to read.
+/// Largest width of sentences, in however wide a terminal, because longer lines are hard to read; clap wraps help there too.
 const TEXT_COLUMNS: usize = 100;
 
 /// Width of a terminal on which nothing is made narrower still.
@@ -35,7 +36,10 @@ pub(crate) fn paragraph(out: &mut String, indent: &str, words: &str) {
 /// Appends a name padded to `name_columns` and its value. Further lines of the value align with its beginning.
 pub(crate) fn named(out: &mut String, name: &str, name_columns: usize, value: &str) {
     let _ = write!(out, "  {name:<name_columns$}");
-    wrapped(out, 2 + name_columns, 2 + name_columns, value, width().min(TEXT_COLUMNS));
+    let column = 2 + name_columns;
+    // In a wide terminal the value alone has the width of sentences.
+    let columns = if width() > TEXT_COLUMNS { width().min(column + TEXT_COLUMNS) } else { width() };
+    wrapped(out, column, column, value, columns);
 }
 
 /// Indent that a continued line keeps in any case, so that no text from elsewhere can look like a line of the program.
@@ -63,9 +67,10 @@ pub(crate) fn fitted(text: &str, columns: usize) -> String {
     out
 }
 
-/// Returns the text with every line broken that is wider than `columns`; lines continue `indent` characters from the
-/// left.
+/// Returns a message with every line broken that is wider than `columns` or a sentence; lines continue `indent` characters
+/// from the left.
 pub(crate) fn hanging(text: &str, indent: usize, columns: usize) -> String {
+    let columns = columns.min(TEXT_COLUMNS);
     let mut out = String::with_capacity(text.len());
     for line in text.lines() {
         let at = line.char_indices().nth(indent).map_or(line.len(), |(at, _)| at);

@@ -43,10 +43,35 @@ fn no_line_is_wider_than_100_columns() {
     let check = "certify docs/check.csv --against passports/SPS-2/0017/stand.yaml";
     let calibrate = format!("calibrate {} {CALIBRATE} {TRUST} --budget", SHOW[1]);
     for command_line in [&SHOW.join(" "), &certify, check, &calibrate] {
-        let piped = Command::new(program()).args(command_line.split(' ')).output().expect("the program runs");
+        let piped = Command::new(program()).args(command_line.split(' ')).env_remove("COLUMNS").output();
+        let piped = piped.expect("the program runs");
         let text = String::from_utf8(piped.stdout).expect("UTF-8");
         let widest = text.lines().max_by_key(|line| line.chars().count()).unwrap();
         assert!((60..=100).contains(&widest.chars().count()), "{command_line}: {widest}");
+    }
+}
+
+/// Expected: what a terminal of that width gets, of stdout and stderr; without a positive number, what a pipe gets.
+#[test]
+fn columns_are_those_of_the_variable_where_no_terminal_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let with = |columns: Option<&str>, command_line: &str| {
+        let mut piped = Command::new(program());
+        piped.args(command_line.split(' ')).env_remove("COLUMNS").envs(columns.map(|columns| ("COLUMNS", columns)));
+        let output = piped.output().expect("the program runs");
+        let text = String::from_utf8([output.stderr, output.stdout].concat()).expect("UTF-8");
+        text.lines().map(str::to_owned).collect::<Vec<_>>()
+    };
+    let refused = command_lines().pop().unwrap();
+    for command_line in [SHOW.join(" "), refused] {
+        for columns in [80, 160] {
+            let due = lines_at(columns, &command_line, folder.path());
+            assert_eq!(with(Some(&columns.to_string()), &command_line), due, "{columns}");
+        }
+        let due = with(None, &command_line);
+        for columns in ["", "0", "-80", "wide"] {
+            assert_eq!(with(Some(columns), &command_line), due, "{columns:?}");
+        }
     }
 }
 

@@ -186,7 +186,7 @@ impl Stage {
             .args(["-c", command])
             .current_dir(self.folder.path())
             .env_clear()
-            .envs([("PATH", path), ("LC_ALL", "C.UTF-8".into()), ("COLUMNS", "80".into())])
+            .envs([("PATH", path), ("LC_ALL", "C.UTF-8".into())])
             .stdin(Stdio::null())
             .output()
             .unwrap();
