@@ -26,11 +26,12 @@ pub(crate) fn width() -> usize {
     COLUMNS.load(Ordering::Relaxed)
 }
 
-/// Appends a paragraph with `indent` before every line.
+/// Appends a sentence or a paragraph after `indent`; further lines begin a hang further, so that each remark of several is
+/// seen to begin.
 pub(crate) fn paragraph(out: &mut String, indent: &str, words: &str) {
     out.push_str(indent);
     let indent = indent.chars().count();
-    wrapped(out, indent, indent, words, width().min(TEXT_COLUMNS));
+    wrapped(out, indent, indent + HANG, words, width().min(TEXT_COLUMNS));
 }
 
 /// Appends a name padded to `name_columns` and its value. Further lines of the value align with its beginning.
@@ -42,11 +43,12 @@ pub(crate) fn named(out: &mut String, name: &str, name_columns: usize, value: &s
     wrapped(out, column, column, value, columns);
 }
 
-/// Indent that a continued line keeps in any case, so that no text from elsewhere can look like a line of the program.
-const LEAST_INDENT: usize = 2;
+/// Indent of the further lines of a sentence, relative to its first. A continued line keeps it in any case, so that no text
+/// from elsewhere can look like a line of the program.
+const HANG: usize = 2;
 
-/// Returns the text with every line broken that is wider than `columns`. A line continues below its last column, or
-/// further left if a word needs the room.
+/// Returns the text with every line broken that is wider than `columns`. A line continues below its last column, a
+/// sentence as in [`paragraph`]; either further left if a word needs the room.
 pub(crate) fn fitted(text: &str, columns: usize) -> String {
     let mut out = String::with_capacity(text.len());
     for line in text.lines() {
@@ -56,12 +58,13 @@ pub(crate) fn fitted(text: &str, columns: usize) -> String {
         if indent + shown <= columns {
             out.push_str(line);
             out.push('\n');
-        } else if LEAST_INDENT + shown <= columns && at == indent {
+        } else if HANG + shown <= columns && at == indent {
             let _ = writeln!(out, "{:1$}{words}", "", columns - shown);
         } else {
             out.push_str(&line[..at]);
             let column = shown_columns(&line[..at]);
-            wrapped(&mut out, column, column.max(LEAST_INDENT), &line[at..], columns);
+            let hang = if at == indent { HANG } else { 0 };
+            wrapped(&mut out, column, (column + hang).max(HANG), &line[at..], columns);
         }
     }
     out
@@ -96,7 +99,7 @@ fn shown_columns(text: &str) -> usize {
 fn wrapped(out: &mut String, mut column: usize, indent: usize, words: &str, columns: usize) {
     for (index, word) in unbroken(words).iter().enumerate() {
         let width = shown_columns(word);
-        let below = indent.min(columns.saturating_sub(width).max(LEAST_INDENT));
+        let below = indent.min(columns.saturating_sub(width).max(HANG));
         if column + usize::from(index > 0) + width > columns && (index > 0 || below < column) {
             column = below;
             out.truncate(out.trim_end_matches(' ').len());
@@ -363,14 +366,15 @@ mod tests {
         assert_eq!(unbroken("U = 1.96 u = 0.022 °/h; a"), ["U = 1.96", "u = 0.022 °/h;", "a"]);
         let mut out = String::new();
         paragraph(&mut out, "", &format!("{}0.13 %", "word ".repeat(19)));
-        assert_eq!(out.lines().last(), Some("0.13 %"));
+        assert_eq!(out.lines().last(), Some("  0.13 %"));
     }
 
     #[test]
     fn nothing_is_wider_than_a_terminal() {
         let mut out = String::new();
         paragraph(&mut out, "  ", &"word ".repeat(100));
-        assert!(out.lines().all(|line| line.chars().count() <= TEXT_COLUMNS && line.starts_with("  ")));
+        assert!(out.lines().all(|line| line.chars().count() <= TEXT_COLUMNS));
+        assert!(out.starts_with("  w") && out.lines().skip(1).all(|line| line.starts_with("    w")));
     }
 
     #[test]
