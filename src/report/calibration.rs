@@ -4,6 +4,7 @@ use super::scatter::{Weight, scatter};
 use super::tolerance::{decided, factors, headline, overall, verdict_table};
 use super::uncertainty::not_linear;
 use crate::calibration::diagnosis::INCONSISTENT;
+use crate::calibration::document::Subject;
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::mistake::Mistake;
 use crate::calibration::parameter::Parameter;
@@ -42,7 +43,11 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
     if let Some((name, verdict)) = verdict {
         let _ = writeln!(out, "{}  {}", overall(verdict, 0), headline(name, verdict));
     }
-    let verified_as_of = document.subject.as_ref().and_then(|subject| subject.passport_verified_as_of);
+    let subject = document.subject.as_ref();
+    if let Some(gyro) = subject.and_then(gyro) {
+        columns::paragraph(&mut out, "", &gyro);
+    }
+    let verified_as_of = subject.and_then(|subject| subject.passport_verified_as_of);
     let state = verified_as_of.map_or_else(|| "NOT VERIFIED".to_owned(), |time| format!("verified as of {time}"));
     columns::paragraph(&mut out, "", &format!("Calibrated with passport {} ({state})", document.passport_id));
     let gravity = match (document.gravity_m_per_s2, document.gravity_u_m_per_s2) {
@@ -109,6 +114,16 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
     let _ = writeln!(out);
     columns::paragraph(&mut out, "", texts::CANNOT_TELL.of(Language::English));
     out
+}
+
+/// Returns the serial number of the gyro and the day of the readings, as far as they were stated.
+fn gyro(Subject { gyro_serial, date, .. }: &Subject) -> Option<String> {
+    let serial = gyro_serial.as_ref().map(|serial| format!("Gyro {}", printable(serial)));
+    match (serial, date) {
+        (Some(gyro), Some(day)) => Some(format!("{gyro}, measured on {day}")),
+        (None, Some(day)) => Some(format!("Measured on {day}")),
+        (gyro, None) => gyro,
+    }
 }
 
 /// Returns what makes the parameters or their uncertainties unusable, a sentence each.
