@@ -93,7 +93,7 @@ impl Read {
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let reader = options.whom.reader()?;
-    let table = |read: &Read| passport_table::text(&read.content, read.verification.is_some());
+    let table = |read: &Read| passport_table::text(&read.content, read.verification.as_ref());
     if let Some(path) = paths::one_file(&options.passports) {
         let read = reader.read(path)?;
         return options.format.write(|| read.for_programs(), || table(&read)).map(|()| 0);

@@ -1,9 +1,9 @@
 //! Passport in a terminal: aligned tables, units in the headings.
 
 use crate::calibration::parameter::Parameter;
-use crate::passport::Content;
 use crate::passport::content::Rows;
-use crate::report::{columns, deviations, style};
+use crate::passport::{Content, Verification};
+use crate::report::{columns, deviations, style, verdict};
 use crate::stand::{Evidence, TypeB};
 use crate::text::number::decimal;
 use crate::units::printed;
@@ -12,15 +12,18 @@ use std::fmt::{Display, Write};
 /// Width of the names on the left, in characters.
 const NAME_COLUMNS: usize = 26;
 
-/// Returns the whole passport as tables. The first line states `verified`.
-pub(crate) fn text(content: &Content, verified: bool) -> String {
+/// Returns the whole passport as tables, after the answer of `verification`; `None` if it was not verified.
+pub(crate) fn text(content: &Content, verification: Option<&Verification>) -> String {
     let mut out = String::new();
     let header = &content.passport;
-    let state = match verified {
-        true => style::marked(Some(true), "verified"),
-        false => style::marked(None, &style::bad("NOT VERIFIED")),
+    let answer = match verification {
+        Some(verification) => verdict::answer(verification.valid()),
+        None => style::marked(None, &style::bad("NOT VERIFIED")),
     };
-    let _ = writeln!(out, "{}  ({state})", style::heading(&format!("Passport {}", header.id)));
+    let _ = writeln!(out, "{answer}  {}", style::heading(&header.id));
+    if let Some(verification) = verification {
+        let _ = writeln!(out, "  {}", verdict::counts(verification.checks()));
+    }
     line(&mut out, "issued", format!("{} by {}", header.issued_at, header.issuer));
     option(&mut out, "program", header.issued_with.as_ref());
     option(&mut out, "valid until", header.valid_until.as_ref());

@@ -2,7 +2,7 @@
 
 use super::style;
 pub(crate) use crate::interface::Verdict;
-use crate::passport::CheckName;
+use crate::passport::{Check, CheckName};
 use crate::text::Printable;
 use std::fmt::Write;
 
@@ -13,10 +13,10 @@ const ON_REQUEST: [CheckName; 4] = [CheckName::Issuer, CheckName::Stand, CheckNa
 pub(crate) fn text(verdicts: &[Verdict]) -> String {
     let mut text = String::new();
     for verdict in verdicts {
-        let answer = style::marked(Some(verdict.valid), if verdict.valid { "VALID" } else { "REFUSED" });
+        let answer = answer(verdict.valid);
         let id = verdict.id.as_deref().unwrap_or("(id not verified)");
         let _ = writeln!(text, "{answer}  {id}  {}", Printable(&verdict.file));
-        let _ = writeln!(text, "  {}", counts(verdict));
+        let _ = writeln!(text, "  {}", counts(&verdict.checks));
         for check in &verdict.checks {
             let (passed, word) = match check.passed() {
                 Some(true) if !check.was_asked() => (None, "not asked"),
@@ -32,12 +32,17 @@ pub(crate) fn text(verdicts: &[Verdict]) -> String {
     text
 }
 
+/// Returns the answer in a word.
+pub(crate) fn answer(valid: bool) -> String {
+    style::marked(Some(valid), if valid { "VALID" } else { "REFUSED" })
+}
+
 /// Returns how many checks were made, how many were not run, and which were not asked for.
-fn counts(verdict: &Verdict) -> String {
-    let checked = verdict.checks.iter().filter(|check| check.was_asked() && check.passed().is_some()).count();
-    let not_run = verdict.checks.iter().filter(|check| check.passed().is_none()).count();
-    let idle = verdict.checks.iter().filter(|check| !check.was_asked()).map(|check| check.name);
-    let absent = ON_REQUEST.into_iter().filter(|name| verdict.checks.iter().all(|check| check.name != *name));
+pub(crate) fn counts(checks: &[Check]) -> String {
+    let checked = checks.iter().filter(|check| check.was_asked() && check.passed().is_some()).count();
+    let not_run = checks.iter().filter(|check| check.passed().is_none()).count();
+    let idle = checks.iter().filter(|check| !check.was_asked()).map(|check| check.name);
+    let absent = ON_REQUEST.into_iter().filter(|name| checks.iter().all(|check| check.name != *name));
     let not_asked: Vec<&str> = idle.chain(absent).map(CheckName::as_str).collect();
     let mut words = format!("{checked} checked");
     if not_run > 0 {

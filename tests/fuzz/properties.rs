@@ -197,7 +197,7 @@ fn content(bytes: &[u8]) -> bool {
     assert_eq!(rule::differs(payload, &written(&content)), None);
     let written = annotations::payload(&content);
     assert_eq!(read::content("written", &written).as_ref(), Ok(&content));
-    assert!(!passport_table::text(&content, false).is_empty());
+    assert!(!passport_table::text(&content, None).is_empty());
     let _ = content.coefficients();
     true
 }
