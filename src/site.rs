@@ -9,6 +9,8 @@ use crate::earth::{self, LaplaceCorrection, Place};
 use crate::text::record::Document;
 use crate::text::scalar::Identifier;
 use crate::text::{Path, Problems, number, record};
+#[cfg(feature = "report")]
+use crate::units::radians_from_arcseconds;
 use crate::units::{ARCSECONDS_PER_DEGREE, sin_cos_of_degrees};
 
 /// Standard uncertainty of a deflection component that is unknown and taken as 0, arcsec.
@@ -144,6 +146,14 @@ impl Earth {
             frame_axis_azimuth_deg: site.frame_axis_azimuth_deg(),
         }
     }
+
+    /// Returns the standard uncertainties of ω_Γ and ω_B at `site`, °/h. They come from the latitude alone, by which the
+    /// derivative of one component is the other one; the Earth rate is known.
+    #[cfg(feature = "report")]
+    pub(crate) fn rate_u_deg_per_h(&self, site: &Site) -> [f64; 2] {
+        let latitude_u = radians_from_arcseconds(site.astronomic_latitude_u_arcsec());
+        [self.vertical_deg_per_h, self.horizontal_deg_per_h].map(|slope| slope.abs() * latitude_u)
+    }
 }
 
 impl Site {
@@ -167,6 +177,13 @@ impl Site {
             (Some(_), None) => Some(UNKNOWN_DEFLECTION_U_ARCSEC),
             (None, _) => Some(0.0),
         }
+    }
+
+    /// Returns the standard uncertainty of the astronomic latitude, as far as it is stated.
+    #[cfg(feature = "report")]
+    pub(crate) fn astronomic_latitude_u_arcsec(&self) -> f64 {
+        let latitude_u = self.uncertainty.as_ref().and_then(|base| base.latitude_arcsec);
+        libm::hypot(latitude_u.unwrap_or(0.0), self.deflection_u_arcsec().unwrap_or(0.0))
     }
 
     /// Checks the content of a site. The rules of [`Site::check_consistency`] are separate because they apply only to

@@ -6,7 +6,7 @@ use crate::certification::components::{Common, Variance};
 use crate::certification::rotated_runs::{FEWEST_RUNS, FEWEST_RUNS_OF_A_MOVE, Pattern, RotatedRuns};
 use crate::certification::suspects::{AXES, OUTLIER};
 use crate::certification::{Certification, NotCertified};
-use crate::report::{columns, style};
+use crate::report::{columns, deviations, style};
 use crate::text::record::File;
 use crate::text::{Field, Node, Printable};
 use serde_json::{Value, json};
@@ -134,16 +134,11 @@ pub(crate) fn certification(found: &Certification) -> String {
     for excluded in stand.certificate.evidence.iter().filter_map(|evidence| evidence.excluded.as_ref()).flatten() {
         columns::paragraph(&mut out, "", &format!("Excluded: {}: {}.", excluded.describe(), excluded.why));
     }
-    let names = ["i", "j", "α, ″", "u", "β, ″", "u", "γ, ″", "u", "deg. of freedom"];
-    let rows = stand.positions.iter().map(|at| {
-        let mut row = vec![at.i.to_string(), at.j.to_string()];
-        for (value, u) in at.angles_arcsec().into_iter().zip(at.u_arcsec()) {
-            let u = u.unwrap_or(0.0);
-            let digits = columns::decimals(u);
-            row.extend([format!("{value:.digits$}"), format!("{u:.digits$}")]);
-        }
-        row.push(columns::degrees_of_freedom(at.degrees_of_freedom.unwrap_or(f64::INFINITY)));
-        row
+    let (headings, deviations) = deviations::columns(&stand.positions);
+    let names = [&["i", "j"], headings.as_slice(), &["deg. of freedom"]].concat();
+    let rows = stand.positions.iter().zip(deviations).map(|(at, deviations)| {
+        let freedom = columns::degrees_of_freedom(at.degrees_of_freedom.unwrap_or(f64::INFINITY));
+        [vec![at.i.to_string(), at.j.to_string()], deviations, vec![freedom]].concat()
     });
     let _ = writeln!(out);
     columns::table(&mut out, &names, rows);

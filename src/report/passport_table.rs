@@ -103,18 +103,17 @@ fn stand(out: &mut String, content: &Content) {
 }
 
 fn positions(out: &mut String, content: &Content) {
-    heading(out, "Positions: nominal angles in degrees; deviations and their standard uncertainties in arcseconds");
-    let mut names = vec!["i", "j", "θ", "φ", "α", "u", "β", "u", "γ", "u"];
+    heading(out, "Positions: nominal angles, deviations and their standard uncertainties");
+    let (headings, deviations) = deviations::columns(&content.positions);
+    let mut names = vec!["i", "j", "θ, °", "φ, °"];
+    names.extend(headings);
     let with_freedom = content.positions.iter().any(|at| at.degrees_of_freedom.is_some());
     if with_freedom {
         names.push("deg. of freedom");
     }
-    let maybe = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), decimal);
-    let rows = content.positions.iter().map(|at| {
+    let rows = content.positions.iter().zip(deviations).map(|(at, deviations)| {
         let mut row = vec![at.i.to_string(), at.j.to_string(), decimal(at.theta_deg), decimal(at.phi_deg)];
-        for (angle, u) in at.angles_arcsec().into_iter().zip(at.u_arcsec()) {
-            row.extend([decimal(angle), maybe(u)]);
-        }
+        row.extend(deviations);
         if with_freedom {
             row.push(at.degrees_of_freedom.map_or_else(|| "-".to_owned(), columns::degrees_of_freedom));
         }
@@ -168,8 +167,10 @@ fn site(out: &mut String, content: &Content) {
     option(out, "source", site.source.as_ref());
     heading(out, "Earth at the site");
     line(out, "astronomic latitude, °", earth.latitude_deg);
-    line(out, "horizontal rate, °/h", format!("{:.9}", earth.horizontal_deg_per_h));
-    line(out, "vertical rate, °/h", format!("{:.9}", earth.vertical_deg_per_h));
+    let rates = [("horizontal", earth.horizontal_deg_per_h), ("vertical", earth.vertical_deg_per_h)];
+    for ((name, rate), u) in rates.into_iter().zip(earth.rate_u_deg_per_h(site)) {
+        line(out, &format!("{name} rate, °/h"), measured(rate, Some(u).filter(|u| *u > 0.0)));
+    }
     line(out, "gravity, m/s²", measured(earth.gravity_m_per_s2, site.gravity_u_m_per_s2()));
     let radius = format!("{:.0} (Earth rate within {} °/h)", earth.valid_radius_m, earth.valid_within_deg_per_h);
     line(out, "validity radius, m", radius);

@@ -13,7 +13,7 @@ use crate::report::picture::history::LETTERS;
 use crate::report::picture::{place as map, positions as picture};
 use crate::site::{Earth, Site};
 use crate::stand::{ActsOn, Certificate, CertifiedPosition, Datum, Excluded, TypeB};
-use crate::units::{ARCSECONDS_PER_DEGREE, radians_from_arcseconds};
+use crate::units::ARCSECONDS_PER_DEGREE;
 use maud::{Markup, html};
 
 pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
@@ -212,11 +212,7 @@ fn mark(site: &Site, languages: &Languages) -> Markup {
 }
 
 fn the_earth(site: &Site, earth: &Earth, languages: &Languages) -> Markup {
-    let latitude_u = site.uncertainty.as_ref().and_then(|base| base.latitude_arcsec);
-    let latitude_u = libm::hypot(latitude_u.unwrap_or(0.0), site.deflection_u_arcsec().unwrap_or(0.0));
-    // The derivative of one component by the latitude is the other one; the Earth rate is known.
-    let rate = |value: f64, slope: f64| {
-        let u = slope.abs() * radians_from_arcseconds(latitude_u);
+    let rate = |value: f64, u: f64| {
         let number = if u > 0.0 { Number::measured(value, u) } else { Number::fixed(value, 9) };
         quantity(languages, &number, units::DEG_PER_H)
     };
@@ -232,13 +228,13 @@ fn the_earth(site: &Site, earth: &Earth, languages: &Languages) -> Markup {
             (angle(azimuth, None, languages)) ", " (symbol("u", "")) " " (not_stated(languages))
         },
     });
-    let latitude = angle(earth.latitude_deg, Some(latitude_u), languages);
-    let [horizontal, vertical] = [earth.horizontal_deg_per_h, earth.vertical_deg_per_h];
+    let latitude = angle(earth.latitude_deg, Some(site.astronomic_latitude_u_arcsec()), languages);
+    let [horizontal_u, vertical_u] = earth.rate_u_deg_per_h(site);
     fields([
         stated(languages, texts::EARTH_RATE, Some(rate(earth.rate_deg_per_h, 0.0))),
         stated(languages, texts::EARTH_LATITUDE, Some(latitude)),
-        stated(languages, texts::HORIZONTAL, Some(rate(horizontal, vertical))),
-        stated(languages, texts::VERTICAL, Some(rate(vertical, horizontal))),
+        stated(languages, texts::HORIZONTAL, Some(rate(earth.horizontal_deg_per_h, horizontal_u))),
+        stated(languages, texts::VERTICAL, Some(rate(earth.vertical_deg_per_h, vertical_u))),
         stated(languages, texts::GRAVITY, Some(gravity(earth.gravity_m_per_s2, u, languages))),
         stated(languages, texts::RADIUS, Some(radius)),
         stated(languages, texts::RADIUS_WITHIN, Some(within)),
