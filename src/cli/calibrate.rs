@@ -238,14 +238,13 @@ impl Bench<'_> {
         let bytes = inputs::bytes(path, Kind::Currents.words())?;
         let name = name_of(path);
         let prepared = Prepared::new(content, &self.laboratory, self.gyro_type.as_ref(), (&name, &bytes));
-        let mut prepared = prepared.map_err(Failure::stopped)?;
+        let mut prepared = prepared?;
         exclude(options, &mut prepared.readings)?;
         if let Some(remark) = &prepared.readings.remark {
             output::say(remark);
         }
         let asked = options.asked();
-        let done = prepared.run(&asked, self.subject(), &self.previous);
-        let done = done.map_err(Failure::stopped)?;
+        let done = prepared.run(&asked, self.subject(), &self.previous)?;
         let tolerance = self.gyro_type.as_ref().map(|gyro_type| &gyro_type.tolerance);
         let asked = (&asked, tolerance);
         let uncertainty = options.uncertainty.find(&done.setup, &done.readings, &done.calibration, asked)?;

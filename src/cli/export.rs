@@ -10,6 +10,7 @@ use crate::batch::{Purpose, paths};
 use crate::dcc;
 use crate::document::sha256_hex;
 use crate::files::{self, FileError};
+use crate::interface::Failed;
 use crate::parallel;
 use crate::passport::export::{site_file, stand_file};
 use crate::passport::verification::unreadable;
@@ -122,7 +123,7 @@ impl Run<'_> {
     /// Reports the failure of one passport; the others are exported nevertheless. With `has_line`, the line of the passport,
     /// with its checks, is already on standard output.
     fn failed(&mut self, file: String, failure: Failure, has_line: bool) -> Result<(), Failure> {
-        output::complain(&failure.message);
+        output::complain(&failure.failed.message);
         self.code = self.code.max(failure.code);
         match self.options.format {
             Format::Json if !has_line => inputs::json_line(&Each::<Value>::Refused { file, refusal: failure.failed }),
@@ -220,8 +221,9 @@ impl Run<'_> {
         files: Result<&Vec<(PathBuf, String)>, &Unreadable>,
     ) -> Result<Vec<(PathBuf, String)>, Failure> {
         let files = files.map_err(|error| {
-            let words = format!("nothing was exported from {}\n{}", shown(path), error.with_lines(""));
-            Failure { message: words, code: REFUSED, ..Failure::unreadable(error.clone()) }
+            let mut failed = Failed::from(error.clone());
+            failed.message = format!("nothing was exported from {}\n{}", shown(path), failed.message);
+            Failure { failed, code: REFUSED }
         })?;
         let mut new = Vec::new();
         for (target, text) in files {
@@ -238,8 +240,8 @@ impl Run<'_> {
                 }
                 None if !self.options.force && target.symlink_metadata().is_ok() => {
                     let error = FileError::Exists { path: target.clone(), replaceable: true };
-                    let words = format!("{error}; nothing was exported from {}", shown(path));
-                    return Err(Failure { message: words, ..Failure::file(error) });
+                    let advice = format!("nothing was exported from {}", shown(path));
+                    return Err(Failure::file(error).with_advice(&advice));
                 }
                 None => new.push((target.clone(), text.clone())),
             }

@@ -1,9 +1,9 @@
-//! Failure of a verb: a message and an exit code for people, and the same as JSON for programs.
+//! Failure of a verb: the message and an exit code for people, and the same as JSON for programs.
 
 use super::{Code, REFUSED, UNUSABLE, output};
 use crate::files::FileError;
 use crate::folder::Folder;
-use crate::interface::{self, Failed, Place, Stopped};
+use crate::interface::{self, Failed, Place};
 use crate::passport::{Check, Verification};
 use crate::report::{issued, style, verdict};
 use crate::text::{Unreadable, name_of, shown};
@@ -16,42 +16,39 @@ const USAGE: &str = "usage";
 const IN_A_WORKSPACE: &str =
     "identifiers of passports have a meaning only in a workspace; name it with --workspace, or give the file";
 
-/// A failure that ends a verb at once: a message and an exit code.
+/// A failure that ends a verb at once, and its exit code.
 #[derive(Debug)]
 pub(super) struct Failure {
-    /// Message for people, with the lines of the files concerned.
-    pub message: String,
+    pub failed: Failed,
     /// Exit code.
     pub code: Code,
-    /// The failure as programs read it, without those lines.
-    pub failed: Failed,
+}
+
+impl From<Failed> for Failure {
+    fn from(failed: Failed) -> Self {
+        let code = if matches!(failed.code, interface::REFUSED | interface::EXISTS) { REFUSED } else { UNUSABLE };
+        Self { failed, code }
+    }
 }
 
 impl Failure {
-    fn new(message: String, code: Code, kind: &'static str, problems: Vec<Place>) -> Self {
-        let failed = Failed::new(kind, message.trim_end().to_owned(), problems);
-        Self { message, code, failed }
-    }
-
     pub(super) fn refused(error: impl std::fmt::Display) -> Self {
-        Self::new(error.to_string(), REFUSED, interface::REFUSED, Vec::new())
+        Failed::refused(error).into()
     }
 
     pub(super) fn unusable(error: impl std::fmt::Display) -> Self {
-        Self::new(error.to_string(), UNUSABLE, interface::UNUSABLE, Vec::new())
+        Failed::unusable(error).into()
     }
 
     /// Creates the failure for arguments that cannot be used.
     pub(super) fn usage(error: impl std::fmt::Display) -> Self {
-        Self::new(error.to_string(), UNUSABLE, USAGE, Vec::new())
+        Failed::new(USAGE, error.to_string(), Vec::new()).into()
     }
 
     /// Converts an error of a file: an existing file is a refusal, any other error is not.
     pub(super) fn file(error: FileError) -> Self {
         let is_id = Folder::new("").path_of_id(&error.path().to_string_lossy()).is_some() && error.is_unlike_any();
-        let failed = Failed::from(error);
-        let code = if failed.code == interface::EXISTS { REFUSED } else { UNUSABLE };
-        let failure = Self { message: failed.message.clone(), code, failed };
+        let failure = Self::from(Failed::from(error));
         if is_id { failure.with_advice(IN_A_WORKSPACE) } else { failure }
     }
 
@@ -66,12 +63,11 @@ impl Failure {
         if as_json {
             output::failure(self);
         }
-        output::complain(&self.message);
+        output::complain(&self.failed.message);
         ExitCode::from(self.code)
     }
 
     pub(super) fn with_advice(mut self, advice: &str) -> Self {
-        self.message += &format!("; {advice}");
         self.failed.message += &format!("; {advice}");
         self
     }
@@ -80,21 +76,12 @@ impl Failure {
     pub(super) fn folder(path: &Path, expected: &str) -> Self {
         let message = format!("{}: is a folder, expected {expected}; name a file in it", shown(path));
         let problems = vec![Place::file(name_of(path), message.clone())];
-        Self::new(message, UNUSABLE, interface::UNREADABLE, problems)
+        Failed::new(interface::UNREADABLE, message, problems).into()
     }
 
     /// Creates the failure for a file with mistakes; the message includes their lines.
     pub(super) fn unreadable(error: Unreadable) -> Self {
-        let failed = Failed::new(interface::UNREADABLE, error.to_string().trim_end().to_owned(), Place::each(&error));
-        Self { message: error.with_lines(""), code: UNUSABLE, failed }
-    }
-
-    pub(super) fn stopped(stopped: Stopped) -> Self {
-        match stopped {
-            Stopped::Unreadable(error) => Self::unreadable(error),
-            Stopped::Unusable(why) => Self::unusable(why),
-            Stopped::Refused(why) => Self::refused(why),
-        }
+        Failed::from(error).into()
     }
 
     /// Creates the failure for the passport `name`, which did not pass every check; `words` precede its verdict.
@@ -104,6 +91,7 @@ impl Failure {
         let kind = failed.first().map_or(interface::REFUSED, |check| check.code.as_str());
         let place = |check: &&Check| Place::file(name.to_owned(), format!("{}: {}", check.name.as_str(), check.detail));
         let problems = failed.iter().map(place).collect();
-        Self::new(format!("{words}{}", style::plain(&verdict::text(&[verdict]))), REFUSED, kind, problems)
+        let words = format!("{words}{}", style::plain(&verdict::text(&[verdict])));
+        Self { failed: Failed::new(kind, words.trim_end().to_owned(), problems), code: REFUSED }
     }
 }

@@ -114,10 +114,10 @@ pub(super) fn each<T>(
 /// Reports the failure of an input, whose name the message states.
 fn refused<T>((file, failure): (String, Failure)) -> Each<T> {
     let name = Printable(&file).to_string();
-    if failure.message.contains(&name) {
-        output::complain(&failure.message);
+    if failure.failed.message.contains(&name) {
+        output::complain(&failure.failed.message);
     } else {
-        output::complain(&format!("{name}: {}", failure.message));
+        output::complain(&format!("{name}: {}", failure.failed.message));
     }
     Each::Refused { file, refusal: failure.failed }
 }

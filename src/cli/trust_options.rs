@@ -130,8 +130,7 @@ pub(super) fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Resu
     });
     let revoked = revoked.iter().map(|path| Ok((name_of(path), read(path).map_err(Failure::file)?)));
     let revoked = revoked.collect::<Result<Vec<_>, Failure>>()?;
-    let found = enquiry::trust((&name_of(signers), &keys?), &revoked, time);
-    let (trust, remarks) = found.map_err(Failure::stopped)?;
+    let (trust, remarks) = enquiry::trust((&name_of(signers), &keys?), &revoked, time)?;
     remarks.iter().for_each(|remark| output::complain(remark));
     Ok(trust)
 }

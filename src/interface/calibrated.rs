@@ -1,6 +1,6 @@
 //! Calibration with a passport: from currents as CSV to the JSON of `calibrate`.
 
-use super::{Failed, Order, Stopped, json};
+use super::{Failed, Order, json};
 #[cfg(not(feature = "report"))]
 use crate::calibration::diagnosis::INCONSISTENT;
 use crate::calibration::document::{NoChange, Subject};
@@ -58,10 +58,10 @@ pub fn calibrate(
 }
 
 /// Reads the currents, and leaves out the visits that `order` names.
-fn prepared<'a>(content: &'a Content, currents: (&str, &[u8]), order: &'a Order) -> Result<Prepared<'a>, Stopped> {
+fn prepared<'a>(content: &'a Content, currents: (&str, &[u8]), order: &'a Order) -> Result<Prepared<'a>, Failed> {
     let mut prepared = Prepared::new(content, &order.laboratory, order.gyro.as_ref(), currents)?;
     for exclusion in &order.exclude {
-        prepared.readings.exclude(exclusion.clone()).map_err(Stopped::Unusable)?;
+        prepared.readings.exclude(exclusion.clone()).map_err(Failed::unusable)?;
     }
     Ok(prepared)
 }
@@ -156,12 +156,12 @@ impl<'a> Prepared<'a> {
         laboratory: &'a Laboratory,
         gyro_type: Option<&'a GyroType>,
         (name, currents): (&str, &[u8]),
-    ) -> Result<Self, Stopped> {
+    ) -> Result<Self, Failed> {
         let stated = Setup::stated(&content.certificate, &content.positions, &content.site, laboratory);
-        let (setup, missing) = stated.map_err(|error| Stopped::Refused(error.to_string()))?;
+        let (setup, missing) = stated.map_err(Failed::refused)?;
         let setup = setup.of_gyro(gyro_type.and_then(|gyro_type| gyro_type.noise.as_ref()));
         if let Some(parameter) = gyro_type.and_then(without_nominal) {
-            return Err(Stopped::Refused(format!(
+            return Err(Failed::refused(format!(
                 "the gyro type has no tolerance of {}: it is in percent of the nominal value, which is 0; state a nominal \
                  value of k_deg_per_h_per_ma that is not 0, or calibrate without a gyro type",
                 parameter.symbol()
@@ -179,25 +179,25 @@ impl<'a> Prepared<'a> {
         options: &Options,
         subject: Subject,
         previous: &[CalibrationDocument],
-    ) -> Result<Done, Stopped> {
+    ) -> Result<Done, Failed> {
         let Self { content, laboratory, gyro_type, setup, mut missing, currents_sha256, readings } = self;
-        let early = subject.check_date(&content.certificate).map_err(Stopped::Unusable)?;
+        let early = subject.check_date(&content.certificate).map_err(Failed::unusable)?;
         let warning = TemperatureOutside::of(&content.certificate, &subject, Some(laboratory));
         let subject = Subject { currents_sha256, ..subject };
         if let Some([before, now]) = subject.another_gyro(previous) {
             let [before, now] = [before, now].map(printable::printable);
-            return Err(Stopped::Refused(format!("the previous result is that of gyro {before}, not of {now}")));
+            return Err(Failed::refused(format!("the previous result is that of gyro {before}, not of {now}")));
         }
         if let Some([later, now]) = subject.later_result(previous) {
             let words =
                 format!("the previous result is of {later}, after these readings of {now}; check which is earlier");
-            return Err(Stopped::Refused(words));
+            return Err(Failed::refused(words));
         }
         let calibration = calibration::calibrate(&setup, &readings, options);
-        let calibration = calibration.map_err(|error| Stopped::Refused(error.to_string()))?;
+        let calibration = calibration.map_err(Failed::refused)?;
         missing.extend(calibration.noise_not_stated());
         if let Some(words) = calibration.meaningless() {
-            return Err(Stopped::Refused(words));
+            return Err(Failed::refused(words));
         }
         let gravity = (content.earth.gravity_m_per_s2, content.site.gravity_u_m_per_s2());
         let verified = subject.passport_verified_as_of.is_some();
@@ -209,7 +209,7 @@ impl<'a> Prepared<'a> {
         document.degrees_of_freedom = budget.map_or_else(BTreeMap::new, |budget| budget.degrees_of_freedom());
         let Some(found) = document.answer() else {
             let words = calibration.refused.iter().map(|(method, why)| format!("{}: {why}", method.key()));
-            return Err(Stopped::Refused(words.collect::<Vec<_>>().join("\n")));
+            return Err(Failed::refused(words.collect::<Vec<_>>().join("\n")));
         };
         let last = previous.last();
         // Without a type or a valid earlier result, the nominal values of the paper's gyro still reveal an error by a

@@ -1,6 +1,6 @@
 //! Whom to trust and what to ask, and the answer on each passport.
 
-use super::{Asked, Failed, Stopped, Verdict, json};
+use super::{Asked, Failed, Verdict, json};
 use crate::document::sha256_hex;
 use crate::earth::Place;
 #[cfg(feature = "factory")]
@@ -166,7 +166,7 @@ pub(crate) fn trust(
     signers: (&str, &[u8]),
     revoked: &[(String, Vec<u8>)],
     time: Timestamp,
-) -> Result<(Trust, Vec<String>), Stopped> {
+) -> Result<(Trust, Vec<String>), Failed> {
     let mut trust = Trust::of(AllowedSigners::parse(signers.0, signers.1)?);
     let (lists, keys): (Vec<_>, Vec<_>) = revoked.iter().partition(|(_, bytes)| claims_to_be_a_list(bytes));
     for (name, bytes) in keys {
@@ -174,11 +174,11 @@ pub(crate) fn trust(
     }
     let verify = |(name, bytes): &&(String, Vec<u8>)| {
         let verified = RevocationList::verify(name, bytes, &trust.signers, &trust.revoked, time);
-        verified.map_err(|refused| Stopped::Unusable(refused.to_string()))
+        verified.map_err(Failed::unusable)
     };
     let series = Series::of(lists.iter().map(verify).collect::<Result<_, _>>()?);
     if let Some(alarm) = series.alarms().iter().find(|alarm| alarm.is_unknown()) {
-        return Err(Stopped::Unusable(format!("{alarm}; specify that list too, with --revoked")));
+        return Err(Failed::unusable(format!("{alarm}; specify that list too, with --revoked")));
     }
     let contradictions = series.alarms().iter().filter(|alarm| alarm.is_contradiction());
     let words = |alarm| format!("ALARM: {alarm}; passports withdrawn by any of the lists are treated as withdrawn");

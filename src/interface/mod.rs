@@ -137,33 +137,6 @@ impl From<Unreadable> for Failed {
     }
 }
 
-/// Reason why a question has no answer.
-#[derive(Debug)]
-pub(crate) enum Stopped {
-    /// Input with errors in its content.
-    Unreadable(Unreadable),
-    /// Input that cannot be used.
-    Unusable(String),
-    /// Inputs that do not give a result that could be used.
-    Refused(String),
-}
-
-impl From<Unreadable> for Stopped {
-    fn from(error: Unreadable) -> Self {
-        Self::Unreadable(error)
-    }
-}
-
-impl From<Stopped> for Failed {
-    fn from(stopped: Stopped) -> Self {
-        match stopped {
-            Stopped::Unreadable(error) => error.into(),
-            Stopped::Unusable(why) => Self::unusable(why),
-            Stopped::Refused(why) => Self::refused(why),
-        }
-    }
-}
-
 #[cfg(feature = "factory")]
 impl From<FileError> for Failed {
     fn from(error: FileError) -> Self {
