@@ -64,6 +64,8 @@ function said() {
     tables: all("table").map((table) => ({
       caption: table.caption ? table.caption.textContent : "",
       heads: [...[...table.tHead.rows].at(-1).cells].map(text),
+      // The heading of its group above each column; empty where there is none.
+      groups: [...table.tHead.rows].length < 2 ? [] : [...table.tHead.rows[0].cells].flatMap((cell) => Array(cell.colSpan).fill(text(cell))),
       rows: [...table.tBodies[0].rows].map((row) =>
         [...row.cells].map((cell) => ({ text: text(cell), values: [...cell.querySelectorAll("data")].map((data) => data.value) })),
       ),

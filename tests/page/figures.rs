@@ -88,7 +88,8 @@ fn verdict_and_change_are_where_their_axes_say() {
         let lines = CALIBRATED.1[key]["parameters"].as_array().unwrap();
         assert_eq!((lines.len(), strips.len()), (8, 9));
         let axis = Axis::along_x(strips[8]);
-        let rows = page.descendants().filter(|node| node.has_tag_name("tr")).skip(1);
+        let body = page.descendants().find(|node| node.has_tag_name("tbody")).unwrap();
+        let rows = body.children().filter(|node| node.has_tag_name("tr"));
         for ((line, row), strip) in lines.iter().zip(rows).zip(&strips) {
             let (deviation, expanded) = (get(line, "deviation"), get(line, "expanded_uncertainty"));
             let percent = |value: f64| 100.0 * value / get(line, "tolerance");

@@ -368,6 +368,14 @@ class Report:
 
     def verdict(self, table):
         part = "change" if any(head.startswith(("Change", "Изменение")) for head in table["heads"]) else "verdict"
+        # Each of the two U is below the heading that says in which unit it is.
+        due = {"± U": ["parameter", "tolerance"][2 - table["heads"].count("± U") :]}
+        russian = {"parameter": "параметра", "tolerance": "допуска"}
+        for head, group in zip(table["heads"], table["groups"], strict=True):
+            if head == "± U":
+                unit = due[head].pop(0)
+                if unit not in group and russian[unit] not in group:
+                    self.wrong.append(f"{part}: ± U below {group!r}, and its unit is that of the {unit}")
         for row, line in zip(table["rows"], self.result[part]["parameters"], strict=True):
             # The decision stands beside the name, for telephones.
             near, name = row[0]["text"].split(",")[0].split("\u00a0")

@@ -259,7 +259,8 @@ pub(crate) fn contents(
 pub(crate) struct Table {
     /// Caption of the table.
     pub caption: Option<Markup>,
-    /// Headings over several columns: number of columns, and heading. Most tables have none.
+    /// Headings over several columns: number of columns, and heading, empty over columns that have none. Most tables have
+    /// no groups.
     pub groups: Vec<(usize, Markup)>,
     /// Heading of each column.
     pub headings: Vec<Markup>,
@@ -335,7 +336,11 @@ impl Table {
                             tr.groups {
                                 @for _ in 0..self.row_headings { td {} }
                                 @for (columns, heading) in &self.groups {
-                                    th scope="colgroup" colspan=(columns) { (heading) }
+                                    @if heading.0.is_empty() {
+                                        td colspan=(columns) {}
+                                    } @else {
+                                        th scope="colgroup" colspan=(columns) { (heading) }
+                                    }
                                 }
                             }
                         }

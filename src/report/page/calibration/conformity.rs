@@ -150,9 +150,18 @@ fn table(
     if !with_u {
         columns.remove(1);
     }
+    // Values and deviations of a scale factor have different units, and so have their U.
+    let (strip_and_decisions, deviations) = (3, 3);
+    let values = columns.len() - deviations - strip_and_decisions;
+    let groups = vec![
+        (values, languages.label(texts::IN_UNIT_OF_PARAMETER)),
+        (deviations, languages.label(texts::IN_UNIT_OF_TOLERANCE)),
+        (strip_and_decisions, html! {}),
+    ];
     let names = rows.iter().map(|row| vec![with_unit(row)]).collect();
     let table = Table {
         caption: Some(with_gravity(languages, caption, &Number::exact(verdict.gravity_m_per_s2))),
+        groups,
         class: "numbers result",
         ..Table::of(vec![languages.label(texts::PARAMETER)], names, &columns)
     };

@@ -220,12 +220,11 @@ texts! {
 
     CONFORMITY { en: "Comparison with gyro type {type}", ru: "Сравнение с типом {type}" }
     VERDICT_CAPTION {
-        en: "Deviation from the nominal value in the unit of the tolerance; expanded uncertainty U (coverage factor \
-             k = 2, for few degrees of freedom that of Student’s t; coverage probability 95.45 %); drifts refer to the g \
-             of the type, {g} m/s²",
-        ru: "Отклонение от номинального значения в тех же единицах, что и допуск; расширенная неопределённость U \
-             (коэффициент охвата k = 2, при малом числе степеней свободы — коэффициент Стьюдента; вероятность охвата \
-             95,45 %); составляющие дрейфа отнесены к g, указанному для типа: {g} м/с²"
+        en: "Deviation from the nominal value; expanded uncertainty U (coverage factor k = 2, for few degrees of freedom \
+             that of Student’s t; coverage probability 95.45 %); drifts refer to the g of the type, {g} m/s²",
+        ru: "Отклонение от номинального значения; расширенная неопределённость U (коэффициент охвата k = 2, при малом \
+             числе степеней свободы — коэффициент Стьюдента; вероятность охвата 95,45 %); составляющие дрейфа отнесены \
+             к g, указанному для типа: {g} м/с²"
     }
     CHANGE { en: "Change since the previous calibration", ru: "Изменение после предыдущей калибровки" }
     HISTORY { en: "All calibrations of this gyro", ru: "Все калибровки этого гироскопа" }
@@ -237,12 +236,12 @@ texts! {
     }
     CALIBRATED { en: "Calibration", ru: "Калибровка" }
     CHANGE_CAPTION {
-        en: "Change in the unit of the tolerance, which also limits the instability; expanded uncertainty U (coverage \
-             factor k = 2, for few degrees of freedom that of Student’s t; coverage probability 95.45 %); drifts refer to \
-             the g of the type, {g} m/s²",
-        ru: "Изменение в тех же единицах, что и допуск (он же — допуск на нестабильность); расширенная неопределённость \
-             U (коэффициент охвата k = 2, при малом числе степеней свободы — коэффициент Стьюдента; вероятность охвата \
-             95,45 %); составляющие дрейфа отнесены к g, указанному для типа: {g} м/с²"
+        en: "Change; the tolerance also limits the instability; expanded uncertainty U (coverage factor k = 2, for few \
+             degrees of freedom that of Student’s t; coverage probability 95.45 %); drifts refer to the g of the type, \
+             {g} m/s²",
+        ru: "Изменение (допуск относится и к нестабильности); расширенная неопределённость U (коэффициент охвата k = 2, \
+             при малом числе степеней свободы — коэффициент Стьюдента; вероятность охвата 95,45 %); составляющие дрейфа \
+             отнесены к g, указанному для типа: {g} м/с²"
     }
     PARAMETER { en: "Parameter", ru: "Параметр" }
     NOMINAL { en: "Nominal", ru: "Номин. значение" }
@@ -265,6 +264,8 @@ texts! {
     DEVIATION { en: "Deviation", ru: "Отклонение" }
     CHANGED_BY { en: "Change", ru: "Изменение" }
     TOLERANCE { en: "Tolerance", ru: "Допуск" }
+    IN_UNIT_OF_PARAMETER { en: "In the unit of the parameter", ru: "В единице параметра" }
+    IN_UNIT_OF_TOLERANCE { en: "In the unit of the tolerance", ru: "В единице допуска" }
     SIMPLE { en: "Simple acceptance; risk of error", ru: "Простая приёмка; риск ошибки" }
     GUARDED { en: "Guarded acceptance", ru: "С защитной полосой" }
     RISK_NOTE {
