@@ -224,7 +224,7 @@ pub(crate) fn comparison(found: &Comparison) -> String {
     let mut out = String::new();
     let answer = match found.same_stand {
         true => style::marked(Some(true), "THE SAME STAND"),
-        false if found.is_undecided() => style::marked(None, "UNDECIDED"),
+        false if found.is_undecided() => style::marked(style::Outcome::Undecided, "UNDECIDED"),
         false => style::marked(Some(false), "NOT AS CERTIFIED"),
     };
     let runs = if found.runs == 1 { "run" } else { "runs" };

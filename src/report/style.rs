@@ -1,5 +1,6 @@
 //! Emphasis in a terminal: ANSI codes around whole words and lines. [`plain`] removes them for output without emphasis.
 
+use crate::calibration::verdict::Decision;
 use crate::text::printable;
 use anstyle::{AnsiColor, Style};
 
@@ -21,23 +22,55 @@ pub(crate) fn bad(words: &str) -> String {
     styled(AnsiColor::Red.on_default().bold(), words)
 }
 
-/// Returns the mark of a result, in a terminal and on paper; `None` if it was not asked, or is undecided. The mark only
-/// repeats the words beside it, so that they can be read without it.
-pub(crate) fn mark(passed: Option<bool>) -> &'static str {
-    match passed {
-        Some(true) => "●",
-        None => "○",
-        Some(false) => "✕",
+/// Outcome of a check, a test or a decision.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Outcome {
+    /// Passed.
+    Passed,
+    /// Failed.
+    Failed,
+    /// Asked, but not decided.
+    Undecided,
+    /// Not asked.
+    NotAsked,
+}
+
+impl From<Option<bool>> for Outcome {
+    /// Converts the result of a check; `None` if it was not asked.
+    fn from(passed: Option<bool>) -> Self {
+        passed.map_or(Self::NotAsked, |passed| if passed { Self::Passed } else { Self::Failed })
     }
 }
 
-/// Formats a result with its mark.
-pub(crate) fn marked(passed: Option<bool>, words: &str) -> String {
-    let words = format!("{} {words}", mark(passed));
-    match passed {
-        Some(true) => good(&words),
-        None => words,
-        Some(false) => bad(&words),
+impl From<Decision> for Outcome {
+    fn from(decision: Decision) -> Self {
+        match decision {
+            Decision::Pass => Self::Passed,
+            Decision::Fail => Self::Failed,
+            Decision::Undecided => Self::Undecided,
+        }
+    }
+}
+
+/// Returns the mark of an outcome, in a terminal and on paper. The mark only repeats the words beside it, so that they
+/// can be read without it.
+pub(crate) fn mark(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Passed => "●",
+        Outcome::Failed => "✕",
+        Outcome::Undecided => "◐",
+        Outcome::NotAsked => "○",
+    }
+}
+
+/// Formats an outcome with its mark.
+pub(crate) fn marked(outcome: impl Into<Outcome>, words: &str) -> String {
+    let outcome = outcome.into();
+    let words = format!("{} {words}", mark(outcome));
+    match outcome {
+        Outcome::Passed => good(&words),
+        Outcome::Failed => bad(&words),
+        Outcome::Undecided | Outcome::NotAsked => words,
     }
 }
 
@@ -71,10 +104,15 @@ mod tests {
 
     /// Expected: the marks of the printed pages.
     #[test]
-    fn a_result_has_one_of_three_marks() {
-        let marks = [(Some(true), "● a"), (None, "○ a"), (Some(false), "✕ a")];
-        for (passed, due) in marks {
-            assert_eq!(plain(&marked(passed, "a")), due);
+    fn every_outcome_has_a_mark_of_its_own() {
+        let marks = [
+            (Outcome::Passed, "● a"),
+            (Outcome::Failed, "✕ a"),
+            (Outcome::Undecided, "◐ a"),
+            (Outcome::NotAsked, "○ a"),
+        ];
+        for (outcome, due) in marks {
+            assert_eq!(plain(&marked(outcome, "a")), due);
         }
     }
 }

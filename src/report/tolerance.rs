@@ -37,21 +37,19 @@ fn not_found(verdict: &Verdict) -> Option<String> {
 
 /// Returns a decision with its mark.
 pub(super) fn decided(decision: Decision) -> String {
-    let (passed, word) = words(decision);
-    style::marked(passed, word)
+    style::marked(decision, word(decision))
 }
 
 /// Returns the decision for a type with its mark, padded to `width`.
 pub(super) fn overall(verdict: &Verdict, width: usize) -> String {
-    let (passed, word) = words(verdict.overall);
-    style::marked(passed, &format!("{:<width$}", word.to_uppercase()))
+    style::marked(verdict.overall, &format!("{:<width$}", word(verdict.overall).to_uppercase()))
 }
 
-fn words(decision: Decision) -> (Option<bool>, &'static str) {
+fn word(decision: Decision) -> &'static str {
     match decision {
-        Decision::Pass => (Some(true), "pass"),
-        Decision::Fail => (Some(false), "FAIL"),
-        Decision::Undecided => (None, "undecided"),
+        Decision::Pass => "pass",
+        Decision::Fail => "FAIL",
+        Decision::Undecided => "undecided",
     }
 }
 

@@ -2,7 +2,8 @@
 
 use crate::calibration::document::finite;
 use crate::calibration::parameter::Parameter;
-use crate::report::{columns, style};
+use crate::report::columns;
+use crate::report::style::{self, Outcome};
 use crate::uncertainty::budget::{COVERAGE, Contribution, ParameterBudget};
 use crate::uncertainty::monte_carlo::Distribution;
 use crate::uncertainty::{Budget, MonteCarlo};
@@ -175,6 +176,9 @@ fn distribution(line: &Distribution) -> Vec<String> {
         interval(line.shortest),
         format!("{:.*}", digits + 2, first.differences[0].max(first.differences[1])),
         format!("{:.*}", digits + 1, first.tolerance),
-        style::marked(first.valid, first.valid.map_or("undecided", |valid| if valid { "valid" } else { "NOT VALID" })),
+        match first.valid {
+            None => style::marked(Outcome::Undecided, "undecided"),
+            valid => style::marked(valid, if valid == Some(true) { "valid" } else { "NOT VALID" }),
+        },
     ]
 }

@@ -204,7 +204,7 @@ fn a_check_has_an_exit_code() {
     {
         fs::write(folder.join(name), again).unwrap();
         let (code, text, _) = run(&folder, &format!("{name} --against stand.yaml"));
-        assert!(code == 1 && text.starts_with("○ UNDECIDED"), "{text}");
+        assert!(code == 1 && text.starts_with("◐ UNDECIDED"), "{text}");
     }
     let two_runs = |line: &&str| line.starts_with(['#', 'i']) || matches!(line.split(',').nth(2), Some("1" | "2"));
     let two_runs: String = example("angles.csv").lines().filter(two_runs).map(|line| format!("{line}\n")).collect();

@@ -199,7 +199,7 @@ function misaligned() {
   for (const table of document.querySelectorAll("table.numbers")) {
     const columns = new Map();
     for (const cell of table.querySelectorAll("tbody td")) {
-      const data = cell.querySelectorAll(":scope > data, :scope > .marked data");
+      const data = cell.querySelectorAll(":scope > data");
       const own = [...cell.childNodes].filter((node) => node.nodeType === Node.TEXT_NODE && node.data.trim());
       if (data.length !== 1 || own.length > 0) continue;
       const text = data[0].firstChild;

@@ -203,14 +203,14 @@ fn a_report_is_small() {
 #[test]
 fn the_headline_is_the_verdict() {
     let due = [
-        ("calibrated-en", "○ Conformity with gyro type GVK-6 is undecided", false),
-        ("calibrated-ru", "○ Соответствие типу GVK-6 не определено", false),
+        ("calibrated-en", "◐ Conformity with gyro type GVK-6 is undecided", false),
+        ("calibrated-ru", "◐ Соответствие типу GVK-6 не определено", false),
         (
             "bad-both",
             "✕ Показания не согласуются с\u{a0}этим стендом The readings are not consistent with this stand",
             true,
         ),
-        ("plain-ru", "○ Параметры определены", false),
+        ("plain-ru", "Параметры определены", false),
         ("unverified-many-en", "○ Passport NOT VERIFIED", true),
     ];
     let failed = format!("✕ NOT within the tolerances of gyro type {HOSTILE_TYPE}");

@@ -177,7 +177,8 @@ class Report:
             # Expanded uncertainties of the values, and how many of how many pass.
             for line in lines:
                 self.known.setdefault(line["coverage_factor"] * line["standard_uncertainty"], []).append(())
-            self.known.setdefault(sum(line["guarded"] == "pass" for line in lines), []).append(())
+            for rule in ("guarded", "simple"):
+                self.known.setdefault(sum(line[rule] == "pass" for line in lines), []).append(())
             self.known.setdefault(len(lines), []).append(())
         for value in files:
             self.known.setdefault(value, []).append(())
@@ -392,23 +393,36 @@ class Report:
             self.cell(f"{part}, {name}, deviation", row[3], line["deviation"], u)
             self.cell(f"{part}, {name}, U", row[4], line["expanded_uncertainty"], u)
             self.cell(f"{part}, {name}, tolerance", row[5], line["tolerance"])
-            marks = {"pass": "●", "undecided": "○", "fail": "✕"}
+            marks = {"pass": "●", "undecided": "◐", "fail": "✕"}
             if near != marks[line["guarded"]]:
                 self.wrong.append(f"{part}, {name}: {near} beside the name, and {line['guarded']} in the result")
-            for column, key in ((7, "guarded"), (8, "simple")):
-                mark = marks[line[key]]
-                # Readings that do not fit have no risk, and nothing is accepted.
-                if key == "simple" and not self.result["consistent"]:
-                    mark = "–"
-                if not row[column]["text"].startswith(mark):
-                    self.wrong.append(f"{part}, {name}: {row[column]['text']}, and {line[key]} in the result")
+            if not row[7]["text"].startswith(marks[line["guarded"]]):
+                self.wrong.append(f"{part}, {name}: {row[7]['text']}, and {line['guarded']} in the result")
+            # Readings that do not fit have no risk.
             if not self.result["consistent"]:
+                if row[8]["text"] != "–":
+                    self.wrong.append(f"{part}, {name}: risk {row[8]['text']} of readings that do not fit")
                 continue
             if row[8]["values"]:
                 self.cell(f"{part}, {name}, risk", row[8], line["specific_risk"])
             elif "<" not in row[8]["text"] or line["specific_risk"] >= 1e-6:
                 self.wrong.append(f"{part}, {name}: risk {row[8]['text']}, and {line['specific_risk']} in the result")
+        self.simple(part)
         return part
+
+    def simple(self, part):
+        """The sentence on simple acceptance below the table: how many pass, and the names of those that fail."""
+        lines = self.result[part]["parameters"]
+        fails = ", ".join(symbol_of(line["parameter"]) for line in lines if line["simple"] == "fail")
+        passed = sum(line["simple"] == "pass" for line in lines)
+        due = {
+            "en": f"without a guard band, {passed} of {len(lines)} parameters pass" + (f"; fail: {fails}." if fails else "."),
+            "ru": f"без защитной полосы, соответствуют допускам {passed} из {len(lines)} параметров"
+            + (f"; не соответствуют: {fails}." if fails else "."),
+        }
+        said = "".join(words["text"] for words in self.said["words"]).replace("\u00a0", " ")
+        if self.result["consistent"] and due[self.said["lang"]] not in said:
+            self.wrong.append(f"{part}: {due[self.said['lang']]!r} is not on the page")
 
 
 def of_file(file):

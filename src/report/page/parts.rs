@@ -5,7 +5,7 @@ use super::number::Number;
 use super::spacing::{BLANK, unbroken};
 use super::symbols::index;
 use super::texts::{calibration, record, units, words};
-use crate::report::style;
+use crate::report::style::{self, Outcome};
 use base64ct::{Base64, Encoding};
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -88,19 +88,20 @@ pub(crate) fn not_stated(languages: &Languages) -> Markup {
     html! { span.absent { (languages.inline(words::NOT_STATED)) } }
 }
 
-/// Writes the mark of a result that passed, was not asked or decided, or failed; words beside it say the same.
-pub(crate) fn mark(passed: Option<bool>) -> Markup {
-    let class = match passed {
-        Some(true) => "state passed",
-        None => "state",
-        Some(false) => "state failed",
+/// Writes the mark of an outcome; words beside it say the same.
+pub(crate) fn mark(outcome: impl Into<Outcome>) -> Markup {
+    let outcome = outcome.into();
+    let class = match outcome {
+        Outcome::Passed => "state passed",
+        Outcome::Failed => "state failed",
+        Outcome::Undecided | Outcome::NotAsked => "state",
     };
-    html! { span class=(class) aria-hidden="true" { (style::mark(passed)) } }
+    html! { span class=(class) aria-hidden="true" { (style::mark(outcome)) } }
 }
 
-/// Writes words with the mark of their result before them.
-pub(crate) fn marked(passed: Option<bool>, words: &Markup) -> Markup {
-    html! { (mark(passed)) " " (words) }
+/// Writes words with the mark of their outcome before them.
+pub(crate) fn marked(outcome: impl Into<Outcome>, words: &Markup) -> Markup {
+    html! { (mark(outcome)) " " (words) }
 }
 
 /// Writes a headline and words about it in a box.

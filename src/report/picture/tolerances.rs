@@ -84,12 +84,18 @@ pub(crate) fn key(languages: &Languages) -> Markup {
     legend(languages, &entries)
 }
 
-/// Draws the mark of a decision: a disc, a ring, or a cross.
+/// Draws the mark of a decision: a disc, a disc half filled, or a cross.
 fn decided([x, y]: Point, decision: Decision) -> Markup {
     let (cx, cy) = (coordinate(x), coordinate(y));
     match decision {
         Decision::Pass => html! { circle.mark cx=(cx) cy=(cy) r="4.4" {} },
-        Decision::Undecided => html! { circle.site cx=(cx) cy=(cy) r="4.2" {} },
+        Decision::Undecided => {
+            let [top, bottom] = [y - 4.2, y + 4.2].map(coordinate);
+            html! {
+                circle.site cx=(cx) cy=(cy) r="4.2" {}
+                path.half d={ "M" (cx) " " (top) "A4.2 4.2 0 0 0 " (cx) " " (bottom) "Z" } {}
+            }
+        }
         Decision::Fail => {
             let (a, b) = (5.2, 1.7);
             let arms = [[-a, -a + b], [-b, 0.0], [-a, a - b], [-a + b, a], [0.0, b], [a - b, a], [a, a - b], [b, 0.0]];

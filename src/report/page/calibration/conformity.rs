@@ -34,6 +34,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
                 (languages.paragraph_with(|language| italic(&texts::PREVIOUS_DAY.filled(language, values! { day: date_text(language, day) }))))
             }
             (table(page, languages, change, texts::CHANGE_CAPTION, [texts::EARLIER, texts::CHANGED_BY], false))
+            @if page.fits() { (simple(change, languages)) }
         }
         (history::table(page, languages))
     }
@@ -44,7 +45,7 @@ fn compared(page: &CalibrationPage, gyro: &GyroType, verdict: &Verdict, language
         h3 { (languages.label_with(|language| texts::CONFORMITY.filled(language, values! { type: gyro.r#type }))) }
         (table(page, languages, verdict, texts::VERDICT_CAPTION, [texts::NOMINAL, texts::DEVIATION], true))
         (key(languages))
-        @if page.fits() { (languages.paragraph(texts::RISK_NOTE)) }
+        @if page.fits() { (simple(verdict, languages)) }
         (from_gravity(page, verdict, languages))
         @if let Some(u) = page.calibration.mostly_from_turn_ons() {
             (languages.paragraph_with(|language| {
@@ -55,27 +56,43 @@ fn compared(page: &CalibrationPage, gyro: &GyroType, verdict: &Verdict, language
     }
 }
 
-/// Writes how many parameters pass, and which are undecided or fail; `of` says of which comparison if it is the second.
+/// Writes how many parameters pass by guarded acceptance, and which are undecided or fail; `of_what` says of which
+/// comparison if it is the second.
 pub(super) fn counted(verdict: &Verdict, of_what: Option<Text>, languages: &Languages) -> Markup {
-    let of = |decision: Decision| verdict.parameters.iter().filter(move |row| row.guarded == decision);
-    let names = |decision: Decision| listed(of(decision).map(parameter));
-    let values = [("passed", html! { (of(Decision::Pass).count()) }), ("all", html! { (Parameter::EIGHT.len()) })];
     let not_found = verdict.not_found();
     let not_found_names = listed(not_found.iter().map(|one| name_of(one.symbol())));
-    let rest = [(Decision::Undecided, texts::ARE_UNDECIDED), (Decision::Fail, texts::FAIL)];
     languages.paragraph_with(|language| {
         html! {
             @if let Some(what) = of_what { (what.words(language)) " " }
-            (texts::PASSED.marked_up(language, &values))
-            @for (decision, text) in rest.iter().filter(|(decision, _)| of(*decision).count() > 0) {
-                (text.marked_up(language, &[("names", names(*decision))]))
-            }
+            (counts(verdict, |row| row.guarded, texts::PASSED, language))
             @if !not_found.is_empty() {
                 "; " (texts::NOT_IN_THE_MODEL.marked_up(language, &[("names", not_found_names.clone())]))
             }
             "."
         }
     })
+}
+
+/// Writes the outcome of simple acceptance, and what the risks in the table are.
+fn simple(verdict: &Verdict, languages: &Languages) -> Markup {
+    languages.paragraph_with(|language| {
+        let note = italic(&texts::RISK_NOTE.words(language));
+        html! { (counts(verdict, |row| row.simple, texts::PASSED_BY_SIMPLE, language)) ". " (note) }
+    })
+}
+
+/// Writes how many parameters pass, in the words of `passed`, and which are undecided or fail.
+fn counts(verdict: &Verdict, by: fn(&ParameterVerdict) -> Decision, passed: Text, language: Language) -> Markup {
+    let of = |decision: Decision| verdict.parameters.iter().filter(move |row| by(row) == decision);
+    let names = |decision: Decision| listed(of(decision).map(parameter));
+    let values = [("passed", html! { (of(Decision::Pass).count()) }), ("all", html! { (Parameter::EIGHT.len()) })];
+    let rest = [(Decision::Undecided, texts::ARE_UNDECIDED), (Decision::Fail, texts::FAIL)];
+    html! {
+        (passed.marked_up(language, &values))
+        @for (decision, text) in rest.iter().filter(|(decision, _)| of(*decision).count() > 0) {
+            (text.marked_up(language, &[("names", names(*decision))]))
+        }
+    }
 }
 
 /// Writes the parameters without a type: values and expanded uncertainties.
@@ -119,19 +136,16 @@ fn table(
         let unit = parameter_of(row).map_or(units::PERCENT, unit);
         // A telephone shows the first column and few others: the decision is there too.
         html! {
-            span.narrow-only { (mark(passed(row.guarded))) (BLANK) }
+            span.narrow-only { (mark(row.guarded)) (BLANK) }
             (parameter(row)) ", " (languages.spoken(unit))
         }
     };
-    let mut risks = column(languages, rows.iter().map(|row| probability_cell(languages, row.specific_risk)));
-    for (risk, row) in risks.iter_mut().zip(rows) {
-        // Without a model that fits, a risk has no meaning.
-        *risk = if page.fits() {
-            html! { span.marked { (mark_of(languages, row)) " " span { (risk) } } }
-        } else {
-            html! { "–" }
-        };
-    }
+    // Without a model that fits, a risk has no meaning.
+    let risk = |row: &ParameterVerdict| match page.fits() {
+        true => probability_cell(languages, row.specific_risk),
+        false => Cell::none(),
+    };
+    let risks = column(languages, rows.iter().map(risk));
     let mut tolerances = numbers(texts::TOLERANCE, &|row| Number::exact(row.tolerance));
     for (tolerance, row) in tolerances.cells.iter_mut().zip(rows) {
         *tolerance = html! { (tolerance) " " span.unit { (languages.spoken(unit_of(row))) } };
@@ -145,7 +159,7 @@ fn table(
         tolerances,
         Column { foot: strips.axis(languages), ..each(texts::IN_TOLERANCE, &|row| strips.strip(row)) },
         each(texts::GUARDED, &|row| decided(languages, row.guarded)),
-        Column::named(languages, texts::SIMPLE, risks),
+        Column::named(languages, texts::RISK, risks),
     ];
     if !with_u {
         columns.remove(1);
@@ -197,19 +211,9 @@ fn parameter(row: &ParameterVerdict) -> Markup {
     name_of(parameter_of(row).map_or(row.parameter, Parameter::symbol))
 }
 
-/// Writes the mark of simple acceptance; screen readers say the word. The style gives colour to guarded acceptance alone.
-fn mark_of(languages: &Languages, row: &ParameterVerdict) -> Markup {
-    html! { (mark(passed(row.simple))) span.unseen { (languages.spoken(decision(row.simple))) } }
-}
-
 /// Writes a decision with its mark, in the first language only: the key below the table has the mark in all of them.
 fn decided(languages: &Languages, found: Decision) -> Markup {
-    marked(passed(found), &html! { (languages.spoken(decision(found))) })
-}
-
-/// Returns a decision as the result of a check; `None` if it is undecided.
-pub(super) fn passed(found: Decision) -> Option<bool> {
-    (found != Decision::Undecided).then_some(found == Decision::Pass)
+    marked(found, &html! { (languages.spoken(decision(found))) })
 }
 
 /// Writes a probability with two digits, or as less than `LEAST_RISK`.

@@ -36,6 +36,7 @@ use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
 use crate::report::mistake;
+use crate::report::style::Outcome;
 use crate::uncertainty::{Budget, MonteCarlo};
 use jiff::Timestamp;
 use maud::{Markup, html};
@@ -202,14 +203,14 @@ impl CalibrationPage<'_> {
     /// Writes the warnings at the head of the report, the most serious first.
     fn headlines(&self, languages: &Languages) -> Markup {
         html! {
-            @if !self.verified() { (warning(languages, None, texts::NOT_VERIFIED, texts::NOT_VERIFIED_WORDS)) }
-            @if !self.fits() { (warning(languages, Some(false), texts::DOES_NOT_FIT, texts::DOES_NOT_FIT_WORDS)) }
+            @if !self.verified() { (warning(languages, Outcome::NotAsked, texts::NOT_VERIFIED, texts::NOT_VERIFIED_WORDS)) }
+            @if !self.fits() { (warning(languages, Outcome::Failed, texts::DOES_NOT_FIT, texts::DOES_NOT_FIT_WORDS)) }
             @if let Some(mistake) = &self.document.mistake {
                 @let words = languages.paragraph_with(|language| italic(&mistake::words(mistake, language)));
                 (boxed("verdict refused", marked(Some(false), &languages.label(texts::MISTAKE)), words))
             }
             @if let Some(why) = self.previous.iter().rev().find_map(|earlier| self.document.no_change(earlier)) {
-                (warning(languages, None, texts::NO_CHANGE, why_no_change(why)))
+                (warning(languages, Outcome::Undecided, texts::NO_CHANGE, why_no_change(why)))
             }
             (subject::temperature(self, languages))
             (subject::date_of_readings(self, languages))
@@ -220,11 +221,11 @@ impl CalibrationPage<'_> {
     fn verdict(&self, languages: &Languages) -> Markup {
         let Some((gyro, verdict)) = self.judged() else {
             let words = html! { (languages.paragraph(texts::NO_TYPE_WORDS)) (self.not_linear(languages)) };
-            return boxed("verdict neutral", marked(None, &languages.label(texts::NO_TYPE)), words);
+            return boxed("verdict neutral", languages.label(texts::NO_TYPE), words);
         };
         if !self.fits() {
             let name = |language: Language| texts::NO_STATEMENT.filled(language, values! { type: gyro.r#type });
-            return boxed("verdict neutral", marked(None, &languages.label_with(name)), html! {});
+            return boxed("verdict neutral", languages.label_with(name), html! {});
         }
         let (class, text) = match verdict.overall {
             Decision::Pass => ("verdict", texts::CONFORMS),
@@ -240,7 +241,7 @@ impl CalibrationPage<'_> {
             (self.not_linear(languages))
             (languages.paragraph(texts::RULE))
         };
-        boxed(class, marked(conformity::passed(verdict.overall), &languages.label_with(name)), words)
+        boxed(class, marked(verdict.overall, &languages.label_with(name)), words)
     }
 
     /// Writes the parameters for which a Monte Carlo run shows that the linear approximation is not valid.
@@ -256,8 +257,8 @@ impl CalibrationPage<'_> {
     }
 }
 
-fn warning(languages: &Languages, passed: Option<bool>, headline: Text, words: Text) -> Markup {
-    boxed("verdict refused", marked(passed, &languages.label(headline)), languages.paragraph(words))
+fn warning(languages: &Languages, outcome: Outcome, headline: Text, words: Text) -> Markup {
+    boxed("verdict refused", marked(outcome, &languages.label(headline)), languages.paragraph(words))
 }
 
 /// Returns the sentence why a difference from an earlier result is no change.

@@ -12,6 +12,7 @@ use crate::report::page::parts::{
 };
 use crate::report::page::texts::{certification as texts, checks, pictures, units};
 use crate::report::picture::residuals::{Bars, key_of};
+use crate::report::style::Outcome;
 use maud::{Markup, html};
 
 /// Writes whether the stand has changed since its last certificate, and the reasons.
@@ -19,12 +20,12 @@ pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup
     let Some((comparison, _)) = &page.change else {
         let (positions, runs) = (page.certification.stand.positions.len(), page.certification.runs.len());
         let headline = languages.label_with(|language| texts::CERTIFIED.filled(language, values! { positions, runs }));
-        return boxed("verdict neutral", marked(None, &headline), languages.paragraph(texts::NOT_COMPARED));
+        return boxed("verdict neutral", headline, languages.paragraph(texts::NOT_COMPARED));
     };
-    let (class, passed, verdict) = match comparison.same_stand {
-        true => ("verdict", Some(true), texts::SAME),
-        false if comparison.is_undecided() => ("verdict refused", None, texts::UNDECIDED),
-        false => ("verdict refused", Some(false), texts::CHANGED),
+    let (class, outcome, verdict) = match comparison.same_stand {
+        true => ("verdict", Outcome::Passed, texts::SAME),
+        false if comparison.is_undecided() => ("verdict refused", Outcome::Undecided, texts::UNDECIDED),
+        false => ("verdict refused", Outcome::Failed, texts::CHANGED),
     };
     let headline =
         languages.label_with(|language| verdict.filled(language, values! { number: comparison.certificate }));
@@ -37,7 +38,7 @@ pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup
             }
         }
     };
-    boxed(class, marked(passed, &headline), reasons)
+    boxed(class, marked(outcome, &headline), reasons)
 }
 
 pub(super) fn section(page: &CertificationPage, languages: &Languages) -> Markup {

@@ -224,7 +224,7 @@ texts! {
              that of Student’s t; coverage probability 95.45 %); drifts refer to the g of the type, {g} m/s²",
         ru: "Отклонение от номинального значения; расширенная неопределённость U (коэффициент охвата k = 2, при малом \
              числе степеней свободы — коэффициент Стьюдента; вероятность охвата 95,45 %); составляющие дрейфа отнесены \
-             к g, указанному для типа: {g} м/с²"
+             к g типа, {g} м/с²"
     }
     CHANGE { en: "Change since the previous calibration", ru: "Изменение после предыдущей калибровки" }
     HISTORY { en: "All calibrations of this gyro", ru: "Все калибровки этого гироскопа" }
@@ -241,7 +241,7 @@ texts! {
              {g} m/s²",
         ru: "Изменение (допуск относится и к нестабильности); расширенная неопределённость U (коэффициент охвата k = 2, \
              при малом числе степеней свободы — коэффициент Стьюдента; вероятность охвата 95,45 %); составляющие дрейфа \
-             отнесены к g, указанному для типа: {g} м/с²"
+             отнесены к g типа, {g} м/с²"
     }
     PARAMETER { en: "Parameter", ru: "Параметр" }
     NOMINAL { en: "Nominal", ru: "Номин. значение" }
@@ -266,14 +266,17 @@ texts! {
     TOLERANCE { en: "Tolerance", ru: "Допуск" }
     IN_UNIT_OF_PARAMETER { en: "In the unit of the parameter", ru: "В единице параметра" }
     IN_UNIT_OF_TOLERANCE { en: "In the unit of the tolerance", ru: "В единице допуска" }
-    SIMPLE { en: "Simple acceptance; risk of error", ru: "Простая приёмка; риск ошибки" }
+    RISK { en: "Risk\u{a0}of\u{a0}simple acceptance", ru: "Риск\u{a0}простой приёмки" }
     GUARDED { en: "Guarded acceptance", ru: "С защитной полосой" }
+    PASSED_BY_SIMPLE {
+        en: "By simple acceptance, without a guard band, {passed} of {all} parameters pass",
+        ru: "При простой приёмке, без защитной полосы, соответствуют допускам {passed} из {all} параметров"
+    }
     RISK_NOTE {
-        en: "Simple acceptance: no guard band. Guarded acceptance: undecided where the uncertainty does not permit a \
-             decision. Risk of error (specific risk): probability that the decision by simple acceptance is wrong.",
-        ru: "Простая приёмка: без учёта неопределённости. Приёмка с защитной полосой: решение не определено, если \
-             неопределённость не позволяет его принять. Риск ошибки: вероятность того, что решение при простой \
-             приёмке ошибочно."
+        en: "Risk (specific risk): probability that this decision on the parameter is wrong. Guarded acceptance is \
+             undecided where the uncertainty does not permit a decision.",
+        ru: "Риск: вероятность того, что это решение по параметру ошибочно. При приёмке с защитной полосой решение не \
+             определено, если неопределённость не позволяет его принять."
     }
     BELOW { en: "< {limit}", ru: "< {limit}" }
 
