@@ -217,3 +217,37 @@ fn a_record_says_whether_the_stand_has_changed() {
         assert!(words.contains(finding), "{finding} in {words}");
     }
 }
+
+/// Expected: by the probabilities and numbers of the JSON, with the limits of ISO 5725-2, 7.3.2.1: 5 % and 1 %.
+#[test]
+fn every_test_has_a_result_with_its_mark() {
+    for record in RECORDS {
+        let json = fs::read_to_string(CERTIFIED.folder.join(format!("{}.json", record.name))).unwrap();
+        let result: Value = serde_json::from_str(&json).unwrap();
+        let certification = &result["certification"];
+        let tables = CERTIFIED.found[record.name]["said"]["tables"].as_array().unwrap();
+        let of_tests =
+            |table: &&Value| ["Test", "Критерий"].iter().any(|head| strings(&table["heads"])[0].starts_with(head));
+        let rows = tables.iter().find(of_tests).unwrap()["rows"].as_array().unwrap();
+        assert!(rows.len() >= 3, "{}: {} rows", record.name, rows.len());
+        for row in rows {
+            let said = row[1]["text"].as_str().unwrap();
+            let p = strings(&row[4]["values"]).first().map(|p| p.parse::<f64>().unwrap());
+            let mark = match p {
+                Some(p) if p < 0.01 => "✕ ",
+                Some(p) if p < 0.05 => "◐ ",
+                _ => "● ",
+            };
+            assert!(said.starts_with(mark) && said.chars().count() > 4, "{}: {said} of {row}", record.name);
+        }
+        // The angles that were tested, if the test names none.
+        if certification["outliers"].as_array().unwrap().is_empty() {
+            let runs = certification["run_turns"].as_array().unwrap().len();
+            let angles = 3 * runs * certification["stand"]["positions"].as_array().unwrap().len();
+            assert!(
+                rows.iter().any(|row| row[1]["text"].as_str().unwrap().contains(&format!(" {angles}"))),
+                "{rows:?}"
+            );
+        }
+    }
+}

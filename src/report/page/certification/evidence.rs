@@ -3,14 +3,15 @@
 use super::{CertificationPage, remarks};
 use crate::certification::components::{Common, Variance};
 use crate::certification::rotated_runs::{FEWEST_RUNS, FEWEST_RUNS_OF_A_MOVE, Pattern, RotatedRuns};
-use crate::certification::suspects::AXES;
+use crate::certification::suspects::{AXES, OUTLIER, STRAGGLER};
 use crate::report::page::language::{Languages, Text, values};
-use crate::report::page::number::{Number, column};
+use crate::report::page::number::{Cell, Number, column};
 use crate::report::page::parts::{
-    Column, Table, field, fields, file_name, given, heading, symbol, symbol_and_unit, wide_field,
+    Column, Table, field, fields, file_name, given, heading, marked, symbol, symbol_and_unit, wide_field,
 };
 use crate::report::page::passport::characteristics;
-use crate::report::page::texts::{calibration, certification as texts, units, words};
+use crate::report::page::texts::{calibration, certification as texts, checks, units, words};
+use crate::report::style::Outcome;
 use crate::statistics::outlier::Bartlett;
 use maud::{Markup, html};
 
@@ -111,27 +112,52 @@ fn run_turns(page: &CertificationPage, languages: &Languages) -> Markup {
     table.markup(languages.spoken(texts::RUN_TURNS))
 }
 
-/// Row of the table of tests: name, statistic, degrees of freedom, probability.
-type TestRow = (Markup, Option<Number>, Option<Number>, Option<f64>);
+/// A row of the table of tests: what was tested, what was found, and the numbers behind it.
+struct Tested {
+    name: Markup,
+    result: Markup,
+    statistic: Option<Number>,
+    freedom: Option<Number>,
+    probability: Option<f64>,
+}
 
 pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
     let suspects = &page.certification.suspects;
-    let mut found: Vec<TestRow> = Vec::new();
-    let bartlett = |name: Text, test: &Bartlett| {
-        let freedom = Number::exact(test.degrees_of_freedom as f64);
-        (languages.label(name), Some(Number::fixed(test.statistic, 2)), Some(freedom), Some(test.probability))
+    let mut found: Vec<Tested> = Vec::new();
+    let said = |outcome: Outcome, text: Text| marked(outcome, &languages.inline(text));
+    let bartlett = |name: Text, test: &Bartlett| Tested {
+        name: languages.label(name),
+        result: match graded(test.probability) {
+            Outcome::Failed => said(Outcome::Failed, texts::UNEQUAL),
+            Outcome::Undecided => said(Outcome::Undecided, texts::DOUBTFUL),
+            passed => said(passed, texts::EQUAL),
+        },
+        statistic: Some(Number::fixed(test.statistic, 2)),
+        freedom: Some(Number::exact(test.degrees_of_freedom as f64)),
+        probability: Some(test.probability),
+    };
+    // A test names something only below the limit of stragglers.
+    let named = |name: Markup, statistic: f64, p: f64| Tested {
+        name,
+        result: match graded(p) {
+            Outcome::Failed => said(Outcome::Failed, texts::OUTLIER),
+            _ => said(Outcome::Undecided, texts::STRAGGLER),
+        },
+        statistic: Some(Number::fixed(statistic, 2)),
+        freedom: None,
+        probability: Some(p),
     };
     found.extend(suspects.positions.iter().map(|test| bartlett(texts::BARTLETT_POSITIONS, test)));
     found.extend(suspects.axes.iter().map(|test| bartlett(texts::BARTLETT_AXES, test)));
     found.extend(suspects.worse.iter().map(|at| {
         let name = languages.label_with(|language| texts::COCHRAN.filled(language, values! { index: at.index }));
-        (name, Some(Number::fixed(at.ratio, 2)), None, Some(at.probability))
+        named(name, at.ratio, at.probability)
     }));
     found.extend(suspects.outliers.iter().map(|out| {
         let name = languages.label_with(|language| {
             texts::GRUBBS.filled(language, values! { index: out.index, run: out.run, axis: AXES[out.axis] })
         });
-        (name, Some(Number::fixed(out.residual_arcsec, 2)), None, Some(out.probability))
+        named(name, out.residual_arcsec, out.probability)
     }));
     found.extend(page.certification.rotated_runs.iter().map(|at| {
         let (of, run) = match (at.pattern, at.axis.is_of_the_base()) {
@@ -144,30 +170,22 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
         };
         let name =
             languages.label_with(|language| of.filled(language, values! { run, axis: remarks::axis_name(at.axis) }));
-        (name, Some(Number::fixed(at.turn_arcsec(), 2)), None, Some(at.probability))
+        named(name, at.turn_arcsec(), at.probability)
     }));
-    let components = &page.certification.components;
-    let (runs, axes) = (page.certification.runs.len(), 3 + components.base_axes);
-    let (bumped, moved): (Vec<&RotatedRuns>, Vec<_>) =
-        page.certification.rotated_runs.iter().partition(|at| at.run().is_some());
-    // Tests that were made and name nothing.
-    let none = [
-        (texts::NO_OUTLIER, suspects.outliers.is_empty() && suspects.split.is_none()),
-        (texts::NO_ROTATED_RUN, bumped.is_empty() && runs >= FEWEST_RUNS),
-        (texts::NO_MOVE, moved.is_empty() && runs >= FEWEST_RUNS_OF_A_MOVE),
+    found.extend(without_findings(page, languages));
+    let cells = |number: fn(&Tested) -> Option<Number>| {
+        let cell = |test: &Tested| number(test).map_or(Cell::Words(html! {}), Cell::Number);
+        column(languages, found.iter().map(cell))
+    };
+    let columns = [
+        (checks::RESULT, found.iter().map(|test| test.result.clone()).collect()),
+        (texts::STATISTIC, cells(|test| test.statistic.clone())),
+        (calibration::FREEDOM, cells(|test| test.freedom.clone())),
+        (texts::PROBABILITY, cells(|test| test.probability.map(|p| Number::scientific(p, 2)))),
     ];
-    let count = runs * components.keeps.nrows();
-    found.extend(none.into_iter().filter(|(_, is_none)| *is_none).map(|(text, _)| {
-        let name = languages.label_with(|language| text.filled(language, values! { count, runs, axes }));
-        (name, None, None, None)
-    }));
-    let statistic = column(languages, found.iter().map(|(_, value, ..)| value.clone()));
-    let freedom = column(languages, found.iter().map(|(_, _, freedom, _)| freedom.clone()));
-    let p = column(languages, found.iter().map(|(.., p)| p.map(|p| Number::scientific(p, 2))));
-    let columns = [(texts::STATISTIC, statistic), (calibration::FREEDOM, freedom), (texts::PROBABILITY, p)];
     let columns = columns.map(|(heading, cells)| Column::named(languages, heading, cells));
-    let names = found.into_iter().map(|(name, ..)| vec![name]).collect();
-    let table = Table::of(vec![languages.label(texts::TEST)], names, &columns);
+    let names = found.iter().map(|test| vec![test.name.clone()]).collect();
+    let table = Table { class: "numbers tests", ..Table::of(vec![languages.label(texts::TEST)], names, &columns) };
     html! {
         (table.markup(languages.spoken(texts::TESTS)))
         (languages.paragraph(texts::TESTS_NOTE))
@@ -179,5 +197,35 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
                 }
             }
         }
+    }
+}
+
+/// Returns the tests that were made and named nothing.
+fn without_findings<'a>(page: &CertificationPage, languages: &'a Languages) -> impl Iterator<Item = Tested> + 'a {
+    let (suspects, components) = (&page.certification.suspects, &page.certification.components);
+    let (runs, axes) = (page.certification.runs.len(), 3 + components.base_axes);
+    let (bumped, moved): (Vec<&RotatedRuns>, Vec<_>) =
+        page.certification.rotated_runs.iter().partition(|at| at.run().is_some());
+    let angles = runs * components.keeps.nrows();
+    let none = [
+        (texts::OUTLYING_ANGLES, texts::NO_ANGLE, angles, suspects.outliers.is_empty() && suspects.split.is_none()),
+        (texts::ROTATED_RUNS, texts::NO_RUN, runs, bumped.is_empty() && runs >= FEWEST_RUNS),
+        (texts::MOVE_OR_DRIFT, texts::NO_MOVE, runs, moved.is_empty() && runs >= FEWEST_RUNS_OF_A_MOVE),
+    ];
+    none.into_iter().filter(|(.., is_none)| *is_none).map(move |(name, result, count, _)| Tested {
+        name: languages.label_with(|language| name.filled(language, values! { axes })),
+        result: marked(Outcome::Passed, &languages.inline_with(|language| result.filled(language, values! { count }))),
+        statistic: None,
+        freedom: None,
+        probability: None,
+    })
+}
+
+/// Returns the outcome of a test from its probability: an outlier fails, a straggler decides nothing.
+fn graded(probability: f64) -> Outcome {
+    match probability {
+        p if p < OUTLIER => Outcome::Failed,
+        p if p < STRAGGLER => Outcome::Undecided,
+        _ => Outcome::Passed,
     }
 }

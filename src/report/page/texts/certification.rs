@@ -94,23 +94,25 @@ texts! {
         en: "Student: drift, base about {axis}, rotation from run to run, ″",
         ru: "Стьюдента: дрейф, основание, ось «{axis}», поворот от серии к серии, ″"
     }
-    NO_OUTLIER {
-        en: "Grubbs: no straggler or outlier (5 %) among {count} angles",
-        ru: "Граббса: среди показаний углов ({count}) нет ни квазивыбросов, ни выбросов (5 %)"
+    OUTLYING_ANGLES {
+        en: "Grubbs: outliers and stragglers (5 %) among the angles",
+        ru: "Граббса: выбросы и квазивыбросы (5 %) среди показаний углов"
     }
-    NO_ROTATED_RUN {
-        en: "Grubbs: no straggler or outlier (5 %) among {runs} runs about {axes} axes",
-        ru: "Граббса: среди серий ({runs}) нет ни квазивыбросов, ни выбросов по осям ({axes}; 5 %)"
-    }
-    NO_MOVE {
-        en: "Student: no move or drift of the stand (5 %) in {runs} runs",
-        ru: "Стьюдента: за серии ({runs}) не выявлено ни смещения, ни дрейфа стенда (5 %)"
-    }
+    NO_ANGLE { en: "none of {count}", ru: "ни одного из {count}" }
+    ROTATED_RUNS { en: "Grubbs: rotated runs (5 %), about {axes} axes", ru: "Граббса: повёрнутые серии (5 %), осей: {axes}" }
+    NO_RUN { en: "none of {count}", ru: "ни одной из {count}" }
+    MOVE_OR_DRIFT { en: "Student: move or drift of the stand (5 %)", ru: "Стьюдента: смещение или дрейф стенда (5 %)" }
+    NO_MOVE { en: "none in {count} runs", ru: "нет, серий: {count}" }
+    EQUAL { en: "no difference", ru: "различий нет" }
+    DOUBTFUL { en: "doubtful", ru: "сомнительно" }
+    UNEQUAL { en: "different", ru: "различаются" }
+    OUTLIER { en: "outlier", ru: "выброс" }
+    STRAGGLER { en: "straggler", ru: "квазивыброс" }
     TESTS_NOTE {
-        en: "Probability of a result at least as extreme by chance. What a test names is a straggler below 5 %, an outlier \
-             below 1 %; Bartlett’s test names nothing. The tests exclude nothing.",
-        ru: "Вероятность случайно получить столь же большое значение. Названное по критерию — квазивыброс, если она менее \
-             5 %, и выброс, если менее 1 %; критерий Бартлетта ничего не называет. По критериям ничего не исключается."
+        en: "Probability of a result at least as extreme by chance: below 5 % a value is a straggler and equality is \
+             doubtful, below 1 % it is an outlier and the variances are different. The tests exclude nothing.",
+        ru: "Вероятность случайно получить столь же большое значение: менее 5 % — квазивыброс, равенство сомнительно; \
+             менее 1 % — выброс, дисперсии различаются. По критериям ничего не исключается."
     }
     WARNINGS { en: "Warnings of the program", ru: "Предупреждения программы" }
 
