@@ -5,14 +5,14 @@
 //! axes of the case or the base by their components east, north and up. Source:
 //! [the paper](crate::bibliography::Bibliography::Tang17), fig. 2 and 3.
 
-use super::drawing::{Anchor, Panel, Point, arrow, label, legend, line, panels, polygon, words};
+use super::drawing::{Anchor, Panel, Point, arrow, label, legend, line, panels, polygon, power_of_ten, words};
 use super::label::Area;
 use crate::attitude::{self, Deviation};
 use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::Number;
 use crate::report::page::texts::{pictures as texts, words as compass};
 use crate::stand::CertifiedPosition;
-use crate::units::{degrees_from_radians, sin_cos_of_degrees};
+use crate::units::{ARCSECONDS_PER_DEGREE, degrees_from_radians, sin_cos_of_degrees};
 use maud::{Markup, html};
 use nalgebra::{Matrix3, Vector3};
 
@@ -62,23 +62,24 @@ fn key(languages: &Languages, factor: f64) -> Markup {
     ];
     html! {
         (legend(languages, &entries))
-        @if factor > 1.0 {
-            p.legend {
-                (languages.label_with(|language| {
-                    texts::EXAGGERATED.filled(language, values! { factor: Number::exact(factor) })
-                }))
-            }
+        p.legend {
+            (languages.label_with(|language| texts::EXAGGERATED.filled(language, values! { factor: Number::exact(factor) })))
         }
     }
 }
 
-/// Returns the power of ten by which the deviations are exaggerated: the largest that keeps them below 15°.
+/// Returns the factor by which the deviations are exaggerated: the round one that shows the largest closest to 10°.
 fn exaggeration(positions: &[CertifiedPosition]) -> f64 {
-    const LARGEST_ARCSEC: f64 = 15.0 * 3600.0;
+    const SHOWN_ARCSEC: f64 = 10.0 * ARCSECONDS_PER_DEGREE;
+    const MOST: i32 = 4;
     let all = positions.iter().flat_map(CertifiedPosition::angles_arcsec);
     let largest = all.fold(0.0, |most, value: f64| f64::max(most, value.abs()));
-    let factors = [1000.0, 100.0, 10.0];
-    factors.into_iter().find(|factor| largest > 0.0 && factor * largest <= LARGEST_ARCSEC).unwrap_or(1.0)
+    if largest == 0.0 {
+        return 1.0;
+    }
+    let factors = (0..=MOST).flat_map(|exponent| [1.0, 2.0, 4.0, 5.0].map(|digit| digit * power_of_ten(exponent)));
+    let off = |factor: f64| libm::log(factor * largest / SHOWN_ARCSEC).abs();
+    factors.min_by(|one, other| off(*one).total_cmp(&off(*other))).unwrap_or(1.0)
 }
 
 /// The view: two directions of the drawing plane and the direction towards the viewer, each east, north, up.
@@ -241,7 +242,8 @@ fn axes(view: &View, designed: &Matrix3<f64>, real: &Matrix3<f64>) -> Markup {
     };
     let (directions, [x0, y0, z0]) = (rows(real), rows(designed));
     let [x, y, z] = &directions;
-    let mut taken = Vec::new();
+    // The heading of the drawing, which print sets larger.
+    let mut taken = vec![Area { low: [0.0, 0.0], high: [SIZE[0], 28.0] }];
     let letters = ["x", "y", "z"].into_iter().zip(&directions).map(|(name, direction)| {
         let [x, y] = letter(view, direction, &taken);
         taken.push(about_letter([x, y]));
@@ -301,4 +303,40 @@ fn nearest(axis: &Vector3<f64>) -> (Text, Number) {
     // From sine and cosine, because an arc cosine is inaccurate for small angles.
     let angle_deg = degrees_from_radians(libm::atan2(rest.norm(), axis[largest].abs()));
     (name, Number::significant(angle_deg, 2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::page::language::Language;
+
+    fn stand(largest_arcsec: f64) -> Vec<CertifiedPosition> {
+        [(1, -0.3 * largest_arcsec), (2, largest_arcsec)]
+            .map(|(j, alpha_arcsec)| CertifiedPosition {
+                i: 1,
+                j,
+                theta_deg: 0.0,
+                phi_deg: 90.0 * f64::from(j - 1),
+                alpha_arcsec,
+                beta_arcsec: 0.0,
+                gamma_arcsec: 0.0,
+                u_alpha_arcsec: None,
+                u_beta_arcsec: None,
+                u_gamma_arcsec: None,
+                degrees_of_freedom: None,
+            })
+            .to_vec()
+    }
+
+    /// By hand: the largest deviation times the factor is 10.0°, 8°, 11.1°, 10.0°, and as it is; the factor is always stated.
+    #[test]
+    fn deviations_are_drawn_at_about_ten_degrees() {
+        for (largest_arcsec, due) in
+            [(90.0, "×400."), (14.4, "×2000."), (-80.0, "×500."), (9000.0, "×4."), (162_000.0, "×1."), (0.0, "×1.")]
+        {
+            let factor = exaggeration(&stand(largest_arcsec));
+            let key = key(&Language::English.into(), factor).into_string();
+            assert!(key.contains(&format!("Deviations are drawn {due}")), "{largest_arcsec}″: {key}");
+        }
+    }
 }

@@ -37,7 +37,7 @@ texts! {
         ru: "номинальные, где отличие заметно"
     }
     FRAME { en: "frame, rotated by θ about ξ", ru: "рамка, повёрнута на θ вокруг ξ" }
-    EXAGGERATED { en: "Deviations are drawn ×{factor}.", ru: "Отклонения увеличены в {factor} раз." }
+    EXAGGERATED { en: "Deviations are drawn ×{factor}.", ru: "Отклонения изображены в масштабе ×{factor}." }
     PLATFORM {
         en: "platform with the gyro, rotated by φ about z; its two pins are along x",
         ru: "платформа с гироскопом, повёрнута на φ вокруг z; два штифта по x"
