@@ -125,9 +125,12 @@ fn every_line_of_the_annex_is_whole() {
             strings(&said["margins"]).into_iter().map(packed).filter(|m| !m.is_empty()).collect();
         let sheets = page.sheets("-raw").join("\n");
         let mut checked = 0;
-        let is_start = |line: &str| !line.trim().is_empty() && annex.starts_with(line.trim_end());
+        // Without the number of the line, or the mark that it goes on.
+        let text_of = |line: &str| packed(line.trim_start_matches(|c: char| c.is_ascii_digit() || c == '↳'));
+        let first = packed(annex.lines().next().unwrap());
+        let is_start = |line: &str| !text_of(line).is_empty() && first.starts_with(&text_of(line));
         for line in sheets.lines().skip_while(|line| !is_start(line)) {
-            let text = packed(line.trim_start_matches(|c: char| c.is_ascii_digit() || c == '↳'));
+            let text = text_of(line);
             let is_margin = margins.iter().any(|margin| margin.contains(&text) || text.contains(margin));
             let is_number_of_sheet = line.split('/').all(|part| part.trim().parse::<u32>().is_ok());
             if is_margin || is_number_of_sheet {
@@ -187,6 +190,42 @@ fn no_sheet_is_nearly_empty() {
             let lowest = ends.filter(|end| *end < 842.0 - 40.0).fold(0.0, f64::max);
             assert!(lowest > 842.0 / 3.0, "{}, sheet {}: {lowest} pt", page.name, index + 1);
         }
+    }
+}
+
+/// Without a warning beside it, the name of the document takes one line of the margin.
+#[test]
+fn the_running_head_is_one_line() {
+    // A name of 500 characters has no line that is long enough.
+    for page in all_pages().filter(|page| !page.name.starts_with("hostile")) {
+        let margins = strings(&page.found["said"]["margins"]);
+        if !margins[1].is_empty() {
+            continue;
+        }
+        for (index, sheet) in page.sheets("-layout").iter().enumerate() {
+            assert_eq!(packed(lines(sheet)[0]), packed(margins[0]), "{}, sheet {}", page.name, index + 1);
+        }
+    }
+}
+
+/// On the last sheet the two columns of the annex end at one height, but for a line of the file, which stays whole.
+#[test]
+fn columns_of_the_annex_end_together() {
+    for page in all_pages() {
+        let mut pdftotext = programs::on_path("pdftotext");
+        let sheets = page.info("Pages");
+        pdftotext.args(["-enc", "UTF-8", "-bbox", "-f", &sheets, "-l", &sheets]).arg(page.pdf()).arg("-");
+        let text = programs::output(pdftotext);
+        let number = |word: &str, key: &str| -> f64 {
+            let (_, rest) = word.split_once(&format!("{key}=\"")).unwrap();
+            rest.split('"').next().unwrap().parse().unwrap()
+        };
+        let words = text.split("<word ").skip(1).map(|word| [number(word, "xMin"), number(word, "yMin")]);
+        // Between the margins of the sheet.
+        let words: Vec<[f64; 2]> = words.filter(|[_, y]| (43.0..842.0 - 40.0).contains(y)).collect();
+        let end =
+            |right: bool| words.iter().filter(|[x, _]| (*x > 297.6) == right).map(|[_, y]| *y).fold(0.0, f64::max);
+        assert!((end(false) - end(true)).abs() < 90.0, "{}: {} and {} pt", page.name, end(false), end(true));
     }
 }
 

@@ -220,7 +220,7 @@ pub(crate) fn verbatim(lang: &str, text: &str, end: &Markup) -> Markup {
         div.file {
             pre lang=(lang) translate="no" tabindex="0" aria-labelledby="annex-heading" {
                 @for line in text.split_inclusive('\n') {
-                    span class=[kind(line)] { (unbroken(line)) }
+                    span class=[kind(line)] { span { (unbroken(line)) } }
                 }
             }
             p.end { (end) }

@@ -46,8 +46,11 @@ pub(crate) fn document(languages: &Languages, title: &str, margins: &Margins, bo
 impl Margins {
     fn css(&self) -> String {
         let (left, right, below) = (quoted(&self.top_left), quoted(&self.top_right), quoted(&self.bottom_left));
+        // Without a warning the name has the whole width; a long one then takes one line.
+        let [left_percent, right_percent] = if self.top_right.is_empty() { [97, 3] } else { [45, 55] };
         format!(
-            "@page {{ @top-left {{ content: {left}; }} @top-right {{ content: {right}; }} \
+            "@page {{ @top-left {{ content: {left}; width: {left_percent}%; }} \
+             @top-right {{ content: {right}; width: {right_percent}%; }} \
              @bottom-left {{ content: {below}; }} }}\n"
         )
     }

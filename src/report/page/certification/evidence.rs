@@ -55,8 +55,8 @@ pub(super) fn uncertainty(page: &CertificationPage, languages: &Languages) -> Ma
         (heading(languages, texts::BUDGET))
         (characteristics::common(&page.certification.stand.certificate, languages))
         (heading(languages, texts::COMPONENTS))
-        (components(page, languages))
         (languages.paragraph(texts::COMPONENTS_NOTE))
+        (components(page, languages))
         (heading(languages, texts::RUN_TURNS))
         (run_turns(page, languages))
     }

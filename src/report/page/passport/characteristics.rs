@@ -161,6 +161,7 @@ fn place(site: &Site, languages: &Languages) -> Markup {
     };
     html! {
         (fields([
+            wide_stated(languages, texts::NAME, site.name.as_deref().map(given)),
             stated(languages, texts::SITE_ID, Some(given(site.id.as_str()))),
             latitude,
             stated(languages, texts::LONGITUDE, site.longitude_deg.map(|degrees| coordinate(languages, degrees, LONGITUDES))),
@@ -172,7 +173,6 @@ fn place(site: &Site, languages: &Languages) -> Markup {
             stated(languages, texts::LATITUDE_U, latitude_u.map(u)),
             stated(languages, texts::AZIMUTH_U, base.and_then(|base| base.azimuth_arcsec).map(u)),
             stated(languages, texts::LEVEL_U, base.and_then(|base| base.level_arcsec).map(u)),
-            wide_stated(languages, texts::NAME, site.name.as_deref().map(given)),
             wide_stated(languages, texts::SOURCE, site.source.as_deref().map(given)),
         ]))
         (mark(site, languages))
