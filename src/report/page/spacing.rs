@@ -15,6 +15,12 @@ const BEFORE_NUMBERS: [&str; 9] = ["No.", "eq.", "JCGM", "GOST", "ГОСТ", "WG
 /// Signs that stay with what is on either side of them.
 const SIGNS: [&str; 6] = ["=", "≤", "≥", "<", ">", "·"];
 
+/// Units of angles after a comma, as in the head of a column.
+const MARKS_OF_ANGLES: [&str; 3] = ["°", "′", "″"];
+
+/// Units in which browsers see a place for a line to end, after the solidus.
+const WITH_SOLIDUS: [&str; 4] = ["m/s²", "м/с²", "°/h", "°/ч"];
+
 /// Returns the text with a non-breaking space wherever a line must not end. Names in braces count as numbers.
 pub(crate) fn spaced(text: &str) -> String {
     let words: Vec<&str> = text.split(' ').collect();
@@ -28,7 +34,8 @@ pub(crate) fn spaced(text: &str) -> String {
     spaced
 }
 
-/// Writes words so that no line ends at the hyphen of a date or the minus of a power of ten, where browsers see a hyphen.
+/// Writes words so that no line ends at the hyphen of a date, at the minus of a power of ten, where browsers see a hyphen, or
+/// after the solidus of a unit.
 pub(crate) fn unbroken(words: &str) -> Markup {
     let is_within_number = |around: &[u8]| match around {
         [before, b'-', after] => (before.is_ascii_digit() || *before == b'e') && after.is_ascii_digit(),
@@ -36,7 +43,7 @@ pub(crate) fn unbroken(words: &str) -> Markup {
     };
     html! {
         @for word in words.split_inclusive(' ') {
-            @if word.as_bytes().windows(3).any(is_within_number) {
+            @if word.as_bytes().windows(3).any(is_within_number) || WITH_SOLIDUS.iter().any(|unit| word.contains(unit)) {
                 span.n { (word.trim_end()) } (&word[word.trim_end().len()..])
             } @else {
                 (word)
@@ -54,6 +61,7 @@ fn belong(before: &str, after: &str) -> bool {
     let is_dash = matches!(first, "—" | "–");
     let is_unit = UNITS.contains(&unit) || unit.starts_with('°');
     is_dash
+        || MARKS_OF_ANGLES.contains(&unit)
         || SIGNS.contains(&before)
         || SIGNS.contains(&first) && !before.ends_with([',', ';'])
         || is_unit && before.ends_with(|c: char| c.is_ascii_digit() || c == '}')
@@ -89,6 +97,7 @@ mod tests {
             "от_{low} до 22_°C, {g}_°/(ч·g), 95_%. Все 5_м/с²",
             "the 5_mA of position {index} in {unit}: {u}_{unit}, < {limit}",
             "JCGM_106, 8.3; eq._(4) to_(5), p_≤_0.05",
+            "relative to the mean,_″; θ,_°",
             "a table of A and B, o and O",
         ] {
             let due = due.replace("от_", "от ").replace("to_(", "to (").replace("< {", "<_{").replace('_', "\u{a0}");
@@ -97,10 +106,16 @@ mod tests {
         }
     }
 
-    /// Between `[` and `]`: a date, a number with an exponent. Hyphens of words and names are no part of a number.
+    /// Between `[` and `]`: a date, a number with an exponent, a unit with a solidus. Hyphens of words and names are no part of
+    /// a number.
     #[test]
     fn no_line_ends_within_a_number() {
-        for due in ["until [2028-11-01] (inclusive)", "u: [3.2e-05,] C-18, g-sensitive", "[a-1-2]"] {
+        for due in [
+            "until [2028-11-01] (inclusive)",
+            "u: [3.2e-05,] C-18, g-sensitive",
+            "[a-1-2]",
+            "of [9.8\u{a0}м/с²,] and/or",
+        ] {
             let written = unbroken(&due.replace(['[', ']'], "")).into_string();
             assert_eq!(written.replace("<span class=\"n\">", "[").replace("</span>", "]"), due);
         }

@@ -79,7 +79,7 @@ fn components(page: &CertificationPage, languages: &Languages) -> Markup {
     found.extend(components.base.iter().map(|base| run(texts::BASE, base)));
     let root = (page.certification.runs.len() as f64).sqrt();
     let arcsec = |markup: Markup| symbol_and_unit(languages, &markup, units::ARCSEC);
-    let mean = arcsec(html! { i { "s" } "/√" i { "R" } });
+    let mean = arcsec(html! { span.symbol { i { "s" } "/√" i { "R" } } });
     let s = column(languages, found.iter().map(|(_, s, ..)| Number::fixed(*s, 2)));
     let freedom = column(languages, found.iter().map(|(_, _, freedom, _)| Number::fixed(*freedom, 1)));
     let of_mean = column(languages, found.iter().map(|(_, s, ..)| Number::fixed(s / root, 2)));
