@@ -2,6 +2,8 @@
 
 use super::page::Number;
 use super::page::language::{Language, Text, values};
+use super::page::number::LATITUDES;
+use super::page::spacing::BLANK;
 use super::page::texts::calibration as texts;
 use crate::calibration::mistake::{CurrentsMistaken, Mistake};
 
@@ -16,7 +18,9 @@ pub(crate) fn words(mistake: &Mistake, language: Language) -> String {
             texts::MISTAKE_CURRENTS.filled(language, values! { causes })
         }
         Mistake::OtherPlace { latitude_deg } => {
-            texts::MISTAKE_PLACE.filled(language, values! { latitude: Number::fixed(*latitude_deg, 1) })
+            let (degrees, hemisphere) = Number::fixed(*latitude_deg, 1).in_hemisphere(LATITUDES);
+            let latitude = format!("{}°{BLANK}{}", degrees.text(language), hemisphere.words(language));
+            texts::MISTAKE_PLACE.filled(language, values! { latitude })
         }
         Mistake::GyroTurned { by_deg } => texts::MISTAKE_GYRO_TURNED.filled(language, &[("angle", by_deg)]),
         Mistake::OtherAxis { frame_axis_azimuth_deg } => {

@@ -83,7 +83,7 @@ function said() {
     download: { name: link.download, address: link.href },
     checked: document.querySelector(".checked")?.textContent ?? "",
     greens: all(".passed").map(text),
-    // The serial number of the gyro, in the band and among the fields, where it is seen.
+    // The serial number of the gyro among the fields, where it is seen.
     serials: all("dt").filter((name) => /^(Serial number of the gyro|Заводской номер гироскопа)/.test(name.textContent) && name.checkVisibility())
       .map((name) => name.nextElementSibling.textContent),
     verdicts: all(".verdict").map(text),

@@ -91,10 +91,18 @@ impl Number {
         Self::new(value, without_minus_zero(digits))
     }
 
-    /// Creates a number with the shortest decimal, but at most `decimals` decimals.
+    /// Creates a number with the shortest decimal, but at most `decimals` decimals, and no zeros at their end.
     pub(crate) fn at_most(value: f64, decimals: usize) -> Self {
         let exact = Self::exact(value);
-        if exact.decimals() > decimals { Self::fixed(value, decimals) } else { exact }
+        if exact.decimals() <= decimals {
+            return exact;
+        }
+        let rounded = Self::fixed(value, decimals);
+        let digits = match rounded.digits.contains('.') {
+            true => rounded.digits.trim_end_matches('0').trim_end_matches('.'),
+            false => &rounded.digits,
+        };
+        Self::new(value, digits.to_owned())
     }
 
     /// Creates the number of a standard uncertainty: two significant digits, or a plain 0.
@@ -380,6 +388,16 @@ mod tests {
         assert_eq!(missing("0,0012"), "0__·_10⁻⁵");
         assert_eq!(missing("3,4\u{202f}·\u{202f}10⁻⁵"), "0000_");
         assert_eq!(missing("7"), ".00000__·_10⁻⁵");
+    }
+
+    /// By hand: 72 degrees of freedom that are computed as a sum of fractions.
+    #[test]
+    fn no_zeros_end_a_number_of_few_decimals() {
+        let at_most = |value| english(&Number::at_most(value, 1));
+        assert_eq!(
+            [72.000_000_01, 8.94, 100.02, 0.04, 71.96, 23.0].map(at_most),
+            ["72", "8.9", "100", "0", "72", "23"]
+        );
     }
 
     #[test]

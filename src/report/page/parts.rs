@@ -145,7 +145,12 @@ pub(crate) fn band(languages: &Languages, cells: [(Text, Markup, Markup); 4]) ->
 
 /// Writes a coordinate in degrees, with its hemisphere instead of a sign.
 pub(crate) fn coordinate(languages: &Languages, degrees: f64, hemispheres: [Text; 2]) -> Markup {
-    let (number, hemisphere) = Number::exact(degrees).in_hemisphere(hemispheres);
+    in_hemisphere(languages, Number::exact(degrees), hemispheres)
+}
+
+/// Writes a number of degrees as [`coordinate`] does.
+pub(crate) fn in_hemisphere(languages: &Languages, degrees: Number, hemispheres: [Text; 2]) -> Markup {
+    let (number, hemisphere) = degrees.in_hemisphere(hemispheres);
     html! { span.quantity { (number.markup(languages)) "°" (BLANK) (languages.inline(hemisphere)) } }
 }
 

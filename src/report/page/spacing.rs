@@ -19,7 +19,7 @@ const SIGNS: [&str; 6] = ["=", "≤", "≥", "<", ">", "·"];
 const MARKS_OF_ANGLES: [&str; 3] = ["°", "′", "″"];
 
 /// Units in which browsers see a place for a line to end, after the solidus.
-const WITH_SOLIDUS: [&str; 4] = ["m/s²", "м/с²", "°/h", "°/ч"];
+const WITH_SOLIDUS: [&str; 3] = ["m/s²", "м/с²", "°/"];
 
 /// Returns the text with a non-breaking space wherever a line must not end. Names in braces count as numbers.
 pub(crate) fn spaced(text: &str) -> String {

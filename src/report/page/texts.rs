@@ -38,7 +38,7 @@ pub(crate) const TABLES: [(&str, &[(&str, Text)]); 10] = [
     ("pictures", pictures::ALL),
 ];
 
-/// Units, and what is written after coordinates in place of a sign. Those of angles are written alike in both languages.
+/// Units, and the hemispheres of coordinates. Units of angles are the same in every language.
 pub(crate) mod units {
     use super::texts;
 

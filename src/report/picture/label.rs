@@ -15,6 +15,10 @@ const SAME: f64 = 6.0;
 /// Distances from the point at which a label is tried.
 const DISTANCES: [f64; 6] = [8.0, 16.0, 26.0, 38.0, 52.0, 68.0];
 
+/// Cost of a label that could be taken for that of another point, and how much nearer its own point should be.
+const MISTAKEN: f64 = 60.0;
+const NEARER: f64 = 5.0;
+
 /// A label to be placed.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Label {
@@ -41,6 +45,12 @@ impl Area {
 
     fn about([x, y]: Point, half: f64) -> Self {
         Self { low: [x - half, y - half], high: [x + half, y + half] }
+    }
+
+    /// Returns the distance of a point from the box.
+    fn distance(&self, at: Point) -> f64 {
+        let [x, y] = [0, 1].map(|axis| at[axis] - at[axis].clamp(self.low[axis], self.high[axis]));
+        libm::hypot(x, y)
     }
 
     /// Returns the area of this box outside `other`.
@@ -81,7 +91,8 @@ pub(crate) fn place(labels: &[Label], words: &[Area], obstacles: &[Point], field
         let cost = |area: &Area, distance: f64| {
             let over = |others: &[Area]| others.iter().map(|other| area.overlap(other)).sum::<f64>();
             // Words over other words are unreadable, so any distance costs less than an overlap.
-            1000.0 * (area.outside(field) + over(&taken)) + 10.0 * over(&marks) + 4.0 * over(&lines) + distance
+            let crossed = 1000.0 * (area.outside(field) + over(&taken)) + 10.0 * over(&marks) + 4.0 * over(&lines);
+            crossed + MISTAKEN * labels.iter().filter(|other| label.is_mistaken(other, area)).count() as f64 + distance
         };
         let candidates = DISTANCES.iter().flat_map(|distance| (0..16).map(move |turn| (*distance, turn)));
         let best = candidates
@@ -110,6 +121,11 @@ pub(crate) fn width(words: &str) -> f64 {
 }
 
 impl Label {
+    /// Returns `true` if the label at `area` is hardly nearer to its own point than to that of another label.
+    fn is_mistaken(&self, other: &Self, area: &Area) -> bool {
+        other.at != self.at && area.distance(other.at) < area.distance(self.at) + NEARER
+    }
+
     /// Returns the box of the label next to `at`: to the right of `at` if the label is to the right of its point, and
     /// so on.
     fn area(&self, [x, y]: Point, cos: f64) -> Area {

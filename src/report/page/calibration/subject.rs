@@ -28,6 +28,8 @@ pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
     let content = page.content();
     let or_not = |value: Option<Markup>| value.unwrap_or_else(|| not_stated(languages));
     let laboratory = page.laboratory.and_then(|laboratory| laboratory.name.as_deref()).map(given);
+    // The title names the serial number if it was stated.
+    let no_serial = html! { p { (languages.inline(texts::SERIAL)) ": " (serial(page, languages)) } };
     let day = or_not(page.document.date().map(|day| date(languages, day)));
     let stand = html! { (given(content.stand.model.as_str())) " №\u{a0}" (given(content.stand.serial.as_str())) };
     let site = content.site.name.as_deref().unwrap_or(content.site.id.as_str());
@@ -39,12 +41,8 @@ pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
     parts::band(
         languages,
         [
-            (texts::SERIAL, serial(page, languages), html! {}),
-            (
-                passport_texts::LABORATORY,
-                or_not(laboratory),
-                html! { p { (languages.inline(texts::MEASURED)) ": " (day) } },
-            ),
+            (texts::MEASURED, day, html! { @if page.serial().is_none() { (no_serial) } }),
+            (passport_texts::LABORATORY, or_not(laboratory), html! {}),
             (texts::STAND, stand, html! { p { (given(site)) } }),
             (passport_texts::WORD, given(&content.certificate.number), certificate),
         ],

@@ -81,7 +81,7 @@ fn components(page: &CertificationPage, languages: &Languages) -> Markup {
     let arcsec = |markup: Markup| symbol_and_unit(languages, &markup, units::ARCSEC);
     let mean = arcsec(html! { span.symbol { i { "s" } "/√" i { "R" } } });
     let s = column(languages, found.iter().map(|(_, s, ..)| Number::fixed(*s, 2)));
-    let freedom = column(languages, found.iter().map(|(_, _, freedom, _)| Number::fixed(*freedom, 1)));
+    let freedom = column(languages, found.iter().map(|(_, _, freedom, _)| Number::at_most(*freedom, 1)));
     let of_mean = column(languages, found.iter().map(|(_, s, ..)| Number::fixed(s / root, 2)));
     let upper = column(languages, found.iter().map(|(.., upper)| upper.map(|s| Number::fixed(s, 2))));
     let columns = [

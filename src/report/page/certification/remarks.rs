@@ -81,7 +81,7 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
         }
         Remark::SmallAngles(largest) => fill(texts::SMALL_ANGLES, values! { largest: fixed(*largest, 2) }),
         Remark::Odd(Odd::FarAngle { angle, index, arcsec, usual_arcsec }) => {
-            let (angle, value, usual) = (LETTERS[*angle], exact(*arcsec), exact(*usual_arcsec));
+            let (angle, value, usual) = (LETTERS[*angle], fixed(*arcsec, 0), fixed(*usual_arcsec, 0));
             fill(texts::FAR_ANGLE, values! { angle, index, value, usual })
         }
         Remark::Odd(Odd::Temperature { celsius, .. }) => fill(texts::TEMPERATURE, values! { value: exact(*celsius) }),

@@ -4,8 +4,8 @@ use super::PassportPage;
 use crate::report::page::language::{Language, Languages, values};
 use crate::report::page::number::{LARGEST_IN_ARCSEC, LATITUDES, LONGITUDES, Number, column};
 use crate::report::page::parts::{
-    Column, Table, coordinate, fields, figure, given, heading, not_stated, quantity, starts, stated, symbol,
-    symbol_and_unit, wide_stated,
+    Column, Table, coordinate, fields, figure, given, heading, in_hemisphere, not_stated, quantity, starts, stated,
+    symbol, symbol_and_unit, wide_stated,
 };
 use crate::report::page::texts::{passport as texts, units};
 use crate::report::picture::deviations::Bars;
@@ -179,13 +179,12 @@ fn place(site: &Site, languages: &Languages) -> Markup {
     }
 }
 
-/// Writes an angle in degrees to the digits of its uncertainty, or to a tenth of a metre on the ground.
-fn angle(degrees: f64, u_arcsec: Option<f64>, languages: &Languages) -> Markup {
-    let number = match u_arcsec {
-        Some(u) if u > 0.0 => Number::measured(degrees, u / ARCSECONDS_PER_DEGREE),
+/// Returns an angle in degrees to the digits of its uncertainty, or to a tenth of a metre on the ground.
+fn angle(degrees: f64, u_arcsec: f64) -> Number {
+    match u_arcsec {
+        u if u > 0.0 => Number::measured(degrees, u / ARCSECONDS_PER_DEGREE),
         _ => Number::at_most(degrees, 6),
-    };
-    quantity(languages, &number, units::DEGREES)
+    }
 }
 
 /// Writes g, with its uncertainty if that is known.
@@ -225,10 +224,10 @@ fn the_earth(site: &Site, earth: &Earth, languages: &Languages) -> Markup {
             (symbol("u", "")) " " (quantity(languages, &Number::uncertainty(u), units::ARCSEC))
         },
         None => html! {
-            (angle(azimuth, None, languages)) ", " (symbol("u", "")) " " (not_stated(languages))
+            (quantity(languages, &angle(azimuth, 0.0), units::DEGREES)) ", " (symbol("u", "")) " " (not_stated(languages))
         },
     });
-    let latitude = angle(earth.latitude_deg, Some(site.astronomic_latitude_u_arcsec()), languages);
+    let latitude = in_hemisphere(languages, angle(earth.latitude_deg, site.astronomic_latitude_u_arcsec()), LATITUDES);
     let [horizontal_u, vertical_u] = earth.rate_u_deg_per_h(site);
     fields([
         stated(languages, texts::EARTH_RATE, Some(rate(earth.rate_deg_per_h, 0.0))),

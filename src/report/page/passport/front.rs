@@ -55,7 +55,17 @@ fn answers(page: &PassportPage, languages: &Languages) -> Markup {
     let until = match content.last_day() {
         Some((day, _)) if valid => {
             let words = if unchecked { texts::INCLUSIVE_NOT_CHECKED } else { texts::INCLUSIVE };
-            html! { p.large { (languages.inline(texts::UNTIL)) " " (date(languages, day)) } p { (languages.label(words)) } }
+            // The large words are in one language; the second says the day itself.
+            let rest = |language| match language == languages.first() {
+                true => words.words(language),
+                false => {
+                    format!("{} {} {}", texts::UNTIL.words(language), date_text(language, day), words.words(language))
+                }
+            };
+            html! {
+                p.large { (languages.spoken(texts::UNTIL)) " " (date(languages, day)) }
+                p { (languages.label_with(rest)) }
+            }
         }
         // Below "Not to be used", "until" would say that it may be used later.
         Some((day, _)) => html! {

@@ -36,7 +36,7 @@ texts! {
     EIGHT_POSITIONS {
         en: "Some of the eight standard positions are not certified; there are no matrices, and only least squares \
              applies.",
-        ru: "Аттестованы не все восемь положений: матриц нет, применим только метод наименьших квадратов."
+        ru: "В сертификате не все восемь положений: матриц нет, применим только метод наименьших квадратов."
     }
     DEFLECTION {
         en: "The deflection of the vertical is unknown; it is taken as 0 with u = {u}″, which adds up to \

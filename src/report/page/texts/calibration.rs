@@ -10,7 +10,7 @@ texts! {
         en: "Scale factors and drifts in case axes, determined from the torquer currents in the positions of a \
              certified stand",
         ru: "Масштабные коэффициенты и составляющие дрейфа в осях корпуса, найденные по токам датчиков момента в \
-             положениях стенда с аттестованными отклонениями"
+             положениях откалиброванного стенда"
     }
     MARGIN { en: "Calibration report: {name}", ru: "Отчёт о калибровке: {name}" }
     MARGIN_SHA256 { en: "SHA-256 of the file of currents {sha256}", ru: "SHA-256 файла токов {sha256}" }
@@ -59,10 +59,10 @@ texts! {
     }
     MISTAKE_PLACE {
         en: "The readings fit, but the parameters do not match this gyro. One error explains this: the passport is for \
-             another site, and the stand is at a latitude of about {latitude}°. Check the location of the stand; then \
+             another site, and the stand is at a latitude of about {latitude}. Check the location of the stand; then \
              calibrate again with the passport for that site.",
         ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: \
-             паспорт выдан для другого места установки, а стенд находится на широте около {latitude}°. Следует \
+             паспорт выдан для другого места установки, а стенд находится на широте около {latitude}. Следует \
              проверить место установки стенда и повторить калибровку по паспорту для этого места."
     }
     MISTAKE_GYRO_TURNED {
@@ -156,7 +156,7 @@ texts! {
     TEMPERATURE_OUTSIDE {
         en: "The temperature in the laboratory is {here} °C; the deviations of the stand are certified from \
              {low} °C to {high} °C.",
-        ru: "Температура в лаборатории {here} °C; отклонения стенда аттестованы при температуре от {low} до \
+        ru: "Температура в лаборатории {here} °C; отклонения стенда определены при температуре от {low} до \
              {high} °C."
     }
     GRAVITY {
@@ -492,7 +492,7 @@ texts! {
         ru: "Полуширина интервала охвата 95 % (k = 1,96 или коэффициент Стьюдента)"
     }
     INPUT { en: "{input}: u = {u}", ru: "{input}: u = {u}" }
-    CAUSE_ANGLE { en: "certified angles", ru: "аттестованные углы" }
+    CAUSE_ANGLE { en: "certified angles", ru: "углы по сертификату" }
     CAUSE_RETURN { en: "repeatability of positioning", ru: "повторяемость положений" }
     CAUSE_READING { en: "meter, specification", ru: "измеритель, погрешность показания" }
     CAUSE_FLOOR { en: "meter, floor", ru: "измеритель, постоянная часть" }

@@ -3,14 +3,14 @@
 use super::texts;
 
 texts! {
-    TITLE { en: "Record of the calibration of a test stand", ru: "Протокол калибровки испытательного стенда" }
+    TITLE { en: "Record of the certification of a test stand", ru: "Протокол калибровки испытательного стенда" }
     SUBTITLE {
         en: "Readings, tests and uncertainty behind a calibration certificate",
         ru: "Показания, критерии и неопределённость, на которых основан сертификат калибровки"
     }
-    MARGIN { en: "Record of certificate {number}", ru: "Протокол к сертификату {number}" }
+    MARGIN { en: "Record of the certification, certificate {number}", ru: "Протокол к сертификату {number}" }
     MARGIN_SHA256 { en: "SHA-256 of the file of readings {sha256}", ru: "SHA-256 файла показаний {sha256}" }
-    END { en: "End of the record of certificate {number}", ru: "Конец протокола к сертификату {number}" }
+    END { en: "End of the record of the certification, certificate {number}", ru: "Конец протокола к сертификату {number}" }
 
     SUBJECT { en: "Stand and certificate", ru: "Стенд и сертификат" }
 
@@ -33,7 +33,7 @@ texts! {
     ALL_POSITIONS { en: "all", ru: "все" }
     REASON { en: "Reason", ru: "Причина" }
 
-    RESULT { en: "Certified deviations", ru: "Аттестованные отклонения" }
+    RESULT { en: "Certified deviations", ru: "Отклонения положений" }
     STANDARD { en: "standard uncertainty (k = 1)", ru: "стандартная неопределённость (k = 1)" }
 
     UNCERTAINTY { en: "Uncertainty", ru: "Неопределённость" }
@@ -124,7 +124,7 @@ texts! {
     CHANGE { en: "Change since the previous certificate", ru: "Изменение после предыдущей калибровки" }
     CERTIFIED {
         en: "Positions certified: {positions}; runs: {runs}",
-        ru: "Аттестовано положений: {positions}; серий: {runs}"
+        ru: "Откалибровано положений: {positions}; серий: {runs}"
     }
     NOT_COMPARED {
         en: "The readings were not compared with an earlier certificate.",

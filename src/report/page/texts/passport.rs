@@ -92,10 +92,10 @@ texts! {
     }
 
     CHARACTERISTICS { en: "Characteristics", ru: "Основные технические данные" }
-    DEVIATIONS { en: "Certified deviations of the positions", ru: "Аттестованные отклонения положений" }
+    DEVIATIONS { en: "Certified deviations of the positions", ru: "Отклонения положений по сертификату" }
     DEVIATIONS_CAPTION {
         en: "Nominal angles, and certified deviations of the actual orientation from the nominal",
-        ru: "Номинальные углы и аттестованные отклонения реальной ориентации от номинальной"
+        ru: "Номинальные углы и отклонения реальной ориентации от номинальной"
     }
     DEVIATIONS_NOTE {
         en: "Position (i, j): frame angle θ about ξ, then platform angle φ about the spin axis. α, β, γ transform \
@@ -104,7 +104,7 @@ texts! {
              Uncertainties have two significant digits; values are rounded to the same decimal place.",
         ru: "Положение (i, j): угол рамки θ вокруг ξ, затем угол платформы φ вокруг оси собственного вращения. α, β, γ \
              преобразуют координаты от номинальной платформы к реальной, формула (4). u — стандартная \
-             неопределённость (k = 1) аттестованного среднего, собственная составляющая положения; ν — \
+             неопределённость (k = 1) среднего по сертификату, собственная составляющая положения; ν — \
              число её степеней свободы (прочерк — не указано). В неопределённостях две значащие цифры, значения — до того же разряда."
     }
     FIGURE_POSITIONS {
@@ -218,7 +218,7 @@ texts! {
     NO_MATRICES {
         en: "Some of the eight standard positions are not certified, so there are no matrices. Calibrate by least \
              squares, with the vectors below.",
-        ru: "Аттестованы не все восемь положений, поэтому матриц нет. Калибровку выполняют методом наименьших \
+        ru: "В сертификате не все восемь положений, поэтому матриц нет. Калибровку выполняют методом наименьших \
              квадратов по приведённым ниже векторам."
     }
 

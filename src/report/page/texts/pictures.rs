@@ -27,8 +27,8 @@ texts! {
     POSITION_DESCRIPTION {
         en: "Frame angle θ = {theta}°, platform angle φ = {phi}°. Certified directions of the case \
              axes: x {x} (within {x_angle}°), y {y} (within {y_angle}°), z, the spin axis, {z} (within {z_angle}°).",
-        ru: "Угол рамки θ = {theta}°, угол платформы φ = {phi}°. Аттестованные направления осей \
-             корпуса: x — {x} (в пределах {x_angle}°), y — {y} (в пределах {y_angle}°), z (ось собственного \
+        ru: "Угол рамки θ = {theta}°, угол платформы φ = {phi}°. Направления осей корпуса \
+             по сертификату: x — {x} (в пределах {x_angle}°), y — {y} (в пределах {y_angle}°), z (ось собственного \
              вращения) — {z} (в пределах {z_angle}°)."
     }
     CASE_AXES { en: "case axes x, y, z, actual", ru: "оси корпуса x, y, z, реальные" }
@@ -45,7 +45,7 @@ texts! {
 
     DEVIATION_BAR {
         en: "certified deviations α, β, γ about x, y, z of the platform",
-        ru: "аттестованные отклонения α, β, γ вокруг осей x, y, z платформы"
+        ru: "отклонения α, β, γ по сертификату, вокруг осей x, y, z платформы"
     }
     DEVIATION_WHISKER {
         en: "±2u, with u the standard uncertainty of the own part of the position",
@@ -53,9 +53,9 @@ texts! {
     }
     DEVIATION_NO_U { en: "the certificate gives no uncertainty", ru: "неопределённость в сертификате не указана" }
 
-    EARTH_RATE_DIFFERENCE { en: "ω₃: actual minus ideal", ru: "ω₃: отличие от идеальной" }
+    EARTH_RATE_DIFFERENCE { en: "ω: actual minus ideal", ru: "ω: отличие от идеальной" }
     SPECIFIC_FORCE_DIFFERENCE { en: "n: actual minus ideal", ru: "n: отличие от идеальной" }
-    EARTH_RATE_OF_FRAME { en: "ω₃, frame index i = {i}", ru: "ω₃, индекс рамки i = {i}" }
+    EARTH_RATE_OF_FRAME { en: "ω, frame index i = {i}", ru: "ω, индекс рамки i = {i}" }
     SPECIFIC_FORCE_OF_FRAME { en: "n, frame index i = {i}", ru: "n, индекс рамки i = {i}" }
     VECTOR_IN_WORDS { en: "position {index}: x {x}, y {y}", ru: "положение {index}: x {x}, y {y}" }
     VECTORS_DESCRIPTION { en: "In {unit}: {list}.", ru: "В {unit}: {list}." }

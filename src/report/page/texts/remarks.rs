@@ -37,7 +37,7 @@ texts! {
         en: "{grade}: all positions of run {run} are rotated by {x}″, {y}″, {z}″ about {axes} relative to the other \
              runs (Grubbs’ test, p = {p}). The run was not excluded; it changes certified angles by up to {mean}″.",
         ru: "{grade}: все положения серии {run} повёрнуты относительно других серий на {x}″, {y}″, {z}″ вокруг {axes} \
-             (критерий Граббса, p = {p}). Серия не исключена; она изменяет аттестованные отклонения не более чем на \
+             (критерий Граббса, p = {p}). Серия не исключена; она изменяет отклонения в сертификате не более чем на \
              {mean}″."
     }
     MOVED {
@@ -45,7 +45,7 @@ texts! {
              {z}″ about {axes} (Student’s test of a step, p = {p}). No run was excluded; the certified angles are a \
              mean of both states.",
         ru: "По-видимому, между сериями {run} и {after} стенд сместился: все положения повёрнуты на {x}″, {y}″, {z}″ \
-             вокруг {axes} (критерий Стьюдента для скачка, p = {p}). Серии не исключены; аттестованные отклонения — \
+             вокруг {axes} (критерий Стьюдента для скачка, p = {p}). Серии не исключены; отклонения в сертификате — \
              среднее по обоим состояниям."
     }
     DRIFTS {
@@ -53,7 +53,7 @@ texts! {
              (Student’s test of a straight line, p = {p}). No run was excluded; the certified angles are those of the \
              middle of the measurement.",
         ru: "По-видимому, стенд дрейфует: от серии к серии все положения поворачиваются на {x}″, {y}″, {z}″ вокруг \
-             {axes} (критерий Стьюдента для прямой, p = {p}). Серии не исключены; аттестованные отклонения относятся к \
+             {axes} (критерий Стьюдента для прямой, p = {p}). Серии не исключены; отклонения в сертификате относятся к \
              середине измерений."
     }
     SPLIT_RUN {
@@ -166,23 +166,23 @@ texts! {
     }
     EXCHANGED {
         en: "Positions {one} and {other} are exchanged: each has the angles that the certificate states for the other.",
-        ru: "Положения {one} и {other} переставлены: показания каждого соответствуют аттестованным значениям другого."
+        ru: "Положения {one} и {other} переставлены: показания каждого соответствуют углам другого по сертификату."
     }
     SMALLER_UNIT {
         en: "The angles are those of the certificate divided by {factor}; they are in another unit.",
-        ru: "Углы равны аттестованным, делённым на {factor}; они выражены в других единицах."
+        ru: "Углы равны указанным в сертификате, делённым на {factor}; они выражены в других единицах."
     }
     LARGER_UNIT {
         en: "The angles are {factor} times those of the certificate; they are in another unit.",
-        ru: "Углы равны аттестованным, умноженным на {factor}; они выражены в других единицах."
+        ru: "Углы равны указанным в сертификате, умноженным на {factor}; они выражены в других единицах."
     }
     OPPOSITE_SIGN {
         en: "The angles are those of the certificate with the opposite sign.",
-        ru: "Углы равны аттестованным с обратным знаком."
+        ru: "Углы равны указанным в сертификате с обратным знаком."
     }
     OTHER_AXES {
         en: "The angles are in other columns or have other signs than in the certificate (read → certified: {columns}).",
-        ru: "Углы записаны в других столбцах или с другими знаками, чем в сертификате (показание → аттестованное: {columns})."
+        ru: "Углы записаны в других столбцах или с другими знаками, чем в сертификате (показание → сертификат: {columns})."
     }
     POSITION_CHANGED {
         en: "Position {index} has changed relative to the other positions: {x}″, {y}″, {z}″ about x, y, z.",
