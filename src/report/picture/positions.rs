@@ -304,39 +304,3 @@ fn nearest(axis: &Vector3<f64>) -> (Text, Number) {
     let angle_deg = degrees_from_radians(libm::atan2(rest.norm(), axis[largest].abs()));
     (name, Number::significant(angle_deg, 2))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::report::page::language::Language;
-
-    fn stand(largest_arcsec: f64) -> Vec<CertifiedPosition> {
-        [(1, -0.3 * largest_arcsec), (2, largest_arcsec)]
-            .map(|(j, alpha_arcsec)| CertifiedPosition {
-                i: 1,
-                j,
-                theta_deg: 0.0,
-                phi_deg: 90.0 * f64::from(j - 1),
-                alpha_arcsec,
-                beta_arcsec: 0.0,
-                gamma_arcsec: 0.0,
-                u_alpha_arcsec: None,
-                u_beta_arcsec: None,
-                u_gamma_arcsec: None,
-                degrees_of_freedom: None,
-            })
-            .to_vec()
-    }
-
-    /// By hand: the largest deviation times the factor is 10.0°, 8°, 11.1°, 10.0°, and as it is; the factor is always stated.
-    #[test]
-    fn deviations_are_drawn_at_about_ten_degrees() {
-        for (largest_arcsec, due) in
-            [(90.0, "×400."), (14.4, "×2000."), (-80.0, "×500."), (9000.0, "×4."), (162_000.0, "×1."), (0.0, "×1.")]
-        {
-            let factor = exaggeration(&stand(largest_arcsec));
-            let key = key(&Language::English.into(), factor).into_string();
-            assert!(key.contains(&format!("Deviations are drawn {due}")), "{largest_arcsec}″: {key}");
-        }
-    }
-}

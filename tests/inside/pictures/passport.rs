@@ -203,7 +203,7 @@ fn any_number_of_positions_at_any_angles() {
     }
 }
 
-/// By hand: 90.4″ is the largest deviation, a hundred times that is 2.5°, a thousand times 25°; 20° is drawn as it is.
+/// By hand: drawn are 10.04°, 8°, 11.1°, 10°, and 20° as it is; the factor is stated even if it is 1.
 #[test]
 fn small_deviations_are_exaggerated_and_labelled_so() {
     let factor = |deviation_deg: f64| {
@@ -214,10 +214,13 @@ fn small_deviations_are_exaggerated_and_labelled_so() {
         let drawn: Vec<[f64; 2]> = of_class_of(svgs(&page)[0], "axis");
         (label.map(|(_, factor)| factor.to_owned()), drawn)
     };
-    assert_eq!(factor(90.4 / 3600.0).0.as_deref(), Some("100."));
-    assert_eq!(factor(20.0).0, None);
-    // Drawn where the deviation is a hundred times as large.
-    let ((_, small), (_, large)) = (factor(0.15), factor(15.001));
+    let cases =
+        [(90.4 / 3600.0, "400."), (0.004, "2000."), (-80.0 / 3600.0, "500."), (2.5, "4."), (20.0, "1."), (0.0, "1.")];
+    for (deviation_deg, due) in cases {
+        assert_eq!(factor(deviation_deg).0.as_deref(), Some(due), "{deviation_deg}°");
+    }
+    // Drawn where the deviation is fifty times as large.
+    let ((_, small), (_, large)) = (factor(0.15), factor(7.5));
     for (one, other) in small.into_iter().zip(large) {
         same(one, other);
     }
