@@ -3,6 +3,7 @@
 use crate::{Bench, NAMESPACE, PRINCIPAL};
 use dtg_passport::trust::Signature;
 use std::fs;
+use std::os::unix::net::UnixStream;
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -22,8 +23,9 @@ impl Agent {
             );
         let agent = Self { child, socket };
         let deadline = Instant::now() + Duration::from_secs(20);
-        while !agent.socket.exists() {
-            assert!(Instant::now() < deadline, "ssh-agent opened no socket");
+        // The file of the socket is there before the agent listens.
+        while UnixStream::connect(&agent.socket).is_err() {
+            assert!(Instant::now() < deadline, "ssh-agent does not listen at its socket");
             std::thread::sleep(Duration::from_millis(5));
         }
         agent
