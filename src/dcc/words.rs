@@ -59,14 +59,14 @@ texts! {
         ru: "Паспорт {id}, байт в байт; SHA-256 {sha256}. Сам этот сертификат не подписан, подписан вложенный паспорт: \
              его следует сохранить и проверить."
     }
-    STAND { en: "Test stand with certified deviations", ru: "Испытательный стенд с аттестованными отклонениями" }
+    STAND { en: "Test stand with certified deviations", ru: "Испытательный стенд с отклонениями по сертификату" }
     GYRO { en: "Dynamically tuned gyro", ru: "Динамически настраиваемый гироскоп" }
     GRAVITY { en: "Local gravity", ru: "Местное ускорение свободного падения" }
     MODEL {
         en: "Drift model of a dynamically tuned gyro, fitted to its torquer currents in the positions of the stand, \
              with the certified deviations and the Earth-rate vectors of the stand’s passport.",
         ru: "Модель дрейфа динамически настраиваемого гироскопа по токам датчиков момента в положениях стенда с \
-             учётом аттестованных отклонений и угловой скорости Земли из паспорта стенда."
+             учётом отклонений по сертификату и угловой скорости Земли из паспорта стенда."
     }
     PARAMETERS_NOTE {
         en: "Standard uncertainties (k = 1). The g-sensitive drifts refer to 1 m/s² instead of the local g; their \

@@ -349,8 +349,8 @@ fn chi_square(out: &mut String, answer: &MethodResult) {
     let chi_square = &answer.chi_square;
     let _ = writeln!(
         out,
-        "\nFit: chi-square {:.2} with {} degrees of freedom; the probability of a larger value is {}",
-        chi_square.value,
+        "\nFit: chi-square {} with {} degrees of freedom; the probability of a larger value is {}",
+        columns::chi_square(chi_square.value),
         chi_square.degrees_of_freedom,
         columns::probability(chi_square.probability)
     );

@@ -234,8 +234,8 @@ pub(crate) fn comparison(found: &Comparison) -> String {
     }
     let line = |test: &Test| {
         format!(
-            "chi-square {:.2} with {} degrees of freedom, probability {}",
-            test.chi_square,
+            "chi-square {} with {} degrees of freedom, probability {}",
+            columns::chi_square(test.chi_square),
             test.degrees_of_freedom,
             columns::probability(test.probability)
         )
@@ -251,7 +251,7 @@ pub(crate) fn comparison(found: &Comparison) -> String {
         for (turn, u) in at.turn_arcsec.iter().zip(&at.u_arcsec) {
             row.extend([columns::signed(*turn, 2), format!("{u:.2}")]);
         }
-        row.push(format!("{:.2}", at.test.chi_square));
+        row.push(columns::chi_square(at.test.chi_square));
         row.push(columns::probability(at.test.probability));
         row.push(style::marked(Some(at.repeats), if at.repeats { "unchanged" } else { "CHANGED" }));
         row

@@ -280,6 +280,15 @@ pub(crate) fn probability(p: f64) -> String {
     }
 }
 
+/// Formats a sum of squares in units of its variance: to two decimals, and a large one without decimals.
+pub(crate) fn chi_square(value: f64) -> String {
+    match value {
+        small if small < 99.995 => format!("{small:.2}"),
+        large if large < 99_999.5 => format!("{large:.0}"),
+        enormous => two_digits(enormous),
+    }
+}
+
 /// Formats a value with two significant digits, and with a power of ten if it would otherwise have many zeros.
 pub(crate) fn two_digits(value: f64) -> String {
     if value == 0.0 {
@@ -314,6 +323,15 @@ pub(crate) fn powers(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// By hand.
+    #[test]
+    fn a_large_chi_square_has_no_decimals() {
+        for (value, due) in [(0.0, "0.00"), (8.371, "8.37"), (99.994, "99.99"), (99.996, "100"), (8534.75, "8535")] {
+            assert_eq!(chi_square(value), due, "{value}");
+        }
+        assert_eq!(chi_square(100_419_738.45), "1.0×10⁸");
+    }
 
     #[test]
     fn an_uncertainty_has_two_digits() {

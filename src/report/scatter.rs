@@ -111,8 +111,8 @@ fn agreement(what: &str, found: &Scatter, less: &str) -> String {
         Agreement::Less => format!("less than stated; {less}"),
     };
     format!(
-        "{what} vary with chi-square {:.2} for {} degrees of freedom (probability of a larger value: {}): {verdict}.",
-        found.chi_square,
+        "{what} vary with chi-square {} for {} degrees of freedom (probability of a larger value: {}): {verdict}.",
+        columns::chi_square(found.chi_square),
         found.degrees_of_freedom,
         columns::probability(found.probability)
     )
