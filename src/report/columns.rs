@@ -282,10 +282,15 @@ pub(crate) fn probability(p: f64) -> String {
 
 /// Formats a sum of squares in units of its variance: to two decimals, and a large one without decimals.
 pub(crate) fn chi_square(value: f64) -> String {
+    decimals_of_chi_square(value).map_or_else(|| two_digits(value), |decimals| format!("{value:.decimals$}"))
+}
+
+/// Returns the decimals of a sum of squares in units of its variance, or `None` if it needs a power of ten.
+pub(crate) fn decimals_of_chi_square(value: f64) -> Option<usize> {
     match value {
-        small if small < 99.995 => format!("{small:.2}"),
-        large if large < 99_999.5 => format!("{large:.0}"),
-        enormous => two_digits(enormous),
+        small if small < 99.995 => Some(2),
+        large if large < 99_999.5 => Some(0),
+        _ => None,
     }
 }
 

@@ -5,6 +5,7 @@
 
 use super::language::{Language, Languages, Text};
 use super::texts::units;
+use crate::report::columns::decimals_of_chi_square;
 use crate::text::number;
 use maud::{Markup, html};
 
@@ -81,6 +82,12 @@ impl Number {
         }
         let decimals = usize::try_from(digits - 1).unwrap_or(0);
         Self::new(value, format!("{value:.decimals$e}"))
+    }
+
+    /// Creates a sum of squares in units of its variance; a large one has no decimals.
+    pub(crate) fn chi_square(value: f64) -> Self {
+        decimals_of_chi_square(value)
+            .map_or_else(|| Self::scientific(value, 2), |decimals| Self::fixed(value, decimals))
     }
 
     /// Creates a number with the shortest decimal that gives the value back.

@@ -54,7 +54,7 @@ fn whole(count: usize) -> Markup {
 
 fn chi_square(result: &ResultDocument, languages: &Languages) -> Markup {
     let found = &result.chi_square;
-    let value = Number::fixed(found.value, 2).markup(languages);
+    let value = Number::chi_square(found.value).markup(languages);
     let mut each = vec![
         field(languages, texts::CHI_SQUARE, Some(value)),
         field(languages, texts::FREEDOM, Some(whole(found.degrees_of_freedom))),
@@ -139,7 +139,7 @@ fn noise(calibration: &Calibration, languages: &Languages) -> Markup {
 fn agreement(found: &Scatter, what: Text, languages: &Languages) -> Markup {
     html! {
         (fields([
-            field(languages, what, Some(Number::fixed(found.chi_square, 2).markup(languages))),
+            field(languages, what, Some(Number::chi_square(found.chi_square).markup(languages))),
             field(languages, texts::FREEDOM, Some(whole(found.degrees_of_freedom))),
             field(languages, texts::PROBABILITY, Some(probability(languages, found.probability))),
             field(languages, texts::ENLARGED, Some(Number::significant(found.variance_factor, 2).markup(languages))),

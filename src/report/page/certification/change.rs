@@ -65,7 +65,7 @@ fn compared(comparison: &Comparison, changes: &[NumberDifference], languages: &L
 /// Writes chi-square with its degrees of freedom and its probability.
 fn test(test: &Test, languages: &Languages) -> Markup {
     html! {
-        (Number::fixed(test.chi_square, 2).markup(languages)) " (" (test.degrees_of_freedom) "), "
+        (Number::chi_square(test.chi_square).markup(languages)) " (" (test.degrees_of_freedom) "), "
         (symbol("p", "")) " " (Number::scientific(test.probability, 2).markup(languages))
     }
 }

@@ -132,7 +132,7 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
             Outcome::Undecided => said(Outcome::Undecided, texts::DOUBTFUL),
             passed => said(passed, texts::EQUAL),
         },
-        statistic: Some(Number::fixed(test.statistic, 2)),
+        statistic: Some(Number::chi_square(test.statistic)),
         freedom: Some(Number::exact(test.degrees_of_freedom as f64)),
         probability: Some(test.probability),
     };
