@@ -38,9 +38,8 @@ pub(crate) fn paragraph(out: &mut String, indent: &str, words: &str) {
 pub(crate) fn named(out: &mut String, name: &str, name_columns: usize, value: &str) {
     let _ = write!(out, "  {name:<name_columns$}");
     let column = 2 + name_columns;
-    // In a wide terminal the value alone has the width of sentences.
-    let columns = if width() > TEXT_COLUMNS { width().min(column + TEXT_COLUMNS) } else { width() };
-    wrapped(out, column, column, value, columns);
+    // The value alone has the width of sentences, if the terminal has the room.
+    wrapped(out, column, column, value, width().min(column + TEXT_COLUMNS));
 }
 
 /// Indent of the further lines of a sentence, relative to its first. A continued line keeps it in any case, so that no text
