@@ -55,6 +55,17 @@ int dtg_load(const char *path,
              char **report_json);
 
 /*
+ Verifies a passport in memory, as dtg_load does; `passport` and `allowed_signers` are the contents of the two files.
+
+ For callers whose paths are not UTF-8, such as LabVIEW's, and for passports that are not in files.
+ */
+int dtg_loads(const char *passport,
+              const char *allowed_signers,
+              const char *question_json,
+              dtg_passport **out,
+              char **report_json);
+
+/*
  Copies a matrix row by row into `out`.
 
  `key` is one of "delta", "b_deg_per_h", "c_deg_per_h_per_g", "n1", "n2", "n2_inverse", "omega1_deg_per_h",

@@ -6,6 +6,7 @@ use passports::interface::{Enquiry, Failed, calibrate, parameters};
 use passports::jiff::Timestamp;
 use passports::passport::Content;
 use passports::text::LARGEST_DOCUMENT_BYTES;
+use std::borrow::Cow;
 use std::ffi::{CStr, CString, c_char, c_double, c_int};
 use std::fs::{self, File};
 use std::io::{ErrorKind, Read};
@@ -52,17 +53,54 @@ pub unsafe extern "C" fn dtg_load(
 ) -> c_int {
     // SAFETY: the caller passes NULL or pointers that are valid as the header states.
     unsafe {
+        loaded(question_json, out, report_json, || {
+            let (path, signers) = (file_name(path, "path")?, file_name(allowed_signers_path, "allowed_signers_path")?);
+            // One byte above the size limit is enough to show that the file is not a passport.
+            let (signers_bytes, bytes) =
+                (read(signers, LARGEST_SIGNERS_BYTES)?, read(path, LARGEST_DOCUMENT_BYTES + 1)?);
+            Ok([(signers.to_string_lossy(), signers_bytes.into()), (path.to_string_lossy(), bytes.into())])
+        })
+    }
+}
+
+/// Verifies a passport in memory, as dtg_load does; `passport` and `allowed_signers` are the contents of the two files.
+///
+/// For callers whose paths are not UTF-8, such as LabVIEW's, and for passports that are not in files.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dtg_loads(
+    passport: *const c_char,
+    allowed_signers: *const c_char,
+    question_json: *const c_char,
+    out: *mut *mut dtg_passport,
+    report_json: *mut *mut c_char,
+) -> c_int {
+    // SAFETY: the caller passes NULL or pointers that are valid as the header states.
+    unsafe {
+        loaded(question_json, out, report_json, || {
+            let given = |name, text| bytes(text, name).map(|bytes| (Cow::from(name), Cow::from(bytes)));
+            Ok([given("allowed_signers", allowed_signers)?, given("passport", passport)?])
+        })
+    }
+}
+
+/// Verifies a passport; `files` returns the names and contents of allowed_signers and of the passport.
+unsafe fn loaded<'a>(
+    question_json: *const c_char,
+    out: *mut *mut dtg_passport,
+    report_json: *mut *mut c_char,
+    files: impl FnOnce() -> Result<[(Cow<'a, str>, Cow<'a, [u8]>); 2], Failed>,
+) -> c_int {
+    // SAFETY: the caller passes NULL or pointers that are valid as the header states.
+    unsafe {
         give(out, ptr::null_mut());
         guarded(report_json, || {
             if out.is_null() {
                 return Err(Failed::unusable("out is NULL"));
             }
-            let (path, signers) = (file_name(path, "path")?, file_name(allowed_signers_path, "allowed_signers_path")?);
             let question = if question_json.is_null() { "{}" } else { text(question_json, "question_json")? };
-            let signed = (&*signers.to_string_lossy(), &*read(signers, LARGEST_SIGNERS_BYTES)?);
-            let enquiry = Enquiry::new(signed, &[], question, Timestamp::now())?;
-            // One byte above the size limit is enough to show that the file is not a passport.
-            let answer = enquiry.verify(&path.to_string_lossy(), &read(path, LARGEST_DOCUMENT_BYTES + 1)?);
+            let [(signers_name, signers), (name, passport)] = files()?;
+            let enquiry = Enquiry::new((&signers_name, &signers), &[], question, Timestamp::now())?;
+            let answer = enquiry.verify(&name, &passport);
             let Some(passport) = answer.verification.passport() else { return Ok((DTG_REFUSED, answer.to_json())) };
             let passport = dtg_passport { content: passport.content().clone(), verified_as_of: answer.time };
             give(out, Box::into_raw(Box::new(passport)));
@@ -78,7 +116,7 @@ pub unsafe extern "C" fn dtg_load(
 /// paper's eight positions; DTG_UNUSABLE if the key is unknown or an argument is NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dtg_matrix(passport: *const dtg_passport, key: *const c_char, out: *mut c_double) -> c_int {
-    // SAFETY: the caller passes NULL, or a passport of dtg_load, a text, and room for four numbers.
+    // SAFETY: the caller passes NULL, or a passport of this library, a text, and room for four numbers.
     unsafe {
         guarded(ptr::null_mut(), || {
             let key = text(key, "key")?;
@@ -105,7 +143,7 @@ pub unsafe extern "C" fn dtg_matrix(passport: *const dtg_passport, key: *const c
 /// Returns the number of positions, or 0 if `passport` is NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dtg_positions(passport: *const dtg_passport) -> usize {
-    // SAFETY: the caller passes NULL or a passport of dtg_load.
+    // SAFETY: the caller passes NULL or a passport of this library.
     unsafe { passport.as_ref() }.map_or(0, |passport| passport.content.vectors.len())
 }
 
@@ -121,7 +159,7 @@ pub unsafe extern "C" fn dtg_position(
     n: *mut c_double,
     omega: *mut c_double,
 ) -> c_int {
-    // SAFETY: the caller passes NULL, or a passport of dtg_load and room for two numbers each.
+    // SAFETY: the caller passes NULL, or a passport of this library and room for two numbers each.
     unsafe {
         guarded(ptr::null_mut(), || {
             let (ij, n, omega) = (room(ij, 2, "ij")?, room(n, 2, "n")?, room(omega, 2, "omega")?);
@@ -156,7 +194,7 @@ pub unsafe extern "C" fn dtg_calibrate_csv(
     order_json: *const c_char,
     result_json: *mut *mut c_char,
 ) -> c_int {
-    // SAFETY: the caller passes NULL, or a passport of dtg_load and texts.
+    // SAFETY: the caller passes NULL, or a passport of this library and texts.
     unsafe {
         guarded(result_json, || {
             let order = if order_json.is_null() { "{}" } else { text(order_json, "order_json")? };
@@ -177,7 +215,7 @@ pub unsafe extern "C" fn dtg_calibrate(
     method: *const c_char,
     result_json: *mut *mut c_char,
 ) -> c_int {
-    // SAFETY: the caller passes NULL, or a passport of dtg_load, a text, and 4 · rows numbers.
+    // SAFETY: the caller passes NULL, or a passport of this library, a text, and 4 · rows numbers.
     unsafe {
         guarded(result_json, || {
             let passport = given(passport, "passport")?;
@@ -218,7 +256,7 @@ pub unsafe extern "C" fn dtg_parameters(result_json: *const c_char, value: *mut 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dtg_free(passport: *mut dtg_passport) {
     if !passport.is_null() {
-        // SAFETY: the caller passes a passport of dtg_load that was not freed.
+        // SAFETY: the caller passes a passport of this library that was not freed.
         drop(unsafe { Box::from_raw(passport) });
     }
 }
@@ -272,11 +310,16 @@ unsafe fn room<'a, T>(pointer: *mut T, length: usize, name: &str) -> Result<&'a 
     Ok(unsafe { std::slice::from_raw_parts_mut(pointer, length) })
 }
 
-unsafe fn text<'a>(pointer: *const c_char, name: &str) -> Result<&'a str, Failed> {
+unsafe fn bytes<'a>(pointer: *const c_char, name: &str) -> Result<&'a [u8], Failed> {
     // SAFETY: `pointer` is NULL or a text that ends with a zero byte.
     let text = unsafe { pointer.as_ref().map(|pointer| CStr::from_ptr(pointer)) };
-    let text = text.ok_or_else(|| Failed::unusable(format!("{name} is NULL")))?;
-    text.to_str().map_err(|_| Failed::unusable(format!("{name} is not UTF-8")))
+    Ok(text.ok_or_else(|| Failed::unusable(format!("{name} is NULL")))?.to_bytes())
+}
+
+unsafe fn text<'a>(pointer: *const c_char, name: &str) -> Result<&'a str, Failed> {
+    // SAFETY: as in `bytes`.
+    let bytes = unsafe { bytes(pointer, name) }?;
+    std::str::from_utf8(bytes).map_err(|_| Failed::unusable(format!("{name} is not UTF-8")))
 }
 
 /// Returns a path; outside Unix it must be UTF-8.
@@ -284,13 +327,11 @@ unsafe fn file_name<'a>(pointer: *const c_char, name: &str) -> Result<&'a Path, 
     #[cfg(unix)]
     {
         use std::os::unix::ffi::OsStrExt;
-        // SAFETY: `pointer` is NULL or a text that ends with a zero byte.
-        let text = unsafe { pointer.as_ref().map(|pointer| CStr::from_ptr(pointer)) };
-        let text = text.ok_or_else(|| Failed::unusable(format!("{name} is NULL")))?;
-        Ok(Path::new(std::ffi::OsStr::from_bytes(text.to_bytes())))
+        // SAFETY: as in `bytes`.
+        Ok(Path::new(std::ffi::OsStr::from_bytes(unsafe { bytes(pointer, name) }?)))
     }
     #[cfg(not(unix))]
-    // SAFETY: as above.
+    // SAFETY: as in `bytes`.
     Ok(Path::new(unsafe { text(pointer, name) }?))
 }
 

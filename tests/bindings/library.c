@@ -62,6 +62,16 @@ static void misuse(void) {
     dtg_string_free(text);
     EXPECT(dtg_load("/dev/null", "/dev/null", "{}", &passport, &text) == DTG_UNUSABLE && strstr(text, "expected a file"));
     dtg_string_free(text);
+    EXPECT(dtg_loads("", "", NULL, NULL, &text) == DTG_UNUSABLE && strstr(text, "out is NULL"));
+    dtg_string_free(text);
+    EXPECT(dtg_loads(NULL, "", NULL, &passport, &text) == DTG_UNUSABLE && strstr(text, "passport is NULL"));
+    dtg_string_free(text);
+    EXPECT(dtg_loads("\xff", NULL, NULL, &passport, &text) == DTG_UNUSABLE && strstr(text, "allowed_signers is NULL"));
+    dtg_string_free(text);
+    EXPECT(dtg_loads("", "\xff", NULL, &passport, &text) == DTG_UNUSABLE && strstr(text, "\"allowed_signers"));
+    dtg_string_free(text);
+    EXPECT(dtg_loads("\xff", "", NULL, &passport, &text) != DTG_OK && passport == NULL);
+    dtg_string_free(text);
     EXPECT(dtg_matrix(NULL, "delta", numbers) == DTG_UNUSABLE);
     EXPECT(dtg_matrix(NULL, NULL, NULL) == DTG_UNUSABLE);
     EXPECT(dtg_positions(NULL) == 0);

@@ -241,6 +241,23 @@ def test_every_answer_and_number_is_that_of_the_program(library: Path, corpus: C
             assert bits(row) == bits([float(at["i"]), float(at["j"]), *at["specific_force_g"], *at["omega_deg_per_h"]])
 
 
+def test_a_passport_in_memory_gets_the_answer_of_its_file(corpus: Corpus) -> None:
+    import ctypes
+
+    c = ctypes.CDLL(str(LIBRARIES / "libdtg_passport.so"))
+    signers, question = Path(corpus.signers).read_bytes(), QUESTION.encode()
+    for path, due in zip(corpus.paths, corpus.verdicts):
+        text, passport, report = path.read_bytes(), ctypes.c_void_p(), ctypes.c_char_p()
+        if b"\0" in text:  # ends a text in C
+            continue
+        code = c.dtg_loads(text, signers, question, ctypes.byref(passport), ctypes.byref(report))
+        assert json.loads(report.value) == json.loads(json.dumps(due).replace(str(path), "passport"))
+        assert code == (0 if due["valid"] else 1) and bool(passport) == due["valid"]
+        assert c.dtg_positions(passport) == (8 if due["valid"] else 0)
+        c.dtg_string_free(report)
+        c.dtg_free(passport)
+
+
 def octave(script: Path) -> str:
     path = f"{Path(os.environ['DTG_PASSPORT']).parent}:{os.environ['PATH']}"
     command = ["octave-cli", "--norc", "--quiet", str(script)]
