@@ -545,8 +545,8 @@ def test_trials_can_be_watched_and_stopped(capsys: pytest.CaptureFixture) -> Non
     def full(done: int, due: int) -> None:
         raise KeyError(done)
 
-    with pytest.raises(KeyError, match=r"^163840$"):
-        found.monte_carlo(progress=full)
+    with pytest.raises(KeyError, match=r"^16384$"):
+        found.monte_carlo(16_384, progress=full)
     code = f"""if True:
         import dtg_passport, os, signal, threading, time
         found = dtg_passport.load({str(PASSPORT)!r}, {str(SIGNERS)!r}, time={TIME!r}).calibrate({str(CURRENTS)!r})

@@ -1,7 +1,8 @@
 // Looks at pages in the system's Chromium: what they say, whether anything is cut off, what axe and the validator find, what
 // they ask of the network, how they print. Needs pdftotext.
 //
-// usage: node browser.cjs CHROMIUM FOLDER NAME...   reads FOLDER/NAME.html, writes FOLDER/NAME*.{pdf,png}, prints JSON.
+// usage: node browser.cjs CHROMIUM FOLDER NAME...   reads FOLDER/NAME.html, writes FOLDER/NAME*.{pdf,png}, prints JSON. With
+// SCREENS=write the screens are written too, to look at.
 
 const fs = require("fs");
 const { execFileSync } = require("child_process");
@@ -299,10 +300,11 @@ async function look(browser, folder, name) {
       await page.setViewportSize({ width, height: 1000 });
       result.unfit[`${device} ${colours}`] = await page.evaluate(unfit);
       result.crowded[`${device} ${colours}`] = await page.evaluate(crowded);
-      await page.screenshot({ path: path.join(folder, `${name}-${device}-${colours}.png`), fullPage: true });
+      if (process.env.SCREENS === "write") await page.screenshot({ path: path.join(folder, `${name}-${device}-${colours}.png`), fullPage: true });
     }
     // The page's policy forbids scripts, so axe comes in through the debugger, as the measurements do.
-    const violations = await page.evaluate(`${axe}; axe.run().then((found) => found.violations)`);
+    const rules = colours === "dark" ? { runOnly: ["color-contrast"] } : {};
+    const violations = await page.evaluate(`${axe}; axe.run(${JSON.stringify(rules)}).then((found) => found.violations)`);
     result.axe[colours] = violations.map((violation) => `${violation.id}: ${violation.help}: ${violation.nodes.map((node) => node.html).join(" | ").slice(0, 500)}`);
     const code = page.locator("svg.code");
     if (await code.count()) await code.screenshot({ path: path.join(folder, `${name}-code-${colours}.png`) });

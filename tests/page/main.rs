@@ -1,9 +1,9 @@
 //! Printable passports and reports of calibrations, looked at by real programs: Chromium, poppler, axe, html-validate, zbar,
 //! PyYAML.
 //!
-//! `browser.cjs` opens every page of [`cases`] and of [`reports`] once and tells what it found; the tests ask that. Pictures of
-//! the pages, and what was printed, stay in `target/tmp/page` and `target/tmp/report` to look at. What is missing fails the
-//! tests: nothing is skipped.
+//! `browser.cjs` opens every page of [`cases`] and of [`reports`] once and tells what it found; the tests ask that. What was
+//! printed stays in `target/tmp/page` and `target/tmp/report` to look at, and with `SCREENS=write` the screens too. What is
+//! missing fails the tests: nothing is skipped.
 
 #![cfg(feature = "cli")]
 
