@@ -77,8 +77,7 @@ fn answers(page: &PassportPage, languages: &Languages) -> Markup {
     let latitude = coordinate(languages, latitude, LATITUDES);
     let place = html! {
         @if let Some(longitude) = site.longitude_deg {
-            p { (languages.label(texts::AROUND)) }
-            p { (latitude) ", " (coordinate(languages, longitude, LONGITUDES)) }
+            p { (languages.inline(texts::AROUND)) " " (latitude) ", " (coordinate(languages, longitude, LONGITUDES)) }
         } @else {
             p { (languages.label(texts::AROUND_PARALLEL)) }
             p { (latitude) }

@@ -21,7 +21,7 @@ texts! {
         ru: "срок действия не указан; отзыв не\u{a0}проверен"
     }
     WHERE { en: "Place of use: within", ru: "Применять в пределах" }
-    AROUND { en: "of the point at", ru: "от точки с координатами" }
+    AROUND { en: "of", ru: "от" }
     AROUND_PARALLEL { en: "north or south of latitude", ru: "к северу и югу от широты" }
     WORD { en: "Based on certificate", ru: "На основании сертификата" }
     WITHOUT_UNCERTAINTY { en: "no uncertainty stated", ru: "неопределённость не указана" }
