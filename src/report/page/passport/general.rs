@@ -41,25 +41,23 @@ pub(crate) fn certificate(certificate: &Certificate, languages: &Languages) -> M
         let values = [("low", Number::exact(low).markup(languages)), ("high", celsius(high))];
         texts::FROM_TO.marked_up(languages.first(), &values)
     });
-    html! {
-        (heading(languages, texts::CERTIFICATE))
-        (fields([
-            stated(languages, texts::CERTIFICATE_NUMBER, Some(given(&certificate.number))),
-            stated(languages, texts::CERTIFICATE_ISSUED, Some(day(certificate.issued))),
-            stated(languages, texts::PERFORMED, certificate.performed.map(day)),
-            stated(languages, texts::RECEIVED, certificate.received.map(day)),
-            stated(languages, texts::VALID_UNTIL, certificate.valid_until.map(day)),
-            stated(languages, texts::VALID_UNTIL_BASIS, certificate.valid_until_basis.as_deref().map(given)),
-            stated(languages, texts::LABORATORY, Some(given(&certificate.laboratory))),
-            stated(languages, texts::ADDRESS, certificate.address.as_deref().map(given)),
-            stated(languages, texts::AUTHORISED_BY, certificate.authorized_by.as_deref().map(given)),
-            stated(languages, texts::ACCREDITATION, certificate.accreditation.as_deref().map(given)),
-            stated(languages, texts::TEMPERATURE, certificate.temperature_c.map(celsius)),
-            stated(languages, texts::TEMPERATURE_RANGE, range),
-            wide_stated(languages, texts::METHOD, certificate.method.as_deref().map(given)),
-            wide_stated(languages, texts::TRACEABILITY, certificate.traceability.as_deref().map(given)),
-        ]))
-    }
+    let fields = fields([
+        stated(languages, texts::CERTIFICATE_NUMBER, Some(given(&certificate.number))),
+        stated(languages, texts::CERTIFICATE_ISSUED, Some(day(certificate.issued))),
+        stated(languages, texts::PERFORMED, certificate.performed.map(day)),
+        stated(languages, texts::RECEIVED, certificate.received.map(day)),
+        stated(languages, texts::VALID_UNTIL, certificate.valid_until.map(day)),
+        stated(languages, texts::VALID_UNTIL_BASIS, certificate.valid_until_basis.as_deref().map(given)),
+        stated(languages, texts::LABORATORY, Some(given(&certificate.laboratory))),
+        stated(languages, texts::ADDRESS, certificate.address.as_deref().map(given)),
+        stated(languages, texts::AUTHORISED_BY, certificate.authorized_by.as_deref().map(given)),
+        stated(languages, texts::ACCREDITATION, certificate.accreditation.as_deref().map(given)),
+        stated(languages, texts::TEMPERATURE, certificate.temperature_c.map(celsius)),
+        stated(languages, texts::TEMPERATURE_RANGE, range),
+        wide_stated(languages, texts::METHOD, certificate.method.as_deref().map(given)),
+        wide_stated(languages, texts::TRACEABILITY, certificate.traceability.as_deref().map(given)),
+    ]);
+    html! { div.titled { (heading(languages, texts::CERTIFICATE)) (fields) } }
 }
 
 fn left_to_the_laboratory(languages: &Languages) -> Markup {
