@@ -7,10 +7,10 @@ use crate::laboratory::Laboratory;
 use crate::report::page::language::{Languages, values};
 use crate::report::page::number::Number;
 use crate::report::page::parts::{
-    self, boxed, date, date_text, field, fields, file_name, given, heading, not_stated, quantity, time, wide_field,
+    self, boxed, date, date_text, field, fields, file_name, given, heading, quantity, time, wide_field,
 };
 use crate::report::page::passport::{accuracy, characteristics, checks};
-use crate::report::page::texts::{calibration as texts, passport as passport_texts, record, units};
+use crate::report::page::texts::{calibration as texts, passport as passport_texts, record, units, words};
 use maud::{Markup, html};
 
 pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
@@ -26,22 +26,23 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
 /// Writes which gyro was calibrated, by whom and when, on which stand, and on whose word.
 pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
     let content = page.content();
-    let or_not = |value: Option<Markup>| value.unwrap_or_else(|| not_stated(languages));
+    let or_not =
+        |value: Option<Markup>| value.unwrap_or_else(|| html! { span.absent { (languages.label(words::NOT_STATED)) } });
     let laboratory = page.laboratory.and_then(|laboratory| laboratory.name.as_deref()).map(given);
     // The title names the serial number if it was stated.
-    let no_serial = html! { p { (languages.inline(texts::SERIAL)) ": " (serial(page, languages)) } };
+    let no_serial = |language| format!("{}: {}", texts::SERIAL.words(language), texts::NO_SERIAL.words(language));
     let day = or_not(page.document.date().map(|day| date(languages, day)));
     let stand = html! { (given(content.stand.model.as_str())) " №\u{a0}" (given(content.stand.serial.as_str())) };
     let site = content.site.name.as_deref().unwrap_or(content.site.id.as_str());
     let verified = match &page.passport {
-        UsedPassport::Verified(_) => html! { (languages.inline(texts::TIME)) " " (time(languages, page.time)) },
+        UsedPassport::Verified(_) => html! { (languages.label(texts::TIME)) " " (time(languages, page.time)) },
         UsedPassport::NotVerified { .. } => html! { span.failed { (languages.inline(texts::NOT_VERIFIED)) } },
     };
     let certificate = html! { p { (given(&content.passport.id)) } p { (verified) } };
     parts::band(
         languages,
         [
-            (texts::MEASURED, day, html! { @if page.serial().is_none() { (no_serial) } }),
+            (texts::MEASURED, day, html! { @if page.serial().is_none() { p { (languages.label_with(no_serial)) } } }),
             (passport_texts::LABORATORY, or_not(laboratory), html! {}),
             (texts::STAND, stand, html! { p { (given(site)) } }),
             (passport_texts::WORD, given(&content.certificate.number), certificate),
