@@ -240,6 +240,15 @@ fn every_test_has_a_result_with_its_mark() {
             };
             assert!(said.starts_with(mark) && said.chars().count() > 4, "{}: {said} of {row}", record.name);
         }
+        // In two languages each heading has the unit.
+        let heads = tables.iter().flat_map(|table| strings(&table["heads"]));
+        for head in heads.filter(|head| head.contains("было") && head.contains("before")) {
+            assert!(
+                ["было,\u{a0}″", "before,\u{a0}″"].iter().all(|named| head.contains(named)),
+                "{}: {head}",
+                record.name
+            );
+        }
         // The angles that were tested, if the test names none.
         if certification["outliers"].as_array().unwrap().is_empty() {
             let runs = certification["run_turns"].as_array().unwrap().len();

@@ -10,6 +10,7 @@ use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{
     Column, Table, boxed, field, fields, heading, marked, starts, symbol, symbol_and_unit,
 };
+use crate::report::page::spacing::BLANK;
 use crate::report::page::texts::{certification as texts, checks, pictures, units};
 use crate::report::picture::residuals::{Bars, key_of};
 use crate::report::style::Outcome;
@@ -96,7 +97,9 @@ fn rotations(comparison: &Comparison, languages: &Languages) -> Markup {
 fn table(changes: &[NumberDifference], caption: Markup, languages: &Languages) -> Markup {
     let of = |heading: Text, number: fn(&NumberDifference) -> Option<f64>| {
         let each = changes.iter().map(|at| Some(Number::measured(number(at)?, at.standard_uncertainty.unwrap_or(0.0))));
-        Column::new(symbol_and_unit(languages, &languages.label(heading), units::ARCSEC), column(languages, each))
+        // The unit belongs to the heading of each language.
+        let heading = |language| format!("{},{BLANK}{}", heading.words(language), units::ARCSEC.words(language));
+        Column::new(languages.label_with(heading), column(languages, each))
     };
     let us = changes.iter().map(|at| at.standard_uncertainty.map(Number::uncertainty));
     let ratios = changes.iter().map(|at| at.ratio().map(|ratio| Number::fixed(ratio, 1)));
