@@ -78,8 +78,8 @@ pub(crate) fn key(languages: &Languages) -> Markup {
         entry(Decision::Undecided),
         entry(Decision::Fail),
         (whisker(2.0, 26.0, 7.0, 4.0), texts::TOLERANCES_WHISKER),
-        (rectangle([2.0, 2.0], [26.0, 12.0], "limits", None), texts::TOLERANCES_GUARDED),
         (line([21.0, 0.0], [21.0, 14.0], "limit"), texts::TOLERANCES_LIMIT),
+        (rectangle([2.0, 2.0], [26.0, 12.0], "limits", None), texts::TOLERANCES_GUARDED),
     ];
     legend(languages, &entries)
 }
