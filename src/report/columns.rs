@@ -155,6 +155,10 @@ pub(crate) fn table(out: &mut String, names: &[&str], rows: impl IntoIterator<It
         let part: Vec<&Vec<String>> = columns.iter().take(heads).chain(&columns[next..end]).collect();
         for line in 0..lines + rows.len() {
             let cells: Vec<&str> = part.iter().map(|column| column[line].as_str()).collect();
+            // A row that has nothing in the columns below is not repeated there.
+            if line >= lines && next > heads && cells[heads..].iter().all(|cell| cell.trim().is_empty()) {
+                continue;
+            }
             let words = format!("  {}", cells.join("  ")).trim_end().to_owned();
             if line >= lines {
                 let _ = writeln!(out, "{words}");
@@ -430,6 +434,14 @@ mod tests {
         // 100 columns hold five of 17; the fifth would be b without its u.
         assert_eq!(end_of_part(&names, &columns, 2, 2), 4);
         assert_eq!(end_of_part(&names, &columns, 2, 4), 6);
+        // A row that has nothing there is not repeated.
+        let row = |last: &str| vec!["n".repeat(66), "1".repeat(30), last.to_owned()];
+        let mut out = String::new();
+        table(&mut out, &["", "a", "b"], [row(""), row("2.5")]);
+        let ends: Vec<String> =
+            style::plain(&out).lines().filter_map(|line| line.split(' ').next_back().map(str::to_owned)).collect();
+        let ones = "1".repeat(30);
+        assert_eq!(ends, ["a", &ones, &ones, "b", "2.5"]);
         assert_eq!(stacked("paper: change, %", 9), ["paper:", "change, %"]);
         assert_eq!(stacked("u", 9), ["u"]);
     }

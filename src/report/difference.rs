@@ -97,7 +97,7 @@ pub(crate) fn numbers(out: &mut String, numbers: &[NumberDifference]) {
             at.ratio().map_or_else(String::new, |ratio| format!("{ratio:+.1}")),
         ]
     });
-    columns::table(out, &["", "A", "B", "B - A", "u", "(B - A)/u"], rows);
+    columns::table(out, &["", "A", "B", "B - A", "u", "(B-A)/u"], rows);
 }
 
 /// Formats a number as it is in the file if it is short, as those are that people write, and else with `decimals`.
