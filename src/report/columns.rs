@@ -53,12 +53,12 @@ pub(crate) fn fitted(text: &str, columns: usize) -> String {
     for line in text.lines() {
         let words = line.trim_start_matches(' ');
         let (indent, shown) = (line.len() - words.len(), shown_columns(words));
-        let at = last_column(line, columns / 2);
+        let at = last_column(line, columns);
         if indent + shown <= columns {
             out.push_str(line);
             out.push('\n');
         } else if HANG + shown <= columns && at == indent {
-            let _ = writeln!(out, "{:1$}{words}", "", columns - shown);
+            let _ = writeln!(out, "{:HANG$}{words}", "");
         } else {
             out.push_str(&line[..at]);
             let column = shown_columns(&line[..at]);
@@ -69,23 +69,30 @@ pub(crate) fn fitted(text: &str, columns: usize) -> String {
     out
 }
 
-/// Returns a message with every line broken that is wider than `columns` or a sentence; lines continue `indent` characters
-/// from the left.
+/// Returns a message with every line broken that is wider than `columns` or a sentence; lines continue below their last
+/// column, at least `indent` characters from the left.
 pub(crate) fn hanging(text: &str, indent: usize, columns: usize) -> String {
     let columns = columns.min(TEXT_COLUMNS);
     let mut out = String::with_capacity(text.len());
     for line in text.lines() {
         let at = line.char_indices().nth(indent).map_or(line.len(), |(at, _)| at);
+        let at = at + last_column(&line[at..], columns.saturating_sub(indent));
+        let column = shown_columns(&line[..at]);
         out.push_str(&line[..at]);
-        wrapped(&mut out, indent, indent, &line[at..], columns);
+        wrapped(&mut out, column, column.max(indent), &line[at..], columns);
     }
     out
 }
 
-/// Returns the place in bytes after the last gap of two spaces or more that ends within `most` characters.
-fn last_column(line: &str, most: usize) -> usize {
-    let after_gap = |at: &usize| line[..*at].ends_with("  ") && shown_columns(&line[..*at]) <= most;
-    line.match_indices(|c| c != ' ').map(|(at, _)| at).rfind(after_gap).unwrap_or(0)
+/// Returns the place in bytes after the last gap of two spaces or more behind which half of the `columns` remain, and
+/// room for every word; or the line's indent.
+fn last_column(line: &str, columns: usize) -> usize {
+    let room =
+        |words: &str| unbroken(words).iter().map(|word| shown_columns(word)).fold(columns.div_ceil(2), usize::max);
+    let after_gap =
+        |at: &usize| line[..*at].ends_with("  ") && shown_columns(&line[..*at]) + room(&line[*at..]) <= columns;
+    let indent = line.len() - line.trim_start_matches(' ').len();
+    line.match_indices(|c| c != ' ').map(|(at, _)| at).rfind(after_gap).unwrap_or(indent)
 }
 
 /// Returns the columns that a text takes in a terminal, in which emphasis takes none.
@@ -411,10 +418,18 @@ mod tests {
         assert_eq!(fitted("  a  b 0123456789abcdef\n", 18), "  a  b\n  0123456789abcdef\n");
         assert_eq!(fitted("  a   b   0123456789abcdef\n", 18), "  a   b\n  0123456789abcdef\n");
         assert_eq!(fitted("        0123456789abcdef\n", 18), "  0123456789abcdef\n");
+        // So does one that has no room below the last column, but below the one before.
+        assert_eq!(fitted("● ok  id  0123456789abcdef\n", 25), "● ok  id\n      0123456789abcdef\n");
         // However long, no word begins a line.
         assert_eq!(fitted("a 0123456789abcdef\n", 10), "a\n  0123456789abcdef\n");
         let bold = style::heading("two words");
         assert_eq!(fitted(&format!("{bold} more"), 9), format!("{bold}\n  more\n"));
+    }
+
+    #[test]
+    fn a_message_continues_below_its_last_column() {
+        let due = "name: a ok  words and\n            more\n        short\n";
+        assert_eq!(hanging("name: a ok  words and more\n        short\n", 6, 22), due);
     }
 
     #[test]
