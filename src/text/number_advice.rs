@@ -34,7 +34,7 @@ pub(super) fn in_yaml(node: &Node, key: &str) -> &'static str {
     }
 }
 
-/// Returns what to do about a cell of CSV that is not a number; empty without such advice.
+/// Returns what to do about a cell of CSV that is not a number.
 pub(super) fn in_csv(text: &str) -> &'static str {
     if text.is_empty() {
         "omit the whole row of a reading that was not taken"
@@ -49,7 +49,7 @@ pub(super) fn in_csv(text: &str) -> &'static str {
     } else if !text.is_ascii() {
         "use ASCII digits, a decimal point and an ASCII minus"
     } else {
-        ""
+        "correct it, or omit the whole row"
     }
 }
 
@@ -143,19 +143,20 @@ mod tests {
     fn the_advice_on_a_cell_fits_what_was_written() {
         const ASCII: &str = "use ASCII digits, a decimal point and an ASCII minus";
         const WITHOUT_UNIT: &str = "write the number without a unit; the column name states it";
+        const OTHERWISE: &str = "correct it, or omit the whole row";
         for (written, due) in [
             ("", "omit the whole row of a reading that was not taken"),
             ("1;2", "separate columns by commas"),
             ("1.2.3", "it has two points; use one decimal point"),
             ("'1.5'", "write the number without quotes"),
-            ("'inf'", ""),
+            ("'inf'", OTHERWISE),
             ("\u{2212}1.5", ASCII),
             ("1.5mA", WITHOUT_UNIT),
             ("1.5 µA", WITHOUT_UNIT),
             ("-1.5 mA", WITHOUT_UNIT),
-            ("about 1.5", ""),
-            ("a lot", ""),
-            ("1.5 (?)", ""),
+            ("about 1.5", OTHERWISE),
+            ("a lot", OTHERWISE),
+            ("1.5 (?)", OTHERWISE),
         ] {
             assert_eq!(in_csv(written), due, "{written}");
         }

@@ -75,6 +75,7 @@ impl<'a> Table<'a> {
         };
         let with_semicolons = header.contains(';') && !header.contains(',');
         let separator = declared.unwrap_or(if with_semicolons { ';' } else { ',' });
+        let names = header.trim().trim_end_matches(separator);
         let header = Header::read(name, (line, header), separator, required, optional)?;
         let mut problems = Vec::new();
         let mut rows = Vec::new();
@@ -84,7 +85,9 @@ impl<'a> Table<'a> {
                 Ok(cells) if cells.len() == header.width => {
                     rows.push(Row { cells: header.order.iter().map(|&place| cells[place].clone()).collect() });
                 }
-                Ok(cells) => problems.push(wrong_number_of_cells((line, text), separator, cells.len(), header.width)),
+                Ok(cells) => {
+                    problems.push(wrong_number_of_cells((line, text), separator, cells.len(), (header.width, names)));
+                }
                 Err(problem) => problems.push(problem),
             }
             if problems.len() >= MOST_COUNTED {
@@ -330,7 +333,12 @@ fn meant<'a>(known: &[&'a str], found: &str) -> Option<&'a str> {
     if is_near { Some(nearest.1) } else { without_unit.copied() }
 }
 
-fn wrong_number_of_cells((line, text): (usize, &str), separator: char, found: usize, columns: usize) -> Problem {
+fn wrong_number_of_cells(
+    (line, text): (usize, &str),
+    separator: char,
+    found: usize,
+    (columns, names): (usize, &str),
+) -> Problem {
     let advice = if separator == ';' {
         "separate columns by semicolons, as in the header"
     } else if text.contains(';') {
@@ -340,7 +348,8 @@ fn wrong_number_of_cells((line, text): (usize, &str), separator: char, found: us
     } else {
         ""
     };
-    Problem::new(Some(Location { line, column: 1 }), "", format!("{found} values"), format!("{columns}"), advice)
+    let expected = format!("{columns}: {names}");
+    Problem::new(Some(Location { line, column: 1 }), "", format!("{found} values"), expected, advice)
 }
 
 fn described(text: &str) -> String {
