@@ -136,8 +136,8 @@ fn text(report: &Report) -> String {
     if let Some(NoiseGrowth { k, omega0, omega_g, omega_k }) = report.noise_growth {
         let _ = writeln!(
             text,
-            "{INDENT}noise relative to an ideal stand: K {k:.2}, omega_0 {omega0:.2}, omega_g {omega_g:.2}, \
-             omega_k {omega_k:.2}"
+            "{INDENT}noise relative to an ideal stand: K {k:.2}, ω_0 {omega0:.2}, ω_g {omega_g:.2}, \
+             ω_k {omega_k:.2}"
         );
     }
     if let (Some(why), State::Skipped) = (&report.reason, report.state) {
