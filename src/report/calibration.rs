@@ -1,7 +1,7 @@
 //! Result of a calibration as text: the decision, the parameters and the fit come first, the evidence below.
 
 use super::scatter::{Weight, scatter};
-use super::tolerance::{decided, factors, headline, overall, verdict_table};
+use super::tolerance::{decided, factors, from_gravity, headline, overall, verdict_table};
 use super::uncertainty::not_linear;
 use crate::calibration::diagnosis::INCONSISTENT;
 use crate::calibration::document::Subject;
@@ -14,13 +14,13 @@ use crate::calibration::stated::NotStated;
 use crate::calibration::verdict::{BEYOND, Verdict, change_in_uncertainties};
 use crate::calibration::{Calibration, Method, MethodResult, Readings};
 use crate::interface::calibrated::Done;
-use crate::report::page::Language;
 use crate::report::page::calibration::why_no_change;
+use crate::report::page::language::{Language, values};
 use crate::report::page::texts::calibration as texts;
 use crate::report::{columns, mistake, recorded};
 use crate::text::printable::printable;
 use crate::uncertainty::MonteCarlo;
-use crate::units::printed;
+use crate::units::{printed, quantity};
 use std::fmt::Write;
 
 /// Sentence on a fit without degrees of freedom.
@@ -85,13 +85,12 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
         let _ = writeln!(out);
         columns::paragraph(&mut out, "", &words);
         verdict_table(&mut out, verdict, "minus nominal");
-        if let Some(u_deg_per_h) = calibration.mostly_from_turn_ons() {
-            let words = format!(
-                "the scatter of the turn-ons contributes most of u of ω_0x and ω_0y: {} °/h; to reduce it, take more turn-ons.",
-                columns::two_digits(u_deg_per_h)
-            );
-            columns::paragraph(&mut out, "  ", &words);
-        }
+        let gravity = document.gravity_u_m_per_s2.and_then(|u| from_gravity(verdict, u));
+        let turn_ons = calibration.mostly_from_turn_ons().map(|u| {
+            let u = quantity(&columns::two_digits(u), "deg/h");
+            texts::FROM_TURN_ONS.filled(Language::English, values! { u })
+        });
+        gravity.iter().chain(&turn_ons).for_each(|words| columns::paragraph(&mut out, "  ", words));
     }
     let least_certain = |parameter: Parameter| {
         let row =

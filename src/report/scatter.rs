@@ -1,6 +1,8 @@
 //! Sentences on the scatter of the readings: rows of a visit, visits, turn-ons, and the noise and drift of the gyro.
 
 use super::columns;
+use super::page::language::Language;
+use super::page::texts::calibration as texts;
 use crate::calibration::Calibration;
 use crate::calibration::noise::NoiseSource;
 use crate::calibration::scatter::{Agreement, Scatter};
@@ -60,9 +62,9 @@ pub(super) fn scatter(calibration: &Calibration) -> Vec<(Weight, String)> {
         say(words, Weight::Remark);
     }
     if calibration.drift_or_noise {
-        let words = "A drift of ω_0 in time was not tested, because the repeated visits cannot tell it from the noise of the \
-                     gyro. Visit more positions again, or state noise.visit_deg_per_h in the gyro type.";
-        say(words.to_owned(), Weight::Remark);
+        let untested = texts::DRIFT_OR_NOISE.of(Language::English);
+        let advice = "Visit more positions again, or state noise.visit_deg_per_h in the gyro type.";
+        say(format!("{untested} {advice}"), Weight::Remark);
     }
     if let Some(test) = calibration.drift_test.filter(|test| test.is_significant()) {
         let words = format!(
@@ -85,7 +87,8 @@ fn suspicion(suspect: &Suspect) -> String {
         None => format!("{of_visit} differs from the other visits"),
         Some(row) => format!("row {row} of {of_visit} differs from the other rows of the visit"),
     };
-    let either = if suspect.one_of_two { " There are only two, so the other one may be wrong instead." } else { "" };
+    let either =
+        if suspect.one_of_two { format!(" {}", texts::EITHER_OF_TWO.of(Language::English)) } else { String::new() };
     let [jx, jy] = suspect.difference_ma.map(|difference| with_sign(1000.0 * difference));
     format!(
         "{what} by ({jx}, {jy}) µA (probability of as much by chance: {}).{either} Look for the cause; if there is one, \

@@ -1,12 +1,12 @@
 //! Decisions on the tolerances of a gyro type as text.
 
-use super::page::language::Language;
+use super::page::language::{Language, values};
 use super::page::texts::calibration as texts;
 use super::{columns, style};
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::text::printable::printable;
-use crate::units::printed;
+use crate::units::{printed, quantity};
 use std::fmt::Write;
 
 /// Returns which parameters pass, fail and are undecided.
@@ -90,14 +90,17 @@ pub(super) fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str
     if let Some(not_found) = not_found(verdict) {
         columns::paragraph(out, "  ", &format!("{not_found}."));
     }
-    for row in verdict.parameters.iter().filter(|row| row.is_mostly_from_gravity()) {
-        let words = format!(
-            "local g contributes most of U of {}: {} {}; to reduce it, measure gravity or state the height of the \
-             site.",
-            symbol_of(row.parameter),
-            columns::two_digits(row.expanded_uncertainty_from_gravity.unwrap_or(0.0)),
-            printed(row.unit),
-        );
-        columns::paragraph(out, "  ", &words);
-    }
+}
+
+/// Returns how much local g adds to the uncertainties of the drifts, where that is most of them.
+pub(super) fn from_gravity(verdict: &Verdict, u_m_per_s2: f64) -> Option<String> {
+    let parts = verdict.parameters.iter().filter(|row| row.is_mostly_from_gravity()).map(|row| {
+        let gravity = columns::two_digits(row.expanded_uncertainty_from_gravity.unwrap_or(0.0));
+        let gravity = quantity(&gravity, row.unit);
+        texts::FROM_GRAVITY_PART.filled(Language::English, values! { gravity, parameter: symbol_of(row.parameter) })
+    });
+    let parts: Vec<String> = parts.collect();
+    let u = quantity(&columns::two_digits(u_m_per_s2), "m/s²");
+    let words = || texts::FROM_GRAVITY.filled(Language::English, values! { parts: parts.join(", "), u });
+    (!parts.is_empty()).then(words)
 }

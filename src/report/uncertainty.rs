@@ -3,6 +3,8 @@
 use crate::calibration::document::finite;
 use crate::calibration::parameter::Parameter;
 use crate::report::columns;
+use crate::report::page::Language;
+use crate::report::page::texts::calibration as texts;
 use crate::report::style::{self, Outcome};
 use crate::uncertainty::budget::{COVERAGE, Contribution, ParameterBudget};
 use crate::uncertainty::monte_carlo::Distribution;
@@ -132,7 +134,7 @@ pub(crate) fn not_linear(found: &MonteCarlo) -> Option<String> {
     let invalid = lines.into_iter().filter(|line| line.first_order.valid == Some(false));
     let names: Vec<&str> = invalid.map(|line| line.parameter.symbol()).collect();
     let names = (!names.is_empty()).then(|| names.join(", "))?;
-    Some(format!("the linear approximation is not valid for {names}; use their Monte Carlo intervals."))
+    Some(texts::NOT_LINEAR.of(Language::English).replace("{names}", &names))
 }
 
 /// Returns uncertainties and coverage intervals, and for every parameter whether the linear approximation is valid.
@@ -154,8 +156,7 @@ pub(crate) fn monte_carlo(found: &MonteCarlo) -> String {
                  whether the linear approximation is valid (undecided: too few trials).";
     columns::paragraph(&mut out, "  ", words);
     if !found.stable {
-        let words = "WARNING: not all stated digits are stable; more trials (JCGM 101, 7.9) would change some of them.";
-        columns::paragraph(&mut out, "  ", words);
+        columns::paragraph(&mut out, "  ", &format!("WARNING: {}", texts::NOT_STABLE.of(Language::English)));
     }
     if found.failed > 0 {
         let words = format!("WARNING: {} trials gave no finite parameters and were excluded.", found.failed);
