@@ -233,16 +233,11 @@ fn averages(rows: &[Reading]) -> BTreeMap<Place, (Vector3<f64>, usize)> {
 }
 
 fn angle(table: &Table, row: &Row, column: usize, place: Option<Place>, problems: &mut Vec<Problem>) -> Option<f64> {
-    let cell = &row.cells[column];
-    let is_absent = cell.text.is_empty() || cell.text.parse().is_ok_and(|value: f64| !value.is_finite());
-    if let Some((PositionIndex { i, j }, run)) = place.filter(|_| is_absent) {
-        let found = if cell.text.is_empty() { "nothing".to_owned() } else { format!("{:?}", cell.text) };
-        // Without its row the run would be incomplete.
-        let advice = format!("measure it, or keep the row and exclude it with --exclude {i},{j},{run} and --why");
-        problems.push(table.problem(cell, column, found, "a number", &advice));
-        return None;
-    }
-    let value = table.number(row, column, problems)?;
+    // Without its row the run would be incomplete.
+    let not_taken = place.map_or_else(String::new, |(PositionIndex { i, j }, run)| {
+        format!("measure it, or keep the row and exclude it with --exclude {i},{j},{run} and --why")
+    });
+    let value = table.number(row, column, &not_taken, problems)?;
     let largest = LARGEST_DEVIATION_DEG * ARCSECONDS_PER_DEGREE;
     if value.abs() <= largest {
         return Some(value);

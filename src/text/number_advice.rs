@@ -34,22 +34,27 @@ pub(super) fn in_yaml(node: &Node, key: &str) -> &'static str {
     }
 }
 
-/// Returns what to do about a cell of CSV that is not a number.
-pub(super) fn in_csv(text: &str) -> &'static str {
-    if text.is_empty() {
-        "omit the whole row of a reading that was not taken"
-    } else if text.contains(';') {
-        "separate columns by commas"
+/// Returns how to write the number that a cell of CSV seems to mean, or `None` if it means none.
+pub(super) fn in_csv(text: &str) -> Option<&'static str> {
+    let is_number = |text: &str| text.parse::<f64>().is_ok_and(f64::is_finite);
+    if text.contains(';') {
+        Some("separate columns by commas")
+    } else if text.contains(':') {
+        Some("count seconds from the first reading, as one number")
     } else if has_two_points(text) {
-        "it has two points; use one decimal point"
-    } else if unquoted(text) != text && unquoted(text).parse::<f64>().is_ok_and(f64::is_finite) {
-        "write the number without quotes"
+        Some("it has two points; use one decimal point")
+    } else if unquoted(text) != text && is_number(unquoted(text)) {
+        Some("write the number without quotes")
+    } else if is_number(&text.replace([',', ' ', '\u{A0}', '\u{202F}'], "")) {
+        Some("use a decimal point, and no separators of thousands")
+    } else if is_number(&text.replace(['D', 'd'], "E")) {
+        Some("write the exponent with E, such as 1.0E-3")
     } else if has_unit(text) {
-        "write the number without a unit; the column name states it"
-    } else if !text.is_ascii() {
-        "use ASCII digits, a decimal point and an ASCII minus"
+        Some("write the number without a unit; the column name states it")
+    } else if text.chars().any(|c| c.is_ascii_digit()) && !text.is_ascii() {
+        Some("use ASCII digits, a decimal point and an ASCII minus")
     } else {
-        "correct it, or omit the whole row"
+        None
     }
 }
 
@@ -66,7 +71,9 @@ fn has_unit(text: &str) -> bool {
     }
     let number = text.trim_start_matches(['+', '-']);
     let rest = number.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.');
-    rest.len() < number.len() && rest.trim_start().starts_with(|c: char| c.is_alphabetic() || "°%″′µ".contains(c))
+    // A spreadsheet may have made a date of a number: 01.Feb.
+    let is_whole = rest.len() < number.len() && !number[..number.len() - rest.len()].ends_with('.');
+    is_whole && rest.trim_start().starts_with(|c: char| c.is_alphabetic() || "°%″′µ".contains(c))
 }
 
 /// Returns a text without the quotes around it, straight or typographic.
@@ -143,22 +150,39 @@ mod tests {
     fn the_advice_on_a_cell_fits_what_was_written() {
         const ASCII: &str = "use ASCII digits, a decimal point and an ASCII minus";
         const WITHOUT_UNIT: &str = "write the number without a unit; the column name states it";
-        const OTHERWISE: &str = "correct it, or omit the whole row";
+        const NO_THOUSANDS: &str = "use a decimal point, and no separators of thousands";
         for (written, due) in [
-            ("", "omit the whole row of a reading that was not taken"),
             ("1;2", "separate columns by commas"),
+            ("10:02:03", "count seconds from the first reading, as one number"),
             ("1.2.3", "it has two points; use one decimal point"),
             ("'1.5'", "write the number without quotes"),
-            ("'inf'", OTHERWISE),
+            ("1,234.5", NO_THOUSANDS),
+            ("-1\u{A0}234.5", NO_THOUSANDS),
+            ("-0,2003", NO_THOUSANDS),
+            ("-2.003D-01", "write the exponent with E, such as 1.0E-3"),
             ("\u{2212}1.5", ASCII),
             ("1.5mA", WITHOUT_UNIT),
             ("1.5 µA", WITHOUT_UNIT),
             ("-1.5 mA", WITHOUT_UNIT),
-            ("about 1.5", OTHERWISE),
-            ("a lot", OTHERWISE),
-            ("1.5 (?)", OTHERWISE),
         ] {
-            assert_eq!(in_csv(written), due, "{written}");
+            assert_eq!(in_csv(written), Some(due), "{written}");
+        }
+        for written in [
+            "",
+            "'inf'",
+            "NaN",
+            "-",
+            "—",
+            "#DIV/0!",
+            "#N/A",
+            "OVERLOAD",
+            "01.Feb",
+            "(0.2)",
+            "about 1.5",
+            "a lot",
+            "1.5 (?)",
+        ] {
+            assert_eq!(in_csv(written), None, "{written}");
         }
     }
 }

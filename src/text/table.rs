@@ -2,9 +2,9 @@
 //!
 //! Tables come from a meter's software or a spreadsheet and are not signed. CR LF and a byte order mark, which such
 //! programs write, are therefore accepted, and so are empty cells at the end of a line and a first line `sep=;`. An
-//! unknown column is ignored and reported, unless its name looks like a misspelt one. Semicolons between the columns
-//! are accepted and reported, and with them decimal commas if the whole file has them; anything in between is refused,
-//! because its meaning depends on the country of the reader.
+//! unknown column is ignored and reported, unless its name looks like a misspelt one. Semicolons or tabs between the
+//! columns are accepted and reported, and with them decimal commas if the whole file has them; anything in between is
+//! refused, because its meaning depends on the country of the reader.
 
 use super::excerpt::Location;
 use super::kind::{Kind, mistaken};
@@ -22,8 +22,8 @@ pub(crate) struct Table<'a> {
     /// Rows in the order of the text.
     pub rows: Vec<Row>,
     left_out: Vec<String>,
-    /// How a file with semicolons between the columns was read; `None` with commas between them.
-    semicolons: Option<&'static str>,
+    /// How a file with semicolons or tabs between the columns was read; `None` with commas between them.
+    separated: Option<String>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -73,21 +73,23 @@ impl<'a> Table<'a> {
             let expected = format!("the header {}", required.join(","));
             return Err(Unreadable::whole(name, None, "only spaces and comments", expected, ""));
         };
-        let with_semicolons = header.contains(';') && !header.contains(',');
-        let separator = declared.unwrap_or(if with_semicolons { ';' } else { ',' });
-        let names = header.trim().trim_end_matches(separator);
+        let separator = declared.unwrap_or_else(|| {
+            if header.contains(',') {
+                ','
+            } else {
+                [';', '\t'].into_iter().find(|&other| header.contains(other)).unwrap_or(',')
+            }
+        });
         let header = Header::read(name, (line, header), separator, required, optional)?;
         let mut problems = Vec::new();
         let mut rows = Vec::new();
         for (line, text) in lines {
-            match cells(line, text, separator).map(|cells| without_trailing(cells, header.width)) {
+            match cells(line, text, separator).map(|cells| without_trailing(cells, header.names.len())) {
                 Ok(cells) if cells.iter().all(|cell| cell.text.is_empty()) => {}
-                Ok(cells) if cells.len() == header.width => {
+                Ok(cells) if cells.len() == header.names.len() => {
                     rows.push(Row { cells: header.order.iter().map(|&place| cells[place].clone()).collect() });
                 }
-                Ok(cells) => {
-                    problems.push(wrong_number_of_cells((line, text), separator, cells.len(), (header.width, names)));
-                }
+                Ok(cells) => problems.push(wrong_number_of_cells((line, text), separator, cells.len(), &header.names)),
                 Err(problem) => problems.push(problem),
             }
             if problems.len() >= MOST_COUNTED {
@@ -95,16 +97,19 @@ impl<'a> Table<'a> {
             }
         }
         let Header { columns, left_out, .. } = header;
-        let mut semicolons = None;
-        if problems.is_empty() && separator == ';' {
+        let mut separated = None;
+        if problems.is_empty() && separator != ',' {
+            let separators = if separator == ';' { "semicolons" } else { "tabs" };
             match with_decimal_points(&mut rows, &columns) {
-                Ok(true) => semicolons = Some("read with semicolons between columns and decimal commas"),
-                Ok(false) => semicolons = Some("read with semicolons between columns"),
+                Ok(commas) => {
+                    let and = if commas { " and decimal commas" } else { "" };
+                    separated = Some(format!("read with {separators} between columns{and}"));
+                }
                 Err(problem) => problems.push(problem),
             }
         }
         if problems.is_empty() {
-            Ok(Self { name, bytes, columns, rows, left_out, semicolons })
+            Ok(Self { name, bytes, columns, rows, left_out, separated })
         } else {
             Err(Unreadable::of(name, counted(problems, kind)))
         }
@@ -115,8 +120,7 @@ impl<'a> Table<'a> {
         let names: Vec<String> = self.left_out.iter().map(|name| format!("{name:?}")).collect();
         let (words, are) = if names.len() == 1 { ("column", "is") } else { ("columns", "are") };
         let ignored = (!names.is_empty()).then(|| format!("the {words} {} {are} ignored", names.join(", ")));
-        let semicolons = self.semicolons.map(str::to_owned);
-        let remarks: Vec<String> = semicolons.into_iter().chain(ignored).collect();
+        let remarks: Vec<String> = self.separated.clone().into_iter().chain(ignored).collect();
         (!remarks.is_empty()).then(|| format!("{}: {}", self.name, remarks.join("; ")))
     }
 
@@ -125,28 +129,24 @@ impl<'a> Table<'a> {
         self.columns.iter().position(|name| *name == column)
     }
 
-    /// Returns the finite number in a cell, or adds an error to `problems` and returns `None`.
-    pub(crate) fn number(&self, row: &Row, column: usize, problems: &mut Vec<Problem>) -> Option<f64> {
+    /// Returns the finite number in a cell, or adds an error to `problems` and returns `None`. `not_taken` is the advice on
+    /// a reading that was not taken, for which instruments and spreadsheets write many words.
+    pub(crate) fn number(&self, row: &Row, column: usize, not_taken: &str, problems: &mut Vec<Problem>) -> Option<f64> {
         let cell = &row.cells[column];
-        match cell.text.parse::<f64>() {
-            Ok(value) if value.is_finite() => Some(value),
-            Ok(_) => {
-                let found = format!("{:?}", cell.text);
-                problems.push(self.problem(cell, column, found, "a finite number", "omit the row"));
-                None
-            }
-            Err(_) => {
-                let advice = number_advice::in_csv(&cell.text);
-                problems.push(self.problem(cell, column, described(&cell.text), "a number", advice));
-                None
-            }
+        let value = cell.text.parse::<f64>().ok().filter(|value| value.is_finite());
+        if value.is_none() {
+            let advice = number_advice::in_csv(&cell.text).unwrap_or(not_taken);
+            problems.push(self.problem(cell, column, described(&cell.text), "a number", advice));
         }
+        value
     }
 
-    /// Returns the whole number, 1 or larger, in a cell, or adds an error to `problems` and returns `None`.
+    /// Returns the whole number, 1 or larger, in a cell, or adds an error to `problems` and returns `None`. Some programs
+    /// write it as 1.000.
     pub(crate) fn index(&self, row: &Row, column: usize, problems: &mut Vec<Problem>) -> Option<u32> {
         let cell = &row.cells[column];
-        let index = cell.text.parse::<u32>().ok().filter(|&index| index > 0);
+        let is_index = |value: &f64| value.fract() == 0.0 && (1.0..=f64::from(u32::MAX)).contains(value);
+        let index = cell.text.parse::<f64>().ok().filter(is_index).map(|index| index as u32);
         if index.is_none() {
             let advice = advice_for_index(&cell.text);
             problems.push(self.problem(cell, column, described(&cell.text), "a whole number from 1", advice));
@@ -174,7 +174,7 @@ fn column_name<'a>(columns: &[&'a str], place: usize) -> &'a str {
 /// shown.
 fn kind(problem: &Problem) -> Option<(String, String)> {
     let is_cell = !problem.field.is_empty() && (!problem.advice.is_empty() || problem.expected.contains("number"));
-    let is_row = problem.field.is_empty() && problem.found.ends_with(" values");
+    let is_row = problem.field.is_empty() && problem.found.contains(" value");
     let counts = problem.location.is_some() && (is_cell || is_row);
     counts.then(|| (problem.expected.clone(), problem.advice.clone()))
 }
@@ -195,7 +195,7 @@ fn without_trailing(mut cells: Vec<Cell>, columns: usize) -> Vec<Cell> {
     cells
 }
 
-/// Replaces the decimal commas of a table that has semicolons between its columns, and returns `true` if there were
+/// Replaces the decimal commas of a table that has no commas between its columns, and returns `true` if there were
 /// any. Commas are decimal marks only if the whole table has no decimal point.
 fn with_decimal_points(rows: &mut [Row], columns: &[&str]) -> Result<bool, Problem> {
     let comma = rows.iter().flat_map(|row| &row.cells).find(|cell| cell.text.contains(',')).cloned();
@@ -216,18 +216,20 @@ fn with_decimal_points(rows: &mut [Row], columns: &[&str]) -> Result<bool, Probl
 fn cells(line: usize, text: &str, separator: char) -> Result<Vec<Cell>, Problem> {
     let mut cells = Vec::new();
     let mut rest = Some(text);
+    let blank = |c: char| c.is_whitespace() && c != separator;
     while let Some(here) = rest {
-        let start = here.trim_start();
+        let start = here.trim_start_matches(blank);
         let column = text[..text.len() - start.len()].chars().count() + 1;
         let location = Location { line, column };
         let (cell, after) = match start.strip_prefix('"') {
             Some(quoted) => quoted_cell(quoted, separator).ok_or_else(|| {
                 let found = "a quoted cell without a closing quote before a comma or the end of the line";
-                Problem::new(Some(location), "", found, "\"…\", with each inner quote doubled", "")
+                let advice = "write the cell on one line, because a line break in it ends the row";
+                Problem::new(Some(location), "", found, "\"…\", with each inner quote doubled", advice)
             })?,
             None => {
                 let end = start.find(separator).unwrap_or(start.len());
-                (start[..end].trim_end().to_owned(), &start[end..])
+                (start[..end].trim_end_matches(blank).to_owned(), &start[end..])
             }
         };
         cells.push(Cell { text: cell, location });
@@ -250,7 +252,7 @@ fn quoted_cell(quoted: &str, separator: char) -> Option<(String, &str)> {
         }
         text.push('"');
     }
-    let after = rest.trim_start();
+    let after = rest.trim_start_matches(|c: char| c.is_whitespace() && c != separator);
     (after.is_empty() || after.starts_with(separator)).then(|| (text.trim().to_owned(), after))
 }
 
@@ -260,8 +262,8 @@ struct Header<'a> {
     /// Index of each of these columns in a line.
     order: Vec<usize>,
     left_out: Vec<String>,
-    /// Number of cells in a line.
-    width: usize,
+    /// Names of all columns, in the order of a line.
+    names: Vec<String>,
 }
 
 impl<'a> Header<'a> {
@@ -274,10 +276,11 @@ impl<'a> Header<'a> {
     ) -> Result<Self, Unreadable> {
         let at = Location { line, column: 1 };
         let expected = || format!("the header {} (columns in any order)", required.join(","));
-        let other = [(';', "semicolons and commas"), ('\t', "tabs")];
+        let other = [(',', "commas"), (';', "semicolons"), ('\t', "tabs")];
+        let words = |sought: char| other.iter().find(|(other, _)| *other == sought).map_or("", |(_, words)| words);
         let found = other.iter().find(|(other, _)| *other != separator && header.contains(*other));
-        if let Some((_, words)) = found.or(other.last().filter(|_| separator == '\t')) {
-            let found = format!("columns separated by {words}");
+        if let Some((_, and)) = found {
+            let found = format!("columns separated by {} and {and}", words(separator));
             let advice = "save as CSV with commas between columns and decimal points in numbers";
             return Err(Unreadable::whole(name, Some(at), found, expected(), advice));
         }
@@ -311,14 +314,25 @@ impl<'a> Header<'a> {
             }
         }
         let place = |column: &&str| cells.iter().position(|cell| cell.text == *column);
-        for column in required.iter().filter(|column| place(column).is_none()) {
-            problems.push(Problem::new(Some(at), "", format!("no column {column}"), expected(), ""));
+        let missing: Vec<&str> = required.iter().filter(|column| place(column).is_none()).copied().collect();
+        if !missing.is_empty() {
+            let plural = if missing.len() > 1 { "s" } else { "" };
+            let found = format!("no column{plural} {}", missing.join(", "));
+            let advice = match left_out.is_empty() {
+                true => String::new(),
+                false if missing.len() == required.len() => "put # before the lines above the header".to_owned(),
+                false => {
+                    let others: Vec<String> = left_out.iter().map(|name| format!("{name:?}")).collect();
+                    format!("if one of the columns {} is meant, rename it and convert its numbers", others.join(", "))
+                }
+            };
+            problems.push(Problem::new(Some(at), "", found, expected(), advice));
         }
         if !problems.is_empty() {
             return Err(Unreadable::of(name, problems));
         }
         let (columns, order) = known.into_iter().filter_map(|column| Some((column, place(&column)?))).unzip();
-        Ok(Self { columns, order, left_out, width: cells.len() })
+        Ok(Self { columns, order, left_out, names: cells.into_iter().map(|cell| cell.text).collect() })
     }
 }
 
@@ -333,23 +347,19 @@ fn meant<'a>(known: &[&'a str], found: &str) -> Option<&'a str> {
     if is_near { Some(nearest.1) } else { without_unit.copied() }
 }
 
-fn wrong_number_of_cells(
-    (line, text): (usize, &str),
-    separator: char,
-    found: usize,
-    (columns, names): (usize, &str),
-) -> Problem {
+fn wrong_number_of_cells((line, text): (usize, &str), separator: char, found: usize, names: &[String]) -> Problem {
     let advice = if separator == ';' {
         "separate columns by semicolons, as in the header"
     } else if text.contains(';') {
         "separate columns by commas, and use decimal points"
-    } else if found > columns {
+    } else if found > names.len() && separator == ',' {
         "use decimal points; a decimal comma splits a number in two"
     } else {
-        ""
+        "leave the cell of a value that is missing empty"
     };
-    let expected = format!("{columns}: {names}");
-    Problem::new(Some(Location { line, column: 1 }), "", format!("{found} values"), expected, advice)
+    let plural = if found == 1 { "" } else { "s" };
+    let expected = format!("{}, for {}", names.len(), names.join(", "));
+    Problem::new(Some(Location { line, column: 1 }), "", format!("{found} value{plural}"), expected, advice)
 }
 
 fn described(text: &str) -> String {
@@ -359,8 +369,8 @@ fn described(text: &str) -> String {
 fn advice_for_index(text: &str) -> &'static str {
     if unquoted(text) != text {
         "write the number without quotes"
-    } else if text.parse::<f64>().is_ok_and(|value| value >= 1.0 && value.fract() == 0.0) {
-        "write it without a decimal point"
+    } else if text.parse() == Ok(0.0) {
+        "count from 1"
     } else {
         ""
     }
@@ -407,9 +417,9 @@ mod tests {
     fn the_advice_on_an_index_fits_what_was_written() {
         for (written, due) in [
             ("'1'", "write the number without quotes"),
-            ("1.0", "write it without a decimal point"),
+            ("0", "count from 1"),
+            ("0.0", "count from 1"),
             ("1.5", ""),
-            ("0.0", ""),
             ("-1.0", ""),
             ("one", ""),
         ] {

@@ -6,14 +6,19 @@ use dtg_passport::calibration::{Readings, Setup};
 use dtg_passport::coefficients::PositionIndex;
 
 /// (file, what the message must say).
-const BAD: [(&str, &[&str]); 31] = [
+const BAD: [(&str, &[&str]); 37] = [
     ("", &["empty file"]),
     ("# nothing\n\n", &["only spaces and comments"]),
     ("i;j;jx_ma;jy_ma\n1;1;0,1;0.2\n", &["c.csv:2:9", "decimal commas from line 2 on", "the whole file"]),
-    ("i;j,jx_ma,jy_ma\n", &["c.csv:1:1", "semicolons and commas", "commas between columns"]),
+    ("i;j,jx_ma,jy_ma\n", &["c.csv:1:1", "commas and semicolons", "commas between columns"]),
     ("i;j;jx_ma;jy_ma\n1;1;0,1\n", &["c.csv:2:1", "3 values", "semicolons, as in the header"]),
-    ("i\tj\tjx_ma\tjy_ma\n", &["c.csv:1:1", "tabs"]),
+    ("i\tj\tjx_ma,jy_ma\n", &["c.csv:1:1", "commas and tabs"]),
+    ("i\tj\tjx_ma\tjy_ma\n1\t1\t\t0.2\n", &["c.csv:2:5", "jx_ma", "found nothing"]),
+    ("i\tj\tjx_ma\tjy_ma\n1\t1\t0,1\t0.2\n", &["c.csv:2:9", "decimal commas from line 2 on"]),
     ("i,j,jx_ma\n1,1,0.1\n", &["c.csv:1:1", "no column jy_ma"]),
+    ("i,j,Jx (mA),Jy (mA)\n", &["no columns jx_ma, jy_ma", "\"Jx (mA)\", \"Jy (mA)\" is meant"]),
+    ("Gyro 12,,,\ni,j,jx_ma,jy_ma\n", &["c.csv:1:1", "no columns i, j, jx_ma, jy_ma", "put # before the lines"]),
+    ("i,j,jx_ma,jy_ma,time_s\n1,1,0.1,0.2,45000.1\n1,2,0.1,0.2,45000.2\n", &["2 visits within 0.10 s", "in days"]),
     ("i,j,jx_ua,jy_ma\n", &["c.csv:1:5", "\"jx_ua\"", "convert the numbers from ua to ma, then name it jx_ma"]),
     ("i,j,jx_ma,jy_ma,Cycles\n", &["c.csv:1:17", "\"Cycles\"", "did you mean cycle?"]),
     ("i,j,jx_ma,jy_ma,time_min\n", &["c.csv:1:17", "convert the numbers from min to s, then name it time_s"]),
@@ -26,17 +31,18 @@ const BAD: [(&str, &[&str]); 31] = [
     ("i,j,jx_ma,jx_ma,jy_ma\n", &["c.csv:1:11", "duplicate column"]),
     ("1,1,0.1,0.2\n", &["c.csv:1:1", "add the header"]),
     ("ROW 1,1,0,1,0,2\n", &["c.csv:2:1", "6 values", "decimal comma"]),
-    ("ROW 1,1,0.1\n", &["c.csv:2:1", "3 values"]),
-    ("ROW 1,1,abc,0.2\n", &["c.csv:2:5", "jx_ma", "\"abc\"", "a number"]),
-    ("ROW 1,1, NaN,0.2\n", &["c.csv:2:6", "a finite number"]),
-    ("ROW 1,1,0.1,inf\n", &["c.csv:2:9", "jy_ma", "a finite number"]),
+    ("ROW 1,1,0.1\n", &["c.csv:2:1", "3 values", "4, for i, j, jx_ma, jy_ma"]),
+    ("ROW 1\n", &["c.csv:2:1", "1 value,"]),
+    ("ROW 1,1,#DIV/0!,0.2\n", &["c.csv:2:5", "jx_ma", "\"#DIV/0!\"", "a number; omit the whole row"]),
+    ("ROW 1,1, NaN,0.2\n", &["c.csv:2:6", "a number; omit the whole row"]),
+    ("ROW 1,1,0.1,inf\n", &["c.csv:2:9", "jy_ma", "a number; omit the whole row"]),
     ("ROW 1,1,0.1,\n", &["c.csv:2:9", "found nothing", "omit the whole row"]),
     ("ROW 1,1,0.1mA,0.2\n", &["c.csv:2:5", "the column name states it"]),
     ("ROW 1,1,1e6,0.2\n", &["c.csv:2:5", "1000000", "the range of the meter"]),
     ("ROW 1,1,-104.9,0.2\n", &["c.csv:2:5", "it may be in microamperes"]),
     ("ROW 3,1,0.1,0.2\n", &["c.csv:2:1", "position (3, 1)", "check that this is the passport of this stand"]),
-    ("ROW 0,1,0.1,0.2\n", &["c.csv:2:1", "a whole number from 1"]),
-    ("ROW 1,1.0,0.1,0.2\n", &["c.csv:2:3", "a whole number from 1"]),
+    ("ROW 0,1,0.1,0.2\n", &["c.csv:2:1", "a whole number from 1; count from 1"]),
+    ("ROW 1,1.5,0.1,0.2\n", &["c.csv:2:3", "a whole number from 1"]),
     ("ROW 1,1,x,0.2\n1,2,0.1,2.5\n", &["c.csv:2:5", "c.csv:3:9"]),
 ];
 
@@ -142,6 +148,9 @@ fn tables_of_spreadsheet_programs_are_read() {
     let points = good.replace(',', ";");
     assert_eq!(read(&points).means_ma(), expected.means_ma());
     assert!(read(&points).remark.unwrap().ends_with("read with semicolons between columns"));
+    let labview = german.replace(';', "\t").replace("\n1\t1\t", "\n1,000\t1,000\t");
+    assert_eq!(read(&labview).means_ma(), expected.means_ma());
+    assert!(read(&labview).remark.unwrap().ends_with("read with tabs between columns and decimal commas"));
 }
 
 /// (cycle, number, rows) of the visits to position (1, 1).

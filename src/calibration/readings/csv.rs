@@ -5,6 +5,7 @@ use crate::calibration::recorded::Recorded;
 use crate::coefficients::{Coefficients, PositionIndex};
 use crate::statistics::coincidences::{self, Coincidence};
 use crate::text::Unreadable;
+use crate::text::number::two_digits;
 use crate::text::problem::{MOST_PROBLEMS, Problem};
 use crate::text::table::{Row, Table};
 use nalgebra::Vector2;
@@ -12,6 +13,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Required columns of the file.
 pub(crate) const COLUMNS: [&str; 4] = ["i", "j", "jx_ma", "jy_ma"];
+
+/// Advice on a cell without a number.
+const NOT_TAKEN: &str = "omit the whole row of a reading that was not taken";
 
 /// Optional columns of the file.
 pub(crate) const OPTIONAL_COLUMNS: [&str; 3] = ["cycle", "visit", "time_s"];
@@ -38,7 +42,7 @@ impl Readings {
             let y = current(&table, row, 3, range_ma, &mut problems);
             let mut whole = |column: Option<usize>| column.and_then(|column| table.index(row, column, &mut problems));
             let (cycle, visit) = (whole(cycle).unwrap_or(1), whole(visit));
-            let time_s = time.and_then(|column| table.number(row, column, &mut problems));
+            let time_s = time.and_then(|column| table.number(row, column, NOT_TAKEN, &mut problems));
             if let (Some(index), Some(x), Some(y)) = (index, x, y) {
                 readings.push(Reading { index, current_ma: Vector2::new(x, y), cycle, visit, time_s });
             }
@@ -50,6 +54,7 @@ impl Readings {
                 torn_visits(&table, &readings),
                 lone_cycles(&readings),
                 impossible_times(&table, &readings),
+                times_in_another_unit(&readings),
                 without_current(&readings),
             ];
             problems = kinds.into_iter().find(|found| !found.is_empty()).unwrap_or_default();
@@ -88,7 +93,7 @@ pub(crate) fn position(
 }
 
 fn current(table: &Table, row: &Row, column: usize, range_ma: f64, problems: &mut Vec<Problem>) -> Option<f64> {
-    let value = table.number(row, column, problems)?;
+    let value = table.number(row, column, NOT_TAKEN, problems)?;
     if value.abs() <= range_ma {
         return Some(value);
     }
@@ -177,6 +182,22 @@ fn impossible_times(table: &Table, readings: &[Reading]) -> Vec<Problem> {
         before = time_s;
     }
     Vec::new()
+}
+
+/// Returns a problem if the times leave less than a second for each move to another position: spreadsheets count days, and
+/// loggers may count hours.
+fn times_in_another_unit(readings: &[Reading]) -> Vec<Problem> {
+    let mut times = readings.iter().filter_map(|reading| reading.time_s);
+    let Some(first) = times.next() else { return Vec::new() };
+    let (least, most) = times.fold((first, first), |(least, most), time| (least.min(time), most.max(time)));
+    let stays: BTreeSet<(u32, PositionIndex)> = readings.iter().map(|reading| (reading.cycle, reading.index)).collect();
+    let span_s = most - least;
+    // Times that are all the same say nothing, and have words of their own.
+    if span_s == 0.0 || span_s >= stays.len() as f64 - 1.0 {
+        return Vec::new();
+    }
+    let found = format!("time_s: {} visits within {} s", stays.len(), two_digits(span_s));
+    vec![Problem::whole(found, "seconds", "convert the times to seconds; dates of a spreadsheet are in days")]
 }
 
 /// Returns a problem for each cycle that has readings of one position alone: its own ω_0 would take up all of them.
