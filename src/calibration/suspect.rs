@@ -64,8 +64,9 @@ struct Deletion {
 /// Returns the row and the visit that chance does not explain, as far as there are any.
 pub(crate) fn all(setup: &Setup, readings: &Readings, observation: &Observation) -> Vec<Suspect> {
     let Observation { data: Data { repeats, .. }, fit, seen, differences } = observation;
-    let rounding_ma = readings.recorded.rounding_ma(&setup.uncertainty().meter);
-    let row = seen.rows.and_then(|scatter| of_rows(readings, &scatter, rounding_ma));
+    let meter = &setup.uncertainty().meter;
+    let least_ma = readings.recorded.rounding_ma(meter).max(meter.noise_ma);
+    let row = seen.rows.and_then(|scatter| of_rows(readings, &scatter, least_ma));
     let visit = differences.as_ref().and_then(|differences| {
         let errors = VisitErrors::new(setup, readings, fit, repeats.noise_ma);
         let of_visit = |place, visit| errors.with_noise(place, visit, repeats.visit.deg_per_h);
@@ -112,9 +113,9 @@ fn of_visits(
     largest(readings, deletions, each.len(), residuals.norm_squared(), freedom, least)
 }
 
-/// Returns the row that agrees least with the other rows of its visit, given the scatter of all rows; `rounding_ma` is
-/// the standard uncertainty of the rounding of a reading, below which nothing differs.
-fn of_rows(readings: &Readings, scatter: &RowScatter, rounding_ma: f64) -> Option<Suspect> {
+/// Returns the row that agrees least with the other rows of its visit, given the scatter of all rows; `least_ma` is the
+/// scatter that a reading has in any case, from its rounding or its stated noise.
+fn of_rows(readings: &Readings, scatter: &RowScatter, least_ma: f64) -> Option<Suspect> {
     let freedom = scatter.degrees_of_freedom;
     let squares = scatter.standard_deviation_ma.powi(2) * freedom as f64;
     let visits = readings
@@ -132,7 +133,7 @@ fn of_rows(readings: &Readings, scatter: &RowScatter, rounding_ma: f64) -> Optio
         })
     });
     let count = several.map(|(_, _, found)| found.each_ma.len()).sum();
-    largest(readings, deletions, count, squares, freedom, rounding_ma.powi(2))
+    largest(readings, deletions, count, squares, freedom, least_ma.powi(2))
 }
 
 /// Returns the largest of `count` deletions if chance does not explain it, given the sum of squares of all residuals,
