@@ -44,8 +44,9 @@ impl Default for Options {
 /// Calibrates the gyro whose currents are `readings` with the requested methods.
 ///
 /// # Errors
-/// Returns [`NoLeastSquares`] if the readings are for other positions or do not determine a gyro; the results of other
-/// methods would then be meaningless. A refusal of a single method is in [`Calibration::refused`].
+/// Returns [`NoLeastSquares`] if the readings are for other positions or do not determine the parameters of the model; the
+/// results of other methods would then be meaningless, or answer another question. A refusal of one of the paper's methods
+/// is in [`Calibration::refused`].
 pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Result<Calibration, NoLeastSquares> {
     let digits = readings.recorded.digits(&setup.uncertainty().meter);
     let setup = &*setup.of_readings(readings);
@@ -57,13 +58,7 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
     if options.drift {
         possible.clone()?;
     }
-    // If the positions do not determine the model, least squares alone has no result.
-    let (observation, refused) = match Observation::new(setup, readings, options.model, options.drift) {
-        Err(refusal) if options.model != Model::Paper => {
-            (Observation::new(setup, readings, Model::Paper, options.drift)?, Some(refusal))
-        }
-        found => (found?, None),
-    };
+    let observation = Observation::new(setup, readings, options.model, options.drift)?;
     let suspects = suspect::all(setup, readings, &observation);
     let Observation { data, fit, seen, .. } = observation;
     let evaluation = Evaluation::new(setup, &data, &fit);
@@ -93,14 +88,11 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
             Method::Analytic | Method::Iterative if !closed => Err(MethodRefusal::NotThisModel),
             Method::Analytic => of_the_paper.analytic(of_closed.as_ref()).map_err(MethodRefusal::from),
             Method::Iterative => of_the_paper.iterative(of_closed.as_ref(), &options.stop_rule),
-            Method::LeastSquares => match &refused {
-                Some(refusal) => Err(refusal.clone().into()),
-                None => {
-                    let model_test =
-                        paper.as_ref().and_then(|paper| ModelTest::new(&paper.chi_square, &evaluation.chi_square));
-                    Ok(MethodResult { model_test, ..evaluation.least_squares() })
-                }
-            },
+            Method::LeastSquares => {
+                let model_test =
+                    paper.as_ref().and_then(|paper| ModelTest::new(&paper.chi_square, &evaluation.chi_square));
+                Ok(MethodResult { model_test, ..evaluation.least_squares() })
+            }
         };
         match result {
             Ok(result) => calibration.results.push(result),

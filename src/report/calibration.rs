@@ -12,7 +12,7 @@ use crate::calibration::prediction::FurtherVisit;
 use crate::calibration::readings::Exclusion;
 use crate::calibration::stated::NotStated;
 use crate::calibration::verdict::{BEYOND, Verdict, change_in_uncertainties};
-use crate::calibration::{Calibration, Method, MethodResult, Readings};
+use crate::calibration::{Calibration, MethodResult, Readings};
 use crate::interface::calibrated::Done;
 use crate::report::page::calibration::why_no_change;
 use crate::report::page::language::{Language, values};
@@ -128,25 +128,20 @@ fn gyro(Subject { gyro_serial, date, .. }: &Subject) -> Option<String> {
 /// Returns what makes the parameters or their uncertainties unusable, a sentence each.
 pub(crate) fn warnings(Done { calibration, document, .. }: &Done, trials: Option<&MonteCarlo>) -> Vec<String> {
     let inconsistent = calibration.hint.iter().map(|_| format!("{INCONSISTENT}."));
-    let warnings = inconsistent.chain(not_of_this_gyro(calibration, document.mistake.as_ref()));
+    let warnings = inconsistent.chain(not_of_this_gyro(document.mistake.as_ref()));
     warnings.chain(trials.and_then(not_linear)).map(|words| format!("WARNING: {words}")).collect()
 }
 
 /// Returns what makes the parameters unusable although the readings fit.
-fn not_of_this_gyro(calibration: &Calibration, mistake: Option<&Mistake>) -> impl Iterator<Item = String> {
-    let mistake = mistake.map(|mistake| mistake::words(mistake, Language::English));
-    let other = calibration.refused.iter().find(|(method, _)| *method == Method::LeastSquares);
-    let other = other.zip(calibration.answer()).map(|((_, why), answer)| {
-        format!("least squares gave no result ({why}); this is that of the {} method.", answer.method.key())
-    });
-    mistake.into_iter().chain(other)
+fn not_of_this_gyro(mistake: Option<&Mistake>) -> Option<String> {
+    mistake.map(|mistake| mistake::words(mistake, Language::English))
 }
 
 /// Returns what a program should show with the parameters, a sentence each: what makes them unusable, what the readings
 /// cannot tell, and a scatter that is not the stated one.
 pub(crate) fn remarks(calibration: &Calibration, readings: &Readings, mistake: Option<&Mistake>) -> Vec<String> {
     let inconsistent = calibration.hint.iter().map(|hint| format!("{INCONSISTENT}: {hint}."));
-    let mut remarks: Vec<String> = inconsistent.chain(not_of_this_gyro(calibration, mistake)).collect();
+    let mut remarks: Vec<String> = inconsistent.chain(not_of_this_gyro(mistake)).collect();
     let tested = calibration.answer().is_some_and(|answer| answer.chi_square.judges());
     remarks.extend((!tested).then(|| UNTESTED.to_owned()));
     remarks.extend(calibration.digits.iter().flat_map(|digits| recorded::words(digits, Language::English)));

@@ -170,6 +170,12 @@ fn undetermined_parameters_are_named() {
     let error =
         least_squares::solve(eight.coefficients(), &currents_ma, &paper_meter(), Model::Anisoelastic).unwrap_err();
     assert!(error.to_string().contains("cannot determine ω_n (anisoelasticity)"), "{error}");
+    // A question that the readings cannot answer is refused, whatever other methods say.
+    let options = Options { model: Model::Anisoelastic, ..Options::default() };
+    assert_eq!(
+        calibrate(&eight, &readings(&eight, &currents_ma), &options).unwrap_err().to_string(),
+        error.to_string()
+    );
     let constant = vec![Vector2::new(0.1, -0.2); 8];
     let error = least_squares::solve(eight.coefficients(), &constant, &paper_meter(), Model::Paper).unwrap_err();
     assert!(matches!(error, NoLeastSquares::Inseparable { .. }), "{error}");

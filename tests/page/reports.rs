@@ -39,11 +39,11 @@ const REPORTS: &[Report] = &[
         languages: &[English],
         asked: &[USUAL, CURRENTS, LABORATORY, GYRO, SEVERAL, &["--gyro-serial", "G-0042", "--date", "2026-11-18"]],
     },
-    // Repeated readings; a laboratory that is too warm, with a poor seat; a term more to fit.
+    // Repeated readings; a laboratory that is too warm, with a poor seat.
     Report {
         name: "repeated-en",
         languages: &[English],
-        asked: &[USUAL, &["@repeated.csv", "--laboratory", "@warm.yaml", "--anisoelasticity", "--budget"], GYRO],
+        asked: &[USUAL, &["@repeated.csv", "--laboratory", "@warm.yaml", "--budget"], GYRO],
     },
     Report {
         name: "changed-both",

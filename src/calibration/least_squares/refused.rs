@@ -55,8 +55,13 @@ fn in_words(groups: &[Vec<Parameter>], condition: f64) -> String {
     });
     let words: Vec<String> = words.collect();
     let words = words.join(", nor ");
+    let is_extra = |parameter: &Parameter| matches!(parameter, Parameter::Anisoelasticity | Parameter::G(..));
+    let advice = match groups.iter().flatten().any(is_extra) {
+        true => "; fit the paper's model, or read further positions",
+        false => "",
+    };
     format!(
-        "readings of these positions cannot {words} (condition number {condition:.0e}, at most {LARGEST_CONDITION})"
+        "readings of these positions cannot {words} (condition number {condition:.0e}, at most {LARGEST_CONDITION}){advice}"
     )
 }
 
