@@ -14,9 +14,10 @@ use super::rotated_runs;
 use super::suspects::OUTLIER;
 use super::{AngleReadings, Certification, Header};
 use crate::calibration::inputs::Turn;
+use crate::calibration::recorded::rounding_of;
 use crate::coefficients::PositionIndex;
 use crate::stand::{ActsOn, Certificate, CertifiedPosition, Stand};
-use crate::statistics::beta::f_larger;
+use crate::statistics::beta::{f_beyond, f_larger};
 use crate::statistics::least_squares::Factorised;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use serde::Serialize;
@@ -81,10 +82,11 @@ struct Differences {
 
 impl Comparison {
     /// Returns `true` if the readings of the check do not show whether the stand has changed: because of outliers among
-    /// them, or because they are those of the certificate.
+    /// them, because they scatter much more than the certificate states, or because they are those of the certificate.
     pub(crate) fn is_undecided(&self) -> bool {
         let is_any = |of: fn(&Finding) -> bool| self.findings.iter().any(of);
-        let unusable = is_any(Finding::is_outlier) || is_any(Finding::is_of_the_certificate);
+        let unusable =
+            is_any(Finding::is_outlier) || is_any(Finding::is_of_the_certificate) || is_any(Finding::is_large_scatter);
         !self.same_stand && unusable && !is_any(Finding::is_change)
     }
 }
@@ -103,10 +105,17 @@ pub fn compare(
 ) -> Result<Comparison, NotCompared> {
     check_same(certificate, header)?;
     let scatter = repeatability(certificate, again).ok_or(NotCompared::NoRepeatability)?;
-    let differences = Differences::new(certificate, readings, scatter)?;
     let places: Vec<usize> = (0..certificate.positions.len()).collect();
+    let mut differences = Differences::new(certificate, readings, scatter)?;
+    let mut repeating = differences.repeating(&places);
+    let misplaced = misplaced(certificate, readings, scatter, &repeating)?;
+    // Misplaced readings scatter as if they were others, and explain more.
+    let more = larger_scatter(scatter, again, readings).filter(|_| misplaced.is_empty());
+    if let Some((of_check, _)) = more {
+        differences = Differences::new(certificate, readings, of_check)?;
+        repeating = differences.repeating(&places);
+    }
     let all = differences.rest(&places).ok_or(NotCompared::TooFewPositions)?;
-    let repeating = differences.repeating(&places);
     let positions: Vec<_> = places
         .iter()
         .filter_map(|&place| {
@@ -125,13 +134,11 @@ pub fn compare(
     let untested = between.err().or(common.test.is_none().then_some(Untested::CommonParts));
     let moved = common.test.is_some_and(|test| test.probability < OUTLIER);
     let same_stand = repeating.len() == places.len() && all.probability >= OUTLIER && !moved;
-    let certified: Vec<_> = certificate.positions.iter().map(|at| Vector3::from(at.angles_arcsec())).collect();
-    let exchanged = exchanged(certificate, &certified, readings, scatter, &repeating)?;
-    let mut misplaced: Vec<Finding> = exchanged.into_iter().map(Finding::Exchanged).collect();
-    if misplaced.is_empty() && repeating.is_empty() {
-        misplaced.extend(Misread::of(&readings.means_arcsec(), &certified).map(Finding::Misread));
-    }
     let mut findings = findings(all, &positions, &common, again, moved, untested, misplaced);
+    if let Some((of_check, probability)) = more {
+        let [of_check_arcsec, certified_arcsec] = [of_check, scatter].map(|variance| variance.value.sqrt());
+        findings.push(Finding::ScattersMore { of_check_arcsec, certified_arcsec, probability });
+    }
     if certificate.positions.iter().any(|at| certified_u_arcsec(at).is_none()) {
         findings.push(Finding::TreatedAsExact);
     }
@@ -144,10 +151,27 @@ pub fn compare(
     {
         findings.push(Finding::TooClose);
     }
-    let same_stand = same_stand && !findings.iter().any(Finding::is_of_the_certificate);
+    let same_stand =
+        same_stand && !findings.iter().any(|found| found.is_of_the_certificate() || found.is_large_scatter());
     let words = findings.iter().map(ToString::to_string).collect();
     let certificate = certificate.certificate.number.clone();
     Ok(Comparison { certificate, runs, all, positions, common, same_stand, findings, words })
+}
+
+/// Returns the findings on readings of which the angles stand in other places or in another unit.
+fn misplaced(
+    certificate: &Stand,
+    readings: &AngleReadings,
+    scatter: Variance,
+    repeating: &[usize],
+) -> Result<Vec<Finding>, NotCompared> {
+    let certified: Vec<_> = certificate.positions.iter().map(|at| Vector3::from(at.angles_arcsec())).collect();
+    let exchanged = exchanged(certificate, &certified, readings, scatter, repeating)?;
+    let mut misplaced: Vec<Finding> = exchanged.into_iter().map(Finding::Exchanged).collect();
+    if misplaced.is_empty() && repeating.is_empty() {
+        misplaced.extend(Misread::of(&readings.means_arcsec(), &certified).map(Finding::Misread));
+    }
+    Ok(misplaced)
 }
 
 /// Returns the pairs of positions whose readings are exchanged: neither is among the `repeating` ones, the angles of each
@@ -206,6 +230,23 @@ fn repeatability(certificate: &Stand, again: Option<&Certification>) -> Option<V
     let degrees_of_freedom = certificate.certificate.repeatability_degrees_of_freedom.unwrap_or(f64::INFINITY);
     let stated = stated.map(|u| Variance { value: u * u, degrees_of_freedom });
     stated.or_else(|| again.map(|again| again.components.pooled_arcsec2))
+}
+
+/// Returns the variance of one visit of the check, arcsec², and its probability by chance, if it is larger than the
+/// certified one, `scatter`, by more than chance and the rounding of the readings explain. Outliers, which are suspect
+/// already, do not count.
+fn larger_scatter(
+    scatter: Variance,
+    again: Option<&Certification>,
+    readings: &AngleReadings,
+) -> Option<(Variance, f64)> {
+    let again = again.filter(|again| {
+        again.suspects.split.is_none() && again.suspects.outliers.iter().all(|out| out.probability >= OUTLIER)
+    })?;
+    let found = again.components.pooled_arcsec2;
+    let expected = scatter.value + square(rounding_of(readings.step_arcsec));
+    let probability = f_beyond(found.value / expected, found.degrees_of_freedom, scatter.degrees_of_freedom);
+    (probability < OUTLIER).then_some((found, probability))
 }
 
 /// Returns the certified standard uncertainties of α, β, γ of a position, or `None` if one is not stated.

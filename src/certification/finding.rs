@@ -3,12 +3,17 @@
 use super::Certification;
 use super::compared::{CommonTurn, ComparedPosition, Test};
 use super::misread::Misread;
+use super::remark;
 use super::rotated_runs::{Pattern, RotatedRuns};
 use super::split_run::SplitRun;
 use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
 use crate::coefficients::PositionIndex;
+use crate::text::number::two_digits;
 use crate::text::words;
 use std::fmt::{self, Display, Formatter};
+
+/// Ratio of the scatter of a check to the certified one above which nothing is decided.
+const MUCH_MORE: f64 = 2.0;
 
 /// Reason for the result of a comparison, or a limit of it. Displayed, it is an English sentence without a full stop;
 /// `report` has the words of other languages.
@@ -20,6 +25,15 @@ pub(crate) enum Finding {
     Exchanged([PositionIndex; 2]),
     /// File in another unit, with another sign or with other axes.
     Misread(Misread),
+    /// Scatter of the check that is significantly larger than the certified one.
+    ScattersMore {
+        /// Standard deviation of one visit in the check, arcsec.
+        of_check_arcsec: f64,
+        /// Repeatability in the certificate, arcsec.
+        certified_arcsec: f64,
+        /// Probability of a larger scatter by chance.
+        probability: f64,
+    },
     /// Position that has changed relative to the others.
     Changed(ComparedPosition),
     /// Significant change that is not that of a single position.
@@ -74,6 +88,17 @@ impl Display for Finding {
                 );
             }
             Self::Misread(misread) => return misread.fmt(f),
+            Self::ScattersMore { of_check_arcsec, certified_arcsec, probability } => {
+                return write!(
+                    f,
+                    "the visits of the check scatter by {}″, the certificate states {}″ (probability {}): the \
+                     stand repeats worse, so that uncertainties from its certificate are too small, or the instrument \
+                     of the check reads worse; read one position several times without moving the stand to tell which",
+                    two_digits(*of_check_arcsec),
+                    two_digits(*certified_arcsec),
+                    remark::probability(*probability)
+                );
+            }
             Self::Changed(ComparedPosition { index, turn_arcsec: [x, y, z], .. }) => {
                 return write!(
                     f,
@@ -155,6 +180,13 @@ impl Finding {
     /// Returns `true` for readings that are not a new measurement, with which nothing is decided.
     pub(crate) fn is_of_the_certificate(&self) -> bool {
         matches!(self, Self::SameReadings | Self::TooClose)
+    }
+
+    /// Returns `true` for readings that scatter so much more than the certificate states, by the fault of the stand or of the
+    /// instrument, that nothing is decided with them.
+    pub(crate) fn is_large_scatter(&self) -> bool {
+        matches!(self, Self::ScattersMore { of_check_arcsec, certified_arcsec, .. }
+            if *of_check_arcsec > MUCH_MORE * certified_arcsec)
     }
 
     /// Returns `true` for an outlier among the readings or the runs of a check, with which nothing is decided.

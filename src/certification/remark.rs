@@ -219,7 +219,7 @@ impl Display for Remark {
     }
 }
 
-fn probability(p: f64) -> String {
+pub(super) fn probability(p: f64) -> String {
     if p < 1e-99 { "below 1e-99".to_owned() } else { format!("{p:.2e}") }
 }
 

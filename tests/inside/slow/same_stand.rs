@@ -75,6 +75,43 @@ fn the_same_stand_passes_and_a_turned_one_does_not() {
     assert!(missed <= 2, "{missed}");
 }
 
+/// A stand that repeats five times worse than certified is not called another one, or one with positions that have changed;
+/// neither is a good one with an instrument that reads to whole arcseconds, or one that is half as bad again, which is the
+/// same stand. Expected: the simulated scatter.
+#[test]
+fn a_larger_scatter_is_told_from_a_change() {
+    let mut stream = Stream::new(9);
+    let (good, worse) = (Truth::new([0.2; 3], 1.0, 1.0), Truth::new([1.0; 3], 1.0, 1.0));
+    let scatters = |found: &Comparison| found.words.iter().any(|words| words.contains("repeats worse"));
+    let (mut worse_named, mut undecided, mut named) = (0, 0, 0);
+    for _ in 0..100 {
+        let certificate = certificate(&good, &mut stream, 5);
+        for runs in [2, 5] {
+            let found = against(&certificate, &worse.measured(&mut stream, runs));
+            assert!(!found.same_stand, "{:?}", found.words);
+            worse_named += u32::from(scatters(&found));
+            undecided += u32::from(found.is_undecided());
+            let mut coarse = good.measured(&mut stream, runs).each_arcsec;
+            coarse.iter_mut().flatten().for_each(|angles| *angles = angles.map(f64::round));
+            let coarse = AngleReadings::new((1..=runs as u32).collect(), coarse).unwrap();
+            named += u32::from(scatters(&against(&certificate, &coarse)));
+        }
+    }
+    let half = Truth::new([0.3; 3], 1.0, 1.0);
+    let same = (0..100).filter(|_| {
+        let found = against(&certificate(&good, &mut stream, 5), &half.measured(&mut stream, 5));
+        scatters(&found) && found.same_stand
+    });
+    let same = same.count();
+    println!("half as much again: {same} of 100 named and the same stand");
+    assert!(same >= 80, "{same}");
+    println!(
+        "five times the scatter: {worse_named} of 200 named, {undecided} undecided; whole arcseconds: {named} of 200 named"
+    );
+    // In 1 % a reading is named as an outlier instead, in 1 % each all positions or the worst of them as changed.
+    assert!(worse_named >= 194 && undecided >= 190 && named <= 4, "{worse_named} {undecided} {named}");
+}
+
 /// Scatter of the runs by hand: about one axis the mean of three, 0, 1 and 2, differs by 60 from the certificate; their variance
 /// is 1, the certificate's is 1/3. Nothing else varies, so χ² is near 60²/(1/3 + 1/3) when the variance is of one axis, three times
 /// that when the other two axes do not vary, for the variance is one for the three.

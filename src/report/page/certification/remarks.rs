@@ -142,6 +142,11 @@ pub(crate) fn finding(finding: &Finding, language: Language) -> String {
             let [x, y, z] = turn_arcsec.map(arcsec);
             return texts::POSITION_CHANGED.filled(language, values! { index, x, y, z });
         }
+        Finding::ScattersMore { of_check_arcsec, certified_arcsec, probability } => {
+            let [found, certified] = [of_check_arcsec, certified_arcsec].map(|value| Number::significant(*value, 2));
+            let p = Number::scientific(*probability, 2);
+            return texts::SCATTERS_MORE.filled(language, values! { found, certified, p });
+        }
         Finding::RotatedRuns(at) => {
             let [x, y, z] = at.turns_arcsec.map(arcsec);
             let [of_x, of_y, of_z] = at.in_the_mean_arcsec().map(arcsec);

@@ -184,6 +184,14 @@ texts! {
         en: "The angles are in other columns or have other signs than in the certificate (read → certified: {columns}).",
         ru: "Углы записаны в других столбцах или с другими знаками, чем в сертификате (показание → сертификат: {columns})."
     }
+    SCATTERS_MORE {
+        en: "The visits of the check scatter by {found}″, the certificate states {certified}″ (F test, p = {p}). Either the \
+             stand repeats worse, so that uncertainties from its certificate are too small, or the instrument of the \
+             check reads worse.",
+        ru: "СКО установки при проверке {found}″, по сертификату {certified}″ (F-критерий, p = {p}). Либо повторяемость \
+             стенда ухудшилась и неопределённости по его сертификату занижены, либо больше погрешность прибора, \
+             которым выполнена проверка."
+    }
     POSITION_CHANGED {
         en: "Position {index} has changed relative to the other positions: {x}″, {y}″, {z}″ about x, y, z.",
         ru: "Положение {index} изменилось относительно остальных: {x}″, {y}″, {z}″ вокруг x, y, z."
