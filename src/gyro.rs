@@ -80,7 +80,9 @@ record! {
         /// Tolerance of K_x and K_y, in percent of their value.
         pub k_main_percent: f64,
         /// Tolerance of K_xy and K_yx, in percent of their value.
-        pub k_cross_percent: f64,
+        pub k_cross_percent: Option<f64>,
+        /// Tolerance of K_xy and K_yx, instead of that in percent; for types whose nominal values are 0 or near 0.
+        pub k_cross_deg_per_h_per_ma: Option<f64>,
         /// Tolerance of ω_0x and ω_0y.
         pub omega0_deg_per_h: f64,
         /// Tolerance of ω_g.
@@ -139,13 +141,19 @@ impl GyroType {
         }
         let tolerance = &self.tolerance;
         for (key, value) in [
-            ("k_main_percent", tolerance.k_main_percent),
+            ("k_main_percent", Some(tolerance.k_main_percent)),
             ("k_cross_percent", tolerance.k_cross_percent),
-            ("omega0_deg_per_h", tolerance.omega0_deg_per_h),
-            ("omega_g_deg_per_h_per_g", tolerance.omega_g_deg_per_h_per_g),
-            ("omega_k_deg_per_h_per_g", tolerance.omega_k_deg_per_h_per_g),
+            ("k_cross_deg_per_h_per_ma", tolerance.k_cross_deg_per_h_per_ma),
+            ("omega0_deg_per_h", Some(tolerance.omega0_deg_per_h)),
+            ("omega_g_deg_per_h_per_g", Some(tolerance.omega_g_deg_per_h_per_g)),
+            ("omega_k_deg_per_h_per_g", Some(tolerance.omega_k_deg_per_h_per_g)),
         ] {
-            problems.within(&at.key("tolerance").key(key), Some(value), 0.0, f64::MAX);
+            problems.within(&at.key("tolerance").key(key), value, 0.0, f64::MAX);
+        }
+        if tolerance.k_cross_percent.is_some() == tolerance.k_cross_deg_per_h_per_ma.is_some() {
+            let found = if tolerance.k_cross_percent.is_some() { "two tolerances" } else { "no tolerance" };
+            let advice = "state k_cross_percent, or k_cross_deg_per_h_per_ma if a nominal value is 0 or near 0";
+            problems.at(&at.key("tolerance"), format!("{found} of K_xy and K_yx"), "one", advice);
         }
         problems.within(&at.key("gravity_m_per_s2"), self.gravity_m_per_s2, 9.7, 9.9);
         if let Some(noise) = &self.noise {
@@ -172,7 +180,8 @@ impl GyroType {
             },
             tolerance: Tolerance {
                 k_main_percent: 0.05,
-                k_cross_percent: 0.5,
+                k_cross_percent: Some(0.5),
+                k_cross_deg_per_h_per_ma: None,
                 omega0_deg_per_h: 0.01,
                 omega_g_deg_per_h_per_g: 0.01,
                 omega_k_deg_per_h_per_g: 0.01,

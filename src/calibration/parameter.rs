@@ -97,7 +97,7 @@ impl Parameter {
         rows
     }
 
-    /// Returns `true` for the elements of K, whose tolerances are in percent.
+    /// Returns `true` for the elements of K.
     pub(crate) fn is_scale_factor(self) -> bool {
         matches!(self, Self::Kx | Self::Kxy | Self::Kyx | Self::Ky)
     }
@@ -119,12 +119,14 @@ const DRIFT: [[&str; 3]; 2] =
     [["drift_x", "the drift in time about x", "deg/h/h"], ["drift_y", "the drift in time about y", "deg/h/h"]];
 
 impl Tolerance {
-    /// Returns the tolerance of one of the eight parameters: in percent for scale factors, otherwise in the unit of the
-    /// parameter; infinite for other parameters, of which a type states nothing.
+    /// Returns the tolerance of one of the eight parameters: in percent of the nominal value or in the unit of the parameter,
+    /// as [`Self::is_in_percent`] says; infinite for other parameters, of which a type states nothing.
     pub(crate) fn of(&self, parameter: Parameter) -> f64 {
         match parameter {
             Parameter::Kx | Parameter::Ky => self.k_main_percent,
-            Parameter::Kxy | Parameter::Kyx => self.k_cross_percent,
+            Parameter::Kxy | Parameter::Kyx => {
+                self.k_cross_deg_per_h_per_ma.or(self.k_cross_percent).unwrap_or(f64::INFINITY)
+            }
             Parameter::Omega0x | Parameter::Omega0y => self.omega0_deg_per_h,
             Parameter::OmegaG => self.omega_g_deg_per_h_per_g,
             Parameter::OmegaK => self.omega_k_deg_per_h_per_g,
@@ -132,9 +134,15 @@ impl Tolerance {
         }
     }
 
+    /// Returns `true` if the tolerance of a parameter is in percent of the nominal value.
+    pub(crate) fn is_in_percent(&self, parameter: Parameter) -> bool {
+        let is_main = matches!(parameter, Parameter::Kx | Parameter::Ky);
+        is_main || parameter.is_scale_factor() && self.k_cross_deg_per_h_per_ma.is_none()
+    }
+
     /// Returns the tolerance of a parameter of this `size` in the unit of the parameter.
     pub(crate) fn absolute(&self, parameter: Parameter, size: f64) -> f64 {
-        let of_size = if parameter.is_scale_factor() { size.abs() / 100.0 } else { 1.0 };
+        let of_size = if self.is_in_percent(parameter) { size.abs() / 100.0 } else { 1.0 };
         self.of(parameter) * of_size
     }
 }

@@ -56,7 +56,7 @@ pub struct ParameterVerdict {
     /// Standard uncertainty of the difference of the two values, in the unit of the parameter.
     pub standard_uncertainty: f64,
     /// Unit of the deviation, the tolerance and the expanded uncertainties; percent of the nominal value for scale
-    /// factors.
+    /// factors whose tolerance is in percent.
     pub unit: &'static str,
     /// Deviation: value found minus nominal or earlier value.
     pub deviation: f64,
@@ -254,10 +254,12 @@ impl Verdict {
     }
 }
 
-/// Returns the first scale factor whose nominal value is 0, so that a tolerance in percent of it says nothing.
+/// Returns the first parameter whose nominal value is 0, so that its tolerance in percent says nothing.
 pub(crate) fn without_nominal(gyro_type: &GyroType) -> Option<Parameter> {
     let nominal = gyro_type.nominal.to_model().to_vector();
-    Parameter::EIGHT.into_iter().find(|parameter| parameter.is_scale_factor() && nominal[parameter.place()] == 0.0)
+    let says_nothing =
+        |parameter: &Parameter| gyro_type.tolerance.is_in_percent(*parameter) && nominal[parameter.place()] == 0.0;
+    Parameter::EIGHT.into_iter().find(says_nothing)
 }
 
 /// Returns the coverage factor for an uncertainty that rests on `degrees_of_freedom`.
@@ -277,7 +279,7 @@ fn judge(
     let limit = gyro_type.tolerance.of(parameter);
     let nominal = gyro_type.nominal.to_model().to_vector().get(parameter.place()).copied().unwrap_or(0.0);
     // With a nominal value of 0, a tolerance in percent permits no deviation.
-    let (unit, limit, scale) = match (parameter.is_scale_factor(), nominal == 0.0) {
+    let (unit, limit, scale) = match (gyro_type.tolerance.is_in_percent(parameter), nominal == 0.0) {
         (true, false) => ("%", limit, 100.0 / nominal.abs()),
         (true, true) => (parameter.unit(), 0.0, 1.0),
         (false, _) => (parameter.unit(), limit, 1.0),

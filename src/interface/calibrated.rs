@@ -162,8 +162,8 @@ impl<'a> Prepared<'a> {
         let setup = setup.of_gyro(gyro_type.and_then(|gyro_type| gyro_type.noise.as_ref()));
         if let Some(parameter) = gyro_type.and_then(without_nominal) {
             return Err(Failed::refused(format!(
-                "the gyro type has no tolerance of {}: it is in percent of the nominal value, which is 0; state a nominal \
-                 value of k_deg_per_h_per_ma that is not 0, or calibrate without a gyro type",
+                "the gyro type has no tolerance of {}: it is in percent of the nominal value, which is 0; state \
+                 k_cross_deg_per_h_per_ma instead of k_cross_percent, or calibrate without a gyro type",
                 parameter.symbol()
             )));
         }
@@ -290,7 +290,7 @@ mod tests {
         let content = content_from_anyone("p", other).unwrap();
         let currents: (&str, &[u8]) = ("c", include_bytes!("../../docs/currents.csv"));
         let mut wide = GyroType::gvk_6();
-        (wide.tolerance.k_main_percent, wide.tolerance.k_cross_percent) = (1e3, 1e3);
+        (wide.tolerance.k_main_percent, wide.tolerance.k_cross_percent) = (1e3, Some(1e3));
         (wide.tolerance.omega0_deg_per_h, wide.tolerance.omega_g_deg_per_h_per_g) = (1e3, 1e3);
         wide.tolerance.omega_k_deg_per_h_per_g = 1e3;
         let order = Order { gyro: Some(wide), ..default() };

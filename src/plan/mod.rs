@@ -76,8 +76,8 @@ pub(crate) enum NoPlan {
     SingularGyro,
     /// A parameter without a tolerance.
     #[error(
-        "the tolerance of {} is 0, and a plan weighs the uncertainties in units of the tolerances; state positive \
-         tolerances, and nominal values of K that are not 0",
+        "the tolerance of {} is 0, and a plan weighs the uncertainties in units of the tolerances; state a positive \
+         one, for K_xy and K_yx with a nominal value of 0 as k_cross_deg_per_h_per_ma",
         .0.symbol()
     )]
     NoTolerance(Parameter),

@@ -238,11 +238,9 @@ fn accuracy(out: &mut String, content: &Content) {
     let rows = Parameter::AS_IN_THE_PAPER.map(|parameter| {
         let (u, unit, limit) = (us[parameter.place()], printed(parameter.unit()), gyro.tolerance.of(parameter));
         let percent = 100.0 * u / nominal[parameter.place()].abs();
-        let (percent, limit) = match parameter.is_scale_factor() {
-            true if percent.is_finite() => (format!("{percent:.4}"), format!("{limit} %")),
-            true => (String::new(), format!("{limit} %")),
-            false => (String::new(), format!("{limit} {unit}")),
-        };
+        let in_percent = parameter.is_scale_factor() && percent.is_finite();
+        let percent = if in_percent { format!("{percent:.4}") } else { String::new() };
+        let limit = format!("{limit} {}", if gyro.tolerance.is_in_percent(parameter) { "%" } else { &unit });
         vec![parameter.symbol().to_owned(), format!("{u:.6} {unit}"), percent, limit]
     });
     columns::table(out, &["", "u", "u, %", "tolerance"], rows);

@@ -1,12 +1,13 @@
 //! Stands, gyros and current errors drawn at random.
 
 use crate::attitude::Deviation;
+use crate::calibration::parameter::Parameter;
 use crate::coefficients::{EIGHT_POSITIONS, Position};
 use crate::gyro::{GyroParameters, GyroType};
 use crate::statistics::random::Stream;
 use crate::text::words;
 use crate::units::radians_from_degrees;
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Vector2;
 
 words! {
     /// Distribution of the angles of a stand.
@@ -37,24 +38,12 @@ pub fn stand(stream: &mut Stream, deviations: Deviations, limit_deg: f64) -> Vec
 
 /// Draws a gyro whose parameters are uniform within the tolerance of its type.
 pub(crate) fn gyro(stream: &mut Stream, gyro_type: &GyroType) -> GyroParameters {
-    let nominal = gyro_type.nominal.to_model();
+    let nominal = gyro_type.nominal.to_model().to_vector();
     let tolerance = &gyro_type.tolerance;
-    let mut within_percent = |value: f64, percent: f64| value * (1.0 + stream.within(percent) / 100.0);
-    let (main, cross) = (tolerance.k_main_percent, tolerance.k_cross_percent);
-    let k = nominal.k_deg_per_h_per_ma;
-    let k = Matrix2::new(
-        within_percent(k.m11, main),
-        within_percent(k.m12, cross),
-        within_percent(k.m21, cross),
-        within_percent(k.m22, main),
-    );
-    let mut near = |value: f64, limit: f64| value + stream.within(limit);
-    GyroParameters {
-        k_deg_per_h_per_ma: k,
-        omega0_deg_per_h: nominal.omega0_deg_per_h.map(|omega0| near(omega0, tolerance.omega0_deg_per_h)),
-        omega_g_deg_per_h_per_g: near(nominal.omega_g_deg_per_h_per_g, tolerance.omega_g_deg_per_h_per_g),
-        omega_k_deg_per_h_per_g: near(nominal.omega_k_deg_per_h_per_g, tolerance.omega_k_deg_per_h_per_g),
-    }
+    GyroParameters::from_vector(&Parameter::EIGHT.map(|parameter| {
+        let (value, deviation) = (nominal[parameter.place()], stream.within(tolerance.of(parameter)));
+        if tolerance.is_in_percent(parameter) { value * (1.0 + deviation / 100.0) } else { value + deviation }
+    }))
 }
 
 /// Correlation of the errors of the readings.

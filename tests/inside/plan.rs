@@ -550,6 +550,9 @@ fn what_cannot_be_planned_is_refused() {
     without.gyro.nominal.k_deg_per_h_per_ma = [[95.0, 0.0], [9.5, 95.0]];
     let refused = plan(&question(&without, &site)).unwrap_err();
     assert_eq!(refused, NoPlan::NoTolerance(Parameter::Kxy));
+    let tolerance = &mut without.gyro.tolerance;
+    (tolerance.k_cross_percent, tolerance.k_cross_deg_per_h_per_ma) = (None, Some(0.05));
+    assert!(plan(&question(&without, &site)).is_ok());
     let mut small = proportional();
     small.laboratory.meter.range_ma = 0.01;
     assert_eq!(plan(&question(&small, &site)).unwrap_err(), NoPlan::Range(0.01));

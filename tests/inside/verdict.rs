@@ -57,6 +57,14 @@ fn decisions() {
     let k_x = &verdict.parameters[0];
     assert_eq!((k_x.parameter, k_x.unit, k_x.tolerance), ("k_x", "%", 0.05));
     assert!((k_x.deviation - 0.1).abs() < 1e-12 && k_x.guarded == Decision::Fail);
+    // K_xy of a type without cross-coupling, in its own unit: 0.03 within 0.05 by U = 0.02, just so.
+    let mut uncoupled = GyroType::gvk_6();
+    uncoupled.nominal.k_deg_per_h_per_ma = [[95.0, 0.0], [0.0, 95.0]];
+    (uncoupled.tolerance.k_cross_percent, uncoupled.tolerance.k_cross_deg_per_h_per_ma) = (None, Some(0.05));
+    let verdict = against_type(&found(|v| (v[1], v[2]) = (0.0299, -0.04), SMALL), &uncoupled);
+    let (k_xy, k_yx) = (&verdict.parameters[2], &verdict.parameters[3]);
+    assert_eq!((k_xy.parameter, k_xy.unit, k_xy.tolerance), ("k_xy", "deg/h/mA", 0.05));
+    assert_eq!((k_xy.deviation, k_xy.guarded, k_yx.guarded), (0.0299, Decision::Pass, Decision::Undecided));
     // An exact result leaves no doubt.
     let exact = against_type(&found(|v| v[4] += 0.011, [0.0; 8]), &GyroType::gvk_6());
     assert_eq!((exact.parameters[4].guarded, exact.parameters[4].specific_risk), (Decision::Fail, 0.0));

@@ -419,7 +419,8 @@ const KEYS: &[&str] = &[
     "n2_inverse", "omega1_deg_per_h", "omega2_deg_per_h", "vectors", "specific_force_g", "specific_force_z_g",
     "omega_deg_per_h", "self_check", "currents", "jx_ma", "jy_ma", "k_deg_per_h_per_ma", "omega0_deg_per_h",
     "omega_g_deg_per_h_per_g", "omega_k_deg_per_h_per_g", "accuracy", "gyro", "type", "nominal", "tolerance",
-    "k_main_percent", "k_cross_percent", "meter", "range_ma", "reading_percent", "gain_percent", "offset_ma",
+    "k_main_percent", "k_cross_percent", "k_cross_deg_per_h_per_ma", "meter", "range_ma", "reading_percent",
+    "gain_percent", "offset_ma",
     "floor_ma", "seating_arcsec", "about_x", "about_y", "about_z", "base", "standard_uncertainty", "signature",
     "sequence", "entries", "revoked_at",
 ];

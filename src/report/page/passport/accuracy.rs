@@ -81,7 +81,7 @@ fn uncertainties(accuracy: &Accuracy, languages: &Languages) -> Markup {
     let tolerance = &accuracy.gyro.tolerance;
     let limits = Parameter::AS_IN_THE_PAPER.map(|parameter| {
         let limit = Number::exact(tolerance.of(parameter));
-        match parameter.is_scale_factor() {
+        match tolerance.is_in_percent(parameter) {
             true => Cell::Words(quantity(languages, &limit, units::PERCENT)),
             false => Cell::Number(limit),
         }
