@@ -28,6 +28,9 @@ const CLEARLY_ELSEWHERE: f64 = 10.0;
 /// Power of ten in the scale factors from which they are implausible for any gyro, if no type is given.
 const IMPLAUSIBLE_POWER: i32 = 3;
 
+/// Largest angle by which a gyro or a base is rotated without being turned by a quarter.
+pub(super) const LARGEST_ROTATION_DEG: f64 = 10.0;
+
 /// Largest latitude at which a place is searched; nearer to a pole K cannot be determined.
 const MOST_DEG: f64 = 89.9;
 
@@ -47,6 +50,11 @@ pub enum Mistake {
     GyroTurned {
         /// Angle from the seat to the gyro, counterclockwise about z: 90, 180 or 270 degrees.
         by_deg: u16,
+    },
+    /// A gyro that is rotated in its seat about the spin axis, or a base about the vertical, by a small angle.
+    Rotated {
+        /// Angle, degrees, positive.
+        by_deg: f64,
     },
     /// A base that was set up with the frame's axis to another quarter.
     OtherAxis {
@@ -114,6 +122,7 @@ fn by_type(found: &Found, used: &EarthRate, gyro_type: &GyroType) -> Option<Mist
         .collect();
     let of_currents = candidates.iter().map(|(distance, _)| *distance).fold(f64::INFINITY, f64::min);
     candidates.extend(other_place(found, used, &nominal, distance));
+    candidates.extend(rotated(found, used, distance));
     // A gyro with small drifts that is turned has the currents of exchanged or reversed columns, whose words name the seat.
     let turned = turned(found, used).map(|(undone, mistake)| (distance(&undone), mistake));
     candidates.extend(turned.filter(|(near, _)| *near < CLEARLY && of_currents >= CLEARLY * near.max(1.0)));
@@ -169,22 +178,40 @@ impl CurrentsMistaken {
 /// Returns the result with each turn of the gyro or of the base by a quarter, a half and three quarters undone.
 fn turned(found: &Found, used: &EarthRate) -> impl Iterator<Item = (Found, Mistake)> {
     [90_u16, 180, 270].into_iter().flat_map(move |by_deg| {
-        let (sin, cos) = sin_cos_of_degrees(f64::from(by_deg));
-        let turn = Matrix2::new(cos, -sin, sin, cos);
-        let gyro = (turned_back(found, &turn.transpose()), Mistake::GyroTurned { by_deg });
-        // ω_n and W have the form [[g, −k], [k, g]], and so has R: (g, k) stands for the matrix.
-        let rate = |azimuth_deg: f64| {
-            let (sin, _) = sin_cos_of_degrees(90.0 - azimuth_deg);
-            Vector2::new(used.vertical_deg_per_h, -used.horizontal_deg_per_h * sin)
-        };
+        let [gyro, base] = turn_undone(found, used, by_deg.into());
         let azimuth_deg = used.frame_axis_azimuth_deg + f64::from(by_deg);
-        let (w_g, w_k) = (found.parameters.omega_g_deg_per_h_per_g, found.parameters.omega_k_deg_per_h_per_g);
-        let omega_n = rate(azimuth_deg) - turn * (rate(used.frame_axis_azimuth_deg) - Vector2::new(w_g, w_k));
-        let mut base = turned_back(found, &turn);
-        base.parameters.omega_g_deg_per_h_per_g = omega_n.x;
-        base.parameters.omega_k_deg_per_h_per_g = omega_n.y;
-        [gyro, (base, Mistake::OtherAxis { frame_axis_azimuth_deg: azimuth_deg % 360.0 })]
+        let other_axis = Mistake::OtherAxis { frame_axis_azimuth_deg: azimuth_deg % 360.0 };
+        [(gyro, Mistake::GyroTurned { by_deg }), (base, other_axis)]
     })
+}
+
+/// Returns the small rotation of the gyro or of the base without which the result is nearest to the expected one, with its
+/// distance.
+fn rotated(found: &Found, used: &EarthRate, distance: impl Fn(&Found) -> f64) -> Option<(f64, Mistake)> {
+    let nearest = |which: usize| {
+        let of = |by_deg| distance(&turn_undone(found, used, by_deg)[which]);
+        let by_deg = minimum(-LARGEST_ROTATION_DEG, LARGEST_ROTATION_DEG, of);
+        (of(by_deg), Mistake::Rotated { by_deg: by_deg.abs() })
+    };
+    [nearest(0), nearest(1)].into_iter().min_by(|(one, _), (other, _)| one.total_cmp(other))
+}
+
+/// Returns the result with a turn of the gyro by this angle undone, and with that of the base.
+fn turn_undone(found: &Found, used: &EarthRate, by_deg: f64) -> [Found; 2] {
+    let (sin, cos) = sin_cos_of_degrees(by_deg);
+    let turn = Matrix2::new(cos, -sin, sin, cos);
+    // ω_n and W have the form [[g, −k], [k, g]], and so has R: (g, k) stands for the matrix.
+    let rate = |azimuth_deg: f64| {
+        let (sin, _) = sin_cos_of_degrees(90.0 - azimuth_deg);
+        Vector2::new(used.vertical_deg_per_h, -used.horizontal_deg_per_h * sin)
+    };
+    let azimuth_deg = used.frame_axis_azimuth_deg + by_deg;
+    let (w_g, w_k) = (found.parameters.omega_g_deg_per_h_per_g, found.parameters.omega_k_deg_per_h_per_g);
+    let omega_n = rate(azimuth_deg) - turn * (rate(used.frame_axis_azimuth_deg) - Vector2::new(w_g, w_k));
+    let mut base = turned_back(found, &turn);
+    base.parameters.omega_g_deg_per_h_per_g = omega_n.x;
+    base.parameters.omega_k_deg_per_h_per_g = omega_n.y;
+    [turned_back(found, &turn.transpose()), base]
 }
 
 /// Returns the result with R K and R ω_0 instead of K and ω_0.
@@ -243,7 +270,7 @@ fn at_latitude(found: &Found, used: &EarthRate, latitude_deg: f64) -> Found {
 
 /// Returns the minimum point of a function with one minimum between `low` and `high`, by ternary search to 1e-6 of
 /// their distance.
-fn minimum(mut low: f64, mut high: f64, of: impl Fn(f64) -> f64) -> f64 {
+pub(super) fn minimum(mut low: f64, mut high: f64, of: impl Fn(f64) -> f64) -> f64 {
     const STEPS: usize = 34;
     for _ in 0..STEPS {
         let third = (high - low) / 3.0;

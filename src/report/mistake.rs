@@ -23,6 +23,9 @@ pub(crate) fn words(mistake: &Mistake, language: Language) -> String {
             texts::MISTAKE_PLACE.filled(language, values! { latitude })
         }
         Mistake::GyroTurned { by_deg } => texts::MISTAKE_GYRO_TURNED.filled(language, &[("angle", by_deg)]),
+        Mistake::Rotated { by_deg } => {
+            texts::MISTAKE_ROTATED.filled(language, values! { angle: Number::significant(*by_deg, 2) })
+        }
         Mistake::OtherAxis { frame_axis_azimuth_deg } => {
             texts::MISTAKE_OTHER_AXIS.filled(language, &[("azimuth", frame_axis_azimuth_deg)])
         }

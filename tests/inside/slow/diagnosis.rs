@@ -380,6 +380,27 @@ fn a_turned_gyro_and_a_turned_base_are_recognised() {
             let currents = noisy(&mut stream, &currents.collect::<Vec<_>>());
             assert_eq!(explained(&stand, LATITUDE_DEG, &currents), [Some(Mistake::GyroTurned { by_deg }), None]);
         }
+        for by_deg in [-5.0_f64, 0.5, 8.0] {
+            let rotated = |found: [Option<Mistake>; 2]| {
+                let [Some(Mistake::Rotated { by_deg: found }), None] = found else { panic!("{found:?}") };
+                assert!((found - by_deg.abs()).abs() < 0.1, "{found} instead of {by_deg}");
+            };
+            let turn = nalgebra::Rotation2::new(-by_deg.to_radians());
+            let on_stand = setup(&stand, LATITUDE_DEG);
+            let currents_ma = on_stand.coefficients().positions.iter().map(|at| {
+                let (n, omega) = (turn * at.specific_force_g, turn * at.earth_rate_deg_per_h);
+                let (w_g, w_k) = (gyro.omega_g_deg_per_h_per_g, gyro.omega_k_deg_per_h_per_g);
+                let drift = gyro.omega0_deg_per_h + Vector2::new(w_g * n.x - w_k * n.y, w_k * n.x + w_g * n.y);
+                gyro.k_deg_per_h_per_ma.try_inverse().unwrap() * (omega - drift)
+            });
+            let currents_ma = noisy(&mut stream, &currents_ma.collect::<Vec<_>>());
+            rotated(explained(&stand, LATITUDE_DEG, &currents_ma));
+            let stand = drawn_stand(&mut stream, 0.002);
+            let here = EarthRate::at_astronomic_latitude(LATITUDE_DEG);
+            let rate = EarthRate { frame_axis_azimuth_deg: 90.0 + by_deg, ..here };
+            let set_up = Setup::new(&stand, rate, InputUncertainty::of_meter(paper_meter())).unwrap();
+            rotated(explained(&stand, LATITUDE_DEG, &noisy(&mut stream, &currents(&set_up, &gyro))));
+        }
         for (frame_axis_azimuth_deg, limit_deg) in [(0.0, 0.002), (180.0, 0.002), (270.0, 3.0)] {
             let stand = drawn_stand(&mut stream, limit_deg);
             let rate = EarthRate { frame_axis_azimuth_deg, ..EarthRate::at_astronomic_latitude(LATITUDE_DEG) };

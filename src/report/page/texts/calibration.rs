@@ -73,6 +73,14 @@ texts! {
              гироскоп повёрнут вокруг оси собственного вращения на {angle}°, или угол φ отсчитан от другого \
              положения. Следует проверить установку гироскопа и повторить калибровку."
     }
+    MISTAKE_ROTATED {
+        en: "The readings fit, but the parameters do not match this gyro. One error explains this: the gyro is rotated in \
+             its seat about the spin axis, or the base about the vertical, by about {angle}°. Check how the gyro is seated \
+             and the azimuth of the base; then calibrate again.",
+        ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: \
+             гироскоп повёрнут в посадочном месте вокруг оси собственного вращения или основание — вокруг вертикали \
+             примерно на {angle}°. Следует проверить установку гироскопа и азимут основания и повторить калибровку."
+    }
     MISTAKE_OTHER_AXIS {
         en: "The readings fit, but the parameters do not match this gyro. One error explains this: the frame’s axis of the \
              stand points to the azimuth {azimuth}°, and not to that of the passport. Check the set-up of the base; then \
