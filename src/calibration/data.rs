@@ -87,15 +87,15 @@ impl Data {
         rest
     }
 
-    /// Returns a copy with the readings of two positions exchanged.
-    pub(crate) fn exchanged(&self, one: usize, other: usize) -> Self {
-        let mut exchanged = self.clone();
-        exchanged.currents_ma.swap(one, other);
-        exchanged.repeats.shares.swap(one, other);
-        if !exchanged.offsets.means.is_empty() {
-            exchanged.offsets.means.swap(one, other);
+    /// Returns a copy with the readings of the positions `places` in their order, instead of the order of the setup.
+    pub(crate) fn reordered(&self, places: &[usize]) -> Self {
+        let mut reordered = self.clone();
+        reordered.currents_ma = places.iter().map(|&place| self.currents_ma[place]).collect();
+        reordered.repeats.shares = places.iter().map(|&place| self.repeats.shares[place]).collect();
+        if !self.offsets.means.is_empty() {
+            reordered.offsets.means = places.iter().map(|&place| self.offsets.means[place].clone()).collect();
         }
-        exchanged
+        reordered
     }
 
     /// Returns the weighted fit at `setup`.

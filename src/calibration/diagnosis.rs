@@ -4,6 +4,7 @@ use super::chi_square::{self, ChiSquare};
 use super::data::Data;
 use super::inputs::Setup;
 use super::least_squares::Fit;
+use super::mistake::{LARGEST_ROTATION_DEG, minimum};
 use super::sensitivity::Sensitivity;
 use super::unknowns::Model;
 use crate::coefficients::PositionIndex;
@@ -25,6 +26,9 @@ const WORSE: f64 = 10.0;
 
 /// Chi-square that an explanation with two free numbers must gain over one without, to be preferred.
 const PRICE_OF_TWO_NUMBERS: f64 = 4.0;
+
+/// The same for an explanation with one free number.
+const PRICE_OF_ONE_NUMBER: f64 = 2.0;
 
 /// Maximum number of positions that are examined one by one and in pairs; a stand may have many more.
 const MOST_SUSPECTS: usize = 24;
@@ -49,6 +53,18 @@ pub struct Hint {
 pub enum Explanation {
     /// Exchanged readings of two positions.
     Exchanged(PositionIndex, PositionIndex),
+    /// Positions that are numbered in another way than in the certificate.
+    Renumbered {
+        /// Certified i of the readings with i = 1, 2.
+        i: [u32; 2],
+        /// Certified j of the readings with j = 1, 2, 3, 4.
+        j: [u32; 4],
+    },
+    /// Base that was set up with the frame's axis to another azimuth.
+    OtherAxis {
+        /// Azimuth of the frame's axis that explains the readings, degrees clockwise from north, to a tenth.
+        frame_axis_azimuth_deg: f64,
+    },
     /// A position that did not repeat, or whose reading is wrong.
     DidNotRepeat {
         /// Index (i, j) of the position.
@@ -64,6 +80,18 @@ impl fmt::Display for Explanation {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Self::Exchanged(one, other) => write!(f, "positions {one} and {other} are exchanged"),
+            Self::Renumbered { i, j } => write!(
+                f,
+                "the positions are numbered in another way: i = 1, 2 of the readings is i = {} of the passport, and \
+                 j = 1, 2, 3, 4 is j = {}",
+                with_commas(i),
+                with_commas(j)
+            ),
+            Self::OtherAxis { frame_axis_azimuth_deg } => write!(
+                f,
+                "the frame's axis of the stand points to an azimuth of about {frame_axis_azimuth_deg}°, and not to that of \
+                 the passport"
+            ),
             Self::DidNotRepeat { index, angle_arcsec, current_ua } => {
                 let digits = 1 - exponent_as_printed(current_ua.amax(), 2);
                 let (scale, decimals) = (libm::pow(10.0, digits.into()), usize::try_from(digits).unwrap_or(0));
@@ -81,23 +109,40 @@ impl fmt::Display for Explanation {
     }
 }
 
+impl Hint {
+    /// Returns `true` if an explanation concerns all positions: deviations that are little larger than the noise may agree
+    /// with it by chance, although the stand is another one.
+    pub(crate) fn may_be_another_stand(&self) -> bool {
+        let is_of_all = |explanation: &Explanation| {
+            matches!(explanation, Explanation::Renumbered { .. } | Explanation::OtherAxis { .. })
+        };
+        self.explanations.iter().any(is_of_all)
+    }
+}
+
 impl fmt::Display for Hint {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self.explanations.as_slice() {
             [] => write!(
                 f,
-                "the readings do not fit, and no single position and no exchange of two positions explains this; the \
-                 passport may be that of another stand (all positions differ by about {}″), or the gyro may \
-                 have drifted, or the stand may have moved, during the run",
+                "the readings do not fit, and no single position, no exchange or other numbering of positions and no \
+                 other azimuth of the frame's axis explains this; the passport may be that of another stand (all \
+                 positions differ by about {}″), or the gyro may have drifted, or the stand may have moved, during the run",
                 two_digits(self.size_arcsec)
             ),
             some => {
-                let causes: Vec<String> = some.iter().map(ToString::to_string).collect();
+                let mut causes: Vec<String> = some.iter().map(ToString::to_string).collect();
+                causes.extend(self.may_be_another_stand().then(|| "the passport is that of another stand".to_owned()));
                 let plural = if causes.len() > 1 { "s" } else { "" };
                 write!(f, "the readings do not fit; possible cause{plural}: {}", causes.join(", or "))
             }
         }
     }
+}
+
+/// Returns indices as a list.
+pub(crate) fn with_commas(indices: &[u32]) -> String {
+    indices.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
 
 /// Returns a hint if chi-square is improbable, otherwise `None`.
@@ -110,6 +155,8 @@ pub(crate) fn hint(setup: &Setup, data: &Data, model: Model, chi_square: &ChiSqu
     let suspects = suspects(setup, data, &fit);
     let mut possible: Vec<(f64, Explanation)> = exchanges(setup, data, model, &suspects);
     possible.extend(single_positions(setup, data, model, &suspects));
+    let of_all = renumbered(setup, data, model).into_iter().chain(other_axes(setup, data, model));
+    possible.extend(of_all.filter(|(score, _)| score + WORSE <= chi_square.value));
     possible.sort_by(|(one, _), (other, _)| one.total_cmp(other));
     let best = possible.first().map_or(0.0, |(score, _)| *score);
     possible.retain(|(score, _)| *score <= best + WORSE);
@@ -135,14 +182,52 @@ fn exchanges(setup: &Setup, data: &Data, model: Model, suspects: &[usize]) -> Ve
     let mut possible = Vec::new();
     for (rank, &one) in suspects.iter().enumerate() {
         for &other in &suspects[rank + 1..] {
-            let found = chi_square(setup, &data.exchanged(one, other), model);
-            if let Some(found) = found.filter(|found| found.probability > POSSIBLE) {
-                let explanation = Explanation::Exchanged(positions[one].index, positions[other].index);
-                possible.push((found.value, explanation));
-            }
+            let mut places: Vec<usize> = (0..positions.len()).collect();
+            places.swap(one, other);
+            let explanation = Explanation::Exchanged(positions[one].index, positions[other].index);
+            possible.extend(score(setup, &data.reordered(&places), model).map(|score| (score, explanation)));
         }
     }
     possible
+}
+
+/// Returns every other numbering of the paper's eight positions that makes the readings fit, with its score: θ exchanged,
+/// φ counted in the other direction or from another position, or several of these. An exchange of two positions is none.
+fn renumbered(setup: &Setup, data: &Data, model: Model) -> Vec<(f64, Explanation)> {
+    let positions = &setup.coefficients().positions;
+    let place_of = |i, j| positions.iter().position(|at| at.index == PositionIndex { i, j });
+    let numberings = [[1, 2], [2, 1]].into_iter().flat_map(|i| {
+        (0..8).map(move |step| (i, [0, 1, 2, 3].map(|j| 1 + (step + if step < 4 { j } else { 4 - j }) % 4)))
+    });
+    let possible = numberings.skip(1).filter_map(|(i, j)| {
+        let mut places: Vec<usize> = (0..positions.len()).collect();
+        for (from_i, to_i) in (1..).zip(i) {
+            for (from_j, to_j) in (1..).zip(j) {
+                places[place_of(to_i, to_j)?] = place_of(from_i, from_j)?;
+            }
+        }
+        Some((score(setup, &data.reordered(&places), model)?, Explanation::Renumbered { i, j }))
+    });
+    possible.collect()
+}
+
+/// Returns every quarter by which the frame's axis may be turned so that the readings fit, and the small angle with which
+/// they fit best, with their scores.
+fn other_axes(setup: &Setup, data: &Data, model: Model) -> Vec<(f64, Explanation)> {
+    let of = |by_deg: f64| chi_square(&setup.turned(by_deg), data, model).map_or(f64::INFINITY, |found| found.value);
+    let small = minimum(-LARGEST_ROTATION_DEG, LARGEST_ROTATION_DEG, of);
+    let angles = [(90.0, 0.0), (180.0, 0.0), (270.0, 0.0), (small, PRICE_OF_ONE_NUMBER)];
+    let possible = angles.into_iter().filter_map(|(by_deg, price)| {
+        let turned = setup.turned(by_deg);
+        let frame_axis_azimuth_deg = (turned.frame_axis_azimuth_deg() * 10.0).round() / 10.0 % 360.0;
+        Some((score(&turned, data, model)? + price, Explanation::OtherAxis { frame_axis_azimuth_deg }))
+    });
+    possible.collect()
+}
+
+/// Returns chi-square of readings that fit, or `None` if they do not.
+fn score(setup: &Setup, data: &Data, model: Model) -> Option<f64> {
+    chi_square(setup, data, model).filter(|found| found.probability > POSSIBLE).map(|found| found.value)
 }
 
 /// Returns every position without which the other positions fit, with its score.

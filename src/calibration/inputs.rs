@@ -272,6 +272,25 @@ impl Setup {
         rest
     }
 
+    /// Returns a copy with the frame's axis turned clockwise by this many degrees, and without Δ, B, C.
+    pub(crate) fn turned(&self, by_deg: f64) -> Self {
+        let mut turned = self.clone();
+        let (base, rate) = (attitude::base(90.0 + by_deg), self.earth_rate_east_north_up());
+        turned.coefficients.matrices = None;
+        turned.earth.frame_axis_azimuth_deg += by_deg;
+        for (turn, at) in turned.turns.iter_mut().zip(&mut turned.coefficients.positions) {
+            turn.attitude *= base;
+            turn.nominal *= base;
+            at.earth_rate_deg_per_h = (turn.attitude * rate).xy();
+        }
+        turned
+    }
+
+    /// Returns the azimuth of the frame's axis, degrees clockwise from north, from 0 to less than 360.
+    pub(crate) fn frame_axis_azimuth_deg(&self) -> f64 {
+        self.earth.frame_axis_azimuth_deg.rem_euclid(360.0)
+    }
+
     /// Returns the Earth rate (east, north, up), °/h.
     pub(crate) fn earth_rate_east_north_up(&self) -> Vector3<f64> {
         Vector3::new(0.0, self.earth.horizontal_deg_per_h, self.earth.vertical_deg_per_h)

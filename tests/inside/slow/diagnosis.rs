@@ -101,6 +101,46 @@ fn a_position_that_did_not_repeat_is_named() {
     assert!((right + among) * 100 >= trials() * 85 && wrong * 100 <= trials() * 2, "{right} {among} {nothing} {wrong}");
 }
 
+/// Positions numbered in another way, on stands of 1°, and a base turned by quarters or a few degrees, on stands of 5°.
+#[test]
+fn another_numbering_and_another_axis_are_named() {
+    let [right, among, nothing, wrong] = counted(4, |stream| {
+        let stand = drawn_stand(stream, 1.0);
+        let setup = setup(&stand, LATITUDE_DEG);
+        // Readings of (i, j) taken at (3 - i, j), with φ in the other direction, from another position, or both.
+        let (exchanged, reversed, from) = (stream.below(2), stream.below(2), stream.below(4));
+        if exchanged + reversed + from == 0 {
+            return Outcome::Right;
+        }
+        let taken_at = |place: usize| {
+            let (i, j) = ((place / 4 + exchanged) % 2, place % 4);
+            4 * i + (from + if reversed == 1 { 4 - j } else { j }) % 4
+        };
+        let exact = currents(&setup, &gvk_6());
+        let currents = noisy(stream, &(0..8).map(|place| exact[taken_at(place)]).collect::<Vec<_>>());
+        let j = [0, 1, 2, 3].map(|place| taken_at(place) as u32 % 4 + 1);
+        let i = if exchanged == 1 { [2, 1] } else { [1, 2] };
+        outcome(&solve(&setup, &currents), |found| *found == Explanation::Renumbered { i, j })
+    });
+    println!("another numbering: right {right}, among several {among}, nothing {nothing}, wrong {wrong}");
+    assert!(right * 100 >= trials() * 90 && wrong * 100 <= trials(), "{right} {among} {nothing} {wrong}");
+    let [right, among, nothing, wrong] = counted(5, |stream| {
+        let stand = drawn_stand(stream, 5.0);
+        let azimuth = [0.0, 180.0, 86.0, 93.0][stream.below(4)];
+        let rate = EarthRate { frame_axis_azimuth_deg: azimuth, ..EarthRate::at_astronomic_latitude(LATITUDE_DEG) };
+        let turned = Setup::new(&stand, rate, InputUncertainty::of_meter(paper_meter())).unwrap();
+        let currents = noisy(stream, &currents(&turned, &gvk_6()));
+        outcome(&solve(&setup(&stand, LATITUDE_DEG), &currents), |found| {
+            // A small angle is named if it is at least three times its uncertainty.
+            let off_deg = if azimuth % 90.0 == 0.0 { 0.0 } else { 1.5 };
+            let of_it = |found: f64| (found - azimuth).abs() <= off_deg;
+            matches!(found, Explanation::OtherAxis { frame_axis_azimuth_deg } if of_it(*frame_axis_azimuth_deg))
+        })
+    });
+    println!("another axis: right {right}, among several {among}, nothing {nothing}, wrong {wrong}");
+    assert!((right + among) * 100 >= trials() * 90 && wrong * 100 <= trials(), "{right} {among} {nothing} {wrong}");
+}
+
 /// The currents of one stand with the passport of another.
 #[test]
 fn the_passport_of_another_stand_is_noticed() {

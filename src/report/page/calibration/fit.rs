@@ -3,7 +3,7 @@
 use super::CalibrationPage;
 use super::conformity::probability;
 use crate::calibration::Calibration;
-use crate::calibration::diagnosis::{Explanation, Hint};
+use crate::calibration::diagnosis::{Explanation, Hint, with_commas};
 use crate::calibration::document::{ResidualDocument, ResultDocument};
 use crate::calibration::noise::NoiseSource;
 use crate::calibration::scatter::{Agreement, Scatter};
@@ -182,12 +182,19 @@ fn what_may_be_wrong(hint: &Hint, languages: &Languages) -> Markup {
         @for explanation in &hint.explanations {
             (languages.paragraph_with(|language| italic(&explained(explanation, language))))
         }
+        @if hint.may_be_another_stand() { (languages.paragraph_with(|language| italic(&texts::HINT_OTHER_STAND.words(language)))) }
     }
 }
 
 fn explained(explanation: &Explanation, language: Language) -> String {
     match explanation {
         Explanation::Exchanged(one, other) => texts::HINT_EXCHANGED.filled(language, values! { one, other }),
+        Explanation::Renumbered { i, j } => {
+            texts::HINT_RENUMBERED.filled(language, values! { i: with_commas(i), j: with_commas(j) })
+        }
+        Explanation::OtherAxis { frame_axis_azimuth_deg } => {
+            texts::HINT_OTHER_AXIS.filled(language, &[("azimuth", frame_axis_azimuth_deg)])
+        }
         Explanation::DidNotRepeat { index, angle_arcsec, current_ua } => {
             let (angle, place) = (Number::significant(*angle_arcsec, 2), Number::place_of(current_ua.amax()));
             let [jx, jy] = [current_ua.x, current_ua.y].map(|error| Number::to_place(error, place));

@@ -399,6 +399,20 @@ texts! {
         en: "The readings of positions {one} and {other} may be exchanged.",
         ru: "Возможно, показания в положениях {one} и {other} переставлены."
     }
+    HINT_RENUMBERED {
+        en: "The positions may be numbered in another way: i = 1, 2 of the readings is i = {i} of the passport, and \
+             j = 1, 2, 3, 4 is j = {j}.",
+        ru: "Возможно, положения пронумерованы иначе: i = 1, 2 показаний — это i = {i} паспорта, j = 1, 2, 3, 4 — это \
+             j = {j}."
+    }
+    HINT_OTHER_AXIS {
+        en: "The frame’s axis of the stand may point to an azimuth of about {azimuth}°, and not to that of the passport.",
+        ru: "Возможно, ось рамки стенда направлена по азимуту около {azimuth}°, а не по указанному в паспорте."
+    }
+    HINT_OTHER_STAND {
+        en: "The passport may be that of another stand.",
+        ru: "Возможно, паспорт относится к другому стенду."
+    }
     HINT_DID_NOT_REPEAT {
         en: "Position {index} may not have repeated: by {angle}″ if the angle changed, or by {jx} µA along x and \
              {jy} µA along y if the currents are wrong.",
@@ -406,12 +420,12 @@ texts! {
              x и {jy} мкА по y, если неверны токи."
     }
     HINT_NOTHING {
-        en: "No single position and no exchange of two positions explains this. The passport may be that of another \
-             stand (all positions differ by about {size}″), or the gyro may have drifted, or the stand may have moved, \
-             during the run.",
-        ru: "Отклонение одного положения или перестановка двух положений этого не объясняют. Возможные причины: \
-             паспорт относится к другому стенду (все положения отличаются примерно на {size}″), дрейф гироскопа или \
-             смещение стенда во время измерений."
+        en: "No single position, no exchange or other numbering of positions and no other azimuth of the frame’s axis \
+             explains this. The passport may be that of another stand (all positions differ by about {size}″), or the \
+             gyro may have drifted, or the stand may have moved, during the run.",
+        ru: "Этого не объясняют ни отклонение одного положения, ни перестановка или иная нумерация положений, ни \
+             иной азимут оси рамки. Возможные причины: паспорт относится к другому стенду (все положения \
+             отличаются примерно на {size}″), дрейф гироскопа или смещение стенда во время измерений."
     }
 
     BLIND { en: "Errors that the residuals do not show", ru: "Погрешности, не выявляемые по остаткам" }
