@@ -27,7 +27,7 @@ const WORSE: f64 = 10.0;
 /// Chi-square that an explanation with two free numbers must gain over one without, to be preferred.
 const PRICE_OF_TWO_NUMBERS: f64 = 4.0;
 
-/// The same for an explanation with one free number.
+/// Chi-square that an explanation with one free number must gain over one without, to be preferred.
 const PRICE_OF_ONE_NUMBER: f64 = 2.0;
 
 /// Maximum number of positions that are examined one by one and in pairs; a stand may have many more.

@@ -73,13 +73,9 @@ impl<'a> Table<'a> {
             let expected = format!("the header {}", required.join(","));
             return Err(Unreadable::whole(name, None, "only spaces and comments", expected, ""));
         };
-        let separator = declared.unwrap_or_else(|| {
-            if header.contains(',') {
-                ','
-            } else {
-                [';', '\t'].into_iter().find(|&other| header.contains(other)).unwrap_or(',')
-            }
-        });
+        let separator = declared
+            .or_else(|| [',', ';', '\t'].into_iter().find(|&separator| header.contains(separator)))
+            .unwrap_or(',');
         let header = Header::read(name, (line, header), separator, required, optional)?;
         let mut problems = Vec::new();
         let mut rows = Vec::new();
@@ -354,8 +350,10 @@ fn wrong_number_of_cells((line, text): (usize, &str), separator: char, found: us
         "separate columns by commas, and use decimal points"
     } else if found > names.len() && separator == ',' {
         "use decimal points; a decimal comma splits a number in two"
-    } else {
+    } else if found < names.len() {
         "leave the cell of a value that is missing empty"
+    } else {
+        ""
     };
     let plural = if found == 1 { "" } else { "s" };
     let expected = format!("{}, for {}", names.len(), names.join(", "));
