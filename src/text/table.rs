@@ -412,6 +412,19 @@ mod tests {
     }
 
     #[test]
+    fn the_advice_on_a_row_fits_its_number_of_cells() {
+        let names = ["i", "j", "jx_ma"].map(str::to_owned);
+        for (separator, found, due) in [
+            (',', 2, "leave the cell of a value that is missing empty"),
+            (',', 4, "use decimal points; a decimal comma splits a number in two"),
+            ('\t', 2, "leave the cell of a value that is missing empty"),
+            ('\t', 4, ""),
+        ] {
+            assert_eq!(wrong_number_of_cells((2, "1"), separator, found, &names).advice, due, "{separator:?} {found}");
+        }
+    }
+
+    #[test]
     fn the_advice_on_an_index_fits_what_was_written() {
         for (written, due) in [
             ("'1'", "write the number without quotes"),
