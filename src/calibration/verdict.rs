@@ -42,6 +42,9 @@ pub struct Verdict {
     pub gravity_m_per_s2: f64,
     /// Decisions, one for each parameter; the general model has no ω_g and ω_k.
     pub parameters: Vec<ParameterVerdict>,
+    /// Whether nothing is decided because the parameters are not valid, so that simple acceptance and risk say nothing.
+    #[serde(skip)]
+    pub(crate) withheld: bool,
 }
 
 /// Comparison of one parameter with its tolerance.
@@ -237,7 +240,7 @@ impl Verdict {
         for row in &mut self.parameters {
             row.guarded = Decision::Undecided;
         }
-        Self::of(self.gravity_m_per_s2, self.parameters)
+        Self { withheld: true, ..Self::of(self.gravity_m_per_s2, self.parameters) }
     }
 
     fn of(gravity_m_per_s2: f64, parameters: Vec<ParameterVerdict>) -> Self {
@@ -250,7 +253,7 @@ impl Verdict {
         } else {
             Decision::Undecided
         };
-        Self { overall, gravity_m_per_s2, parameters }
+        Self { overall, gravity_m_per_s2, parameters, withheld: false }
     }
 }
 

@@ -5,7 +5,7 @@ use super::tolerance::{decided, factors, from_gravity, headline, overall, verdic
 use super::uncertainty::not_linear;
 use crate::calibration::diagnosis::INCONSISTENT;
 use crate::calibration::document::Subject;
-use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
+use crate::calibration::iterative::{LARGEST_NUMBER_OF_STEPS, NEGLIGIBLE};
 use crate::calibration::mistake::Mistake;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::prediction::FurtherVisit;
@@ -37,11 +37,11 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
     let Done { calibration, document, readings, .. } = done;
     let verdict = gyro_type.zip(document.verdict.as_ref());
     let mut out = String::new();
-    for warning in warnings(done, trials) {
-        columns::paragraph(&mut out, "", &warning);
-    }
     if let Some((name, verdict)) = verdict {
         let _ = writeln!(out, "{}  {}", overall(verdict, 0), headline(name, verdict));
+    }
+    for warning in warnings(done, trials) {
+        columns::paragraph(&mut out, "", &warning);
     }
     let subject = document.subject.as_ref();
     if let Some(gyro) = subject.and_then(gyro) {
@@ -297,13 +297,23 @@ fn methods(out: &mut String, calibration: &Calibration) {
         };
         let rest = iteration.remainder_k_deg_per_h_per_ma.abs().max();
         let rest_n = iteration.remainder_omega_n_deg_per_h_per_g.abs().max();
+        let least_u = |of: &dyn Fn(&Parameter) -> bool| {
+            let us = Parameter::EIGHT.into_iter().filter(of).filter_map(|one| result.standard_uncertainty(one));
+            us.fold(f64::INFINITY, f64::min)
+        };
+        let is_negligible = rest < NEGLIGIBLE * least_u(&|one| one.is_scale_factor())
+            && rest_n < NEGLIGIBLE * least_u(&|one| *one == Parameter::OmegaG);
+        let remaining = match is_negligible {
+            true => format!("remaining error {}", texts::NEGLIGIBLE.of(Language::English)),
+            false => format!(
+                "remaining error at most {} °/(h·mA) in K and {} °/(h·g) in ω_n",
+                columns::two_digits(rest),
+                columns::two_digits(rest_n)
+            ),
+        };
         let words = format!(
-            "iterative: spectral radius {:.4}; {predicted} steps predicted, {} taken; remaining error at most \
-             {} °/(h·mA) in K and {} °/(h·g) in ω_n.",
-            iteration.spectral_radius,
-            iteration.steps,
-            columns::two_digits(rest),
-            columns::two_digits(rest_n)
+            "iterative: spectral radius {:.4}; {predicted} steps predicted, {} taken; {remaining}.",
+            iteration.spectral_radius, iteration.steps
         );
         columns::paragraph(out, "  ", &words);
     }

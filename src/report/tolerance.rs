@@ -9,8 +9,11 @@ use crate::text::printable::printable;
 use crate::units::{printed, quantity};
 use std::fmt::Write;
 
-/// Returns which parameters pass, fail and are undecided.
+/// Returns which parameters pass, fail and are undecided, or why nothing is decided.
 pub(super) fn headline(name: &str, verdict: &Verdict) -> String {
+    if verdict.withheld {
+        return texts::NO_STATEMENT.filled(Language::English, &[("type", &printable(name))]);
+    }
     let of = |decision: Decision| -> Vec<&str> {
         let rows = verdict.parameters.iter().filter(|row| row.guarded == decision);
         rows.map(|row| symbol_of(row.parameter)).collect()
@@ -71,20 +74,26 @@ pub(super) fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str
     let rows = verdict.parameters.iter().map(|row| {
         let digits = columns::decimals(row.expanded_uncertainty);
         let places = columns::decimals(row.coverage_factor * row.standard_uncertainty);
+        // Of parameters that are not valid, neither says anything.
+        let [simple, risk] = match verdict.withheld {
+            true => ["–"; 2].map(str::to_owned),
+            false => [decided(row.simple), columns::probability(row.specific_risk)],
+        };
         vec![
             symbol_of(row.parameter).to_owned(),
             format!("{:.places$}", row.value),
             columns::signed(row.deviation, digits),
             format!("{:.digits$}", row.expanded_uncertainty),
             format!("{} {}", row.tolerance, printed(row.unit)),
-            decided(row.simple),
-            columns::probability(row.specific_risk),
+            simple,
+            risk,
             decided(row.guarded),
         ]
     });
     columns::table(out, &["", "result", deviation, "U", "tolerance", "simple", "risk", "guarded"], rows);
     let _ = writeln!(out, "  Overall, by guarded acceptance: {}", overall(verdict, 0));
-    if verdict.parameters.iter().any(ParameterVerdict::is_close) && verdict.overall == Decision::Undecided {
+    let close = verdict.parameters.iter().any(ParameterVerdict::is_close) && !verdict.withheld;
+    if close && verdict.overall == Decision::Undecided {
         columns::paragraph(out, "  ", "undecided: the uncertainty does not permit a decision.");
     }
     if let Some(not_found) = not_found(verdict) {

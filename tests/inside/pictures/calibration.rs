@@ -73,7 +73,7 @@ fn row(
 
 /// The strips of a verdict, each as a document, and the axis below them.
 fn strips(parameters: Vec<ParameterVerdict>) -> (Vec<String>, String) {
-    let verdict = Verdict { overall: Decision::Fail, gravity_m_per_s2: 9.8, parameters };
+    let verdict = Verdict { overall: Decision::Fail, gravity_m_per_s2: 9.8, parameters, withheld: false };
     let strips = Strips::of([&verdict]);
     let each = verdict.parameters.iter().map(|row| whole(&[strips.strip(row)])).collect();
     (each, whole(&[strips.axis(&english())]))

@@ -33,8 +33,8 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
             @if let Some(day) = page.previous.last().and_then(CalibrationDocument::date) {
                 (languages.paragraph_with(|language| italic(&texts::PREVIOUS_DAY.filled(language, values! { day: date_text(language, day) }))))
             }
-            (table(page, languages, change, texts::CHANGE_CAPTION, [texts::EARLIER, texts::CHANGED_BY], false))
-            @if page.fits() { (simple(change, languages)) }
+            (table(languages, change, texts::CHANGE_CAPTION, [texts::EARLIER, texts::CHANGED_BY], false))
+            @if !change.withheld { (simple(change, languages)) }
         }
         (history::table(page, languages))
     }
@@ -43,9 +43,9 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
 fn compared(page: &CalibrationPage, gyro: &GyroType, verdict: &Verdict, languages: &Languages) -> Markup {
     html! {
         h3 { (languages.label_with(|language| texts::CONFORMITY.filled(language, values! { type: gyro.r#type }))) }
-        (table(page, languages, verdict, texts::VERDICT_CAPTION, [texts::NOMINAL, texts::DEVIATION], true))
+        (table(languages, verdict, texts::VERDICT_CAPTION, [texts::NOMINAL, texts::DEVIATION], true))
         (key(languages))
-        @if page.fits() { (simple(verdict, languages)) }
+        @if !verdict.withheld { (simple(verdict, languages)) }
         (from_gravity(page, verdict, languages))
         @if let Some(u) = page.calibration.mostly_from_turn_ons() {
             (languages.paragraph_with(|language| {
@@ -116,7 +116,6 @@ fn alone(page: &CalibrationPage, languages: &Languages) -> Markup {
 
 /// Writes a comparison; `with_u` says whether the standard uncertainty of a row is that of its value.
 fn table(
-    page: &CalibrationPage,
     languages: &Languages,
     verdict: &Verdict,
     caption: Text,
@@ -140,10 +139,10 @@ fn table(
             (parameter(row)) ", " (languages.spoken(unit))
         }
     };
-    // Without a model that fits, a risk has no meaning.
-    let risk = |row: &ParameterVerdict| match page.fits() {
-        true => probability_cell(languages, row.specific_risk),
-        false => Cell::none(),
+    // Of parameters that are not valid, a risk has no meaning.
+    let risk = |row: &ParameterVerdict| match verdict.withheld {
+        true => Cell::none(),
+        false => probability_cell(languages, row.specific_risk),
     };
     let risks = column(languages, rows.iter().map(risk));
     let mut tolerances = numbers(texts::TOLERANCE, &|row| Number::exact(row.tolerance));

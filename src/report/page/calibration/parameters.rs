@@ -3,7 +3,7 @@
 use super::conformity::with_gravity;
 use super::{CalibrationPage, method};
 use crate::calibration::document::ResultDocument;
-use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
+use crate::calibration::iterative::{LARGEST_NUMBER_OF_STEPS, NEGLIGIBLE};
 use crate::calibration::parameter::Parameter;
 use crate::report::page::language::{Languages, Text, values};
 use crate::report::page::number::{Cell, Number, column};
@@ -13,9 +13,6 @@ use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::convergence::convergence;
 use maud::{Markup, html};
-
-/// Share of a standard uncertainty below which a remaining error is not printed as a number.
-const NEGLIGIBLE: f64 = 1e-3;
 
 pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
     let results = &page.document.results;

@@ -261,3 +261,23 @@ pub(super) fn monte_carlo(found: &MonteCarlo, languages: &Languages) -> Markup {
         @if !found.stable { (languages.paragraph(texts::NOT_STABLE)) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::coefficients::PositionIndex;
+
+    /// Expected: the names in a terminal and in JSON.
+    #[test]
+    fn an_input_has_one_name_in_english() {
+        let index = PositionIndex { i: 1, j: 2 };
+        let of_a_position = [Cause::Angle, Cause::Return, Cause::Reading, Cause::Floor, Cause::Noise, Cause::Visits]
+            .map(|of| of(index, 0));
+        let about_an_axis = [Cause::TurnOn, Cause::Platform, Cause::Seat, Cause::Base, Cause::Level];
+        let others = [Cause::Azimuth, Cause::Mark, Cause::Latitude, Cause::Deflection, Cause::Gain, Cause::Offset];
+        let each = of_a_position.into_iter().chain(others).chain([Cause::Differences(0)]);
+        for one in each.chain((0..3).flat_map(|axis| about_an_axis.map(|about| about(axis)))) {
+            assert_eq!(cause(one, Language::English), one.kind());
+        }
+    }
+}

@@ -518,16 +518,16 @@ texts! {
     CAUSE_RETURN { en: "repeatability of positioning", ru: "повторяемость положений" }
     CAUSE_READING { en: "meter, specification", ru: "измеритель, погрешность показания" }
     CAUSE_FLOOR { en: "meter, floor", ru: "измеритель, постоянная часть" }
-    CAUSE_VISITS { en: "gyro, mean of the visits", ru: "гироскоп, среднее по установкам" }
+    CAUSE_VISITS { en: "gyro, visits", ru: "гироскоп, среднее по установкам" }
     CAUSE_DIFFERENCES { en: "differences between visits", ru: "разности между установками" }
-    CAUSE_TURN_ON { en: "gyro, mean of the turn-ons, axis {axis}", ru: "гироскоп, среднее по запускам, ось {axis}" }
+    CAUSE_TURN_ON { en: "gyro, turn-ons about {axis}", ru: "гироскоп, среднее по запускам, ось {axis}" }
     CAUSE_NOISE { en: "meter, noise", ru: "измеритель, шум показаний" }
-    CAUSE_PLATFORM { en: "rotation of the platform about {axis}", ru: "поворот платформы вокруг {axis}" }
-    CAUSE_SEAT { en: "rotation of the gyro seat about {axis}", ru: "поворот посадочной поверхности вокруг {axis}" }
-    CAUSE_BASE { en: "rotation of the base of the stand about {axis}", ru: "поворот основания стенда вокруг {axis}" }
+    CAUSE_PLATFORM { en: "platform about {axis}", ru: "поворот платформы вокруг {axis}" }
+    CAUSE_SEAT { en: "gyro seat about {axis}", ru: "поворот посадочной поверхности вокруг {axis}" }
+    CAUSE_BASE { en: "base of the stand about {axis}", ru: "поворот основания стенда вокруг {axis}" }
     ABOUT_EAST { en: "east", ru: "направления на восток" }
     ABOUT_NORTH { en: "north", ru: "направления на север" }
-    ABOUT_UP { en: "the vertical", ru: "вертикали" }
+    ABOUT_UP { en: "up", ru: "вертикали" }
     CAUSE_LEVEL { en: "level of the base about {axis}", ru: "наклон основания вокруг {axis}" }
     CAUSE_AZIMUTH { en: "azimuth of the base", ru: "азимут основания" }
     CAUSE_MARK { en: "azimuth of the mark", ru: "азимут ориентирного пункта" }
