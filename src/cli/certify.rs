@@ -208,7 +208,8 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
     let as_text = || {
         let shown = certified.as_ref().filter(|_| options.output.is_some()).map(report::certification);
         let compared = comparison.as_ref().map(report::comparison);
-        shown.into_iter().chain(compared).collect::<Vec<_>>().join("\n")
+        // Whether the stand has changed comes first: it decides whether the new certificate is of any use.
+        compared.into_iter().chain(shown).collect::<Vec<_>>().join("\n")
     };
     let as_json = || report::to_json(certified.as_ref(), refused.as_ref(), comparison.as_ref());
     options.format.write(as_json, as_text)?;

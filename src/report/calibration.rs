@@ -373,8 +373,9 @@ fn residuals(out: &mut String, calibration: &Calibration) {
     let _ = writeln!(out, "\nResiduals:");
     let rows = answer.residuals.iter().map(|residual| {
         let (value, normalised) = (residual.residual_deg_per_h, residual.normalised);
+        let u = residual.standard_uncertainty_deg_per_h;
         let mut row = vec![residual.index.i.to_string(), residual.index.j.to_string()];
-        row.extend([value.x, value.y].map(|x| columns::signed(x, 5)));
+        row.extend([(value.x, u.x), (value.y, u.y)].map(|(x, u)| columns::signed(x, columns::decimals(u))));
         row.extend([normalised.x, normalised.y].map(|x| columns::signed(x, 1)));
         row
     });

@@ -249,7 +249,8 @@ pub(crate) fn comparison(found: &Comparison) -> String {
     let rows = found.positions.iter().map(|at| {
         let mut row = vec![at.index.i.to_string(), at.index.j.to_string()];
         for (turn, u) in at.turn_arcsec.iter().zip(&at.u_arcsec) {
-            row.extend([columns::signed(*turn, 2), format!("{u:.2}")]);
+            let digits = columns::decimals(*u);
+            row.extend([columns::signed(*turn, digits), format!("{u:.digits$}")]);
         }
         row.push(columns::chi_square(at.test.chi_square));
         row.push(columns::probability(at.test.probability));

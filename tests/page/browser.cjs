@@ -24,7 +24,8 @@ const RULES = {
 function said() {
   const text = (element) => {
     const copy = element.cloneNode(true);
-    copy.querySelectorAll(".pad").forEach((pad) => pad.remove());
+    // What only a telephone shows is not printed.
+    copy.querySelectorAll(".pad, .narrow-only").forEach((part) => part.remove());
     return copy.textContent;
   };
   const all = (selector) => [...document.querySelectorAll(selector)];
@@ -79,7 +80,7 @@ function said() {
     headings: all("h1, h2, h3, caption").map((heading) => heading.textContent),
     blocks: all("p, dt, dd, th, td, caption, h1, h2, h3, li")
       .filter((block) => !block.closest(".unseen, .save, .screen, svg, tfoot") && !block.querySelector("sub, sup, p, .pad, .unseen, svg text"))
-      .map((block) => block.textContent),
+      .map(text),
     annex: document.querySelector("pre").textContent,
     download: { name: link.download, address: link.href },
     checked: document.querySelector(".checked")?.textContent ?? "",

@@ -203,7 +203,7 @@ fn a_record_begins_with_its_result() {
 #[test]
 fn a_record_says_whether_the_stand_has_changed() {
     let headline = |name: &str| CERTIFIED.found[name]["said"]["headline"].as_str().unwrap();
-    assert_eq!(headline("record-en"), "Positions certified: 8; runs: 5");
+    assert_eq!(headline("record-en"), "● Positions certified: 8; runs: 5");
     assert_eq!(
         headline("record-both"),
         "✕ Стенд изменился после сертификата C-2026-0143 Changed since certificate C-2026-0143"

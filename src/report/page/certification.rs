@@ -107,7 +107,7 @@ impl CertificationPage<'_> {
                 (
                     passport_texts::REPEATABILITY,
                     u(certificate.repeatability_arcsec),
-                    html! { (k) @if let Some(freedom) = freedom { p { (symbol("ν", "")) " = " (freedom) } } },
+                    html! { p { (languages.label(texts::OF_A_VISIT)) } @if let Some(freedom) = freedom { p { (symbol("ν", "")) " = " (freedom) } } },
                 ),
                 (passport_texts::COMMON_PLATFORM, u(certificate.common_platform_arcsec), k.clone()),
                 (passport_texts::COMMON_BASE, u(certificate.common_base_arcsec), k),

@@ -2,10 +2,10 @@
 //! its change since an earlier result.
 
 use super::parameters::{self, name_of};
-use super::{CalibrationPage, history};
+use super::{CalibrationPage, history, subject};
 use crate::calibration::document::CalibrationDocument;
 use crate::calibration::parameter::Parameter;
-use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
+use crate::calibration::verdict::{COVERAGE_FACTOR, Decision, ParameterVerdict, Verdict};
 use crate::gyro::GyroType;
 use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::{Cell, Number, column};
@@ -23,6 +23,7 @@ const LEAST_RISK: f64 = 1e-6;
 pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
     let adopted = page.adopted();
     html! {
+        (subject::left_out(page, languages))
         @match page.judged() {
             Some((gyro, verdict)) => (compared(page, gyro, verdict, languages)),
             None => (alone(page, languages)),
@@ -34,7 +35,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
                 (languages.paragraph_with(|language| italic(&texts::PREVIOUS_DAY.filled(language, values! { day: date_text(language, day) }))))
             }
             (table(languages, change, texts::CHANGE_CAPTION, [texts::EARLIER, texts::CHANGED_BY], false))
-            @if !change.withheld { (simple(change, languages)) }
+            @if !change.withheld { (simple(change, None, languages)) }
         }
         (history::table(page, languages))
     }
@@ -45,7 +46,7 @@ fn compared(page: &CalibrationPage, gyro: &GyroType, verdict: &Verdict, language
         h3 { (languages.label_with(|language| texts::CONFORMITY.filled(language, values! { type: gyro.r#type }))) }
         (table(languages, verdict, texts::VERDICT_CAPTION, [texts::NOMINAL, texts::DEVIATION], true))
         (key(languages))
-        @if !verdict.withheld { (simple(verdict, languages)) }
+        @if !verdict.withheld { (simple(verdict, Some(texts::RISK_NOTE), languages)) }
         (from_gravity(page, verdict, languages))
         @if let Some(u) = page.calibration.mostly_from_turn_ons() {
             (languages.paragraph_with(|language| {
@@ -73,11 +74,13 @@ pub(super) fn counted(verdict: &Verdict, of_what: Option<Text>, languages: &Lang
     })
 }
 
-/// Writes the outcome of simple acceptance, and what the risks in the table are.
-fn simple(verdict: &Verdict, languages: &Languages) -> Markup {
+/// Writes the outcome of simple acceptance, and a note on the risks in the table.
+fn simple(verdict: &Verdict, note: Option<Text>, languages: &Languages) -> Markup {
     languages.paragraph_with(|language| {
-        let note = italic(&texts::RISK_NOTE.words(language));
-        html! { (counts(verdict, |row| row.simple, texts::PASSED_BY_SIMPLE, language)) ". " (note) }
+        html! {
+            (counts(verdict, |row| row.simple, texts::PASSED_BY_SIMPLE, language)) "."
+            @if let Some(note) = note { " " (italic(&note.words(language))) }
+        }
     })
 }
 
@@ -110,8 +113,25 @@ fn alone(page: &CalibrationPage, languages: &Languages) -> Markup {
     ];
     let with_unit = |parameter: Parameter| symbol_and_unit(languages, &name_of(parameter.symbol()), unit(parameter));
     let names = rows.iter().map(|(parameter, _)| vec![with_unit(*parameter)]).collect();
+    let caption = languages.label_with(|language| {
+        let factor =
+            |(parameter, expanded): &(Parameter, f64)| expanded / found.standard_uncertainty[parameter.place()];
+        texts::RESULT_CAPTION.filled(language, values! { k: coverage_factor(rows.iter().map(factor), language) })
+    });
     let table = Table::of(vec![languages.label(texts::PARAMETER)], names, &columns);
-    Table { class: "numbers narrow", ..table }.captioned(languages, texts::RESULT_CAPTION)
+    Table { caption: Some(caption), class: "numbers narrow", ..table }.markup(languages.spoken(texts::RESULT))
+}
+
+/// Returns the coverage factor of several expanded uncertainties, or its range: 2, or that of Student's t for few degrees
+/// of freedom.
+fn coverage_factor(factors: impl Iterator<Item = f64>, language: Language) -> String {
+    let [least, most] = factors.fold([f64::INFINITY, 0.0], |[least, most], k| [k.min(least), k.max(most)]);
+    let printed = |k: f64| Number::fixed(k, 2).text(language);
+    match (printed(least), printed(most)) {
+        (_, most) if most == printed(COVERAGE_FACTOR) => Number::fixed(COVERAGE_FACTOR, 0).text(language),
+        (least, most) if least == most => texts::STUDENT.filled(language, values! { k: most }),
+        (least, most) => texts::STUDENT.filled(language, values! { k: format!("{least}–{most}") }),
+    }
 }
 
 /// Writes a comparison; `with_u` says whether the standard uncertainty of a row is that of its value.
@@ -173,7 +193,10 @@ fn table(
     ];
     let names = rows.iter().map(|row| vec![with_unit(row)]).collect();
     let table = Table {
-        caption: Some(with_gravity(languages, caption, &Number::exact(verdict.gravity_m_per_s2))),
+        caption: Some(languages.label_with(|language| {
+            let k = coverage_factor(rows.iter().map(|row| row.coverage_factor), language);
+            caption.filled(language, values! { k, g: Number::exact(verdict.gravity_m_per_s2) })
+        })),
         groups,
         class: "numbers result",
         ..Table::of(vec![languages.label(texts::PARAMETER)], names, &columns)
@@ -231,5 +254,19 @@ fn probability_cell(languages: &Languages, p: f64) -> Cell {
         Cell::Number(Number::scientific(p, 2))
     } else {
         Cell::Number(Number::fixed(p, 2))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_coverage_factor_that_is_not_2_is_named() {
+        let words = |factors: &[f64]| coverage_factor(factors.iter().copied(), Language::English);
+        assert_eq!(words(&[2.0, 2.0]), "2");
+        assert_eq!(words(&[2.43, 2.43]), "2.43 (Student’s t)");
+        assert_eq!(words(&[2.0, 2.4463, 2.0]), "2.00–2.45 (Student’s t)");
+        assert_eq!(coverage_factor([2.0, 2.4463].into_iter(), Language::Russian), "2,00–2,45 (коэффициент Стьюдента)");
     }
 }

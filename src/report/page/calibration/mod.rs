@@ -108,10 +108,11 @@ impl CalibrationPage<'_> {
         let name = self.name(languages.first());
         let margins = Margins {
             top_left: texts::MARGIN.filled(languages.first(), values! { name }),
-            top_right: match (self.verified(), self.fits()) {
-                (false, _) => languages.plain(texts::NOT_VERIFIED),
-                (true, false) => languages.plain(texts::DOES_NOT_FIT),
-                (true, true) => String::new(),
+            top_right: match (self.verified(), self.fits(), &self.document.mistake) {
+                (false, ..) => languages.plain(texts::NOT_VERIFIED),
+                (true, false, _) => languages.plain(texts::DOES_NOT_FIT),
+                (true, true, Some(_)) => languages.plain(texts::MISTAKE),
+                (true, true, None) => String::new(),
             },
             bottom_left: texts::MARGIN_SHA256.filled(languages.first(), values! { sha256: self.currents.1 }),
         };
@@ -258,7 +259,8 @@ impl CalibrationPage<'_> {
 }
 
 fn warning(languages: &Languages, outcome: Outcome, headline: Text, words: Text) -> Markup {
-    boxed("verdict refused", marked(outcome, &languages.label(headline)), languages.paragraph(words))
+    let class = if outcome == Outcome::Undecided { "verdict neutral" } else { "verdict refused" };
+    boxed(class, marked(outcome, &languages.label(headline)), languages.paragraph(words))
 }
 
 /// Returns the sentence why a difference from an earlier result is no change.

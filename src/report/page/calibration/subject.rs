@@ -63,36 +63,39 @@ fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
     let celsius = |value: f64| quantity(languages, &Number::exact(value), units::CELSIUS);
     let temperature = subject.and_then(|subject| subject.temperature_c).map(celsius);
     let site = content.site.name.as_deref().unwrap_or(content.site.id.as_str());
+    fields([
+        field(languages, texts::TYPE, page.gyro.map(|gyro| given(&gyro.r#type))),
+        field(languages, texts::SERIAL, Some(serial(page, languages))),
+        field(languages, texts::CONDITION, None),
+        field(languages, texts::REPORT_NUMBER, None),
+        field(languages, passport_texts::CUSTOMER, None),
+        field(languages, record::CUSTOMER_CONTACT, None),
+        field(languages, texts::RECEIVED, None),
+        field(languages, texts::MEASURED, result.date().map(|day| date(languages, day))),
+        field(languages, texts::OPERATOR, subject.and_then(|subject| subject.operator.as_deref()).map(given)),
+        field(languages, texts::MEASURED_TEMPERATURE, temperature),
+        field(languages, texts::STAND, Some(given(&stand))),
+        field(languages, texts::CURRENTS, Some(given(file_name(page.currents.0)))),
+        wide_field(languages, texts::SITE, Some(given(site))),
+        wide_field(languages, texts::CURRENTS_SHA256, Some(html! { code { (page.currents.1) } })),
+    ])
+}
+
+/// Writes the visits that were excluded and the positions without a reading, if there are any.
+pub(super) fn left_out(page: &CalibrationPage, languages: &Languages) -> Markup {
     let excluded = |at: &Exclusion| {
         let cycle = at.cycle.map(|cycle| format!(", {cycle}")).unwrap_or_default();
         format!("({}, {}), {}{cycle}: {}", at.i, at.j, at.visit, at.why)
     };
-    let excluded: Vec<String> = result.excluded.iter().map(excluded).collect();
-    let left_out: Vec<String> = result.left_out.iter().map(|at| format!("({}, {})", at.i, at.j)).collect();
-    let listed = |name, each: Vec<String>| {
-        (!each.is_empty()).then(|| wide_field(languages, name, Some(given(&each.join("; ")))))
-    };
-    fields(
-        [
-            field(languages, texts::TYPE, page.gyro.map(|gyro| given(&gyro.r#type))),
-            field(languages, texts::SERIAL, Some(serial(page, languages))),
-            field(languages, texts::CONDITION, None),
-            field(languages, texts::REPORT_NUMBER, None),
-            field(languages, passport_texts::CUSTOMER, None),
-            field(languages, record::CUSTOMER_CONTACT, None),
-            field(languages, texts::RECEIVED, None),
-            field(languages, texts::MEASURED, result.date().map(|day| date(languages, day))),
-            field(languages, texts::OPERATOR, subject.and_then(|subject| subject.operator.as_deref()).map(given)),
-            field(languages, texts::MEASURED_TEMPERATURE, temperature),
-            field(languages, texts::STAND, Some(given(&stand))),
-            field(languages, texts::CURRENTS, Some(given(file_name(page.currents.0)))),
-            wide_field(languages, texts::SITE, Some(given(site))),
-            wide_field(languages, texts::CURRENTS_SHA256, Some(html! { code { (page.currents.1) } })),
-        ]
-        .into_iter()
-        .chain(listed(texts::EXCLUDED, excluded))
-        .chain(listed(texts::LEFT_OUT, left_out)),
-    )
+    let excluded: Vec<String> = page.document.excluded.iter().map(excluded).collect();
+    let left_out: Vec<String> = page.document.left_out.iter().map(|at| format!("({}, {})", at.i, at.j)).collect();
+    let each = [(texts::EXCLUDED, excluded), (texts::LEFT_OUT, left_out)];
+    let each: Vec<_> = each.into_iter().filter(|(_, each)| !each.is_empty()).collect();
+    html! {
+        @if !each.is_empty() {
+            (fields(each.into_iter().map(|(name, each)| wide_field(languages, name, Some(given(&each.join("; ")))))))
+        }
+    }
 }
 
 fn passport(page: &CalibrationPage, languages: &Languages) -> Markup {

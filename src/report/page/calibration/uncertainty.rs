@@ -7,7 +7,7 @@ use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::ParameterVerdict;
 use crate::report::page::language::{Language, Languages, Text, capital, values};
 use crate::report::page::number::{Cell, Number, column};
-use crate::report::page::parts::{Column, Table, symbol, symbol_and_unit};
+use crate::report::page::parts::{Column, Table, mark, marked, symbol, symbol_and_unit};
 use crate::report::page::passport::numbers::parameters;
 use crate::report::page::spacing::BLANK;
 use crate::report::page::symbols::italic;
@@ -15,6 +15,7 @@ use crate::report::page::texts::{calibration as texts, units, words};
 use crate::report::picture::accuracy::unit as parameter_unit;
 use crate::report::picture::drawing::legend_with;
 use crate::report::picture::shares as strips;
+use crate::report::style::Outcome;
 use crate::uncertainty::budget::{Contribution, ParameterBudget};
 use crate::uncertainty::dominant::{Dominant, Effect, Part, percent};
 use crate::uncertainty::monte_carlo::Distribution;
@@ -244,9 +245,10 @@ pub(super) fn monte_carlo(found: &MonteCarlo, languages: &Languages) -> Markup {
     let decided = found.parameters.iter().filter(|line| line.first_order.valid.is_some()).count();
     if decided > 0 {
         let valid = each(&|line| match line.first_order.valid {
-            Some(true) => Cell::Words(languages.label(words::YES)),
-            Some(false) => Cell::Words(languages.label(words::NO)),
-            None => Cell::none(),
+            Some(valid) => {
+                Cell::Words(marked(Some(valid), &languages.label(if valid { words::YES } else { words::NO })))
+            }
+            None => Cell::Words(mark(Outcome::Undecided)),
         });
         rows.push((languages.label(texts::FIRST_ORDER), valid));
     }

@@ -1,14 +1,14 @@
 //! Change of the stand since its last certificate.
 
 use super::{CertificationPage, remarks};
-use crate::certification::compared::Test;
+use crate::certification::compared::{ComparedPosition, Test};
 use crate::certification::comparison::Comparison;
 use crate::certification::suspects::AXES;
 use crate::passport::difference::NumberDifference;
 use crate::report::page::language::{Languages, Text, values};
 use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{
-    Column, Table, boxed, field, fields, heading, marked, starts, symbol, symbol_and_unit,
+    Column, Table, boxed, field, fields, heading, mark, marked, starts, symbol, symbol_and_unit,
 };
 use crate::report::page::spacing::BLANK;
 use crate::report::page::texts::{certification as texts, checks, pictures, units};
@@ -21,11 +21,11 @@ pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup
     let Some((comparison, _)) = &page.change else {
         let (positions, runs) = (page.certification.stand.positions.len(), page.certification.runs.len());
         let headline = languages.label_with(|language| texts::CERTIFIED.filled(language, values! { positions, runs }));
-        return boxed("verdict neutral", headline, languages.paragraph(texts::NOT_COMPARED));
+        return boxed("verdict", marked(Some(true), &headline), languages.paragraph(texts::NOT_COMPARED));
     };
     let (class, outcome, verdict) = match comparison.same_stand {
         true => ("verdict", Outcome::Passed, texts::SAME),
-        false if comparison.is_undecided() => ("verdict refused", Outcome::Undecided, texts::UNDECIDED),
+        false if comparison.is_undecided() => ("verdict neutral", Outcome::Undecided, texts::UNDECIDED),
         false => ("verdict refused", Outcome::Failed, texts::CHANGED),
     };
     let headline =
@@ -88,7 +88,10 @@ fn rotations(comparison: &Comparison, languages: &Languages) -> Markup {
         false => marked(Some(false), &languages.inline(texts::REPEATS_NOT)),
     };
     columns.push(Column::named(languages, checks::RESULT, positions.iter().map(|at| found(at.repeats)).collect()));
-    let names = positions.iter().map(|at| vec![html! { (at.index.to_string()) }]).collect();
+    // A telephone shows the first column and few others: the result is there too.
+    let name =
+        |at: &ComparedPosition| html! { span.narrow-only { (mark(Some(at.repeats))) (BLANK) } (at.index.to_string()) };
+    let names = positions.iter().map(|at| vec![name(at)]).collect();
     let table = Table::of(vec![languages.label(texts::POSITION)], names, &columns);
     Table { class: "numbers rotations", ..table }.markup(languages.spoken(texts::ROTATIONS))
 }

@@ -138,8 +138,8 @@ fn axes_of(axis: CommonAxis) -> Text {
 pub(crate) fn finding(finding: &Finding, language: Language) -> String {
     let arcsec = |value: f64| Number::fixed(value, 2);
     let text = match finding {
-        Finding::Changed(ComparedPosition { index, turn_arcsec, .. }) => {
-            let [x, y, z] = turn_arcsec.map(arcsec);
+        Finding::Changed(ComparedPosition { index, turn_arcsec, u_arcsec, .. }) => {
+            let [x, y, z] = std::array::from_fn(|axis| Number::measured(turn_arcsec[axis], u_arcsec[axis]));
             return texts::POSITION_CHANGED.filled(language, values! { index, x, y, z });
         }
         Finding::ScattersMore { of_check_arcsec, certified_arcsec, probability } => {

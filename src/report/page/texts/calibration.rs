@@ -40,9 +40,9 @@ texts! {
     UNDECIDED { en: "Conformity with gyro type {type} is undecided", ru: "Соответствие типу {type} не определено" }
     RULE {
         en: "Decision rule: guarded acceptance with a guard band equal to the expanded uncertainty U (JCGM 106, 8.3). \
-             Coverage factor k = 2, for few degrees of freedom that of Student’s t; coverage probability 95.45 %.",
+             Coverage probability 95.45 %.",
         ru: "Правило принятия решения: приёмка с защитной полосой, равной расширенной неопределённости U (JCGM 106, \
-             8.3). Коэффициент охвата k = 2, при малом числе степеней свободы — коэффициент Стьюдента; вероятность охвата 95,45 %."
+             8.3). Вероятность охвата 95,45 %."
     }
     NO_TYPE { en: "Parameters determined", ru: "Параметры определены" }
     NO_TYPE_WORDS {
@@ -175,10 +175,10 @@ texts! {
     PARAMETERS { en: "Parameters", ru: "Параметры" }
     RESULT { en: "Result", ru: "Результат" }
     RESULT_CAPTION {
-        en: "Parameters with their expanded uncertainty U (coverage factor k = 2, for few degrees of freedom that of \
-             Student’s t; coverage probability 95.45 %); drifts refer to local g",
-        ru: "Параметры и их расширенная неопределённость U (коэффициент охвата k = 2, при малом числе степеней свободы — \
-             коэффициент Стьюдента; вероятность охвата 95,45 %); составляющие дрейфа отнесены к местному g"
+        en: "Parameters with their expanded uncertainty U (coverage factor k = {k}; coverage probability 95.45 %); drifts \
+             refer to local g",
+        ru: "Параметры и их расширенная неопределённость U (коэффициент охвата k = {k}; вероятность охвата 95,45 %); \
+             составляющие дрейфа отнесены к местному g"
     }
     PASSED { en: "{passed} of {all} parameters pass", ru: "Соответствуют допускам {passed} из {all} параметров" }
     CHANGE_COUNTED { en: "Change since the previous calibration:", ru: "Изменение после предыдущей калибровки." }
@@ -228,28 +228,26 @@ texts! {
 
     CONFORMITY { en: "Comparison with gyro type {type}", ru: "Сравнение с типом {type}" }
     VERDICT_CAPTION {
-        en: "Deviation from the nominal value; expanded uncertainty U (coverage factor k = 2, for few degrees of freedom \
-             that of Student’s t; coverage probability 95.45 %); drifts refer to the g of the type, {g} m/s²",
-        ru: "Отклонение от номинального значения; расширенная неопределённость U (коэффициент охвата k = 2, при малом \
-             числе степеней свободы — коэффициент Стьюдента; вероятность охвата 95,45 %); составляющие дрейфа отнесены \
-             к g типа, {g} м/с²"
+        en: "Deviation from the nominal value; expanded uncertainty U (coverage factor k = {k}; coverage probability \
+             95.45 %); drifts refer to the g of the type, {g} m/s²",
+        ru: "Отклонение от номинального значения; расширенная неопределённость U (коэффициент охвата k = {k}; вероятность \
+             охвата 95,45 %); составляющие дрейфа отнесены к g типа, {g} м/с²"
     }
+    STUDENT { en: "{k} (Student’s t)", ru: "{k} (коэффициент Стьюдента)" }
     CHANGE { en: "Change since the previous calibration", ru: "Изменение после предыдущей калибровки" }
     HISTORY { en: "All calibrations of this gyro", ru: "Все калибровки этого гироскопа" }
     HISTORY_CAPTION {
         en: "Parameters from the earliest calibration to this one, with expanded uncertainty U\u{a0}=\u{a0}2u \
-             (coverage factor k = 2; for the marks, U of coverage probability 95.45 %); drifts refer to one g",
+             (coverage factor k = 2; for the marks, U of coverage probability 95.45 %); drifts refer to the same g",
         ru: "Параметры от первой калибровки до этой, с расширенной неопределённостью U\u{a0}=\u{a0}2u \
              (коэффициент охвата k = 2; для отметок — U для вероятности охвата 95,45 %); составляющие дрейфа отнесены к одному g"
     }
     CALIBRATED { en: "Calibration", ru: "Калибровка" }
     CHANGE_CAPTION {
-        en: "Change; the tolerance also limits the instability; expanded uncertainty U (coverage factor k = 2, for few \
-             degrees of freedom that of Student’s t; coverage probability 95.45 %); drifts refer to the g of the type, \
-             {g} m/s²",
-        ru: "Изменение (допуск относится и к нестабильности); расширенная неопределённость U (коэффициент охвата k = 2, \
-             при малом числе степеней свободы — коэффициент Стьюдента; вероятность охвата 95,45 %); составляющие дрейфа \
-             отнесены к g типа, {g} м/с²"
+        en: "Change; the tolerance also limits the instability; expanded uncertainty U (coverage factor k = {k}; coverage \
+             probability 95.45 %); drifts refer to the g of the type, {g} m/s²",
+        ru: "Изменение (допуск относится и к нестабильности); расширенная неопределённость U (коэффициент охвата k = {k}; \
+             вероятность охвата 95,45 %); составляющие дрейфа отнесены к g типа, {g} м/с²"
     }
     PARAMETER { en: "Parameter", ru: "Параметр" }
     NOMINAL { en: "Nominal", ru: "Номин. значение" }
@@ -552,8 +550,8 @@ texts! {
              интервалы охвата по методу Монте-Карло."
     }
     FIRST_ORDER_UNDECIDED {
-        en: "–: not decided; this needs more trials.",
-        ru: "–: не определено, требуется большее число испытаний."
+        en: "◐: not decided; this needs more trials.",
+        ru: "◐: не определено, требуется большее число испытаний."
     }
     NOT_STABLE {
         en: "Not all stated digits are stable; more trials would change some of them.",

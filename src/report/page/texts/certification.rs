@@ -34,6 +34,7 @@ texts! {
     REASON { en: "Reason", ru: "Причина" }
 
     RESULT { en: "Certified deviations", ru: "Отклонения положений" }
+    OF_A_VISIT { en: "standard deviation of one visit", ru: "стандартное отклонение одной установки" }
     STANDARD { en: "standard uncertainty (k = 1)", ru: "стандартная неопределённость (k = 1)" }
 
     UNCERTAINTY { en: "Uncertainty", ru: "Неопределённость" }

@@ -54,7 +54,7 @@ texts! {
     PAPER_IS_NOT_SIGNED {
         en: "This page shows a signed file; the page itself is not signed. Only the file is valid; it is reproduced \
              verbatim in the annex. Compare its SHA-256 with the value here or in the code. To verify the file, use \
-             dtg-passport verify, or only ssh-keygen.",
+             dtg-passport verify, or ssh-keygen alone.",
         ru: "Эта страница воспроизводит подписанный файл и сама не подписана. Силу имеет только файл, дословно \
              приведённый в приложении. Его SHA-256 сравнивают с указанной здесь или в коде; файл проверяют командой \
              dtg-passport verify или средствами ssh-keygen."

@@ -12,13 +12,13 @@ texts! {
     STAND_TITLE { en: "Stand with its parts, axes and angles", ru: "Стенд: части, оси и углы" }
     STAND_DESCRIPTION {
         en: "The frame is rotated by θ about its axis ξ, which points to the azimuth {azimuth}°, the platform by φ \
-             in the frame. The platform carries the gyro, whose spin axis is z; two pins lie along x.",
+             in the frame. The platform carries the gyro, whose spin axis is z; the pins of its seat lie along x.",
         ru: "Рамка поворачивается на угол θ вокруг оси ξ, азимут которой {azimuth}°. Платформа поворачивается в рамке \
-             на угол φ и несёт гироскоп с осью собственного вращения z; два штифта расположены вдоль x."
+             на угол φ и несёт гироскоп с осью собственного вращения z; штифты посадочной поверхности расположены вдоль x."
     }
     PART_FRAME { en: "frame", ru: "рамка" }
     PART_PLATFORM { en: "platform", ru: "платформа" }
-    PART_PINS { en: "two pins along x", ru: "два штифта по x" }
+    PART_PINS { en: "pins, along x", ru: "штифты, вдоль x" }
     PART_GYRO { en: "gyro, spin axis z", ru: "гироскоп с осью z" }
     PART_BASE { en: "base", ru: "основание" }
     PART_AXIS { en: "axis ξ, azimuth {azimuth}°", ru: "ось ξ, азимут {azimuth}°" }
@@ -39,8 +39,8 @@ texts! {
     FRAME { en: "frame, rotated by θ about ξ", ru: "рамка, повёрнута на θ вокруг ξ" }
     EXAGGERATED { en: "Deviations are drawn ×{factor}.", ru: "Отклонения изображены в масштабе ×{factor}." }
     PLATFORM {
-        en: "platform with the gyro, rotated by φ about z; its two pins are along x",
-        ru: "платформа с гироскопом, повёрнута на φ вокруг z; два штифта по x"
+        en: "platform with the gyro, rotated by φ about z; the pins of its seat lie along x",
+        ru: "платформа с гироскопом, повёрнута на φ вокруг z; штифты посадочной поверхности — вдоль x"
     }
 
     DEVIATION_BAR {

@@ -188,7 +188,7 @@ texts! {
         en: "The visits of the check scatter by {found}″, the certificate states {certified}″ (F test, p = {p}). Either the \
              stand repeats worse, so that uncertainties from its certificate are too small, or the instrument of the \
              check reads worse.",
-        ru: "СКО установки при проверке {found}″, по сертификату {certified}″ (F-критерий, p = {p}). Либо повторяемость \
+        ru: "Стандартное отклонение одной установки при проверке {found}″, по сертификату {certified}″ (F-критерий, p = {p}). Либо повторяемость \
              стенда ухудшилась и неопределённости по его сертификату занижены, либо больше погрешность прибора, \
              которым выполнена проверка."
     }
