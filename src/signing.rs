@@ -28,29 +28,14 @@ pub enum KeyFileError {
     #[error(transparent)]
     File(#[from] FileError),
     /// File without a key that can sign.
-    #[error("{}: {error}", shown(path))]
-    Key {
-        /// Path of the key file.
-        path: PathBuf,
-        /// Reason why the key cannot be used.
-        error: KeyError,
-    },
-    /// Private key that others can read.
-    #[error("{}: mode {mode:04o} allows others to read the private key; restrict it with chmod 600", shown(path))]
-    Exposed {
-        /// Path of the key file.
-        path: PathBuf,
-        /// Permissions of the file.
-        mode: u32,
-    },
-    /// Encrypted key without a passphrase.
-    #[error("{}: the key is encrypted: {}", shown(path), Printable(reason))]
-    Passphrase {
-        /// Path of the key file.
-        path: PathBuf,
-        /// Reason why there is no passphrase.
-        reason: String,
-    },
+    #[error("{}: {}", shown(.0), .1)]
+    Key(PathBuf, KeyError),
+    /// Private key that others can read, with its permissions.
+    #[error("{}: mode {:04o} allows others to read the private key; restrict it with chmod 600", shown(.0), .1)]
+    Exposed(PathBuf, u32),
+    /// Encrypted key without a passphrase, and why there is none.
+    #[error("{}: the key is encrypted: {}", shown(.0), Printable(.1))]
+    Passphrase(PathBuf, String),
     /// Public key whose private half was not found.
     #[error(
         "{}: found only the public half, expected the private half in ssh-agent or in {}; check that OpenSSH is \
@@ -129,7 +114,7 @@ fn is_public(path: &Path) -> bool {
 /// Returns the key in a `.pub` file, and the file with its private half, or `None` if ssh-agent has that.
 fn private_half(path: &Path) -> Result<(PublicKey, Option<PathBuf>), KeyFileError> {
     let public = PublicKey::from_openssh(text(path)?.trim_end());
-    let public = public.map_err(|error| KeyFileError::Key { path: path.to_owned(), error })?;
+    let public = public.map_err(|error| KeyFileError::Key(path.to_owned(), error))?;
     if is_in_agent(&public) {
         return Ok((public, None));
     }
@@ -146,7 +131,7 @@ fn private_key(path: &Path, ask: AskPassphrase) -> Result<Option<SigningKey>, Ke
     let key = match SigningKey::from_openssh(&text, None) {
         Err(KeyError::Encrypted) => {
             let asked = ask(path);
-            let passphrase = asked.map_err(|reason| KeyFileError::Passphrase { path: path.to_owned(), reason })?;
+            let passphrase = asked.map_err(|reason| KeyFileError::Passphrase(path.to_owned(), reason))?;
             SigningKey::from_openssh(&text, Some(&passphrase))
         }
         key => key,
@@ -154,7 +139,7 @@ fn private_key(path: &Path, ask: AskPassphrase) -> Result<Option<SigningKey>, Ke
     match key {
         Ok(key) => Ok(Some(key)),
         Err(KeyError::SecurityKey) => Ok(None),
-        Err(error) => Err(KeyFileError::Key { path: path.to_owned(), error }),
+        Err(error) => Err(KeyFileError::Key(path.to_owned(), error)),
     }
 }
 
@@ -179,7 +164,7 @@ pub(crate) fn key_to_sign_with(path: &Path) -> Result<PublicKey, KeyFileError> {
         Err(KeyError::Encrypted | KeyError::SecurityKey) => PublicKey::of_key_file(&text),
         Err(error) => Err(error),
     };
-    public.map_err(|error| KeyFileError::Key { path: path.to_owned(), error })
+    public.map_err(|error| KeyFileError::Key(path.to_owned(), error))
 }
 
 /// Returns the reason why passports that `key` signs as `identity` at `time` would fail verification by `trust`, or
@@ -222,10 +207,10 @@ fn openssh(program: &str) -> Command {
 #[cfg(unix)]
 fn refuse_exposed(path: &Path) -> Result<(), KeyFileError> {
     use std::os::unix::fs::PermissionsExt;
-    let failed = |error| FileError::Read { path: path.to_owned(), error };
+    let failed = |error| FileError::Read(path.to_owned(), error);
     let mode = std::fs::metadata(path).map_err(failed)?.permissions().mode() & 0o7777;
     if mode & 0o077 != 0 {
-        return Err(KeyFileError::Exposed { path: path.to_owned(), mode });
+        return Err(KeyFileError::Exposed(path.to_owned(), mode));
     }
     Ok(())
 }

@@ -54,14 +54,14 @@ fn ordered(order: &str, (gyro, laboratory): Files) -> PyResult<Order> {
 /// Converts an error of a file to the subclass of OSError that Python users expect.
 fn os_error(py: Python, error: &FileError) -> PyErr {
     match error {
-        FileError::Read { path, error: system } => {
+        FileError::Read(path, system) => {
             let words = |number: i32| py.import("os")?.call_method1("strerror", (number,))?.extract::<String>();
             match system.raw_os_error().and_then(|number| Some((number, words(number).ok()?))) {
                 Some((number, words)) => PyOSError::new_err((number, words, path.as_os_str().to_owned())),
                 None => PyOSError::new_err(error.to_string()),
             }
         }
-        FileError::Folder { .. } => PyIsADirectoryError::new_err(error.to_string()),
+        FileError::Folder(_) => PyIsADirectoryError::new_err(error.to_string()),
         _ => PyOSError::new_err(error.to_string()),
     }
 }

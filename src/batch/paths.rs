@@ -126,7 +126,7 @@ fn matches(pattern: &str) -> Paths<'static> {
     }
     Box::new(paths.map(|path| {
         path.map_err(|error| {
-            Failure::file(FileError::Read { path: error.path().to_owned(), error: io::Error::other(error.to_string()) })
+            Failure::file(FileError::Read(error.path().to_owned(), io::Error::other(error.to_string())))
         })
     }))
 }

@@ -229,7 +229,7 @@ impl Run<'_> {
             return Ok(Examined::Done(done));
         }
         let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(|error| match error {
-            FileError::TooLarge { .. } if candidate.found.is_some() => refused(error.to_string()),
+            FileError::TooLarge(..) if candidate.found.is_some() => refused(error.to_string()),
             _ => Failure::unusable(path, error.to_string()),
         })?;
         let trust = candidate.found.as_ref().map_or(&change.trust, |(folder, _)| &folder.trust);

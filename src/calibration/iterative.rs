@@ -49,22 +49,16 @@ pub enum NoIterativeSolution {
     SingularCurrents,
     /// Divergence: ρ(T) ≥ 1.
     #[error(
-        "the iterative method diverges: the spectral radius is {spectral_radius:.4}, but must be below 1; use the \
+        "the iterative method diverges: the spectral radius is {0:.4}, but must be below 1; use the \
          analytic method or least squares"
     )]
-    Diverges {
-        /// Spectral radius ρ(T).
-        spectral_radius: f64,
-    },
-    /// No convergence after 200 steps.
+    Diverges(f64),
+    /// No convergence after 200 steps, with this ρ(T).
     #[error(
         "the iterative method did not converge in {LARGEST_NUMBER_OF_STEPS} steps (spectral radius \
-         {spectral_radius:.4}); use the analytic method or least squares"
+         {0:.4}); use the analytic method or least squares"
     )]
-    TooManySteps {
-        /// Spectral radius ρ(T).
-        spectral_radius: f64,
-    },
+    TooManySteps(f64),
 }
 
 /// Change in one step of the parameters that the stop rule compares.
@@ -268,9 +262,9 @@ pub fn solve(
     let plan = Plan::new(coefficients, currents_ma)?;
     let spectral_radius = plan.spectral_radius();
     if spectral_radius >= 1.0 {
-        return Err(NoIterativeSolution::Diverges { spectral_radius });
+        return Err(NoIterativeSolution::Diverges(spectral_radius));
     }
-    let too_many = NoIterativeSolution::TooManySteps { spectral_radius };
+    let too_many = NoIterativeSolution::TooManySteps(spectral_radius);
     let mut changes = Vec::new();
     let LastStep { k, omega_n, change, steps } = plan.run(rule, |change| changes.push(change)).ok_or(too_many)?;
     let rest = (Matrix2::identity() - plan.t).try_inverse().ok_or(too_many)?;

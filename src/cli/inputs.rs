@@ -24,7 +24,7 @@ pub(super) const HEADER: &str = "a header (dtg-stand/1)";
 /// Reads the bytes of a document; `expected` says what it should be, for the message about a folder.
 pub(super) fn bytes(path: &Path, expected: &str) -> Result<Vec<u8>, Failure> {
     files::read(path, LARGEST_DOCUMENT_BYTES).map_err(|error| match error {
-        FileError::Folder { path } => Failure::folder(&path, expected),
+        FileError::Folder(path) => Failure::folder(&path, expected),
         error => Failure::file(error),
     })
 }

@@ -40,7 +40,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
             Err(error) => {
                 let advice = "list its passports with `register`, or give the files";
                 let words = match error {
-                    FileError::Folder { .. } => format!("{error}; {advice}"),
+                    FileError::Folder(_) => format!("{error}; {advice}"),
                     error => Failure::file(error).failed.message,
                 };
                 output::complain(&words);

@@ -24,33 +24,17 @@ use tempfile::{NamedTempFile, PersistError};
 #[non_exhaustive]
 pub enum FileError {
     /// File that cannot be opened or read.
-    #[error("{}: cannot be read: {}", shown(path), Printable(reason_at(path, error)))]
-    Read {
-        /// Path of the file.
-        path: PathBuf,
-        /// Error of the system.
-        error: io::Error,
-    },
+    #[error("{}: cannot be read: {}", shown(.0), Printable(reason_at(.0, .1)))]
+    Read(PathBuf, io::Error),
     /// Folder in place of a file.
-    #[error("{}: is a folder, expected a file", shown(path))]
-    Folder {
-        /// Path of the folder.
-        path: PathBuf,
-    },
+    #[error("{}: is a folder, expected a file", shown(.0))]
+    Folder(PathBuf),
     /// Pipe, device or socket, which its reader might wait for indefinitely.
-    #[error("{}: found a pipe, a device or a socket, expected a file; save its output to a file first", shown(path))]
-    Special {
-        /// Path of the pipe, device or socket.
-        path: PathBuf,
-    },
-    /// File that exceeds the size limit.
-    #[error("{}: more than {limit} bytes; check that this is the right file", shown(path))]
-    TooLarge {
-        /// Path of the file.
-        path: PathBuf,
-        /// Size limit in bytes.
-        limit: usize,
-    },
+    #[error("{}: found a pipe, a device or a socket, expected a file; save its output to a file first", shown(.0))]
+    Special(PathBuf),
+    /// File that exceeds this limit, in bytes.
+    #[error("{}: more than {} bytes; check that this is the right file", shown(.0), .1)]
+    TooLarge(PathBuf, usize),
     /// Existing file that is not replaced.
     #[error("{}: already exists, not overwritten{}", shown(path), if *replaceable { "; to replace it, use --force" } else { "" })]
     Exists {
@@ -60,25 +44,17 @@ pub enum FileError {
         replaceable: bool,
     },
     /// Path that two options name for different files to be written.
-    #[error("{}: is named for two of the files to be written; give each its own name", shown(path))]
-    Twice {
-        /// Path of the file.
-        path: PathBuf,
-    },
+    #[error("{}: is named for two of the files to be written; give each its own name", shown(.0))]
+    Twice(PathBuf),
     /// File that cannot be written.
-    #[error("{}: cannot be written: {}; no file was left", shown(path), Printable(reason_at(path, error)))]
-    Write {
-        /// Path of the file.
-        path: PathBuf,
-        /// Error of the system.
-        error: io::Error,
-    },
+    #[error("{}: cannot be written: {}; no file was left", shown(.0), Printable(reason_at(.0, .1)))]
+    Write(PathBuf, io::Error),
 }
 
 impl FileError {
     /// Returns the message with what to do: the nearest existing path if there is no such file.
     pub(crate) fn with_nearest(&self) -> String {
-        if let Self::Folder { .. } = self {
+        if let Self::Folder(_) = self {
             return format!("{self}; name a file in it");
         }
         let nearest = if self.is_missing() { nearest(self.path()) } else { None };
@@ -87,7 +63,7 @@ impl FileError {
 
     /// Returns `true` if the path does not exist.
     pub(crate) fn is_missing(&self) -> bool {
-        matches!(self, Self::Read { error, .. } if error.kind() == io::ErrorKind::NotFound)
+        matches!(self, Self::Read(_, error) if error.kind() == io::ErrorKind::NotFound)
     }
 
     /// Returns `true` if neither the path nor a similar one exists.
@@ -97,13 +73,13 @@ impl FileError {
 
     pub(crate) fn path(&self) -> &Path {
         match self {
-            Self::Read { path, .. }
-            | Self::Folder { path }
-            | Self::Special { path }
-            | Self::TooLarge { path, .. }
+            Self::Read(path, _)
+            | Self::Folder(path)
+            | Self::Special(path)
+            | Self::TooLarge(path, _)
             | Self::Exists { path, .. }
-            | Self::Twice { path }
-            | Self::Write { path, .. } => path,
+            | Self::Twice(path)
+            | Self::Write(path, _) => path,
         }
     }
 }
@@ -175,7 +151,7 @@ pub(crate) fn read(path: &Path, limit: usize) -> Result<Vec<u8>, FileError> {
 pub(crate) fn read_into(bytes: &mut Vec<u8>, path: &Path, limit: usize) -> Result<(), FileError> {
     read_first_into(bytes, path, limit + 1)?;
     if bytes.len() > limit {
-        return Err(FileError::TooLarge { path: path.to_owned(), limit });
+        return Err(FileError::TooLarge(path.to_owned(), limit));
     }
     Ok(())
 }
@@ -188,8 +164,8 @@ pub(crate) fn read_first(path: &Path, limit: usize) -> Result<Vec<u8>, FileError
 }
 
 fn read_first_into(bytes: &mut Vec<u8>, path: &Path, limit: usize) -> Result<(), FileError> {
-    let failed = |error| FileError::Read { path: path.to_owned(), error };
-    let folder = || FileError::Folder { path: path.to_owned() };
+    let failed = |error| FileError::Read(path.to_owned(), error);
+    let folder = || FileError::Folder(path.to_owned());
     let file = match platform::open(path) {
         // Windows does not open folders.
         Err(_) if path.is_dir() => return Err(folder()),
@@ -200,7 +176,7 @@ fn read_first_into(bytes: &mut Vec<u8>, path: &Path, limit: usize) -> Result<(),
         return Err(folder());
     }
     if !found.is_file() {
-        return Err(FileError::Special { path: path.to_owned() });
+        return Err(FileError::Special(path.to_owned()));
     }
     // With one spare byte in the buffer, the end of the file is found without growing it.
     let length = usize::try_from(found.len()).unwrap_or(limit).min(limit);
@@ -261,7 +237,7 @@ pub(crate) fn check_replaceable<P: AsRef<Path>>(
     for path in paths {
         let path = path.as_ref().to_owned();
         if path.is_dir() {
-            return Err(FileError::Folder { path });
+            return Err(FileError::Folder(path));
         }
         if path.metadata().is_ok_and(|there| !there.is_file()) || (force && is_irreplaceable(&path)) {
             return Err(FileError::Exists { path, replaceable: false });
@@ -279,7 +255,7 @@ pub(crate) fn check_distinct<'a>(paths: impl IntoIterator<Item = &'a PathBuf>) -
     for path in paths {
         let whole = std::path::absolute(path).unwrap_or_else(|_| path.clone());
         if !seen.insert(whole) {
-            return Err(FileError::Twice { path: path.clone() });
+            return Err(FileError::Twice(path.clone()));
         }
     }
     Ok(())
@@ -315,8 +291,7 @@ pub(crate) fn rewrite(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let permissions = match fs::metadata(&target) {
         Ok(found) if !found.is_file() => {
-            let error = io::Error::other("not a regular file");
-            return Err(FileError::Write { path: path.to_owned(), error });
+            return Err(FileError::Write(path.to_owned(), io::Error::other("not a regular file")));
         }
         found => found.ok().map(|found| found.permissions()),
     };
@@ -338,7 +313,7 @@ fn write(
     persist: impl Fn(NamedTempFile) -> Result<File, PersistError>,
     replaceable: bool,
 ) -> Result<(), FileError> {
-    let failed = |error| FileError::Write { path: path.to_owned(), error };
+    let failed = |error| FileError::Write(path.to_owned(), error);
     let folder = folder_of(path);
     for attempt in 0.. {
         let written = temporary(folder, bytes, access, durability).and_then(|file| Ok(persist(file)?));

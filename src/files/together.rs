@@ -22,7 +22,7 @@ pub(crate) fn write_replaceable_together<B: AsRef<[u8]>>(files: &[(PathBuf, B)],
 pub(crate) fn write_together<B: AsRef<[u8]>>(new: &[(PathBuf, B)], last: &[(PathBuf, B)]) -> Result<(), FileError> {
     let failed = |path: &Path| {
         let path = path.to_owned();
-        move |error| FileError::Write { path, error }
+        move |error| FileError::Write(path, error)
     };
     let stage = |(path, bytes): &(PathBuf, B)| {
         let folder = folder_of(path);
@@ -61,7 +61,7 @@ fn publish<'a, B>(
     for ((path, _), temporary) in new.iter().zip(staged) {
         temporary.persist_noclobber(path).map_err(|PersistError { error, .. }| match error.kind() {
             io::ErrorKind::AlreadyExists => FileError::Exists { path: path.clone(), replaceable: false },
-            _ => FileError::Write { path: path.clone(), error },
+            _ => FileError::Write(path.clone(), error),
         })?;
         written.push(path);
     }
@@ -95,7 +95,7 @@ mod tests {
         // What cannot be written leaves none of the others, nor replaces any.
         for force in [false, true] {
             let refused = write_replaceable_together(&[file("d", "1"), file("b/below", "2")], force);
-            assert!(matches!(refused, Err(FileError::Write { path, .. }) if path == at("b/below")));
+            assert!(matches!(refused, Err(FileError::Write(path, _)) if path == at("b/below")));
             assert!(write_replaceable_together(&[file("d", "1"), file("folder", "2")], force).is_err());
             assert_eq!(read("d"), None);
         }

@@ -50,7 +50,7 @@ impl Walk {
     }
 
     fn enter(&mut self, folder: PathBuf) -> Result<(), FileError> {
-        let failed = |error| FileError::Read { path: folder.clone(), error };
+        let failed = |error| FileError::Read(folder.clone(), error);
         let mut entries: Vec<Listed> = Vec::new();
         for entry in fs::read_dir(&folder).map_err(failed)? {
             let entry = entry.map_err(failed)?;

@@ -31,7 +31,7 @@ impl Superseded {
         let bytes = match files::read(path, LARGEST_DOCUMENT_BYTES) {
             Ok(bytes) => bytes,
             Err(error) if error.is_missing() => return Ok(None),
-            Err(FileError::TooLarge { .. }) => return Ok(None),
+            Err(FileError::TooLarge(..)) => return Ok(None),
             Err(error) => return Err(error),
         };
         let Ok(stand) = Stand::from_yaml(&name_of(path), &bytes) else { return Ok(None) };

@@ -211,7 +211,7 @@ impl Folder {
             let path = PathBuf::from(&line.file);
             let there = Existing::of(&path, &files::read(&path, LARGEST_DOCUMENT_BYTES)?)?;
             let unlike = stand.check_number(&there.content.to_stand());
-            unlike.map_err(|error| FolderRefused::NumberInUse { path, error })?;
+            unlike.map_err(|error| FolderRefused::NumberInUse(path, error))?;
         }
         Ok(register.against_certificate(&stand.stand.id(), number))
     }
@@ -242,7 +242,7 @@ impl Folder {
             Some(there) if same(&there.content, draft.content()) => Ok(Next::There(there.left(&draft))),
             Some(there) => {
                 let changed = there.differences(stand, site, draft.content());
-                Err(FolderRefused::OtherContent { path: there.path, changed })
+                Err(FolderRefused::OtherContent(there.path, changed))
             }
             None => Ok(Next::New { path, draft }),
         }
@@ -352,7 +352,7 @@ impl Folder {
         let found = match path.symlink_metadata() {
             Ok(found) => found,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(FileError::Read { path: path.to_owned(), error }.into()),
+            Err(error) => return Err(FileError::Read(path.to_owned(), error).into()),
         };
         if found.is_symlink() {
             return Err(FolderRefused::Link(path.to_owned()));
@@ -360,7 +360,7 @@ impl Folder {
         // Opening a pipe of that name could block indefinitely.
         if !found.is_file() && !found.is_dir() {
             let reason = "a pipe, a device or a socket".to_owned();
-            return Err(FolderRefused::NotComparable { path: path.to_owned(), reason });
+            return Err(FolderRefused::NotComparable(path.to_owned(), reason));
         }
         match files::read(path, LARGEST_DOCUMENT_BYTES) {
             Err(error) if error.is_missing() => Ok(None),
@@ -385,7 +385,7 @@ pub(crate) fn sync_names<'a>(
     let above = passports.flat_map(|file| file.ancestors().skip(1).take(FOLDERS_OF_A_PASSPORT));
     let folders: BTreeSet<&Path> = above.map(or_here).collect();
     for folder in folders {
-        files::sync_folder(folder).map_err(|error| FileError::Write { path: folder.to_owned(), error })?;
+        files::sync_folder(folder).map_err(|error| FileError::Write(folder.to_owned(), error))?;
     }
     Ok(())
 }
@@ -396,9 +396,7 @@ fn check_verifiable(path: &Path, text: &str, draft: &Draft, trust: &Trust) -> Re
     let verification = verify(&name_of(path), text.as_bytes(), trust, &question);
     match verification.checks().iter().find(|check| check.passed() != Some(true)) {
         None => Ok(()),
-        Some(failed) => {
-            Err(FolderRefused::NotVerifiable { check: failed.name.as_str(), detail: failed.detail.clone() })
-        }
+        Some(failed) => Err(FolderRefused::NotVerifiable(failed.name.as_str(), failed.detail.clone())),
     }
 }
 
@@ -411,7 +409,7 @@ struct Existing {
 impl Existing {
     fn of(path: &Path, bytes: &[u8]) -> Result<Self, FolderRefused> {
         let name = name_of(path);
-        let incomparable = |reason: String| FolderRefused::NotComparable { path: path.to_owned(), reason };
+        let incomparable = |reason: String| FolderRefused::NotComparable(path.to_owned(), reason);
         let text = SignedText::split(&name, bytes, NAMESPACE)
             .map_err(|malformed| incomparable(malformed.fault.to_string()))?;
         let payload = text.signed_payload(None).map_err(|error| incomparable(error.to_string()))?;

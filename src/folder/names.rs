@@ -50,7 +50,7 @@ impl Names {
     }
 
     fn list(&self, folder: &Path) -> Result<HashMap<String, String>, FileError> {
-        let failed = |error| FileError::Read { path: folder.to_owned(), error };
+        let failed = |error| FileError::Read(folder.to_owned(), error);
         let entries = match fs::read_dir(folder) {
             // A file in place of the folder is reported when the passport itself is looked up.
             Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {

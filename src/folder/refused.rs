@@ -10,18 +10,14 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FolderRefused {
-    /// Existing passport of this name with other content.
+    /// Existing passport of this name with other content, and the differences in words.
     #[error(
-        "{}: already exists with other content ({changed}); to issue the changes, use `reissue {}`",
-        shown(path),
-        shown(path)
+        "{}: already exists with other content ({}); to issue the changes, use `reissue {}`",
+        shown(.0),
+        .1,
+        shown(.0)
     )]
-    OtherContent {
-        /// Path of the existing file.
-        path: PathBuf,
-        /// Differences from the existing file, in words.
-        changed: String,
-    },
+    OtherContent(PathBuf, String),
     /// Existing successor of the predecessor for this site, with other content.
     #[error(
         "{}: is already a successor of this passport for this site, with other content; re-issue that successor",
@@ -40,17 +36,13 @@ pub enum FolderRefused {
         shown(.0)
     )]
     LaterRevision(PathBuf),
-    /// Existing file of this name that is not a passport.
+    /// Existing file of this name that is not a passport, and why it cannot be compared as one.
     #[error(
-        "{}: already exists and cannot be compared as a passport ({reason}); move it to another folder",
-        shown(path)
+        "{}: already exists and cannot be compared as a passport ({}); move it to another folder",
+        shown(.0),
+        .1
     )]
-    NotComparable {
-        /// Path of the existing file.
-        path: PathBuf,
-        /// Reason why it cannot be compared.
-        reason: String,
-    },
+    NotComparable(PathBuf, String),
     /// Link in the path of the passport.
     #[error("{}: is a link; specify its target with --out, because links may lead out of the folder", shown(.0))]
     Link(PathBuf),
@@ -68,21 +60,11 @@ pub enum FolderRefused {
         there: PathBuf,
     },
     /// Existing passport that states other angles under the number of the certificate.
-    #[error("{}: {error}", shown(path))]
-    NumberInUse {
-        /// Path of the existing file.
-        path: PathBuf,
-        /// First position with other angles.
-        error: NumberInUse,
-    },
-    /// New passport that fails verification with the given trust.
-    #[error("the new passport failed verification ({check}: {detail}); nothing was written")]
-    NotVerifiable {
-        /// Name of the check that failed.
-        check: &'static str,
-        /// Detail of the check, in words.
-        detail: String,
-    },
+    #[error("{}: {}", shown(.0), .1)]
+    NumberInUse(PathBuf, NumberInUse),
+    /// New passport that fails verification with the given trust: the check that failed and its detail.
+    #[error("the new passport failed verification ({0}: {1}); nothing was written")]
+    NotVerifiable(&'static str, String),
     /// Passport that cannot be issued.
     #[error(transparent)]
     Issue(#[from] IssueRefused),

@@ -203,7 +203,7 @@ impl Seen {
         examine: impl FnOnce(&[u8]) -> Examined,
     ) -> Self {
         let read = files::read_into(bytes, path, LARGEST_DOCUMENT_BYTES);
-        if let Err(error @ (FileError::Read { .. } | FileError::Folder { .. })) = read {
+        if let Err(error @ (FileError::Read(..) | FileError::Folder(_))) = read {
             return Self { alarm: Some(unreadable(root, &error)), ..Self::default() };
         }
         if elsewhere(path, bytes) {
@@ -359,7 +359,7 @@ pub(crate) fn lists(folder: &Path, passports: &Path, trust: &Trust, time: Timest
 
 fn unreadable(root: &Path, error: &FileError) -> Alarm {
     let why = match error {
-        FileError::Read { error, .. } => format!("cannot be read: {}", files::reason(error)),
+        FileError::Read(_, error) => format!("cannot be read: {}", files::reason(error)),
         other => other.to_string(),
     };
     let alarm = Alarm::of_file(AlarmKind::Unreadable, &why, &name_of(error.path()));

@@ -142,7 +142,7 @@ impl From<FileError> for Failed {
     fn from(error: FileError) -> Self {
         let code = match error {
             FileError::Exists { .. } => EXISTS,
-            FileError::Write { .. } => UNWRITABLE,
+            FileError::Write(..) => UNWRITABLE,
             _ => UNREADABLE,
         };
         let message = error.with_nearest();

@@ -141,7 +141,7 @@ impl PreparedStand {
         }
         let payload = annotations::payload_with(&content, text);
         if payload.len() + LONGEST_SIGNATURE > LARGEST_DOCUMENT_BYTES {
-            return Err(IssueRefused::TooLarge { bytes: payload.len() });
+            return Err(IssueRefused::TooLarge(payload.len()));
         }
         let read_back = read_back(&payload, &content)?;
         if let Some(self_check) = &read_back.self_check {

@@ -41,25 +41,15 @@ pub struct Order {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReissueRefused {
-    /// The predecessor failed verification.
-    #[error("the predecessor failed verification ({check}: {detail})")]
-    OldDoesNotHold {
-        /// Name of the check that failed.
-        check: &'static str,
-        /// Detail of that check.
-        detail: String,
-    },
-    /// The predecessor can only be referenced, and the factory's files were not given.
+    /// The predecessor failed verification: the check that failed and its detail.
+    #[error("the predecessor failed verification ({0}: {1})")]
+    OldDoesNotHold(&'static str, String),
+    /// The predecessor can only be referenced because of this check, and the factory's files were not given.
     #[error(
-        "the predecessor can be referenced but not used as input ({check}: {detail}); pass the factory's files with \
+        "the predecessor can be referenced but not used as input ({0}: {1}); pass the factory's files with \
          --stand and --site (for many passports: --sites)"
     )]
-    NeedsFactoryFiles {
-        /// Name of the check that failed.
-        check: &'static str,
-        /// Detail of that check.
-        detail: String,
-    },
+    NeedsFactoryFiles(&'static str, String),
     /// The stand file is for another stand.
     #[error("the stand file is for {given}, but the predecessor is for {old}; use `issue` for another stand")]
     OtherStand {
@@ -140,10 +130,10 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
     }
     let limit = limit(verification)?;
     let Some(old) = verification.content_from_anyone() else {
-        return Err(ReissueRefused::OldDoesNotHold { check: "schema", detail: "it has no content".to_owned() });
+        return Err(ReissueRefused::OldDoesNotHold("schema", "it has no content".to_owned()));
     };
     if let Some((check, detail)) = limit.clone().filter(|_| order.stand.is_none() || order.site.is_none()) {
-        return Err(ReissueRefused::NeedsFactoryFiles { check, detail });
+        return Err(ReissueRefused::NeedsFactoryFiles(check, detail));
     }
     if order.issued_at < old.passport.issued_at {
         let (issued_at, old) = (order.issued_at, old.passport.issued_at);
@@ -211,7 +201,7 @@ fn limit(verification: &Verification) -> Result<Option<(&'static str, String)>, 
             (CheckName::Signer, Code::UnknownKey)
             | (CheckName::Revocation, Code::KeyRevoked | Code::PassportRevoked)
             | (CheckName::InForce, Code::Expired) => limit = Some((name, detail)),
-            _ => return Err(ReissueRefused::OldDoesNotHold { check: name, detail }),
+            _ => return Err(ReissueRefused::OldDoesNotHold(name, detail)),
         }
     }
     Ok(limit)

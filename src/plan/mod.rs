@@ -90,11 +90,8 @@ pub(crate) enum NoPlan {
     )]
     Undetermined(NoLeastSquares),
     /// No choice of so few readings determines the parameters.
-    #[error("no choice of {readings} readings determines the eight parameters; allow more with --readings")]
-    TooFew {
-        /// Number of readings.
-        readings: u32,
-    },
+    #[error("no choice of {0} readings determines the eight parameters; allow more with --readings")]
+    TooFew(u32),
 }
 
 /// Position of a plan.
@@ -183,8 +180,8 @@ pub(crate) fn plan(question: &Question) -> Result<Plan, NoPlan> {
             best = Some((candidates, found));
         }
     }
-    let Some((candidates, found)) = best else { return Err(NoPlan::TooFew { readings: question.readings }) };
-    let design = Design::new(&candidates, &found.visits).ok_or(NoPlan::TooFew { readings: question.readings })?;
+    let Some((candidates, found)) = best else { return Err(NoPlan::TooFew(question.readings)) };
+    let design = Design::new(&candidates, &found.visits).ok_or(NoPlan::TooFew(question.readings))?;
     let has_matrices = candidates.has_eight(&found.visits);
     Ok(Plan {
         criterion: question.criterion,

@@ -91,25 +91,15 @@ pub enum ListRefused {
     /// The form of the file is not correct.
     #[error("{}", .0.fault)]
     Malformed(Malformed),
-    /// The text is not the one that was signed.
-    #[error("{}: {error}", Printable(name))]
-    Altered {
-        /// File name.
-        name: String,
-        /// Failure of the signature.
-        error: SignatureError,
-    },
+    /// The text in the file of this name is not the one that was signed.
+    #[error("{}: {}", Printable(.0), .1)]
+    Altered(String, SignatureError),
     /// The content breaks a rule.
     #[error(transparent)]
     Content(#[from] Unreadable),
-    /// The key is not trusted for the issuer of the list.
-    #[error("{}: {miss}", Printable(name))]
-    NotAuthorised {
-        /// File name.
-        name: String,
-        /// Reason why the key is not trusted.
-        miss: NotAuthorised,
-    },
+    /// The key in the file of this name is not trusted for the issuer of the list.
+    #[error("{}: {}", Printable(.0), .1)]
+    NotAuthorised(String, NotAuthorised),
     /// The signing key was revoked.
     #[error("{}: its signing key was revoked: {}", Printable(name), Printable(why))]
     KeyRevoked {
@@ -207,10 +197,10 @@ impl RevocationList {
         let name = name.to_owned();
         let list: Self = match text.signed_payload(Some(signers)) {
             Ok(payload) => document::parse(&name, payload, Self::check)?,
-            Err(error) => return Err(ListRefused::Altered { name, error }),
+            Err(error) => return Err(ListRefused::Altered(name, error)),
         };
         if let Err(miss) = signers.authorise(text.key(), &list.issuer, REVOCATION_NAMESPACE, list.issued_at) {
-            return Err(ListRefused::NotAuthorised { name, miss });
+            return Err(ListRefused::NotAuthorised(name, miss));
         }
         if let Some(why) = revoked_keys.iter().find_map(|keys| keys.revokes(text.key())) {
             return Err(ListRefused::KeyRevoked { name, why });
@@ -312,13 +302,13 @@ mod tests {
         assert_eq!((read.list, read.sha256), (list(), sha256_hex(text.as_bytes())));
         let altered = text.replace("wrong site", "wrong sight");
         let refused = RevocationList::verify("list", altered.as_bytes(), &signers, &[], now).unwrap_err();
-        assert!(matches!(refused, ListRefused::Altered { .. }), "{refused}");
+        assert!(matches!(refused, ListRefused::Altered(..)), "{refused}");
         let past = Timestamp::from_second(100).unwrap();
         let refused = RevocationList::verify("list", text.as_bytes(), &signers, &[], past).unwrap_err();
         assert!(matches!(refused, ListRefused::FromTheFuture { .. }), "{refused}");
         let passports_only = format!("f namespaces=\"dtg-passport\" {}", key.public_key().to_openssh());
         let signers = AllowedSigners::parse("signers", passports_only.as_bytes()).unwrap();
         let refused = RevocationList::verify("list", text.as_bytes(), &signers, &[], now).unwrap_err();
-        assert!(matches!(refused, ListRefused::NotAuthorised { .. }), "{refused}");
+        assert!(matches!(refused, ListRefused::NotAuthorised(..)), "{refused}");
     }
 }

@@ -23,12 +23,9 @@ pub struct Series {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SeriesAlarm {
-    /// The first lists are missing.
-    #[error("gap: the series of revocation lists begins with {first}, not with 1")]
-    Beginning {
-        /// Number of the first list that is present.
-        first: u32,
-    },
+    /// The lists before this first one are missing.
+    #[error("gap: the series of revocation lists begins with {0}, not with 1")]
+    Beginning(u32),
     /// Lists in the middle are missing.
     #[error("gap: revocation list {from} is followed by {to}")]
     Gap {
@@ -73,7 +70,7 @@ impl SeriesAlarm {
     /// Returns `true` if the lists contradict each other. Otherwise some are only missing, as when single lists are
     /// given.
     pub(crate) fn is_contradiction(self) -> bool {
-        !matches!(self, Self::Beginning { .. } | Self::Gap { .. } | Self::Missing { .. })
+        !matches!(self, Self::Beginning(_) | Self::Gap { .. } | Self::Missing { .. })
     }
 
     /// Returns `true` if entries are missing that no given list repeats. No passport can then be shown not to be
@@ -178,7 +175,7 @@ impl Series {
 /// Returns the alarms of lists that are in the order of their numbers.
 fn alarms(lists: &[VerifiedList]) -> Vec<SeriesAlarm> {
     let first = lists.first().map(|first| first.list.sequence).filter(|first| *first != 1);
-    let mut alarms: Vec<SeriesAlarm> = first.map(|first| SeriesAlarm::Beginning { first }).into_iter().collect();
+    let mut alarms: Vec<SeriesAlarm> = first.map(SeriesAlarm::Beginning).into_iter().collect();
     for pair in lists.windows(2) {
         let [VerifiedList { list: earlier, .. }, VerifiedList { list: later, .. }] = pair else { continue };
         let (from, to) = (earlier.sequence, later.sequence);

@@ -27,30 +27,18 @@ pub enum NotAuthorised {
     /// No line contains the key.
     #[error("the signing key is not in the list of allowed signers")]
     UnknownKey,
-    /// The key belongs to another signer.
-    #[error("the signing key belongs to {}, not to the issuer given in the document", Printable(allowed.join(" or ")))]
-    WrongPrincipal {
-        /// Patterns of principals that the key is trusted for.
-        allowed: Vec<String>,
-    },
-    /// The key is trusted for other namespaces.
-    #[error("the signing key is trusted only for {}, not for this kind of document", Printable(allowed))]
-    WrongNamespace {
-        /// Patterns of namespaces that the key is trusted for.
-        allowed: String,
-    },
-    /// The key was not valid yet.
-    #[error("the signing key is valid from {from}; the document was issued earlier")]
-    NotYetValid {
-        /// First instant of the validity period.
-        from: Timestamp,
-    },
-    /// The key was no longer valid.
-    #[error("the signing key was valid until {until}; the document was issued later")]
-    Expired {
-        /// Last instant of the validity period.
-        until: Timestamp,
-    },
+    /// The key belongs to other signers, with these patterns of principals.
+    #[error("the signing key belongs to {}, not to the issuer given in the document", Printable(.0.join(" or ")))]
+    WrongPrincipal(Vec<String>),
+    /// The key is trusted for other namespaces, with these patterns.
+    #[error("the signing key is trusted only for {}, not for this kind of document", Printable(.0))]
+    WrongNamespace(String),
+    /// The key was not valid yet; it was from this instant.
+    #[error("the signing key is valid from {0}; the document was issued earlier")]
+    NotYetValid(Timestamp),
+    /// The key was no longer valid after this instant.
+    #[error("the signing key was valid until {0}; the document was issued later")]
+    Expired(Timestamp),
 }
 
 impl AllowedSigners {
@@ -115,16 +103,16 @@ impl AllowedSigners {
 impl SignerLine {
     fn authorise(&self, principal: &str, namespace: &str, at: Timestamp) -> Result<(), NotAuthorised> {
         if !matches_list(principal, &self.principals) {
-            return Err(NotAuthorised::WrongPrincipal { allowed: vec![self.principals.clone()] });
+            return Err(NotAuthorised::WrongPrincipal(vec![self.principals.clone()]));
         }
         if let Some(allowed) = self.namespaces.as_deref().filter(|allowed| !matches_list(namespace, allowed)) {
-            return Err(NotAuthorised::WrongNamespace { allowed: allowed.to_owned() });
+            return Err(NotAuthorised::WrongNamespace(allowed.to_owned()));
         }
         if let Some(from) = self.valid_after.filter(|from| at.as_second() < from.as_second()) {
-            return Err(NotAuthorised::NotYetValid { from });
+            return Err(NotAuthorised::NotYetValid(from));
         }
         if let Some(until) = self.valid_before.filter(|until| at.as_second() > until.as_second()) {
-            return Err(NotAuthorised::Expired { until });
+            return Err(NotAuthorised::Expired(until));
         }
         Ok(())
     }
@@ -134,17 +122,15 @@ impl NotAuthorised {
     /// Returns the nearer of two misses, or merges two of the same kind.
     fn nearer(self, other: Self) -> Self {
         match (self, other) {
-            (Self::WrongPrincipal { mut allowed }, Self::WrongPrincipal { allowed: more }) => {
+            (Self::WrongPrincipal(mut allowed), Self::WrongPrincipal(more)) => {
                 allowed.extend(more.into_iter().filter(|new| !allowed.contains(new)).collect::<Vec<_>>());
-                Self::WrongPrincipal { allowed }
+                Self::WrongPrincipal(allowed)
             }
-            (Self::WrongNamespace { allowed }, Self::WrongNamespace { allowed: more }) if allowed != more => {
-                Self::WrongNamespace { allowed: format!("{allowed} or {more}") }
+            (Self::WrongNamespace(allowed), Self::WrongNamespace(more)) if allowed != more => {
+                Self::WrongNamespace(format!("{allowed} or {more}"))
             }
-            (Self::NotYetValid { from }, Self::NotYetValid { from: other }) => {
-                Self::NotYetValid { from: from.min(other) }
-            }
-            (Self::Expired { until }, Self::Expired { until: other }) => Self::Expired { until: until.max(other) },
+            (Self::NotYetValid(from), Self::NotYetValid(other)) => Self::NotYetValid(from.min(other)),
+            (Self::Expired(until), Self::Expired(other)) => Self::Expired(until.max(other)),
             (one, other) => one.max(other),
         }
     }
@@ -182,13 +168,13 @@ mod tests {
         assert_eq!(verdict("NameSpaces=\"git,dtg-*\",valid-after=\"20260601Z\"", "qa"), Ok(()));
         assert_eq!(line("").authorise(&self::key(), "qa", NAMESPACE, now), Err(NotAuthorised::UnknownKey));
         let allowed = vec!["*@factory,qa".to_owned()];
-        assert_eq!(verdict("", "QA"), Err(NotAuthorised::WrongPrincipal { allowed }));
+        assert_eq!(verdict("", "QA"), Err(NotAuthorised::WrongPrincipal(allowed)));
         let allowed = "git,!dtg-*,*".to_owned();
-        assert_eq!(verdict("namespaces=\"git,!dtg-*,*\"", "qa"), Err(NotAuthorised::WrongNamespace { allowed }));
+        assert_eq!(verdict("namespaces=\"git,!dtg-*,*\"", "qa"), Err(NotAuthorised::WrongNamespace(allowed)));
         let from = at("2026-06-01T12:00:01Z");
-        assert_eq!(verdict("valid-after=\"20260601120001Z\"", "qa"), Err(NotAuthorised::NotYetValid { from }));
+        assert_eq!(verdict("valid-after=\"20260601120001Z\"", "qa"), Err(NotAuthorised::NotYetValid(from)));
         let until = at("2026-06-01T11:59:59Z");
-        assert_eq!(verdict("valid-before=\"20260601115959Z\"", "qa"), Err(NotAuthorised::Expired { until }));
+        assert_eq!(verdict("valid-before=\"20260601115959Z\"", "qa"), Err(NotAuthorised::Expired(until)));
     }
 
     #[test]
@@ -216,10 +202,10 @@ mod tests {
             parsed(&text).authorise(&key, "a", NAMESPACE, now).unwrap_err()
         };
         let allowed = vec!["b".to_owned(), "c d".to_owned()];
-        assert_eq!(verdict(2), NotAuthorised::WrongPrincipal { allowed });
-        assert_eq!(verdict(3), NotAuthorised::WrongNamespace { allowed: "git".to_owned() });
-        assert_eq!(verdict(4), NotAuthorised::NotYetValid { from: at("2027-01-01T00:00:00Z") });
-        assert_eq!(verdict(6), NotAuthorised::Expired { until: at("2026-01-01T00:00:00Z") });
+        assert_eq!(verdict(2), NotAuthorised::WrongPrincipal(allowed));
+        assert_eq!(verdict(3), NotAuthorised::WrongNamespace("git".to_owned()));
+        assert_eq!(verdict(4), NotAuthorised::NotYetValid(at("2027-01-01T00:00:00Z")));
+        assert_eq!(verdict(6), NotAuthorised::Expired(at("2026-01-01T00:00:00Z")));
         assert_eq!(parsed(&format!("{misses}a {line}")).authorise(&key, "a", NAMESPACE, now), Ok(()));
     }
 
@@ -233,8 +219,8 @@ mod tests {
             parsed(&text).authorise(&key, "a", NAMESPACE, at("2026-06-01T12:00:00Z")).unwrap_err()
         };
         let until = at("2026-01-01T00:00:00Z");
-        assert_eq!(verdict("a valid-before=\"20260101Z\"", "b"), NotAuthorised::Expired { until });
-        let namespaces = |allowed: &str| NotAuthorised::WrongNamespace { allowed: allowed.to_owned() };
+        assert_eq!(verdict("a valid-before=\"20260101Z\"", "b"), NotAuthorised::Expired(until));
+        let namespaces = |allowed: &str| NotAuthorised::WrongNamespace(allowed.to_owned());
         assert_eq!(verdict("a namespaces=\"git\"", "a namespaces=\"git\""), namespaces("git"));
         assert_eq!(verdict("a namespaces=\"git\"", "a namespaces=\"file\""), namespaces("git or file"));
     }

@@ -50,7 +50,7 @@ fn folders(root: &Path, made: &mut Vec<PathBuf>) -> Result<(), FileError> {
     let missing = missing.into_iter().rev().filter(|folder| !folder.as_os_str().is_empty()).map(Path::to_owned);
     for folder in missing.chain(FOLDERS.iter().map(|name| root.join(name))) {
         if !folder.is_dir() {
-            fs::create_dir(&folder).map_err(|error| FileError::Write { path: folder.clone(), error })?;
+            fs::create_dir(&folder).map_err(|error| FileError::Write(folder.clone(), error))?;
             made.push(folder);
         }
     }

@@ -88,15 +88,12 @@ pub enum IssueRefused {
         /// Growth of the uncertainty, 1/cos Φ, which is large near the poles.
         growth: f64,
     },
-    /// The passport would be larger than verifiers accept.
+    /// The passport would have this many bytes without its signature, more than verifiers accept.
     #[error(
-        "the passport would have {bytes} bytes, more than the limit of {LARGEST_DOCUMENT_BYTES}; certify fewer \
+        "the passport would have {0} bytes, more than the limit of {LARGEST_DOCUMENT_BYTES}; certify fewer \
          positions"
     )]
-    TooLarge {
-        /// Size without the signature, bytes.
-        bytes: usize,
-    },
+    TooLarge(usize),
     /// The text read back differs from the text written: a defect of this program.
     #[error("the text read back differs from the text written; nothing was signed. {0}")]
     ReadBack(Unreadable),
