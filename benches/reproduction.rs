@@ -42,7 +42,11 @@ fn paper_table() {
             let bound = row.paper_bound.unwrap_or(f64::NAN);
             println!(
                 "  {limit_deg:>4} deg {:<9} {:.5} {:<8} 30 seeds {:.5} to {:.5}; paper {bound}",
-                row.parameter, row.worst, row.unit, range.0, range.1
+                row.parameter.key(),
+                row.worst,
+                row.unit,
+                range.0,
+                range.1
             );
         }
     }
@@ -52,7 +56,7 @@ fn independent_within_tolerance() {
     println!("The table with independent errors instead, 15 deg, 10,000 draws");
     let options = AccuracyOptions { within_tolerance: true, methods: vec![Method::Analytic], ..Default::default() };
     for row in accuracy(&options, &Run::new(10_000, 1)).rows {
-        println!("  {:<9} {:.4} {}", row.parameter, row.worst, row.unit);
+        println!("  {:<9} {:.4} {}", row.parameter.key(), row.worst, row.unit);
     }
 }
 
@@ -133,7 +137,7 @@ fn independent() {
             println!(
                 "  {:<14} {:<9} worst {:.5} sd {:.6} mean/sd {:+.4} {}; not solved {}",
                 row.method,
-                row.parameter,
+                row.parameter.key(),
                 row.worst,
                 row.standard_deviation,
                 row.mean / row.standard_deviation,

@@ -2,6 +2,7 @@
 
 use crate::gyro::{GyroParameters, Tolerance};
 use nalgebra::{Matrix2, Vector2};
+use serde::{Serialize, Serializer};
 
 /// Unknown of the drift model (paper, eq. (2)).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -105,6 +106,13 @@ impl Parameter {
     /// Returns the index of one of [`Self::NINE`] in vectors of parameters.
     pub(crate) fn place(self) -> usize {
         Self::NINE.iter().position(|one| *one == self).unwrap_or(usize::MAX)
+    }
+}
+
+/// As its key.
+impl Serialize for Parameter {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.key())
     }
 }
 

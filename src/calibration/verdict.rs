@@ -50,8 +50,8 @@ pub struct Verdict {
 /// Comparison of one parameter with its tolerance.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ParameterVerdict {
-    /// Key of the parameter.
-    pub parameter: &'static str,
+    /// The parameter.
+    pub parameter: Parameter,
     /// Value found, in the unit of the parameter; drifts at the type's g.
     pub value: f64,
     /// Nominal or earlier value, in the unit of the parameter; drifts at the type's g.
@@ -225,13 +225,13 @@ impl Verdict {
     /// Returns the parameter whose uncertainty takes most of its tolerance.
     pub(crate) fn least_certain(&self) -> Option<Parameter> {
         let share = |line: &&ParameterVerdict| line.expanded_uncertainty / line.tolerance;
-        let worst = self.parameters.iter().max_by(|one, other| share(one).total_cmp(&share(other)))?;
-        Parameter::EIGHT.into_iter().find(|parameter| parameter.key() == worst.parameter)
+        let worst = self.parameters.iter().max_by(|one, other| share(one).total_cmp(&share(other)));
+        worst.map(|row| row.parameter)
     }
 
     /// Returns the parameters with a tolerance that were not found, because the general model does not have them.
     pub(crate) fn not_found(&self) -> Vec<Parameter> {
-        let found = |parameter: &Parameter| self.parameters.iter().any(|row| row.parameter == parameter.key());
+        let found = |parameter: &Parameter| self.parameters.iter().any(|row| row.parameter == *parameter);
         Parameter::AS_IN_THE_PAPER.into_iter().filter(|parameter| !found(parameter)).collect()
     }
 
@@ -293,7 +293,7 @@ fn judge(
     let (simple, guarded) = decide(deviation, expanded_uncertainty, limit);
     let specific_risk = risk(deviation, (u * scale, degrees_of_freedom), limit);
     ParameterVerdict {
-        parameter: parameter.key(),
+        parameter,
         value,
         reference_value,
         standard_uncertainty: u,

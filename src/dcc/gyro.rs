@@ -220,7 +220,7 @@ fn quantities(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
 
 /// Returns the decisions on parameters and the limits of their tolerances, in their order and unit.
 fn decisions(verdict: &Verdict, parameters: &[Parameter], unit: &str, languages: &Languages) -> Element {
-    let rows = parameters.iter().filter_map(|one| verdict.parameters.iter().find(|row| row.parameter == one.key()));
+    let rows = parameters.iter().filter_map(|one| verdict.parameters.iter().find(|row| row.parameter == *one));
     let rows: Vec<_> = rows.collect();
     let each: Vec<&str> = rows.iter().map(|row| decided(row.guarded, passes(row))).collect();
     let limit = |kind, name, sign: f64| {
@@ -247,6 +247,6 @@ fn limit_of(row: &ParameterVerdict, sign: f64, gravity_m_per_s2: f64) -> f64 {
         "%" => row.reference_value.abs() * row.tolerance / 100.0,
         _ => row.tolerance,
     };
-    let per_g = [Parameter::OmegaG, Parameter::OmegaK].iter().any(|one| one.key() == row.parameter);
+    let per_g = matches!(row.parameter, Parameter::OmegaG | Parameter::OmegaK);
     (row.reference_value + sign * tolerance) / if per_g { gravity_m_per_s2 } else { 1.0 }
 }

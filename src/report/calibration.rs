@@ -93,8 +93,7 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
         gravity.iter().chain(&turn_ons).for_each(|words| columns::paragraph(&mut out, "  ", words));
     }
     let least_certain = |parameter: Parameter| {
-        let row =
-            verdict.and_then(|(_, verdict)| verdict.parameters.iter().find(|row| row.parameter == parameter.key()));
+        let row = verdict.and_then(|(_, verdict)| verdict.parameters.iter().find(|row| row.parameter == parameter));
         let share = row.map(|row| 100.0 * row.expanded_uncertainty / row.tolerance);
         share.map_or_else(String::new, |share| format!(": U is {} % of it", columns::two_digits(share)))
     };
@@ -215,7 +214,7 @@ fn parameters(out: &mut String, calibration: &Calibration, verdict: Option<&Verd
         let mut row = vec![parameter.symbol().to_owned(), printed(parameter.unit())];
         row.extend([format!("{value:.digits$}"), format!("{u:.digits$}")]);
         let decisions = verdict.iter().flat_map(|verdict| &verdict.parameters);
-        let decisions = decisions.filter(|row| row.parameter == parameter.key());
+        let decisions = decisions.filter(|row| row.parameter == parameter);
         row.extend(decisions.map(|row| decided(row.guarded)));
         Some(row)
     });

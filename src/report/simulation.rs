@@ -1,7 +1,6 @@
 //! Tables of simulations, with the paper's figures next to ours.
 
 use super::columns;
-use super::tolerance::symbol_of;
 use crate::simulation::accuracy::Accuracy;
 use crate::simulation::convergence::{Convergence, ConvergenceRow};
 use crate::statistics::summary::upper_limit_without_a_case;
@@ -31,7 +30,7 @@ pub(crate) fn accuracy(found: &Accuracy) -> String {
             out,
             "  {:<13}  {:<9}  {:>10}  {:>10}  {paper:>9}  {}",
             row.method,
-            symbol_of(row.parameter),
+            row.parameter.symbol(),
             or_dash(row.worst, 5),
             or_dash(row.standard_deviation, 6),
             printed(row.unit)

@@ -16,7 +16,7 @@ pub(super) fn headline(name: &str, verdict: &Verdict) -> String {
     }
     let of = |decision: Decision| -> Vec<&str> {
         let rows = verdict.parameters.iter().filter(|row| row.guarded == decision);
-        rows.map(|row| symbol_of(row.parameter)).collect()
+        rows.map(|row| row.parameter.symbol()).collect()
     };
     let (passed, all) = (of(Decision::Pass).len(), Parameter::EIGHT.len());
     let mut words = format!("gyro type {}: {passed} of {all} parameters pass", printable(name));
@@ -56,11 +56,6 @@ fn word(decision: Decision) -> &'static str {
     }
 }
 
-/// Returns the symbol of a parameter from its key, or the key itself if no parameter has it.
-pub(super) fn symbol_of(key: &'static str) -> &'static str {
-    Parameter::NINE.into_iter().find(|parameter| parameter.key() == key).map_or(key, Parameter::symbol)
-}
-
 /// Returns the coverage factor of a verdict, or their range.
 pub(super) fn factors(verdict: &Verdict) -> String {
     let factors = || verdict.parameters.iter().map(|row| row.coverage_factor);
@@ -80,7 +75,7 @@ pub(super) fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str
             false => [decided(row.simple), columns::probability(row.specific_risk)],
         };
         vec![
-            symbol_of(row.parameter).to_owned(),
+            row.parameter.symbol().to_owned(),
             format!("{:.places$}", row.value),
             columns::signed(row.deviation, digits),
             format!("{:.digits$}", row.expanded_uncertainty),
@@ -106,7 +101,7 @@ pub(super) fn from_gravity(verdict: &Verdict, u_m_per_s2: f64) -> Option<String>
     let parts = verdict.parameters.iter().filter(|row| row.is_mostly_from_gravity()).map(|row| {
         let gravity = columns::two_digits(row.expanded_uncertainty_from_gravity.unwrap_or(0.0));
         let gravity = quantity(&gravity, row.unit);
-        texts::FROM_GRAVITY_PART.filled(Language::English, values! { gravity, parameter: symbol_of(row.parameter) })
+        texts::FROM_GRAVITY_PART.filled(Language::English, values! { gravity, parameter: row.parameter.symbol() })
     });
     let parts: Vec<String> = parts.collect();
     let u = quantity(&columns::two_digits(u_m_per_s2), "m/s²");

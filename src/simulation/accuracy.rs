@@ -87,8 +87,8 @@ pub struct Accuracy {
 pub struct AccuracyRow {
     /// Key of the method.
     pub method: &'static str,
-    /// Key of the parameter.
-    pub parameter: &'static str,
+    /// The parameter.
+    pub parameter: Parameter,
     /// Unit of the errors: percent of the nominal value for K.
     pub unit: &'static str,
     /// Largest magnitude of the error; NaN, as the standard deviation and the mean, if no trial gave a result.
@@ -218,7 +218,7 @@ impl<'a> Simulation<'a> {
         let known = |value: f64| if errors.count > 0 { value } else { f64::NAN };
         AccuracyRow {
             method: method.key(),
-            parameter: parameter.key(),
+            parameter,
             unit: if relative { "%" } else { parameter.unit() },
             worst: known(errors.worst),
             standard_deviation: known(errors.standard_deviation()),

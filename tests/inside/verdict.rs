@@ -39,7 +39,7 @@ fn decisions() {
     // tolerance's edge away, so the risk is Φ(-1) = 0.1587 and a negligible other tail.
     let verdict = against_type(&found(|v| v[4] += 0.008, SMALL), &GyroType::gvk_6());
     let omega0 = &verdict.parameters[4];
-    assert_eq!((omega0.parameter, omega0.unit), ("omega_0x", "deg/h"));
+    assert_eq!((omega0.parameter.key(), omega0.unit), ("omega_0x", "deg/h"));
     assert_eq!((omega0.simple, omega0.guarded), (Decision::Pass, Decision::Undecided));
     assert_eq!(verdict.overall, Decision::Undecided);
     assert!((omega0.specific_risk - 0.158_655_253_931_457).abs() < 1e-9, "{omega0:?}");
@@ -55,7 +55,7 @@ fn decisions() {
     // K_x in percent: 0.095 of 95 is 0.1 %.
     let verdict = against_type(&found(|v| v[0] += 0.095, SMALL), &GyroType::gvk_6());
     let k_x = &verdict.parameters[0];
-    assert_eq!((k_x.parameter, k_x.unit, k_x.tolerance), ("k_x", "%", 0.05));
+    assert_eq!((k_x.parameter.key(), k_x.unit, k_x.tolerance), ("k_x", "%", 0.05));
     assert!((k_x.deviation - 0.1).abs() < 1e-12 && k_x.guarded == Decision::Fail);
     // K_xy of a type without cross-coupling, in its own unit: 0.03 within 0.05 by U = 0.02, just so.
     let mut uncoupled = GyroType::gvk_6();
@@ -63,7 +63,7 @@ fn decisions() {
     (uncoupled.tolerance.k_cross_percent, uncoupled.tolerance.k_cross_deg_per_h_per_ma) = (None, Some(0.05));
     let verdict = against_type(&found(|v| (v[1], v[2]) = (0.0299, -0.04), SMALL), &uncoupled);
     let (k_xy, k_yx) = (&verdict.parameters[2], &verdict.parameters[3]);
-    assert_eq!((k_xy.parameter, k_xy.unit, k_xy.tolerance), ("k_xy", "deg/h/mA", 0.05));
+    assert_eq!((k_xy.parameter.key(), k_xy.unit, k_xy.tolerance), ("k_xy", "deg/h/mA", 0.05));
     assert_eq!((k_xy.deviation, k_xy.guarded, k_yx.guarded), (0.0299, Decision::Pass, Decision::Undecided));
     // An exact result leaves no doubt.
     let exact = against_type(&found(|v| v[4] += 0.011, [0.0; 8]), &GyroType::gvk_6());
@@ -132,7 +132,7 @@ fn an_earlier_result_is_judged_by_its_own_degrees_of_freedom() {
     let earlier = CalibrationDocument::from_json("earlier.json", result.as_bytes()).unwrap();
     let verdict = against_type(&earlier.answer().unwrap(), &GyroType::gvk_6());
     for row in verdict.parameters {
-        let k = match row.parameter {
+        let k = match row.parameter.key() {
             "k_xy" => 4.53,
             "k_y" => 3.31,
             "omega_0y" => 2.28,

@@ -3,7 +3,6 @@
 
 use super::accuracy::unit;
 use super::drawing::{Point, Scale, arrow, coordinate, legend, line, polygon, rectangle, strip, strip_axis, whisker};
-use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::report::page::language::{Languages, Text};
 use crate::report::page::number::Number;
@@ -112,17 +111,9 @@ pub(crate) fn printed(row: &ParameterVerdict) -> (Number, Number) {
     (Number::measured(row.deviation, u), Number::uncertainty(u))
 }
 
-/// Returns the parameter of a line of a verdict, or `None` if its key is unknown.
-pub(crate) fn parameter_of(row: &ParameterVerdict) -> Option<Parameter> {
-    Parameter::NINE.into_iter().find(|parameter| parameter.key() == row.parameter)
-}
-
 /// Returns the unit of a line of a verdict: percent for scale factors, the parameter's own otherwise.
 pub(crate) fn unit_of(row: &ParameterVerdict) -> Text {
-    match (row.unit, parameter_of(row)) {
-        ("%", _) | (_, None) => units::PERCENT,
-        (_, Some(parameter)) => unit(parameter),
-    }
+    if row.unit == "%" { units::PERCENT } else { unit(row.parameter) }
 }
 
 /// Returns a decision as a text for pages.

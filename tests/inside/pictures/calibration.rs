@@ -1,6 +1,7 @@
 //! Pictures of a calibration.
 
 use crate::inside::picture::{Axis, both, end, english, number, of_class, svgs, tip, whole};
+use dtg_passport::calibration::Parameter;
 use dtg_passport::calibration::document::{CalibrationDocument, ResultDocument};
 use dtg_passport::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use dtg_passport::report::page::texts::units;
@@ -47,7 +48,7 @@ fn residuals_stand_within_limits_of_two_uncertainties() {
 }
 
 fn row(
-    parameter: &'static str,
+    parameter: Parameter,
     deviation: f64,
     expanded_uncertainty: f64,
     tolerance: f64,
@@ -82,8 +83,10 @@ fn strips(parameters: Vec<ParameterVerdict>) -> (Vec<String>, String) {
 /// Ten tolerances off to the right, and nine to the left, where the axis ends at four.
 #[test]
 fn an_arrow_points_to_what_the_axis_does_not_reach() {
-    let (drawn, axis) =
-        strips(vec![row("k_x", 0.5, 0.02, 0.05, Decision::Fail), row("k_y", -0.45, 0.02, 0.05, Decision::Fail)]);
+    let (drawn, axis) = strips(vec![
+        row(Parameter::Kx, 0.5, 0.02, 0.05, Decision::Fail),
+        row(Parameter::Ky, -0.45, 0.02, 0.05, Decision::Fail),
+    ]);
     let axis = Document::parse(&axis).unwrap();
     let axis = Axis::along_x(axis.root_element());
     for (text, due) in drawn.iter().zip([400.0, -400.0]) {
@@ -97,10 +100,10 @@ fn an_arrow_points_to_what_the_axis_does_not_reach() {
 #[test]
 fn parameters_stand_where_they_are_in_their_tolerance() {
     let (drawn, axis) = strips(vec![
-        row("k_x", 0.01, 0.02, 0.05, Decision::Pass),
-        row("k_y", -0.045, 0.02, 0.05, Decision::Undecided),
-        row("k_xy", 0.7, 0.1, 0.5, Decision::Fail),
-        row("k_yx", 0.1, 0.1, 0.0, Decision::Fail),
+        row(Parameter::Kx, 0.01, 0.02, 0.05, Decision::Pass),
+        row(Parameter::Ky, -0.045, 0.02, 0.05, Decision::Undecided),
+        row(Parameter::Kxy, 0.7, 0.1, 0.5, Decision::Fail),
+        row(Parameter::Kyx, 0.1, 0.1, 0.0, Decision::Fail),
     ]);
     let axis = Document::parse(&axis).unwrap();
     let axis = Axis::along_x(axis.root_element());

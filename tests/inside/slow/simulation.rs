@@ -20,7 +20,7 @@ fn drawn(limit_deg: f64, methods: &[Method]) -> AccuracyOptions {
 }
 
 fn row<'a>(table: &'a Accuracy, method: Method, parameter: &str) -> &'a AccuracyRow {
-    let found = table.rows.iter().find(|row| row.method == method.key() && row.parameter == parameter);
+    let found = table.rows.iter().find(|row| row.method == method.key() && row.parameter.key() == parameter);
     found.expect("a row for each parameter")
 }
 
@@ -35,7 +35,7 @@ fn the_papers_table_in_the_papers_reading() {
             let table = accuracy(&options, &Run::new(10_000, 2017));
             assert_eq!((table.rows.len(), table.trials), (8, 10_000));
             for row in &table.rows {
-                let range = match row.parameter {
+                let range = match row.parameter.key() {
                     "k_x" | "k_y" => 0.063..=0.0651,
                     "k_xy" | "k_yx" => 0.510..=0.5155,
                     _ => 0.00995..=0.010_000_1,

@@ -14,7 +14,7 @@ use crate::report::page::spacing::BLANK;
 use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::accuracy::unit;
-use crate::report::picture::tolerances::{Strips, decision, key, parameter_of, printed, unit_of};
+use crate::report::picture::tolerances::{Strips, decision, key, printed, unit_of};
 use maud::{Markup, html};
 
 /// Limit below which a risk is not printed as a number.
@@ -152,11 +152,10 @@ fn table(
         Column::named(languages, heading, rows.iter().map(cell).collect())
     };
     let with_unit = |row: &ParameterVerdict| {
-        let unit = parameter_of(row).map_or(units::PERCENT, unit);
         // A telephone shows the first column and few others: the decision is there too.
         html! {
             span.narrow-only { (mark(row.guarded)) (BLANK) }
-            (parameter(row)) ", " (languages.spoken(unit))
+            (parameter(row)) ", " (languages.spoken(unit(row.parameter)))
         }
     };
     // Of parameters that are not valid, a risk has no meaning.
@@ -230,7 +229,7 @@ fn from_gravity(page: &CalibrationPage, verdict: &Verdict, languages: &Languages
 
 /// Returns the symbol of the parameter of `row`.
 fn parameter(row: &ParameterVerdict) -> Markup {
-    name_of(parameter_of(row).map_or(row.parameter, Parameter::symbol))
+    name_of(row.parameter.symbol())
 }
 
 /// Writes a decision with its mark, in the first language only: the key below the table has the mark in all of them.

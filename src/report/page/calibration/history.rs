@@ -68,7 +68,7 @@ fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
     let names = names.collect();
     let drawn = each.iter().map(|(parameter, _, past, ..)| {
         let mut rows = past.verdict.iter().flat_map(|found| &found.parameters);
-        let row = rows.find(|row| row.parameter == parameter.key());
+        let row = rows.find(|row| row.parameter == *parameter);
         row.map_or_else(Markup::default, |row| strips.strip(row))
     });
     let mut columns =
