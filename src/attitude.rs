@@ -10,7 +10,7 @@ use nalgebra::Matrix3;
 
 /// Deviation of one position from its nominal orientation: rotations about the platform's own axes, in the order α
 /// about x, β about y, γ about z.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Deviation {
     /// Deviation α about the platform's x axis, rad.
     pub alpha_rad: f64,
@@ -18,6 +18,12 @@ pub struct Deviation {
     pub beta_rad: f64,
     /// Deviation γ about the platform's z axis, which is the gyro's spin axis, rad.
     pub gamma_rad: f64,
+}
+
+impl Deviation {
+    pub(crate) fn of([alpha_rad, beta_rad, gamma_rad]: [f64; 3]) -> Self {
+        Self { alpha_rad, beta_rad, gamma_rad }
+    }
 }
 
 /// Names of the angles of a deviation.

@@ -50,6 +50,11 @@ pub struct Position {
     pub deviation: Deviation,
 }
 
+/// Returns the paper's eight positions, each with its own deviation.
+pub(crate) fn eight_positions(mut deviation: impl FnMut() -> Deviation) -> [Position; 8] {
+    EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| Position { index, theta_deg, phi_deg, deviation: deviation() })
+}
+
 /// Earth rate at a site, and the azimuth of the frame's axis, which determines its components in base axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EarthRate {

@@ -160,8 +160,7 @@ impl CertifiedPosition {
 
     /// Converts the position to its model, with the deviation in radians.
     pub fn to_model(&self) -> Position {
-        let [alpha_rad, beta_rad, gamma_rad] = self.angles_arcsec().map(radians_from_arcseconds);
-        let deviation = Deviation { alpha_rad, beta_rad, gamma_rad };
+        let deviation = Deviation::of(self.angles_arcsec().map(radians_from_arcseconds));
         Position { index: self.index(), theta_deg: self.theta_deg, phi_deg: self.phi_deg, deviation }
     }
 }

@@ -128,8 +128,8 @@ pub(crate) fn noise_growth(
     gyro: &GyroParameters,
     meter: MeterUncertainty,
 ) -> Option<NoiseGrowth> {
-    let none = Deviation { alpha_rad: 0.0, beta_rad: 0.0, gamma_rad: 0.0 };
-    let perfect: Vec<Position> = positions.iter().map(|at| Position { deviation: none, ..*at }).collect();
+    let perfect = positions.iter().map(|at| Position { deviation: Deviation::default(), ..*at });
+    let perfect: Vec<Position> = perfect.collect();
     let u = |positions: &[Position]| {
         let coefficients = StandGeometry::new(positions).ok()?.at(earth);
         least_squares::expected_uncertainties(&coefficients, gyro, &meter)

@@ -178,8 +178,7 @@ impl<'a> Sensitivity<'a> {
         for (column, (u, cause)) in columns.iter().enumerate() {
             for (place, current) in currents_ma.iter().enumerate() {
                 let change = self.to(place, current, *cause) * *u;
-                matrix[(2 * place, column)] = change.x;
-                matrix[(2 * place + 1, column)] = change.y;
+                matrix.fixed_view_mut::<2, 1>(2 * place, column).copy_from(&change);
             }
         }
         matrix

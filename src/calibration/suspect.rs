@@ -177,16 +177,14 @@ mod tests {
     use crate::attitude::Deviation;
     use crate::calibration::InputUncertainty;
     use crate::calibration::offsets::Offsets;
-    use crate::coefficients::{EIGHT_POSITIONS, EarthRate, Position};
+    use crate::coefficients::{EarthRate, eight_positions};
     use crate::laboratory::Laboratory;
 
     /// Expected: NumPy, the model of all visits fitted with and without each of them, by `lstsq`; the tail of F with 2 and
     /// ν degrees of freedom is (1 + 2 F/ν)^(−ν/2).
     #[test]
     fn a_visit_that_numpy_finds() {
-        let none = Deviation { alpha_rad: 0.0, beta_rad: 0.0, gamma_rad: 0.0 };
-        let stand =
-            EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| Position { index, theta_deg, phi_deg, deviation: none });
+        let stand = eight_positions(Deviation::default);
         let meter = InputUncertainty::of_meter((&Laboratory::paper().meter).into());
         let setup = Setup::new(&stand, EarthRate::at_astronomic_latitude(55.7658), meter).unwrap();
         let moved = include_str!("../../docs/run.csv").replace("2,4,-0.22799247,", "2,4,-0.22749247,");

@@ -13,6 +13,7 @@
 //! unbiased, and equal to the analysis of variance if all axes scatter alike.
 
 use super::NotCertified;
+use crate::attitude::Deviation;
 use crate::calibration::inputs::Turn;
 use crate::coefficients::Position;
 use crate::statistics::beta::chi_square_point;
@@ -169,11 +170,8 @@ pub(crate) fn case_turn(turn: &Turn, change: &Vector3<f64>) -> Vector3<f64> {
 pub(crate) fn turns_at(positions: &[Position], means_arcsec: &[Vector3<f64>]) -> Vec<Turn> {
     let each = positions.iter().zip(means_arcsec);
     each.map(|(position, mean)| {
-        let mut position = *position;
-        position.deviation.alpha_rad = radians_from_arcseconds(mean.x);
-        position.deviation.beta_rad = radians_from_arcseconds(mean.y);
-        position.deviation.gamma_rad = radians_from_arcseconds(mean.z);
-        Turn::of(&position, &Matrix3::identity())
+        let deviation = Deviation::of([mean.x, mean.y, mean.z].map(radians_from_arcseconds));
+        Turn::of(&Position { deviation, ..*position }, &Matrix3::identity())
     })
     .collect()
 }

@@ -13,7 +13,7 @@ use crate::calibration::parameter::Parameter;
 use crate::calibration::sensitivity::Sensitivity;
 use crate::calibration::unknowns::{Model, Unknowns};
 use crate::calibration::{InputUncertainty, NotStated, Setup, least_squares};
-use crate::coefficients::{Coefficients, EIGHT_POSITIONS, Position, PositionIndex};
+use crate::coefficients::{Coefficients, EIGHT_POSITIONS, Position, PositionIndex, eight_positions};
 use crate::gyro::GyroType;
 use crate::passport::accuracy::at_gravity;
 use crate::site::Site;
@@ -51,14 +51,11 @@ impl Angles {
             index: PositionIndex { i: FIRST_OF_GRID + i, j: FIRST_OF_GRID + j },
             theta_deg: step_deg * f64::from(i),
             phi_deg: step_deg * f64::from(j),
-            deviation: NONE,
+            deviation: Deviation::default(),
         });
         each.collect()
     }
 }
-
-/// No deviation.
-const NONE: Deviation = Deviation { alpha_rad: 0.0, beta_rad: 0.0, gamma_rad: 0.0 };
 
 /// One position with its equations and its errors.
 #[derive(Debug, Clone)]
@@ -164,13 +161,7 @@ impl Candidates {
     pub(crate) fn paper(question: &Question, azimuth_deg: f64) -> Result<Option<Self>, NoPlan> {
         let in_range = |eight: Self| eight.beyond(question.laboratory.meter.range_ma).is_empty().then_some(eight);
         let Some(stand) = question.stand else {
-            let eight = EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| Position {
-                index,
-                theta_deg,
-                phi_deg,
-                deviation: NONE,
-            });
-            return Self::nominal(question, &eight, azimuth_deg).map(in_range);
+            return Self::nominal(question, &eight_positions(Deviation::default), azimuth_deg).map(in_range);
         };
         let find = |index: PositionIndex| stand.positions.iter().find(|at| at.index() == index).cloned();
         let eight: Option<Vec<_>> = EIGHT_POSITIONS.iter().map(|(index, _, _)| find(*index)).collect();

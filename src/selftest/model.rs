@@ -66,8 +66,7 @@ fn coefficients(reference: &Value) -> Option<Coefficients> {
     let each = EIGHT_POSITIONS.iter().zip(deviations.chunks_exact(3));
     let positions: Vec<Position> = each
         .map(|((index, theta_deg, phi_deg), angles)| {
-            let [alpha_rad, beta_rad, gamma_rad] = [0, 1, 2].map(|at| radians_from_arcseconds(angles[at]));
-            let deviation = Deviation { alpha_rad, beta_rad, gamma_rad };
+            let deviation = Deviation::of([0, 1, 2].map(|at| radians_from_arcseconds(angles[at])));
             Position { index: *index, theta_deg: *theta_deg, phi_deg: *phi_deg, deviation }
         })
         .collect();

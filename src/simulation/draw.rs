@@ -2,7 +2,7 @@
 
 use crate::attitude::Deviation;
 use crate::calibration::parameter::Parameter;
-use crate::coefficients::{EIGHT_POSITIONS, Position};
+use crate::coefficients::{Position, eight_positions};
 use crate::gyro::{GyroParameters, GyroType};
 use crate::statistics::random::Stream;
 use crate::text::words;
@@ -28,12 +28,7 @@ pub fn stand(stream: &mut Stream, deviations: Deviations, limit_deg: f64) -> Vec
         Deviations::Uniform => stream.within(limit),
         Deviations::Corners => limit * stream.sign(),
     };
-    let positions = EIGHT_POSITIONS.iter().map(|(index, theta_deg, phi_deg)| {
-        let (alpha_rad, beta_rad, gamma_rad) = (angle(), angle(), angle());
-        let deviation = Deviation { alpha_rad, beta_rad, gamma_rad };
-        Position { index: *index, theta_deg: *theta_deg, phi_deg: *phi_deg, deviation }
-    });
-    positions.collect()
+    eight_positions(|| Deviation::of([angle(), angle(), angle()])).into()
 }
 
 /// Draws a gyro whose parameters are uniform within the tolerance of its type.

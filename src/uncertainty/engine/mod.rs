@@ -157,16 +157,15 @@ impl<F: FnMut(&Solutions)> pulp::WithSimd for Block<'_, F> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::attitude::Deviation;
     use crate::calibration::{InputUncertainty, MeterUncertainty};
-    use crate::coefficients::{EIGHT_POSITIONS, EarthRate, Position};
+    use crate::coefficients::{EarthRate, eight_positions};
     use crate::gyro::GyroType;
     use crate::laboratory::Laboratory;
 
     /// Creates an engine for an ideal stand with uncertain inputs; the angles have `known` degrees of freedom.
     fn engine(method: Method, known: f64) -> Engine {
-        let none = crate::attitude::Deviation { alpha_rad: 0.0, beta_rad: 0.0, gamma_rad: 0.0 };
-        let positions =
-            EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| Position { index, theta_deg, phi_deg, deviation: none });
+        let positions = eight_positions(Deviation::default);
         let uncertainty = InputUncertainty {
             angles_rad: vec![[1e-5, 2e-5, 3e-5]; 8],
             angles_degrees_of_freedom: vec![known; 8],
