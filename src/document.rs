@@ -94,16 +94,12 @@ pub struct Malformed {
     pub other_namespace: Option<String>,
 }
 
-/// Describes the documents of a namespace.
 fn expected(namespace: &str) -> &'static str {
     if namespace == "dtg-passport" { "a passport, which `issue` makes and signs" } else { "a signed document" }
 }
 
 impl<'a> SignedText<'a> {
     /// Checks the text rule, splits the file and checks the form of the signature, in this order.
-    ///
-    /// # Errors
-    /// Returns [`Malformed`] with the line and the column of the first fault.
     pub(crate) fn split(name: &str, bytes: &'a [u8], namespace: &str) -> Result<Self, Malformed> {
         // An unsigned file of another kind is named as what it is.
         let other = || {

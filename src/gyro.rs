@@ -132,7 +132,6 @@ impl GyroType {
         crate::text::yaml::read_document(name, bytes, |gyro: &Self, problems| gyro.check(&Path::Root, problems))
     }
 
-    /// Checks the content of a gyro type.
     pub(crate) fn check(&self, at: &Path, problems: &mut Problems) {
         if self.nominal.to_model().k_deg_per_h_per_ma.try_inverse().is_none() {
             let nominal = at.key("nominal");

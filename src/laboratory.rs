@@ -80,7 +80,6 @@ impl Laboratory {
         })
     }
 
-    /// Checks the content of a laboratory file.
     pub(crate) fn check(&self, at: &Path, problems: &mut Problems) {
         self.meter.check(&at.key("meter"), problems);
         if let Some(Seating { about_x, about_y, about_z }) = self.seating_arcsec {

@@ -255,9 +255,6 @@ pub(crate) enum NotAppended {
 
 /// Returns the allowed signers of a file with one more line; a missing final line feed is added first. A file that does
 /// not exist counts as empty.
-///
-/// # Errors
-/// Returns [`NotAppended`] if the file cannot be read, or if the result is not a list of allowed signers.
 pub(crate) fn with_signer(path: &Path, line: &str) -> Result<Vec<u8>, NotAppended> {
     let mut text = match files::read(path, LARGEST_TRUST_FILE_BYTES) {
         Err(error) if error.is_missing() => Vec::new(),

@@ -218,9 +218,6 @@ fn without_angles(refused: &crate::text::Unreadable) -> Option<crate::text::Unre
 }
 
 /// Returns the geometry of certified positions, which does not depend on the site.
-///
-/// # Errors
-/// Returns [`SingularPositions`] if the paper's eight positions are present and n_2 has no inverse.
 pub(crate) fn geometry(positions: &[CertifiedPosition]) -> Result<StandGeometry, SingularPositions> {
     let positions: Vec<Position> = positions.iter().map(CertifiedPosition::to_model).collect();
     StandGeometry::new(&positions)

@@ -2,10 +2,8 @@
 
 use std::f64::consts::PI;
 
-/// Number of seconds in an hour.
-const SECONDS_PER_HOUR: f64 = 3600.0;
+pub(crate) const SECONDS_PER_HOUR: f64 = 3600.0;
 
-/// Number of arcseconds in a degree.
 pub(crate) const ARCSECONDS_PER_DEGREE: f64 = 3600.0;
 
 /// Converts arcseconds to radians.
@@ -13,7 +11,6 @@ pub fn radians_from_arcseconds(arcseconds: f64) -> f64 {
     arcseconds * (PI / 648_000.0)
 }
 
-/// Converts radians to arcseconds.
 pub(crate) fn arcseconds_from_radians(radians: f64) -> f64 {
     radians * (648_000.0 / PI)
 }
@@ -23,12 +20,10 @@ pub fn radians_from_degrees(degrees: f64) -> f64 {
     degrees * (PI / 180.0)
 }
 
-/// Converts radians to degrees.
 pub(crate) fn degrees_from_radians(radians: f64) -> f64 {
     radians * (180.0 / PI)
 }
 
-/// Converts radians per second to degrees per hour.
 pub(crate) fn degrees_per_hour_from_radians_per_second(rate: f64) -> f64 {
     // The product of the constants is one factor, so the rate is rounded once.
     rate * (SECONDS_PER_HOUR * 180.0 / PI)

@@ -51,7 +51,6 @@ pub(crate) enum Purpose {
     Tables,
 }
 
-/// Settings of a batch.
 #[derive(Clone, Copy)]
 pub(crate) struct Batch<'a> {
     /// Durability of reported passports after a power failure.
@@ -75,7 +74,6 @@ pub(crate) enum Event {
     Done(Option<Outcome>),
     /// Number of orders that cannot be done, for a reason that was reported as a failure.
     Lost(u64),
-    /// Remark on an input.
     Remark {
         file: String,
         /// Text of the remark, which may be the same for many files.
@@ -134,17 +132,14 @@ pub(crate) struct Failure {
 }
 
 impl Failure {
-    /// Creates the failure for a document that was refused.
     pub(crate) fn refused(path: &Path, why: String) -> Self {
         Self::of(name_of(path), why, false)
     }
 
-    /// Creates the failure for a file that cannot be used.
     pub(crate) fn unusable(path: &Path, why: String) -> Self {
         Self { unusable: true, ..Self::refused(path, why) }
     }
 
-    /// Creates the failure for a file with errors in its content.
     pub(crate) fn unreadable(path: &Path, error: Unreadable) -> Self {
         let why = error.to_string();
         Self { unreadable: Some(Box::new(error)), ..Self::unusable(path, why) }

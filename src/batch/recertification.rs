@@ -46,7 +46,6 @@ impl AtSite {
     }
 }
 
-/// Order of a recertification.
 #[derive(Clone)]
 pub(crate) struct Recertification<'a> {
     /// Passport of the stand, which is in force.
@@ -78,7 +77,6 @@ pub(crate) struct Recertification<'a> {
     pub cancel: Option<&'a AtomicBool>,
 }
 
-/// Result of a recertification.
 #[derive(Debug)]
 pub(crate) struct Recertified {
     /// New certificate, with its evidence.

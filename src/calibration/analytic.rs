@@ -29,9 +29,6 @@ pub enum NoAnalyticSolution {
 /// positions.
 ///
 /// `currents_ma` contains (J_x, J_y) of `coefficients.positions`, in the same order.
-///
-/// # Errors
-/// Returns [`NoAnalyticSolution`] if the eight positions are incomplete or J_1 − J_2 Δ is singular.
 pub(crate) fn solve(
     coefficients: &Coefficients,
     currents_ma: &[Vector2<f64>],
@@ -72,9 +69,6 @@ pub(crate) struct AnalyticMap<'a> {
 
 impl<'a> AnalyticMap<'a> {
     /// Creates the map.
-    ///
-    /// # Errors
-    /// Returns [`NoAnalyticSolution`] as [`solve`] does.
     pub(crate) fn new(
         coefficients: &'a Coefficients,
         currents_ma: &'a [Vector2<f64>],

@@ -140,7 +140,6 @@ impl fmt::Display for Hint {
     }
 }
 
-/// Returns indices as a list.
 pub(crate) fn with_commas(indices: &[u32]) -> String {
     indices.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }

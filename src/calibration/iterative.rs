@@ -121,9 +121,6 @@ pub(crate) struct Plan {
 
 impl Plan {
     /// Creates the plan from the currents (J_x, J_y) of `coefficients.positions`, mA, in the same order.
-    ///
-    /// # Errors
-    /// Returns one of the first two variants of [`NoIterativeSolution`].
     pub(crate) fn new(coefficients: &Coefficients, currents_ma: &[Vector2<f64>]) -> Result<Self, NoIterativeSolution> {
         let eight = of_the_eight(coefficients, currents_ma);
         let (&matrices, eight) = eight.ok_or(NoIterativeSolution::EightPositionsMissing)?;

@@ -39,10 +39,6 @@ pub(crate) const SETTLED: f64 = 1e-6;
 
 /// Solves for the gyro parameters from one reading (J_x, J_y) of each of `coefficients.positions`, mA, in the same
 /// order.
-///
-/// # Errors
-/// Returns [`NoLeastSquares`] if the number of currents is wrong, a value is not usable, or the positions do not
-/// determine all parameters.
 pub(crate) fn solve(
     coefficients: &Coefficients,
     currents_ma: &[Vector2<f64>],
@@ -175,7 +171,6 @@ pub(crate) struct Problem<'a, F> {
 }
 
 impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
-    /// Fits the parameters.
     pub(crate) fn solve(&self) -> Result<Fit, NoLeastSquares> {
         self.fit(self.first()?)
     }

@@ -8,11 +8,9 @@
 
 use super::least_squares::whitening_of;
 use super::readings::{PositionReadings, Readings, Visit};
+use crate::units::SECONDS_PER_HOUR;
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use std::ops::{AddAssign, SubAssign};
-
-/// Seconds in an hour.
-const SECONDS_PER_HOUR: f64 = 3600.0;
 
 /// Eigenvalue, relative to the largest, below which differences of visits do not determine a combination of a_v.
 const UNDETERMINED: f64 = 1e-12;

@@ -137,9 +137,6 @@ impl Readings {
     }
 
     /// Creates readings from rows in any order.
-    ///
-    /// # Errors
-    /// Returns [`NoReadings`] if there are none, a position is unknown, or a current is not finite.
     pub(crate) fn of_rows(coefficients: &Coefficients, rows: &[Reading]) -> Result<Self, NoReadings> {
         let known = |index: PositionIndex| coefficients.positions.iter().any(|at| at.index == index);
         if let Some(row) = rows.iter().find(|row| !known(row.index)) {
@@ -224,7 +221,6 @@ impl Readings {
         Some(sum / count)
     }
 
-    /// Returns the visits to all positions.
     pub(crate) fn visits(&self) -> impl Iterator<Item = &Visit> {
         self.positions.iter().flat_map(|at| &at.visits)
     }

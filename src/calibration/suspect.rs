@@ -46,7 +46,6 @@ pub struct Suspect {
 }
 
 impl Suspect {
-    /// Returns the index of the position.
     pub(crate) fn index(&self) -> PositionIndex {
         PositionIndex { i: self.i, j: self.j }
     }

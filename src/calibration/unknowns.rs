@@ -32,7 +32,6 @@ impl Model {
         }
     }
 
-    /// Returns the number of columns.
     pub(crate) fn columns(self) -> usize {
         self.parameters().len()
     }

@@ -101,7 +101,6 @@ pub struct Certification {
     pub runs: Vec<u32>,
     /// Number of rows that repeat the reading of a visit; they were averaged.
     pub repeated_rows: usize,
-    /// Variance components.
     pub(crate) components: Components,
     /// Positions that scatter more than the others, outliers, and runs that agree too well.
     pub(crate) suspects: Suspects,

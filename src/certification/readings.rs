@@ -16,7 +16,6 @@ use crate::units::ARCSECONDS_PER_DEGREE;
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Columns of the file.
 pub(crate) const COLUMNS: [&str; 6] = ["i", "j", "run", "alpha_arcsec", "beta_arcsec", "gamma_arcsec"];
 
 /// Largest difference from the other runs that can be scatter; a stand that repeats only to 10′ cannot be certified.
@@ -39,7 +38,6 @@ pub struct AngleReadings {
     pub(crate) sha256: Option<String>,
     /// Remark about ignored columns of the file.
     pub(crate) remark: Option<String>,
-    /// Excluded readings and runs.
     pub(crate) excluded: Vec<Excluded>,
     /// Excluded readings, whose angles are predicted from the others: places of position and run.
     pub(crate) missing: Vec<(usize, usize)>,

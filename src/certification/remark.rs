@@ -49,7 +49,6 @@ pub(crate) enum Remark {
 }
 
 impl Remark {
-    /// Returns a remark for each suspect position, reading or run.
     pub(crate) fn of_suspects(suspects: &Suspects, runs: &[u32]) -> Vec<Self> {
         let mut remarks: Vec<Self> = suspects.split.iter().copied().map(Self::SplitRun).collect();
         remarks.extend(suspects.group.iter().cloned().map(Self::WorseGroup));

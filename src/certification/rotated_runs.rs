@@ -42,7 +42,6 @@ impl CommonAxis {
         self.0 >= 3
     }
 
-    /// Returns the part that is rotated.
     pub(crate) fn part(self) -> &'static str {
         if self.is_of_the_base() { "base" } else { "platform" }
     }

@@ -69,7 +69,6 @@ impl<'a> Calibrated<'a> {
     }
 }
 
-/// Returns the DCC of a gyro.
 pub(crate) fn of_gyro(
     calibrated: &Calibrated,
     administrative: Option<&Administrative>,

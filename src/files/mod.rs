@@ -137,10 +137,6 @@ fn reason_at(path: &Path, error: &io::Error) -> String {
 }
 
 /// Reads a file of at most `limit` bytes; memory for a larger file is never used.
-///
-/// # Errors
-/// Returns [`FileError::Read`], [`FileError::Folder`], [`FileError::Special`], or [`FileError::TooLarge`] if the file
-/// has more than `limit` bytes.
 pub(crate) fn read(path: &Path, limit: usize) -> Result<Vec<u8>, FileError> {
     let mut bytes = Vec::new();
     read_into(&mut bytes, path, limit)?;
@@ -213,9 +209,6 @@ const ATTEMPTS: usize = 4;
 /// Writes a new file: to a temporary name in its folder, synced, renamed without replacing, and the folder synced.
 ///
 /// Missing folders are created.
-///
-/// # Errors
-/// Returns [`FileError::Exists`] if the name is already used, or [`FileError::Write`].
 pub(crate) fn write_new(path: &Path, bytes: &[u8], access: Access) -> Result<(), FileError> {
     write_new_as(path, bytes, access, Durability::Named)
 }

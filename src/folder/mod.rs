@@ -88,7 +88,6 @@ pub(crate) enum Next {
 }
 
 impl Next {
-    /// Returns the id of the passport.
     pub(crate) fn id(&self) -> &str {
         match self {
             Self::There(issued) => &issued.id,
@@ -286,9 +285,6 @@ impl Folder {
 
     /// Signs the next passport and verifies it with the trust of `seal`, but does not write it, so that several can be
     /// written together with [`files::together::write_together`].
-    ///
-    /// # Errors
-    /// Returns [`FolderRefused`] if the signer fails or the passport fails verification.
     pub(crate) fn seal(&self, next: Next, seal: Seal) -> Result<Sealed, FolderRefused> {
         match next {
             Next::There(issued) => Ok(Sealed { issued, text: None }),

@@ -25,7 +25,6 @@ const LEVELS_ABOVE: usize = 2;
 /// Name of the folder next to that of the passports in which a workspace keeps its lists.
 pub(crate) const LISTS_FOLDER: &str = "revocations";
 
-/// Files found in a folder.
 #[derive(Debug, Default)]
 pub(crate) struct Found {
     /// Files, sorted, without the temporary files of runs.

@@ -62,7 +62,6 @@ pub(crate) struct Stay {
     pub until: Option<Timestamp>,
 }
 
-/// History of a stand.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct History {
     /// Model and serial number, `<model>/<serial>`.

@@ -83,12 +83,10 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// Creates the error of a whole file.
     pub(crate) fn file(file: String, message: String) -> Self {
         Self { file, line: None, column: None, message }
     }
 
-    /// Returns the errors of a file with their lines.
     pub(crate) fn each(error: &Unreadable) -> Vec<Self> {
         let place = |problem: &Problem| Self {
             file: error.name().to_owned(),
@@ -163,7 +161,6 @@ pub(crate) struct Verdict {
 }
 
 impl Verdict {
-    /// Creates the verdict of `verification` on the file `file`.
     pub(crate) fn of(file: &str, verification: &Verification) -> Self {
         let id = verification.id_from_anyone().map(str::to_owned);
         Self { file: file.to_owned(), valid: verification.valid(), id, checks: verification.checks().to_vec() }

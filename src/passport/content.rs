@@ -185,9 +185,6 @@ pub(crate) struct Derived {
 }
 
 /// Computes all numbers that follow from certified positions and a site; `gyro` is the gyro of the self-check.
-///
-/// # Errors
-/// Returns [`SingularPositions`] if the stand has the paper's eight positions and n_2 has no inverse.
 pub(crate) fn derive(
     positions: &[CertifiedPosition],
     site: &Site,

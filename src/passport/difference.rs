@@ -44,7 +44,6 @@ pub(crate) struct OtherDifference {
     pub b: Option<Node>,
 }
 
-/// Differences of two passports.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Differences {
     /// Number of binary64 numbers that at least one of the passports states.

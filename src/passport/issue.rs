@@ -115,7 +115,6 @@ impl PreparedStand {
         Self { stand, geometry }
     }
 
-    /// Returns the stand.
     pub(crate) fn stand(&self) -> &Stand {
         &self.stand
     }
@@ -301,7 +300,6 @@ mod tests {
         (0..STANDS.len()).flat_map(variants).collect()
     }
 
-    /// The stand and the site with this number.
     fn read(stand: usize, site: usize) -> (Stand, Site) {
         let stand = Stand::from_yaml("stand", STANDS[stand].as_bytes()).unwrap();
         (stand, Site::from_yaml("site", SITES[site].as_bytes()).unwrap())

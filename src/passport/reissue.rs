@@ -103,7 +103,6 @@ pub enum ReissueRefused {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Successor {
     stand: Arc<PreparedStand>,
-    /// Site of the new passport.
     pub(crate) site: Site,
     /// `true` if the site is that of the predecessor, which the new passport, its next revision, then supersedes.
     pub(crate) same_site: bool,

@@ -104,7 +104,6 @@ pub(crate) struct Candidates {
     pub tolerance: [f64; 8],
     /// Variance that the scatter of turn-ons adds to ω_0x and ω_0y, in units of their tolerance.
     pub turn_on: f64,
-    /// Setup of all candidates.
     pub(crate) setup: Setup,
     /// Parameters of the gyro, drifts per local g.
     pub(crate) unknowns: Unknowns,
@@ -120,9 +119,6 @@ pub(crate) struct Candidates {
 
 impl Candidates {
     /// Prepares the candidates of a question, with the frame's axis at an azimuth.
-    ///
-    /// # Errors
-    /// Returns [`NoPlan`] if the inputs are unusable or all candidates together do not determine the parameters.
     pub(crate) fn new(question: &Question, azimuth_deg: f64) -> Result<Self, NoPlan> {
         let all = Self::without(&[], question, azimuth_deg)?;
         let beyond = all.beyond(question.laboratory.meter.range_ma);
@@ -155,9 +151,6 @@ impl Candidates {
     }
 
     /// Prepares the paper's eight positions; returns `None` if the stand lacks one, or the meter cannot read one.
-    ///
-    /// # Errors
-    /// Returns [`NoPlan`] if the inputs are unusable.
     pub(crate) fn paper(question: &Question, azimuth_deg: f64) -> Result<Option<Self>, NoPlan> {
         let in_range = |eight: Self| eight.beyond(question.laboratory.meter.range_ma).is_empty().then_some(eight);
         let Some(stand) = question.stand else {
@@ -216,7 +209,6 @@ impl Candidates {
         })
     }
 
-    /// Returns the number of candidates.
     pub(crate) fn len(&self) -> usize {
         self.candidates.len()
     }
@@ -276,9 +268,6 @@ fn candidate(
 }
 
 /// Returns the tolerances in the units of the parameters.
-///
-/// # Errors
-/// Returns [`NoPlan::NoTolerance`] if one is 0.
 fn tolerances(gyro: &GyroType) -> Result<[f64; 8], NoPlan> {
     let nominal = gyro.nominal.to_model().to_vector();
     let mut tolerances = [0.0; 8];
@@ -346,7 +335,6 @@ impl<'a> Design<'a> {
         residual.dot(&(self.candidates.candidates[place].weight(self.visits[place]) * residual))
     }
 
-    /// Returns the positions that are visited.
     pub(crate) fn readings(&self) -> Vec<Visited> {
         let certified = self.candidates.certified;
         let visited = self.visited().map(|(place, visits)| {

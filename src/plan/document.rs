@@ -76,7 +76,6 @@ pub(crate) struct Planned {
     pub order: Vec<[f64; 2]>,
 }
 
-/// Position of a plan.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub(crate) struct PlannedPosition {
     /// Nominal angle θ of the frame, degrees.
@@ -100,9 +99,6 @@ impl PlannedPosition {
 
 impl Planned {
     /// Reads the JSON of a plan; `name` is the file name in messages.
-    ///
-    /// # Errors
-    /// Returns [`Unreadable`] if `bytes` is not such a plan.
     pub(crate) fn from_json(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
         const EXPECTED: &str = "the JSON of a plan";
         const ADVICE: &str = "create it with `plan --format json`";

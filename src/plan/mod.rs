@@ -71,10 +71,8 @@ pub(crate) enum NoPlan {
     /// A stand whose matrix n_2 has no inverse, or an invalid uncertainty.
     #[error(transparent)]
     Setup(#[from] NoSetup),
-    /// Nominal scale factors without an inverse.
     #[error("the gyro type's scale factors have no inverse; correct nominal.k_deg_per_h_per_ma")]
     SingularGyro,
-    /// A parameter without a tolerance.
     #[error(
         "the tolerance of {} is 0, and a plan weighs the uncertainties in units of the tolerances; state a positive \
          one, for K_xy and K_yx with a nominal value of 0 as k_cross_deg_per_h_per_ma",
@@ -89,7 +87,6 @@ pub(crate) enum NoPlan {
         "{0}; certify other positions, such as the paper's eight or theta = 90 and 270 deg with the frame's axis north"
     )]
     Undetermined(NoLeastSquares),
-    /// No choice of so few readings determines the parameters.
     #[error("no choice of {0} readings determines the eight parameters; allow more with --readings")]
     TooFew(u32),
 }
@@ -121,7 +118,6 @@ pub(crate) struct Evaluation {
     pub effects: Vec<Effect>,
 }
 
-/// A plan.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Plan {
     pub criterion: Criterion,
@@ -167,9 +163,6 @@ impl Plan {
 }
 
 /// Finds the best plan.
-///
-/// # Errors
-/// Returns [`NoPlan`] if the inputs are unusable or no choice determines the parameters.
 pub(crate) fn plan(question: &Question) -> Result<Plan, NoPlan> {
     let mut best: Option<(Candidates, search::Found)> = None;
     for azimuth_deg in &question.azimuths_deg {

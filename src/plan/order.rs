@@ -16,7 +16,6 @@ const MOST_ORDERS: f64 = 4e6;
 /// Number of exchanges of two visits that the search for longer orders tries.
 const TRIED: usize = 6_000_000;
 
-/// Order of the visits.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Order {
     /// For each visit the place of its position in [`Design::readings`].
@@ -101,7 +100,6 @@ impl Problem {
         changes
     }
 
-    /// Compares every order.
     fn exhaustive(&self) -> Vec<usize> {
         let mut search = Exhaustive {
             problem: self,
@@ -179,7 +177,6 @@ impl Problem {
     }
 }
 
-/// Enumeration of all orders.
 struct Exhaustive<'a> {
     problem: &'a Problem,
     left: Vec<u32>,

@@ -142,7 +142,6 @@ pub(crate) fn by_exchange(candidates: &Candidates, readings: u32, criterion: Cri
     best
 }
 
-/// State of an exchange.
 struct Exchange<'a> {
     candidates: &'a Candidates,
     criterion: Criterion,

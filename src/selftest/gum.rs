@@ -11,7 +11,6 @@ use nalgebra::DMatrix;
 
 const BY_GTC: &str = "GTC 1.5.1 (Measurement Standards Laboratory of New Zealand) with the same inputs";
 
-/// Returns the cases of the three examples.
 pub(crate) fn cases() -> Vec<Case> {
     [end_gauge(), impedance(), thermometer()].concat()
 }

@@ -13,17 +13,14 @@ pub(crate) mod regression;
 /// Published number and the one computed here.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Case {
-    /// Name of the example.
     pub(crate) example: &'static str,
     /// Name of the quantity, with its unit.
     pub(crate) quantity: String,
     /// Source of the number: document, clause, table or equation.
     pub(crate) source: &'static str,
-    /// Published value.
     pub(crate) expected: f64,
     /// Largest permitted difference, in the unit of the quantity.
     pub(crate) tolerance: f64,
-    /// Value computed here.
     pub(crate) found: f64,
     /// Number of correct digits, −log₁₀ of the relative error; only for certified values.
     pub(crate) digits: Option<f64>,
@@ -42,7 +39,6 @@ impl Case {
     }
 }
 
-/// Runs the self-test and returns all its cases.
 pub(crate) fn run() -> Vec<Case> {
     [gum::cases(), monte_carlo::cases(), regression::cases(), model::cases().to_vec()].concat()
 }

@@ -23,7 +23,6 @@ const COLUMNS: usize = 1_000_000 / WIDTH;
 /// Seed of the random numbers; any other seed gives results within the limits.
 const SEED: u64 = 101;
 
-/// Coverage probability of the intervals.
 const COVERAGE: f64 = 0.95;
 
 /// Numbers printed for one example, each with its limit.
@@ -40,7 +39,6 @@ struct Printed {
     scale: (f64, f64),
 }
 
-/// Returns the cases of the four examples.
 pub(crate) fn cases() -> Vec<Case> {
     let normals = Printed {
         example: "JCGM 101 9.2.2 four normal inputs",

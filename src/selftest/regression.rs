@@ -49,7 +49,6 @@ const LONGLEY_CERTIFIED: [(f64, f64); 7] = [
 /// 16 − 10 digits; it usually gives more.
 const DIGITS_DUE: [f64; 2] = [11.0, 7.0];
 
-/// Returns the cases of both data sets.
 pub(crate) fn cases() -> Vec<Case> {
     let norris_design = DMatrix::from_fn(36, 2, |row, column| if column == 0 { 1.0 } else { NORRIS[row].1 });
     let longley_design = DMatrix::from_fn(16, 7, |row, column| if column == 0 { 1.0 } else { LONGLEY[row][column] });

@@ -22,7 +22,6 @@ pub(crate) struct StraightLine {
     pub degrees_of_freedom: usize,
 }
 
-/// Point of a straight line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Point {
     /// Abscissa, known exactly.
@@ -68,7 +67,6 @@ impl StraightLine {
         })
     }
 
-    /// Returns the value of the line at `x`.
     pub(crate) fn at(&self, x: f64) -> f64 {
         self.level + self.slope * (x - self.centre)
     }

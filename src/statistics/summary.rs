@@ -3,7 +3,6 @@
 /// Largest magnitude, mean and standard deviation of a sample, accumulated value by value.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Summary {
-    /// Number of values.
     pub(crate) count: u64,
     sum: f64,
     sum_of_squares: f64,
@@ -12,7 +11,6 @@ pub(crate) struct Summary {
 }
 
 impl Summary {
-    /// Adds a value to the sample.
     pub(crate) fn add(&mut self, value: f64) {
         self.count += 1;
         self.sum += value;

@@ -69,7 +69,6 @@ impl WideRandom {
         self.state = sum;
     }
 
-    /// Returns the next number of every generator.
     #[inline(always)]
     fn next(&mut self) -> [u64; GENERATORS] {
         let [s0, s1, s2, s3] = &mut self.state;

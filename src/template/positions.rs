@@ -4,7 +4,6 @@ use crate::certification::NominalPosition;
 use crate::coefficients::PositionIndex;
 use crate::plan::document::Planned;
 
-/// Set of positions in a template.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Positions {
     /// The four of the paper's eight positions with which the errors of the parameters, in units of the tolerances of

@@ -28,7 +28,6 @@ pub(crate) enum Node {
 }
 
 impl Node {
-    /// Reads JSON.
     pub(crate) fn from_json(text: &str) -> Result<Self, serde_json::Error> {
         let mut json = serde_json::Deserializer::from_str(text);
         // JSON has no aliases, so no text becomes much larger.

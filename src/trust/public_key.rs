@@ -131,7 +131,6 @@ impl AnyKey {
         Ok(Self { algorithm, blob })
     }
 
-    /// Converts the key to one that can sign passports.
     pub(super) fn signing(self) -> Result<PublicKey, KeyError> {
         if self.algorithm != KEY_TYPES[0].0 && self.algorithm != KEY_TYPES[1].0 {
             return Err(KeyError::OtherKeyType(self.algorithm.to_owned()));

@@ -103,7 +103,6 @@ impl SigningKey {
         PublicKey::of_ed25519(key)
     }
 
-    /// Returns the curve point of the public key.
     pub(crate) fn point(&self) -> KeyPoint {
         KeyPoint(self.key.verifying_key())
     }

@@ -97,7 +97,6 @@ impl Signature {
         self.armor.clone()
     }
 
-    /// Returns the namespace that the signature was made for.
     pub(crate) fn namespace(&self) -> &str {
         self.inner.namespace()
     }
@@ -121,9 +120,6 @@ impl Signature {
     }
 
     /// Verifies a message that is already hashed, with the key's curve point if that is already known.
-    ///
-    /// # Errors
-    /// Returns the errors of [`Signature::verify`].
     pub(crate) fn verify_message(&self, message: &Message, point: Option<&KeyPoint>) -> Result<(), SignatureError> {
         if self.namespace() != message.namespace {
             let found = self.namespace().to_owned();

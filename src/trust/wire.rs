@@ -29,7 +29,6 @@ impl<'a> Wire<'a> {
         Self { rest: bytes, offset: 0 }
     }
 
-    /// Reads the next `length` bytes.
     pub(super) fn take(&mut self, length: usize) -> Result<&'a [u8], Truncated> {
         let truncated = Truncated { offset: self.offset, needed: length, left: self.rest.len() };
         let (taken, rest) = self.rest.split_at_checked(length).ok_or(truncated)?;

@@ -10,7 +10,6 @@ use super::engine::Solutions;
 use crate::statistics::bins::{BINS, Bins, bin};
 use crate::statistics::wide_random::{Column, WIDTH};
 
-/// Number of parameters.
 const PARAMETERS: usize = 8;
 
 /// Number of pairs of parameters, including each with itself.
@@ -57,7 +56,6 @@ pub(crate) struct BlockSummary {
     pub quantiles: [[f64; 2]; PARAMETERS],
 }
 
-/// Histograms of all parameters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Histograms {
     counts: Vec<u64>,
@@ -70,7 +68,6 @@ impl Default for Histograms {
 }
 
 impl Histograms {
-    /// Returns the bins of a parameter.
     pub(crate) fn of(&self, place: usize) -> Bins<'_, u64> {
         Bins::new(&self.counts[place * BINS..(place + 1) * BINS])
     }
@@ -89,7 +86,6 @@ pub(crate) struct Accumulator {
 }
 
 impl Accumulator {
-    /// Creates an empty accumulator.
     pub(crate) fn new(scale: Scale) -> Self {
         Self {
             scale,
@@ -101,7 +97,6 @@ impl Accumulator {
         }
     }
 
-    /// Adds a chunk of trials.
     #[inline(always)]
     pub(crate) fn add(&mut self, solutions: &Solutions) {
         let mut scaled = [[0.0; WIDTH]; PARAMETERS];

@@ -20,7 +20,6 @@ use toml::de::DeTable;
 /// Name of the file in the folder of a workspace.
 pub(crate) const WORKSPACE_FILE: &str = "dtg-passport.toml";
 
-/// Keys of the file.
 const KEYS: [&str; 6] = ["key", "identity", "trust", "passports", "stands", "sites"];
 
 /// Workspace: the values that the options of commands have if they are not given. Paths begin with that of its folder.
@@ -47,7 +46,6 @@ pub(crate) enum NoWorkspace {
 }
 
 impl Workspace {
-    /// Reads the workspace in the folder `root`.
     pub(crate) fn read(root: &Path) -> Result<Self, NoWorkspace> {
         let path = root.join(WORKSPACE_FILE);
         let bytes = files::read(&path, LARGEST_DOCUMENT_BYTES)?;

@@ -17,7 +17,6 @@ pub(crate) const COLUMNS: [&str; 4] = ["i", "j", "jx_ma", "jy_ma"];
 /// Advice on a cell without a number.
 const NOT_TAKEN: &str = "omit the whole row of a reading that was not taken";
 
-/// Optional columns of the file.
 pub(crate) const OPTIONAL_COLUMNS: [&str; 3] = ["cycle", "visit", "time_s"];
 
 impl Readings {

@@ -70,7 +70,6 @@ pub(crate) struct Kernel {
     may_be_large: bool,
 }
 
-/// Upper bound of the normal deviates.
 const LARGEST_NORMAL: f64 = 8.5;
 
 impl Kernel {

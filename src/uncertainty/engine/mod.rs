@@ -30,7 +30,6 @@ use refit::Refit;
 /// Number of chunks in a block: 16,384 trials. JCGM 101, 7.9.4 requires at least 10,000.
 const CHUNKS_PER_BLOCK: u64 = 512;
 
-/// Number of trials in a block.
 pub(crate) const BLOCK: u64 = CHUNKS_PER_BLOCK * WIDTH as u64;
 
 /// Distribution of the own error of a current.
@@ -94,7 +93,6 @@ impl Engine {
         Ok(Self { plan, kernel, solver })
     }
 
-    /// Creates the columns for chunks.
     pub(crate) fn workspace(&self) -> Workspace {
         Workspace {
             deviates: vec![[0.0; WIDTH]; self.plan.columns()],
