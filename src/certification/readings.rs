@@ -222,7 +222,7 @@ impl AngleReadings {
 fn averages(rows: &[Reading]) -> BTreeMap<Place, (Vector3<f64>, usize)> {
     let mut sums: BTreeMap<Place, (Vector3<f64>, f64, usize)> = BTreeMap::new();
     for (place, angles, row) in rows {
-        let first = row.cells[0].location.line;
+        let first = row[0].location.line;
         let (sum, count, _) = sums.entry(*place).or_insert((Vector3::zeros(), 0.0, first));
         *sum += angles;
         *count += 1.0;
@@ -242,7 +242,7 @@ fn angle(table: &Table, row: &Row, column: usize, place: Option<Place>, problems
     }
     let advice = "state deviations from the nominal position, in arcseconds";
     let expected = format!("at most {LARGEST_DEVIATION_DEG} degrees ({largest} arcseconds) in either direction");
-    problems.push(table.problem(&row.cells[column], column, format!("{value}"), &expected, advice));
+    problems.push(table.problem(&row[column], column, format!("{value}"), &expected, advice));
     None
 }
 
@@ -265,7 +265,7 @@ fn torn(table: &Table, rows: &[Reading]) -> Vec<Problem> {
                 let expected = "the rows of a position and run one after the other";
                 let advice =
                     "give the second visit the number of another run, or put the readings of one visit together";
-                return vec![table.problem(&row.cells[2], 2, found, expected, advice)];
+                return vec![table.problem(&row[2], 2, found, expected, advice)];
             }
         }
     }
@@ -332,7 +332,7 @@ fn slips(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Problem> {
             }
             let column = 3 + axis;
             let expected = format!("about {usual}, as in the other runs of position {index}");
-            problems.push(table.problem(&row.cells[column], column, format!("{}", angles[axis]), &expected, advice));
+            problems.push(table.problem(&row[column], column, format!("{}", angles[axis]), &expected, advice));
         }
     }
     problems

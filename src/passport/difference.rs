@@ -1,6 +1,7 @@
 //! Differences of two passports, number by number, in units of their standard uncertainties where both state one.
 
 use super::content::Content;
+use crate::attitude::ANGLES;
 use crate::calibration::inputs::Turn;
 use crate::stand::{Certificate, CertifiedPosition, Stand};
 use crate::text::{Field, Node};
@@ -114,7 +115,7 @@ pub(crate) fn of_deviations(a: &Stand, b: &Stand) -> Vec<NumberDifference> {
             Some((at.angles_arcsec(), u))
         };
         let (old, new) = (of(a), of(b));
-        for (angle, name) in ["alpha", "beta", "gamma"].into_iter().enumerate() {
+        for (angle, name) in ANGLES.into_iter().enumerate() {
             let key = format!("positions[{},{}].{name}_arcsec", position.i, position.j);
             let u = |of: &Option<([f64; 3], [Option<f64>; 3])>| of.as_ref().and_then(|(_, u)| u[angle]);
             numbers.push(NumberDifference {
@@ -172,7 +173,7 @@ fn uncertainties(content: &Content) -> HashMap<String, f64> {
     let mut stated = HashMap::new();
     for position in &content.positions {
         let all = u_of_deviations_arcsec(position, &content.certificate);
-        for (angle, u) in ["alpha", "beta", "gamma"].into_iter().zip(all) {
+        for (angle, u) in ANGLES.into_iter().zip(all) {
             let index = format!("{},{}", position.i, position.j);
             stated.extend(u.map(|u| (format!("positions[{index}].{angle}_arcsec"), u)));
         }

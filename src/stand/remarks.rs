@@ -1,6 +1,7 @@
 //! Remarks on unusual values in a certificate, which are possible and therefore not refused, but usually errors.
 
 use super::{Certificate, CertifiedPosition};
+use crate::attitude::ANGLES;
 use crate::coefficients::PositionIndex;
 use jiff::Span;
 use jiff::civil::Date;
@@ -27,7 +28,7 @@ pub(crate) enum Odd {
     #[error(
         "{}_arcsec of position {index} is {arcsec}, more than {FAR_OUT} times the {usual_arcsec} of the other positions; \
          check the digits, the unit and the position",
-        ["alpha", "beta", "gamma"][*.angle]
+        ANGLES[*.angle]
     )]
     FarAngle { angle: usize, index: PositionIndex, arcsec: f64, usual_arcsec: f64 },
     /// Temperature that no laboratory has; `key` states it.

@@ -26,11 +26,8 @@ pub(crate) struct Table<'a> {
     separated: Option<String>,
 }
 
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Row {
-    /// Cells, one for each requested column that is present.
-    pub cells: Vec<Cell>,
-}
+/// Cells, one for each requested column that is present.
+pub(crate) type Row = Vec<Cell>;
 
 /// Cell: its text without surrounding spaces, and its location.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -83,7 +80,7 @@ impl<'a> Table<'a> {
             match cells(line, text, separator).map(|cells| without_trailing(cells, header.names.len())) {
                 Ok(cells) if cells.iter().all(|cell| cell.text.is_empty()) => {}
                 Ok(cells) if cells.len() == header.names.len() => {
-                    rows.push(Row { cells: header.order.iter().map(|&place| cells[place].clone()).collect() });
+                    rows.push(header.order.iter().map(|&place| cells[place].clone()).collect());
                 }
                 Ok(cells) => problems.push(wrong_number_of_cells((line, text), separator, cells.len(), &header.names)),
                 Err(problem) => problems.push(problem),
@@ -128,7 +125,7 @@ impl<'a> Table<'a> {
     /// Returns the finite number in a cell, or adds an error to `problems` and returns `None`. `not_taken` is the advice on
     /// a reading that was not taken, for which instruments and spreadsheets write many words.
     pub(crate) fn number(&self, row: &Row, column: usize, not_taken: &str, problems: &mut Vec<Problem>) -> Option<f64> {
-        let cell = &row.cells[column];
+        let cell = &row[column];
         let value = cell.text.parse::<f64>().ok().filter(|value| value.is_finite());
         if value.is_none() {
             let advice = number_advice::in_csv(&cell.text).unwrap_or(not_taken);
@@ -140,7 +137,7 @@ impl<'a> Table<'a> {
     /// Returns the whole number, 1 or larger, in a cell, or adds an error to `problems` and returns `None`. Some programs
     /// write it as 1.000.
     pub(crate) fn index(&self, row: &Row, column: usize, problems: &mut Vec<Problem>) -> Option<u32> {
-        let cell = &row.cells[column];
+        let cell = &row[column];
         let is_index = |value: &f64| value.fract() == 0.0 && (1.0..=f64::from(u32::MAX)).contains(value);
         let index = cell.text.parse::<f64>().ok().filter(is_index).map(|index| index as u32);
         if index.is_none() {
@@ -194,9 +191,9 @@ fn without_trailing(mut cells: Vec<Cell>, columns: usize) -> Vec<Cell> {
 /// Replaces the decimal commas of a table that has no commas between its columns, and returns `true` if there were
 /// any. Commas are decimal marks only if the whole table has no decimal point.
 fn with_decimal_points(rows: &mut [Row], columns: &[&str]) -> Result<bool, Problem> {
-    let comma = rows.iter().flat_map(|row| &row.cells).find(|cell| cell.text.contains(',')).cloned();
+    let comma = rows.iter().flatten().find(|cell| cell.text.contains(',')).cloned();
     let Some(comma) = comma else { return Ok(false) };
-    for (place, cell) in rows.iter().flat_map(|row| row.cells.iter().enumerate()) {
+    for (place, cell) in rows.iter().flat_map(|row| row.iter().enumerate()) {
         if cell.text.contains('.') {
             let found = format!("{:?}, with decimal commas from line {} on", cell.text, comma.location.line);
             let expected = "decimal commas or decimal points in the whole file";
@@ -204,7 +201,7 @@ fn with_decimal_points(rows: &mut [Row], columns: &[&str]) -> Result<bool, Probl
             return Err(Problem::new(Some(cell.location), column_name(columns, place), found, expected, advice));
         }
     }
-    rows.iter_mut().flat_map(|row| &mut row.cells).for_each(|cell| cell.text = cell.text.replacen(',', ".", 1));
+    rows.iter_mut().flatten().for_each(|cell| cell.text = cell.text.replacen(',', ".", 1));
     Ok(true)
 }
 

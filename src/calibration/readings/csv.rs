@@ -86,7 +86,7 @@ pub(crate) fn position(
     let index = PositionIndex { i: i?, j: j? };
     let found = known.find(|known| *known == index);
     if found.is_none() {
-        problems.push(table.problem(&row.cells[0], 0, format!("position {index}"), expected, advice));
+        problems.push(table.problem(&row[0], 0, format!("position {index}"), expected, advice));
     }
     found
 }
@@ -102,7 +102,7 @@ fn current(table: &Table, row: &Row, column: usize, range_ma: f64, problems: &mu
         "check the value, or the range of the meter in the laboratory file"
     };
     let expected = format!("at most {range_ma} mA in either direction, the range of the meter");
-    problems.push(table.problem(&row.cells[column], column, format!("{value}"), &expected, advice));
+    problems.push(table.problem(&row[column], column, format!("{value}"), &expected, advice));
     None
 }
 
@@ -149,7 +149,7 @@ fn torn_visits(table: &Table, readings: &[Reading]) -> Vec<Problem> {
             let found = format!("visit {visit} of position {} again, later than another visit", reading.index);
             let advice = "give a return to the position the next number, or check the times";
             let column = table.place("visit").unwrap_or(0);
-            return vec![table.problem(&row.cells[column], column, found, "a visit that is not interrupted", advice)];
+            return vec![table.problem(&row[column], column, found, "a visit that is not interrupted", advice)];
         }
     }
     Vec::new()
@@ -168,7 +168,7 @@ fn impossible_times(table: &Table, readings: &[Reading]) -> Vec<Problem> {
     for (reading, row) in readings.iter().zip(&table.rows) {
         let time_s = reading.time_s.unwrap_or(before);
         let refuse = |expected: &str, advice: &str| {
-            vec![table.problem(&row.cells[column], column, format!("{time_s} s"), expected, advice)]
+            vec![table.problem(&row[column], column, format!("{time_s} s"), expected, advice)]
         };
         if let Some((cycle, end)) = last.range(..reading.cycle).find(|(_, end)| **end > time_s) {
             let expected = format!("a time after the last one of cycle {cycle}, {end} s");
@@ -229,9 +229,9 @@ fn copies(table: &Table, readings: &[Reading], kept: &[PositionReadings]) -> Vec
         };
         let mut rows = readings.iter().zip(&table.rows).filter(alike).map(|(_, row)| row);
         let (earlier, row) = (rows.next()?, rows.next_back()?);
-        let found = format!("the currents of line {} again", earlier.cells[0].location.line);
+        let found = format!("the currents of line {} again", earlier[0].location.line);
         let advice = "delete the copy and measure again, or, if both were measured, record more digits";
-        Some(table.problem(&row.cells[2], 2, found, "independent readings", advice))
+        Some(table.problem(&row[2], 2, found, "independent readings", advice))
     };
     coincidences::copies(&numbers).into_iter().filter_map(problem).take(MOST_PROBLEMS).collect()
 }

@@ -36,7 +36,7 @@ pub(super) fn problems(table: &Table, rows: &[Reading], others: &OtherRuns) -> V
 /// Returns a problem with the `run`, at its first row.
 fn at_run(table: &Table, rows: &[Reading], run: u32, found: String, expected: &str, advice: &str) -> Option<Problem> {
     let (.., row) = rows.iter().find(|((_, of), ..)| *of == run)?;
-    Some(table.problem(&row.cells[2], 2, found, expected, advice))
+    Some(table.problem(&row[2], 2, found, expected, advice))
 }
 
 /// Returns a problem for each run whose angles are all 0, unless those of all runs are.
@@ -67,7 +67,7 @@ fn single_copies(table: &Table, rows: &[Reading]) -> Vec<Problem> {
         let (.., row) = rows.iter().find(|(place, ..)| *place == (*index, run))?;
         let found = format!("the angles of run {earlier} again in run {run} of position {index}");
         let advice = "measure the copied readings, or, if all were measured, record more digits";
-        Some(table.problem(&row.cells[3], 3, found, "independent readings", advice))
+        Some(table.problem(&row[3], 3, found, "independent readings", advice))
     };
     coincidences::copies(&numbers).into_iter().filter_map(problem).take(MOST_PROBLEMS).collect()
 }
