@@ -146,7 +146,6 @@ impl<'a> SignedText<'a> {
         self.payload
     }
 
-    /// Returns the key stated in the signature.
     pub(crate) fn key(&self) -> &PublicKey {
         self.signature.public_key()
     }

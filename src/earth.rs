@@ -71,7 +71,6 @@ pub(crate) fn distance_m(from: Place, to: Place) -> f64 {
     rounded(metres, 1e6)
 }
 
-/// Azimuth with its standard uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Azimuth {
     /// Azimuth, degrees, clockwise from north, 0 ≤ azimuth < 360.

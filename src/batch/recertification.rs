@@ -405,7 +405,6 @@ impl Recertification<'_> {
 /// Passports of a stand that are in force.
 #[derive(Default)]
 struct Chosen {
-    /// Passports that get a successor.
     predecessors: Vec<Old>,
     /// Passports that an earlier run has already issued.
     done: Vec<Line>,

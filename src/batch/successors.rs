@@ -44,7 +44,6 @@ pub(crate) struct Change<'a> {
     pub folder: Option<Arc<Folder>>,
 }
 
-/// Passport to be examined.
 struct Candidate {
     path: PathBuf,
     /// Folder in which it was found, and its line in the register; `None` if the file was specified itself.

@@ -68,7 +68,6 @@ pub(crate) struct AnalyticMap<'a> {
 }
 
 impl<'a> AnalyticMap<'a> {
-    /// Creates the map.
     pub(crate) fn new(
         coefficients: &'a Coefficients,
         currents_ma: &'a [Vector2<f64>],

@@ -57,7 +57,6 @@ pub(crate) fn chi_square(setup: &Setup, fit: &Fit, data: &Data) -> ChiSquare {
 /// Parts of the covariance of the residuals that rest on estimates with few degrees of freedom.
 #[derive(Debug, Default)]
 pub(crate) struct Estimated {
-    /// Part of each estimate.
     pub(crate) parts: Vec<Part>,
     /// Index of the estimate of the scatter of visits, and how chi-square changes with it.
     pub(crate) visits: Option<(usize, Vec<Term>)>,
@@ -185,7 +184,6 @@ fn terms(mut m: DMatrix<f64>, own: &[Matrix2<f64>], y: DVectorView<f64>) -> Vec<
     each.map(|(share, g)| Term { share: share.max(0.0), square: g * g }).collect()
 }
 
-/// Returns the symmetric root of a covariance.
 fn root(covariance: Matrix2<f64>) -> Matrix2<f64> {
     let eigen = covariance.symmetric_eigen();
     let roots = Matrix2::from_diagonal(&eigen.eigenvalues.map(|value| value.max(0.0).sqrt()));

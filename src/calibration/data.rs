@@ -76,7 +76,6 @@ impl Data {
         Self { currents_ma, repeats, offsets: Offsets::default() }
     }
 
-    /// Returns a copy without position `place`.
     pub(crate) fn without(&self, place: usize) -> Self {
         let mut rest = self.clone();
         rest.currents_ma.remove(place);
@@ -98,7 +97,6 @@ impl Data {
         reordered
     }
 
-    /// Returns the weighted fit at `setup`.
     pub(crate) fn fit(&self, setup: &Setup, model: Model) -> Result<Fit, NoLeastSquares> {
         self.problem(setup, model).solve()
     }

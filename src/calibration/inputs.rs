@@ -116,7 +116,6 @@ impl InputUncertainty {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setup {
     coefficients: Coefficients,
-    /// Orientations of the positions.
     pub(crate) turns: Vec<Turn>,
     earth: EarthRate,
     uncertainty: InputUncertainty,

@@ -160,7 +160,6 @@ fn whole_design(
     whole
 }
 
-/// Input of a fit.
 pub(crate) struct Problem<'a, F> {
     pub(crate) coefficients: &'a Coefficients,
     pub(crate) currents_ma: &'a [Vector2<f64>],
@@ -258,7 +257,6 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         Err(NoLeastSquares::inseparable(&found, &self.names()))
     }
 
-    /// Returns the names of all columns.
     fn names(&self) -> Vec<Parameter> {
         let turn_ons = self.offsets.cycles.len().saturating_sub(1);
         let turn_ons = (0..turn_ons).flat_map(|_| [Parameter::TurnOn(0), Parameter::TurnOn(1)]);

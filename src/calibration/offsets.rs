@@ -53,7 +53,6 @@ impl Offsets {
         self.cycles.len().saturating_sub(1) + usize::from(self.drift)
     }
 
-    /// Returns the number of columns of x.
     pub(crate) fn columns(&self) -> usize {
         2 * self.terms()
     }
@@ -63,7 +62,6 @@ impl Offsets {
         self.means.iter().flatten().all(|mean| mean.abs() < BALANCED)
     }
 
-    /// Returns a_v.
     fn of_visit(&self, visit: &Visit) -> Vec<f64> {
         let mut terms = vec![0.0; self.terms()];
         if let Some((last, others)) = self.cycles.split_last() {

@@ -112,7 +112,6 @@ pub(crate) struct NoiseGrowth {
 }
 
 impl NoiseGrowth {
-    /// Returns the largest of all ratios.
     pub(crate) fn worst(&self) -> f64 {
         self.k.max(self.omega0).max(self.omega_g).max(self.omega_k)
     }

@@ -204,7 +204,6 @@ fn in_units(value: f64, u: f64) -> f64 {
     if u > 1e-12 { value / u } else { 0.0 }
 }
 
-/// Quantities common to all methods.
 struct Evaluation<'a> {
     setup: &'a Setup,
     data: &'a Data,

@@ -216,9 +216,7 @@ impl Repeats {
 /// Covariances of the errors of single visits, (°/h)², 2×2.
 pub(crate) struct VisitErrors<'a> {
     positions: &'a [PositionReadings],
-    /// Repeatability of each position.
     returns: Vec<Matrix2<f64>>,
-    /// Noise of a single reading.
     reading: Matrix2<f64>,
     rounding: Matrix2<f64>,
 }

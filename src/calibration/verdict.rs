@@ -17,7 +17,6 @@ pub(crate) const COVERAGE_FACTOR: f64 = 2.0;
 /// Probability that a normal variable is farther from its mean than [`COVERAGE_FACTOR`] standard deviations.
 pub(crate) const BEYOND: f64 = 0.045_500_263_896_358_42;
 
-/// Parameters that are drifts per g.
 const PER_G: [Parameter; 2] = [Parameter::OmegaG, Parameter::OmegaK];
 
 /// Decision on conformity with a tolerance.
@@ -265,7 +264,6 @@ pub(crate) fn without_nominal(gyro_type: &GyroType) -> Option<Parameter> {
     Parameter::EIGHT.into_iter().find(says_nothing)
 }
 
-/// Returns the coverage factor for an uncertainty that rests on `degrees_of_freedom`.
 fn coverage_factor(degrees_of_freedom: f64) -> f64 {
     if degrees_of_freedom == f64::INFINITY { COVERAGE_FACTOR } else { student_factor(BEYOND, degrees_of_freedom) }
 }
@@ -309,7 +307,6 @@ fn judge(
     }
 }
 
-/// Decides by simple and by guarded acceptance.
 fn decide(deviation: f64, expanded_uncertainty: f64, limit: f64) -> (Decision, Decision) {
     let guarded = if deviation.abs() + expanded_uncertainty <= limit {
         Decision::Pass

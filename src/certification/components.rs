@@ -29,7 +29,6 @@ const CONDITION_LIMIT: f64 = 30.0;
 /// Variance below which the residuals are only rounding errors of the computation, arcsec².
 const LEAST_SCATTER_ARCSEC2: f64 = 1e-12;
 
-/// Variance with its degrees of freedom.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Variance {
     /// Variance, in the squared unit of the quantity.
@@ -105,7 +104,6 @@ pub(crate) struct Combinations {
 /// Linear model of the rotations of platform and base in one run.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RunModel {
-    /// Rotations of the positions.
     pub(crate) turns: Vec<Turn>,
     pub(crate) design: DMatrix<f64>,
     /// Axes of the base for the columns from 3 on: 3 × their number.

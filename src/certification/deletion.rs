@@ -25,7 +25,6 @@ const LEAST_WEIGHT: f64 = 0.1;
 /// Fit without the angles in [`Deletion::angles`].
 #[derive(Debug, Clone)]
 pub(crate) struct Deletion {
-    /// Deleted angles.
     pub(crate) angles: Vec<Angle>,
     /// Difference of each deleted angle from the prediction of all other readings, arcsec.
     pub(crate) shifts_arcsec: DVector<f64>,

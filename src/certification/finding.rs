@@ -195,7 +195,6 @@ impl Finding {
             || matches!(self, Self::RotatedRuns(run) if run.probability < OUTLIER)
     }
 
-    /// Returns `true` for a change of the stand.
     pub(crate) fn is_change(&self) -> bool {
         matches!(
             self,

@@ -21,7 +21,6 @@ record! {
 }
 
 impl NominalPosition {
-    /// Returns the index (i, j) of the position.
     pub(crate) fn index(&self) -> PositionIndex {
         PositionIndex { i: self.i, j: self.j }
     }

@@ -26,7 +26,6 @@ words! {
 }
 
 impl Setting {
-    /// Returns the symbol of the angle.
     pub(crate) fn symbol(self) -> &'static str {
         if self == Self::Theta { "θ" } else { "φ" }
     }
@@ -43,7 +42,6 @@ pub(crate) struct SharedSetting {
     pub probability: f64,
 }
 
-/// Returns the angles whose settings are shared.
 pub(crate) fn find(header: &Header, components: &Components) -> Vec<SharedSetting> {
     let each = Setting::ALL.into_iter().filter_map(|setting| of(setting, header, components));
     each.filter(|at| at.probability < OUTLIER).collect()

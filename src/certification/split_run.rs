@@ -20,7 +20,6 @@ const FEWEST_RUNS: usize = 3;
 /// Fewest positions before the change, and after it: one alone is a suspect reading.
 const FEWEST_POSITIONS: usize = 2;
 
-/// Run that changed within itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SplitRun {
     /// Number of the run.

@@ -47,7 +47,6 @@ pub(crate) struct WorsePosition {
     pub probability: f64,
 }
 
-/// Outlier among the readings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Outlier {
     /// Index (i, j) of the position.

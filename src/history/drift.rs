@@ -74,7 +74,6 @@ pub(crate) struct Jump {
     pub corrected_probability: f64,
 }
 
-/// Drift of all deviations of a stand.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Drift {
     /// Every deviation of every position, sorted by (i, j), then α, β, γ.
@@ -116,12 +115,10 @@ impl Drift {
         Self { series, relative }
     }
 
-    /// Returns the number of tested deviations.
     pub(crate) fn tested(&self) -> usize {
         self.series.iter().filter(|series| series.line.is_some() || series.jump.is_some()).count()
     }
 
-    /// Returns the deviations that have jumped.
     pub(crate) fn jumps(&self) -> impl Iterator<Item = (&Series, &Jump)> {
         self.series.iter().filter_map(|at| Some((at, at.jump.as_ref()?)))
     }

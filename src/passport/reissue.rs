@@ -233,7 +233,6 @@ impl Successor {
     }
 }
 
-/// Describes the differences from the predecessor.
 pub(crate) fn changes(old: &Content, stand: &Stand, site: &Site, issuer: &str) -> String {
     const MOST: usize = 12;
     let mut changes = Vec::new();

@@ -57,7 +57,6 @@ impl Angles {
     }
 }
 
-/// One position with its equations and its errors.
 #[derive(Debug, Clone)]
 struct Candidate {
     position: Position,
@@ -240,7 +239,6 @@ impl Candidates {
     }
 }
 
-/// Prepares one candidate at its place.
 fn candidate(
     setup: &Setup,
     unknowns: &Unknowns,

@@ -38,7 +38,6 @@ use serde::Serialize;
 /// Smallest number of readings: each gives two equations, and there are eight parameters.
 pub(crate) const FEWEST_READINGS: u32 = 4;
 
-/// Largest number of readings.
 pub(crate) const MOST_READINGS: u32 = 256;
 
 /// Smallest growth of an uncertainty that is reported.
@@ -162,7 +161,6 @@ impl Plan {
     }
 }
 
-/// Finds the best plan.
 pub(crate) fn plan(question: &Question) -> Result<Plan, NoPlan> {
     let mut best: Option<(Candidates, search::Found)> = None;
     for azimuth_deg in &question.azimuths_deg {

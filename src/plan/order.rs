@@ -37,7 +37,6 @@ struct Problem {
 /// Cost of an order: the number of positions twice in a row, then Σ (b/T)².
 type Cost = (usize, f64);
 
-/// Returns the best order of the visits of a design.
 pub(crate) fn best(design: &Design) -> Order {
     let problem = Problem::new(design);
     let places = if problem.number_of_orders() <= MOST_ORDERS { problem.exhaustive() } else { problem.searched(TRIED) };

@@ -11,7 +11,6 @@ use crate::statistics::random::Stream;
 /// Largest number of choices that are all compared; 16 candidates and eight readings give 490,314.
 const MOST_CHOICES: u64 = 500_000;
 
-/// Number of starts of the exchange.
 const STARTS: usize = 16;
 
 /// Most rounds of the exchange from one start; it usually needs three to six.
@@ -68,7 +67,6 @@ fn number_of_choices(candidates: usize, readings: u32) -> Option<u64> {
     Some(number)
 }
 
-/// Compares every choice.
 pub(crate) fn exhaustive(candidates: &Candidates, readings: u32, criterion: Criterion) -> Option<Found> {
     let information = (0..candidates.len())
         .map(|place| (0..=readings).map(|visits| candidates.information(place, visits)).collect())
@@ -79,7 +77,6 @@ pub(crate) fn exhaustive(candidates: &Candidates, readings: u32, criterion: Crit
     all.best
 }
 
-/// Enumeration of all choices.
 struct All<'a> {
     candidates: &'a Candidates,
     /// Information of each candidate for each number of visits.
@@ -122,7 +119,6 @@ impl All<'_> {
     }
 }
 
-/// Exchanges visits from several starts.
 pub(crate) fn by_exchange(candidates: &Candidates, readings: u32, criterion: Criterion) -> Option<Found> {
     let mut stream = Stream::new(1);
     let mut best: Option<Found> = None;

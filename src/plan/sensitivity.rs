@@ -9,7 +9,6 @@ use crate::calibration::sensitivity::Sensitivity;
 use crate::units::radians_from_arcseconds;
 use serde::Serialize;
 
-/// Error that all positions share.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct CommonError {
     pub cause: Cause,
@@ -73,7 +72,6 @@ impl Effect {
     }
 }
 
-/// Returns the effect of every common error on a design.
 pub(crate) fn effects(design: &Design) -> Vec<Effect> {
     let sensitivity = Sensitivity::new(&design.candidates.setup, &design.candidates.unknowns);
     COMMON_ERRORS.map(|error| effect(design, &sensitivity, error)).to_vec()

@@ -57,7 +57,6 @@ impl Excluded {
         Some(PositionIndex { i: self.i?, j: self.j? })
     }
 
-    /// Describes the reading or the run.
     pub(crate) fn describe(&self) -> String {
         match self.index() {
             Some(index) => format!("position {index} in run {}", self.run),

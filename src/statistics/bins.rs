@@ -23,7 +23,6 @@ pub(crate) fn bin(value: f64) -> usize {
     (place + WHOLE).to_bits() as usize & (BINS - 1)
 }
 
-/// Counts of a sample per bin.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Bins<'a, T>(&'a [T]);
 

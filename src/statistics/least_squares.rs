@@ -11,9 +11,7 @@ pub(crate) struct Factorised {
     qr: QR<f64, Dyn, Dyn>,
     /// R⁻¹, columns × columns: R⁻¹ times the first rows of a rotated right-hand side gives its parameters.
     pub(crate) r_inverse: DMatrix<f64>,
-    /// Number of rows of X.
     pub(crate) rows: usize,
-    /// Number of columns of X.
     pub(crate) columns: usize,
 }
 

@@ -48,7 +48,6 @@ impl WideRandom {
         Self { state }
     }
 
-    /// Advances to the next block.
     pub(crate) fn jump(&mut self) {
         self.ahead(&JUMP);
     }

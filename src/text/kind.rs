@@ -29,7 +29,6 @@ words! {
     }
 }
 
-/// Formats of YAML documents.
 pub(crate) const FORMATS: [(&str, Kind); 7] = [
     ("dtg-stand/1", Kind::Stand),
     ("dtg-site/1", Kind::Site),
@@ -83,7 +82,6 @@ impl Kind {
         }
     }
 
-    /// Returns the kind of documents with a `format`.
     pub(crate) fn of_format(format: &str) -> Option<Self> {
         FORMATS.iter().find(|(known, _)| *known == format).map(|(_, kind)| *kind)
     }

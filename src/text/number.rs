@@ -30,7 +30,6 @@ pub(crate) fn exponent_as_printed(value: f64, digits: i32) -> i32 {
     exponent_of(&format!("{value:.decimals$e}"))
 }
 
-/// Returns the exponent of a number in scientific notation.
 pub(crate) fn exponent_of(scientific: &str) -> i32 {
     scientific.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0)
 }

@@ -64,7 +64,6 @@ fn is_in_minutes(text: &str) -> bool {
     numbers > 1 && !text.contains(',') || numbers > 0 && text.contains(|c| "°′″NSEW".contains(c))
 }
 
-/// Returns `true` for a number that is followed by a unit.
 fn has_unit(text: &str) -> bool {
     if text.parse::<f64>().is_ok() {
         return false;

@@ -16,7 +16,6 @@ use std::str::FromStr;
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(transparent))]
 pub struct Identifier(#[cfg_attr(feature = "cli", schemars(regex(pattern = PATTERN)))] String);
 
-/// Regular expression of an [`Identifier`].
 #[cfg(feature = "cli")]
 const PATTERN: &str = concat!(
     r"^(?!.*\.\.)(?!.*\.$)",

@@ -141,7 +141,6 @@ impl AnyKey {
     }
 }
 
-/// Shortens a word of a file for a message.
 pub(super) fn shortened(word: &str) -> String {
     const LONGEST: usize = 60;
     match word.char_indices().nth(LONGEST) {

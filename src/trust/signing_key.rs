@@ -115,7 +115,6 @@ impl SigningKey {
         self.sign_message(&Message::new(namespace, message))
     }
 
-    /// Signs a message that is already hashed.
     pub(crate) fn sign_message(&self, message: &Message) -> Result<Signature, KeyError> {
         let bytes = self.key.sign(message.signed.as_deref().ok_or(KeyError::Namespace)?).to_bytes();
         let key: KeyData = ssh_key::public::Ed25519PublicKey(self.key.verifying_key().to_bytes()).into();

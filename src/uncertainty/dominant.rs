@@ -17,7 +17,6 @@ fn weight(line: &ParameterBudget, tolerance: Option<&Tolerance>) -> f64 {
     if allowed > 0.0 { line.standard_uncertainty / allowed } else { 0.0 }
 }
 
-/// Dominant contribution of a budget.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Dominant<'a> {
     /// Parameter with the largest uncertainty relative to its tolerance or, without a tolerance, to its own value.

@@ -11,7 +11,6 @@ use crate::text::table::{Row, Table};
 use nalgebra::Vector2;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Required columns of the file.
 pub(crate) const COLUMNS: [&str; 4] = ["i", "j", "jx_ma", "jy_ma"];
 
 /// Advice on a cell without a number.

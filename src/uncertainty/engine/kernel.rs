@@ -132,7 +132,6 @@ impl Kernel {
         self.places.len()
     }
 
-    /// Computes all quantities of a chunk.
     #[inline(always)]
     pub(crate) fn run(&self, deviates: &[Column], positions: &mut [At]) {
         let exact = self.may_be_large && self.has_large(deviates);
