@@ -5,7 +5,6 @@ use super::{Code, Failure, defaults, inputs, output};
 use crate::gyro::GyroType;
 use crate::plan::candidates::Angles;
 use crate::plan::criterion::Criterion;
-use crate::plan::document::PlanDocument;
 use crate::plan::{FEWEST_READINGS, MOST_READINGS, Question, plan};
 use crate::report::picture::plan as picture;
 use crate::report::plan as report;
@@ -98,6 +97,6 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if let Some(path) = &options.output {
         output::saved(path, &picture::plan(&found, site.id.as_str()), options.force)?;
     }
-    options.format.write(|| PlanDocument::from(&found), || report::text(&found, site.id.as_str(), of_site))?;
+    options.format.write(|| &found, || report::text(&found, site.id.as_str(), of_site))?;
     Ok(0)
 }

@@ -5,7 +5,6 @@ use super::{Asked, Failed, json};
 use crate::passport::Stated;
 use crate::plan::candidates::Angles;
 use crate::plan::criterion::Criterion;
-use crate::plan::document::PlanDocument;
 use crate::plan::{FEWEST_READINGS, MOST_READINGS, Question};
 use crate::site::Site;
 use crate::stand::Stand;
@@ -56,7 +55,7 @@ pub fn plan(
     let (stand, site, gyro, laboratory) = (stand.as_ref(), &site, &gyro, &laboratory);
     let question = Question { site, stand, angles, gyro, laboratory, readings, azimuths_deg, criterion };
     let found = crate::plan::plan(&question).map_err(Failed::refused)?;
-    Ok(json(&PlanDocument::from(&found)))
+    Ok(json(&found))
 }
 
 #[cfg(test)]

@@ -1,55 +1,19 @@
 //! The plan as JSON, and what templates take from it.
 
 use super::sensitivity::{CommonError, Effect};
-use super::{Evaluation, MOST_READINGS, Plan, Visited};
-use crate::calibration::NotStated;
+use super::{Evaluation, MOST_READINGS, Plan};
+use crate::calibration::{NotStated, Parameter};
 use crate::coefficients::PositionIndex;
 use crate::gyro::{GyroParameters, Parameters};
 use crate::stand::MOST_POSITIONS;
 use crate::text::Unreadable;
 use crate::text::kind::Kind;
+use serde::ser::SerializeMap;
 use serde::{Deserialize, Serialize, Serializer};
-
-/// JSON form of a plan, with the keys in the order of writing.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub(crate) struct PlanDocument<'a> {
-    /// Criterion: a, d or worst.
-    criterion: &'static str,
-    /// Σ (u/T)² (a), ln det of the covariance in units of T (d), or the largest u/T (worst), T the tolerances.
-    value: f64,
-    /// Azimuth of the frame's axis, degrees clockwise from north.
-    frame_axis_azimuth_deg: f64,
-    /// Positions and their numbers of visits.
-    readings: &'a [Visited],
-    /// Nominal angles [θ, φ] of the visits, in the best order, degrees.
-    order: Vec<[f64; 2]>,
-    /// Standard uncertainties of the parameters.
-    standard_uncertainty: Parameters,
-    /// The paper's eight positions, the frame's axis east; absent if they cannot be compared.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    paper: Option<&'a Evaluation>,
-    /// Parameters that are more uncertain than with the paper's eight, by key, with the ratio.
-    worse: Vec<WorseDocument>,
-    /// Whether the plan has the paper's eight positions, and so matrices and the closed methods.
-    has_matrices: bool,
-    /// Whether the plan determines the general model.
-    has_general_model: bool,
-    /// Errors that all positions share.
-    common_errors: Vec<EffectDocument<'a>>,
-    /// Largest change of a parameter in units of its tolerance, for an ω_0 that rises or falls by 1 °/h on each axis over
-    /// the run in this order.
-    drift_over_tolerance_per_deg_per_h: f64,
-    /// Number of positions left out, because the meter cannot read their currents.
-    beyond_range: usize,
-    /// Whether every choice was compared.
-    exhaustive: bool,
-    /// Inputs without a stated uncertainty; they count as 0.
-    not_stated: Vec<String>,
-}
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
 struct WorseDocument {
-    parameter: &'static str,
+    parameter: Parameter,
     ratio: f64,
 }
 
@@ -142,30 +106,30 @@ impl Planned {
     }
 }
 
-impl<'a> From<&'a Plan> for PlanDocument<'a> {
-    fn from(plan: &'a Plan) -> Self {
-        let angles = |place: &usize| [plan.readings[*place].theta_deg, plan.readings[*place].phi_deg];
-        Self {
-            criterion: plan.criterion.key(),
-            value: plan.evaluation.value,
-            frame_axis_azimuth_deg: plan.frame_axis_azimuth_deg,
-            readings: &plan.readings,
-            order: plan.order.places.iter().map(angles).collect(),
-            standard_uncertainty: parameters(&plan.evaluation.standard_uncertainty),
-            paper: plan.paper.as_ref(),
-            worse: plan
-                .worse()
-                .into_iter()
-                .map(|(parameter, ratio)| WorseDocument { parameter: parameter.key(), ratio })
-                .collect(),
-            has_matrices: plan.has_matrices,
-            has_general_model: plan.has_general_model,
-            common_errors: common_errors(&plan.evaluation, plan.paper.as_ref()),
-            drift_over_tolerance_per_deg_per_h: plan.order.largest_over_tolerance,
-            beyond_range: plan.beyond_range,
-            exhaustive: plan.exhaustive,
-            not_stated: plan.not_stated().map(str::to_owned).collect(),
+/// The keys are described in docs/commands.md.
+impl Serialize for Plan {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let angles = |place: &usize| [self.readings[*place].theta_deg, self.readings[*place].phi_deg];
+        let worse = self.worse().into_iter().map(|(parameter, ratio)| WorseDocument { parameter, ratio });
+        let mut keys = serializer.serialize_map(None)?;
+        keys.serialize_entry("criterion", self.criterion.key())?;
+        keys.serialize_entry("value", &self.evaluation.value)?;
+        keys.serialize_entry("frame_axis_azimuth_deg", &self.frame_axis_azimuth_deg)?;
+        keys.serialize_entry("readings", &self.readings)?;
+        keys.serialize_entry("order", &self.order.places.iter().map(angles).collect::<Vec<_>>())?;
+        keys.serialize_entry("standard_uncertainty", &parameters(&self.evaluation.standard_uncertainty))?;
+        if let Some(paper) = &self.paper {
+            keys.serialize_entry("paper", paper)?;
         }
+        keys.serialize_entry("worse", &worse.collect::<Vec<_>>())?;
+        keys.serialize_entry("has_matrices", &self.has_matrices)?;
+        keys.serialize_entry("has_general_model", &self.has_general_model)?;
+        keys.serialize_entry("common_errors", &common_errors(&self.evaluation, self.paper.as_ref()))?;
+        keys.serialize_entry("drift_over_tolerance_per_deg_per_h", &self.order.largest_over_tolerance)?;
+        keys.serialize_entry("beyond_range", &self.beyond_range)?;
+        keys.serialize_entry("exhaustive", &self.exhaustive)?;
+        keys.serialize_entry("not_stated", &self.not_stated().collect::<Vec<_>>())?;
+        keys.end()
     }
 }
 
