@@ -11,13 +11,15 @@ use crate::certification::{AngleReadings, Certification, Comparison, Header, cer
 use crate::files::{self, FileError, folder_of, leftovers};
 use crate::folder::archive::Superseded;
 use crate::folder::{Folder, FolderRefused, Next, Seal, Sealed, Superseding, search};
+use crate::passport::checks::Code;
 use crate::passport::difference::{NumberDifference, of_deviations};
 use crate::passport::issue::PreparedStand;
 use crate::passport::reissue::{Order, successor};
-use crate::passport::{Content, Question, Trust, verify};
-use crate::register::{Asked, Line, Register};
+use crate::passport::{Content, Question, Trust, Verification, verify};
+use crate::register::{Asked, Line, Register, State};
 use crate::site::Site;
 use crate::stand::{Excluded, Stand};
+use crate::text::scalar::day;
 use crate::text::words::first_few;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, Unreadable, name_of, rule, shown};
 use jiff::Timestamp;
@@ -48,7 +50,7 @@ impl AtSite {
 
 #[derive(Clone)]
 pub(crate) struct Recertification<'a> {
-    /// Passport of the stand, which is in force.
+    /// Passport of the stand, which is in force or has expired.
     pub passport: &'a Path,
     /// Name and content of the file of readings.
     pub readings: (&'a str, &'a [u8]),
@@ -212,7 +214,7 @@ impl Recertification<'_> {
         }
     }
 
-    /// Returns the content of a passport that passes every check of `question`.
+    /// Returns the content of a passport that passes every check of `question`, or did before it expired.
     fn content(
         &self,
         path: &Path,
@@ -220,7 +222,7 @@ impl Recertification<'_> {
         trust: &Trust,
         question: &Question,
     ) -> Result<Content, NotRecertified> {
-        let verification = verify(&name_of(path), bytes, trust, question);
+        let verification = before_expiry(path, bytes, trust, question);
         if let Some(passport) = verification.passport() {
             return Ok(passport.content().clone());
         }
@@ -317,9 +319,14 @@ impl Recertification<'_> {
             return Err(refused(format!("it is unknown which passports are in force: {}; {advice}", alarm.reason())));
         }
         let of_stand = |line: &&Line| line.stand.as_deref() == Some(id.as_str());
-        let lines: Vec<&Line> = found.passports.iter().filter(of_stand).collect();
+        let of_stand = || found.passports.iter().filter(of_stand);
+        let given = of_stand().find(|line| same_file(Path::new(&line.file), self.passport));
+        let expired = given.filter(|given| given.state == State::Expired).map(|given| given.valid_until);
+        let counts =
+            |line: &&Line| line.is_usable() || line.state == State::Expired && Some(line.valid_until) == expired;
+        let lines: Vec<&Line> = of_stand().filter(counts).collect();
         let mut chosen = Chosen::default();
-        for line in lines.iter().filter(|line| line.is_usable()) {
+        for line in &lines {
             let site = line.site.as_deref().unwrap_or_default();
             let asked = self.sites.iter().find(|asked| asked.id() == site);
             let path = PathBuf::from(&line.file);
@@ -343,28 +350,23 @@ impl Recertification<'_> {
                 chosen.remaining.push(content.passport.id);
             }
         }
-        self.check_chosen(&chosen, &lines)?;
-        Ok(chosen)
-    }
-
-    /// Checks that the given passport and every requested place are among the passports in force.
-    fn check_chosen(&self, chosen: &Chosen, lines: &[&Line]) -> Result<(), NotRecertified> {
-        let known = |path: &Path| lines.iter().find(|line| same_file(Path::new(&line.file), path));
-        if let Some(line) = known(self.passport)
-            && !line.is_usable()
-            && chosen.done.is_empty()
-        {
+        if let Some(line) = given.filter(|given| !counts(given) && chosen.done.is_empty()) {
             let words =
                 format!("{}: the passport is not in force: {} {}", shown(self.passport), line.state.key(), line.why);
             return Err(refused(words));
         }
+        self.check_sites(&chosen, &lines)?;
+        Ok(chosen)
+    }
+
+    /// Checks that every requested place is among those of the passports in force.
+    fn check_sites(&self, chosen: &Chosen, lines: &[&Line]) -> Result<(), NotRecertified> {
         let there: Vec<&str> = chosen.predecessors.iter().map(|old| old.content.site.id.as_str()).collect();
         for asked in self.sites {
             let site = asked.id();
             let done = chosen.done.iter().any(|line| line.site.as_deref() == Some(site));
             if !there.contains(&site) && !done {
-                let in_force = lines.iter().filter(|line| line.is_usable());
-                let in_force: Vec<&str> = in_force.filter_map(|line| line.site.as_deref()).collect();
+                let in_force: Vec<&str> = lines.iter().filter_map(|line| line.site.as_deref()).collect();
                 return Err(refused(format!(
                     "no passport of the stand is in force for site {site}; found {}",
                     first_few(&in_force)
@@ -392,7 +394,7 @@ impl Recertification<'_> {
             valid_until: None,
             allow_uncalibratable: old.content.self_check.is_none(),
         };
-        let verification = verify(&name_of(&old.path), &old.bytes, trust, &Question::at(self.question.time));
+        let verification = before_expiry(&old.path, &old.bytes, trust, &Question::at(self.question.time));
         let mut next = successor(&old.bytes, &verification, &order)
             .map_err(|why| refused(format!("{}: {why}", shown(&old.path))))?;
         let path = folder.path_of(&next.stand().stand, &next.site.id, next.first_revision());
@@ -402,7 +404,17 @@ impl Recertification<'_> {
     }
 }
 
-/// Passports of a stand that are in force.
+/// Verifies a passport, as of its last day if it has expired since: many stands return to the factory only then.
+fn before_expiry(path: &Path, bytes: &[u8], trust: &Trust, question: &Question) -> Verification {
+    let found = verify(&name_of(path), bytes, trust, question);
+    let has_expired = found.checks().iter().any(|check| check.code == Code::Expired);
+    match found.content_from_anyone().filter(|_| has_expired).and_then(Content::last_day) {
+        Some((last, _)) => verify(&name_of(path), bytes, trust, &Question { time: day(last).1, ..question.clone() }),
+        None => found,
+    }
+}
+
+/// Passports of a stand that get successors or have them.
 #[derive(Default)]
 struct Chosen {
     predecessors: Vec<Old>,

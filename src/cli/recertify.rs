@@ -29,7 +29,7 @@ use std::path::{Path, PathBuf};
 /// kept as stand-<certificate number>.superseded.yaml.
 #[derive(Args)]
 pub(super) struct Options {
-    /// Passport of the stand, in force; in a workspace also its identifier
+    /// Passport of the stand, in force or expired; in a workspace also its identifier
     #[arg(value_name = "PASSPORT", value_parser = defaults::passport())]
     passport: PathBuf,
     /// Angles: CSV with the header i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec, and every position in every run

@@ -183,6 +183,32 @@ fn a_header_and_a_place_can_be_chosen() {
     assert!(factory.states().iter().filter(|line| line.ends_with("in_force")).all(|line| line.contains("/2 ")));
 }
 
+/// A stand that returns after its certificate has expired: the passports that expired with the given one get successors,
+/// but not one that was withdrawn, nor one that was valid for a shorter time.
+#[test]
+fn an_expired_passport_is_recertified() {
+    let factory = Factory::new();
+    let here = fs::read_to_string(factory.path("here.yaml")).unwrap();
+    fs::write(factory.path("brief.yaml"), here.replace("id: \"here\"", "id: \"brief\"")).unwrap();
+    fs::write(factory.path("again.yaml"), here.replace("id: \"here\"", "id: \"again\"")).unwrap();
+    let issue = format!("issue passports/SPS-2/0017/stand.yaml {SIGN} --issued-at 2026-11-03");
+    factory.good(&format!("{issue} --site brief.yaml --valid-until 2026-12-31"));
+    factory.good(&format!("{issue} --site again.yaml"));
+    let revoke = "revoke SPS-2/0017/there/1 --reason pier --list passports --trust allowed_signers";
+    factory.good(&format!("{revoke} {SIGN}"));
+    let late = "--trust allowed_signers --time 2099-01-01";
+    let recertify = format!("recertify {HERE} new.csv {ORDER} {SIGN} {late}");
+    let found = factory.json(&recertify);
+    let ids: Vec<&str> = found["passports"].as_array().unwrap().iter().map(|at| at["id"].as_str().unwrap()).collect();
+    assert_eq!((ids, &found["remaining"]), (vec!["SPS-2/0017/again/2", "SPS-2/0017/here/2"], &Value::Array(vec![])));
+    let shown = factory.json(&format!("show passports/SPS-2/0017/here-2.yaml {late}"));
+    let changed = shown["passport"]["reissued_from"]["changed"].as_str().unwrap();
+    assert!(changed.contains("certificate number 'C-2026-0143' -> 'C-2026-0300'"), "{changed}");
+    let again = factory.json(&recertify);
+    assert_eq!(again["passports"].as_array().unwrap().len(), 2);
+    assert!(again["passports"].as_array().unwrap().iter().all(|at| at["state"] == "unchanged"), "{again}");
+}
+
 /// Every refusal leaves all files as they were.
 #[test]
 fn a_refusal_writes_nothing() {
@@ -249,7 +275,7 @@ fn a_refusal_writes_nothing() {
             "failed verification (signer",
         ),
         (format!("{HERE} new.csv {}", good.replace("--issued 2026-11-20", "--issued 2026-11-21")), 1, "certificate"),
-        (format!("{HERE} new.csv {}", good.replace("--time 2026-11-21", "--time 2029-11-21")), 1, "in_force"),
+        (format!("{HERE} new.csv {}", good.replace("--time 2026-11-21", "--time 2026-11-01")), 1, "in_force"),
         (format!("{HERE} new.csv {good} --serial 0018"), 1, "not 0018"),
     ];
     for (arguments, due, words) in cases {
