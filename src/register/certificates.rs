@@ -1,6 +1,7 @@
 //! Certificates under which the passports of a stand were issued. A certificate is superseded if a passport based on it
 //! was re-issued under another one. A stand in force under two certificates has two sets of deviations, and so has one
-//! whose certificate states other angles in one passport than in another.
+//! whose certificate states other angles in one passport than in another. A certificate with the same angles for two
+//! stands is a copy with another serial number.
 
 use super::{Alarm, AlarmKind, Examined, State};
 use crate::stand::CertifiedPosition;
@@ -56,6 +57,28 @@ impl Certificates {
     }
 }
 
+/// Returns an alarm for each certificate that is in force with the same angles for several stands: no two stands have
+/// the same deviations, so one of them has those of the other.
+pub(super) fn shared(files: &[Examined]) -> Vec<Alarm> {
+    let mut known: BTreeMap<(&str, u64), BTreeMap<&str, Vec<String>>> = BTreeMap::new();
+    for file in files.iter().filter(|file| file.counts && file.is_in_force()) {
+        let stands = known.entry((file.certificate(), file.angles)).or_default();
+        stands.entry(file.line.stand.as_deref().unwrap_or("")).or_default().push(file.line.file.clone());
+    }
+    let several = known.into_iter().filter(|(_, stands)| stands.len() > 1);
+    let alarm = |((number, _), stands): (_, BTreeMap<&str, Vec<String>>)| {
+        let ids: Vec<&str> = stands.keys().copied().collect();
+        let words = format!(
+            "certificate {number} is in force with the same angles for {} stands, {}; withdraw the passports with the \
+             wrong serial number",
+            ids.len(),
+            first_few(&ids)
+        );
+        Alarm::of_files(AlarmKind::Certificates, words, stands.into_values().flatten().collect())
+    };
+    several.map(alarm).collect()
+}
+
 impl OfStand {
     fn of(files: &[&Examined]) -> Self {
         let mut known = Self::default();
@@ -72,7 +95,7 @@ impl OfStand {
                 known.replaced.remove(number);
                 known.replaced.insert((*old).to_owned(), (number.to_owned(), id.clone()));
             }
-            if matches!(file.line.state, State::InForce | State::Expiring | State::Unknown) {
+            if file.is_in_force() {
                 let in_force = InForce { id, file: file.line.file.clone(), angles: file.angles };
                 known.in_force.entry(number.to_owned()).or_default().push(in_force);
             }
@@ -117,6 +140,10 @@ fn replaced(number: &str, (by, id): &(String, String)) -> String {
 }
 
 impl Examined {
+    fn is_in_force(&self) -> bool {
+        matches!(self.line.state, State::InForce | State::Expiring | State::Unknown)
+    }
+
     fn certificate(&self) -> &str {
         self.line.certificate.as_deref().unwrap_or("")
     }

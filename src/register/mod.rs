@@ -286,6 +286,7 @@ impl Register {
         files.iter_mut().for_each(|file| register.settle(file));
         register.certificates = Certificates::of(&files);
         register.alarms.extend(register.certificates.alarms());
+        register.alarms.extend(certificates::shared(&files));
         register.passports = files.into_iter().filter(|file| file.asked).map(|file| file.line).collect();
         register
     }
@@ -329,9 +330,11 @@ impl Register {
         let (code, detail) = verification.content_from_anyone().map_or_else(not_run, |content| {
             let (id, sha256) = (content.passport.id.as_str(), sha256_hex(bytes));
             let (series, revision) = series_of(id);
-            if let Some(by) = self.successors.by(&sha256, series, revision) {
+            if let Some(by) = self.successors.last(&sha256, series, revision) {
                 let advice = if by.withdrawn {
                     ", which was withdrawn later; neither is in force; ask the issuer for a new passport"
+                } else if by.series != series {
+                    "; the stand has left this site, and that passport is for the new one"
                 } else {
                     "; use that passport"
                 };

@@ -113,4 +113,16 @@ impl Successors {
         };
         of_file.or_else(of_series)
     }
+
+    /// Returns the last of the successors that follow a file, as [`Self::by`] finds them; `None` if it has none.
+    pub(super) fn last(&self, sha256: &str, series: &str, revision: u32) -> Option<&Successor> {
+        let mut seen = BTreeSet::new();
+        let mut last = self.by(sha256, series, revision)?;
+        while seen.insert(last.sha256.as_str())
+            && let Some(next) = self.by(&last.sha256, &last.series, series_of(&last.id).1)
+        {
+            last = next;
+        }
+        Some(last)
+    }
 }

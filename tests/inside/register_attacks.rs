@@ -491,11 +491,16 @@ fn every_attack_is_refused() {
     println!("register attacks refused: {all} of {all} ({blocked_nobody} of them files that must block nobody)");
 }
 
+fn of_another_stand(content: &mut Content) {
+    content.stand.serial = Identifier::new("0018").unwrap();
+    content.certificate.number = "C-2026-0143".to_owned();
+}
+
 #[test]
 fn damage_concerns_no_more_than_it_must() {
     let factory = Factory::new();
     let [first, _] = factory.two_revisions();
-    let other = factory.passport("here", 1, day(0), |content| content.stand.serial = Identifier::new("0018").unwrap());
+    let other = factory.passport("here", 1, day(0), of_another_stand);
     factory.put(&other);
     assert!(factory.verify(&other).valid());
     // In the folder of a stand: that stand. Elsewhere: all.
@@ -629,7 +634,9 @@ fn lists_in_both_places_are_one_series() {
     let entry = Entry { id: second.id.clone(), sha256, revoked_at: now(), reason };
     let next = lists.following(ISSUER, now(), vec![entry]).unwrap();
     factory.write("revocations/revocation-2.yaml", next.sign(&factory.key).unwrap());
-    assert_eq!([newest("revocations"), newest("passports"), newest("other")], [Some(2), Some(2), None]);
+    assert_eq!([newest("revocations"), newest("passports")], [Some(2), Some(2)]);
+    // A register would not find a list in another folder.
+    assert!(search::lists(&place("other"), &place("passports"), &factory.trust, now()).is_err());
     let withdrawn = |passport: &Passport| code_of_revocation(&factory, passport) == "passport_revoked";
     assert!(withdrawn(&first) && withdrawn(&second) && factory.alarms().is_empty());
     // Each place alone still withdraws what its lists contain.
@@ -644,7 +651,7 @@ fn lists_in_both_places_are_one_series() {
 fn questions_choose_lines_and_no_alarm() {
     let factory = Factory::new();
     factory.two_revisions();
-    let other = factory.passport("there", 1, day(0), |content| content.stand.serial = Identifier::new("0018").unwrap());
+    let other = factory.passport("there", 1, day(0), of_another_stand);
     factory.put(&other);
     factory.remove(&format!("{STAND}/here-1.yaml"));
     let ask = |change: &dyn Fn(&mut Question)| {
