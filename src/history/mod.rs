@@ -18,7 +18,7 @@ use crate::text::words::first_few;
 use drift::Drift;
 use jiff::Timestamp;
 use serde::Serialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Certificate of the stand, as its passports state it.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,7 +70,7 @@ pub(crate) struct History {
     pub certificates: Vec<PastCertificate>,
     /// Passports in the order of their issue; those that are not authentic come last.
     pub passports: Vec<PastPassport>,
-    /// Sites at which the stand has been, in the order of the first issue.
+    /// Stays of the stand at sites, in the order of their beginning.
     pub places: Vec<Stay>,
     /// Withdrawals, in the order of their time.
     pub withdrawals: Vec<Entry>,
@@ -117,6 +117,12 @@ impl History {
             remarks,
         }
     }
+
+    /// Returns the identifiers of the sites, in the order of the first stay.
+    pub(crate) fn sites(&self) -> Vec<&str> {
+        let mut known = BTreeSet::new();
+        self.places.iter().map(|stay| stay.site.as_str()).filter(|site| known.insert(*site)).collect()
+    }
 }
 
 fn concerns(alarm: &crate::register::Alarm, stand: &str, recorded: &[Recorded]) -> bool {
@@ -161,13 +167,16 @@ fn certificates(recorded: &[Recorded], remarks: &mut Vec<String>) -> Vec<PastCer
 
 /// Returns the stands whose deviations are compared: those of certificates that count, one for each file of readings.
 ///
-/// A second certificate from the same readings is no evidence that the stand has not changed, and is left out. A correction
-/// has the same date of measurement as the certificate that it corrects, and replaces it.
+/// A second certificate from the same readings is no evidence that the stand has not changed, and is left out. Deviations
+/// that agree in every digit were copied, because no measurement repeats them. A correction has the same date of
+/// measurement as the certificate that it corrects, and replaces it.
 fn independent<'a>(certificates: &'a [PastCertificate], remarks: &mut Vec<String>) -> Vec<&'a Stand> {
     let readings = |stand: &Stand| Some(stand.certificate.evidence.as_ref()?.readings_sha256.clone());
     let mut used: Vec<&Stand> = Vec::new();
     for stand in certificates.iter().filter(|at| at.counts).map(|at| &at.stand) {
-        let same = |other: &&mut &Stand| readings(stand).is_some() && readings(stand) == readings(other);
+        let angles = |stand: &Stand| -> Vec<_> { stand.positions.iter().map(|at| at.angles_arcsec()).collect() };
+        let same_readings = |other: &Stand| readings(stand).is_some() && readings(stand) == readings(other);
+        let same = |other: &&mut &Stand| same_readings(other) || angles(stand) == angles(other);
         let Some(other) = used.iter_mut().find(same) else {
             used.push(stand);
             continue;
@@ -175,9 +184,13 @@ fn independent<'a>(certificates: &'a [PastCertificate], remarks: &mut Vec<String
         let corrects = stand.certificate.measured() == other.certificate.measured();
         let [kept, left_out] = if corrects { [stand, *other] } else { [*other, stand] };
         *other = kept;
+        let why = match same_readings(kept) && same_readings(left_out) {
+            true => "were computed from the same readings",
+            false => "state the same deviations to the last digit",
+        };
+        let [kept, left_out] = [kept, left_out].map(|stand| &stand.certificate.number);
         remarks.push(format!(
-            "certificates {} and {} were computed from the same readings; the deviations of {} are not used for the drift",
-            kept.certificate.number, left_out.certificate.number, left_out.certificate.number
+            "certificates {kept} and {left_out} {why}; the deviations of {left_out} are not used for the drift"
         ));
     }
     used
@@ -237,12 +250,17 @@ fn passports(recorded: &[Recorded], trust: &Trust, now: Timestamp) -> Vec<PastPa
 
 fn places(passports: &[PastPassport]) -> Vec<Stay> {
     let mut places: Vec<Stay> = Vec::new();
+    let mut left: BTreeSet<&str> = BTreeSet::new();
     for passport in passports {
         let (Some(from), Some(site)) = (passport.issued_at, &passport.line.site) else { continue };
-        match places.iter_mut().find(|stay| stay.site == *site) {
+        // A stand that returns to a site begins a new stay there.
+        match places.iter_mut().rfind(|stay| stay.site == *site).filter(|_| !left.remove(site.as_str())) {
             // The passports of a site follow each other, so the later end counts; one without an end is in force.
             Some(stay) => stay.until = stay.until.zip(passport.ended_at).map(|(a, b)| a.max(b)),
             None => places.push(Stay { site: site.clone(), from, until: passport.ended_at }),
+        }
+        if passport.line.state == State::Moved {
+            left.insert(site);
         }
     }
     places
@@ -262,7 +280,7 @@ mod tests {
     use crate::stand::Evidence;
 
     /// Expected: of two certificates from the same readings one is used: the first, or, if both have the date of the
-    /// measurement, the one issued last. Other readings, or none stated, are used.
+    /// measurement, the one issued last. Other readings, or none stated, are used, unless the deviations are the same.
     #[test]
     fn the_same_readings_count_once() {
         let certificate = |number: &str, performed: &str, readings: Option<&str>| {
@@ -271,6 +289,7 @@ mod tests {
             stand.certificate.performed = Some(performed.parse().unwrap());
             let evidence = |digit: &str| Evidence { readings_sha256: digit.repeat(64), runs: 5, excluded: None };
             stand.certificate.evidence = readings.map(evidence);
+            stand.positions[0].alpha_arcsec = number[2..].parse::<f64>().unwrap() % 7.0;
             PastCertificate { stand, passports: Vec::new(), counts: true }
         };
         let certificates = [
@@ -280,14 +299,19 @@ mod tests {
             certificate("C-4", "2023-06-01", None),
             certificate("C-5", "2024-06-01", Some("2")),
             certificate("C-6", "2024-06-01", Some("2")),
+            certificate("C-11", "2025-06-01", None),
         ];
         let mut remarks = Vec::new();
         let used = independent(&certificates, &mut remarks);
         let numbers: Vec<&str> = used.iter().map(|stand| stand.certificate.number.as_str()).collect();
         assert_eq!(numbers, ["C-1", "C-2", "C-4", "C-6"]);
-        let said = ["C-1 and C-3 were computed from the same readings; the deviations of C-3", "the deviations of C-5"];
+        let said = [
+            "C-1 and C-3 were computed from the same readings; the deviations of C-3",
+            "the deviations of C-5",
+            "C-4 and C-11 state the same deviations to the last digit; the deviations of C-11",
+        ];
         assert!(
-            remarks.len() == 2 && remarks.iter().zip(said).all(|(remark, due)| remark.contains(due)),
+            remarks.len() == 3 && remarks.iter().zip(said).all(|(remark, due)| remark.contains(due)),
             "{remarks:?}"
         );
     }

@@ -159,7 +159,7 @@ pub(crate) fn text(history: &History) -> String {
     let counts = [
         (history.certificates.len(), "certificate"),
         (history.passports.len(), "passport"),
-        (history.places.len(), "place"),
+        (history.sites().len(), "place"),
         (history.withdrawals.len(), "withdrawal"),
     ];
     let counts = counts.map(|(count, what)| format!("{count} {what}{}", if count == 1 { "" } else { "s" }));

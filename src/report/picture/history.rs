@@ -32,7 +32,7 @@ pub(crate) const LETTERS: [&str; 3] = ["α", "β", "γ"];
 /// Draws the history as of `now`.
 pub(crate) fn history(history: &History, now: Timestamp) -> String {
     let time = time_scale(history, now);
-    let rows = history.places.len() as f64 + 1.0;
+    let rows = history.sites().len() as f64 + 1.0;
     let bottom = TOP + ROW * rows;
     let panels_top = bottom + 92.0;
     // A single certificate shows no change.
@@ -119,9 +119,9 @@ fn time_line(history: &History, (now, as_of): (Timestamp, &str), time: &Scale, b
         @for at in &history.certificates {
             (mark([time.place(year_of(at.stand.certificate.measured())), row(0)], 1, "mark"))
         }
-        @for (place, stay) in (1..).zip(&history.places) {
-            (words([ACROSS[0] - 8.0, row(place) + 4.0], Anchor::End, "small", &shortened(&stay.site)))
-            @for passport in history.passports.iter().filter(|at| at.line.site.as_ref() == Some(&stay.site)) {
+        @for (place, site) in (1..).zip(history.sites()) {
+            (words([ACROSS[0] - 8.0, row(place) + 4.0], Anchor::End, "small", &shortened(site)))
+            @for passport in history.passports.iter().filter(|at| at.line.site.as_deref() == Some(site)) {
                 (bar(passport, history, now, time, row(place)))
             }
         }
