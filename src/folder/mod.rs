@@ -243,7 +243,10 @@ impl Folder {
                 let changed = there.differences(stand, site, draft.content());
                 Err(FolderRefused::OtherContent(there.path, changed))
             }
-            None => Ok(Next::New { path, draft }),
+            None => match self.sites.later(&path, order.revision) {
+                Some(later) => Err(FolderRefused::Gap { path, later }),
+                None => Ok(Next::New { path, draft }),
+            },
         }
     }
 
@@ -262,9 +265,14 @@ impl Folder {
             let draft = Box::new(successor.draft(revision)?);
             let path = self.path_of(&successor.stand().stand, &successor.site.id, revision);
             let Some(there) = self.existing(&path)? else {
-                return match successor.rival.as_deref() {
-                    Some(rival) => Err(FolderRefused::Fork(rival.to_owned())),
-                    None => Ok(Next::New { path, draft }),
+                return match (successor.rival.as_deref(), self.sites.later(&path, revision)) {
+                    (Some(rival), _) => Err(FolderRefused::Fork(rival.to_owned())),
+                    (None, Some(later)) if successor.same_site => Err(FolderRefused::Gap { path, later }),
+                    (None, Some(_)) => {
+                        revision = revision.saturating_add(1);
+                        continue;
+                    }
+                    (None, None) => Ok(Next::New { path, draft }),
                 };
             };
             if same(&there.content, draft.content()) {

@@ -1,6 +1,7 @@
-//! Names that differ only in case, which some systems do not distinguish.
+//! Names in the folders of passports: those that differ only in case, which some systems do not distinguish, and the last
+//! revisions.
 
-use super::search::numbered;
+use super::search::{numbered, revision};
 use crate::files::FileError;
 use std::collections::HashMap;
 use std::fs;
@@ -11,10 +12,13 @@ use std::sync::{Mutex, PoisonError};
 /// Names in folders of stands or of sites. Each folder is listed once.
 #[derive(Debug)]
 pub(super) struct Names {
-    /// Names in each folder, by their lower-case form.
-    known: Mutex<HashMap<PathBuf, HashMap<String, String>>>,
+    /// Names in each folder.
+    known: Mutex<HashMap<PathBuf, Listed>>,
     of: Of,
 }
+
+/// Names by their lower-case form, with the last revision that was there.
+type Listed = HashMap<String, (String, u32)>;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Of {
@@ -45,27 +49,37 @@ impl Names {
             known.insert(folder.to_owned(), self.list(folder)?);
         }
         let there =
-            known.get_mut(folder).map(|names| names.entry(name.to_ascii_lowercase()).or_insert(name.to_owned()));
-        Ok(there.filter(|there| *there != name).map(|there| folder.join(there)))
+            known.get_mut(folder).map(|names| names.entry(name.to_ascii_lowercase()).or_insert((name.to_owned(), 0)));
+        Ok(there.filter(|(there, _)| *there != name).map(|(there, _)| folder.join(there)))
     }
 
-    fn list(&self, folder: &Path) -> Result<HashMap<String, String>, FileError> {
+    /// Returns the last revision in the folder of a passport that was added, if it is later than `revision`.
+    pub(super) fn later(&self, path: &Path, revision: u32) -> Option<PathBuf> {
+        let (folder, name) = (crate::files::folder_of(path), self.name(path)?);
+        let known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let (_, last) = known.get(folder)?.get(&name.to_ascii_lowercase())?;
+        (*last > revision).then(|| folder.join(format!("{name}-{last}.yaml")))
+    }
+
+    fn list(&self, folder: &Path) -> Result<Listed, FileError> {
         let failed = |error| FileError::Read(folder.to_owned(), error);
         let entries = match fs::read_dir(folder) {
             // A file in place of the folder is reported when the passport itself is looked up.
             Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
-                return Ok(HashMap::new());
+                return Ok(Listed::new());
             }
             entries => entries.map_err(failed)?,
         };
-        let mut names = HashMap::new();
+        let mut names = Listed::new();
         for entry in entries {
             let entry = entry.map_err(failed)?;
             let is_folder = entry.file_type().map_err(failed)?.is_dir();
             if is_folder == (self.of == Of::Folders)
-                && let Some(name) = self.name(Path::new(&entry.file_name()))
+                && let file = entry.file_name()
+                && let Some(name) = self.name(Path::new(&file))
             {
-                names.insert(name.to_ascii_lowercase(), name.to_owned());
+                let last = &mut names.entry(name.to_ascii_lowercase()).or_insert((name.to_owned(), 0)).1;
+                *last = (*last).max(revision(&file));
             }
         }
         Ok(names)

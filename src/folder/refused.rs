@@ -36,6 +36,19 @@ pub enum FolderRefused {
         shown(.0)
     )]
     LaterRevision(PathBuf),
+    /// Missing revision before an existing one.
+    #[error(
+        "{}: is missing, but there is a later revision, {}, which supersedes it; to issue a new one, use `reissue {}`",
+        shown(path),
+        shown(later),
+        shown(later)
+    )]
+    Gap {
+        /// Path of the missing file.
+        path: PathBuf,
+        /// Path of the last revision.
+        later: PathBuf,
+    },
     /// Existing file of this name that is not a passport, and why it cannot be compared as one.
     #[error(
         "{}: already exists and cannot be compared as a passport ({}); move it to another folder",

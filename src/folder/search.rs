@@ -10,7 +10,7 @@ use crate::parallel;
 use crate::passport::Trust;
 use crate::register::{Alarm, AlarmKind, Asked, Concern, Examined, Line, Register, examine};
 use crate::revocation::{RevocationList, Series, claims_to_be_a_list};
-use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
+use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use jiff::Timestamp;
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
@@ -326,13 +326,25 @@ pub(crate) enum NoNewestList {
 /// the lists in all of them are returned, because otherwise two lists could have the same number.
 ///
 /// # Errors
-/// Returns [`NoNewestList`] if a list is damaged, missing, contradictory, or from a signer who is not trusted.
+/// Returns [`NoNewestList`] if a list is damaged, missing, contradictory, or from a signer who is not trusted, or if the
+/// lists of the passports are in other folders.
 pub(crate) fn lists(folder: &Path, passports: &Path, trust: &Trust, time: Timestamp) -> Result<Series, NoNewestList> {
     let mut together = folders_of_lists(passports, 0);
     together.push(passports.to_owned());
     let real = |folder: &Path| folder.canonicalize().ok();
     let is_folder = |other: &PathBuf| other == folder || real(other).is_some_and(|other| Some(other) == real(folder));
     if !together.iter().any(is_folder) {
+        let beneath =
+            together.iter().any(|other| real(folder).zip(real(other)).is_some_and(|(it, at)| it.starts_with(at)));
+        if let Some(list) = any_list(&together).filter(|_| !beneath) {
+            return Err(NoNewestList::Refused(format!(
+                "{}: the lists for {} are elsewhere ({}), and a second series would contradict them; specify their folder \
+                 with --list",
+                shown(folder),
+                shown(passports),
+                shown(&list)
+            )));
+        }
         together = vec![folder.to_owned()];
     }
     let mut found = Found::default();
@@ -356,6 +368,15 @@ pub(crate) fn lists(folder: &Path, passports: &Path, trust: &Trust, time: Timest
     Err(NoNewestList::Refused(alarms.join("\n")))
 }
 
+/// Returns a file in the folders that claims to be a list, or `None` if there is none.
+fn any_list(folders: &[PathBuf]) -> Option<PathBuf> {
+    let mut found = Found::default();
+    folders.iter().filter(|folder| folder.exists()).for_each(|folder| found.add(folder));
+    let is_list =
+        |path: &PathBuf| files::read_first(path, BEGINNING_BYTES).is_ok_and(|bytes| claims_to_be_a_list(&bytes));
+    found.files.into_iter().find(is_list)
+}
+
 fn unreadable(root: &Path, error: &FileError) -> Alarm {
     let why = match error {
         FileError::Read(_, error) => format!("cannot be read: {}", files::reason(error)),
@@ -374,4 +395,10 @@ pub(crate) fn is_numbered(name: &OsStr) -> bool {
 pub(super) fn numbered(name: &OsStr) -> Option<&str> {
     let (name, number) = name.to_str()?.strip_suffix(".yaml")?.rsplit_once('-')?;
     (!number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit())).then_some(name)
+}
+
+/// Returns the number in `<name>-<number>.yaml`, or 0 if the name has another form.
+pub(super) fn revision(name: &OsStr) -> u32 {
+    let number = name.to_str().and_then(|name| name.strip_suffix(".yaml")?.rsplit('-').next()?.parse().ok());
+    number.unwrap_or(0)
 }

@@ -23,7 +23,7 @@ words! {
         PublicKey = "a public key",
         PrivateKey = "a private key",
         KeyRevocationList = "a key revocation list of OpenSSH (KRL)",
-        Workbook = "a file of a spreadsheet or word processor",
+        Workbook = "a ZIP archive or an Office file",
         Pdf = "a PDF file",
         Html = "an HTML page",
     }
@@ -99,7 +99,7 @@ impl Kind {
             Self::Gyro => "give it with --gyro",
             Self::Laboratory => "give it with --laboratory",
             Self::Dcc => "give it with --administrative",
-            Self::Workbook => "export the table as CSV",
+            Self::Workbook => "unpack it, or export the table as CSV",
             Self::Html | Self::Pdf => "give the file from which it was made",
             _ => "check the order of the arguments",
         }

@@ -17,7 +17,7 @@ pub enum IssueRefused {
     #[error(transparent)]
     Singular(#[from] SingularPositions),
     /// The time of issue is earlier than the date of the certificate.
-    #[error("issued_at {issued_at} is earlier than the date of the certificate, {certified}; check the clock")]
+    #[error("issued_at {issued_at} is earlier than the date of the certificate, {certified} (UTC); check both")]
     BeforeCertificate {
         /// Time of issue.
         issued_at: Timestamp,
