@@ -24,9 +24,13 @@ pub(crate) struct NumberDifference {
 }
 
 impl NumberDifference {
-    /// Returns `b` − `a`, or `None` if only one of the passports states the number.
+    /// Returns `b` − `a`, of longitudes and azimuths the shorter way round; `None` if only one of the passports states the
+    /// number.
     pub(crate) fn difference(&self) -> Option<f64> {
-        Some(self.b? - self.a?)
+        let difference = self.b? - self.a?;
+        let is_round = ["longitude_deg", "azimuth_deg"].iter().any(|key| self.key.ends_with(key));
+        let turn = if is_round && difference.abs() > 180.0 { 360.0_f64.copysign(difference) } else { 0.0 };
+        Some(difference - turn)
     }
 
     /// Returns the difference in units of its standard uncertainty, or `None` without one.
@@ -222,6 +226,20 @@ mod tests {
     }
 
     /// Expected: by hand from the changes made; u = √(u_α² + c_p² + c_b²) of either certificate for a small deviation.
+    /// Expected: the difference of two directions is at most half a turn.
+    #[test]
+    fn directions_differ_by_the_shorter_way_round() {
+        let difference = |key: &str, a: f64, b: f64| {
+            let number = NumberDifference { key: key.to_owned(), a: Some(a), b: Some(b), standard_uncertainty: None };
+            number.difference().unwrap()
+        };
+        assert!((difference("earth.azimuth_deg", 359.75, 0.5) - 0.75).abs() < 1e-12);
+        assert!((difference("site.frame_axis_azimuth_deg", 0.0, 359.75) + 0.25).abs() < 1e-12);
+        assert!((difference("site.longitude_deg", 179.5, -179.75) - 0.75).abs() < 1e-12);
+        assert!((difference("site.longitude_deg", -100.0, 79.0) - 179.0).abs() < 1e-12);
+        assert!((difference("site.height_m", 900.0, 100.0) + 800.0).abs() < 1e-12);
+    }
+
     #[test]
     fn every_change_is_found_with_its_uncertainty() {
         let a = passport("SPS-2/0017/moscow-bmstu-1.yaml");
