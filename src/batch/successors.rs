@@ -16,7 +16,7 @@ use crate::passport::{Check, CheckName, Question, Trust, verify};
 use crate::register::{Alarm, AlarmKind, Asked, Line, Register, State};
 use crate::site::Site;
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::BufRead;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -55,6 +55,8 @@ struct Searched {
     /// Trust, including the revocation lists that apply to the folder.
     trust: Trust,
     register: Register,
+    /// Stands with a passport for the site of the order, which a corrected site concerns alone.
+    at_the_site: BTreeSet<String>,
 }
 
 enum Examined {
@@ -160,7 +162,12 @@ impl Run<'_> {
         for failure in register.alarms.iter().filter_map(not_looked_at) {
             self.push(Err(failure), tell);
         }
-        let searched = Arc::new(Searched { trust, register });
+        let id = self.change.order.site.as_ref().map(|site| site.id.as_str());
+        let there = |line: &&Line| {
+            id.is_some() && line.site.as_deref() == id && (line.is_usable() || line.state == State::Expired)
+        };
+        let at_the_site = register.passports.iter().filter(there).filter_map(|line| line.stand.clone()).collect();
+        let searched = Arc::new(Searched { trust, register, at_the_site });
         for (path, index) in here {
             self.push(Ok(Candidate { path, found: Some((Arc::clone(&searched), index)) }), tell);
             if self.batch.cancelled() {
@@ -223,7 +230,7 @@ impl Run<'_> {
         let change = &self.change;
         let refused = |why: String| Failure::refused(path, why);
         if let Some((folder, index)) = &candidate.found
-            && let Some(done) = self.settled_by_folder(path, &folder.register, &folder.register.passports[*index])?
+            && let Some(done) = self.settled_by_folder(path, folder, &folder.register.passports[*index])?
         {
             return Ok(Examined::Done(done));
         }
@@ -284,7 +291,7 @@ impl Run<'_> {
     fn settled_by_folder(
         &self,
         path: &Path,
-        register: &Register,
+        Searched { register, at_the_site, .. }: &Searched,
         line: &Line,
     ) -> Result<Option<Option<Outcome>>, Failure> {
         let refused = |why: String| Err(Failure::refused(path, why));
@@ -314,7 +321,21 @@ impl Run<'_> {
             State::Superseded | State::Moved => return skipped(format!("superseded {}", line.why)),
             _ => {}
         }
+        if self.is_for_another_site(line, at_the_site) {
+            return skipped("for another site, which the change does not concern".to_owned());
+        }
         if register.is_of_a_fork(&line.sha256) { refused(FORKED.to_owned()) } else { Ok(None) }
+    }
+
+    /// Returns `true` if only passports for other sites are to be re-issued: a corrected site concerns its own.
+    fn is_for_another_site(&self, line: &Line, at_the_site: &BTreeSet<String>) -> bool {
+        let Change { order, stands, sites, .. } = &self.change;
+        let (Some(stand), Some(site)) = (&line.stand, &line.site) else { return false };
+        match &order.site {
+            Some(new) => !order.moved && new.id.as_str() != site && at_the_site.contains(stand),
+            // A new certificate concerns the passports for all sites.
+            None => stands.is_empty() && !sites.is_empty() && !self.sites_missing && !self.sites.has(site),
+        }
     }
 
     /// Returns the order for one passport, with the files for its stand and site.

@@ -15,7 +15,8 @@ use std::sync::Arc;
 /// Verify passports and issue their successors: another site, corrected stands or sites, another key
 ///
 /// PASSPORT is a file, a quoted pattern, or a folder; a - reads a list of paths from standard input. For a folder, the
-/// passports that the register shows as in force or expired are re-issued; with --stand only those of these stands.
+/// passports that the register shows as in force or expired are re-issued; with --stand only those of these stands,
+/// and with a corrected site only those for it.
 #[derive(Args)]
 pub(super) struct Options {
     /// Predecessors; in a workspace also their identifiers
