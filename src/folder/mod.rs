@@ -244,7 +244,7 @@ impl Folder {
                 Err(FolderRefused::OtherContent(there.path, changed))
             }
             None => match self.sites.later(&path, order.revision) {
-                Some(later) => Err(FolderRefused::Gap { path, later }),
+                Some((_, later)) => Err(FolderRefused::Gap { path, later }),
                 None => Ok(Next::New { path, draft }),
             },
         }
@@ -267,9 +267,10 @@ impl Folder {
             let Some(there) = self.existing(&path)? else {
                 return match (successor.rival.as_deref(), self.sites.later(&path, revision)) {
                     (Some(rival), _) => Err(FolderRefused::Fork(rival.to_owned())),
-                    (None, Some(later)) if successor.same_site => Err(FolderRefused::Gap { path, later }),
-                    (None, Some(_)) => {
-                        revision = revision.saturating_add(1);
+                    (None, Some((_, later))) if successor.same_site => Err(FolderRefused::Gap { path, later }),
+                    // In one step, however high the number in the name of a file is.
+                    (None, Some((last, _))) => {
+                        revision = last;
                         continue;
                     }
                     (None, None) => Ok(Next::New { path, draft }),
@@ -284,10 +285,10 @@ impl Folder {
             }
             // At the predecessor's site only one revision can be the next one; at another site, try the next free
             // revision.
-            if successor.same_site {
+            let Some(next) = revision.checked_add(1).filter(|_| !successor.same_site) else {
                 return Err(FolderRefused::LaterRevision(there.path));
-            }
-            revision = revision.saturating_add(1);
+            };
+            revision = next;
         }
     }
 
