@@ -24,8 +24,13 @@ const RULES = {
 function said() {
   const text = (element) => {
     const copy = element.cloneNode(true);
-    // What only a telephone shows is not printed.
-    copy.querySelectorAll(".pad, .narrow-only").forEach((part) => part.remove());
+    copy.querySelectorAll(".pad").forEach((pad) => pad.remove());
+    return copy.textContent;
+  };
+  // What only a telephone shows is not printed.
+  const printed = (element) => {
+    const copy = element.cloneNode(true);
+    copy.querySelectorAll(".narrow-only").forEach((part) => part.remove());
     return copy.textContent;
   };
   const all = (selector) => [...document.querySelectorAll(selector)];
@@ -80,7 +85,7 @@ function said() {
     headings: all("h1, h2, h3, caption").map((heading) => heading.textContent),
     blocks: all("p, dt, dd, th, td, caption, h1, h2, h3, li")
       .filter((block) => !block.closest(".unseen, .save, .screen, svg, tfoot") && !block.querySelector("sub, sup, p, .pad, .unseen, svg text"))
-      .map(text),
+      .map(printed),
     annex: document.querySelector("pre").textContent,
     download: { name: link.download, address: link.href },
     checked: document.querySelector(".checked")?.textContent ?? "",
