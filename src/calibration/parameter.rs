@@ -109,7 +109,7 @@ impl Parameter {
     }
 }
 
-/// As its key.
+/// Serialises a parameter as its key, such as `k_x`.
 impl Serialize for Parameter {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(self.key())

@@ -41,7 +41,7 @@ pub struct Verdict {
     pub gravity_m_per_s2: f64,
     /// Decisions, one for each parameter; the general model has no ω_g and ω_k.
     pub parameters: Vec<ParameterVerdict>,
-    /// Whether nothing is decided because the parameters are not valid, so that simple acceptance and risk say nothing.
+    /// `true` if nothing is decided, because the parameters are not valid. Simple acceptance and risk then have no meaning.
     #[serde(skip)]
     pub(crate) withheld: bool,
 }
@@ -49,7 +49,7 @@ pub struct Verdict {
 /// Comparison of one parameter with its tolerance.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ParameterVerdict {
-    /// The parameter.
+    /// Parameter compared with its tolerance.
     pub parameter: Parameter,
     /// Value found, in the unit of the parameter; drifts at the type's g.
     pub value: f64,
@@ -147,8 +147,13 @@ impl Found {
     /// Returns the expanded uncertainty of a parameter: k = 2, or Student's t for few degrees of freedom.
     #[cfg(feature = "report")]
     pub(crate) fn expanded_uncertainty(&self, parameter: Parameter) -> f64 {
-        let place = parameter.place();
-        coverage_factor(self.degrees_of_freedom[place]) * self.standard_uncertainty[place]
+        self.coverage_factor(parameter) * self.standard_uncertainty[parameter.place()]
+    }
+
+    /// Returns the coverage factor of the expanded uncertainty of a parameter.
+    #[cfg(feature = "report")]
+    pub(crate) fn coverage_factor(&self, parameter: Parameter) -> f64 {
+        coverage_factor(self.degrees_of_freedom[parameter.place()])
     }
 
     /// Returns the standard uncertainty that the local g adds to a parameter on conversion to another g; 0 if it has no

@@ -244,7 +244,7 @@ impl Folder {
                 Err(FolderRefused::OtherContent(there.path, changed))
             }
             None => match self.sites.later(&path, order.revision) {
-                Some((_, later)) => Err(FolderRefused::Gap { path, later }),
+                Some(last) => Err(FolderRefused::Gap { path, later: self.path_of(&stand.stand, &site.id, last) }),
                 None => Ok(Next::New { path, draft }),
             },
         }
@@ -263,13 +263,14 @@ impl Folder {
         let mut revision = successor.first_revision();
         loop {
             let draft = Box::new(successor.draft(revision)?);
-            let path = self.path_of(&successor.stand().stand, &successor.site.id, revision);
+            let path_of = |revision| self.path_of(&successor.stand().stand, &successor.site.id, revision);
+            let path = path_of(revision);
             let Some(there) = self.existing(&path)? else {
                 return match (successor.rival.as_deref(), self.sites.later(&path, revision)) {
                     (Some(rival), _) => Err(FolderRefused::Fork(rival.to_owned())),
-                    (None, Some((_, later))) if successor.same_site => Err(FolderRefused::Gap { path, later }),
+                    (None, Some(last)) if successor.same_site => Err(FolderRefused::Gap { path, later: path_of(last) }),
                     // In one step, however high the number in the name of a file is.
-                    (None, Some((last, _))) => {
+                    (None, Some(last)) => {
                         revision = last;
                         continue;
                     }

@@ -53,12 +53,12 @@ impl Names {
         Ok(there.filter(|(there, _)| *there != name).map(|(there, _)| folder.join(there)))
     }
 
-    /// Returns the last revision in the folder of a passport that was added, if it is later than `revision`, and its path.
-    pub(super) fn later(&self, path: &Path, revision: u32) -> Option<(u32, PathBuf)> {
+    /// Returns the last revision in the folder of a passport that was added, if it is later than `revision`.
+    pub(super) fn later(&self, path: &Path, revision: u32) -> Option<u32> {
         let (folder, name) = (crate::files::folder_of(path), self.name(path)?);
         let known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         let (_, last) = known.get(folder)?.get(&name.to_ascii_lowercase())?;
-        (*last > revision).then(|| (*last, folder.join(format!("{name}-{last}.yaml"))))
+        Some(*last).filter(|last| *last > revision)
     }
 
     fn list(&self, folder: &Path) -> Result<Listed, FileError> {

@@ -225,7 +225,6 @@ mod tests {
         crate::passport::content_from_anyone(name, &std::fs::read(path).unwrap()).unwrap()
     }
 
-    /// Expected: by hand from the changes made; u = √(u_α² + c_p² + c_b²) of either certificate for a small deviation.
     /// Expected: the difference of two directions is at most half a turn.
     #[test]
     fn directions_differ_by_the_shorter_way_round() {
@@ -240,6 +239,7 @@ mod tests {
         assert!((difference("site.height_m", 900.0, 100.0) + 800.0).abs() < 1e-12);
     }
 
+    /// Expected: by hand from the changes made; u = √(u_α² + c_p² + c_b²) of either certificate for a small deviation.
     #[test]
     fn every_change_is_found_with_its_uncertainty() {
         let a = passport("SPS-2/0017/moscow-bmstu-1.yaml");

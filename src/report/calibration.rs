@@ -1,7 +1,7 @@
 //! Result of a calibration as text: the decision, the parameters and the fit come first, the evidence below.
 
 use super::scatter::{Weight, scatter};
-use super::tolerance::{decided, factors, from_gravity, headline, overall, verdict_table};
+use super::tolerance::{coverage_factor, decided, from_gravity, headline, overall, verdict_table};
 use super::uncertainty::not_linear;
 use crate::calibration::diagnosis::INCONSISTENT;
 use crate::calibration::document::Subject;
@@ -76,9 +76,9 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
     residuals(&mut out, calibration);
     if let Some((name, verdict)) = verdict {
         let words = format!(
-            "Comparison with gyro type {name}, in the unit of the tolerance; U = k u, k = {} (coverage probability {:.2} %); \
+            "Comparison with gyro type {name}, in the unit of the tolerance; U = k u, k = {}; coverage probability {:.2} %; \
              g-sensitive drifts refer to the g of the type, {} m/s²:",
-            factors(verdict),
+            coverage_factor(verdict.parameters.iter().map(|row| row.coverage_factor), Language::English),
             100.0 * (1.0 - BEYOND),
             verdict.gravity_m_per_s2
         );

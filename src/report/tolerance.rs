@@ -1,10 +1,11 @@
 //! Decisions on the tolerances of a gyro type as text.
 
+use super::page::Number;
 use super::page::language::{Language, values};
 use super::page::texts::calibration as texts;
 use super::{columns, style};
 use crate::calibration::parameter::Parameter;
-use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
+use crate::calibration::verdict::{COVERAGE_FACTOR, Decision, ParameterVerdict, Verdict};
 use crate::text::printable::printable;
 use crate::units::{printed, quantity};
 use std::fmt::Write;
@@ -56,12 +57,16 @@ fn word(decision: Decision) -> &'static str {
     }
 }
 
-/// Returns the coverage factor of a verdict, or their range.
-pub(super) fn factors(verdict: &Verdict) -> String {
-    let factors = || verdict.parameters.iter().map(|row| row.coverage_factor);
-    let [least, most] =
-        [factors().fold(f64::INFINITY, f64::min), factors().fold(0.0, f64::max)].map(|k| format!("{k:.2}"));
-    if least == most { least } else { format!("{least} to {most}") }
+/// Returns the coverage factor of several expanded uncertainties, or its range: 2, or that of Student's t for few degrees
+/// of freedom.
+pub(super) fn coverage_factor(factors: impl Iterator<Item = f64>, language: Language) -> String {
+    let [least, most] = factors.fold([f64::INFINITY, 0.0], |[least, most], k| [k.min(least), k.max(most)]);
+    let printed = |k: f64| Number::fixed(k, 2).text(language);
+    match (printed(least), printed(most)) {
+        (_, most) if most == printed(COVERAGE_FACTOR) => Number::fixed(COVERAGE_FACTOR, 0).text(language),
+        (least, most) if least == most => texts::STUDENT.filled(language, values! { k: most }),
+        (least, most) => texts::STUDENT.filled(language, values! { k: format!("{least}–{most}") }),
+    }
 }
 
 /// Appends the lines of a verdict; `deviation` is the heading of the differences.
@@ -107,4 +112,18 @@ pub(super) fn from_gravity(verdict: &Verdict, u_m_per_s2: f64) -> Option<String>
     let u = quantity(&columns::two_digits(u_m_per_s2), "m/s²");
     let words = || texts::FROM_GRAVITY.filled(Language::English, values! { parts: parts.join(", "), u });
     (!parts.is_empty()).then(words)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_coverage_factor_that_is_not_2_is_named() {
+        let words = |factors: &[f64]| coverage_factor(factors.iter().copied(), Language::English);
+        assert_eq!(words(&[2.0, 2.0]), "2");
+        assert_eq!(words(&[2.43, 2.43]), "2.43 (Student’s t)");
+        assert_eq!(words(&[2.0, 2.4463, 2.0]), "2.00–2.45 (Student’s t)");
+        assert_eq!(coverage_factor([2.0, 2.4463].into_iter(), Language::Russian), "2,00–2,45 (коэффициент Стьюдента)");
+    }
 }

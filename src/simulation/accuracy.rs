@@ -87,7 +87,7 @@ pub struct Accuracy {
 pub struct AccuracyRow {
     /// Key of the method.
     pub method: &'static str,
-    /// The parameter.
+    /// Parameter whose errors the row shows.
     pub parameter: Parameter,
     /// Unit of the errors: percent of the nominal value for K.
     pub unit: &'static str,

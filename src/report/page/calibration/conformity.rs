@@ -5,7 +5,7 @@ use super::parameters::{self, name_of};
 use super::{CalibrationPage, history, subject};
 use crate::calibration::document::CalibrationDocument;
 use crate::calibration::parameter::Parameter;
-use crate::calibration::verdict::{COVERAGE_FACTOR, Decision, ParameterVerdict, Verdict};
+use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::gyro::GyroType;
 use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::{Cell, Number, column};
@@ -15,6 +15,7 @@ use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::accuracy::unit;
 use crate::report::picture::tolerances::{Strips, decision, key, printed, unit_of};
+use crate::report::tolerance::coverage_factor;
 use maud::{Markup, html};
 
 /// Limit below which a risk is not printed as a number.
@@ -114,24 +115,11 @@ fn alone(page: &CalibrationPage, languages: &Languages) -> Markup {
     let with_unit = |parameter: Parameter| symbol_and_unit(languages, &name_of(parameter.symbol()), unit(parameter));
     let names = rows.iter().map(|(parameter, _)| vec![with_unit(*parameter)]).collect();
     let caption = languages.label_with(|language| {
-        let factor =
-            |(parameter, expanded): &(Parameter, f64)| expanded / found.standard_uncertainty[parameter.place()];
-        texts::RESULT_CAPTION.filled(language, values! { k: coverage_factor(rows.iter().map(factor), language) })
+        let factors = rows.iter().map(|(parameter, _)| found.coverage_factor(*parameter));
+        texts::RESULT_CAPTION.filled(language, values! { k: coverage_factor(factors, language) })
     });
     let table = Table::of(vec![languages.label(texts::PARAMETER)], names, &columns);
     Table { caption: Some(caption), class: "numbers narrow", ..table }.markup(languages.spoken(texts::RESULT))
-}
-
-/// Returns the coverage factor of several expanded uncertainties, or its range: 2, or that of Student's t for few degrees
-/// of freedom.
-fn coverage_factor(factors: impl Iterator<Item = f64>, language: Language) -> String {
-    let [least, most] = factors.fold([f64::INFINITY, 0.0], |[least, most], k| [k.min(least), k.max(most)]);
-    let printed = |k: f64| Number::fixed(k, 2).text(language);
-    match (printed(least), printed(most)) {
-        (_, most) if most == printed(COVERAGE_FACTOR) => Number::fixed(COVERAGE_FACTOR, 0).text(language),
-        (least, most) if least == most => texts::STUDENT.filled(language, values! { k: most }),
-        (least, most) => texts::STUDENT.filled(language, values! { k: format!("{least}–{most}") }),
-    }
 }
 
 /// Writes a comparison; `with_u` says whether the standard uncertainty of a row is that of its value.
@@ -253,19 +241,5 @@ fn probability_cell(languages: &Languages, p: f64) -> Cell {
         Cell::Number(Number::scientific(p, 2))
     } else {
         Cell::Number(Number::fixed(p, 2))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_coverage_factor_that_is_not_2_is_named() {
-        let words = |factors: &[f64]| coverage_factor(factors.iter().copied(), Language::English);
-        assert_eq!(words(&[2.0, 2.0]), "2");
-        assert_eq!(words(&[2.43, 2.43]), "2.43 (Student’s t)");
-        assert_eq!(words(&[2.0, 2.4463, 2.0]), "2.00–2.45 (Student’s t)");
-        assert_eq!(coverage_factor([2.0, 2.4463].into_iter(), Language::Russian), "2,00–2,45 (коэффициент Стьюдента)");
     }
 }

@@ -188,9 +188,9 @@ texts! {
         en: "The visits of the check scatter by {found}″, the certificate states {certified}″ (F test, p = {p}). Either the \
              stand repeats worse, so that uncertainties from its certificate are too small, or the instrument of the \
              check reads worse.",
-        ru: "Стандартное отклонение одной установки при проверке {found}″, по сертификату {certified}″ (F-критерий, p = {p}). Либо повторяемость \
-             стенда ухудшилась и неопределённости по его сертификату занижены, либо больше погрешность прибора, \
-             которым выполнена проверка."
+        ru: "Стандартное отклонение одной установки при проверке {found}″, по сертификату {certified}″ (F-критерий, p = {p}). \
+             Либо повторяемость стенда ухудшилась и неопределённости по его сертификату занижены, либо больше погрешность \
+             прибора, которым выполнена проверка."
     }
     POSITION_CHANGED {
         en: "Position {index} has changed relative to the other positions: {x}″, {y}″, {z}″ about x, y, z.",
