@@ -13,10 +13,6 @@ use serde::{Deserialize, Serialize};
 /// Maximum number of steps; a longer iteration counts as not converged.
 pub(crate) const LARGEST_NUMBER_OF_STEPS: u32 = 200;
 
-/// Share of a standard uncertainty below which a remaining error is not printed as a number.
-#[cfg(feature = "report")]
-pub(crate) const NEGLIGIBLE: f64 = 1e-3;
-
 /// Stop rule of the iteration: the paper's Δ₁ and Δ₂.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "struct StopRuleDocument")]

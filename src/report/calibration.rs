@@ -4,8 +4,8 @@ use super::scatter::{Weight, scatter};
 use super::tolerance::{coverage_factor, decided, from_gravity, headline, overall, verdict_table};
 use super::uncertainty::not_linear;
 use crate::calibration::diagnosis::INCONSISTENT;
-use crate::calibration::document::Subject;
-use crate::calibration::iterative::{LARGEST_NUMBER_OF_STEPS, NEGLIGIBLE};
+use crate::calibration::document::{ResultDocument, Subject};
+use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::mistake::Mistake;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::prediction::FurtherVisit;
@@ -72,7 +72,7 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
     if meter_assumed {
         columns::paragraph(&mut out, "", texts::METER_ASSUMED.of(Language::English));
     }
-    methods(&mut out, calibration);
+    methods(&mut out, calibration, &document.results);
     residuals(&mut out, calibration);
     if let Some((name, verdict)) = verdict {
         let words = format!(
@@ -278,7 +278,7 @@ fn beyond_the_paper(out: &mut String, answer: &MethodResult) {
     }
 }
 
-fn methods(out: &mut String, calibration: &Calibration) {
+fn methods(out: &mut String, calibration: &Calibration, results: &[ResultDocument]) {
     let Some(answer) = calibration.answer() else { return };
     let others: Vec<&MethodResult> =
         calibration.results.iter().filter(|result| result.method != answer.method).collect();
@@ -288,31 +288,25 @@ fn methods(out: &mut String, calibration: &Calibration) {
     if !others.is_empty() {
         comparison(out, answer, &others);
     }
-    for result in &calibration.results {
-        let Some(iteration) = &result.iteration else { continue };
-        let predicted = match iteration.predicted_steps {
-            Some(steps) if steps <= LARGEST_NUMBER_OF_STEPS => steps.to_string(),
-            _ => format!("more than {LARGEST_NUMBER_OF_STEPS}"),
-        };
-        let rest = iteration.remainder_k_deg_per_h_per_ma.abs().max();
-        let rest_n = iteration.remainder_omega_n_deg_per_h_per_g.abs().max();
-        let least_u = |of: &dyn Fn(&Parameter) -> bool| {
-            let us = Parameter::EIGHT.into_iter().filter(of).filter_map(|one| result.standard_uncertainty(one));
-            us.fold(f64::INFINITY, f64::min)
-        };
-        let is_negligible = rest < NEGLIGIBLE * least_u(&|one| one.is_scale_factor())
-            && rest_n < NEGLIGIBLE * least_u(&|one| *one == Parameter::OmegaG);
-        let remaining = match is_negligible {
-            true => format!("remaining error {}", texts::NEGLIGIBLE.of(Language::English)),
-            false => format!(
-                "remaining error at most {} °/(h·mA) in K and {} °/(h·g) in ω_n",
-                columns::two_digits(rest),
-                columns::two_digits(rest_n)
-            ),
+    for result in results {
+        let (Some(radius), Some(steps)) = (result.spectral_radius, result.iterations) else { continue };
+        let predicted = result.iterations_predicted.map(|steps| steps.to_string());
+        let predicted = predicted.unwrap_or_else(|| format!("more than {LARGEST_NUMBER_OF_STEPS}"));
+        let negligible = texts::NEGLIGIBLE.of(Language::English);
+        let remaining = match result.remaining_errors() {
+            Some([None, None]) | None => negligible.to_owned(),
+            Some(errors) => {
+                let words = |error: Option<f64>, unit: &str| {
+                    error.map_or_else(
+                        || negligible.to_owned(),
+                        |most| format!("at most {} {unit}", columns::two_digits(most)),
+                    )
+                };
+                format!("in K {}, in ω_n {}", words(errors[0], "°/(h·mA)"), words(errors[1], "°/(h·g)"))
+            }
         };
         let words = format!(
-            "iterative: spectral radius {:.4}; {predicted} steps predicted, {} taken; {remaining}.",
-            iteration.spectral_radius, iteration.steps
+            "iterative: spectral radius {radius:.4}; {predicted} steps predicted, {steps} taken; remaining error {remaining}."
         );
         columns::paragraph(out, "  ", &words);
     }

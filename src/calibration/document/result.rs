@@ -210,6 +210,10 @@ pub(crate) struct ResidualDocument {
     pub(crate) u_y: Option<f64>,
 }
 
+/// Share of a standard uncertainty below which a remaining error is rounding, not a result.
+#[cfg(feature = "report")]
+const NEGLIGIBLE: f64 = 1e-3;
+
 fn rows<const C: usize>(matrix: &SMatrix<f64, 2, C>) -> [[f64; C]; 2] {
     [0, 1].map(|row| std::array::from_fn(|column| matrix[(row, column)]))
 }
@@ -258,6 +262,18 @@ impl ResultDocument {
             },
             residuals_deg_per_h: residuals.collect(),
         }
+    }
+
+    /// Returns the largest remaining error of the iterative method in K, °/(h·mA), and in ω_n, °/(h·g), each `None` if it is
+    /// negligible; or `None` for other methods.
+    #[cfg(feature = "report")]
+    pub(crate) fn remaining_errors(&self) -> Option<[Option<f64>; 2]> {
+        let largest =
+            |rows: [[f64; 2]; 2]| rows.into_iter().flatten().fold(0.0, |most, x: f64| f64::max(most, x.abs()));
+        let u_k = self.standard_uncertainty.k_deg_per_h_per_ma.into_iter().flatten().fold(f64::INFINITY, f64::min);
+        let u_omega = self.standard_uncertainty.omega_g_deg_per_h_per_g.unwrap_or(0.0);
+        let errors = [(self.remainder_k_deg_per_h_per_ma?, u_k), (self.remainder_omega_n_deg_per_h_per_g?, u_omega)];
+        Some(errors.map(|(error, u)| Some(largest(error)).filter(|most| *most >= NEGLIGIBLE * u)))
     }
 
     pub(crate) fn found(&self, gravity_m_per_s2: f64, gravity_u_m_per_s2: Option<f64>) -> Found {

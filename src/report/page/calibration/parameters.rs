@@ -3,7 +3,7 @@
 use super::conformity::with_gravity;
 use super::{CalibrationPage, method};
 use crate::calibration::document::ResultDocument;
-use crate::calibration::iterative::{LARGEST_NUMBER_OF_STEPS, NEGLIGIBLE};
+use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::parameter::Parameter;
 use crate::report::page::language::{Languages, Text, values};
 use crate::report::page::number::{Cell, Number, column};
@@ -143,18 +143,13 @@ fn turn_ons(result: &ResultDocument, languages: &Languages) -> Markup {
 /// Writes the spectral radius and the steps of the iterative method, or nothing for the other methods.
 fn iteration(result: &ResultDocument, languages: &Languages) -> Markup {
     let Some((radius, steps)) = result.spectral_radius.zip(result.iterations) else { return html! {} };
-    let largest = |rows: [[f64; 2]; 2]| rows.into_iter().flatten().fold(0.0, |most, x: f64| f64::max(most, x.abs()));
-    // What is far below the uncertainty is rounding, not a result.
-    let missing = |rows: Option<[[f64; 2]; 2]>, u: f64, unit| {
-        rows.map(largest).map(|most| match most < NEGLIGIBLE * u {
-            true => languages.inline(texts::NEGLIGIBLE),
-            false => quantity(languages, &Number::scientific(most, 2), unit),
+    let errors = result.remaining_errors();
+    let remaining = |place: usize, unit| {
+        errors.map(|errors| match errors[place] {
+            None => languages.inline(texts::NEGLIGIBLE),
+            Some(most) => quantity(languages, &Number::scientific(most, 2), unit),
         })
     };
-    let us = &result.standard_uncertainty;
-    let u_k = us.k_deg_per_h_per_ma.into_iter().flatten().fold(f64::INFINITY, f64::min);
-    let u_omega = us.omega_g_deg_per_h_per_g.unwrap_or(0.0);
-    let remainder_omega = result.remainder_omega_n_deg_per_h_per_g;
     let whole = |steps: u32| html! { data value=(steps) { (steps) } };
     let predicted = match result.iterations_predicted {
         Some(steps) => whole(steps),
@@ -165,12 +160,8 @@ fn iteration(result: &ResultDocument, languages: &Languages) -> Markup {
         field(languages, texts::SPECTRAL_RADIUS, Some(Number::scientific(radius, 2).markup(languages))),
         field(languages, texts::STEPS, Some(whole(steps))),
         field(languages, texts::STEPS_PREDICTED, Some(predicted)),
-        field(
-            languages,
-            texts::REMAINDER_K,
-            missing(result.remainder_k_deg_per_h_per_ma, u_k, units::DEG_PER_H_PER_MA),
-        ),
-        field(languages, texts::REMAINDER_OMEGA, missing(remainder_omega, u_omega, units::DEG_PER_H_PER_G)),
+        field(languages, texts::REMAINDER_K, remaining(0, units::DEG_PER_H_PER_MA)),
+        field(languages, texts::REMAINDER_OMEGA, remaining(1, units::DEG_PER_H_PER_G)),
     ]);
     html! {
         (heading(languages, texts::ITERATIVE))
