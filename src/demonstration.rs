@@ -13,7 +13,9 @@ use crate::passport::checks::CheckName;
 use crate::passport::issue::{Issue, PreparedStand};
 use crate::passport::reissue::{Order, successor};
 use crate::passport::verification::{Question, Trust, Verification, verify};
+use crate::report::columns::decimals;
 use crate::report::page::{Language, Languages, PassportPage};
+use crate::report::style::marked;
 use crate::signing::allowed_signers_line;
 use crate::simulation::draw::CurrentError;
 use crate::site::Site;
@@ -22,6 +24,7 @@ use crate::statistics::random::Stream;
 use crate::text::scalar::day;
 use crate::text::{LARGEST_DOCUMENT_BYTES, shown};
 use crate::trust::{AllowedSigners, SigningKey};
+use crate::units::quantity;
 use jiff::Timestamp;
 use std::path::{Path, PathBuf};
 
@@ -221,15 +224,18 @@ impl Stage<'_> {
         let readings = Readings::from_csv("currents.csv", &csv, setup.coefficients(), laboratory.meter.range_ma)?;
         let calibration = calibration::calibrate(&setup, &readings, &Options::default())?;
         let Some(found) = calibration.answer() else { return Err(REFUSED.into()) };
-        self.line("8. The currents and the passport give its scale factors and drifts (true: 95, 9.5, 20, 10):")?;
-        for parameters in Parameter::EIGHT.chunks(4) {
-            let words: Vec<String> = parameters
-                .iter()
-                .filter_map(|p| {
-                    Some(format!("{} {:.4} ± {:.4}", p.symbol(), found.value(*p)?, found.standard_uncertainty(*p)?))
-                })
-                .collect();
-            self.line(&format!("   {}", words.join(", ")))?;
+        self.line(
+            "8. The currents and the passport give its scale factors and drifts, with U (k = 2); the true ones are 95, \
+             9.5, 20 and 10:",
+        )?;
+        for parameters in Parameter::EIGHT.chunk_by(|a, b| a.unit() == b.unit()) {
+            let value = |p: &Parameter| {
+                let (value, expanded) = (found.value(*p)?, 2.0 * found.standard_uncertainty(*p)?);
+                let decimals = decimals(expanded);
+                Some(format!("{} {value:.decimals$} ± {expanded:.decimals$}", p.symbol()))
+            };
+            let values: Vec<String> = parameters.iter().filter_map(value).collect();
+            self.line(&format!("   {}", quantity(&values.join(", "), parameters[0].unit())))?;
         }
         let probability = found.chi_square.probability;
         self.line(&format!("   The sixteen readings fit; the probability of a worse fit is {probability:.2}."))?;
@@ -247,13 +253,17 @@ impl Stage<'_> {
         self.answer(&answer, Some(CheckName::Signature))
     }
 
-    /// Writes the answer: yes, or the first check that failed; and records whether it was the expected one.
+    /// Writes the answer: valid, or the first check that failed; and records whether it was the expected one.
     fn answer(&mut self, answer: &Verification, expected: Option<CheckName>) -> Result<()> {
         let failed = answer.checks().iter().find(|check| check.passed() == Some(false));
         self.as_expected &= failed.map(|check| check.name) == expected;
         match failed {
-            None => self.line(&format!("   YES: all {} checks passed.", answer.checks().len())),
-            Some(check) => self.line(&format!("   NO: {}: {}", check.name.as_str(), check.detail)),
+            None => {
+                self.line(&format!("   {}: all {} checks passed", marked(Some(true), "VALID"), answer.checks().len()))
+            }
+            Some(check) => {
+                self.line(&format!("   {}: {}: {}", marked(Some(false), "REFUSED"), check.name.as_str(), check.detail))
+            }
         }
     }
 }

@@ -64,6 +64,10 @@ enum Examined {
     Next(Box<Following>),
 }
 
+/// Remark on a predecessor for another site that is not superseded.
+const STAYS_IN_FORCE: &str = "stays in force beside the new passport; if the stand has left its site, use --moved, or \
+                              withdraw it with `revoke`";
+
 /// Successor of a passport, to be issued.
 struct Following {
     /// Name of the predecessor's file.
@@ -71,6 +75,8 @@ struct Following {
     successor: Successor,
     folder: Arc<Folder>,
     warnings: Vec<String>,
+    /// `true` if the predecessor stays in force beside the successor.
+    stays_in_force: bool,
 }
 
 impl Batch<'_> {
@@ -203,9 +209,17 @@ impl Run<'_> {
         let mut settled: BTreeMap<usize, Option<Outcome>> = settled.into_iter().flatten().collect();
         let outcomes = examined.into_iter().enumerate().map(|(index, examined)| match examined {
             Examined::Done(outcome) => outcome,
-            Examined::Next(_) => settled.remove(&index).flatten(),
+            Examined::Next(next) => {
+                let outcome = settled.remove(&index).flatten();
+                if next.stays_in_force && matches!(outcome, Some(Outcome::There(_) | Outcome::Planned { .. })) {
+                    let words = STAYS_IN_FORCE.to_owned();
+                    tell(Event::Remark { file: next.name, words });
+                }
+                outcome
+            }
         });
-        self.batch.tell(outcomes.collect(), tell);
+        let outcomes = outcomes.collect();
+        self.batch.tell(outcomes, tell);
     }
 
     /// Issues a successor; every successor of a batch is made here.
@@ -256,7 +270,8 @@ impl Run<'_> {
         let folder = self.folder_for(path, &next)?;
         next.rival = self.rival(path, &folder, &next, trust);
         let warnings = if candidate.found.is_none() { self.warnings(&name, &bytes) } else { Vec::new() };
-        Ok(Examined::Next(Box::new(Following { name, successor: next, folder, warnings })))
+        let stays_in_force = !next.supersedes() && verification.passport().is_some();
+        Ok(Examined::Next(Box::new(Following { name, successor: next, folder, warnings, stays_in_force })))
     }
 
     /// Returns why a given file is not for use, if it is superseded or withdrawn.

@@ -1,6 +1,7 @@
 //! Help: the command line as declared, with examples and exit codes for each verb, and the version.
 
 use super::Cli;
+use crate::report::columns::COMMAND;
 use crate::report::{columns, style};
 use crate::text::kind::FORMATS;
 use clap::{Command, CommandFactory};
@@ -44,13 +45,23 @@ fn examples(verb: &str) -> impl Iterator<Item = &'static str> {
 const COLUMNS: usize = 80;
 
 /// Returns clap's words with their usage broken between the arguments, so that it fits: clap itself never breaks it.
+/// Examples, which clap does break, are one line each, so that they can be copied.
 pub(super) fn fitted(words: &str) -> String {
     let line = |line: &str| {
         let plain = style::plain(line);
         let is_wide = plain.starts_with("Usage: ") && plain.trim_end().chars().count() > COLUMNS;
         if is_wide { columns::fitted(&unbroken(line), COLUMNS) } else { line.to_owned() }
     };
-    words.split_inclusive('\n').map(line).collect()
+    whole_examples(words).split_inclusive('\n').map(line).collect()
+}
+
+/// Joins the lines of each example again, which clap breaks.
+fn whole_examples(words: &str) -> String {
+    let Some(start) = words.find("Examples:\n") else { return words.to_owned() };
+    let (before, rest) = words.split_at(start);
+    let (examples, after) = rest.split_at(rest.find("\n\n").unwrap_or(rest.len()));
+    let examples = examples.replace("\n  ", " ").replace(&format!(" {COMMAND}"), &format!("\n  {COMMAND}"));
+    format!("{before}{examples}{after}")
 }
 
 /// Returns a usage with non-breaking spaces between each option and its value.
@@ -100,12 +111,14 @@ mod tests {
             let name = verb.get_name();
             let examples: Vec<&str> = examples(name).collect();
             assert!(examples.len() == 2 && examples[0] != examples[1], "{name}");
-            for example in examples {
+            for example in &examples {
                 let parsed = command.clone().try_get_matches_from(words(example));
                 assert!(parsed.is_ok(), "{example}\n{}", parsed.unwrap_err());
             }
-            let help = verb.clone().render_long_help().to_string();
+            let help = fitted(&verb.clone().term_width(COLUMNS).render_long_help().to_string());
             assert!(help.contains("Examples:\n") && help.contains(EXIT_CODES), "{help}");
+            let whole = |example: &&str| help.contains(&format!("\n  dtg-passport {example}\n"));
+            assert!(examples.iter().all(whole), "{help}");
         }
     }
 
@@ -128,7 +141,8 @@ mod tests {
         printed(&whole, &["dtg-passport".to_owned()], &whole, &mut all);
         assert!(all.len() > 50, "{}", all.len());
         for (name, help) in &all {
-            for line in help.lines() {
+            // A command is one line, which can be copied.
+            for line in help.lines().filter(|line| !line.trim_start().starts_with(COMMAND)) {
                 assert!(line.chars().count() <= COLUMNS, "{name}: {line}");
             }
         }

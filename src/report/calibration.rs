@@ -17,7 +17,7 @@ use crate::interface::calibrated::Done;
 use crate::report::page::calibration::why_no_change;
 use crate::report::page::language::{Language, values};
 use crate::report::page::texts::calibration as texts;
-use crate::report::{columns, mistake, recorded};
+use crate::report::{columns, mistake, recorded, style};
 use crate::text::printable::printable;
 use crate::uncertainty::MonteCarlo;
 use crate::units::{printed, quantity};
@@ -39,6 +39,8 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
     let mut out = String::new();
     if let Some((name, verdict)) = verdict {
         let _ = writeln!(out, "{}  {}", overall(verdict, 0), headline(name, verdict));
+    } else if document.is_valid() {
+        let _ = writeln!(out, "{}  {}", without_decision(), texts::NO_TYPE_WORDS.of(Language::English));
     }
     for warning in warnings(done, trials) {
         columns::paragraph(&mut out, "", &warning);
@@ -163,7 +165,7 @@ pub(crate) fn line(file: &str, done: &Done, trials: Option<&MonteCarlo>, gyro_ty
         (None, answer) => {
             let fit = answer.map(|answer| columns::probability(answer.chi_square.probability));
             let fit = fit.map_or_else(String::new, |p| format!("  probability of a larger chi-square {p}"));
-            format!("{:<11}  {file}{fit}", "calibrated")
+            format!("{}  {file}{fit}", without_decision())
         }
     };
     if calibration.hint.is_some() {
@@ -176,6 +178,11 @@ pub(crate) fn line(file: &str, done: &Done, trials: Option<&MonteCarlo>, gyro_ty
     }
     out.push('\n');
     out
+}
+
+/// Returns the headline of parameters that are compared with no gyro type.
+fn without_decision() -> String {
+    style::marked(None, "CALIBRATED")
 }
 
 /// Writes which visits and positions were left out, and what that cost.

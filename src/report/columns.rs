@@ -46,15 +46,18 @@ pub(crate) fn named(out: &mut String, name: &str, name_columns: usize, value: &s
 /// from elsewhere can look like a line of the program.
 const HANG: usize = 2;
 
+/// Beginning of a command that is printed to be run.
+pub(crate) const COMMAND: &str = "dtg-passport ";
+
 /// Returns the text with every line broken that is wider than `columns`. A line continues below its last column, a
-/// sentence as in [`paragraph`]; either further left if a word needs the room.
+/// sentence as in [`paragraph`]; either further left if a word needs the room. A command stays one line, to be copied.
 pub(crate) fn fitted(text: &str, columns: usize) -> String {
     let mut out = String::with_capacity(text.len());
     for line in text.lines() {
         let words = line.trim_start_matches(' ');
         let (indent, shown) = (line.len() - words.len(), shown_columns(words));
         let at = last_column(line, columns);
-        if indent + shown <= columns {
+        if indent + shown <= columns || words.starts_with(COMMAND) {
             out.push_str(line);
             out.push('\n');
         } else if HANG + shown <= columns && at == indent {
@@ -421,6 +424,8 @@ mod tests {
         // So does one that has no room below the last column, but below the one before.
         assert_eq!(fitted("● ok  id  0123456789abcdef\n", 25), "● ok  id\n      0123456789abcdef\n");
         // However long, no word begins a line.
+        // A command that is copied from a terminal would end at a line break.
+        assert_eq!(fitted("  dtg-passport verify a.yaml\n", 10), "  dtg-passport verify a.yaml\n");
         assert_eq!(fitted("a 0123456789abcdef\n", 10), "a\n  0123456789abcdef\n");
         let bold = style::heading("two words");
         assert_eq!(fitted(&format!("{bold} more"), 9), format!("{bold}\n  more\n"));
