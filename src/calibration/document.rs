@@ -308,6 +308,9 @@ impl CalibrationDocument {
 
     fn withheld(&self, verdict: Verdict) -> Verdict {
         // Results of earlier versions have no `consistent`, but a hint.
-        if self.hint.is_none() { verdict } else { verdict.undecided() }
+        match self.hint {
+            Some(_) => verdict.undecided(),
+            None => Verdict { withheld: self.mistake.is_some() || !self.passport_verified, ..verdict },
+        }
     }
 }

@@ -164,8 +164,8 @@ impl Display for TemperatureOutside {
         let Self { here_c, low_c, high_c } = self;
         write!(
             f,
-            "the temperature in the laboratory is {here_c} deg C; the deviations are certified from {low_c} to \
-             {high_c} deg C"
+            "the temperature in the laboratory is {here_c} °C; the deviations are certified from {low_c} to \
+             {high_c} °C"
         )
     }
 }

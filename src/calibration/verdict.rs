@@ -19,17 +19,17 @@ pub(crate) const BEYOND: f64 = 0.045_500_263_896_358_42;
 
 const PER_G: [Parameter; 2] = [Parameter::OmegaG, Parameter::OmegaK];
 
-/// Decision on conformity with a tolerance.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+/// Decision on conformity with a tolerance, from the best to the worst.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Decision {
     /// Conformity: within tolerance.
     Pass,
-    /// Nonconformity: not within tolerance.
-    Fail,
     /// No decision is possible with this uncertainty.
     Undecided,
+    /// Nonconformity: not within tolerance.
+    Fail,
 }
 
 /// Comparison of a result with a specification or an earlier result.
@@ -41,7 +41,8 @@ pub struct Verdict {
     pub gravity_m_per_s2: f64,
     /// Decisions, one for each parameter; the general model has no ω_g and ω_k.
     pub parameters: Vec<ParameterVerdict>,
-    /// `true` if nothing is decided, because the parameters are not valid. Simple acceptance and risk then have no meaning.
+    /// `true` if no statement of conformity is made, because the parameters are not valid or rest on a passport that was
+    /// not verified. Decisions and risks then have no meaning.
     #[serde(skip)]
     pub(crate) withheld: bool,
 }
@@ -237,6 +238,16 @@ impl Verdict {
     pub(crate) fn not_found(&self) -> Vec<Parameter> {
         let found = |parameter: &Parameter| self.parameters.iter().any(|row| row.parameter == *parameter);
         Parameter::AS_IN_THE_PAPER.into_iter().filter(|parameter| !found(parameter)).collect()
+    }
+
+    /// Returns the worse of the decisions of this verdict and on the change since an earlier result.
+    pub(crate) fn with_change(&self, change: Option<&Self>) -> Decision {
+        change.filter(|change| !change.withheld).map_or(self.overall, |change| self.overall.max(change.overall))
+    }
+
+    /// Returns the decision on a parameter by guarded acceptance, or `None` if no statement is made.
+    pub(crate) fn decision(&self, row: &ParameterVerdict) -> Option<Decision> {
+        (!self.withheld).then_some(row.guarded)
     }
 
     /// Returns the comparison with nothing decided, for parameters that are not valid.

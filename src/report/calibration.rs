@@ -1,7 +1,7 @@
 //! Result of a calibration as text: the decision, the parameters and the fit come first, the evidence below.
 
 use super::scatter::{Weight, scatter};
-use super::tolerance::{coverage_factor, decided, from_gravity, headline, overall, verdict_table};
+use super::tolerance::{coverage_factor, decided, from_gravity, headline, verdict_table};
 use super::uncertainty::not_linear;
 use crate::calibration::diagnosis::INCONSISTENT;
 use crate::calibration::document::{ResultDocument, Subject};
@@ -17,7 +17,7 @@ use crate::interface::calibrated::Done;
 use crate::report::page::calibration::why_no_change;
 use crate::report::page::language::{Language, values};
 use crate::report::page::texts::calibration as texts;
-use crate::report::{columns, mistake, recorded, style};
+use crate::report::{columns, mistake, recorded};
 use crate::text::printable::printable;
 use crate::uncertainty::MonteCarlo;
 use crate::units::{printed, quantity};
@@ -37,11 +37,8 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
     let Done { calibration, document, readings, .. } = done;
     let verdict = gyro_type.zip(document.verdict.as_ref());
     let mut out = String::new();
-    if let Some((name, verdict)) = verdict {
-        let _ = writeln!(out, "{}  {}", overall(verdict, 0), headline(name, verdict));
-    } else if document.is_valid() {
-        let _ = writeln!(out, "{}  {}", without_decision(), texts::NO_TYPE_WORDS.of(Language::English));
-    }
+    let [outcome, reasons] = headline(document, gyro_type, 0);
+    let _ = writeln!(out, "{outcome}  {reasons}");
     for warning in warnings(done, trials) {
         columns::paragraph(&mut out, "", &warning);
     }
@@ -78,15 +75,15 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
     residuals(&mut out, calibration);
     if let Some((name, verdict)) = verdict {
         let words = format!(
-            "Comparison with gyro type {name}, in the unit of the tolerance; U = k u, k = {}; coverage probability {:.2} %; \
-             g-sensitive drifts refer to the g of the type, {} m/s²:",
+            "Comparison with gyro type {name}; deviation and U in the unit of the tolerance; U = k u, k = {}; coverage \
+             probability {:.2} %; g-sensitive drifts refer to the g of the type, {} m/s²:",
             coverage_factor(verdict.parameters.iter().map(|row| row.coverage_factor), Language::English),
             100.0 * (1.0 - BEYOND),
             verdict.gravity_m_per_s2
         );
         let _ = writeln!(out);
         columns::paragraph(&mut out, "", &words);
-        verdict_table(&mut out, verdict, "minus nominal");
+        verdict_table(&mut out, verdict, "deviation");
         let gravity = document.gravity_u_m_per_s2.and_then(|u| from_gravity(verdict, u));
         let turn_ons = calibration.mostly_from_turn_ons().map(|u| {
             let u = quantity(&columns::two_digits(u), "deg/h");
@@ -158,19 +155,14 @@ pub(crate) fn remarks(calibration: &Calibration, readings: &Readings, mistake: O
 pub(crate) fn line(file: &str, done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&str>) -> String {
     let Done { calibration, document, .. } = done;
     let file = printable(file);
-    let mut out = match (gyro_type.zip(document.verdict.as_ref()), calibration.answer()) {
-        (Some((name, verdict)), _) => {
-            format!("{}  {file}  {}", overall(verdict, 9), headline(name, verdict))
-        }
-        (None, answer) => {
-            let fit = answer.map(|answer| columns::probability(answer.chi_square.probability));
-            let fit = fit.map_or_else(String::new, |p| format!("  probability of a larger chi-square {p}"));
-            format!("{}  {file}{fit}", without_decision())
-        }
-    };
-    if calibration.hint.is_some() {
-        out.push_str("; WARNING: the readings are not consistent with this stand; calibrate it by itself");
+    let [outcome, mut reasons] = headline(document, gyro_type, 9);
+    if document.hint.is_some() {
+        reasons += "; calibrate it by itself";
+    } else if gyro_type.is_none() && document.is_valid() {
+        let fit = calibration.answer().map(|answer| columns::probability(answer.chi_square.probability));
+        reasons = fit.map_or_else(String::new, |p| format!("probability of a larger chi-square {p}"));
     }
+    let mut out = format!("{outcome}  {file}  {reasons}");
     let mistake = document.mistake.iter().map(|mistake| mistake::words(mistake, Language::English));
     let of_scatter = scatter(calibration).into_iter().filter(|(weight, _)| *weight == Weight::Warning);
     for words in mistake.chain(of_scatter.map(|(_, words)| words)).chain(trials.and_then(not_linear)) {
@@ -178,11 +170,6 @@ pub(crate) fn line(file: &str, done: &Done, trials: Option<&MonteCarlo>, gyro_ty
     }
     out.push('\n');
     out
-}
-
-/// Returns the headline of parameters that are compared with no gyro type.
-fn without_decision() -> String {
-    style::marked(None, "CALIBRATED")
 }
 
 /// Writes which visits and positions were left out, and what that cost.
@@ -222,7 +209,7 @@ fn parameters(out: &mut String, calibration: &Calibration, verdict: Option<&Verd
         row.extend([format!("{value:.digits$}"), format!("{u:.digits$}")]);
         let decisions = verdict.iter().flat_map(|verdict| &verdict.parameters);
         let decisions = decisions.filter(|row| row.parameter == parameter);
-        row.extend(decisions.map(|row| decided(row.guarded)));
+        row.extend(decisions.map(|row| decided(verdict.and_then(|verdict| verdict.decision(row)))));
         Some(row)
     });
     let _ = writeln!(out);
@@ -264,7 +251,7 @@ fn beyond_the_paper(out: &mut String, answer: &MethodResult) {
         for (axis, name) in ["x", "y"].into_iter().enumerate() {
             let (value, u) = (drift.deg_per_h_per_h[axis], drift.standard_uncertainty_deg_per_h_per_h[axis]);
             let digits = columns::decimals(u);
-            let _ = writeln!(out, "  drift in time about {name}: {value:.digits$} °/h per hour, u = {u:.digits$}");
+            let _ = writeln!(out, "  drift in time about {name}: {value:.digits$} °/h², u = {u:.digits$}");
         }
         columns::paragraph(out, "  ", "ω_0 is that at the mean time of the readings.");
     }
@@ -299,6 +286,7 @@ fn methods(out: &mut String, calibration: &Calibration, results: &[ResultDocumen
         let (Some(radius), Some(steps)) = (result.spectral_radius, result.iterations) else { continue };
         let predicted = result.iterations_predicted.map(|steps| steps.to_string());
         let predicted = predicted.unwrap_or_else(|| format!("more than {LARGEST_NUMBER_OF_STEPS}"));
+        let radius = columns::powers(&format!("{radius:.1e}"));
         let negligible = texts::NEGLIGIBLE.of(Language::English);
         let remaining = match result.remaining_errors() {
             Some([None, None]) | None => negligible.to_owned(),
@@ -313,7 +301,7 @@ fn methods(out: &mut String, calibration: &Calibration, results: &[ResultDocumen
             }
         };
         let words = format!(
-            "iterative: spectral radius {radius:.4}; {predicted} steps predicted, {steps} taken; remaining error {remaining}."
+            "iterative: spectral radius {radius}; {predicted} steps predicted, {steps} taken; remaining error {remaining}."
         );
         columns::paragraph(out, "  ", &words);
     }

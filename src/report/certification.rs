@@ -6,7 +6,9 @@ use crate::certification::components::{Common, Variance};
 use crate::certification::rotated_runs::{FEWEST_RUNS, FEWEST_RUNS_OF_A_MOVE, Pattern, RotatedRuns};
 use crate::certification::suspects::{AXES, OUTLIER};
 use crate::certification::{Certification, NotCertified};
+use crate::report::style::Outcome;
 use crate::report::{columns, deviations, style};
+use crate::stand::ActsOn;
 use crate::text::record::File;
 use crate::text::{Field, Node, Printable};
 use serde_json::{Value, json};
@@ -162,12 +164,21 @@ fn components(out: &mut String, found: &Certification) {
     let _ = writeln!(out);
     columns::paragraph(out, "", &words);
     let root = (found.runs.len() as f64).sqrt();
-    for (what, common) in [("platform", Some(&components.platform)), ("base", components.base.as_ref())] {
+    let certificate = &found.stand.certificate;
+    let parts = [
+        ("platform", ActsOn::Platform, Some(&components.platform), certificate.common_platform_arcsec),
+        ("base", ActsOn::Base, components.base.as_ref(), certificate.common_base_arcsec),
+    ];
+    for (what, on, common, certified) in parts {
         let Some(common) = common else { continue };
+        let type_b = certificate.type_b_arcsec2(on);
         let seen = common.between_runs_arcsec2.sqrt();
+        let certified = certified.filter(|_| type_b > 0.0).map_or_else(String::new, |certified| {
+            format!("; {certified:.2}″ with its type B uncertainty, as certified")
+        });
         let words = format!(
             "Common part of the {what}: {seen:.2}″ per axis from run to run (at most {:.2}″ at 95 %), {:.2}″ in \
-             the mean",
+             the mean{certified}",
             common.upper_limit_arcsec2.sqrt(),
             seen / root
         );
@@ -219,14 +230,26 @@ fn graded(probabilities: impl Iterator<Item = f64>) -> String {
     format!("{} (below 1 %), {} (1 % to 5 %)", named(outliers.len(), "outlier"), named(stragglers.len(), "straggler"))
 }
 
+/// Returns the outcome of a check run, or of one of its positions, that repeats or does not. If the readings do not show
+/// whether the stand has changed, neither does a position.
+pub(crate) fn outcome_of(found: &Comparison, repeats: bool) -> Outcome {
+    match repeats {
+        true => Outcome::Passed,
+        false if found.is_undecided() => Outcome::Undecided,
+        false => Outcome::Failed,
+    }
+}
+
 /// Returns a check run as text.
 pub(crate) fn comparison(found: &Comparison) -> String {
     let mut out = String::new();
-    let answer = match found.same_stand {
-        true => style::marked(Some(true), "THE SAME STAND"),
-        false if found.is_undecided() => style::marked(style::Outcome::Undecided, "UNDECIDED"),
-        false => style::marked(Some(false), "NOT AS CERTIFIED"),
+    let outcome = outcome_of(found, found.same_stand);
+    let answer = match outcome {
+        Outcome::Passed => "UNCHANGED",
+        Outcome::Failed => "CHANGED",
+        Outcome::Undecided | Outcome::NotAsked => "UNDECIDED",
     };
+    let answer = style::marked(outcome, answer);
     let runs = if found.runs == 1 { "run" } else { "runs" };
     let _ = writeln!(out, "{answer}  check against certificate {}, {} {runs}", found.certificate, found.runs);
     for words in &found.findings {
@@ -254,7 +277,13 @@ pub(crate) fn comparison(found: &Comparison) -> String {
         }
         row.push(columns::chi_square(at.test.chi_square));
         row.push(columns::probability(at.test.probability));
-        row.push(style::marked(Some(at.repeats), if at.repeats { "unchanged" } else { "CHANGED" }));
+        let outcome = outcome_of(found, at.repeats);
+        let word = match outcome {
+            Outcome::Passed => "unchanged",
+            Outcome::Failed => "CHANGED",
+            Outcome::Undecided | Outcome::NotAsked => "undecided",
+        };
+        row.push(style::marked(outcome, word));
         row
     });
     let names = ["i", "j", "x, ″", "u", "y, ″", "u", "z, ″", "u", "chi-square", "p", ""];

@@ -20,7 +20,20 @@ pub(crate) fn to_json(cases: &[Case]) -> Value {
 
 /// Returns a table for each example.
 pub(crate) fn text(cases: &[Case]) -> String {
-    let mut out = String::new();
+    let failed = cases.iter().filter(|case| !case.passed()).count();
+    let words = match failed {
+        0 => format!(
+            "{}  All {} cases agree with the published values.",
+            style::marked(Some(true), "PASSED"),
+            cases.len()
+        ),
+        failed => format!(
+            "{}  {failed} of {} cases differ from the published values.",
+            style::marked(Some(false), "FAILED"),
+            cases.len()
+        ),
+    };
+    let mut out = format!("{words}\n\n");
     for group in cases.chunk_by(|one, other| one.example == other.example) {
         let Some(first) = group.first() else { continue };
         let _ = writeln!(out, "{}", first.example);
@@ -31,11 +44,7 @@ pub(crate) fn text(cases: &[Case]) -> String {
         columns::paragraph(&mut out, "  ", &format!("Source: {}.", sources(group)));
         out.push('\n');
     }
-    let failed = cases.iter().filter(|case| !case.passed()).count();
-    let _ = match failed {
-        0 => writeln!(out, "All {} cases agree with the published values.", cases.len()),
-        failed => writeln!(out, "FAILED: {failed} of {} cases.", cases.len()),
-    };
+    out.truncate(out.trim_end().len() + 1);
     out
 }
 

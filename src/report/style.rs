@@ -52,6 +52,13 @@ impl From<Decision> for Outcome {
     }
 }
 
+impl Outcome {
+    /// Returns the outcome of a parameter; `None` if no statement is made.
+    pub(crate) fn of(decision: Option<Decision>) -> Self {
+        decision.map_or(Self::NotAsked, Self::from)
+    }
+}
+
 /// Returns the mark of an outcome, in a terminal and on paper. The mark only repeats the words beside it, so that they
 /// can be read without it.
 pub(crate) fn mark(outcome: Outcome) -> &'static str {

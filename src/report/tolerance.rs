@@ -1,26 +1,51 @@
 //! Decisions on the tolerances of a gyro type as text.
 
 use super::page::Number;
-use super::page::language::{Language, values};
+use super::page::language::{Language, Text, values};
 use super::page::texts::calibration as texts;
+use super::style::Outcome;
 use super::{columns, style};
+use crate::calibration::document::CalibrationDocument;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{COVERAGE_FACTOR, Decision, ParameterVerdict, Verdict};
 use crate::text::printable::printable;
 use crate::units::{printed, quantity};
 use std::fmt::Write;
 
-/// Returns which parameters pass, fail and are undecided, or why nothing is decided.
-pub(super) fn headline(name: &str, verdict: &Verdict) -> String {
-    if verdict.withheld {
-        return texts::NO_STATEMENT.filled(Language::English, &[("type", &printable(name))]);
+/// Returns the outcome of a calibration in one word, padded to `width` and with its mark, and the reasons: which
+/// parameters pass, fail and are undecided by their values and by their change, or why no statement is made.
+pub(super) fn headline(document: &CalibrationDocument, gyro_type: Option<&str>, width: usize) -> [String; 2] {
+    let judged = gyro_type.zip(document.verdict.as_ref());
+    let because = |text: Text| text.of(Language::English).to_owned();
+    let (outcome, word, mut words) = match judged {
+        _ if document.hint.is_some() => (Outcome::Failed, "INVALID".to_owned(), because(texts::DOES_NOT_FIT)),
+        _ if document.mistake.is_some() => (Outcome::Failed, "INVALID".to_owned(), because(texts::MISTAKE)),
+        None => (Outcome::NotAsked, "CALIBRATED".to_owned(), because(texts::NO_TYPE_WORDS)),
+        Some((_, verdict)) if verdict.withheld => {
+            (Outcome::NotAsked, "CALIBRATED".to_owned(), because(texts::NOT_VERIFIED))
+        }
+        Some((name, verdict)) => {
+            let worst = verdict.with_change(document.change.as_ref());
+            let words = format!("gyro type {}: {}", printable(name), counted(verdict));
+            (worst.into(), word(Some(worst)).to_uppercase(), words)
+        }
+    };
+    if let Some((name, _)) = judged.filter(|(_, verdict)| verdict.withheld) {
+        words = format!("{words}. {}", texts::NO_STATEMENT.filled(Language::English, &[("type", &printable(name))]));
+    } else if let Some(change) = document.change.as_ref().filter(|change| !change.withheld) {
+        words = format!("{words}. {} {}", because(texts::CHANGE_COUNTED), counted(change));
     }
+    [style::marked(outcome, &format!("{word:<width$}")), words]
+}
+
+/// Returns how many parameters pass by guarded acceptance, and which are undecided or fail.
+fn counted(verdict: &Verdict) -> String {
     let of = |decision: Decision| -> Vec<&str> {
         let rows = verdict.parameters.iter().filter(|row| row.guarded == decision);
         rows.map(|row| row.parameter.symbol()).collect()
     };
     let (passed, all) = (of(Decision::Pass).len(), Parameter::EIGHT.len());
-    let mut words = format!("gyro type {}: {passed} of {all} parameters pass", printable(name));
+    let mut words = format!("{passed} of {all} parameters pass");
     for (what, which) in [("fail", of(Decision::Fail)), ("undecided", of(Decision::Undecided))] {
         if !which.is_empty() {
             let _ = write!(words, "; {what}: {}", which.join(", "));
@@ -39,21 +64,17 @@ fn not_found(verdict: &Verdict) -> Option<String> {
     (!names.is_empty()).then(words)
 }
 
-/// Returns a decision with its mark.
-pub(super) fn decided(decision: Decision) -> String {
-    style::marked(decision, word(decision))
+/// Returns a decision with its mark, or that none was made.
+pub(super) fn decided(decision: Option<Decision>) -> String {
+    style::marked(Outcome::of(decision), word(decision))
 }
 
-/// Returns the decision for a type with its mark, padded to `width`.
-pub(super) fn overall(verdict: &Verdict, width: usize) -> String {
-    style::marked(verdict.overall, &format!("{:<width$}", word(verdict.overall).to_uppercase()))
-}
-
-fn word(decision: Decision) -> &'static str {
+fn word(decision: Option<Decision>) -> &'static str {
     match decision {
-        Decision::Pass => "pass",
-        Decision::Fail => "FAIL",
-        Decision::Undecided => "undecided",
+        Some(Decision::Pass) => "pass",
+        Some(Decision::Fail) => "FAIL",
+        Some(Decision::Undecided) => "undecided",
+        None => "not decided",
     }
 }
 
@@ -77,7 +98,7 @@ pub(super) fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str
         // Of parameters that are not valid, neither says anything.
         let [simple, risk] = match verdict.withheld {
             true => ["–"; 2].map(str::to_owned),
-            false => [decided(row.simple), columns::probability(row.specific_risk)],
+            false => [decided(Some(row.simple)), columns::probability(row.specific_risk)],
         };
         vec![
             row.parameter.symbol().to_owned(),
@@ -87,11 +108,13 @@ pub(super) fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str
             format!("{} {}", row.tolerance, printed(row.unit)),
             simple,
             risk,
-            decided(row.guarded),
+            decided(verdict.decision(row)),
         ]
     });
     columns::table(out, &["", "result", deviation, "U", "tolerance", "simple", "risk", "guarded"], rows);
-    let _ = writeln!(out, "  Overall, by guarded acceptance: {}", overall(verdict, 0));
+    let overall = (!verdict.withheld).then_some(verdict.overall);
+    let words = style::marked(Outcome::of(overall), &word(overall).to_uppercase());
+    let _ = writeln!(out, "  Overall, by guarded acceptance: {words}");
     let close = verdict.parameters.iter().any(ParameterVerdict::is_close) && !verdict.withheld;
     if close && verdict.overall == Decision::Undecided {
         columns::paragraph(out, "  ", "undecided: the uncertainty does not permit a decision.");

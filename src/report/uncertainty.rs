@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// Share of the variance below which contributions are combined into one line.
-const SHARE_SHOWN: f64 = 1e-4;
+const SHARE_SHOWN: f64 = 5e-4;
 
 /// Returns `sentence` and the budget of every parameter, the largest contribution first.
 pub(crate) fn budget(budget: &Budget, sentence: Option<&str>) -> String {
@@ -33,19 +33,15 @@ fn parameter(out: &mut String, line: &ParameterBudget) {
     let u = line.standard_uncertainty;
     let digits = columns::decimals(u);
     let freedom = match line.effective_degrees_of_freedom {
-        known if known.is_infinite() => "infinite".to_owned(),
-        known if known > 1e4 => "more than 10,000".to_owned(),
+        known if known > 1e4 => "∞".to_owned(),
         known => columns::degrees_of_freedom(known),
     };
     let _ = writeln!(
         out,
-        "\n{} = {:.digits$} {}, u = {u:.digits$}; degrees of freedom: {freedom}; U = {:.2} u = {:.digits$} ({:.0} %)",
+        "\n{} = {:.digits$} {}, u = {u:.digits$}; degrees of freedom: {freedom}",
         line.parameter.symbol(),
         line.value,
         printed(line.parameter.unit()),
-        line.coverage_factor,
-        line.expanded_uncertainty(),
-        100.0 * COVERAGE,
     );
     let large = line.contributions.iter().filter(|part| part.share >= SHARE_SHOWN).count();
     // A single small contribution is printed as it is.
@@ -73,7 +69,7 @@ fn contribution(part: &Contribution, digits: usize) -> Vec<String> {
         },
         part.inputs.to_string(),
         format!("{:.digits$}", part.contribution),
-        format!("{:.2}", 100.0 * part.share),
+        format!("{:.1}", 100.0 * part.share),
     ]
 }
 

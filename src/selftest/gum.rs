@@ -107,13 +107,13 @@ fn impedance() -> Vec<Case> {
         case(MEANS, "r(V, I)", -0.36, 2, r_of_means[(0, 1)]),
         case(MEANS, "r(V, phi)", 0.86, 2, r_of_means[(0, 2)]),
         case(MEANS, "r(I, phi)", -0.65, 2, r_of_means[(1, 2)]),
-        case(RESULTS, "R, ohm", 127.732, 3, z * cos),
-        case(RESULTS, "X, ohm", 219.847, 3, z * sin),
-        case(RESULTS, "Z, ohm", 254.260, 3, z),
-        case(RESULTS, "u(R), ohm", 0.071, 3, u[0]),
+        case(RESULTS, "R, Ω", 127.732, 3, z * cos),
+        case(RESULTS, "X, Ω", 219.847, 3, z * sin),
+        case(RESULTS, "Z, Ω", 254.260, 3, z),
+        case(RESULTS, "u(R), Ω", 0.071, 3, u[0]),
         // The guide prints 0.295, because it rounds on the way. The readings of table H.2 give 0.2956, as GTC does.
-        Case { tolerance: 0.001, ..case(RESULTS, "u(X), ohm", 0.295, 3, u[1]) },
-        case(RESULTS, "u(Z), ohm", 0.236, 3, u[2]),
+        Case { tolerance: 0.001, ..case(RESULTS, "u(X), Ω", 0.295, 3, u[1]) },
+        case(RESULTS, "u(Z), Ω", 0.236, 3, u[2]),
         case(RESULTS, "r(R, X)", -0.588, 3, r[(0, 1)]),
         case(RESULTS, "r(R, Z)", -0.485, 3, r[(0, 2)]),
         case(RESULTS, "r(X, Z)", 0.993, 3, r[(1, 2)]),
@@ -153,13 +153,13 @@ fn thermometer() -> Vec<Case> {
     let u_at_30 = standard_deviations(&product(&DMatrix::from_row_slice(1, 2, &[1.0, 10.0]), &spread))[0];
     let case = printed(EXAMPLE);
     vec![
-        case(LINE, "intercept, C", -0.1712, 4, line[0]),
-        case(LINE, "u(intercept), C", 0.0029, 4, u[0]),
+        case(LINE, "intercept, °C", -0.1712, 4, line[0]),
+        case(LINE, "u(intercept), °C", 0.0029, 4, u[0]),
         case(LINE, "slope", 0.00218, 5, line[1]),
         case(LINE, "u(slope)", 0.00067, 5, u[1]),
         case(LINE, "r(intercept, slope)", -0.930, 3, r[(0, 1)]),
-        case(LINE, "s of the fit, C", 0.0035, 4, variance.sqrt()),
-        case(AT_30, "correction at 30 C, C", -0.1494, 4, line[0] + 10.0 * line[1]),
-        case(AT_30, "u(correction), C", 0.0041, 4, u_at_30),
+        case(LINE, "s of the fit, °C", 0.0035, 4, variance.sqrt()),
+        case(AT_30, "correction at 30 °C, °C", -0.1494, 4, line[0] + 10.0 * line[1]),
+        case(AT_30, "u(correction), °C", 0.0041, 4, u_at_30),
     ]
 }

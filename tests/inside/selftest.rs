@@ -1,6 +1,7 @@
 //! The self-test fails where it should.
 
 use dtg_passport::report::selftest::{text, to_json};
+use dtg_passport::report::style::plain;
 use dtg_passport::selftest::Case;
 
 /// A number that is off, and one that is none, fail.
@@ -19,6 +20,7 @@ fn what_is_off_fails() {
     let none = Case { found: f64::NAN, ..good.clone() };
     assert!(good.passed() && !off.passed() && !none.passed());
     let cases = [good, off, none];
-    assert!(text(&cases).ends_with("FAILED: 2 of 3 cases.\n"));
+    let text = plain(&text(&cases));
+    assert!(text.starts_with("✕ FAILED  2 of 3 cases differ from the published values.\n"), "{text}");
     assert_eq!(to_json(&cases)["failed"], 2);
 }

@@ -24,7 +24,8 @@ static CALIBRATED: LazyLock<(String, Value)> = LazyLock::new(|| {
     let calibrate = |currents: &std::path::Path| {
         let mut calibrate = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
         calibrate.current_dir(programs::project("")).args(["calibrate", "passports/SPS-2/0017/moscow-bmstu-1.yaml"]);
-        calibrate.arg(currents).args(["--no-verify", "--laboratory", "docs/laboratory.yaml", "--format", "json"]);
+        calibrate.arg(currents).args(["--trust", "tests/keys/allowed_signers", "--time", "2026-11-20"]);
+        calibrate.args(["--laboratory", "docs/laboratory.yaml", "--format", "json"]);
         calibrate.args(["--gyro", "docs/gvk-6.yaml"]);
         calibrate
     };

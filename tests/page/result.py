@@ -394,14 +394,16 @@ class Report:
             self.cell(f"{part}, {name}, U", row[4], line["expanded_uncertainty"], u)
             self.cell(f"{part}, {name}, tolerance", row[5], line["tolerance"])
             marks = {"pass": "●", "undecided": "◐", "fail": "✕"}
+            if not self.stated():
+                marks = dict.fromkeys(marks, "○")
             if near != marks[line["guarded"]]:
                 self.wrong.append(f"{part}, {name}: {near} beside the name, and {line['guarded']} in the result")
             if not row[7]["text"].startswith(marks[line["guarded"]]):
                 self.wrong.append(f"{part}, {name}: {row[7]['text']}, and {line['guarded']} in the result")
-            # Readings that do not fit have no risk.
-            if not self.result["consistent"]:
+            # Without a statement there is no risk.
+            if not self.stated():
                 if row[8]["text"] != "–":
-                    self.wrong.append(f"{part}, {name}: risk {row[8]['text']} of readings that do not fit")
+                    self.wrong.append(f"{part}, {name}: risk {row[8]['text']} without a statement")
                 continue
             if row[8]["values"]:
                 self.cell(f"{part}, {name}, risk", row[8], line["specific_risk"])
@@ -409,6 +411,10 @@ class Report:
                 self.wrong.append(f"{part}, {name}: risk {row[8]['text']}, and {line['specific_risk']} in the result")
         self.simple(part)
         return part
+
+    def stated(self):
+        """No statement is made on parameters that are not valid, or that rest on a passport that was not verified."""
+        return self.result["consistent"] and "mistake" not in self.result and self.result["passport_verified"]
 
     def simple(self, part):
         """The sentence on simple acceptance below the table: how many pass, and the names of those that fail."""
@@ -421,7 +427,7 @@ class Report:
             + (f"; не соответствуют: {fails}." if fails else "."),
         }
         said = "".join(words["text"] for words in self.said["words"]).replace("\u00a0", " ")
-        if self.result["consistent"] and due[self.said["lang"]] not in said:
+        if self.stated() and due[self.said["lang"]] not in said:
             self.wrong.append(f"{part}: {due[self.said['lang']]!r} is not on the page")
 
 

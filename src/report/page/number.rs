@@ -4,6 +4,7 @@
 //! ends at the same decimal place. A narrow non-breaking space separates groups of three digits (SI Brochure, 5.4.4).
 
 use super::language::{Language, Languages, Text};
+use super::spacing::BLANK;
 use super::texts::units;
 use crate::report::columns::decimals_of_chi_square;
 use crate::text::number;
@@ -176,11 +177,17 @@ impl Number {
     /// Writes the number as `markup` does, and after it invisible characters that make its tail as long as `longest`, so
     /// that the decimal marks of a column align.
     fn aligned(&self, languages: &Languages, longest: &Tail) -> Markup {
+        html! { (self.markup(languages)) (self.pad(languages, longest)) }
+    }
+
+    /// Writes that a value is below this one, aligned like a number.
+    fn below(&self, languages: &Languages, longest: &Tail) -> Markup {
+        html! { "<" (BLANK) (self.text(languages.first())) (self.pad(languages, longest)) }
+    }
+
+    fn pad(&self, languages: &Languages, longest: &Tail) -> Markup {
         let missing = longest.beyond(&Tail::of(&self.text(languages.first())));
-        html! {
-            (self.markup(languages))
-            @if !missing.is_empty() { span.pad aria-hidden="true" { (missing) } }
-        }
+        html! { @if !missing.is_empty() { span.pad aria-hidden="true" { (missing) } } }
     }
 }
 
@@ -224,6 +231,8 @@ impl Tail {
 pub(crate) enum Cell {
     /// A number; its decimal mark aligns with those of the column.
     Number(Number),
+    /// A number that is only said to be below this limit.
+    Below(Number),
     /// Anything else.
     Words(Markup),
 }
@@ -251,12 +260,13 @@ impl From<Option<Number>> for Cell {
 pub(crate) fn column(languages: &Languages, cells: impl IntoIterator<Item = impl Into<Cell>>) -> Vec<Markup> {
     let cells: Vec<Cell> = cells.into_iter().map(Into::into).collect();
     let tails = cells.iter().filter_map(|cell| match cell {
-        Cell::Number(number) => Some(Tail::of(&number.text(languages.first()))),
+        Cell::Number(number) | Cell::Below(number) => Some(Tail::of(&number.text(languages.first()))),
         Cell::Words(_) => None,
     });
     let longest = tails.fold(Tail::default(), Tail::or_longer);
     let written = cells.into_iter().map(|cell| match cell {
         Cell::Number(number) => number.aligned(languages, &longest),
+        Cell::Below(limit) => limit.below(languages, &longest),
         Cell::Words(words) => words,
     });
     written.collect()

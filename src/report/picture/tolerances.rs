@@ -37,8 +37,9 @@ impl Strips {
         strip_axis(languages, &percent, WIDTH, "")
     }
 
-    /// Draws a parameter: only the limits if its tolerance is 0.
-    pub(crate) fn strip(&self, row: &ParameterVerdict) -> Markup {
+    /// Draws a parameter of a verdict: only the limits if its tolerance is 0.
+    pub(crate) fn strip(&self, verdict: &Verdict, row: &ParameterVerdict) -> Markup {
+        let decision = verdict.decision(row);
         let Self(scale) = self;
         let (y, guarded) = (0.5 * HEIGHT, row.tolerance - row.expanded_uncertainty);
         let share = |value: f64| scale.clamped(value / row.tolerance);
@@ -56,11 +57,11 @@ impl Strips {
                 (line([scale.place(0.0), 0.0], [scale.place(0.0), HEIGHT], "grid"))
                 @if let Some((end, inwards)) = beyond {
                     (arrow([end + inwards * ROOM_FOR_ARROW, y], [end, y], "meridian"))
-                    (decided([end + inwards * ROOM_FOR_ARROW, y], row.guarded))
+                    (decided([end + inwards * ROOM_FOR_ARROW, y], decision))
                 } @else {
                     @let [from, to] = [-1.0, 1.0].map(|sign| share(row.deviation + sign * row.expanded_uncertainty));
                     (whisker(from, to, y, 4.0))
-                    (decided([share(row.deviation), y], row.guarded))
+                    (decided([share(row.deviation), y], decision))
                 }
             }
             @for x in limits { (line([x, 0.0], [x, HEIGHT], "limit")) }
@@ -71,7 +72,7 @@ impl Strips {
 
 /// Draws what the parts of a strip mean.
 pub(crate) fn key(languages: &Languages) -> Markup {
-    let entry = |found: Decision| (decided([21.0, 7.0], found), decision(found));
+    let entry = |found: Decision| (decided([21.0, 7.0], Some(found)), decision(Some(found)));
     let entries = [
         entry(Decision::Pass),
         entry(Decision::Undecided),
@@ -83,19 +84,20 @@ pub(crate) fn key(languages: &Languages) -> Markup {
     legend(languages, &entries)
 }
 
-/// Draws the mark of a decision: a disc, a disc half filled, or a cross.
-fn decided([x, y]: Point, decision: Decision) -> Markup {
+/// Draws the mark of a decision: a disc, a disc half filled, or a cross; a circle if there is none.
+fn decided([x, y]: Point, decision: Option<Decision>) -> Markup {
     let (cx, cy) = (coordinate(x), coordinate(y));
     match decision {
-        Decision::Pass => html! { circle.mark cx=(cx) cy=(cy) r="4.4" {} },
-        Decision::Undecided => {
+        None => html! { circle.site cx=(cx) cy=(cy) r="4.2" {} },
+        Some(Decision::Pass) => html! { circle.mark cx=(cx) cy=(cy) r="4.4" {} },
+        Some(Decision::Undecided) => {
             let [top, bottom] = [y - 4.2, y + 4.2].map(coordinate);
             html! {
                 circle.site cx=(cx) cy=(cy) r="4.2" {}
                 path.half d={ "M" (cx) " " (top) "A4.2 4.2 0 0 0 " (cx) " " (bottom) "Z" } {}
             }
         }
-        Decision::Fail => {
+        Some(Decision::Fail) => {
             let (a, b) = (5.2, 1.7);
             let arms = [[-a, -a + b], [-b, 0.0], [-a, a - b], [-a + b, a], [0.0, b], [a - b, a], [a, a - b], [b, 0.0]];
             let rest = [[a, -a + b], [a - b, -a], [0.0, -b], [-a + b, -a]];
@@ -117,10 +119,11 @@ pub(crate) fn unit_of(row: &ParameterVerdict) -> Text {
 }
 
 /// Returns a decision as a text for pages.
-pub(crate) fn decision(decision: Decision) -> Text {
+pub(crate) fn decision(decision: Option<Decision>) -> Text {
     match decision {
-        Decision::Pass => texts::DECISION_PASS,
-        Decision::Fail => texts::DECISION_FAIL,
-        Decision::Undecided => texts::DECISION_UNDECIDED,
+        None => texts::NOT_DECIDED,
+        Some(Decision::Pass) => texts::DECISION_PASS,
+        Some(Decision::Fail) => texts::DECISION_FAIL,
+        Some(Decision::Undecided) => texts::DECISION_UNDECIDED,
     }
 }

@@ -76,7 +76,7 @@ fn row(
 fn strips(parameters: Vec<ParameterVerdict>) -> (Vec<String>, String) {
     let verdict = Verdict { overall: Decision::Fail, gravity_m_per_s2: 9.8, parameters, withheld: false };
     let strips = Strips::of([&verdict]);
-    let each = verdict.parameters.iter().map(|row| whole(&[strips.strip(row)])).collect();
+    let each = verdict.parameters.iter().map(|row| whole(&[strips.strip(&verdict, row)])).collect();
     (each, whole(&[strips.axis(&english())]))
 }
 

@@ -15,6 +15,7 @@ use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::accuracy::unit;
 use crate::report::picture::tolerances::{Strips, decision, key, printed, unit_of};
+use crate::report::style::Outcome;
 use crate::report::tolerance::coverage_factor;
 use maud::{Markup, html};
 
@@ -142,14 +143,14 @@ fn table(
     let with_unit = |row: &ParameterVerdict| {
         // A telephone shows the first column and few others: the decision is there too.
         html! {
-            span.narrow-only { (mark(row.guarded)) (BLANK) }
+            span.narrow-only { (mark(Outcome::of(verdict.decision(row)))) (BLANK) }
             (parameter(row)) ", " (languages.spoken(unit(row.parameter)))
         }
     };
     // Of parameters that are not valid, a risk has no meaning.
     let risk = |row: &ParameterVerdict| match verdict.withheld {
         true => Cell::none(),
-        false => probability_cell(languages, row.specific_risk),
+        false => probability_cell(row.specific_risk),
     };
     let risks = column(languages, rows.iter().map(risk));
     let mut tolerances = numbers(texts::TOLERANCE, &|row| Number::exact(row.tolerance));
@@ -163,8 +164,8 @@ fn table(
         numbers(deviation, &|row| printed(row).0),
         numbers(texts::PLUS_MINUS, &|row| printed(row).1),
         tolerances,
-        Column { foot: strips.axis(languages), ..each(texts::IN_TOLERANCE, &|row| strips.strip(row)) },
-        each(texts::GUARDED, &|row| decided(languages, row.guarded)),
+        Column { foot: strips.axis(languages), ..each(texts::IN_TOLERANCE, &|row| strips.strip(verdict, row)) },
+        each(texts::GUARDED, &|row| decided(languages, verdict.decision(row))),
         Column::named(languages, texts::RISK, risks),
     ];
     if !with_u {
@@ -221,22 +222,18 @@ fn parameter(row: &ParameterVerdict) -> Markup {
 }
 
 /// Writes a decision with its mark, in the first language only: the key below the table has the mark in all of them.
-fn decided(languages: &Languages, found: Decision) -> Markup {
-    marked(found, &html! { (languages.spoken(decision(found))) })
+fn decided(languages: &Languages, found: Option<Decision>) -> Markup {
+    marked(Outcome::of(found), &html! { (languages.spoken(decision(found))) })
 }
 
 /// Writes a probability with two digits, or as less than `LEAST_RISK`.
 pub(super) fn probability(languages: &Languages, p: f64) -> Markup {
-    match probability_cell(languages, p) {
-        Cell::Number(number) => number.markup(languages),
-        Cell::Words(words) => words,
-    }
+    column(languages, [probability_cell(p)]).remove(0)
 }
 
-fn probability_cell(languages: &Languages, p: f64) -> Cell {
+fn probability_cell(p: f64) -> Cell {
     if p < LEAST_RISK {
-        let limit = Number::scientific(LEAST_RISK, 1).text(languages.first());
-        Cell::Words(languages.inline_with(|language| texts::BELOW.filled(language, values! { limit })))
+        Cell::Below(Number::scientific(LEAST_RISK, 1))
     } else if p < 0.1 {
         Cell::Number(Number::scientific(p, 2))
     } else {

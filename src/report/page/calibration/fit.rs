@@ -137,12 +137,14 @@ fn noise(calibration: &Calibration, languages: &Languages) -> Markup {
 
 /// Writes the comparison of an observed scatter with the stated uncertainty.
 fn agreement(found: &Scatter, what: Text, languages: &Languages) -> Markup {
+    // A factor of 1 changes nothing.
+    let factor = (found.variance_factor > 1.0).then(|| Number::significant(found.variance_factor, 2).markup(languages));
     html! {
         (fields([
             field(languages, what, Some(Number::chi_square(found.chi_square).markup(languages))),
             field(languages, texts::FREEDOM, Some(whole(found.degrees_of_freedom))),
             field(languages, texts::PROBABILITY, Some(probability(languages, found.probability))),
-            field(languages, texts::ENLARGED, Some(Number::significant(found.variance_factor, 2).markup(languages))),
+            factor.map(|factor| field(languages, texts::ENLARGED, Some(factor))).unwrap_or_default(),
         ]))
         @if found.agreement() == Agreement::Less { (languages.paragraph(texts::LESS_THAN_STATED)) }
     }

@@ -67,9 +67,9 @@ fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
     });
     let names = names.collect();
     let drawn = each.iter().map(|(parameter, _, past, ..)| {
-        let mut rows = past.verdict.iter().flat_map(|found| &found.parameters);
-        let row = rows.find(|row| row.parameter == *parameter);
-        row.map_or_else(Markup::default, |row| strips.strip(row))
+        let Some(verdict) = &past.verdict else { return Markup::default() };
+        let row = verdict.parameters.iter().find(|row| row.parameter == *parameter);
+        row.map_or_else(Markup::default, |row| strips.strip(verdict, row))
     });
     let mut columns =
         vec![Column::named(languages, texts::FOUND, values), Column::named(languages, texts::PLUS_MINUS, us)];

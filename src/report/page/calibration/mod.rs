@@ -224,25 +224,34 @@ impl CalibrationPage<'_> {
             let words = html! { (languages.paragraph(texts::NO_TYPE_WORDS)) (self.not_linear(languages)) };
             return boxed("verdict neutral", languages.label(texts::NO_TYPE), words);
         };
-        if !self.fits() {
+        if verdict.withheld {
             let name = |language: Language| texts::NO_STATEMENT.filled(language, values! { type: gyro.r#type });
             return boxed("verdict neutral", languages.label_with(name), html! {});
         }
-        let (class, text) = match verdict.overall {
-            Decision::Pass => ("verdict", texts::CONFORMS),
-            Decision::Undecided => ("verdict neutral", texts::UNDECIDED),
-            Decision::Fail => ("verdict refused", texts::CONFORMS_NOT),
+        let change = self.document.change.as_ref().filter(|change| !change.withheld);
+        let text = match (verdict.overall, change.map(|change| change.overall)) {
+            (Decision::Fail, _) => texts::CONFORMS_NOT,
+            (_, Some(Decision::Fail)) => texts::CHANGED_TOO_MUCH,
+            (Decision::Undecided, _) => texts::UNDECIDED,
+            (Decision::Pass, Some(Decision::Undecided)) => texts::CHANGE_UNDECIDED,
+            (Decision::Pass, _) => texts::CONFORMS,
+        };
+        let worst = verdict.with_change(change);
+        let class = match worst {
+            Decision::Pass => "verdict",
+            Decision::Undecided => "verdict neutral",
+            Decision::Fail => "verdict refused",
         };
         let name = |language: Language| text.filled(language, values! { type: gyro.r#type });
         let words = html! {
             (conformity::counted(verdict, None, languages))
-            @if let Some(change) = &self.document.change {
+            @if let Some(change) = change {
                 (conformity::counted(change, Some(texts::CHANGE_COUNTED), languages))
             }
             (self.not_linear(languages))
             (languages.paragraph(texts::RULE))
         };
-        boxed(class, marked(verdict.overall, &languages.label_with(name)), words)
+        boxed(class, marked(worst, &languages.label_with(name)), words)
     }
 
     /// Writes the parameters for which a Monte Carlo run shows that the linear approximation is not valid.

@@ -2,10 +2,12 @@
 
 use super::conformity::with_gravity;
 use super::{CalibrationPage, method};
+use crate::calibration::analytic::NoAnalyticSolution;
 use crate::calibration::document::ResultDocument;
-use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
+use crate::calibration::iterative::{LARGEST_NUMBER_OF_STEPS, NoIterativeSolution};
 use crate::calibration::parameter::Parameter;
-use crate::report::page::language::{Languages, Text, values};
+use crate::calibration::result::MethodRefusal;
+use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::{Cell, Number, column};
 use crate::report::page::parts::{Column, Table, field, fields, figure, heading, quantity, symbol, symbol_and_unit};
 use crate::report::page::passport::numbers::parameters;
@@ -20,11 +22,28 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
         (table(page, languages))
         @if results.iter().any(|result| result.from_least_squares.is_some()) { (languages.paragraph(texts::OFF_BY_NOTE)) }
         @for result in results { (iteration(result, languages)) }
-        @for (refused, _) in &page.calibration.refused {
+        @for (refused, refusal) in &page.calibration.refused {
             (languages.paragraph_with(|language| {
-                html! { (texts::NO_RESULT.filled(language, values! { method: method(refused.key()) })) }
+                let (method, why) = (method(refused.key()), reason(refusal, language));
+                italic(&texts::NO_RESULT.filled(language, values! { method, why }))
             }))
         }
+    }
+}
+
+/// Returns the reason why a method gave no result.
+fn reason(refusal: &MethodRefusal, language: Language) -> String {
+    match refusal {
+        MethodRefusal::Analytic(NoAnalyticSolution::EightPositionsMissing)
+        | MethodRefusal::Iterative(NoIterativeSolution::EightPositionsMissing) => texts::EIGHT_MISSING.words(language),
+        MethodRefusal::Analytic(NoAnalyticSolution::SingularCurrents)
+        | MethodRefusal::Iterative(NoIterativeSolution::SingularCurrents) => texts::SINGULAR.words(language),
+        MethodRefusal::Iterative(NoIterativeSolution::Diverges(radius) | NoIterativeSolution::TooManySteps(radius)) => {
+            texts::DIVERGES.filled(language, values! { radius: Number::significant(*radius, 2) })
+        }
+        MethodRefusal::NotThisModel => texts::NOT_THIS_MODEL.words(language),
+        // Without least squares there is no report.
+        MethodRefusal::LeastSquares(refusal) => refusal.to_string(),
     }
 }
 

@@ -25,6 +25,9 @@ use maud::{Markup, html};
 /// Effective degrees of freedom above which ∞ is printed.
 const MANY: f64 = 1e4;
 
+/// Ratio of the smallest and the largest uncertainty of a kind of input from which on they are printed as equal.
+const NEARLY_EQUAL: f64 = 0.99;
+
 /// Least share of a variance with which a kind of input has a part of the strips, and a row of the table.
 const LEAST_NAMED: f64 = 0.02;
 const LEAST_SHOWN: f64 = 1e-3;
@@ -142,10 +145,6 @@ fn budget_table(budget: &Budget, languages: &Languages) -> Markup {
             known => Cell::Number(Number::whole_or_two_digits(known)),
         }),
     ));
-    rows.push((
-        languages.label(texts::EXPANDED),
-        each(&|line| Cell::Number(Number::uncertainty(line.expanded_uncertainty()))),
-    ));
     html! {
         (parameters(languages, rows).captioned(languages, texts::BUDGET_CAPTION))
         (languages.paragraph(texts::BUDGET_DASH))
@@ -174,14 +173,16 @@ fn kinds(budget: &Budget) -> Vec<&Contribution> {
 
 /// Writes a kind of input and its uncertainty: the largest if there are several inputs.
 fn input(part: &Contribution, languages: &Languages) -> Markup {
-    let u = part.cause.shown(part.standard_uncertainty[1]);
     languages.label_with(|language| {
         let name = capital(&cause(part.cause, language));
         // The number stands once.
         if language != languages.first() {
             return name;
         }
-        texts::INPUT.filled(language, values! { input: name, u: of_input(part.cause, u, language) })
+        let [low, high] = part.standard_uncertainty;
+        let text = if low < NEARLY_EQUAL * high { texts::INPUTS } else { texts::INPUT };
+        let u = of_input(part.cause, part.cause.shown(high), language);
+        text.filled(language, values! { input: name, u })
     })
 }
 

@@ -5,6 +5,7 @@ use crate::certification::compared::{ComparedPosition, Test};
 use crate::certification::comparison::Comparison;
 use crate::certification::suspects::AXES;
 use crate::passport::difference::NumberDifference;
+use crate::report::certification::outcome_of;
 use crate::report::page::language::{Languages, Text, values};
 use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{
@@ -21,12 +22,14 @@ pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup
     let Some((comparison, _)) = &page.change else {
         let (positions, runs) = (page.certification.stand.positions.len(), page.certification.runs.len());
         let headline = languages.label_with(|language| texts::CERTIFIED.filled(language, values! { positions, runs }));
-        return boxed("verdict", marked(Some(true), &headline), languages.paragraph(texts::NOT_COMPARED));
+        let words = html! { (languages.paragraph(texts::NOT_COMPARED)) (warnings(page, languages)) };
+        return boxed("verdict", marked(Some(true), &headline), words);
     };
-    let (class, outcome, verdict) = match comparison.same_stand {
-        true => ("verdict", Outcome::Passed, texts::SAME),
-        false if comparison.is_undecided() => ("verdict neutral", Outcome::Undecided, texts::UNDECIDED),
-        false => ("verdict refused", Outcome::Failed, texts::CHANGED),
+    let outcome = outcome_of(comparison, comparison.same_stand);
+    let (class, verdict) = match outcome {
+        Outcome::Passed => ("verdict", texts::SAME),
+        Outcome::Failed => ("verdict refused", texts::CHANGED),
+        Outcome::Undecided | Outcome::NotAsked => ("verdict neutral", texts::UNDECIDED),
     };
     let headline =
         languages.label_with(|language| verdict.filled(language, values! { number: comparison.certificate }));
@@ -38,8 +41,22 @@ pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup
                 }
             }
         }
+        (warnings(page, languages))
     };
     boxed(class, marked(outcome, &headline), reasons)
+}
+
+/// Writes how many warnings the section of the tests has, if there is one.
+fn warnings(page: &CertificationPage, languages: &Languages) -> Markup {
+    let count = page.certification.remarks.len();
+    html! {
+        @if count > 0 {
+            (languages.paragraph_with(|language| {
+                let words = texts::WARNINGS_COUNTED.filled(language, values! { count, section: texts::TESTS });
+                html! { (words) }
+            }))
+        }
+    }
 }
 
 pub(super) fn section(page: &CertificationPage, languages: &Languages) -> Markup {
@@ -83,14 +100,20 @@ fn rotations(comparison: &Comparison, languages: &Languages) -> Markup {
     }
     let p = positions.iter().map(|at| Number::scientific(at.test.probability, 2));
     columns.push(Column::named(languages, texts::PROBABILITY, column(languages, p)));
-    let found = |repeats: bool| match repeats {
-        true => marked(Some(true), &languages.inline(texts::REPEATS)),
-        false => marked(Some(false), &languages.inline(texts::REPEATS_NOT)),
+    let found = |at: &ComparedPosition| {
+        let outcome = outcome_of(comparison, at.repeats);
+        let word = match outcome {
+            Outcome::Passed => texts::REPEATS,
+            Outcome::Failed => texts::REPEATS_NOT,
+            Outcome::Undecided | Outcome::NotAsked => pictures::DECISION_UNDECIDED,
+        };
+        marked(outcome, &languages.inline(word))
     };
-    columns.push(Column::named(languages, checks::RESULT, positions.iter().map(|at| found(at.repeats)).collect()));
+    columns.push(Column::named(languages, checks::RESULT, positions.iter().map(found).collect()));
     // A telephone shows the first column and few others: the result is there too.
-    let name =
-        |at: &ComparedPosition| html! { span.narrow-only { (mark(Some(at.repeats))) (BLANK) } (at.index.to_string()) };
+    let name = |at: &ComparedPosition| {
+        html! { span.narrow-only { (mark(outcome_of(comparison, at.repeats))) (BLANK) } (at.index.to_string()) }
+    };
     let names = positions.iter().map(|at| vec![name(at)]).collect();
     let table = Table::of(vec![languages.label(texts::POSITION)], names, &columns);
     Table { class: "numbers rotations", ..table }.markup(languages.spoken(texts::ROTATIONS))

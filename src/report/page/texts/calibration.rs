@@ -33,9 +33,17 @@ texts! {
     }
     CONFORMS { en: "Within the tolerances of gyro type {type}", ru: "Соответствует допускам типа {type}" }
     CONFORMS_NOT { en: "NOT within the tolerances of gyro type {type}", ru: "НЕ соответствует допускам типа {type}" }
+    CHANGED_TOO_MUCH {
+        en: "NOT stable within the tolerances of gyro type {type}",
+        ru: "Нестабильность НЕ соответствует допускам типа {type}"
+    }
+    CHANGE_UNDECIDED {
+        en: "Within the tolerances of gyro type {type}; the change since the previous calibration is undecided",
+        ru: "Соответствует допускам типа {type}; изменение после предыдущей калибровки не определено"
+    }
     NO_STATEMENT {
-        en: "No statement of conformity with type {type}: the readings do not fit",
-        ru: "Заключение о соответствии типу {type} невозможно: показания не согласуются"
+        en: "No statement of conformity with gyro type {type}",
+        ru: "Заключение о соответствии типу {type} не приводится"
     }
     UNDECIDED { en: "Conformity with gyro type {type} is undecided", ru: "Соответствие типу {type} не определено" }
     RULE {
@@ -49,7 +57,7 @@ texts! {
         en: "No gyro type was specified; this report makes no statement of conformity.",
         ru: "Тип гироскопа не указан; заключение о соответствии не приводится."
     }
-    MISTAKE { en: "These are not the parameters of this gyro", ru: "Это не параметры данного гироскопа" }
+    MISTAKE { en: "These are not the parameters of this gyro", ru: "Параметры не относятся к данному гироскопу" }
     MISTAKE_CURRENTS {
         en: "The readings fit, but the parameters do not match this gyro. One error explains this: {causes}. Check the \
              torquer cables, the signs and unit of the currents, and how the gyro is seated; then calibrate again.",
@@ -218,7 +226,21 @@ texts! {
         en: "Remaining error of the g-sensitive drifts, at most",
         ru: "Остаточная погрешность составляющих дрейфа, зависящих от g, не более"
     }
-    NO_RESULT { en: "{method}: no result.", ru: "{method}: результат не получен." }
+    NO_RESULT { en: "{method}: no result, because {why}.", ru: "{method}: результат не получен, так как {why}." }
+    EIGHT_MISSING {
+        en: "some of the eight positions that the method requires have no readings",
+        ru: "нет показаний в части из восьми положений, необходимых для метода"
+    }
+    SINGULAR { en: "the currents do not determine K", ru: "токи не определяют K" }
+    DIVERGES {
+        en: "the iteration does not converge (spectral radius {radius})",
+        ru: "итерации не сходятся (спектральный радиус {radius})"
+    }
+    NOT_THIS_MODEL {
+        en: "the method has only the paper’s model with a constant drift, and needs turn-ons that all visited the same \
+             positions",
+        ru: "метод применим только к модели статьи с постоянным дрейфом и к запускам с одинаковыми положениями"
+    }
     CONVERGENCE_CAPTION {
         en: "Convergence: change in each step, relative to the limit at which the iteration stops. The first approximation \
              counts as a step.",
@@ -284,7 +306,6 @@ texts! {
         ru: "Риск: вероятность того, что это решение по параметру ошибочно. При приёмке с защитной полосой решение не \
              определено, если неопределённость не позволяет его принять."
     }
-    BELOW { en: "< {limit}", ru: "< {limit}" }
 
     FIT { en: "Goodness of fit", ru: "Согласие показаний с моделью" }
     CHI_SQUARE { en: "Chi-square", ru: "Хи-квадрат" }
@@ -507,11 +528,8 @@ texts! {
     BUDGET_LEAVES { en: "Without this source, u would be {rest}.", ru: "Без этого источника u составила бы {rest}." }
     COMBINED { en: "Combined, u", ru: "Суммарная, u" }
     EFFECTIVE_FREEDOM { en: "Effective degrees of freedom", ru: "Эффективное число степеней свободы" }
-    EXPANDED {
-        en: "Half-width of the 95 % coverage interval (k = 1.96, or Student’s t)",
-        ru: "Полуширина интервала охвата 95 % (k = 1,96 или коэффициент Стьюдента)"
-    }
     INPUT { en: "{input}: u = {u}", ru: "{input}: u = {u}" }
+    INPUTS { en: "{input}: u ≤ {u}", ru: "{input}: u ≤ {u}" }
     CAUSE_ANGLE { en: "certified angles", ru: "углы по сертификату" }
     CAUSE_RETURN { en: "repeatability of positioning", ru: "повторяемость положений" }
     CAUSE_READING { en: "meter, specification", ru: "измеритель, погрешность показания" }

@@ -3,7 +3,7 @@
 use super::texts;
 
 texts! {
-    TITLE { en: "Record of the certification of a test stand", ru: "Протокол калибровки испытательного стенда" }
+    TITLE { en: "Record of the certification of a test stand", ru: "Протокол калибровки поворотного стенда" }
     SUBTITLE {
         en: "Readings, tests and uncertainty behind a calibration certificate",
         ru: "Показания, критерии и неопределённость, на которых основан сертификат калибровки"
@@ -115,6 +115,10 @@ texts! {
         ru: "Вероятность случайно получить столь же большое значение: менее 5 % — квазивыброс, равенство сомнительно; \
              менее 1 % — выброс, дисперсии различаются. По критериям ничего не исключается."
     }
+    WARNINGS_COUNTED {
+        en: "Warnings of the program: {count}; see section “{section}”.",
+        ru: "Предупреждений программы: {count}; см. раздел «{section}»."
+    }
     WARNINGS { en: "Warnings of the program", ru: "Предупреждения программы" }
 
     DRAFT { en: "Draft: this certificate was not issued", ru: "Проект: этот сертификат не выдан" }
@@ -134,8 +138,8 @@ texts! {
     SAME { en: "Unchanged since certificate {number}", ru: "Стенд не изменился после сертификата {number}" }
     CHANGED { en: "Changed since certificate {number}", ru: "Стенд изменился после сертификата {number}" }
     UNDECIDED {
-        en: "Undecided whether the stand has changed since certificate {number}: the readings have outliers",
-        ru: "Изменился ли стенд после сертификата {number}, не установлено: в показаниях есть выбросы"
+        en: "It is undecided whether the stand has changed since certificate {number}",
+        ru: "Не установлено, изменился ли стенд после сертификата {number}"
     }
     CHANGE_CAPTION {
         en: "Deviations of certificate {number} and of this one; u: standard uncertainty of the change",
@@ -160,7 +164,7 @@ texts! {
     ANNEX { en: "Annex: the file of readings", ru: "Приложение: файл показаний" }
     ANNEX_NOTE {
         en: "The file as it was read, verbatim. Its SHA-256 is in the certificate.",
-        ru: "Файл воспроизведён дословно. Его SHA-256 указана в сертификате."
+        ru: "Файл воспроизведён дословно. Его хеш SHA-256 указан в сертификате."
     }
     SAVE { en: "Save the file of readings", ru: "Сохранить файл показаний" }
 }

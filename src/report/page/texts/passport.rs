@@ -3,7 +3,7 @@
 use super::texts;
 
 texts! {
-    TITLE { en: "Passport of a test stand", ru: "Паспорт испытательного стенда" }
+    TITLE { en: "Passport of a test stand", ru: "Паспорт поворотного стенда" }
     MARGIN_PASSPORT { en: "Passport {stand}/{site}, revision {revision}", ru: "Паспорт {stand}/{site}, редакция {revision}" }
     MARGIN_SHA256 { en: "SHA-256 of the signed file {sha256}", ru: "SHA-256 подписанного файла {sha256}" }
 
@@ -56,7 +56,7 @@ texts! {
              verbatim in the annex. Compare its SHA-256 with the value here or in the code. To verify the file, use \
              dtg-passport verify, or ssh-keygen alone.",
         ru: "Эта страница воспроизводит подписанный файл и сама не подписана. Силу имеет только файл, дословно \
-             приведённый в приложении. Его SHA-256 сравнивают с указанной здесь или в коде; файл проверяют командой \
+             приведённый в приложении. Хеш SHA-256 файла сравнивают с указанным здесь или в коде; файл проверяют командой \
              dtg-passport verify или средствами ssh-keygen."
     }
 
@@ -112,8 +112,8 @@ texts! {
         ru: "Стенд в положениях (i, j); вид тот же, что на рисунке\u{a0}1."
     }
     COMMON {
-        en: "Uncertainty common to all positions (k = 1)",
-        ru: "Неопределённость, общая для всех положений (k = 1)"
+        en: "Repeatability and common parts of the uncertainty (k = 1)",
+        ru: "Повторяемость и общие составляющие неопределённости (k = 1)"
     }
     REPEATABILITY { en: "Repeatability of positioning, per axis", ru: "Повторяемость положений (по осям)" }
     REPEATABILITY_DOF { en: "Degrees of freedom of the repeatability", ru: "Число степеней свободы повторяемости" }
@@ -266,7 +266,7 @@ texts! {
         en: "The signed file, verbatim; every number reads back as the same binary64. Saved as {name}, with one line \
              feed at the end of each line, the file has the SHA-256 given on the first page.",
         ru: "Подписанный файл, дословно; каждое число читается как то же значение binary64. Файл, сохранённый под \
-             именем {name}, с одним переводом строки в конце каждой строки, имеет SHA-256, указанную на первой \
+             именем {name}, с одним переводом строки в конце каждой строки, имеет хеш SHA-256, указанный на первой \
              странице."
     }
     SAVE { en: "Save the signed file", ru: "Сохранить подписанный файл" }

@@ -128,6 +128,7 @@ texts! {
     DECISION_PASS { en: "pass", ru: "соответствует" }
     DECISION_FAIL { en: "fail", ru: "не соответствует" }
     DECISION_UNDECIDED { en: "undecided", ru: "не определено" }
+    NOT_DECIDED { en: "not decided", ru: "не оценивалось" }
 
     CONVERGENCE_TITLE {
         en: "Iterative method: change in each step relative to the limit",

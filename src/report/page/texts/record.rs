@@ -25,7 +25,7 @@ texts! {
     ITEM { en: "Item", ru: "Наименование" }
     QUANTITY { en: "Quantity", ru: "Кол-во" }
     NOTE { en: "Note", ru: "Примечание" }
-    TEST_STAND { en: "Test stand", ru: "Испытательный стенд" }
+    TEST_STAND { en: "Test stand", ru: "Поворотный стенд" }
     THIS_PASSPORT { en: "This passport (signed file)", ru: "Настоящий паспорт (подписанный файл)" }
 
     WARRANTY {
