@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ._common import Array, Frozen, array, frozen, optional, whole
+from ._common import Array, Frozen, frozen, optional, whole
 
 NAMES = ("K_x", "K_xy", "K_yx", "K_y", "ω_0x", "ω_0y", "ω_g", "ω_k")
 """Order of the eight parameters."""
@@ -64,24 +64,19 @@ def _eight(values: list[float]) -> Parameters:
 
 
 class Calibration(Frozen):
-    """Result of a calibration: parameters, their uncertainty, and the fit. It cannot be changed."""
+    """Result of `Passport.calibrate`: parameters, their uncertainty, and the fit. It cannot be changed."""
 
-    __slots__ = ("_covariance", "_document", "_remarks", "_result", "_run")
+    __slots__ = ("_document", "_covariance", "_run")
     __module__ = "dtg_passport"
 
-    _covariance: Array
     _document: dict[str, Any]
-    _remarks: tuple[str, ...]
-    _result: dict[str, Any]
+    _covariance: Array
     _run: Callable[..., str]
 
-    def __init__(
-        self, document: dict[str, Any], covariance: bytes, remarks: tuple[str, ...], run: Callable[..., str]
-    ) -> None:
-        """Calibrations are created by `Passport.calibrate`."""
-        values = (array(covariance, 8, 8), document, remarks, document["results"][0], run)
-        for name, value in zip(self.__slots__, values):
-            object.__setattr__(self, name, value)
+    @property
+    def _result(self) -> dict[str, Any]:
+        result: dict[str, Any] = self._document["results"][0]
+        return result
 
     @property
     def parameters(self) -> Parameters:
@@ -155,7 +150,7 @@ class Calibration(Frozen):
     @property
     def remarks(self) -> tuple[str, ...]:
         """Remarks on the currents, the laboratory and the fit; each was also a Python warning."""
-        return self._remarks
+        return tuple(self._document.get("remarks", ()))
 
     @property
     def consistent(self) -> bool:

@@ -23,7 +23,11 @@ File = Path | Mapping[str, Any]
 class Frozen:
     """Thing whose attributes cannot be changed."""
 
-    __slots__ = ()
+    __slots__: tuple[str, ...] = ()
+
+    def __init__(self, *values: object) -> None:
+        for name, value in zip(self.__slots__, values):
+            object.__setattr__(self, name, value)
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"a {type(self).__name__.lower()} cannot be changed: {name}")

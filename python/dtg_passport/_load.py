@@ -55,25 +55,22 @@ def signers(trust: Path | bytes) -> tuple[str, bytes]:
     return named(trust)
 
 
-def _verification(path: str, answer: _dtg_passport.Answer) -> Verification:
-    content = answer.content()
-    passport = None if content is None else Passport(content, answer)
-    return Verification(path, answer.valid, answer.id, checks_of(answer), passport)
+def _each(
+    paths: Iterable[Path], enquiry: _dtg_passport.Enquiry, threads: int
+) -> Iterator[tuple[str, _dtg_passport._Answer]]:
+    names = (os.fspath(path) for path in paths)
+    while chunk := list(itertools.islice(names, CHUNK)):
+        for name, answer in zip(chunk, enquiry.verify_files(chunk, threads)):
+            if isinstance(answer, OSError):
+                raise answer
+            yield name, answer
 
 
-def _passport(path: str, answer: _dtg_passport.Answer) -> Passport:
-    content = answer.content()
+def _passport(path: str, answer: _dtg_passport._Answer) -> Passport:
+    _, sha256, checks, content = answer
     if content is None:
-        raise Refused(path, checks_of(answer))
-    return Passport(content, answer)
-
-
-def _answered(path: Path, enquiry: _dtg_passport.Enquiry) -> tuple[str, _dtg_passport.Answer]:
-    name = os.fspath(path)
-    [answer] = enquiry.verify_files([name], 1)
-    if isinstance(answer, OSError):
-        raise answer
-    return name, answer
+        raise Refused(path, checks_of(checks))
+    return Passport(content, sha256, checks)
 
 
 def load(
@@ -130,7 +127,7 @@ def load(
     dtg_passport.Refused: passports/SPS-2/0017/moscow-bmstu-1.yaml: refused
       stand (wrong_stand): the passport is for stand SPS-2 0017, not 0018; its deviations do not apply to stand 0018
     """
-    return _passport(*_answered(path, _enquiry(trust, serial, at, time, issuer, revoked, register)))
+    return _passport(*next(_each([path], _enquiry(trust, serial, at, time, issuer, revoked, register), 1)))
 
 
 def loads(
@@ -191,7 +188,10 @@ def verify(
     >>> [check.name for check in answer.checks if check.passed is False]
     ['in_force']
     """
-    return _verification(*_answered(path, _enquiry(trust, serial, at, time, issuer, revoked, register)))
+    name, answer = next(_each([path], _enquiry(trust, serial, at, time, issuer, revoked, register), 1))
+    id, sha256, checks, content = answer
+    passport = None if content is None else Passport(content, sha256, checks)
+    return Verification(name, passport is not None, id, checks_of(checks), passport)
 
 
 def load_many(
@@ -236,16 +236,8 @@ def load_many(
         raise TypeError(f"paths: found {paths!r}, expected a list of paths")
     threads = 0 if threads is None else whole("threads", threads, 1, 1024)
     # The trust is read at once, so that an error in it does not wait for the first passport.
-    return _each(paths, _enquiry(trust, serial, at, time, issuer, revoked, register), threads)
-
-
-def _each(paths: Iterable[Path], enquiry: _dtg_passport.Enquiry, threads: int) -> Iterator[Passport]:
-    names = (os.fspath(path) for path in paths)
-    while chunk := list(itertools.islice(names, CHUNK)):
-        for name, answer in zip(chunk, enquiry.verify_files(chunk, threads)):
-            if isinstance(answer, OSError):
-                raise answer
-            yield _passport(name, answer)
+    enquiry = _enquiry(trust, serial, at, time, issuer, revoked, register)
+    return (_passport(*each) for each in _each(paths, enquiry, threads))
 
 
 def load_unverified(path: Path) -> Passport:
@@ -268,4 +260,4 @@ def load_unverified(path: Path) -> Passport:
     warnings.warn(f"{name}: NOT VERIFIED: the origin of these numbers is unknown", stacklevel=2)
     import hashlib
 
-    return Passport(content, hashlib.sha256(data).hexdigest())
+    return Passport(content, hashlib.sha256(data).hexdigest(), [])

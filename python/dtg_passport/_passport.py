@@ -48,9 +48,9 @@ class Check(NamedTuple):
     """Result as a sentence."""
 
 
-def checks_of(answer: _dtg_passport.Answer) -> tuple[Check, ...]:
-    """Return every check of an answer."""
-    return tuple(Check(*check) for check in answer.checks)
+def checks_of(checks: list[_dtg_passport._Check]) -> tuple[Check, ...]:
+    """Return the checks of an answer."""
+    return tuple(Check(*check) for check in checks)
 
 
 class Verification(NamedTuple):
@@ -123,20 +123,16 @@ class SelfCheck(NamedTuple):
 class Passport(Frozen):
     """A passport. Its numbers are those that were signed, to the last bit, and cannot be changed.
 
-    Arrays are float64 and read-only. What the passport does not state is NaN. Rows belong to the positions in the order
-    of `ij`.
+    It is created by `load` and its siblings. Arrays are float64 and read-only. What the passport does not state is NaN.
+    Rows belong to the positions in the order of `ij`.
     """
 
-    __slots__ = ("_content", "_source")
+    __slots__ = ("_content", "_sha256", "_checks")
     __module__ = "dtg_passport"
 
     _content: _dtg_passport.Content
-    _source: _dtg_passport.Answer | str
-
-    def __init__(self, content: _dtg_passport.Content, source: _dtg_passport.Answer | str) -> None:
-        """Passports are created by `load` and its siblings, from an answer or, unverified, with the SHA-256 alone."""
-        object.__setattr__(self, "_content", content)
-        object.__setattr__(self, "_source", source)
+    _sha256: str
+    _checks: list[_dtg_passport._Check]
 
     @property
     def id(self) -> str:
@@ -146,17 +142,17 @@ class Passport(Frozen):
     @property
     def sha256(self) -> str:
         """SHA-256 of the whole file, in lower-case hexadecimal."""
-        return self._source if isinstance(self._source, str) else self._source.sha256
+        return self._sha256
 
     @property
     def verified(self) -> bool:
         """Whether the passport was verified; False only after `load_unverified`."""
-        return self._content.verified
+        return bool(self._checks)
 
     @property
     def checks(self) -> tuple[Check, ...]:
         """Every check that was run; empty after `load_unverified`."""
-        return () if isinstance(self._source, str) else checks_of(self._source)
+        return checks_of(self._checks)
 
     @property
     def delta(self) -> Array:
@@ -337,11 +333,11 @@ class Passport(Frozen):
             "previous": previous if isinstance(previous, Mapping) else [getattr(each, "_document", each) for each in previous],
         }
         inputs = (_csv(currents), json_text(order), documents(gyro, laboratory))
-        text, covariance, remarks = self._content.calibrate(*inputs)
-        for remark in remarks:
+        text, covariance = self._content.calibrate(*inputs)
+        found = Calibration(json.loads(text), array(covariance, 8, 8), functools.partial(self._content.monte_carlo, *inputs))
+        for remark in found.remarks:
             warnings.warn(remark, stacklevel=2)
-        run = functools.partial(self._content.monte_carlo, *inputs)
-        return Calibration(json.loads(text), covariance, tuple(remarks), run)
+        return found
 
     def self_check(self, function: Callable[[Passport, Array], Calibration | Sequence[npt.ArrayLike]]) -> SelfCheck:
         """Test laboratory software with the self-check of this passport.

@@ -1,7 +1,7 @@
 //! The compiled part of the Python module `dtg_passport`: converts types and calls `dtg_passport::interface`.
 
 use dtg_passport::folder::FileError;
-use dtg_passport::gyro::{GyroType, Parameters};
+use dtg_passport::gyro::{GyroParameters, GyroType};
 use dtg_passport::interface::{self, Failed, Order};
 use dtg_passport::jiff::Timestamp;
 use dtg_passport::laboratory::Laboratory;
@@ -21,6 +21,9 @@ type File = (String, Vec<u8>);
 /// Name, result, code and detail of a check.
 type Check = (&'static str, Option<bool>, &'static str, String);
 
+/// Id and SHA-256 of a passport, every check, and the content if every check passed.
+type Answer = (Option<String>, String, Vec<Check>, Option<Content>);
+
 /// Gyro type and laboratory.
 type Files = (Option<File>, Option<File>);
 
@@ -34,6 +37,20 @@ fn failed(error: Failed) -> PyErr {
 /// Returns a file as the library takes it.
 fn given((name, bytes): &File) -> (&str, &[u8]) {
     (name, bytes)
+}
+
+fn answered(found: &interface::Answer) -> Answer {
+    let verification = &found.verification;
+    let checks = verification.checks().iter();
+    let checks = checks.map(|check| (check.name.as_str(), check.passed(), check.code.as_str(), check.detail.clone()));
+    let verified_as_of = Some(found.time);
+    let content = verification.passport().map(|of| Content { passport: of.content().clone(), verified_as_of });
+    (verification.id_from_anyone().map(str::to_owned), found.sha256.clone(), checks.collect(), content)
+}
+
+/// Returns numbers as bytes, float64 each.
+fn float64(py: Python<'_>, numbers: impl IntoIterator<Item = f64>) -> Bound<'_, PyBytes> {
+    PyBytes::new(py, &numbers.into_iter().flat_map(f64::to_ne_bytes).collect::<Vec<_>>())
 }
 
 /// Reads an order of a calibration, with the files of its gyro type and its laboratory.
@@ -89,7 +106,7 @@ impl Enquiry {
     }
 
     fn verify(&self, py: Python, file: &str, data: &[u8]) -> Answer {
-        Answer(py.detach(|| self.0.verify(file, data)))
+        py.detach(|| answered(&self.0.verify(file, data)))
     }
 
     /// Verifies files. The list has one element for each file: its answer, or an OSError if it cannot be read.
@@ -101,45 +118,10 @@ impl Enquiry {
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let answers = py.detach(|| self.0.verify_files(&paths, threads));
         let answers = answers.into_iter().map(|answer| match answer {
-            Ok(answer) => Ok(Bound::new(py, Answer(answer))?.into_any()),
+            Ok(answer) => Ok(answered(&answer).into_pyobject(py)?.into_any()),
             Err(error) => Ok(os_error(py, &error).into_value(py).into_bound(py).into_any()),
         });
         answers.collect()
-    }
-}
-
-/// Answer on one passport.
-#[pyclass(frozen)]
-struct Answer(interface::Answer);
-
-#[pymethods]
-impl Answer {
-    #[getter]
-    fn sha256(&self) -> &str {
-        &self.0.sha256
-    }
-
-    #[getter]
-    fn id(&self) -> Option<&str> {
-        self.0.verification.id_from_anyone()
-    }
-
-    #[getter]
-    fn valid(&self) -> bool {
-        self.0.verification.valid()
-    }
-
-    #[getter]
-    fn checks(&self) -> Vec<Check> {
-        let checks = self.0.verification.checks().iter();
-        checks.map(|check| (check.name.as_str(), check.passed(), check.code.as_str(), check.detail.clone())).collect()
-    }
-
-    /// Returns the content if every check passed, otherwise None.
-    fn content(&self) -> Option<Content> {
-        let verification = &self.0.verification;
-        let passport = verification.content_from_anyone().filter(|_| verification.valid())?;
-        Some(Content { passport: passport.clone(), verified_as_of: Some(self.0.time) })
     }
 }
 
@@ -160,11 +142,6 @@ impl Content {
     }
 
     #[getter]
-    fn verified(&self) -> bool {
-        self.verified_as_of.is_some()
-    }
-
-    #[getter]
     fn id(&self) -> &str {
         &self.passport.passport.id
     }
@@ -180,24 +157,48 @@ impl Content {
 
     /// Returns an array as bytes, float64 row by row; empty for a self-check that the passport does not have.
     fn array<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyBytes>> {
-        let numbers = self.numbers(name).ok_or_else(|| PyValueError::new_err(format!("no array {name}")))?;
-        let bytes: Vec<u8> = numbers.into_iter().flat_map(f64::to_ne_bytes).collect();
-        Ok(PyBytes::new(py, &bytes))
+        const NOT_STATED: f64 = f64::NAN;
+        let Passport { positions, vectors, matrices, self_check, .. } = &self.passport;
+        let matrix = |of: fn(&_) -> [[f64; 2]; 2]| matrices.as_ref().map_or([[NOT_STATED; 2]; 2], of).concat();
+        let each = |of: fn(&_) -> Vec<f64>| positions.iter().flat_map(of).collect();
+        let vectors = |of: fn(&_) -> [f64; 2]| {
+            let of_one = |i, j| vectors.iter().find(|at| (at.i, at.j) == (i, j)).map_or([NOT_STATED; 2], of);
+            positions.iter().flat_map(|at| of_one(at.i, at.j)).collect()
+        };
+        let numbers: Vec<f64> = match name {
+            "delta" => matrix(|of| of.delta),
+            "B" => matrix(|of| of.b_deg_per_h),
+            "C" => matrix(|of| of.c_deg_per_h_per_g),
+            "n2_inverse" => matrix(|of| of.n2_inverse),
+            "ij" => each(|at| vec![at.i.into(), at.j.into()]),
+            "angles" => each(|at| vec![at.theta_deg, at.phi_deg]),
+            "n" => vectors(|at| at.specific_force_g),
+            "omega" => vectors(|at| at.omega_deg_per_h),
+            "deviations" => each(|at| vec![at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec]),
+            "u_deviations" => each(|at| {
+                [at.u_alpha_arcsec, at.u_beta_arcsec, at.u_gamma_arcsec].map(|u| u.unwrap_or(NOT_STATED)).into()
+            }),
+            "self_check" => {
+                let currents = self_check.iter().flat_map(|check| &check.currents);
+                currents.flat_map(|at| [at.i.into(), at.j.into(), at.jx_ma, at.jy_ma]).collect()
+            }
+            _ => return Err(PyValueError::new_err(format!("no array {name}"))),
+        };
+        Ok(float64(py, numbers))
     }
 
-    /// Returns the JSON of `calibrate`, the covariance (8, 8) as bytes, and remarks.
+    /// Returns the JSON of `calibrate`, and the covariance (8, 8) as bytes.
     fn calibrate<'py>(
         &self,
         py: Python<'py>,
         currents: File,
         order: &str,
         files: Files,
-    ) -> PyResult<(String, Bound<'py, PyBytes>, Vec<String>)> {
+    ) -> PyResult<(String, Bound<'py, PyBytes>)> {
         let (passport, order) = (&self.passport, ordered(order, files)?);
         let found = py.detach(|| interface::calibrate(passport, self.verified_as_of, given(&currents), &order));
         let found = found.map_err(failed)?;
-        let covariance: Vec<u8> = found.covariance.into_iter().flatten().flat_map(f64::to_ne_bytes).collect();
-        Ok((found.json, PyBytes::new(py, &covariance), found.remarks))
+        Ok((found.json, float64(py, found.covariance.into_iter().flatten())))
     }
 
     /// Returns the JSON of a Monte Carlo. Between the waves of trials `progress` is called, and signals are handled; an
@@ -238,48 +239,7 @@ impl Content {
     fn self_check_errors(&self, found: [f64; 8]) -> PyResult<([f64; 8], f64)> {
         let check = self.passport.self_check.as_ref();
         let check = check.ok_or_else(|| PyValueError::new_err("this passport has no self-check"))?;
-        let [kx, kxy, kyx, ky, x, y, omega_g_deg_per_h_per_g, omega_k_deg_per_h_per_g] = found;
-        let found = Parameters {
-            k_deg_per_h_per_ma: [[kx, kxy], [kyx, ky]],
-            omega0_deg_per_h: [x, y],
-            omega_g_deg_per_h_per_g,
-            omega_k_deg_per_h_per_g,
-        };
-        Ok((check.errors(&found.to_model()), SelfCheck::LIMIT))
-    }
-}
-
-impl Content {
-    fn numbers(&self, name: &str) -> Option<Vec<f64>> {
-        const NOT_STATED: f64 = f64::NAN;
-        let Passport { positions, vectors, matrices, self_check, .. } = &self.passport;
-        let vector = |i, j| vectors.iter().find(|at| (at.i, at.j) == (i, j));
-        let pairs = positions.iter().map(|at| vector(at.i, at.j));
-        let matrix = matrices.as_ref();
-        let rows = match name {
-            "delta" => matrix.map(|m| m.delta),
-            "B" => matrix.map(|m| m.b_deg_per_h),
-            "C" => matrix.map(|m| m.c_deg_per_h_per_g),
-            "n2_inverse" => matrix.map(|m| m.n2_inverse),
-            "ij" => return Some(positions.iter().flat_map(|at| [f64::from(at.i), f64::from(at.j)]).collect()),
-            "angles" => return Some(positions.iter().flat_map(|at| [at.theta_deg, at.phi_deg]).collect()),
-            "n" => return Some(pairs.flat_map(|at| at.map_or([NOT_STATED; 2], |at| at.specific_force_g)).collect()),
-            "omega" => return Some(pairs.flat_map(|at| at.map_or([NOT_STATED; 2], |at| at.omega_deg_per_h)).collect()),
-            "deviations" => {
-                let each = positions.iter().flat_map(|at| [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec]);
-                return Some(each.collect());
-            }
-            "u_deviations" => {
-                let each = positions.iter().flat_map(|at| [at.u_alpha_arcsec, at.u_beta_arcsec, at.u_gamma_arcsec]);
-                return Some(each.map(|u| u.unwrap_or(NOT_STATED)).collect());
-            }
-            "self_check" => {
-                let currents = self_check.iter().flat_map(|check| &check.currents);
-                return Some(currents.flat_map(|at| [f64::from(at.i), f64::from(at.j), at.jx_ma, at.jy_ma]).collect());
-            }
-            _ => return None,
-        };
-        Some(rows.unwrap_or([[NOT_STATED; 2]; 2]).concat())
+        Ok((check.errors(&GyroParameters::from_vector(&found)), SelfCheck::LIMIT))
     }
 }
 
@@ -329,5 +289,5 @@ mod _dtg_passport {
     #[expect(non_upper_case_globals)]
     const __version__: &str = env!("CARGO_PKG_VERSION");
     #[pymodule_export]
-    use super::{Answer, Content, Enquiry, issue, plan};
+    use super::{Content, Enquiry, issue, plan};
 }
