@@ -195,41 +195,26 @@ class Calibration(Frozen):
     ) -> MonteCarlo:
         """Return the distributions of the parameters by Monte Carlo, as `calibrate --monte-carlo` does.
 
-        Parameters
-        ----------
-        trials
-            Number of trials, rounded up to a multiple of 16384. Default: until every digit is stable.
-        seed
-            Seed of the random numbers, which determines every bit of the result.
-        threads
-            Number of threads. Default: one for each processor. They do not hold Python's global lock.
-        progress
-            Function that is called with the number of trials done and the number due as far as it is known; True for a
-            bar of the package `tqdm`, False for none. Default: a bar if tqdm is installed and standard error is a
-            terminal. An exception of the function ends the run, as Ctrl-C does.
+        Args:
+            trials: Number of trials, rounded up to a multiple of 16384. Default: until every digit is stable.
+            seed: Seed of the random numbers, which determines every bit of the result.
+            threads: Number of threads. Default: one for each processor. They do not hold Python's global lock.
+            progress: Function that is called with the number of trials done and the number due as far as it is known;
+                True for a bar of the package `tqdm`, False for none. Default: a bar if tqdm is installed and standard
+                error is a terminal. An exception of the function ends the run, as Ctrl-C does.
 
-        Returns
-        -------
-        MonteCarlo
-            Means, standard uncertainties, 95 % coverage intervals and covariance.
+        Raises:
+            KeyboardInterrupt: If Ctrl-C ended the run.
+            ValueError: If an argument cannot be used.
 
-        Raises
-        ------
-        KeyboardInterrupt
-            If Ctrl-C ended the run.
-        ValueError
-            If an argument cannot be used.
-
-        Examples
-        --------
-        >>> from dtg_passport import load
-        >>> passport = load("passports/SPS-2/0017/moscow-bmstu-1.yaml", "docs/allowed_signers", time="2026-11-20")
-        >>> found = passport.calibrate("docs/currents.csv").monte_carlo(100_000, seed=7)
-        >>> found.trials
-        114688
-        >>> low, high = found.interval
-        >>> f"{low.omega_g:.3f} to {high.omega_g:.3f} deg/h/g"
-        '9.998 to 10.003 deg/h/g'
+        Examples:
+            >>> passport = load("passports/SPS-2/0017/moscow-bmstu-1.yaml", "docs/allowed_signers", time="2026-11-20")
+            >>> found = passport.calibrate("docs/currents.csv").monte_carlo(100_000, seed=7)
+            >>> found.trials
+            114688
+            >>> low, high = found.interval
+            >>> f"{low.omega_g:.3f} to {high.omega_g:.3f} deg/h/g"
+            '9.998 to 10.003 deg/h/g'
         """
         trials = None if trials is None else whole("trials", trials, 1, 10**12)
         seed = whole("seed", seed, 0, 2**64 - 1)
@@ -264,13 +249,11 @@ class Calibration(Frozen):
     def ufloats(self) -> dict[str, Any]:
         """Return the parameters as correlated numbers of the package `uncertainties`, by name.
 
-        Examples
-        --------
-        >>> from dtg_passport import load
-        >>> passport = load("passports/SPS-2/0017/moscow-bmstu-1.yaml", "docs/allowed_signers", time="2026-11-20")
-        >>> found = passport.calibrate("docs/currents.csv").ufloats()
-        >>> print(found["K_x"])  # deg/(h*mA)
-        94.994+/-0.011
+        Examples:
+            >>> passport = load("passports/SPS-2/0017/moscow-bmstu-1.yaml", "docs/allowed_signers", time="2026-11-20")
+            >>> found = passport.calibrate("docs/currents.csv").ufloats()
+            >>> print(found["K_x"])  # deg/(h*mA)
+            94.994+/-0.011
         """
         uncertainties = optional("uncertainties", "uncertainties")
         K, omega_0, omega_g, omega_k = self.parameters

@@ -66,54 +66,32 @@ def issue(
 
     An equal passport that exists is left unchanged, and no file is replaced.
 
-    Parameters
-    ----------
-    stand
-        Certified stand, `dtg-stand/1`: path of the file, or a mapping.
-    site
-        Site, `dtg-site/1`: path of the file, or a mapping.
-    key
-        Private key file, or a .pub file whose private half is in ssh-agent or a FIDO token.
-    identity
-        Issuer: the principal of the key in allowed_signers.
-    out
-        Folder of passports; the file is `<model>/<serial>/<site id>-1.yaml` in it.
-    issued_at
-        Time of issue: RFC 3339, a UTC date, or a `datetime` with a time zone. Default: now.
-    valid_until
-        Expiry date (inclusive), not later than that of the certificate. Default: that of the certificate.
-    accuracy
-        Whether to include the expected calibration uncertainty.
-    gyro, laboratory
-        Gyro type and laboratory for `accuracy`: paths, or mappings. Default: the paper's.
-    trust
-        Allowed_signers, path or text: the passport is written only if it passes verification with it.
-    allow_uncalibratable
-        Whether to issue even if the positions do not determine the parameters of a gyro.
-    passphrase
-        Passphrase of an encrypted key. Default: the environment variable DTG_PASSPORT_PASSPHRASE.
+    Args:
+        stand: Certified stand, `dtg-stand/1`: path of the file, or a mapping.
+        site: Site, `dtg-site/1`: path of the file, or a mapping.
+        key: Private key file, or a .pub file whose private half is in ssh-agent or a FIDO token.
+        identity: Issuer: the principal of the key in allowed_signers.
+        out: Folder of passports; the file is `<model>/<serial>/<site id>-1.yaml` in it.
+        issued_at: Time of issue: RFC 3339, a UTC date, or a `datetime` with a time zone. Default: now.
+        valid_until: Expiry date (inclusive), not later than that of the certificate. Default: that of the certificate.
+        accuracy: Whether to include the expected calibration uncertainty.
+        gyro, laboratory: Gyro type and laboratory for `accuracy`: paths, or mappings. Default: the paper's.
+        trust: Allowed_signers, path or text: the passport is written only if it passes verification with it.
+        allow_uncalibratable: Whether to issue even if the positions do not determine the parameters of a gyro.
+        passphrase: Passphrase of an encrypted key. Default: the environment variable DTG_PASSPORT_PASSPHRASE.
 
-    Returns
-    -------
-    Issued
-        The passport, new or unchanged.
+    Raises:
+        ValueError: If an input cannot be used, or the passport is refused. No file is then left.
+        OSError: If a file cannot be read or written.
 
-    Raises
-    ------
-    ValueError
-        If an input cannot be used, or the passport is refused. No file is then left.
-    OSError
-        If a file cannot be read or written.
-
-    Examples
-    --------
-    >>> import subprocess, tempfile
-    >>> folder = tempfile.mkdtemp()
-    >>> _ = subprocess.run(["ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", f"{folder}/key"])
-    >>> issued = issue("passports/SPS-2/0017/stand.yaml", "sites/moscow-bmstu.yaml", key=f"{folder}/key",
-    ...                identity="factory@example.org", issued_at="2026-11-09", out=folder)
-    >>> issued.id, issued.new
-    ('SPS-2/0017/moscow-bmstu/1', True)
+    Examples:
+        >>> import subprocess, tempfile
+        >>> folder = tempfile.mkdtemp()
+        >>> _ = subprocess.run(["ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", f"{folder}/key"])
+        >>> issued = issue("passports/SPS-2/0017/stand.yaml", "sites/moscow-bmstu.yaml", key=f"{folder}/key",
+        ...                identity="factory@example.org", issued_at="2026-11-09", out=folder)
+        >>> issued.id, issued.new
+        ('SPS-2/0017/moscow-bmstu/1', True)
     """
     if not accuracy and (gyro is not None or laboratory is not None):
         raise ValueError("gyro and laboratory are those of the accuracy; give accuracy=True too")
@@ -149,43 +127,27 @@ def plan(
 ) -> Plan:
     """Find the best positions to certify or to read, how often and in which order, as `dtg-passport plan` does.
 
-    Parameters
-    ----------
-    site
-        Site, `dtg-site/1`: path of the file, or a mapping.
-    stand
-        Certified stand to read, `dtg-stand/1`: path or mapping. Default: nominal positions, without deviations.
-    gyro, laboratory
-        Gyro type and laboratory: paths, or mappings. Default: the paper's.
-    readings
-        Number of readings, 4 to 256, each after a return to its position.
-    step
-        Step of theta and phi to choose from without a stand, degrees. Default: quadrants.
-    frame_axis_azimuths
-        Azimuths of the frame's axis to choose from, degrees clockwise from north. Default: that of the site.
-    criterion
-        What plans are compared by: `a`, the sum of (u/tolerance)^2; `d`, the determinant of the covariance; `worst`, the
-        largest u/tolerance.
+    Args:
+        site: Site, `dtg-site/1`: path of the file, or a mapping.
+        stand: Certified stand to read, `dtg-stand/1`: path or mapping. Default: nominal positions, without deviations.
+        gyro, laboratory: Gyro type and laboratory: paths, or mappings. Default: the paper's.
+        readings: Number of readings, 4 to 256, each after a return to its position.
+        step: Step of theta and phi to choose from without a stand, degrees. Default: quadrants.
+        frame_axis_azimuths: Azimuths of the frame's axis to choose from, degrees clockwise from north. Default: that of
+            the site.
+        criterion: What plans are compared by: `a`, the sum of (u/tolerance)^2; `d`, the determinant of the covariance;
+            `worst`, the largest u/tolerance.
 
-    Returns
-    -------
-    Plan
-        The best plan.
+    Raises:
+        ValueError: If an input cannot be used, or no choice determines the parameters.
+        OSError: If a file cannot be read.
 
-    Raises
-    ------
-    ValueError
-        If an input cannot be used, or no choice determines the parameters.
-    OSError
-        If a file cannot be read.
-
-    Examples
-    --------
-    >>> found = plan("sites/moscow-bmstu.yaml", readings=8, frame_axis_azimuths=[90, 0])
-    >>> found.order.shape, found.frame_axis_azimuth
-    ((8, 2), 0.0)
-    >>> f"{found.u.omega_g:.5f} deg/h/g, with the paper's positions {found.paper_u.omega_g:.5f}"
-    "0.00084 deg/h/g, with the paper's positions 0.00120"
+    Examples:
+        >>> found = plan("sites/moscow-bmstu.yaml", readings=8, frame_axis_azimuths=[90, 0])
+        >>> found.order.shape, found.frame_axis_azimuth
+        ((8, 2), 0.0)
+        >>> f"{found.u.omega_g:.5f} deg/h/g, with the paper's positions {found.paper_u.omega_g:.5f}"
+        "0.00084 deg/h/g, with the paper's positions 0.00120"
     """
     question = {
         "readings": whole("readings", readings, 4, 256),

@@ -86,46 +86,28 @@ def load(
 ) -> Passport:
     """Read a passport and verify it.
 
-    Parameters
-    ----------
-    path
-        Passport file.
-    trust
-        Trusted keys: the path of an OpenSSH allowed_signers file, or its text.
-    serial
-        Serial number of the stand, read from the stand. Without it, a passport of another stand is not noticed.
-    at
-        Place of the stand: latitude and longitude in degrees, north and east positive.
-    time
-        Time to verify for: RFC 3339 in whole seconds, a UTC date, or a `datetime` with a time zone. Default: now.
-    issuer
-        Required issuer.
-    revoked
-        Revocation lists: paths (or bytes) of OpenSSH KRLs, lists of public keys, or lists of withdrawn passports.
-    register
-        Folder of passports: a passport that another one there supersedes is refused.
+    Args:
+        path: Passport file.
+        trust: Trusted keys: the path of an OpenSSH allowed_signers file, or its text.
+        serial: Serial number of the stand, read from the stand. Without it, a passport of another stand is not noticed.
+        at: Place of the stand: latitude and longitude in degrees, north and east positive.
+        time: Time to verify for: RFC 3339 in whole seconds, a UTC date, or a `datetime` with a time zone. Default: now.
+        issuer: Required issuer.
+        revoked: Revocation lists: paths (or bytes) of OpenSSH KRLs, lists of public keys, or lists of withdrawn
+            passports.
+        register: Folder of passports: a passport that another one there supersedes is refused.
 
-    Returns
-    -------
-    Passport
-        The passport, which passed every check.
+    Raises:
+        Refused: If a check failed. `checks` states which, and why.
+        ValueError: If the trust, a revocation list or an argument cannot be used.
+        OSError: If a file cannot be read.
 
-    Raises
-    ------
-    Refused
-        If a check failed. `checks` states which, and why.
-    ValueError
-        If the trust, a revocation list or an argument cannot be used.
-    OSError
-        If a file cannot be read.
-
-    Examples
-    --------
-    >>> load("passports/SPS-2/0017/moscow-bmstu-1.yaml", "docs/allowed_signers", serial="0018", time="2026-11-20")
-    Traceback (most recent call last):
-    ...
-    dtg_passport.Refused: passports/SPS-2/0017/moscow-bmstu-1.yaml: refused
-      stand (wrong_stand): the passport is for stand SPS-2 0017, not 0018; its deviations do not apply to stand 0018
+    Examples:
+        >>> load("passports/SPS-2/0017/moscow-bmstu-1.yaml", "docs/allowed_signers", serial="0018", time="2026-11-20")
+        Traceback (most recent call last):
+        ...
+        dtg_passport.Refused: passports/SPS-2/0017/moscow-bmstu-1.yaml: refused
+          stand (wrong_stand): the passport is for stand SPS-2 0017, not 0018; its deviations do not apply to stand 0018
     """
     return _passport(*next(_each([path], _enquiry(trust, serial, at, time, issuer, revoked, register), 1)))
 
@@ -143,17 +125,14 @@ def loads(
 ) -> Passport:
     """Verify a passport that is in memory; all else as in `load`.
 
-    Parameters
-    ----------
-    data
-        Content of the passport file: its bytes, or the text of these bytes in UTF-8.
+    Args:
+        data: Content of the passport file: its bytes, or the text of these bytes in UTF-8.
 
-    Examples
-    --------
-    >>> from pathlib import Path
-    >>> data = Path("passports/SPS-2/0017/moscow-bmstu-1.yaml").read_bytes()
-    >>> loads(data, "docs/allowed_signers", time="2026-11-20").gravity  # m/s^2
-    9.81572205535764
+    Examples:
+        >>> from pathlib import Path
+        >>> data = Path("passports/SPS-2/0017/moscow-bmstu-1.yaml").read_bytes()
+        >>> loads(data, "docs/allowed_signers", time="2026-11-20").gravity  # m/s^2
+        9.81572205535764
     """
     enquiry = _enquiry(trust, serial, at, time, issuer, revoked, register)
     name = "passport"
@@ -173,20 +152,16 @@ def verify(
 ) -> Verification:
     """Verify a passport and return every check, passed or not; parameters as in `load`.
 
-    Raises
-    ------
-    ValueError
-        If the trust, a revocation list or an argument cannot be used.
-    OSError
-        If a file cannot be read.
+    Raises:
+        ValueError: If the trust, a revocation list or an argument cannot be used.
+        OSError: If a file cannot be read.
 
-    Examples
-    --------
-    >>> answer = verify("passports/SPS-2/0017/moscow-bmstu-1.yaml", "docs/allowed_signers", time="2029-01-01")
-    >>> answer.valid
-    False
-    >>> [check.name for check in answer.checks if check.passed is False]
-    ['in_force']
+    Examples:
+        >>> answer = verify("passports/SPS-2/0017/moscow-bmstu-1.yaml", "docs/allowed_signers", time="2029-01-01")
+        >>> answer.valid
+        False
+        >>> [check.name for check in answer.checks if check.passed is False]
+        ['in_force']
     """
     name, answer = next(_each([path], _enquiry(trust, serial, at, time, issuer, revoked, register), 1))
     id, sha256, checks, content = answer
@@ -206,31 +181,20 @@ def load_many(
     revoked: Path | bytes | Iterable[Path | bytes] = (),
     register: Path | None = None,
 ) -> Iterator[Passport]:
-    """Read and verify many passports on several threads; parameters as in `load`.
+    """Read and verify many passports on several threads, in the order of `paths`; parameters as in `load`.
 
-    Parameters
-    ----------
-    paths
-        Passport files, as many as you like: only some hundreds are in memory at a time.
-    threads
-        Number of threads. Default: one for each processor. They do not hold Python's global lock.
+    Args:
+        paths: Passport files, as many as you like: only some hundreds are in memory at a time.
+        threads: Number of threads. Default: one for each processor. They do not hold Python's global lock.
 
-    Yields
-    ------
-    Passport
-        The passports, in the order of `paths`.
+    Raises:
+        Refused: At the first passport that failed a check, after those before it.
 
-    Raises
-    ------
-    Refused
-        At the first passport that failed a check, after those before it.
-
-    Examples
-    --------
-    >>> from pathlib import Path
-    >>> paths = sorted(Path("passports/SPS-2/0017").glob("*-1.yaml"))
-    >>> [p.id for p in load_many(paths, "docs/allowed_signers", time="2026-11-20")]
-    ['SPS-2/0017/beijing-nim/1', 'SPS-2/0017/moscow-bmstu/1']
+    Examples:
+        >>> from pathlib import Path
+        >>> paths = sorted(Path("passports/SPS-2/0017").glob("*-1.yaml"))
+        >>> [p.id for p in load_many(paths, "docs/allowed_signers", time="2026-11-20")]
+        ['SPS-2/0017/beijing-nim/1', 'SPS-2/0017/moscow-bmstu/1']
     """
     if isinstance(paths, (str, bytes, os.PathLike)):
         raise TypeError(f"paths: found {paths!r}, expected a list of paths")
@@ -243,17 +207,14 @@ def load_many(
 def load_unverified(path: Path) -> Passport:
     """Read a passport without verifying it: anyone may have written its numbers. It gives a Python warning.
 
-    Raises
-    ------
-    ValueError
-        If the file does not have the form of a passport.
+    Raises:
+        ValueError: If the file does not have the form of a passport.
 
-    Examples
-    --------
-    >>> import warnings
-    >>> with warnings.catch_warnings(action="ignore"):
-    ...     load_unverified("docs/self_check.yaml").verified
-    False
+    Examples:
+        >>> import warnings
+        >>> with warnings.catch_warnings(action="ignore"):
+        ...     load_unverified("docs/self_check.yaml").verified
+        False
     """
     name, data = named(path)
     content = _dtg_passport.Content.unverified(name, data)

@@ -113,7 +113,7 @@ class SelfCheck(NamedTuple):
     errors: Mapping[str, float]
     """Relative error |found/stated - 1| of each parameter."""
     limit: float
-    """Largest permitted error."""
+    """Largest permitted error, 1e-9."""
 
     def __bool__(self) -> bool:
         """Return `passed`."""
@@ -208,7 +208,6 @@ class Passport(Frozen):
     def units(self) -> Mapping[str, str]:
         """Unit of every array and of `gravity`.
 
-        >>> from dtg_passport import load
         >>> passport = load("docs/self_check.yaml", "docs/allowed_signers", time="2026-11-20")
         >>> passport.units["C"]
         'deg/(h*g)'
@@ -219,7 +218,6 @@ class Passport(Frozen):
     def content(self) -> dict[str, Any]:
         """All keys of the file but `signature`, as a new dictionary.
 
-        >>> from dtg_passport import load
         >>> passport = load("docs/self_check.yaml", "docs/allowed_signers", time="2026-11-20")
         >>> passport.content["passport"]["issuer"]
         'examples@dtg-passport.test'
@@ -233,17 +231,13 @@ class Passport(Frozen):
     def at(self, i: int, j: int) -> Position:
         """Return the coefficients and deviations of position (i, j).
 
-        Raises
-        ------
-        KeyError
-            If the passport has no such position.
+        Raises:
+            KeyError: If the passport has no such position.
 
-        Examples
-        --------
-        >>> from dtg_passport import load
-        >>> passport = load("passports/SPS-2/0017/moscow-bmstu-1.yaml", "docs/allowed_signers", time="2026-11-20")
-        >>> passport.at(1, 3).deviations
-        array([77.2, 40.6, 21.5])
+        Examples:
+            >>> passport = load("passports/SPS-2/0017/moscow-bmstu-1.yaml", "docs/allowed_signers", time="2026-11-20")
+            >>> passport.at(1, 3).deviations
+            array([77.2, 40.6, 21.5])
         """
         [places] = np.nonzero((self.ij == (i, j)).all(axis=1))
         if len(places) == 0:
@@ -270,54 +264,37 @@ class Passport(Frozen):
     ) -> Calibration:
         """Calibrate a gyro from its currents in every position.
 
-        Parameters
-        ----------
-        currents
-            Path of a CSV file, a DataFrame or a mapping of columns (`i`, `j`, `jx_ma`, `jy_ma`, and if present
-            `cycle`, `visit`, `time_s`), or an array of shape (N, 4) with rows i, j, jx_ma, jy_ma. Currents in mA.
-        laboratory
-            Laboratory, `dtg-laboratory/1`: path of the file, or a mapping. Default: the paper's meter, 0.015 %.
-        gyro
-            Gyro type, `dtg-gyro/1`, for the verdict: path of the file, or a mapping.
-        method
-            `least-squares`, `analytic` or `iterative`.
-        model
-            Model of the g-sensitive drift: `paper`, or `general` for the full 2x3 matrix `G`; omega_g and omega_k are
-            then NaN.
-        anisoelasticity
-            Whether to fit the anisoelastic coefficient too; the eight positions alone do not determine it.
-        drift
-            Whether to fit a linear drift of omega_0 in time; needs `time_s`.
-        exclude
-            Visits to leave out, with the keys `i`, `j`, `visit`, if needed `cycle`, and `why`, the reason.
-        gyro_serial, operator, date, temperature_c
-            Serial number of the gyro, name of the operator, day (`datetime.date` or `YYYY-MM-DD`) and temperature (°C)
-            of the readings; the result repeats them.
-        previous
-            Earlier results of the same gyro: a Calibration or its `document`. With `gyro`, `document["change"]` is the
-            change since the latest of them.
+        Args:
+            currents: Path of a CSV file, a DataFrame or a mapping of columns (`i`, `j`, `jx_ma`, `jy_ma`, and if
+                present `cycle`, `visit`, `time_s`), or an array of shape (N, 4) with rows i, j, jx_ma, jy_ma. Currents
+                in mA.
+            laboratory: Laboratory, `dtg-laboratory/1`: path of the file, or a mapping. Default: the paper's meter,
+                0.015 %.
+            gyro: Gyro type, `dtg-gyro/1`, for the verdict: path of the file, or a mapping.
+            method: `least-squares`, `analytic` or `iterative`.
+            model: Model of the g-sensitive drift: `paper`, or `general` for the full 2x3 matrix `G`; omega_g and
+                omega_k are then NaN.
+            anisoelasticity: Whether to fit the anisoelastic coefficient too; the eight positions alone do not determine
+                it.
+            drift: Whether to fit a linear drift of omega_0 in time; needs `time_s`.
+            exclude: Visits to leave out, with the keys `i`, `j`, `visit`, if needed `cycle`, and `why`, the reason.
+            gyro_serial, operator, date, temperature_c: Serial number of the gyro, name of the operator, day
+                (`datetime.date` or `YYYY-MM-DD`) and temperature (°C) of the readings; the result repeats them.
+            previous: Earlier results of the same gyro: a Calibration or its `document`. With `gyro`,
+                `document["change"]` is the change since the latest of them.
 
-        Returns
-        -------
-        Calibration
-            Parameters, their uncertainty, and the fit.
+        Raises:
+            ValueError: If the currents cannot be used, or do not determine the parameters; with the line and column. Or
+                if an argument cannot be used.
 
-        Raises
-        ------
-        ValueError
-            If the currents cannot be used, or do not determine the parameters; with the line and column. Or if an
-            argument cannot be used.
-
-        Examples
-        --------
-        >>> from dtg_passport import load
-        >>> passport = load("passports/SPS-2/0017/moscow-bmstu-1.yaml", "docs/allowed_signers", time="2026-11-20")
-        >>> found = passport.calibrate("docs/currents.csv", gyro="docs/gvk-6.yaml")
-        >>> found.K.round(3)  # deg/(h*mA)
-        array([[94.994,  9.499],
-               [ 9.5  , 95.   ]])
-        >>> found.verdict["overall"]
-        'undecided'
+        Examples:
+            >>> passport = load("passports/SPS-2/0017/moscow-bmstu-1.yaml", "docs/allowed_signers", time="2026-11-20")
+            >>> found = passport.calibrate("docs/currents.csv", gyro="docs/gvk-6.yaml")
+            >>> found.K.round(3)  # deg/(h*mA)
+            array([[94.994,  9.499],
+                   [ 9.5  , 95.   ]])
+            >>> found.verdict["overall"]
+            'undecided'
         """
         order = {
             "method": method,
@@ -342,28 +319,17 @@ class Passport(Frozen):
     def self_check(self, function: Callable[[Passport, Array], Calibration | Sequence[npt.ArrayLike]]) -> SelfCheck:
         """Test laboratory software with the self-check of this passport.
 
-        Parameters
-        ----------
-        function
-            Software under test. It is called with the passport and currents, rows i, j, jx_ma, jy_ma of shape (N, 4),
-            and returns a Calibration, or the four parameters K (2, 2), omega_0 (2,), omega_g and omega_k.
+        Args:
+            function: Software under test. It is called with the passport and currents, rows i, j, jx_ma, jy_ma of shape
+                (N, 4), and returns a Calibration, or the four parameters K (2, 2), omega_0 (2,), omega_g and omega_k.
 
-        Returns
-        -------
-        SelfCheck
-            `passed` is True if every parameter agrees with that of the passport within 1e-9 of itself.
+        Raises:
+            ValueError: If the passport has no self-check.
 
-        Raises
-        ------
-        ValueError
-            If the passport has no self-check.
-
-        Examples
-        --------
-        >>> from dtg_passport import load
-        >>> passport = load("docs/self_check.yaml", "docs/allowed_signers", time="2026-11-20")
-        >>> passport.self_check(lambda passport, currents: passport.calibrate(currents, method="analytic")).passed
-        True
+        Examples:
+            >>> passport = load("docs/self_check.yaml", "docs/allowed_signers", time="2026-11-20")
+            >>> passport.self_check(lambda passport, currents: passport.calibrate(currents, method="analytic")).passed
+            True
         """
         currents = self._array("self_check", -1, 4)
         if len(currents) == 0:
