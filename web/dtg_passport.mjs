@@ -78,12 +78,15 @@ function parsed(text) {
     return found;
 }
 
-const refused = (found) => Array.isArray(found.checks) && found.valid === false;
-
-function refuse({ id, checks }) {
+/** Calls a function that verifies first; throws if a check failed. */
+async function accepted(...inputs) {
+    const text = await call(...inputs);
+    const found = text.startsWith("{") ? parsed(text) : text;
+    const { valid, id, checks } = found;
+    if (valid !== false || !Array.isArray(checks)) return found;
     const failed = checks.filter((check) => check.passed === false);
     const words = failed.map(({ name, code, detail }) => `${name} (${code}): ${detail}`).join("\n");
-    return new Error(`refused: ${words}`, { cause: { valid: false, id, checks } });
+    throw new Error(`refused: ${words}`, { cause: { valid, id, checks } });
 }
 
 /**
@@ -97,16 +100,12 @@ export async function verify(passport, allowedSigners, question) {
 
 /** Verifies a passport and returns its content: the keys of the file but `signature`. Throws if a check failed. */
 export async function content(passport, allowedSigners, question) {
-    const found = parsed(await call("content", passport, allowedSigners, question));
-    if (refused(found)) throw refuse(found);
-    return found;
+    return accepted("content", passport, allowedSigners, question);
 }
 
 /** Verifies a passport and returns it in printed form, one HTML document. Throws if the passport is not authentic. */
 export async function print(passport, allowedSigners, question) {
-    const text = await call("print", passport, allowedSigners, question);
-    if (text.startsWith("{")) throw refuse(parsed(text));
-    return text;
+    return accepted("print", passport, allowedSigners, question);
 }
 
 /**
@@ -116,7 +115,5 @@ export async function print(passport, allowedSigners, question) {
  * parameters only if `consistent` is true and `mistake` is absent; `remarks` has what else to show.
  */
 export async function calibrate(passport, allowedSigners, currents, question, order) {
-    const found = parsed(await call("calibrated", passport, allowedSigners, question, currents, order));
-    if (refused(found)) throw refuse(found);
-    return found;
+    return accepted("calibrated", passport, allowedSigners, question, currents, order);
 }
