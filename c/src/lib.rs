@@ -142,9 +142,8 @@ pub unsafe extern "C" fn dtg_matrix(passport: *const dtg_passport, key: *const c
 
 /// Returns the number of positions, or 0 if `passport` is NULL.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn dtg_positions(passport: *const dtg_passport) -> usize {
-    // SAFETY: the caller passes NULL or a passport of this library.
-    unsafe { passport.as_ref() }.map_or(0, |passport| passport.content.vectors.len())
+pub extern "C" fn dtg_positions(passport: Option<&dtg_passport>) -> usize {
+    passport.map_or(0, |passport| passport.content.vectors.len())
 }
 
 /// Copies position `k`, counted from 0: its indices i and j, the specific force along x and y in g, and the Earth rate
@@ -254,11 +253,8 @@ pub unsafe extern "C" fn dtg_parameters(result_json: *const c_char, value: *mut 
 
 /// Frees a passport; NULL is allowed.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn dtg_free(passport: *mut dtg_passport) {
-    if !passport.is_null() {
-        // SAFETY: the caller passes a passport of this library that was not freed.
-        drop(unsafe { Box::from_raw(passport) });
-    }
+pub extern "C" fn dtg_free(passport: Option<Box<dtg_passport>>) {
+    drop(passport);
 }
 
 /// Frees a text that this library returned; NULL is allowed.
@@ -303,17 +299,16 @@ unsafe fn given<'a, T>(pointer: *const T, name: &str) -> Result<&'a T, Failed> {
 }
 
 unsafe fn room<'a, T>(pointer: *mut T, length: usize, name: &str) -> Result<&'a mut [T], Failed> {
-    if pointer.is_null() {
-        return Err(Failed::unusable(format!("{name} is NULL")));
+    // SAFETY: `pointer` is NULL, or the caller gives room for `length` numbers.
+    unsafe {
+        given(pointer, name)?;
+        Ok(std::slice::from_raw_parts_mut(pointer, length))
     }
-    // SAFETY: the caller gives room for `length` numbers.
-    Ok(unsafe { std::slice::from_raw_parts_mut(pointer, length) })
 }
 
 unsafe fn bytes<'a>(pointer: *const c_char, name: &str) -> Result<&'a [u8], Failed> {
     // SAFETY: `pointer` is NULL or a text that ends with a zero byte.
-    let text = unsafe { pointer.as_ref().map(|pointer| CStr::from_ptr(pointer)) };
-    Ok(text.ok_or_else(|| Failed::unusable(format!("{name} is NULL")))?.to_bytes())
+    unsafe { Ok(CStr::from_ptr(given(pointer, name)?).to_bytes()) }
 }
 
 unsafe fn text<'a>(pointer: *const c_char, name: &str) -> Result<&'a str, Failed> {
