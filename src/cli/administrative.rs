@@ -26,7 +26,7 @@ impl AdministrativeFile {
         };
         let name = name_of(path);
         let bytes = inputs::bytes(path, Kind::Dcc.words())?;
-        let content = filled_in(&name, &bytes, Administrative::from_yaml).map_err(Failure::unreadable)?;
+        let content = filled_in(&name, &bytes, Administrative::from_yaml)?;
         let text = String::from_utf8_lossy(&bytes);
         let text = text.strip_prefix('\u{FEFF}').unwrap_or(&text).to_owned();
         Ok(Self { name, text, content: Some(content) })

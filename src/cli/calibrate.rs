@@ -255,8 +255,8 @@ impl Bench<'_> {
         let (options, content) = (self.options, &self.passport.content);
         // Nothing is written if one of the files cannot be.
         let files = || options.report.iter().chain(&options.dcc).chain(&options.uncertainty.budget_svg);
-        files::check_distinct(files()).map_err(Failure::file)?;
-        files::check_replaceable(files(), options.uncertainty.force).map_err(Failure::file)?;
+        files::check_distinct(files())?;
+        files::check_replaceable(files(), options.uncertainty.force)?;
         let found = self.calibrate(path)?;
         let done = &found.done;
         if let Some(warning) = &done.warning {
@@ -375,7 +375,7 @@ impl Bench<'_> {
 
     fn write_dcc(&self, path: &Path, calibrated: &Calibrated) -> Result<(), Failure> {
         let dcc = dcc::of_gyro(calibrated, self.administrative.content(), Some(&languages(&self.options.lang)));
-        let refused = |problems| Failure::unreadable(self.administrative.refuse(problems));
+        let refused = |problems| Failure::from(self.administrative.refuse(problems));
         let dcc = dcc.map_err(|problems| Failure { code: REFUSED, ..refused(problems) })?;
         output::saved(path, &dcc.xml, self.options.uncertainty.force)?;
         output::say("the DCC is not signed; the passport of the stand is, and its SHA-256 is in the DCC");

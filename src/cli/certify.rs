@@ -104,7 +104,7 @@ fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
         let header = header_of(headers, readings)?;
         let bytes = inputs::bytes(readings, Kind::Angles.words())?;
         let name = name_of(readings);
-        let read = AngleReadings::from_csv(&name, &bytes, &header.positions).map_err(Failure::unreadable)?;
+        let read = AngleReadings::from_csv(&name, &bytes, &header.positions)?;
         if let Some(remark) = &read.remark {
             output::say(&format!("{}: {remark}", Printable(&name)));
         }
@@ -150,16 +150,16 @@ fn write(path: &Path, certified: &Certification, known: &[&Stand], force: bool) 
         certified.stand.check_number(stand).map_err(Failure::refused)?;
     }
     let text = certified.to_yaml(&name_of(path)).map_err(Failure::refused)?;
-    let superseded = Superseded::of(path, text.as_bytes()).map_err(Failure::file)?.filter(|_| force);
+    let superseded = Superseded::of(path, text.as_bytes())?.filter(|_| force);
     if let Some(superseded) = &superseded {
-        superseded.keep().map_err(Failure::file)?;
+        superseded.keep()?;
         output::say(&format!("kept the superseded stand file as {}", shown(&superseded.path)));
     }
     output::file(path, &text, force)
 }
 
 fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
-    files::check_distinct(options.output.iter().chain(&options.report)).map_err(Failure::file)?;
+    files::check_distinct(options.output.iter().chain(&options.report))?;
     let against = options.against.as_deref().map(|path| certified(path, &options.trust)).transpose()?;
     let header = match (&options.stand, &against) {
         (Some(path), _) => inputs::document(path, inputs::HEADER, Header::filled_in)?,
@@ -169,8 +169,7 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
     let bytes = inputs::bytes(readings, Kind::Angles.words())?;
     let name = name_of(readings);
     let excluded = options.exclusions.excluded()?;
-    let readings = AngleReadings::from_csv_without(&name, &bytes, &header.positions, &excluded);
-    let readings = readings.map_err(Failure::unreadable)?;
+    let readings = AngleReadings::from_csv_without(&name, &bytes, &header.positions, &excluded)?;
     if let Some(remark) = &readings.remark {
         output::say(remark);
     }
@@ -192,7 +191,7 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
         (path, page.html(&languages(&options.lang)))
     });
     // Nothing is written if the record cannot be.
-    files::check_replaceable(page.as_ref().map(|(path, _)| *path), options.force).map_err(Failure::file)?;
+    files::check_replaceable(page.as_ref().map(|(path, _)| *path), options.force)?;
     if let (Some(path), Some(certified)) = (&options.output, &certified) {
         if options.stand.is_none() {
             against.iter().try_for_each(|stand| certified.stand.check_number(stand)).map_err(Failure::refused)?;

@@ -83,8 +83,8 @@ fn no_workspace(folder: &Path, error: NoWorkspace) -> Failure {
              or make a workspace with `init`",
             shown(folder)
         )),
-        NoWorkspace::File(error) => Failure::file(error),
-        NoWorkspace::Unreadable(error) => Failure::unreadable(error),
+        NoWorkspace::File(error) => Failure::from(error),
+        NoWorkspace::Unreadable(error) => Failure::from(error),
     }
 }
 

@@ -241,7 +241,7 @@ impl Run<'_> {
                 None if !self.options.force && target.symlink_metadata().is_ok() => {
                     let error = FileError::Exists { path: target.clone(), replaceable: true };
                     let advice = format!("nothing was exported from {}", shown(path));
-                    return Err(Failure::file(error).with_advice(&advice));
+                    return Err(Failure::from(error).with_advice(&advice));
                 }
                 None => new.push((target.clone(), text.clone())),
             }

@@ -31,6 +31,22 @@ impl From<Failed> for Failure {
     }
 }
 
+/// An existing file is a refusal, any other error of a file is not.
+impl From<FileError> for Failure {
+    fn from(error: FileError) -> Self {
+        let is_id = Folder::new("").path_of_id(&error.path().to_string_lossy()).is_some() && error.is_unlike_any();
+        let failure = Self::from(Failed::from(error));
+        if is_id { failure.with_advice(IN_A_WORKSPACE) } else { failure }
+    }
+}
+
+/// The message includes the lines with mistakes.
+impl From<Unreadable> for Failure {
+    fn from(error: Unreadable) -> Self {
+        Failed::from(error).into()
+    }
+}
+
 impl Failure {
     pub(super) fn refused(error: impl std::fmt::Display) -> Self {
         Failed::refused(error).into()
@@ -43,13 +59,6 @@ impl Failure {
     /// Creates the failure for arguments that cannot be used.
     pub(super) fn usage(error: impl std::fmt::Display) -> Self {
         Failed::new(USAGE, error.to_string(), Vec::new()).into()
-    }
-
-    /// Converts an error of a file: an existing file is a refusal, any other error is not.
-    pub(super) fn file(error: FileError) -> Self {
-        let is_id = Folder::new("").path_of_id(&error.path().to_string_lossy()).is_some() && error.is_unlike_any();
-        let failure = Self::from(Failed::from(error));
-        if is_id { failure.with_advice(IN_A_WORKSPACE) } else { failure }
     }
 
     /// Creates the failure of one of several inputs.
@@ -77,11 +86,6 @@ impl Failure {
         let message = format!("{}: is a folder, expected {expected}; name a file in it", shown(path));
         let problems = vec![Place::file(name_of(path), message.clone())];
         Failed::new(interface::UNREADABLE, message, problems).into()
-    }
-
-    /// Creates the failure for a file with mistakes; the message includes their lines.
-    pub(super) fn unreadable(error: Unreadable) -> Self {
-        Failed::from(error).into()
     }
 
     /// Creates the failure for the passport `name`, which did not pass every check; `words` precede its verdict.

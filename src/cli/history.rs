@@ -45,8 +45,8 @@ fn stand(text: &str) -> Result<String, String> {
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     refuse_file(&options.passports)?;
     let (trust, question) = options.trust.load()?;
-    let found = search::history(&options.passports, &options.stand, trust, question.time, parallel::processors());
-    let (history, register) = found.map_err(Failure::file)?;
+    let (history, register) =
+        search::history(&options.passports, &options.stand, trust, question.time, parallel::processors())?;
     let Some(history) = history else {
         let known: std::collections::BTreeSet<&str> =
             register.passports.iter().filter_map(|line| line.stand.as_deref()).collect();

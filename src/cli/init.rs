@@ -27,7 +27,7 @@ pub(super) struct Options {
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let made = make(&options.folder, options.identity.as_deref(), options.force).map_err(|error| match error {
-        NotMade::File(error) => Failure::file(error),
+        NotMade::File(error) => Failure::from(error),
         error => Failure::usage(error),
     })?;
     let names = || made.iter().map(|path| name_of(path)).collect::<Vec<_>>();

@@ -25,7 +25,7 @@ pub(super) const HEADER: &str = "a header (dtg-stand/1)";
 pub(super) fn bytes(path: &Path, expected: &str) -> Result<Vec<u8>, Failure> {
     files::read(path, LARGEST_DOCUMENT_BYTES).map_err(|error| match error {
         FileError::Folder(path) => Failure::folder(&path, expected),
-        error => Failure::file(error),
+        error => error.into(),
     })
 }
 
@@ -35,7 +35,7 @@ pub(super) fn document<T>(
     expected: &str,
     reader: impl FnOnce(&str, &[u8]) -> Result<T, Unreadable>,
 ) -> Result<T, Failure> {
-    reader(&name_of(path), &bytes(path, expected)?).map_err(Failure::unreadable)
+    Ok(reader(&name_of(path), &bytes(path, expected)?)?)
 }
 
 pub(super) fn stand(path: &Path) -> Result<Stand, Failure> {

@@ -62,7 +62,7 @@ pub(super) fn refuse_distrusted(
 
 fn unusable(error: KeyFileError) -> Failure {
     match error {
-        KeyFileError::File(error) => Failure::file(error),
+        KeyFileError::File(error) => error.into(),
         error => Failure::unusable(error),
     }
 }

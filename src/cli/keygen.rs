@@ -57,9 +57,9 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     signers.map(|path| signing::with_signer(path, &line)).transpose().map_err(Failure::unusable)?;
     let passphrase = new_passphrase(options)?;
     let private = key.to_openssh(&identity, passphrase.as_ref().map(|p| p.as_str())).map_err(Failure::unusable)?;
-    files::write_new(&options.key, private.as_bytes(), Access::Private).map_err(Failure::file)?;
+    files::write_new(&options.key, private.as_bytes(), Access::Private)?;
     let public = format!("{} {identity}\n", key.public_key().to_openssh());
-    files::write_new(&public_path, public.as_bytes(), Access::Shared).map_err(Failure::file)?;
+    files::write_new(&public_path, public.as_bytes(), Access::Shared)?;
     let wrote = format!("wrote {} (keep it secret) and {}", shown(&options.key), shown(&public_path));
     let failed = signers.and_then(|path| signing::append_signer(path, &line).err());
     let appended_to = signers.filter(|_| failed.is_none());
@@ -92,7 +92,7 @@ fn refuse_existing(path: &Path) -> Result<(), Failure> {
     }
     if path.symlink_metadata().is_ok() {
         let exists = files::FileError::Exists { path: path.to_owned(), replaceable: false };
-        return Err(Failure::file(exists).with_advice("keys are never replaced; choose another name"));
+        return Err(Failure::from(exists).with_advice("keys are never replaced; choose another name"));
     }
     Ok(())
 }

@@ -102,12 +102,12 @@ pub(super) fn failure(failure: &Failure) {
 
 /// Writes a result to a file. An existing file is replaced only on request.
 pub(super) fn file(path: &Path, text: &str, force: bool) -> Result<(), Failure> {
-    files::write_replaceable(path, text.as_bytes(), force).map_err(Failure::file)
+    files::write_replaceable(path, text.as_bytes(), force).map_err(Failure::from)
 }
 
 /// Writes the results that belong together as [`file`] does, all of them or none.
 pub(super) fn together(results: &[(PathBuf, String)], force: bool) -> Result<(), Failure> {
-    files::together::write_replaceable_together(results, force).map_err(Failure::file)
+    files::together::write_replaceable_together(results, force).map_err(Failure::from)
 }
 
 /// Writes a result to a file as [`file`] does, and says so.

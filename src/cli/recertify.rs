@@ -97,13 +97,13 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let name = name_of(&options.passport);
     let first = inputs::bytes(&options.passport, Kind::Passport.words())?;
     if let Some(other) = mistaken(&name, &first, expected, |kind| kind == Kind::Passport) {
-        return Err(Failure::unreadable(other));
+        return Err(Failure::from(other));
     }
     let header = options.header.as_ref().map(|path| inputs::document(path, inputs::HEADER, Header::filled_in));
     let (name, bytes) = (name_of(&options.readings), inputs::bytes(&options.readings, Kind::Angles.words())?);
     let sites = options.sites.iter().map(|path| at_site(path)).collect::<Result<Vec<_>, _>>()?;
     // Nothing is written if the record cannot be.
-    files::check_replaceable(&options.report, options.force).map_err(Failure::file)?;
+    files::check_replaceable(&options.report, options.force)?;
     let excluded = options.exclusions.excluded()?;
     let order = Recertification {
         passport: &options.passport,
@@ -148,7 +148,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
 
 fn failure(why: NotRecertified) -> Failure {
     match why {
-        NotRecertified::Unreadable(error) => Failure::unreadable(error),
+        NotRecertified::Unreadable(error) => Failure::from(error),
         NotRecertified::Order(why) => Failure::usage(why),
         why if why.is_unusable() => Failure::unusable(why),
         why => Failure::refused(why),

@@ -59,8 +59,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
     let serial = question.serial.clone();
     let asked = Asked { question, within_days: options.within };
-    let register = search::register(folder, trust, &asked, parallel::processors());
-    let (mut register, _) = register.map_err(Failure::file)?;
+    let (mut register, _) = search::register(folder, trust, &asked, parallel::processors())?;
     let code = match (register.is_incomplete(), register.needs_attention()) {
         (true, _) => UNUSABLE,
         (_, true) => REFUSED,

@@ -43,7 +43,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
     let lists =
         search::lists(&options.list, &options.passports, &trust, question.time).map_err(|error| match error {
-            NoNewestList::File(error) => Failure::file(error),
+            NoNewestList::File(error) => Failure::from(error),
             refused => Failure::refused(refused),
         })?;
     let mut entries = Vec::new();
@@ -63,7 +63,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let path = options.list.join(list.file_name());
     let text = list.sign_for(&name_of(&path), signer.as_ref(), &trust.signers, &trust.revoked);
     let text = text.map_err(Failure::refused)?;
-    files::write_new(&path, text.as_bytes(), Access::Shared).map_err(Failure::file)?;
+    files::write_new(&path, text.as_bytes(), Access::Shared)?;
     options.format.write(
         || json!({ "file": name_of(&path), "sequence": list.sequence, "revoked": ids, "passports": count }),
         || format!("revoked    passports in all: {count}  {}\n", shown(&path)),

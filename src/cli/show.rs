@@ -70,7 +70,7 @@ impl Reader {
         let bytes = inputs::bytes(path, Kind::Passport.words())?;
         let name = name_of(path);
         let Some(verifier) = &self.0 else {
-            let content = read::content_from_anyone(&name, &bytes).map_err(Failure::unreadable)?;
+            let content = read::content_from_anyone(&name, &bytes)?;
             return Ok(Read { content, bytes, verification: None });
         };
         let verification = verifier.verify(&name, &bytes);

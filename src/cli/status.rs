@@ -34,7 +34,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     };
     let time = options.time.unwrap_or_else(trust_options::now);
     let trust = options.trust.as_deref().map(|path| trust_options::load(path, &options.revoked, time)).transpose()?;
-    let status = status(workspace, trust.as_ref(), time).map_err(Failure::file)?;
+    let status = status(workspace, trust.as_ref(), time)?;
     options.format.write(|| &status, || status.text())?;
     Ok(match (status.incomplete, status.needs_attention()) {
         (true, _) => UNUSABLE,

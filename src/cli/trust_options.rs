@@ -112,7 +112,7 @@ impl Asked {
 
 /// Reads the register of `folder`, if there is one, and reports its alarms.
 pub(super) fn verifier(trust: Trust, question: Question, folder: Option<&Path>) -> Result<Verifier, Failure> {
-    let verifier = Verifier::new(trust, question, folder).map_err(Failure::file)?;
+    let verifier = Verifier::new(trust, question, folder)?;
     let alarms = verifier.register.iter().flat_map(|register| &register.alarms);
     alarms.for_each(|alarm| output::complain(&alarm.to_string()));
     Ok(verifier)
@@ -125,10 +125,10 @@ pub(super) fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Resu
         let advice =
             "ask the factory for its allowed_signers file; `keygen KEY --allowed-signers FILE` writes one for your key";
         let unknown = error.is_unlike_any();
-        let failure = Failure::file(error);
+        let failure = Failure::from(error);
         if unknown { failure.with_advice(advice) } else { failure }
     });
-    let revoked = revoked.iter().map(|path| Ok((name_of(path), read(path).map_err(Failure::file)?)));
+    let revoked = revoked.iter().map(|path| Ok((name_of(path), read(path)?)));
     let revoked = revoked.collect::<Result<Vec<_>, Failure>>()?;
     let (trust, remarks) = enquiry::trust((&name_of(signers), &keys?), &revoked, time)?;
     remarks.iter().for_each(|remark| output::complain(remark));

@@ -41,7 +41,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
                 let advice = "list its passports with `register`, or give the files";
                 let words = match error {
                     FileError::Folder(_) => format!("{error}; {advice}"),
-                    error => Failure::file(error).failed.message,
+                    error => Failure::from(error).failed.message,
                 };
                 output::complain(&words);
                 code = code.max(UNUSABLE);
