@@ -74,15 +74,10 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let stand = options.stand.as_deref().map(inputs::stand).transpose()?;
     let gyro = inputs::gyro(options.gyro.as_deref())?.unwrap_or_else(GyroType::gvk_6);
     let laboratory = inputs::laboratory(options.laboratory.as_deref())?;
-    let of_site = site.frame_axis_azimuth_deg();
     let azimuth_deg = |axis: &FrameAxis| match axis {
         FrameAxis::East => 90.0,
         FrameAxis::North => 0.0,
     };
-    let mut azimuths_deg: Vec<f64> = options.frame_axis.iter().map(azimuth_deg).collect();
-    if azimuths_deg.is_empty() {
-        azimuths_deg.push(of_site);
-    }
     let question = Question {
         site: &site,
         stand: stand.as_ref(),
@@ -90,13 +85,14 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         gyro: &gyro,
         laboratory: &laboratory,
         readings: options.readings,
-        azimuths_deg,
+        azimuths_deg: options.frame_axis.iter().map(azimuth_deg).collect(),
         criterion: options.criterion,
     };
     let found = plan(&question).map_err(Failure::refused)?;
     if let Some(path) = &options.output {
         output::saved(path, &picture::plan(&found, site.id.as_str()), options.force)?;
     }
+    let of_site = site.frame_axis_azimuth_deg();
     options.format.write(|| &found, || report::text(&found, site.id.as_str(), of_site))?;
     Ok(0)
 }

@@ -31,7 +31,7 @@ pub fn plan(
     let Stated { gyro, laboratory } = stated([gyro, laboratory])?;
     let mut asked = Asked::new("question", question)?;
     let (readings, step_deg) = (asked.key("readings", u32::read).unwrap_or(8), asked.key("step_deg", f64::read));
-    let mut azimuths_deg: Vec<f64> = asked.key("frame_axis_azimuths_deg", Vec::read).unwrap_or_default();
+    let azimuths_deg: Vec<f64> = asked.key("frame_axis_azimuths_deg", Vec::read).unwrap_or_default();
     let criterion = asked.key("criterion", Criterion::read).unwrap_or(Criterion::A);
     asked.done()?;
     if !(FEWEST_READINGS..=MOST_READINGS).contains(&readings) {
@@ -48,9 +48,6 @@ pub fn plan(
         return Err(Failed::unusable(format!(
             "frame_axis_azimuths_deg: found {found}, expected 0 or more and below 360"
         )));
-    }
-    if azimuths_deg.is_empty() {
-        azimuths_deg.push(site.frame_axis_azimuth_deg());
     }
     let (stand, site, gyro, laboratory) = (stand.as_ref(), &site, &gyro, &laboratory);
     let question = Question { site, stand, angles, gyro, laboratory, readings, azimuths_deg, criterion };

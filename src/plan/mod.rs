@@ -58,7 +58,7 @@ pub(crate) struct Question<'a> {
     pub laboratory: &'a Laboratory,
     /// Number of readings, [`FEWEST_READINGS`] to [`MOST_READINGS`].
     pub readings: u32,
-    /// Azimuths of the frame's axis to choose from, degrees; at least one.
+    /// Azimuths of the frame's axis to choose from, degrees; if there are none, that of the site.
     pub azimuths_deg: Vec<f64>,
     /// Criterion by which plans are compared.
     pub criterion: Criterion,
@@ -163,8 +163,9 @@ impl Plan {
 
 pub(crate) fn plan(question: &Question) -> Result<Plan, NoPlan> {
     let mut best: Option<(Candidates, search::Found)> = None;
-    for azimuth_deg in &question.azimuths_deg {
-        let candidates = Candidates::new(question, *azimuth_deg)?;
+    let of_site = question.azimuths_deg.is_empty().then(|| question.site.frame_axis_azimuth_deg());
+    for azimuth_deg in question.azimuths_deg.iter().copied().chain(of_site) {
+        let candidates = Candidates::new(question, azimuth_deg)?;
         let found = search::best(&candidates, question.readings, question.criterion);
         let Some(found) = found else { continue };
         if best.as_ref().is_none_or(|(_, best)| search::is_better(&found, best)) {
