@@ -75,7 +75,18 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         }
         Ok(Rendered { page: name_of(&output), verdict })
     };
-    let Some(output) = &options.output else { return each(options, |passport| write(passport, None)) };
+    let Some(output) = &options.output else {
+        let write = |passport: &Path| write(passport, None).map(|rendered| (rendered, 0));
+        let mut results = Vec::new();
+        let code = inputs::each(&options.passports, Purpose::Passports, write, |rendered| {
+            results.push(rendered);
+            Ok(())
+        })?;
+        if options.format == Format::Json {
+            output::json(&results)?;
+        }
+        return Ok(code);
+    };
     let [passport] = options.passports.as_slice() else {
         return Err(Failure::usage("-o FILE.html is for one passport; give --out DIR for several"));
     };
@@ -88,18 +99,4 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         output::json(&rendered)?;
     }
     Ok(0)
-}
-
-/// Writes the page of each passport; one that is refused does not stop the others.
-fn each(options: &Options, write: impl Fn(&Path) -> Result<Rendered, Failure>) -> Result<Code, Failure> {
-    let mut results = Vec::new();
-    let write = |path: &Path| write(path).map(|rendered| (rendered, 0));
-    let code = inputs::each(&options.passports, Purpose::Passports, write, |rendered| {
-        results.push(rendered);
-        Ok(())
-    })?;
-    if options.format == Format::Json {
-        output::json(&results)?;
-    }
-    Ok(code)
 }
