@@ -3,7 +3,7 @@
 use super::output::{self, Format};
 use super::register::refuse_file;
 use super::trust_options::TrustOptions;
-use super::{Code, Failure, UNUSABLE};
+use super::{Code, Failure, code};
 use crate::folder::search;
 use crate::parallel;
 use crate::report::history as report;
@@ -12,6 +12,7 @@ use crate::text::scalar::Identifier;
 use crate::text::words::first_few;
 use crate::text::{Printable, shown};
 use clap::Args;
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 /// Show one stand over the years: certificates, passports, places, withdrawals, and whether it drifts
@@ -48,8 +49,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (history, register) =
         search::history(&options.passports, &options.stand, trust, question.time, parallel::processors())?;
     let Some(history) = history else {
-        let known: std::collections::BTreeSet<&str> =
-            register.passports.iter().filter_map(|line| line.stand.as_deref()).collect();
+        let known: BTreeSet<&str> = register.passports.iter().filter_map(|line| line.stand.as_deref()).collect();
         let known: Vec<&str> = known.into_iter().collect();
         let there =
             if known.is_empty() { "no passports".to_owned() } else { format!("passports of {}", first_few(&known)) };
@@ -64,5 +64,5 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         output::saved(path, &picture::history(&history, question.time), options.force)?;
     }
     options.format.write(|| report::to_json(&history), || report::text(&history))?;
-    Ok(if register.is_incomplete() { UNUSABLE } else { 0 })
+    Ok(code(register.is_incomplete(), false))
 }

@@ -119,6 +119,11 @@ const REFUSED: Code = 1;
 /// Exit code for wrong usage, or for a file that cannot be read in the expected format.
 const UNUSABLE: Code = 2;
 
+/// Returns the exit code of an answer that is unknown or that refuses something.
+fn code(is_unknown: bool, refuses: bool) -> Code {
+    if is_unknown { UNUSABLE } else { Code::from(refuses) }
+}
+
 /// Parses the arguments and runs the verb.
 pub fn main() -> ExitCode {
     // The message of a broken invariant may quote untrusted text.

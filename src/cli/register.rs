@@ -2,7 +2,7 @@
 
 use super::output;
 use super::trust_options::{TrustOptions, date};
-use super::{Code, Failure, REFUSED, UNUSABLE};
+use super::{Code, Failure, code};
 use crate::folder::search;
 use crate::parallel;
 use crate::register::{Asked, Line, Register, State};
@@ -60,11 +60,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let serial = question.serial.clone();
     let asked = Asked { question, within_days: options.within };
     let (mut register, _) = search::register(folder, trust, &asked, parallel::processors())?;
-    let code = match (register.is_incomplete(), register.needs_attention()) {
-        (true, _) => UNUSABLE,
-        (_, true) => REFUSED,
-        _ => 0,
-    };
+    let code = code(register.is_incomplete(), register.needs_attention());
     for words in [no_such_stand(serial.as_deref(), &register), options.no_such_site(&register)].into_iter().flatten() {
         output::say(&words);
     }

@@ -2,7 +2,7 @@
 
 use super::output::Format;
 use super::trust_options::{self, time};
-use super::{Code, Failure, REFUSED, UNUSABLE, defaults};
+use super::{Code, Failure, code, defaults};
 use crate::workspace::status;
 use clap::Args;
 use jiff::Timestamp;
@@ -36,9 +36,5 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let trust = options.trust.as_deref().map(|path| trust_options::load(path, &options.revoked, time)).transpose()?;
     let status = status(workspace, trust.as_ref(), time)?;
     options.format.write(|| &status, || status.text())?;
-    Ok(match (status.incomplete, status.needs_attention()) {
-        (true, _) => UNUSABLE,
-        (_, true) => REFUSED,
-        _ => 0,
-    })
+    Ok(code(status.incomplete, status.needs_attention()))
 }
