@@ -48,12 +48,19 @@ pub struct Hint {
 }
 
 /// Possible explanation of readings that do not fit.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Explanation {
     /// Exchanged readings of two positions.
+    #[error("positions {0} and {1} are exchanged")]
     Exchanged(PositionIndex, PositionIndex),
     /// Positions that are numbered in another way than in the certificate.
+    #[error(
+        "the positions are numbered in another way: i = 1, 2 of the readings is i = {} of the passport, and j = 1, 2, \
+         3, 4 is j = {}",
+        with_commas(i),
+        with_commas(j)
+    )]
     Renumbered {
         /// Certified i of the readings with i = 1, 2.
         i: [u32; 2],
@@ -61,11 +68,16 @@ pub enum Explanation {
         j: [u32; 4],
     },
     /// Base that was set up with the frame's axis to another azimuth.
+    #[error(
+        "the frame's axis of the stand points to an azimuth of about {frame_axis_azimuth_deg}°, and not to that of the \
+         passport"
+    )]
     OtherAxis {
         /// Azimuth of the frame's axis that explains the readings, degrees clockwise from north, to a tenth.
         frame_axis_azimuth_deg: f64,
     },
     /// A position that did not repeat, or whose reading is wrong.
+    #[error("position {index} did not repeat: {}", either(*angle_arcsec, current_ua))]
     DidNotRepeat {
         /// Index (i, j) of the position.
         index: PositionIndex,
@@ -76,37 +88,15 @@ pub enum Explanation {
     },
 }
 
-impl fmt::Display for Explanation {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self {
-            Self::Exchanged(one, other) => write!(f, "positions {one} and {other} are exchanged"),
-            Self::Renumbered { i, j } => write!(
-                f,
-                "the positions are numbered in another way: i = 1, 2 of the readings is i = {} of the passport, and \
-                 j = 1, 2, 3, 4 is j = {}",
-                with_commas(i),
-                with_commas(j)
-            ),
-            Self::OtherAxis { frame_axis_azimuth_deg } => write!(
-                f,
-                "the frame's axis of the stand points to an azimuth of about {frame_axis_azimuth_deg}°, and not to that of \
-                 the passport"
-            ),
-            Self::DidNotRepeat { index, angle_arcsec, current_ua } => {
-                let digits = 1 - exponent_as_printed(current_ua.amax(), 2);
-                let (scale, decimals) = (libm::pow(10.0, digits.into()), usize::try_from(digits).unwrap_or(0));
-                // Adding zero turns -0.0 into 0.0.
-                let rounded = |error: f64| format!("{:.decimals$}", (error * scale).round() / scale + 0.0);
-                let [x, y] = [current_ua.x, current_ua.y].map(rounded);
-                write!(
-                    f,
-                    "position {index} did not repeat: by {}″ if the angle changed, or by {x} µA in J_x and \
-                     {y} µA in J_y if the currents are wrong",
-                    two_digits(*angle_arcsec)
-                )
-            }
-        }
-    }
+/// Returns the change of the angle or the errors of the currents that explain a reading, in words.
+fn either(angle_arcsec: f64, current_ua: &Vector2<f64>) -> String {
+    let digits = 1 - exponent_as_printed(current_ua.amax(), 2);
+    let (scale, decimals) = (libm::pow(10.0, digits.into()), usize::try_from(digits).unwrap_or(0));
+    // Adding zero turns -0.0 into 0.0.
+    let rounded = |error: f64| format!("{:.decimals$}", (error * scale).round() / scale + 0.0);
+    let [x, y] = [current_ua.x, current_ua.y].map(rounded);
+    let angle = two_digits(angle_arcsec);
+    format!("by {angle}″ if the angle changed, or by {x} µA in J_x and {y} µA in J_y if the currents are wrong")
 }
 
 impl Hint {

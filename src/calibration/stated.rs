@@ -8,7 +8,6 @@ use crate::stand::{ActsOn, Certificate, CertifiedPosition};
 use crate::statistics::welch_satterthwaite::effective_degrees_of_freedom;
 use crate::text::words;
 use crate::units::radians_from_arcseconds;
-use std::fmt::{self, Display, Formatter};
 
 words! {
     /// Input whose uncertainty no file states, or one states as 0; the result does not include it. Its words are its name,
@@ -139,7 +138,8 @@ fn of_common(certificate: &Certificate, on: ActsOn, common_arcsec: Option<f64>) 
 
 /// Temperature in the laboratory outside the range for which the deviations are certified, °C. Displayed, it is an
 /// English sentence without a full stop; `report` has the words of other languages.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("the temperature in the laboratory is {here_c} °C; the deviations are certified from {low_c} to {high_c} °C")]
 pub(crate) struct TemperatureOutside {
     /// Temperature in the laboratory.
     pub here_c: f64,
@@ -156,16 +156,5 @@ impl TemperatureOutside {
         let here_c = subject.temperature_c.or(laboratory.and_then(|laboratory| laboratory.temperature_c))?;
         let [low_c, high_c] = certificate.temperature_range_c?;
         (!(low_c..=high_c).contains(&here_c)).then_some(Self { here_c, low_c, high_c })
-    }
-}
-
-impl Display for TemperatureOutside {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        let Self { here_c, low_c, high_c } = self;
-        write!(
-            f,
-            "the temperature in the laboratory is {here_c} °C; the deviations are certified from {low_c} to \
-             {high_c} °C"
-        )
     }
 }

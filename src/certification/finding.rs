@@ -10,22 +10,37 @@ use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
 use crate::coefficients::PositionIndex;
 use crate::text::number::two_digits;
 use crate::text::words;
-use std::fmt::{self, Display, Formatter};
 
 /// Ratio of the scatter of a check to the certified one above which nothing is decided.
 const MUCH_MORE: f64 = 2.0;
 
 /// Reason for the result of a comparison, or a limit of it. Displayed, it is an English sentence without a full stop;
 /// `report` has the words of other languages.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub(crate) enum Finding {
     /// Half of the positions or more have changed.
+    #[error("no more than half of the positions agree with each other; this is another stand or another certificate")]
     AnotherStand,
     /// Two positions, each with the angles that are certified for the other.
+    #[error(
+        "positions {} and {} are exchanged: each has the angles that the certificate states for the other; check the \
+         rows of the readings, and the directions in which theta and phi increase",
+        .0[0],
+        .0[1]
+    )]
     Exchanged([PositionIndex; 2]),
     /// File in another unit, with another sign or with other axes.
+    #[error("{0}")]
     Misread(Misread),
     /// Scatter of the check that is significantly larger than the certified one.
+    #[error(
+        "the visits of the check scatter by {}″, the certificate states {}″ (probability {}): the stand repeats worse, \
+         so that uncertainties from its certificate are too small, or the instrument of the check reads worse; read \
+         one position several times without moving the stand to tell which",
+        two_digits(*of_check_arcsec),
+        two_digits(*certified_arcsec),
+        remark::probability(*probability)
+    )]
     ScattersMore {
         /// Standard deviation of one visit in the check, arcsec.
         of_check_arcsec: f64,
@@ -35,28 +50,69 @@ pub(crate) enum Finding {
         probability: f64,
     },
     /// Position that has changed relative to the others.
+    #[error(
+        "position {} has changed: {} about x, y, z relative to the other positions",
+        .0.index,
+        remark::turns(.0.turn_arcsec)
+    )]
     Changed(ComparedPosition),
     /// Significant change that is not that of a single position.
+    #[error("the positions have changed by more than stated; no single position stands out")]
     ChangedTogether,
     /// Change that is slightly larger than chance explains.
+    #[error("the differences of the positions are slightly larger than chance explains; measure another run")]
     Slightly,
     /// Significant rotation common to all positions.
+    #[error(
+        "all positions have rotated together; a datum surface has changed (gyro seat, level or azimuth), not single \
+         positions"
+    )]
     Rotated,
     /// Common rotation that is slightly larger than chance explains.
+    #[error("the common rotation of all positions is slightly larger than chance explains; measure more runs")]
     RotatedSlightly,
     /// Runs of the check that are rotated as a whole relative to its other runs.
+    #[error("{}", rotated(.0))]
     RotatedRuns(RotatedRuns),
     /// Run of the check that changed within itself.
+    #[error(
+        "run {run} of the check seems to have changed within itself: {}; measure the run again, or exclude it with \
+         --exclude {run} and --why",
+        .0.words(),
+        run = .0.run
+    )]
     SplitRun(SplitRun),
     /// Outlier among the readings of the check, and its part in the mean of the position, arcsec.
+    #[error(
+        "the reading of position {} in run {run} of the check differs by {:+.2}″ about {} from its other runs; the \
+         change of the position includes {mean:+.2}″ of it; measure the run again, or exclude the reading with \
+         --exclude {},{},{run} and --why",
+        .0.index,
+        .0.residual_arcsec,
+        AXES[.0.axis],
+        .0.index.i,
+        .0.index.j,
+        run = .0.run,
+        mean = .1
+    )]
     Outlier(Outlier, f64),
     /// Rotation of the stand as a whole, which was not tested.
+    #[error("rotation of the stand as a whole was not tested: {}", .0.words())]
     NotTested(Untested),
     /// Angles without a stated uncertainty.
+    #[error(
+        "the certificate does not state the uncertainty of all angles (u_alpha_arcsec etc.); these angles were treated \
+         as exact, so differences appear more significant than they are"
+    )]
     TreatedAsExact,
     /// Readings that are those of the certificate.
+    #[error("the certificate was computed from these readings, so they do not show the present state of the stand")]
     SameReadings,
     /// Readings that agree better with the certificate than a new measurement can.
+    #[error(
+        "the readings agree with the certificate better than the repeatability of the stand allows; check whether they \
+         are those of the certificate, and measure the stand again"
+    )]
     TooClose,
 }
 
@@ -74,105 +130,23 @@ words! {
     }
 }
 
-impl Display for Finding {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        f.write_str(match self {
-            Self::AnotherStand => {
-                "no more than half of the positions agree with each other; this is another stand or another certificate"
-            }
-            Self::Exchanged([one, other]) => {
-                return write!(
-                    f,
-                    "positions {one} and {other} are exchanged: each has the angles that the certificate states for the \
-                     other; check the rows of the readings, and the directions in which theta and phi increase"
-                );
-            }
-            Self::Misread(misread) => return misread.fmt(f),
-            Self::ScattersMore { of_check_arcsec, certified_arcsec, probability } => {
-                return write!(
-                    f,
-                    "the visits of the check scatter by {}″, the certificate states {}″ (probability {}): the \
-                     stand repeats worse, so that uncertainties from its certificate are too small, or the instrument \
-                     of the check reads worse; read one position several times without moving the stand to tell which",
-                    two_digits(*of_check_arcsec),
-                    two_digits(*certified_arcsec),
-                    remark::probability(*probability)
-                );
-            }
-            Self::Changed(ComparedPosition { index, turn_arcsec: [x, y, z], .. }) => {
-                return write!(
-                    f,
-                    "position {index} has changed: {x:+.2}″, {y:+.2}″, {z:+.2}″ about x, y, z relative to the other \
-                     positions"
-                );
-            }
-            Self::ChangedTogether => "the positions have changed by more than stated; no single position stands out",
-            Self::Slightly => {
-                "the differences of the positions are slightly larger than chance explains; measure another run"
-            }
-            Self::Rotated => {
-                "all positions have rotated together; a datum surface has changed (gyro seat, level or azimuth), not \
-                 single positions"
-            }
-            Self::RotatedSlightly => {
-                "the common rotation of all positions is slightly larger than chance explains; measure more runs"
-            }
-            Self::RotatedRuns(at) => {
-                let ([x, y, z], [of_x, of_y, of_z], axes) = (at.turns_arcsec, at.in_the_mean_arcsec(), at.axis.names());
-                return match at.pattern {
-                    Pattern::One(run) => write!(
-                        f,
-                        "all positions of run {run} of the check are rotated by {x:+.2}″, {y:+.2}″, {z:+.2}″ about \
-                         {axes} relative to its other runs; the common rotation includes {of_x:+.2}″, {of_y:+.2}″, \
-                         {of_z:+.2}″ of it; measure the run again, or exclude it with --exclude {run} and --why"
-                    ),
-                    Pattern::Move(before, after) => write!(
-                        f,
-                        "the stand seems to have moved between runs {before} and {after} of the check: all positions \
-                         are rotated by {x:+.2}″, {y:+.2}″, {z:+.2}″ about {axes}; the common rotation is a mean \
-                         of both states; find the cause and measure again"
-                    ),
-                    Pattern::Drift => write!(
-                        f,
-                        "the stand seems to drift: from run to run of the check all positions rotate by {x:+.2}″, \
-                         {y:+.2}″, {z:+.2}″ about {axes}; the common rotation is that of the middle of the check; \
-                         find the cause and measure again"
-                    ),
-                };
-            }
-            Self::SplitRun(SplitRun { run, between: [before, after], axis, turns_arcsec: [x, y, z], .. }) => {
-                return write!(
-                    f,
-                    "run {run} of the check seems to have changed within itself: from position {after} on, its positions \
-                     are rotated by {x:+.2}″, {y:+.2}″, {z:+.2}″ about {} relative to those up to {before}, in the \
-                     order of the rows; measure the run again, or exclude it with --exclude {run} and --why",
-                    axis.names()
-                );
-            }
-            Self::Outlier(Outlier { index, run, residual_arcsec: residual, axis, .. }, mean) => {
-                return write!(
-                    f,
-                    "the reading of position {index} in run {run} of the check differs by {residual:+.2}″ about {} from \
-                     its other runs; the change of the position includes {mean:+.2}″ of it; measure the run again, or \
-                     exclude the reading with --exclude {},{},{run} and --why",
-                    AXES[*axis], index.i, index.j
-                );
-            }
-            Self::NotTested(why) => {
-                return write!(f, "rotation of the stand as a whole was not tested: {}", why.words());
-            }
-            Self::TreatedAsExact => {
-                "the certificate does not state the uncertainty of all angles (u_alpha_arcsec etc.); these angles were \
-                 treated as exact, so differences appear more significant than they are"
-            }
-            Self::SameReadings => {
-                "the certificate was computed from these readings, so they do not show the present state of the stand"
-            }
-            Self::TooClose => {
-                "the readings agree with the certificate better than the repeatability of the stand allows; check whether \
-                 they are those of the certificate, and measure the stand again"
-            }
-        })
+fn rotated(at: &RotatedRuns) -> String {
+    let (turns, axes) = (remark::turns(at.turns_arcsec), at.axis.names());
+    match at.pattern {
+        Pattern::One(run) => format!(
+            "all positions of run {run} of the check are rotated by {turns} about {axes} relative to its other runs; \
+             the common rotation includes {} of it; measure the run again, or exclude it with --exclude {run} and \
+             --why",
+            remark::turns(at.in_the_mean_arcsec())
+        ),
+        Pattern::Move(before, after) => format!(
+            "the stand seems to have moved between runs {before} and {after} of the check: all positions are rotated \
+             by {turns} about {axes}; the common rotation is a mean of both states; find the cause and measure again"
+        ),
+        Pattern::Drift => format!(
+            "the stand seems to drift: from run to run of the check all positions rotate by {turns} about {axes}; the \
+             common rotation is that of the middle of the check; find the cause and measure again"
+        ),
     }
 }
 

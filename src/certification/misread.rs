@@ -3,18 +3,21 @@
 use super::readings::whole_runs::{Axes, CLEARLY, UNITS, axes_of_runs, differing};
 use crate::attitude::ANGLES;
 use nalgebra::Vector3;
-use std::fmt::{self, Display, Formatter};
 
 /// Way in which all angles of a file differ from those of the certificate.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub(crate) enum Misread {
     /// Angles that are smaller by a factor, in the unit of this name.
+    #[error("the angles are those of the certificate divided by {0:.0}; convert them from {1} to arcseconds")]
     Smaller(f64, &'static str),
     /// Angles that are larger by a factor, as if converted twice from the unit of this name.
+    #[error("the angles are {0:.0} times those of the certificate; convert them from {1} to arcseconds only once")]
     Larger(f64, &'static str),
     /// Angles with the opposite sign.
+    #[error("the angles are those of the certificate with the opposite sign; correct the sign")]
     Sign,
     /// Angles of other columns, some perhaps with the opposite sign.
+    #[error("the readings have {}; put the angles into their columns, with their signs", in_other_columns(.0))]
     Axes(Axes),
 }
 
@@ -55,26 +58,7 @@ impl Misread {
     }
 }
 
-impl Display for Misread {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        match self {
-            Self::Smaller(factor, unit) => write!(
-                f,
-                "the angles are those of the certificate divided by {factor:.0}; convert them from {unit} to arcseconds"
-            ),
-            Self::Larger(factor, unit) => write!(
-                f,
-                "the angles are {factor:.0} times those of the certificate; convert them from {unit} to arcseconds only once"
-            ),
-            Self::Sign => {
-                f.write_str("the angles are those of the certificate with the opposite sign; correct the sign")
-            }
-            Self::Axes(axes) => {
-                let each = Self::columns(axes).into_iter();
-                let words: Vec<String> =
-                    each.map(|(found, due)| format!("{found} where the certificate has {due}")).collect();
-                write!(f, "the readings have {}; put the angles into their columns, with their signs", words.join(", "))
-            }
-        }
-    }
+fn in_other_columns(axes: &Axes) -> String {
+    let each = Misread::columns(axes).into_iter();
+    each.map(|(found, due)| format!("{found} where the certificate has {due}")).collect::<Vec<_>>().join(", ")
 }

@@ -9,42 +9,123 @@ use super::unequal_axes::UnequalAxis;
 use super::worse_groups::WorseGroup;
 use crate::calibration::recorded::rounding_of;
 use crate::stand::remarks::Odd;
-use std::fmt::{self, Display, Formatter};
 
 /// A remark on readings or on the certificate made of them.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum Remark {
     /// Position that scatters more than the others.
+    #[error(
+        "{}: the standard deviation of position {} is {:.1} times the pooled one (Cochran's test: probability {}); its \
+         uncertainty is computed from its own readings, that of the others without it",
+        grade(.0.probability),
+        .0.index,
+        .0.ratio,
+        probability(.0.probability)
+    )]
     Worse(WorsePosition),
     /// Positions with the same θ that scatter more than the others.
+    #[error(
+        "the standard deviation of the positions with θ = {}° is {:.1} times that of the others (F test: probability \
+         {}); their uncertainty is computed from their own readings, that of the others without them; find the cause, \
+         because repeatability_arcsec is pooled from all positions",
+        .0.theta_deg,
+        .0.ratio,
+        probability(.0.probability)
+    )]
     WorseGroup(WorseGroup),
     /// Reading that differs from those of the other runs.
+    #[error(
+        "{}: position {}, run {}{}, differs by {:+.2}″ from the other runs about {} (Grubbs' test: probability {}); it \
+         was not excluded; measure it again, or omit the run",
+        grade(.0.probability),
+        .0.index,
+        .0.run,
+        line_of(.0),
+        .0.residual_arcsec,
+        AXES[.0.axis],
+        probability(.0.probability)
+    )]
     Outlier(Outlier),
     /// Runs that are rotated as a whole relative to the other runs.
+    #[error("{}", rotated(.0))]
     RotatedRuns(RotatedRuns),
     /// Run that changed within itself.
+    #[error(
+        "run {run} seems to have changed within itself: {} (F test: probability {}); the run was not excluded, and \
+         single readings and positions were not examined; find the cause, then measure the run again, or exclude it \
+         with --exclude {run} and --why",
+        .0.words(),
+        probability(.0.probability),
+        run = .0.run
+    )]
     SplitRun(SplitRun),
     /// Suspect reading in one of two runs, which do not show which one is wrong.
+    #[error("two runs do not show whether run {0} or run {1} is wrong; measure a third run")]
     TwoRuns(u32, u32),
     /// Single positions that were not compared, because a reading is suspect.
+    #[error(
+        "because a reading is suspect, the scatter of single positions was not tested; all positions state the pooled \
+         standard deviation"
+    )]
     NotCompared,
     /// Two runs that agree too well.
+    #[error(
+        "runs {0} and {1} agree more than 30 times better than other runs; check whether one is a copy of the other, \
+         or whether another run contains an error"
+    )]
     Twins(u32, u32),
     /// Variances about x, y and z that differ, with the probability of Bartlett's test.
+    #[error(
+        "the variances about x, y and z differ (Bartlett's test: probability {}); repeatability_arcsec is pooled from \
+         all three, which is too large for one axis and too small for another",
+        probability(*.0)
+    )]
     AxesDiffer(f64),
     /// Axis about which whole runs rotate more than about the others.
+    #[error(
+        "from run to run the {part} rotates by {:.2}″ about {axis} and by {:.2}″ about its other two axes (Cochran's \
+         test: probability {}); common_{part}_arcsec is pooled from all three, which is too small about {axis}; state \
+         a line of type_b that acts on the {part}, of {:.2}″, or find the cause and measure again",
+        .0.deviation_arcsec,
+        .0.others_arcsec,
+        probability(.0.probability),
+        .0.missing_arcsec,
+        part = .0.axis.part(),
+        axis = .0.axis.name()
+    )]
     RunAxesDiffer(UnequalAxis),
     /// Setting of an angle that several positions of a run share.
+    #[error(
+        "in each run the positions with the same {angle} share an error of {:.2}″ (standard deviation; F test: \
+         probability {}), as if {angle} were set once for all of them; the uncertainties take the errors of positions \
+         as independent, and are too small; set both angles again before every position, and measure again",
+        .0.deviation_arcsec,
+        probability(.0.probability),
+        angle = .0.setting.symbol()
+    )]
     SharedSetting(SharedSetting),
     /// Number of runs that is small, and the degrees of freedom of the common part.
+    #[error(
+        "{runs} runs are few: the common part of a run has only {degrees_of_freedom} degrees of freedom, so its \
+         uncertainty has an uncertainty of {:.0} %; measure five runs or more",
+        Self::doubt_percent(*degrees_of_freedom)
+    )]
     FewRuns { runs: usize, degrees_of_freedom: usize },
     /// Number of axes of the base, 0 to 2, about which a rotation can be distinguished from one of the platform.
+    #[error("{}", base_axes(*.0))]
     BaseAxes(usize),
     /// Number of angles whose readings stay on one step, of how many, and the step, arcsec.
+    #[error(
+        "the readings of {angles} of {of} angles vary by less than half their step of {step_arcsec}″, so their mean \
+         does not reduce the rounding; its standard uncertainty of {:.2}″ is included; record more digits",
+        rounding_of(*step_arcsec)
+    )]
     Rounding { angles: usize, of: usize, step_arcsec: f64 },
     /// Largest angle, arcsec, if it is suspiciously small.
+    #[error("no angle is larger than {0:.2}″; check that the angles are in arcseconds, not degrees")]
     SmallAngles(f64),
     /// Unusual value in the certificate.
+    #[error("{0}")]
     Odd(Odd),
 }
 
@@ -74,148 +155,53 @@ impl Remark {
     }
 }
 
-impl Display for Remark {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        match self {
-            Self::Worse(WorsePosition { index, ratio, probability: p, .. }) => write!(
-                f,
-                "{}: the standard deviation of position {index} is {ratio:.1} times the pooled one (Cochran's test: \
-                 probability {}); its uncertainty is computed from its own readings, that of the others without it",
-                grade(*p),
-                probability(*p)
-            ),
-            Self::WorseGroup(WorseGroup { theta_deg, ratio, probability: p, .. }) => write!(
-                f,
-                "the standard deviation of the positions with θ = {theta_deg}° is {ratio:.1} times that of the others (F \
-                 test: probability {}); their uncertainty is computed from their own readings, that of the others without \
-                 them; find the cause, because repeatability_arcsec is pooled from all positions",
-                probability(*p)
-            ),
-            Self::Outlier(out) => {
-                let line = out.line.map_or_else(String::new, |line| format!(" (line {line} of the readings)"));
-                write!(
-                    f,
-                    "{}: position {}, run {}{line}, differs by {:+.2}″ from the other runs about {} (Grubbs' test: \
-                     probability {}); it was not excluded; measure it again, or omit the run",
-                    grade(out.probability),
-                    out.index,
-                    out.run,
-                    out.residual_arcsec,
-                    AXES[out.axis],
-                    probability(out.probability)
-                )
-            }
-            Self::RotatedRuns(at) => {
-                let ([x, y, z], axes, p) = (at.turns_arcsec, at.axis.names(), probability(at.probability));
-                match at.pattern {
-                    Pattern::One(run) => write!(
-                        f,
-                        "{}: all positions of run {run} are rotated by {x:+.2}″, {y:+.2}″, {z:+.2}″ about {axes} \
-                         relative to the other runs (Grubbs' test: probability {p}); it was not excluded, and changes \
-                         certified angles by up to {:.2}″; find the cause, then measure the run again, or \
-                         exclude it with --exclude {run} and --why",
-                        grade(at.probability),
-                        at.largest_effect_arcsec()
-                    ),
-                    Pattern::Move(before, after) => write!(
-                        f,
-                        "the stand seems to have moved between runs {before} and {after}: all positions are rotated by \
-                         {x:+.2}″, {y:+.2}″, {z:+.2}″ about {axes} (Student's test of a step: probability {p}); no \
-                         run was excluded, and the certified angles are a mean of both states; find the cause and \
-                         measure again, or certify the runs from {after} on by themselves: exclude each earlier one \
-                         with --exclude and --why"
-                    ),
-                    Pattern::Drift => write!(
-                        f,
-                        "the stand seems to drift: from run to run all positions rotate by {x:+.2}, {y:+.2}, {z:+.2} \
-                         arcsec about {axes} (Student's test of a straight line: probability {p}); no run was \
-                         excluded, and the certified angles are those of the middle of the measurement; find the cause \
-                         and measure again"
-                    ),
-                }
-            }
-            Self::SplitRun(at) => {
-                let ([x, y, z], [before, after]) = (at.turns_arcsec, at.between);
-                write!(
-                    f,
-                    "run {run} seems to have changed within itself: from position {after} on, its positions are rotated by \
-                     {x:+.2}″, {y:+.2}″, {z:+.2}″ about {} relative to those up to {before}, in the order of the rows \
-                     (F test: probability {}); the run was not excluded, and single readings and positions were not \
-                     examined; find the cause, then measure the run again, or exclude it with --exclude {run} and --why",
-                    at.axis.names(),
-                    probability(at.probability),
-                    run = at.run
-                )
-            }
-            Self::TwoRuns(one, other) => {
-                write!(f, "two runs do not show whether run {one} or run {other} is wrong; measure a third run")
-            }
-            Self::NotCompared => f.write_str(
-                "because a reading is suspect, the scatter of single positions was not tested; all positions state the \
-                 pooled standard deviation",
-            ),
-            Self::Twins(one, other) => write!(
-                f,
-                "runs {one} and {other} agree more than 30 times better than other runs; check whether one is a copy of \
-                 the other, or whether another run contains an error"
-            ),
-            Self::AxesDiffer(p) => write!(
-                f,
-                "the variances about x, y and z differ (Bartlett's test: probability {}); repeatability_arcsec is \
-                 pooled from all three, which is too large for one axis and too small for another",
-                probability(*p)
-            ),
-            Self::RunAxesDiffer(at) => {
-                let (part, axis) = (at.axis.part(), at.axis.name());
-                write!(
-                    f,
-                    "from run to run the {part} rotates by {:.2}″ about {axis} and by {:.2}″ about its \
-                     other two axes (Cochran's test: probability {}); common_{part}_arcsec is pooled from all three, \
-                     which is too small about {axis}; state a line of type_b that acts on the {part}, of {:.2}″, \
-                     or find the cause and measure again",
-                    at.deviation_arcsec,
-                    at.others_arcsec,
-                    probability(at.probability),
-                    at.missing_arcsec
-                )
-            }
-            Self::SharedSetting(SharedSetting { setting, deviation_arcsec, probability: p }) => write!(
-                f,
-                "in each run the positions with the same {0} share an error of {deviation_arcsec:.2}″ (standard \
-                 deviation; F test: probability {1}), as if {0} were set once for all of them; the uncertainties take \
-                 the errors of positions as independent, and are too small; set both angles again before every position, \
-                 and measure again",
-                setting.symbol(),
-                probability(*p)
-            ),
-            Self::FewRuns { runs, degrees_of_freedom } => write!(
-                f,
-                "{runs} runs are few: the common part of a run has only {degrees_of_freedom} degrees of freedom, so its \
-                 uncertainty has an uncertainty of {:.0} %; measure five runs or more",
-                Self::doubt_percent(*degrees_of_freedom)
-            ),
-            Self::BaseAxes(0) => f.write_str(
-                "in these positions a rotation of the base cannot be distinguished from one of the platform; \
-                 common_base_arcsec is absent, and common_platform_arcsec includes both",
-            ),
-            Self::BaseAxes(axes) => write!(
-                f,
-                "in these positions only {axes} of the three axes of the base can be distinguished from the platform; \
-                 common_platform_arcsec includes the rest"
-            ),
-            Self::Rounding { angles, of, step_arcsec } => write!(
-                f,
-                "the readings of {angles} of {of} angles vary by less than half their step of {step_arcsec}″, so their \
-                 mean does not reduce the rounding; its standard uncertainty of {:.2}″ is included; record more digits",
-                rounding_of(*step_arcsec)
-            ),
-            Self::SmallAngles(largest_arcsec) => write!(
-                f,
-                "no angle is larger than {largest_arcsec:.2}″; check that the angles are in arcseconds, not degrees"
-            ),
-            Self::Odd(odd) => odd.fmt(f),
+/// Returns rotations about x, y and z as words have them.
+pub(super) fn turns([x, y, z]: [f64; 3]) -> String {
+    format!("{x:+.2}″, {y:+.2}″, {z:+.2}″")
+}
+
+/// Returns the line of a reading, in words.
+fn line_of(out: &Outlier) -> String {
+    out.line.map_or_else(String::new, |line| format!(" (line {line} of the readings)"))
+}
+
+fn rotated(at: &RotatedRuns) -> String {
+    let (turns, axes, p) = (turns(at.turns_arcsec), at.axis.names(), probability(at.probability));
+    match at.pattern {
+        Pattern::One(run) => format!(
+            "{}: all positions of run {run} are rotated by {turns} about {axes} relative to the other runs (Grubbs' \
+             test: probability {p}); it was not excluded, and changes certified angles by up to {:.2}″; find the \
+             cause, then measure the run again, or exclude it with --exclude {run} and --why",
+            grade(at.probability),
+            at.largest_effect_arcsec()
+        ),
+        Pattern::Move(before, after) => format!(
+            "the stand seems to have moved between runs {before} and {after}: all positions are rotated by {turns} \
+             about {axes} (Student's test of a step: probability {p}); no run was excluded, and the certified angles \
+             are a mean of both states; find the cause and measure again, or certify the runs from {after} on by \
+             themselves: exclude each earlier one with --exclude and --why"
+        ),
+        Pattern::Drift => {
+            let [x, y, z] = at.turns_arcsec;
+            format!(
+                "the stand seems to drift: from run to run all positions rotate by {x:+.2}, {y:+.2}, {z:+.2} arcsec \
+                 about {axes} (Student's test of a straight line: probability {p}); no run was excluded, and the \
+                 certified angles are those of the middle of the measurement; find the cause and measure again"
+            )
         }
     }
+}
+
+fn base_axes(number: usize) -> String {
+    if number == 0 {
+        return "in these positions a rotation of the base cannot be distinguished from one of the platform; \
+                common_base_arcsec is absent, and common_platform_arcsec includes both"
+            .to_owned();
+    }
+    format!(
+        "in these positions only {number} of the three axes of the base can be distinguished from the platform; \
+         common_platform_arcsec includes the rest"
+    )
 }
 
 pub(super) fn probability(p: f64) -> String {

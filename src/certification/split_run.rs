@@ -5,6 +5,7 @@
 //! of the rows, and compared with what it leaves (F test).
 
 use super::components::{Combinations, Components};
+use super::remark::turns;
 use super::rotated_runs::CommonAxis;
 use super::suspects::OUTLIER;
 use super::{AngleReadings, Header};
@@ -34,6 +35,17 @@ pub(crate) struct SplitRun {
     pub probability: f64,
     /// −2 ln of the likelihood of the readings with this change, up to a constant.
     pub(crate) unlikelihood: f64,
+}
+
+impl SplitRun {
+    /// Returns the change within the run, in words.
+    pub(super) fn words(&self) -> String {
+        let ([before, after], turns, axes) = (self.between, turns(self.turns_arcsec), self.axis.names());
+        format!(
+            "from position {after} on, its positions are rotated by {turns} about {axes} relative to those up to \
+             {before}, in the order of the rows"
+        )
+    }
 }
 
 /// Returns the run that most probably changed within itself, if chance explains that in less than 1 %; `relative` are the
