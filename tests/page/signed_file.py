@@ -6,6 +6,7 @@ The file is read by PyYAML, and numbers are rounded by `decimal`: nothing here k
 """
 
 import json
+import math
 import re
 import sys
 from decimal import ROUND_HALF_EVEN, Decimal
@@ -50,6 +51,18 @@ def printed(text, comma):
     return number.scaleb(exponent), number.as_tuple().exponent + exponent
 
 
+def derived(content):
+    """The uncertainties of the components of the Earth rate, which are not in the file: those of the latitude, propagated."""
+    site, earth = content["site"], content["earth"]
+    latitude = (site.get("uncertainty") or {}).get("latitude_arcsec", 0)
+    deflection = 0
+    if "latitude_deg" in site:
+        # An unknown deflection is taken as 0 with u = 10 arcseconds, as the file says.
+        deflection = (site.get("deflection_arcsec") or {"u": 10}).get("u", 0)
+    u = math.radians(math.hypot(latitude, deflection) / 3600)
+    return [abs(earth[f"{other}_deg_per_h"]) * u for other in ("vertical", "horizontal")]
+
+
 def main():
     pages, name, file = sys.argv[1:]
     said = json.load(open(pages, encoding="utf-8"))[name]["said"]
@@ -71,6 +84,8 @@ def main():
         digits = -digits if number["negative"] else digits
         if Decimal(value) in in_comments or digits in in_comments:
             continue
+        if any(math.isclose(float(value), u, rel_tol=1e-12) for u in derived(content)):
+            floats.add(float(value))
         if float(value) not in floats:
             wrong.append(f"{value} is on the page and not in the file")
         elif digits != Decimal(float(value)).quantize(Decimal(1).scaleb(place), ROUND_HALF_EVEN) and float(digits) != float(value):

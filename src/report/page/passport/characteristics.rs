@@ -1,7 +1,7 @@
 //! Characteristics: the certified deviations with their uncertainties, the datum surfaces, the site.
 
 use super::PassportPage;
-use crate::report::page::language::{Language, Languages, values};
+use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::{LARGEST_IN_ARCSEC, LATITUDES, LONGITUDES, Number, column};
 use crate::report::page::parts::{
     Column, Table, coordinate, fields, figure, given, heading, in_hemisphere, not_stated, quantity, starts, stated,
@@ -189,10 +189,17 @@ fn angle(degrees: f64, u_arcsec: f64) -> Number {
 
 /// Writes g, with its uncertainty if that is known.
 pub(crate) fn gravity(value: f64, u: Option<f64>, languages: &Languages) -> Markup {
-    let Some(u) = u else { return quantity(languages, &Number::exact(value), units::M_PER_S2) };
+    match u {
+        Some(u) => with_u(value, u, units::M_PER_S2, languages),
+        None => quantity(languages, &Number::exact(value), units::M_PER_S2),
+    }
+}
+
+/// Writes a value and its standard uncertainty.
+fn with_u(value: f64, u: f64, unit: Text, languages: &Languages) -> Markup {
     html! {
-        (quantity(languages, &Number::measured(value, u), units::M_PER_S2)) ", " (symbol("u", "")) " "
-        (quantity(languages, &Number::uncertainty(u), units::M_PER_S2))
+        (quantity(languages, &Number::measured(value, u), unit)) ", " (symbol("u", "")) " "
+        (quantity(languages, &Number::uncertainty(u), unit))
     }
 }
 
@@ -211,9 +218,9 @@ fn mark(site: &Site, languages: &Languages) -> Markup {
 }
 
 fn the_earth(site: &Site, earth: &Earth, languages: &Languages) -> Markup {
-    let rate = |value: f64, u: f64| {
-        let number = if u > 0.0 { Number::measured(value, u) } else { Number::fixed(value, 9) };
-        quantity(languages, &number, units::DEG_PER_H)
+    let rate = |value: f64, u: f64| match u > 0.0 {
+        true => with_u(value, u, units::DEG_PER_H, languages),
+        false => quantity(languages, &Number::fixed(value, 9), units::DEG_PER_H),
     };
     let u = site.gravity_u_m_per_s2();
     let radius = quantity(languages, &Number::fixed(earth.valid_radius_m, 0), units::METRES);
