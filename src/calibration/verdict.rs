@@ -17,7 +17,8 @@ pub(crate) const COVERAGE_FACTOR: f64 = 2.0;
 /// Probability that a normal variable is farther from its mean than [`COVERAGE_FACTOR`] standard deviations.
 pub(crate) const BEYOND: f64 = 0.045_500_263_896_358_42;
 
-const PER_G: [Parameter; 2] = [Parameter::OmegaG, Parameter::OmegaK];
+/// The parameters that refer to a value of g.
+pub(crate) const PER_G: [Parameter; 2] = [Parameter::OmegaG, Parameter::OmegaK];
 
 /// Decision on conformity with a tolerance, from the best to the worst.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]

@@ -11,7 +11,7 @@ use crate::calibration::parameter::Parameter;
 use crate::calibration::prediction::FurtherVisit;
 use crate::calibration::readings::Exclusion;
 use crate::calibration::stated::NotStated;
-use crate::calibration::verdict::{BEYOND, Verdict, change_in_uncertainties};
+use crate::calibration::verdict::{BEYOND, PER_G, Verdict, change_in_uncertainties};
 use crate::calibration::{Calibration, MethodResult, Readings};
 use crate::interface::calibrated::Done;
 use crate::report::page::calibration::why_no_change;
@@ -64,7 +64,17 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
         && verdict.gravity_m_per_s2 != document.gravity_m_per_s2
         && verdict.not_found().is_empty()
     {
-        let words = format!("ω_g and ω_k are decided at the type's g, {} m/s² (see below).", verdict.gravity_m_per_s2);
+        let decided = verdict.parameters.iter().filter(|row| PER_G.contains(&row.parameter)).map(|row| {
+            let expanded = row.coverage_factor * row.standard_uncertainty;
+            let digits = columns::decimals(expanded);
+            format!("{} = {:.digits$} ± {expanded:.digits$}", row.parameter.symbol(), row.value)
+        });
+        let decided: Vec<String> = decided.collect();
+        let words = format!(
+            "At the g of the type, {} m/s², at which they are decided, {} °/(h·g) (± U).",
+            verdict.gravity_m_per_s2,
+            decided.join(" and ")
+        );
         columns::paragraph(&mut out, "", &words);
     }
     fit(&mut out, calibration, &done.missing);

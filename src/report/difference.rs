@@ -78,9 +78,11 @@ pub(crate) fn text(a: &Side, b: &Side, found: &Differences) -> String {
 pub(crate) fn numbers(out: &mut String, numbers: &[NumberDifference]) {
     let rows = numbers.iter().map(|at| {
         let difference = at.difference();
-        let decimals = match at.standard_uncertainty {
-            Some(u) => columns::decimals(u),
-            None => difference.map_or(6, decimals_of_a_difference),
+        let decimals = match (at.standard_uncertainty, at.a.zip(at.b)) {
+            (Some(u), _) => columns::decimals(u),
+            // The difference of two numbers as people write them is exact.
+            (None, Some((a, b))) if is_short(a) && is_short(b) => decimals_of(a).max(decimals_of(b)),
+            (None, _) => difference.map_or(6, decimals_of_a_difference),
         };
         let plain = |value: Option<f64>| match value {
             None => "-".to_owned(),
@@ -102,9 +104,16 @@ pub(crate) fn numbers(out: &mut String, numbers: &[NumberDifference]) {
 
 /// Formats a number as it is in the file if it is short, as those are that people write, and else with `decimals`.
 fn stated(value: f64, decimals: usize) -> String {
+    if is_short(value) { number::decimal(value) } else { format!("{value:.decimals$}") }
+}
+
+fn is_short(value: f64) -> bool {
     const SHORT: usize = 12;
-    let exact = number::decimal(value);
-    if exact.len() <= SHORT { exact } else { format!("{value:.decimals$}") }
+    number::decimal(value).len() <= SHORT
+}
+
+fn decimals_of(value: f64) -> usize {
+    number::decimal(value).split_once('.').map_or(0, |(_, decimals)| decimals.len())
 }
 
 /// Returns the number of decimals, at most 15, that show a difference with three significant digits.
