@@ -20,6 +20,10 @@ pub(crate) struct Part {
     pub(crate) square: f64,
 }
 
+/// Share of the covariance below which a part changes no digit of a probability. A part that the parameters absorb is
+/// nothing but rounding, and so would be the degrees of freedom from its moments.
+const ROUNDING: f64 = 1e-6;
+
 /// Scaled F distribution: `scale` · z′ Ĉ⁻¹ z / `numerator` has F with `numerator` and `denominator` degrees of freedom.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ScaledF {
@@ -33,7 +37,8 @@ impl ScaledF {
     /// Creates the distribution of a quadratic form in `numerator` dimensions.
     pub(crate) fn new(numerator: usize, parts: &[Part]) -> Self {
         let known = Self { numerator, scale: 1.0, denominator: f64::INFINITY };
-        let parts = || parts.iter().filter(|part| part.degrees_of_freedom.is_finite() && part.trace > 0.0);
+        let least = ROUNDING * numerator as f64;
+        let parts = || parts.iter().filter(|part| part.degrees_of_freedom.is_finite() && part.trace > least);
         let sum = |of: fn(&Part) -> f64| parts().map(|part| 2.0 / part.degrees_of_freedom * of(part)).sum::<f64>();
         let (a1, a2) = (sum(|part| part.trace * part.trace), sum(|part| part.square));
         if numerator == 0 || a2 <= 0.0 {
@@ -122,7 +127,10 @@ mod tests {
                 assert!((found.larger(value * size) / due - 1.0).abs() < 1e-4, "{p} {nu}: {found:?}");
             }
         }
-        assert_eq!(ScaledF::new(8, &[]).larger(9.0), chi_square_larger(9.0, 8));
+        let rounding = Part { degrees_of_freedom: 4.0, trace: 2e-14, square: 2e-28 };
+        for parts in [&[][..], &[rounding]] {
+            assert_eq!(ScaledF::new(8, parts).larger(9.0), chi_square_larger(9.0, 8));
+        }
     }
 
     /// Expected: F, if the estimate is of all the covariance.
