@@ -5,10 +5,10 @@ use super::data::Data;
 use super::estimates::{Basis, Estimates};
 use super::inputs::Setup;
 use super::least_squares::{Fit, multiply_rows};
-use super::propagation;
+use super::propagation::{self, Propagation, Rest, covariance};
 use super::sensitivity::Sensitivity;
 use crate::statistics::scaled_f::{self, Part, ScaledF};
-use nalgebra::{DMatrix, DVector, DVectorView, Matrix2};
+use nalgebra::{DMatrix, DVector, Matrix2};
 
 /// Chi-square test of a fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,21 +33,24 @@ impl ChiSquare {
     }
 }
 
-/// Returns chi-square of readings at a fit.
+/// Returns chi-square of readings at the fit of `propagation`.
 ///
 /// It is r' C⁻ r, where r are the residuals of a method, C is their covariance from all inputs, and C⁻ is any
 /// generalised inverse. The part that the parameters absorb cancels. Chi-square is therefore the same for every method
 /// that fits exact readings exactly. It is computed from z = Q₂'W e, whose covariance 1 + B B' has full rank (B is Q₂'W
 /// times the common part of all positions).
-pub(crate) fn chi_square(setup: &Setup, fit: &Fit, data: &Data) -> ChiSquare {
-    let degrees_of_freedom = fit.model.rows - fit.model.columns;
+pub(crate) fn chi_square(setup: &Setup, data: &Data, propagation: &Propagation) -> ChiSquare {
+    let model = &propagation.fit.model;
+    let degrees_of_freedom = model.rows - model.columns;
     if degrees_of_freedom == 0 {
         // With as many readings as unknowns, the residuals are only rounding.
         return ChiSquare { value: 0.0, degrees_of_freedom, probability: 1.0, of_uncertainties: f64::INFINITY };
     }
-    let (value, Estimated { parts, visits }) = quadratic_form(setup, fit, data);
-    let with =
-        |factor: f64| visits.iter().flat_map(|(_, terms)| terms).fold(value, |sum, term| sum - term.taken(factor));
+    let (value, Estimated { parts, visits }) = quadratic_form(setup, data, propagation);
+    let with = |factor: f64| match &visits {
+        Some((_, terms)) => terms.iter().map(|term| term.with(factor)).sum(),
+        None => value,
+    };
     let of_visits = visits.as_ref().map(|(estimate, _)| *estimate);
     let probability = scaled_f::larger(degrees_of_freedom, &parts, of_visits, with);
     let of_uncertainties = ScaledF::new(degrees_of_freedom, &parts).denominator;
@@ -58,75 +61,72 @@ pub(crate) fn chi_square(setup: &Setup, fit: &Fit, data: &Data) -> ChiSquare {
 #[derive(Debug, Default)]
 pub(crate) struct Estimated {
     pub(crate) parts: Vec<Part>,
-    /// Index of the estimate of the scatter of visits, and how chi-square changes with it.
+    /// Index of the estimate of the scatter of visits, and the terms of chi-square, which change with it.
     pub(crate) visits: Option<(usize, Vec<Term>)>,
 }
 
-/// Term of the change of chi-square if the variance of visits is multiplied by a factor.
+/// Square of a combination of the residuals with unit variance.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Term {
-    /// Share of this variance in the variance of a combination of the residuals.
-    share: f64,
-    /// Square of the derivative of that combination.
     square: f64,
+    /// Share of the variance of visits in its variance.
+    share: f64,
 }
 
 impl Term {
-    /// Returns what `factor` takes from chi-square.
-    pub(crate) fn taken(&self, factor: f64) -> f64 {
-        let more = factor - 1.0;
-        self.square * more / (1.0 + self.share * more)
+    /// Returns the term if the variance of visits is multiplied by `factor`.
+    pub(crate) fn with(&self, factor: f64) -> f64 {
+        self.square / (1.0 + self.share * (factor - 1.0))
     }
 }
 
 /// Returns the value of chi-square, and the parts of the covariance that rest on estimates.
-pub(crate) fn quadratic_form(setup: &Setup, fit: &Fit, data: &Data) -> (f64, Estimated) {
-    let shared = Sensitivity::new(setup, &fit.unknowns).shared(&fit.currents_ma, &data.repeats);
-    let count = shared.ncols();
-    // The misclosures follow the common part as one more column, so that a single rotation transforms both.
-    let mut rotated = shared.resize(fit.model.rows, count + 1, 0.0);
+pub(crate) fn quadratic_form(setup: &Setup, data: &Data, propagation: &Propagation) -> (f64, Estimated) {
+    let fit = propagation.fit;
+    let mut rotated = DMatrix::zeros(fit.model.rows, 1);
     let top = 2 * fit.whitening.len();
-    rotated.view_mut((top, count), (fit.model.rows - top, 1)).copy_from(&fit.of_differences(&data.offsets));
+    rotated.rows_range_mut(top..).copy_from(&fit.of_differences(&data.offsets));
     for (place, (current, whiten)) in data.currents_ma.iter().zip(&fit.whitening).enumerate() {
-        let misclosure = fit.misclosure(place, current);
-        rotated[(2 * place, count)] = misclosure.x;
-        rotated[(2 * place + 1, count)] = misclosure.y;
-        multiply_rows(&mut rotated, place, whiten);
+        let misclosure = whiten * fit.misclosure(place, current);
+        rotated.fixed_view_mut::<2, 1>(2 * place, 0).copy_from(&misclosure);
     }
-    let whitened = rotated.clone();
     fit.model.rotate(&mut rotated);
-    let rest = rotated.rows_range(fit.model.columns..);
+    let z = rotated.column(0).rows_range(fit.model.columns..).into_owned();
+    let rest = propagation.rest();
+    let common = &rest.common;
     // Woodbury: z' (1 + B B')⁻¹ z = z'z − (B'z)' (1 + B'B)⁻¹ (B'z).
-    let z = rest.column(count);
-    let projected = DVector::from_fn(count, |i, _| rest.column(i).dot(&z));
-    let inner =
-        DMatrix::from_fn(count, count, |i, j| rest.column(i).dot(&rest.column(j)) + if i == j { 1.0 } else { 0.0 });
-    let cholesky = inner.cholesky();
+    let projected = common.tr_mul(&z);
+    let cholesky = plus_one(common.tr_mul(common)).cholesky();
     let taken = cholesky.as_ref().map_or(0.0, |cholesky| projected.dot(&cholesky.solve(&projected)));
     let lower = cholesky.map(|cholesky| cholesky.unpack());
-    let shared = whitened.columns(0, count).into_owned();
-    (z.norm_squared() - taken, estimated(setup, fit, data, &shared, lower, whitened.column(count)))
+    (z.norm_squared() - taken, estimated(setup, data, propagation, &rest, lower, &z))
 }
 
-/// Returns the parts of the covariance of the residuals that rest on estimates with few degrees of freedom. `shared` is
-/// the whitened common part of all positions, `lower` is L with L L' = 1 + B'B, and `y` are the whitened misclosures.
+fn plus_one(mut matrix: DMatrix<f64>) -> DMatrix<f64> {
+    (0..matrix.nrows()).for_each(|place| matrix[(place, place)] += 1.0);
+    matrix
+}
+
+/// Returns the parts of the covariance of the residuals that rest on estimates with few degrees of freedom. `lower` is L
+/// with L L' = 1 + B'B.
 ///
-/// χ² is y' M y of the whitened misclosures y, with M = 1 − V V'. V consists of Q₁ and Q₂ B L'⁻¹ side by side; Q₁ = W X
-/// R⁻¹ is the part that the parameters absorb. A part D of the covariance of y enters through tr D M and tr D M D M. Own
-/// parts of positions are blocks of D, so D M costs little more than M itself.
+/// χ² is y' M y of the whitened misclosures y, with M = 1 − V V'. V consists of Q₁, the part that the parameters absorb,
+/// and Q₂ B L'⁻¹ side by side. A part D of the covariance of y enters through tr D M and tr D M D M. Own parts of positions
+/// are blocks of D, so D M costs little more than M itself.
 fn estimated(
     setup: &Setup,
-    fit: &Fit,
     data: &Data,
-    shared: &DMatrix<f64>,
+    propagation: &Propagation,
+    rest: &Rest,
     lower: Option<DMatrix<f64>>,
-    y: DVectorView<f64>,
+    z: &DVector<f64>,
 ) -> Estimated {
+    let fit = propagation.fit;
     let estimates = Estimates::new(setup, &data.repeats);
     if estimates.degrees_of_freedom.is_empty() {
         return Estimated::default();
     }
-    let v = absorbed(fit, data, shared, lower);
+    let v = absorbed(propagation, rest, lower);
     let rows = v.ncols();
     let one = |row, column| if row == column { 1.0 } else { 0.0 };
     let mut m = DMatrix::zeros(rows, rows);
@@ -156,55 +156,37 @@ fn estimated(
         let degrees_of_freedom = estimates.degrees_of_freedom[estimate];
         parts.push(Part { degrees_of_freedom, trace: product.trace(), square });
     }
-    let visits = estimates.of_visits().map(|estimate| (estimate, terms(m, &own[estimate], y)));
-    Estimated { parts, visits }
+    let of_visits = |estimate: usize| Some((estimate, terms(rest, &own[estimate], z)?));
+    Estimated { parts, visits: estimates.of_visits().and_then(of_visits) }
 }
 
-/// Returns how chi-square changes with the variance of visits, whose whitened part is D = G G', `own` for the positions and
-/// 1 for the differences.
+/// Returns the terms of chi-square by the variance of visits, whose whitened part is D, `own` for the positions and 1 for
+/// the differences; `None` if a covariance is not finite.
 ///
-/// If this variance is multiplied by 1 + a, the covariance of y gains a D. By Woodbury, χ² = y' M y then loses
-/// a g' (1 + a G'M G)⁻¹ g, where g = G'M y. The eigenvectors of G'M G make a sum of this.
-fn terms(mut m: DMatrix<f64>, own: &[Matrix2<f64>], y: DVectorView<f64>) -> Vec<Term> {
-    let mut g = &m * y;
-    let roots: Vec<Matrix2<f64>> = own.iter().map(|block| root(*block)).collect();
-    for _ in 0..2 {
-        for (place, root) in roots.iter().enumerate() {
-            multiply_rows(&mut m, place, root);
-        }
-        m.transpose_mut();
+/// With L L' = 1 + B B' the covariance of L⁻¹ z is 1. If the variance is multiplied by 1 + a, it gains a L⁻¹ Q₂'D Q₂ L'⁻¹,
+/// whose eigenvectors make a sum of chi-square.
+fn terms(Rest { q2, common }: &Rest, own: &[Matrix2<f64>], z: &DVector<f64>) -> Option<Vec<Term>> {
+    let lower = plus_one(covariance(common)).cholesky()?.unpack();
+    let q2 = lower.solve_lower_triangular(q2)?.transpose();
+    let mut product = q2.clone();
+    for (place, block) in own.iter().enumerate() {
+        multiply_rows(&mut product, place, block);
     }
-    for (place, root) in roots.iter().enumerate() {
-        let rows = root * g.fixed_rows::<2>(2 * place);
-        g.fixed_rows_mut::<2>(2 * place).copy_from(&rows);
-    }
-    let eigen = m.symmetric_eigen();
-    let squares = eigen.eigenvectors.tr_mul(&g);
-    let each = eigen.eigenvalues.iter().zip(squares.iter());
-    each.map(|(share, g)| Term { share: share.max(0.0), square: g * g }).collect()
-}
-
-fn root(covariance: Matrix2<f64>) -> Matrix2<f64> {
-    let eigen = covariance.symmetric_eigen();
-    let roots = Matrix2::from_diagonal(&eigen.eigenvalues.map(|value| value.max(0.0).sqrt()));
-    eigen.eigenvectors * roots * eigen.eigenvectors.transpose()
+    let eigen = q2.tr_mul(&product).symmetric_eigen();
+    let each = eigen.eigenvectors.tr_mul(&lower.solve_lower_triangular(z)?);
+    let terms = each.iter().zip(eigen.eigenvalues.iter());
+    Some(terms.map(|(each, share)| Term { square: each * each, share: share.max(0.0) }).collect())
 }
 
 /// Returns V' of [`estimated`].
-fn absorbed(fit: &Fit, data: &Data, shared: &DMatrix<f64>, lower: Option<DMatrix<f64>>) -> DMatrix<f64> {
-    let mut taken = fit.design(&data.offsets);
-    for (place, whiten) in fit.whitening.iter().enumerate() {
-        multiply_rows(&mut taken, place, whiten);
-    }
-    taken = propagation::product(&taken, &fit.model.r_inverse);
-    let mut inner = shared - propagation::product(&taken, &taken.tr_mul(shared));
-    if let Some(inverse) = lower.and_then(|lower| lower.try_inverse()) {
-        inner = propagation::product(&inner, &inverse.transpose());
-    }
-    let columns = taken.ncols();
-    let mut v = taken.resize_horizontally(columns + inner.ncols(), 0.0);
-    v.columns_mut(columns, inner.ncols()).copy_from(&inner);
-    v.transpose()
+fn absorbed(propagation: &Propagation, Rest { q2, common }: &Rest, lower: Option<DMatrix<f64>>) -> DMatrix<f64> {
+    let by_parameters = propagation.absorbed();
+    let by_common = common.tr_mul(q2);
+    let by_common = lower.and_then(|lower| lower.solve_lower_triangular(&by_common)).unwrap_or(by_common);
+    let columns = by_parameters.nrows();
+    let mut v = by_parameters.resize_vertically(columns + by_common.nrows(), 0.0);
+    v.rows_range_mut(columns..).copy_from(&by_common);
+    v
 }
 
 /// Returns the whitened own part of each position that rests on each estimate, 2×2.

@@ -5,6 +5,7 @@ use super::data::Data;
 use super::inputs::Setup;
 use super::least_squares::Fit;
 use super::mistake::{LARGEST_ROTATION_DEG, minimum};
+use super::propagation::Propagation;
 use super::sensitivity::Sensitivity;
 use super::unknowns::Model;
 use crate::coefficients::PositionIndex;
@@ -224,7 +225,7 @@ fn single_positions(setup: &Setup, data: &Data, model: Model, suspects: &[usize]
     let possible = suspects.iter().filter_map(|&place| {
         let (rest, others) = (setup.without(place), data.without(place));
         let fit = others.fit(&rest, model).ok()?;
-        let found = chi_square::chi_square(&rest, &fit, &others);
+        let found = chi_square::chi_square(&rest, &others, &Propagation::new(&rest, &fit, &others));
         if found.degrees_of_freedom == 0 || found.probability <= POSSIBLE {
             return None;
         }
@@ -248,7 +249,7 @@ fn single_positions(setup: &Setup, data: &Data, model: Model, suspects: &[usize]
 
 fn chi_square(setup: &Setup, data: &Data, model: Model) -> Option<ChiSquare> {
     let fit = data.fit(setup, model).ok().filter(|fit| fit.settled)?;
-    let found = chi_square::chi_square(setup, &fit, data);
+    let found = chi_square::chi_square(setup, data, &Propagation::new(setup, &fit, data));
     found.value.is_finite().then_some(found)
 }
 

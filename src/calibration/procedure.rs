@@ -127,16 +127,18 @@ fn drift_can_be_fitted(setup: &Setup, readings: &Readings) -> Result<(), NoLeast
 fn drift_test(setup: &Setup, readings: &Readings, options: &Options) -> Option<DriftTest> {
     let Observation { data, fit, .. } = Observation::new(setup, readings, options.model, true).ok()?;
     let drift = fit.drift(&data.offsets)?;
-    let probability = probability_of_drift(setup, &data, &fit, &drift)?;
-    let rest = chi_square(setup, &fit, &data);
+    let propagation = Propagation::new(setup, &fit, &data);
+    let probability = probability_of_drift(setup, &data, &propagation, &drift)?;
+    let rest = chi_square(setup, &data, &propagation);
     let explains = !rest.judges() || rest.probability >= diagnosis::ALARM;
     Some(DriftTest { drift_deg_per_h_per_h: drift, probability, explains })
 }
 
 /// Returns the probability of a larger drift than `drift` if there is none; `None` if its covariance has no inverse.
-fn probability_of_drift(setup: &Setup, data: &Data, fit: &Fit, drift: &Vector2<f64>) -> Option<f64> {
+fn probability_of_drift(setup: &Setup, data: &Data, propagation: &Propagation, drift: &Vector2<f64>) -> Option<f64> {
+    let fit = propagation.fit;
     let (inputs, columns) = causes::inputs(setup, &fit.unknowns, &fit.currents_ma, &data.repeats, &data.offsets);
-    let response = Propagation::new(setup, fit, data).response_of_least_squares();
+    let response = propagation.response_of_least_squares();
     let spread = product(&response.rows(response.nrows() - 2, 2).into_owned(), &columns);
     let estimates = Estimates::new(setup, &data.repeats);
     let mut whole = Matrix2::zeros();
@@ -231,7 +233,7 @@ impl<'a> Evaluation<'a> {
     fn new(setup: &'a Setup, data: &'a Data, fit: &'a Fit) -> Self {
         let propagation = Propagation::new(setup, fit, data);
         let spread = propagation.least_squares();
-        let chi_square = chi_square(setup, fit, data);
+        let chi_square = chi_square(setup, data, &propagation);
         Self { setup, data, fit, propagation, spread, chi_square }
     }
 

@@ -11,18 +11,26 @@ use super::data::Data;
 use super::inputs::Setup;
 use super::least_squares::{Fit, multiply_rows};
 use super::sensitivity::Sensitivity;
-use nalgebra::{DMatrix, Matrix2, Vector2};
+use nalgebra::{DMatrix, DMatrixView, Matrix2, Vector2};
 
 /// Causes of error at a fit, and their propagation by the fit.
 #[derive(Debug, Clone)]
 pub(crate) struct Propagation<'a> {
-    fit: &'a Fit,
+    pub(crate) fit: &'a Fit,
     /// X: unwhitened design matrix (rows, two per position × parameters).
     pub(crate) design: DMatrix<f64>,
     /// F: errors of the misclosures (rows × causes), °/h.
     pub(crate) causes: DMatrix<f64>,
     /// Q'W F (rows × causes): the upper rows belong to the parameters, the lower rows to the residuals.
     rotated: DMatrix<f64>,
+}
+
+/// What no parameter explains.
+pub(crate) struct Rest {
+    /// Q₂', which takes it from whitened misclosures (degrees of freedom × rows).
+    pub(crate) q2: DMatrix<f64>,
+    /// B, Q₂'W times the common part of all positions (degrees of freedom × common causes).
+    pub(crate) common: DMatrix<f64>,
 }
 
 impl<'a> Propagation<'a> {
@@ -46,6 +54,17 @@ impl<'a> Propagation<'a> {
         Self { fit, design: fit.design(&data.offsets), causes, rotated }
     }
 
+    /// Returns Q₁' (parameters × rows), which takes from whitened misclosures what the parameters absorb.
+    pub(crate) fn absorbed(&self) -> DMatrix<f64> {
+        owned(&self.rotated.view((0, 0), (self.fit.model.columns, self.fit.model.rows)))
+    }
+
+    pub(crate) fn rest(&self) -> Rest {
+        let (rows, columns) = (self.fit.model.rows, self.fit.model.columns);
+        let [q2, common] = [self.rotated.view_range(columns.., ..rows), self.rotated.view_range(columns.., rows..)];
+        Rest { q2: owned(&q2), common: owned(&common) }
+    }
+
     /// Returns L F of least squares: the change of each parameter for one standard uncertainty of each cause
     /// (parameters × causes).
     pub(crate) fn least_squares(&self) -> DMatrix<f64> {
@@ -65,7 +84,7 @@ impl<'a> Propagation<'a> {
 
     /// Returns R⁻¹ times the upper rows of a rotated matrix.
     fn of_parameters(&self, rotated: &DMatrix<f64>) -> DMatrix<f64> {
-        product(&self.fit.model.r_inverse, &rotated.rows(0, self.fit.model.columns).into_owned())
+        product(&self.fit.model.r_inverse, &owned(&rotated.view_range(..self.fit.model.columns, ..)))
     }
 
     /// Returns L F of the analytic method: the changes of the eight parameters (8 × causes), and of the four elements
@@ -110,6 +129,13 @@ impl<'a> Propagation<'a> {
     }
 }
 
+/// Copies a view, faster than its own `into_owned`.
+fn owned(view: &DMatrixView<f64>) -> DMatrix<f64> {
+    let mut copy = DMatrix::zeros(view.nrows(), view.ncols());
+    copy.copy_from(view);
+    copy
+}
+
 /// Returns A B, with sums in a fixed order, so that the result does not depend on the CPU.
 pub(crate) fn product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     let mut product = DMatrix::zeros(a.nrows(), b.ncols());
@@ -140,7 +166,7 @@ pub(crate) fn covariance(spread: &DMatrix<f64>) -> DMatrix<f64> {
 pub(crate) fn standard_deviations(spread: &DMatrix<f64>) -> Vec<f64> {
     let mut squares = vec![0.0; spread.nrows()];
     for cause in spread.column_iter() {
-        for (square, value) in squares.iter_mut().zip(cause.iter()) {
+        for (square, value) in squares.iter_mut().zip(cause.as_slice()) {
             *square += value * value;
         }
     }

@@ -11,6 +11,8 @@ pub(crate) struct Factorised {
     qr: QR<f64, Dyn, Dyn>,
     /// R⁻¹, columns × columns: R⁻¹ times the first rows of a rotated right-hand side gives its parameters.
     pub(crate) r_inverse: DMatrix<f64>,
+    /// Frobenius norm of X, which is that of R.
+    norm: f64,
     pub(crate) rows: usize,
     pub(crate) columns: usize,
 }
@@ -20,16 +22,16 @@ impl Factorised {
     /// Near-singularity is a separate test: see [`condition`].
     pub(crate) fn new(design: DMatrix<f64>) -> Option<Self> {
         let (rows, columns) = design.shape();
-        if rows < columns || columns == 0 || design.iter().any(|x| !x.is_finite()) {
+        if rows < columns || columns == 0 || !is_finite(&design) {
             return None;
         }
+        let norm = design.norm();
         let qr = QR::new(design);
-        let mut r_inverse = DMatrix::identity(columns, columns);
-        let solved = qr.r().solve_upper_triangular_mut(&mut r_inverse);
-        if !solved || r_inverse.iter().any(|x| !x.is_finite()) {
+        let r_inverse = inverse_of_upper(qr.clone().unpack_r());
+        if !is_finite(&r_inverse) {
             return None;
         }
-        Some(Self { qr, r_inverse, rows, columns })
+        Some(Self { qr, r_inverse, norm, rows, columns })
     }
 
     /// Replaces M (rows × any) by Q'M: its first `columns` rows determine the parameters, the others are residuals.
@@ -51,8 +53,31 @@ impl Factorised {
 
     /// Returns an upper bound of the condition number of X, from the Frobenius norms of R and R⁻¹.
     pub(crate) fn condition_bound(&self) -> f64 {
-        self.qr.r().norm() * self.r_inverse.norm()
+        self.norm * self.r_inverse.norm()
     }
+}
+
+fn is_finite(matrix: &DMatrix<f64>) -> bool {
+    matrix.as_slice().iter().all(|x| x.is_finite())
+}
+
+/// Returns the inverse of an upper triangular matrix. An element is not finite if a diagonal element is 0.
+fn inverse_of_upper(mut matrix: DMatrix<f64>) -> DMatrix<f64> {
+    let size = matrix.nrows();
+    // The inverse of the first columns does not depend on the others, so the last column can be replaced first.
+    for column in (0..size).rev() {
+        let (before, own) = matrix.as_mut_slice().split_at_mut(size * column);
+        let diagonal = 1.0 / own[column];
+        own[..column].iter_mut().for_each(|value| *value *= -diagonal);
+        own[column] = diagonal;
+        for row in (0..column).rev() {
+            let known = &before[size * row..][..=row];
+            let solved = own[row] / known[row];
+            own[row] = solved;
+            own.iter_mut().zip(&known[..row]).for_each(|(value, r)| *value -= solved * r);
+        }
+    }
+    matrix
 }
 
 /// Condition of a model, with the parameters that it mixes if it is bad.
@@ -69,7 +94,7 @@ pub(crate) struct Condition {
 ///
 /// The result is `None` if the singular values cannot be computed (values that are not finite).
 pub(crate) fn condition(design: &DMatrix<f64>, limit: f64) -> Option<Condition> {
-    if design.iter().any(|x| !x.is_finite()) {
+    if !is_finite(design) {
         return None;
     }
     // Rows of zeros do not change the singular values, but make the SVD return every direction of the parameters.

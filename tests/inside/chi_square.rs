@@ -55,9 +55,9 @@ fn chi_square_is_that_of_the_residuals_of_any_method() {
     let each: Vec<_> = positions.iter().map(|at| at.index).zip(currents.clone()).collect();
     let data = Data::new(&setup, &Readings::new(setup.coefficients(), &each).unwrap());
     let fit = data.fit(&setup, Model::Paper).unwrap();
-    let ChiSquare { value: expected, degrees_of_freedom, .. } = chi_square(&setup, &fit, &data);
-    assert_eq!(degrees_of_freedom, 8);
     let propagation = Propagation::new(&setup, &fit, &data);
+    let ChiSquare { value: expected, degrees_of_freedom, .. } = chi_square(&setup, &data, &propagation);
+    assert_eq!(degrees_of_freedom, 8);
     let map = AnalyticMap::new(setup.coefficients(), &fit.currents_ma).unwrap();
     let closed = analytic::solve(setup.coefficients(), &currents).unwrap().parameters;
     let closed = Unknowns::of(closed);
@@ -101,7 +101,8 @@ fn parts_are_those_of_dense_matrices() {
     let readings = Readings::from_csv("run.csv", run.as_bytes(), setup.coefficients(), 1000.0).unwrap();
     for options in [Options::default(), Options { model: Model::General, ..Options::default() }] {
         let Linearised { fit, data, .. } = linearise(&setup, &readings, Method::LeastSquares, &options).unwrap();
-        let (value, Estimated { parts, visits }) = quadratic_form(&setup, &fit, &data);
+        let propagation = Propagation::new(&setup, &fit, &data);
+        let (_, Estimated { parts, visits }) = quadratic_form(&setup, &data, &propagation);
         let estimates = Estimates::new(&setup, &data.repeats);
         assert!(parts.len() >= 6, "angles, returns and noise, platform, base and turn-ons: {parts:?}");
         let (inputs, columns) = causes::inputs(&setup, &fit.unknowns, &fit.currents_ma, &data.repeats, &data.offsets);
@@ -141,7 +142,7 @@ fn parts_are_those_of_dense_matrices() {
             let weighted = &inverse * &design;
             let p = &inverse - &weighted * (design.tr_mul(&weighted)).try_inverse().unwrap() * weighted.transpose();
             let due = y.dot(&(p * &y));
-            let found = terms.iter().fold(value, |sum, term| sum - term.taken(factor));
+            let found: f64 = terms.iter().map(|term| term.with(factor)).sum();
             assert!((found / due - 1.0).abs() < 1e-6, "{factor}: {found} {due}");
         }
     }
