@@ -65,7 +65,7 @@ pub(crate) fn expected_uncertainties(
     let (model, offsets) = (Model::Paper, &Offsets::default());
     let problem = Problem { coefficients, currents_ma: &currents_ma, model, offsets, own_covariance };
     problem.conditioned(largest_current(&currents_ma)).ok()?;
-    let (_, fit) = problem.step(&Solution { unknowns, changing: Vec::new() }, None)?;
+    let (fit, _) = problem.equations(&Solution { unknowns, changing: Vec::new() }, Some(&currents_ma))?;
     // The covariance of the parameters is R⁻¹ R⁻¹'.
     let r_inverse = &fit.model.r_inverse;
     Some(std::array::from_fn(|place| r_inverse.row(place).norm()))
@@ -198,12 +198,9 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
             self.offsets_determined(self.currents_ma)?;
         }
         let scaled: Vec<_> = self.currents_ma.iter().map(|current| current / unit_ma).collect();
-        let design = design(positions, &scaled, self.model);
-        let model = Factorised::new(design.clone()).filter(|model| model.condition_bound() <= LARGEST_CONDITION);
-        match model {
-            Some(model) => Ok(model),
-            None => self.checked(design),
-        }
+        let design = || design(positions, &scaled, self.model);
+        let model = Factorised::new(design()).filter(|model| model.condition_bound() <= LARGEST_CONDITION);
+        model.map_or_else(|| self.checked(design()), Ok)
     }
 
     /// Returns the unweighted solution with measured currents.
@@ -315,7 +312,14 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
     /// Returns one step from a solution and its length in units of the solution's own uncertainty; `None` if the
     /// equations cannot be factorised. The regressors are these currents, or those that follow from the solution.
     fn step(&self, from: &Solution, regressors_ma: Option<&[Vector2<f64>]>) -> Option<((DVector<f64>, f64), Fit)> {
-        let Solution { unknowns, changing } = from;
+        let (fit, mut right) = self.equations(from, regressors_ma)?;
+        fit.model.rotate(&mut right);
+        Some((fit.model.solve_rotated(&right), fit))
+    }
+
+    /// Returns the weighted equations of [`Self::step`], factorised, as the fit of a solution, and their right-hand side.
+    fn equations(&self, of: &Solution, regressors_ma: Option<&[Vector2<f64>]>) -> Option<(Fit, DMatrix<f64>)> {
+        let Solution { unknowns, changing } = of;
         let positions = self.positions(changing);
         let regressors_ma = match regressors_ma {
             Some(currents_ma) => currents_ma.to_vec(),
@@ -340,8 +344,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
                 .rows_mut(2 * fit.positions.len(), self.offsets.rows.nrows())
                 .copy_from(&fit.of_differences(self.offsets));
         }
-        fit.model.rotate(&mut right);
-        Some((fit.model.solve_rotated(&right), fit))
+        Some((fit, right))
     }
 }
 

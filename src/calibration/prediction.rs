@@ -7,8 +7,7 @@ use super::parameter::Parameter;
 use super::procedure::{Options, calibrate};
 use super::readings::{Reading, Readings, Visit};
 use super::result::{Calibration, Method, MethodResult};
-use crate::attitude::Deviation;
-use crate::coefficients::{EarthRate, Position, PositionIndex, StandGeometry};
+use crate::coefficients::{Coefficients, PositionIndex};
 use crate::gyro::GyroParameters;
 use nalgebra::Vector2;
 use serde::Serialize;
@@ -122,19 +121,14 @@ impl NoiseGrowth {
 ///
 /// Returns `None` if least squares gives no result on either stand.
 pub(crate) fn noise_growth(
-    positions: &[Position],
-    earth: EarthRate,
+    real: &Coefficients,
+    ideal: &Coefficients,
     gyro: &GyroParameters,
     meter: MeterUncertainty,
 ) -> Option<NoiseGrowth> {
-    let perfect = positions.iter().map(|at| Position { deviation: Deviation::default(), ..*at });
-    let perfect: Vec<Position> = perfect.collect();
-    let u = |positions: &[Position]| {
-        let coefficients = StandGeometry::new(positions).ok()?.at(earth);
-        least_squares::expected_uncertainties(&coefficients, gyro, &meter)
-    };
-    let (real, perfect) = (u(positions)?, u(&perfect)?);
+    let u = |coefficients| least_squares::expected_uncertainties(coefficients, gyro, &meter);
+    let (real, ideal) = (u(real)?, u(ideal)?);
     let [kx, kxy, kyx, ky, omega0x, omega0y, omega_g, omega_k] =
-        std::array::from_fn(|place| real[place] / perfect[place]);
+        std::array::from_fn(|place| real[place] / ideal[place]);
     Some(NoiseGrowth { k: kx.max(kxy).max(kyx).max(ky), omega0: f64::max(omega0x, omega0y), omega_g, omega_k })
 }

@@ -12,8 +12,9 @@ use super::content::{
     Content, Header, PASSPORT_FORMAT, Predecessor, REFERENCE_GYRO, SelfCheck, derive_from, passport_id,
 };
 use super::{NAMESPACE, read};
+use crate::attitude::Deviation;
 use crate::calibration::prediction::noise_growth;
-use crate::coefficients::{SingularPositions, StandGeometry};
+use crate::coefficients::{Coefficients, Position, SingularPositions, StandGeometry};
 use crate::document::{self, Signer};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
@@ -94,15 +95,19 @@ pub(crate) fn time_of_issue(asked: Option<Timestamp>, clock: Timestamp) -> Resul
 pub struct Draft {
     content: Content,
     payload: String,
+    /// Coefficients of the stand without deviations, if it has any.
+    ideal: Option<Coefficients>,
 }
 
-/// Certified stand with the parts that all of its passports share: its geometry and its part of the text.
+/// Certified stand with the parts that all of its passports share: its geometry, without deviations too, and its part of
+/// the text.
 ///
-/// Both are computed once. Every passport is the same as if they had been computed for it alone.
+/// They are computed once. Every passport is the same as if they had been computed for it alone.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreparedStand {
     stand: Stand,
     geometry: Result<(StandGeometry, String), SingularPositions>,
+    ideal: Option<StandGeometry>,
 }
 
 impl PreparedStand {
@@ -112,7 +117,9 @@ impl PreparedStand {
             let text = annotations::payload_of_stand(&stand, geometry.has_eight());
             (geometry, text)
         });
-        Self { stand, geometry }
+        let ideal = |at: &CertifiedPosition| Position { deviation: Deviation::default(), ..at.to_model() };
+        let ideal: Vec<Position> = stand.positions.iter().map(ideal).collect();
+        Self { stand, geometry, ideal: StandGeometry::new(&ideal).ok() }
     }
 
     pub(crate) fn stand(&self) -> &Stand {
@@ -149,7 +156,8 @@ impl PreparedStand {
                 return Err(IssueRefused::SelfCheckFails { error, growth: site.uncertainty_growth() });
             }
         }
-        Ok(Draft { content, payload })
+        let ideal = self.ideal.as_ref().map(|ideal| ideal.at(content.earth.rate(site)));
+        Ok(Draft { content, payload, ideal })
     }
 }
 
@@ -257,10 +265,9 @@ impl Draft {
     /// statements, and the growth of the uncertainty of K with latitude.
     pub fn remarks(&self) -> Remarks {
         let content = &self.content;
-        let positions: Vec<_> = content.positions.iter().map(CertifiedPosition::to_model).collect();
         let meter = (&Laboratory::paper().meter).into();
         let gyro = GyroType::gvk_6().nominal.to_model();
-        let noise = noise_growth(&positions, content.earth.rate(&content.site), &gyro, meter);
+        let noise = self.ideal.as_ref().and_then(|ideal| noise_growth(&content.coefficients(), ideal, &gyro, meter));
         let odd = stand::remarks::of(&content.certificate, &content.positions);
         let mut odd: Vec<String> = odd.iter().map(ToString::to_string).collect();
         odd.extend(content.site.odd());

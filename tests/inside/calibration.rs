@@ -5,7 +5,7 @@ use dtg_passport::calibration::iterative::{self, StopRule};
 use dtg_passport::calibration::least_squares::{self, NoLeastSquares};
 use dtg_passport::calibration::parameter::Parameter;
 use dtg_passport::calibration::{InputUncertainty, Method, MethodResult, Model, Options, Setup, calibrate};
-use dtg_passport::coefficients::{EarthRate, Position, PositionIndex};
+use dtg_passport::coefficients::{EarthRate, Position, PositionIndex, StandGeometry};
 use dtg_passport::statistics::least_squares::condition;
 use dtg_passport::statistics::random::Stream;
 use dtg_passport::units::{arcseconds_from_radians, radians_from_arcseconds};
@@ -250,9 +250,12 @@ fn successive_approximation_knows_what_it_lacks() {
 fn noise_grows_with_the_deviations() {
     use dtg_passport::calibration::prediction::{noise_growth, predicted};
     let earth = EarthRate::at_astronomic_latitude(LATITUDE_DEG);
-    let growth =
-        |positions: &[Position]| noise_growth(positions, earth, &gvk_6(), paper_meter()).expect("eight good positions");
-    let perfect = growth(&eight([[0.0; 3]; 8]));
+    let at = |positions: &[Position]| StandGeometry::new(positions).expect("a stand").at(earth);
+    let ideal = eight([[0.0; 3]; 8]);
+    let growth = |positions: &[Position]| {
+        noise_growth(&at(positions), &at(&ideal), &gvk_6(), paper_meter()).expect("eight good positions")
+    };
+    let perfect = growth(&ideal);
     assert!(
         [perfect.k, perfect.omega0, perfect.omega_g, perfect.omega_k].iter().all(|ratio| (ratio - 1.0).abs() < 1e-12)
     );

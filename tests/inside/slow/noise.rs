@@ -1,7 +1,9 @@
 //! The noise of a stand against NumPy: the same ratio from a design matrix written down anew in Python.
 
 use crate::inside::programs;
+use dtg_passport::attitude::Deviation;
 use dtg_passport::calibration::prediction::noise_growth;
+use dtg_passport::coefficients::{Position, StandGeometry};
 use dtg_passport::gyro::GyroType;
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::site::Site;
@@ -43,7 +45,9 @@ fn the_ratio_is_that_of_numpy() {
         let stand = Stand::from_yaml(path, &fs::read(programs::project(path)).unwrap()).unwrap();
         let positions: Vec<_> = stand.positions.iter().map(CertifiedPosition::to_model).collect();
         let (gyro, meter) = (GyroType::gvk_6().nominal.to_model(), (&Laboratory::paper().meter).into());
-        let found = noise_growth(&positions, earth.rate(&site), &gyro, meter).unwrap();
+        let at = |positions: &[Position]| StandGeometry::new(positions).unwrap().at(earth.rate(&site));
+        let ideal = positions.iter().map(|at| Position { deviation: Deviation::default(), ..*at });
+        let found = noise_growth(&at(&positions), &at(&ideal.collect::<Vec<_>>()), &gyro, meter).unwrap();
         let mut python = programs::python();
         python.args(["-c", PROGRAM]).arg(programs::project(path)).arg(earth.latitude_deg.to_string());
         let expected: Vec<f64> =
