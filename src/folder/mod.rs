@@ -47,8 +47,8 @@ use std::path::{Path, PathBuf};
 pub struct Folder {
     root: PathBuf,
     durability: Durability,
-    /// Subfolders that are known not to be links.
-    no_links: Visited,
+    /// Folders of stands that were checked.
+    checked: Visited,
     /// Names of models and serial numbers; `sites` has the names of sites.
     folders: Names,
     sites: Names,
@@ -117,7 +117,7 @@ impl Folder {
     /// written.
     pub fn new(root: impl Into<PathBuf>) -> Self {
         let (folders, sites) = (Names::new(Of::Folders), Names::new(Of::Passports));
-        Self { root: root.into(), durability: Durability::Named, no_links: Visited::default(), folders, sites }
+        Self { root: root.into(), durability: Durability::Named, checked: Visited::default(), folders, sites }
     }
 
     /// Returns the handle with another `durability` of the files written to the folder.
@@ -329,32 +329,24 @@ impl Folder {
         settle_once()
     }
 
-    /// Checks that the path from the root to `folder` has no link, once for all its passports.
-    fn check_for_links(&self, folder: &Path) -> Result<(), FolderRefused> {
-        self.no_links.visit(folder, || {
-            let mut way = folder.ancestors().take_while(|folder| *folder != self.root);
-            match way.find(|folder| folder.is_symlink()) {
-                Some(link) => Err(FolderRefused::Link(link.to_owned())),
-                None => Ok(folder.is_dir()),
+    /// Checks that the path from the root to the folder of a stand has no link, and that no other name beside its two
+    /// folders differs from model or serial number only in case; once for all its passports.
+    fn check_folder(&self, stand: &Path) -> Result<(), FolderRefused> {
+        self.checked.visit(stand, || {
+            let mut way = stand.ancestors().take_while(|folder| *folder != self.root);
+            if let Some(link) = way.find(|folder| folder.is_symlink()) {
+                return Err(FolderRefused::Link(link.to_owned()));
             }
+            check_case(&self.folders, files::folder_of(stand))?;
+            check_case(&self.folders, stand)?;
+            Ok(stand.is_dir())
         })
-    }
-
-    /// Checks that no other name in the same folder differs from model, serial number or site only in case.
-    fn check_case(&self, path: &Path) -> Result<(), FolderRefused> {
-        let stand = files::folder_of(path);
-        for (names, path) in [(&self.folders, files::folder_of(stand)), (&self.folders, stand), (&self.sites, path)] {
-            if let Some(there) = names.add(path)? {
-                return Err(FolderRefused::OtherCase { path: path.to_owned(), there });
-            }
-        }
-        Ok(())
     }
 
     /// Returns the existing passport at a path, or `None` if there is no file.
     fn existing(&self, path: &Path) -> Result<Option<Existing>, FolderRefused> {
-        self.check_for_links(files::folder_of(path))?;
-        self.check_case(path)?;
+        self.check_folder(files::folder_of(path))?;
+        check_case(&self.sites, path)?;
         let found = match path.symlink_metadata() {
             Ok(found) => found,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
@@ -373,6 +365,14 @@ impl Folder {
             Err(error) => Err(error.into()),
             Ok(bytes) => Existing::of(path, &bytes).map(Some),
         }
+    }
+}
+
+/// Checks that no other name in the same folder differs from that of `path` only in case.
+fn check_case(names: &Names, path: &Path) -> Result<(), FolderRefused> {
+    match names.add(path)? {
+        Some(there) => Err(FolderRefused::OtherCase { path: path.to_owned(), there }),
+        None => Ok(()),
     }
 }
 
