@@ -202,8 +202,10 @@ where
 
 /// Joins payload and signature into the file that [`SignedText::split`] separates.
 pub(crate) fn join(payload: &str, signature: &Signature) -> String {
-    let armor: String = signature.to_armor().lines().map(|line| format!("{INDENT}{line}\n")).collect();
-    [payload, SIGNATURE_LINE, &armor].concat()
+    let mut text = String::with_capacity(payload.len() + 2 * signature.armor().len());
+    text.extend([payload, SIGNATURE_LINE]);
+    signature.armor().split_inclusive('\n').for_each(|line| text.extend([INDENT, line]));
+    text
 }
 
 #[cfg(all(test, feature = "factory"))]

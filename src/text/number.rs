@@ -80,14 +80,16 @@ fn push_parts(digits: &str, mut push: impl FnMut(&str)) {
 /// the standard library the larger one, which this program has always written.
 ///
 /// An odd/2^f = (2k + 1)/(2·10^d) needs f = d + 1. Shortest decimals with d places are no coarser than the value's own
-/// steps, 2^-52 of it, so f is at most 25.
+/// steps, 2^-52 of it, so f is at most 25. A value of at most 15 digits, such as one below 1e10 with f ≤ 5, is its own
+/// shortest decimal.
 fn may_be_midway(value: f64, shortest: &str) -> bool {
     const MOST_BINARY_PLACES: i64 = 25;
     let bits = value.to_bits();
     let exponent = (bits >> 52 & 0x7FF) as i64;
     let mantissa = bits & ((1 << 52) - 1) | 1 << 52;
     let binary_places = 1075 - exponent - i64::from(mantissa.trailing_zeros());
-    binary_places <= MOST_BINARY_PLACES && {
+    let of_15_digits = binary_places <= 5 && value.abs() < 1e10;
+    binary_places <= MOST_BINARY_PLACES && !of_15_digits && {
         let (mantissa, exponent) = shortest.split_once('e').unwrap_or((shortest, "0"));
         let places = mantissa.split_once('.').map_or(0, |(_, places)| places.len() as i64);
         binary_places == places - exponent.parse().unwrap_or(0) + 1

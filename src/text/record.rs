@@ -364,8 +364,10 @@ impl Field for String {
 
 /// Returns the first character that no string of a signed document may contain, or `None` if there is none.
 fn refused_in_string(text: &str) -> Option<char> {
-    let plain = super::rule::is_printable_ascii(text.as_bytes());
-    text.chars().find(|&c| !plain && !super::rule::allowed_in_string(c))
+    if super::rule::is_printable_ascii(text.as_bytes()) {
+        return None;
+    }
+    text.chars().find(|&c| !super::rule::allowed_in_string(c))
 }
 
 impl<T: Field> Field for Option<T> {

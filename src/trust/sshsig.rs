@@ -97,6 +97,10 @@ impl Signature {
         self.armor.clone()
     }
 
+    pub(crate) fn armor(&self) -> &str {
+        &self.armor
+    }
+
     pub(crate) fn namespace(&self) -> &str {
         self.inner.namespace()
     }

@@ -183,7 +183,9 @@ impl<'t> Scanner<'t> {
     }
 
     fn word(&mut self) -> Option<&'t str> {
-        let end = self.rest.bytes().position(|byte| matches!(byte, b',' | b']' | b'}' | b'\n'))?;
+        let is_end = |byte: u8| matches!(byte, b',' | b']' | b'}' | b'\n');
+        // Most bytes are digits.
+        let end = self.rest.bytes().position(|byte| !byte.is_ascii_digit() && is_end(byte))?;
         let (word, rest) = self.rest.split_at(end);
         self.rest = rest;
         Some(word)
