@@ -8,10 +8,14 @@ use dtg_passport::calibration::data::Data;
 use dtg_passport::calibration::estimates::{Basis, Estimates};
 use dtg_passport::calibration::procedure::{Linearised, linearise};
 use dtg_passport::calibration::propagation::Propagation;
+use dtg_passport::calibration::stated::uncertainties;
 use dtg_passport::calibration::unknowns::Unknowns;
 use dtg_passport::calibration::{InputUncertainty, MeterUncertainty, Method, Model, Options, Readings, Setup};
 use dtg_passport::coefficients::{EIGHT_POSITIONS, EarthRate, Position};
 use dtg_passport::gyro::GyroType;
+use dtg_passport::laboratory::Laboratory;
+use dtg_passport::site::Site;
+use dtg_passport::stand::{CertifiedPosition, Stand};
 use dtg_passport::statistics::random::Stream;
 use nalgebra::{DMatrix, DVector};
 
@@ -100,9 +104,9 @@ fn parts_are_those_of_dense_matrices() {
     }
     let readings = Readings::from_csv("run.csv", run.as_bytes(), setup.coefficients(), 1000.0).unwrap();
     for options in [Options::default(), Options { model: Model::General, ..Options::default() }] {
-        let Linearised { fit, data, .. } = linearise(&setup, &readings, Method::LeastSquares, &options).unwrap();
-        let propagation = Propagation::new(&setup, &fit, &data);
-        let (_, Estimated { parts, visits }) = quadratic_form(&setup, &data, &propagation);
+        let linearised = linearise(&setup, &readings, Method::LeastSquares, &options).unwrap();
+        let Linearised { fit, data, .. } = &linearised;
+        let (_, Estimated { parts, .. }) = quadratic_form(&setup, data, &Propagation::new(&setup, fit, data));
         let estimates = Estimates::new(&setup, &data.repeats);
         assert!(parts.len() >= 6, "angles, returns and noise, platform, base and turn-ons: {parts:?}");
         let (inputs, columns) = causes::inputs(&setup, &fit.unknowns, &fit.currents_ma, &data.repeats, &data.offsets);
@@ -125,25 +129,47 @@ fn parts_are_those_of_dense_matrices() {
             assert!(is(part.trace, trace), "{estimate}: {part:?} {trace}");
             assert!(is(part.square, square), "{estimate}: {part:?} {square}");
         }
-        // The same form with another variance of the visits, which scales the columns of that estimate.
-        let (of_visits, terms) = visits.expect("a noise of the gyro that is estimated");
-        let mut y: Vec<f64> = Vec::new();
-        for (place, current) in data.currents_ma.iter().enumerate() {
-            y.extend(fit.misclosure(place, current).iter());
-        }
-        y.extend(fit.of_differences(&data.offsets).iter());
-        let y = DVector::from_vec(y);
-        for factor in [0.2, 1.0, 7.0] {
-            let mut scaled = columns.clone();
-            for (input, mut column) in inputs.iter().zip(scaled.column_iter_mut()) {
-                column *= if input.basis == Basis::Estimate(of_visits) { f64::sqrt(factor) } else { 1.0 };
-            }
-            let inverse = (&scaled * scaled.transpose()).try_inverse().unwrap();
-            let weighted = &inverse * &design;
-            let p = &inverse - &weighted * (design.tr_mul(&weighted)).try_inverse().unwrap() * weighted.transpose();
-            let due = y.dot(&(p * &y));
-            let found: f64 = terms.iter().map(|term| term.with(factor)).sum();
-            assert!((found / due - 1.0).abs() < 1e-6, "{factor}: {found} {due}");
-        }
+        terms_are_those_of_dense_matrices(&setup, &linearised);
     }
+}
+
+/// Checks chi-square with other variances of the visits, which scale the columns of that estimate, against y' P y.
+fn terms_are_those_of_dense_matrices(setup: &Setup, Linearised { fit, data, .. }: &Linearised) {
+    let (_, Estimated { visits, .. }) = quadratic_form(setup, data, &Propagation::new(setup, fit, data));
+    let (of_visits, terms) = visits.expect("a noise of the gyro that is estimated");
+    let (inputs, columns) = causes::inputs(setup, &fit.unknowns, &fit.currents_ma, &data.repeats, &data.offsets);
+    let design = fit.design(&data.offsets);
+    let mut y: Vec<f64> = Vec::new();
+    for (place, current) in data.currents_ma.iter().enumerate() {
+        y.extend(fit.misclosure(place, current).iter());
+    }
+    y.extend(fit.of_differences(&data.offsets).iter());
+    let y = DVector::from_vec(y);
+    for factor in [0.05, 0.2, 1.0, 7.0] {
+        let mut scaled = columns.clone();
+        for (input, mut column) in inputs.iter().zip(scaled.column_iter_mut()) {
+            column *= if input.basis == Basis::Estimate(of_visits) { f64::sqrt(factor) } else { 1.0 };
+        }
+        let inverse = (&scaled * scaled.transpose()).try_inverse().unwrap();
+        let weighted = &inverse * &design;
+        let p = &inverse - &weighted * (design.tr_mul(&weighted)).try_inverse().unwrap() * weighted.transpose();
+        let due = y.dot(&(p * &y));
+        let found: f64 = terms.iter().map(|term| term.with(factor)).sum();
+        assert!((found / due - 1.0).abs() < 1e-6, "{factor}: {found} {due}");
+    }
+}
+
+/// Expected: dense matrices, for a run whose noise of visits is far larger than stated.
+#[test]
+fn terms_of_a_run_with_a_jolt_are_those_of_dense_matrices() {
+    let stand = Stand::from_yaml("stand.yaml", include_bytes!("../cmd/files/stand.yaml")).unwrap();
+    let site = Site::from_yaml("here.yaml", include_bytes!("../cmd/files/sites/here.yaml")).unwrap();
+    let positions: Vec<_> = stand.positions.iter().map(CertifiedPosition::to_model).collect();
+    let (uncertainty, _) = uncertainties(&stand.certificate, &stand.positions, &site, &Laboratory::paper());
+    let setup = Setup::new(&positions, site.earth().rate(&site), uncertainty).unwrap();
+    let jolt = include_str!("../cmd/files/run.csv").replace("2,4,-0.22799247,", "2,4,-0.22749247,");
+    assert_ne!(jolt, include_str!("../cmd/files/run.csv"));
+    let readings = Readings::from_csv("jolt.csv", jolt.as_bytes(), setup.coefficients(), 1.0).unwrap();
+    let linearised = linearise(&setup, &readings, Method::LeastSquares, &Options::default()).unwrap();
+    terms_are_those_of_dense_matrices(&setup, &linearised);
 }
