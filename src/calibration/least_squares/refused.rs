@@ -90,5 +90,8 @@ fn mixed(directions: &[DVector<f64>], names: &[Parameter]) -> Vec<Vec<Parameter>
         let limit = 0.1 * row.amax();
         names.iter().zip(row.iter()).filter(|(_, x)| x.abs() > limit).map(|(name, _)| *name).collect()
     };
-    rows.iter().map(involved).collect()
+    let mut groups: Vec<Vec<Parameter>> = rows.iter().map(involved).collect();
+    // Which direction comes first is a matter of rounding.
+    groups.sort_by_key(|group| names.iter().position(|name| group.first() == Some(name)));
+    groups
 }
