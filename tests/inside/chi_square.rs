@@ -8,14 +8,10 @@ use dtg_passport::calibration::data::Data;
 use dtg_passport::calibration::estimates::{Basis, Estimates};
 use dtg_passport::calibration::procedure::{Linearised, linearise};
 use dtg_passport::calibration::propagation::Propagation;
-use dtg_passport::calibration::stated::uncertainties;
 use dtg_passport::calibration::unknowns::Unknowns;
 use dtg_passport::calibration::{InputUncertainty, MeterUncertainty, Method, Model, Options, Readings, Setup};
 use dtg_passport::coefficients::{EIGHT_POSITIONS, EarthRate, Position};
 use dtg_passport::gyro::GyroType;
-use dtg_passport::laboratory::Laboratory;
-use dtg_passport::site::Site;
-use dtg_passport::stand::{CertifiedPosition, Stand};
 use dtg_passport::statistics::random::Stream;
 use nalgebra::{DMatrix, DVector};
 
@@ -160,8 +156,14 @@ fn terms_are_those_of_dense_matrices(setup: &Setup, Linearised { fit, data, .. }
 }
 
 /// Expected: dense matrices, for a run whose noise of visits is far larger than stated.
+#[cfg(feature = "factory")]
 #[test]
 fn terms_of_a_run_with_a_jolt_are_those_of_dense_matrices() {
+    use dtg_passport::calibration::stated::uncertainties;
+    use dtg_passport::laboratory::Laboratory;
+    use dtg_passport::site::Site;
+    use dtg_passport::stand::{CertifiedPosition, Stand};
+
     let stand = Stand::from_yaml("stand.yaml", include_bytes!("../cmd/files/stand.yaml")).unwrap();
     let site = Site::from_yaml("here.yaml", include_bytes!("../cmd/files/sites/here.yaml")).unwrap();
     let positions: Vec<_> = stand.positions.iter().map(CertifiedPosition::to_model).collect();
