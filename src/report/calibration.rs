@@ -63,6 +63,7 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
     if let Some((_, verdict)) = verdict
         && verdict.gravity_m_per_s2 != document.gravity_m_per_s2
         && verdict.not_found().is_empty()
+        && !verdict.withheld
     {
         let decided = verdict.parameters.iter().filter(|row| PER_G.contains(&row.parameter)).map(|row| {
             let expanded = row.coverage_factor * row.standard_uncertainty;
@@ -135,7 +136,7 @@ fn gyro(Subject { gyro_serial, date, .. }: &Subject) -> Option<String> {
 
 /// Returns what makes the parameters or their uncertainties unusable, a sentence each.
 pub(crate) fn warnings(Done { calibration, document, .. }: &Done, trials: Option<&MonteCarlo>) -> Vec<String> {
-    let inconsistent = calibration.hint.iter().map(|_| format!("{INCONSISTENT}."));
+    let inconsistent = calibration.hint.iter().map(|hint| format!("{INCONSISTENT}: {hint}."));
     let warnings = inconsistent.chain(not_of_this_gyro(document.mistake.as_ref()));
     warnings.chain(trials.and_then(not_linear)).map(|words| format!("WARNING: {words}")).collect()
 }
@@ -336,9 +337,6 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
             Weight::Warning => columns::paragraph(out, "", &format!("WARNING: {words}")),
             Weight::Usual | Weight::Remark => columns::paragraph(out, "  ", &words),
         }
-    }
-    if let Some(hint) = &calibration.hint {
-        columns::paragraph(out, "", &format!("WARNING: {hint}."));
     }
     if !missing.is_empty() {
         let missing: Vec<&str> = missing.iter().map(|what| what.words()).collect();

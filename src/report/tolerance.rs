@@ -74,7 +74,7 @@ fn word(decision: Option<Decision>) -> &'static str {
         Some(Decision::Pass) => "pass",
         Some(Decision::Fail) => "FAIL",
         Some(Decision::Undecided) => "undecided",
-        None => "not decided",
+        None => "not assessed",
     }
 }
 

@@ -44,7 +44,12 @@ pub(crate) fn counts(checks: &[Check]) -> String {
     let idle = checks.iter().filter(|check| !check.was_asked()).map(|check| check.name);
     let absent = ON_REQUEST.into_iter().filter(|name| checks.iter().all(|check| check.name != *name));
     let not_asked: Vec<&str> = idle.chain(absent).map(CheckName::as_str).collect();
+    let failed = checks.iter().filter(|check| check.passed() == Some(false)).map(|check| check.name.as_str());
+    let failed: Vec<&str> = failed.collect();
     let mut words = format!("{checked} checked");
+    if !failed.is_empty() {
+        words = format!("failed: {}; {words}", failed.join(", "));
+    }
     if not_run > 0 {
         let _ = write!(words, ", {not_run} not run");
     }

@@ -206,7 +206,7 @@ fn a_record_says_whether_the_stand_has_changed() {
     assert_eq!(headline("record-en"), "● Positions certified: 8; runs: 5");
     assert_eq!(
         headline("record-both"),
-        "✕ Стенд изменился после сертификата C-2026-0143 Changed since certificate C-2026-0143"
+        "✕ Стенд изменился после сертификата C-2026-0143 The stand has changed since certificate C-2026-0143"
     );
     let said = &CERTIFIED.found["record-both"]["said"];
     assert_eq!(strings(&said["sections"]), ["1", "2", "3", "4", "5", "6"]);

@@ -52,7 +52,7 @@ impl Bars {
         let (zero, half) = (scale.place(0.0), COVERAGE_FACTOR * u.unwrap_or(0.0));
         let drawing = html! {
             (rectangle([zero, y - BAR_HALF], [scale.clamped(value), y + BAR_HALF], "bar", None))
-            @if u.is_some() { (whisker(scale.clamped(value - half), scale.clamped(value + half), y, 3.0)) }
+            @if u.is_some() { (whisker([value - half, value + half].map(|end| scale.clamped(end)), [true; 2], y, 3.0)) }
             (line([zero, 0.0], [zero, HEIGHT], "zero"))
         };
         strip([WIDTH, HEIGHT], &drawing)
@@ -71,7 +71,7 @@ impl Bars {
     /// Draws what bars and whiskers mean.
     pub(crate) fn key(&self, languages: &Languages) -> Markup {
         let bar = rectangle([2.0, 2.5], [26.0, 11.5], "bar", None);
-        let whisker = whisker(2.0, 26.0, 7.0, 3.0);
+        let whisker = whisker([2.0, 26.0], [true; 2], 7.0, 3.0);
         let second = if self.stated { (whisker, texts::DEVIATION_WHISKER) } else { (html! {}, texts::DEVIATION_NO_U) };
         legend(languages, &[(bar, texts::DEVIATION_BAR), second])
     }

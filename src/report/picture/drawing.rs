@@ -120,11 +120,12 @@ pub(crate) fn strip_axis(languages: &Languages, scale: &Scale, width: f64, unit:
     strip([width, 17.0], &drawing)
 }
 
-/// Draws an interval with its ends marked, `half` high.
-pub(crate) fn whisker(from: f64, to: f64, y: f64, half: f64) -> Markup {
-    let [x1, x2, above, below] = [from, to, y - half, y + half].map(coordinate);
-    let middle = coordinate(y);
-    html! { path.whisker d={ "M" (x1) "," (middle) "H" (x2) "M" (x1) "," (above) "V" (below) "M" (x2) "," (above) "V" (below) } {} }
+/// Draws an interval with marks at its ends, `half` high, where it is `capped`.
+pub(crate) fn whisker(ends: [f64; 2], capped: [bool; 2], y: f64, half: f64) -> Markup {
+    let [x1, x2, above, below] = [ends[0], ends[1], y - half, y + half].map(coordinate);
+    let cap = |x: &str, is: bool| if is { format!("M{x},{above}V{below}") } else { String::new() };
+    let caps = [cap(&x1, capped[0]), cap(&x2, capped[1])].concat();
+    html! { path.whisker d={ "M" (x1) "," (coordinate(y)) "H" (x2) (caps) } {} }
 }
 
 /// Draws a legend: a sample of each mark, and its meaning.

@@ -37,6 +37,18 @@ impl Strips {
         strip_axis(languages, &percent, WIDTH, "")
     }
 
+    /// Returns `true` if a deviation is within the axis.
+    fn reaches(&self, row: &ParameterVerdict, deviation: f64) -> bool {
+        let [low, high] = self.0.values;
+        (low..=high).contains(&(deviation / row.tolerance))
+    }
+
+    /// Returns `true` if the axis does not reach to a deviation with its uncertainty.
+    fn cuts(&self, row: &ParameterVerdict) -> bool {
+        let ends = [-1.0, 1.0].map(|sign| row.deviation + sign * row.expanded_uncertainty);
+        row.tolerance > 0.0 && !ends.iter().all(|end| self.reaches(row, *end))
+    }
+
     /// Draws a parameter of a verdict: only the limits if its tolerance is 0.
     pub(crate) fn strip(&self, verdict: &Verdict, row: &ParameterVerdict) -> Markup {
         let decision = verdict.decision(row);
@@ -59,8 +71,12 @@ impl Strips {
                     (arrow([end + inwards * ROOM_FOR_ARROW, y], [end, y], "meridian"))
                     (decided([end + inwards * ROOM_FOR_ARROW, y], decision))
                 } @else {
-                    @let [from, to] = [-1.0, 1.0].map(|sign| share(row.deviation + sign * row.expanded_uncertainty));
-                    (whisker(from, to, y, 4.0))
+                    @let ends = [-1.0, 1.0].map(|sign| row.deviation + sign * row.expanded_uncertainty);
+                    @let within = ends.map(|end| self.reaches(row, end));
+                    (whisker(ends.map(share), within, y, 4.0))
+                    @for end in ends.iter().zip(within).filter(|(_, within)| !within).map(|(end, _)| share(*end)) {
+                        (arrow([share(row.deviation), y], [end, y], "meridian"))
+                    }
                     (decided([share(row.deviation), y], decision))
                 }
             }
@@ -70,17 +86,22 @@ impl Strips {
     }
 }
 
-/// Draws what the parts of a strip mean.
-pub(crate) fn key(languages: &Languages) -> Markup {
-    let entry = |found: Decision| (decided([21.0, 7.0], Some(found)), decision(Some(found)));
-    let entries = [
-        entry(Decision::Pass),
-        entry(Decision::Undecided),
-        entry(Decision::Fail),
-        (whisker(2.0, 26.0, 7.0, 4.0), texts::TOLERANCES_WHISKER),
+/// Draws what the parts of the strips of a verdict mean.
+pub(crate) fn key(languages: &Languages, verdict: &Verdict) -> Markup {
+    let entry = |found: Option<Decision>| (decided([21.0, 7.0], found), decision(found));
+    let decisions = match verdict.withheld {
+        true => vec![entry(None)],
+        false => [Decision::Pass, Decision::Undecided, Decision::Fail].map(|found| entry(Some(found))).to_vec(),
+    };
+    let strips = Strips::of([verdict]);
+    let beyond = verdict.parameters.iter().any(|row| strips.cuts(row));
+    let arrow = beyond.then(|| (arrow([2.0, 7.0], [26.0, 7.0], "meridian"), texts::TOLERANCES_BEYOND));
+    let parts = [
+        (whisker([2.0, 26.0], [true; 2], 7.0, 4.0), texts::TOLERANCES_WHISKER),
         (line([21.0, 0.0], [21.0, 14.0], "limit"), texts::TOLERANCES_LIMIT),
         (rectangle([2.0, 2.0], [26.0, 12.0], "limits", None), texts::TOLERANCES_GUARDED),
     ];
+    let entries: Vec<(Markup, Text)> = decisions.into_iter().chain(arrow).chain(parts).collect();
     legend(languages, &entries)
 }
 
@@ -121,7 +142,7 @@ pub(crate) fn unit_of(row: &ParameterVerdict) -> Text {
 /// Returns a decision as a text for pages.
 pub(crate) fn decision(decision: Option<Decision>) -> Text {
     match decision {
-        None => texts::NOT_DECIDED,
+        None => texts::NOT_ASSESSED,
         Some(Decision::Pass) => texts::DECISION_PASS,
         Some(Decision::Fail) => texts::DECISION_FAIL,
         Some(Decision::Undecided) => texts::DECISION_UNDECIDED,

@@ -80,6 +80,20 @@ fn strips(parameters: Vec<ParameterVerdict>) -> (Vec<String>, String) {
     (each, whole(&[strips.axis(&english())]))
 }
 
+/// An interval of 128 tolerances to both sides, where the axis ends at four: it has no ends there.
+#[test]
+fn an_interval_beyond_the_axis_has_arrows_at_its_ends() {
+    let (drawn, axis) = strips(vec![row(Parameter::Kx, 0.01, 6.4, 0.05, Decision::Undecided)]);
+    let axis = Document::parse(&axis).unwrap();
+    let axis = Axis::along_x(axis.root_element());
+    let page = Document::parse(&drawn[0]).unwrap();
+    let [left, right] = of_class(page.root(), "meridian")[..] else { panic!("{drawn:?}") };
+    axis.says(tip(left)[0], -400.0);
+    axis.says(tip(right)[0], 400.0);
+    let [whisker] = of_class(page.root(), "whisker")[..] else { panic!("{drawn:?}") };
+    assert!(!whisker.attribute("d").unwrap().contains('V'), "{drawn:?}");
+}
+
 /// Ten tolerances off to the right, and nine to the left, where the axis ends at four.
 #[test]
 fn an_arrow_points_to_what_the_axis_does_not_reach() {

@@ -11,7 +11,7 @@ use crate::calibration::stated::NotStated;
 use crate::calibration::suspect::Suspect;
 use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::{Number, column};
-use crate::report::page::parts::{Column, Table, field, fields, heading, quantity, starts, symbol, symbol_and_unit};
+use crate::report::page::parts::{Column, Table, field, fields, quantity, starts, symbol, symbol_and_unit};
 use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::residuals::{AXES, Bars, key};
@@ -20,7 +20,6 @@ use maud::{Markup, html};
 
 pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
     html! {
-        @if let Some(hint) = &page.calibration.hint { (what_may_be_wrong(hint, languages)) }
         @if let Some(result) = page.adopted() {
             @if result.chi_square.degrees_of_freedom == 0 {
                 (languages.paragraph(texts::NOT_JUDGED))
@@ -173,9 +172,9 @@ fn table(result: &ResultDocument, languages: &Languages) -> Markup {
     table.captioned(languages, texts::RESIDUALS_CAPTION)
 }
 
-fn what_may_be_wrong(hint: &Hint, languages: &Languages) -> Markup {
+/// Writes the possible causes of readings that do not fit.
+pub(super) fn what_may_be_wrong(hint: &Hint, languages: &Languages) -> Markup {
     html! {
-        (heading(languages, texts::HINT))
         @if hint.explanations.is_empty() {
             (languages.paragraph_with(|language| {
                 italic(&texts::HINT_NOTHING.filled(language, values! { size: Number::significant(hint.size_arcsec, 2) }))

@@ -112,12 +112,18 @@ impl CalibrationPage<'_> {
                 (false, ..) => languages.plain(texts::NOT_VERIFIED),
                 (true, false, _) => languages.plain(texts::DOES_NOT_FIT),
                 (true, true, Some(_)) => languages.plain(texts::MISTAKE),
-                (true, true, None) => String::new(),
+                (true, true, None) => self.failed(languages.first()).unwrap_or_default(),
             },
             bottom_left: texts::MARGIN_SHA256.filled(languages.first(), values! { sha256: self.currents.1 }),
         };
         let title = format!("{}: {name}", languages.plain(texts::TITLE));
         document(languages, &title, &margins, &self.body(languages))
+    }
+
+    /// Returns the headline of parameters that fail, for the head of every sheet.
+    fn failed(&self, language: Language) -> Option<String> {
+        let (gyro, verdict) = self.judged().filter(|(_, verdict)| verdict.overall == Decision::Fail)?;
+        (!verdict.withheld).then(|| texts::CONFORMS_NOT.filled(language, values! { type: gyro.r#type }))
     }
 
     fn content(&self) -> &Content {
@@ -205,7 +211,10 @@ impl CalibrationPage<'_> {
     fn headlines(&self, languages: &Languages) -> Markup {
         html! {
             @if !self.verified() { (warning(languages, Outcome::NotAsked, texts::NOT_VERIFIED, texts::NOT_VERIFIED_WORDS)) }
-            @if !self.fits() { (warning(languages, Outcome::Failed, texts::DOES_NOT_FIT, texts::DOES_NOT_FIT_WORDS)) }
+            @if let Some(hint) = &self.calibration.hint {
+                @let words = html! { (languages.paragraph(texts::DOES_NOT_FIT_WORDS)) (fit::what_may_be_wrong(hint, languages)) };
+                (boxed("verdict refused", marked(Outcome::Failed, &languages.label(texts::DOES_NOT_FIT)), words))
+            }
             @if let Some(mistake) = &self.document.mistake {
                 @let words = languages.paragraph_with(|language| italic(&mistake::words(mistake, language)));
                 (boxed("verdict refused", marked(Some(false), &languages.label(texts::MISTAKE)), words))
@@ -222,7 +231,7 @@ impl CalibrationPage<'_> {
     fn verdict(&self, languages: &Languages) -> Markup {
         let Some((gyro, verdict)) = self.judged() else {
             let words = html! { (languages.paragraph(texts::NO_TYPE_WORDS)) (self.not_linear(languages)) };
-            return boxed("verdict neutral", languages.label(texts::NO_TYPE), words);
+            return boxed("verdict neutral", marked(Outcome::NotAsked, &languages.label(texts::NO_TYPE)), words);
         };
         if verdict.withheld {
             let name = |language: Language| texts::NO_STATEMENT.filled(language, values! { type: gyro.r#type });

@@ -413,7 +413,6 @@ texts! {
         en: "Residuals of the equations and their standard uncertainties",
         ru: "Остатки уравнений и их стандартные неопределённости"
     }
-    HINT { en: "Possible causes", ru: "Возможные причины" }
     HINT_EXCHANGED {
         en: "The readings of positions {one} and {other} may be exchanged.",
         ru: "Возможно, показания в положениях {one} и {other} переставлены."
@@ -568,7 +567,7 @@ texts! {
              интервалы охвата по методу Монте-Карло."
     }
     FIRST_ORDER_UNDECIDED {
-        en: "◐: not decided; this needs more trials.",
+        en: "◐: undecided; this needs more trials.",
         ru: "◐: не определено, требуется большее число испытаний."
     }
     NOT_STABLE {

@@ -135,8 +135,8 @@ texts! {
         en: "The readings were not compared with an earlier certificate.",
         ru: "Показания не сравнивались с прежним сертификатом."
     }
-    SAME { en: "Unchanged since certificate {number}", ru: "Стенд не изменился после сертификата {number}" }
-    CHANGED { en: "Changed since certificate {number}", ru: "Стенд изменился после сертификата {number}" }
+    SAME { en: "The stand is unchanged since certificate {number}", ru: "Стенд не изменился после сертификата {number}" }
+    CHANGED { en: "The stand has changed since certificate {number}", ru: "Стенд изменился после сертификата {number}" }
     UNDECIDED {
         en: "It is undecided whether the stand has changed since certificate {number}",
         ru: "Не установлено, изменился ли стенд после сертификата {number}"

@@ -124,11 +124,12 @@ texts! {
         en: "guarded acceptance: within the tolerance minus U",
         ru: "приёмка с защитной полосой: в пределах допуска за вычетом U"
     }
+    TOLERANCES_BEYOND { en: "beyond the axis", ru: "за пределами шкалы" }
     TOLERANCES_LIMIT { en: "tolerance", ru: "допуск" }
     DECISION_PASS { en: "pass", ru: "соответствует" }
     DECISION_FAIL { en: "fail", ru: "не соответствует" }
     DECISION_UNDECIDED { en: "undecided", ru: "не определено" }
-    NOT_DECIDED { en: "not decided", ru: "не оценивалось" }
+    NOT_ASSESSED { en: "not assessed", ru: "не оценивалось" }
 
     CONVERGENCE_TITLE {
         en: "Iterative method: change in each step relative to the limit",
@@ -156,7 +157,7 @@ texts! {
              зависящих от g. Изменения: {list}."
     }
     ACCURACY_LIMIT {
-        en: "outside the tolerance; no decision is possible",
-        ru: "за пределами допуска: решение невозможно"
+        en: "U exceeds the tolerance: no pass is possible",
+        ru: "U больше допуска: подтвердить соответствие невозможно"
     }
 }
