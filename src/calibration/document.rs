@@ -301,6 +301,12 @@ impl CalibrationDocument {
         }
     }
 
+    /// Returns the comparison with the earlier result, if a statement is made on the change.
+    #[cfg(feature = "report")]
+    pub(crate) fn stated_change(&self) -> Option<&Verdict> {
+        self.change.as_ref().filter(|change| !change.withheld)
+    }
+
     /// Returns `false` if the readings do not fit the stand, or if an error explains the result.
     pub(crate) fn is_valid(&self) -> bool {
         self.hint.is_none() && self.mistake.is_none()

@@ -25,9 +25,9 @@ pub(crate) struct Propagation<'a> {
     rotated: DMatrix<f64>,
 }
 
-/// What no parameter explains.
+/// Equations of the residuals: the combinations of the whitened misclosures that do not depend on the parameters.
 pub(crate) struct Rest {
-    /// Q₂', which takes it from whitened misclosures (degrees of freedom × rows).
+    /// Q₂', which takes these combinations from the whitened misclosures (degrees of freedom × rows).
     pub(crate) q2: DMatrix<f64>,
     /// B, Q₂'W times the common part of all positions (degrees of freedom × common causes).
     pub(crate) common: DMatrix<f64>,

@@ -84,6 +84,11 @@ pub struct ParameterVerdict {
 }
 
 impl ParameterVerdict {
+    /// Returns the expanded uncertainty in the unit of the parameter.
+    pub(crate) fn expanded_uncertainty_of_value(&self) -> f64 {
+        self.coverage_factor * self.standard_uncertainty
+    }
+
     /// Returns `true` if the parameter is undecided because of its uncertainty, not because the result is not valid.
     pub(crate) fn is_close(&self) -> bool {
         let within = |deviation: f64| deviation <= self.tolerance;
@@ -241,9 +246,9 @@ impl Verdict {
         Parameter::AS_IN_THE_PAPER.into_iter().filter(|parameter| !found(parameter)).collect()
     }
 
-    /// Returns the worse of the decisions of this verdict and on the change since an earlier result.
+    /// Returns the worse of the decisions of this verdict and on a change since an earlier result.
     pub(crate) fn with_change(&self, change: Option<&Self>) -> Decision {
-        change.filter(|change| !change.withheld).map_or(self.overall, |change| self.overall.max(change.overall))
+        change.map_or(self.overall, |change| self.overall.max(change.overall))
     }
 
     /// Returns the decision on a parameter by guarded acceptance, or `None` if no statement is made.

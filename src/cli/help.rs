@@ -1,8 +1,8 @@
 //! Help: the command line as declared, with examples and exit codes for each verb, and the version.
 
 use super::Cli;
-use crate::report::columns::COMMAND;
-use crate::report::{columns, style};
+use crate::report::columns::{self, COMMAND};
+use crate::report::style;
 use crate::text::kind::FORMATS;
 use clap::{Command, CommandFactory};
 use std::sync::LazyLock;

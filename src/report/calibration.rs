@@ -66,7 +66,7 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
         && !verdict.withheld
     {
         let decided = verdict.parameters.iter().filter(|row| PER_G.contains(&row.parameter)).map(|row| {
-            let expanded = row.coverage_factor * row.standard_uncertainty;
+            let expanded = row.expanded_uncertainty_of_value();
             let digits = columns::decimals(expanded);
             format!("{} = {:.digits$} ± {expanded:.digits$}", row.parameter.symbol(), row.value)
         });
@@ -218,9 +218,10 @@ fn parameters(out: &mut String, calibration: &Calibration, verdict: Option<&Verd
         let digits = columns::decimals(u);
         let mut row = vec![parameter.symbol().to_owned(), printed(parameter.unit())];
         row.extend([format!("{value:.digits$}"), format!("{u:.digits$}")]);
-        let decisions = verdict.iter().flat_map(|verdict| &verdict.parameters);
-        let decisions = decisions.filter(|row| row.parameter == parameter);
-        row.extend(decisions.map(|row| decided(verdict.and_then(|verdict| verdict.decision(row)))));
+        if let Some(verdict) = verdict {
+            let decisions = verdict.parameters.iter().filter(|row| row.parameter == parameter);
+            row.extend(decisions.map(|row| decided(verdict.decision(row))));
+        }
         Some(row)
     });
     let _ = writeln!(out);

@@ -240,16 +240,19 @@ pub(crate) fn outcome_of(found: &Comparison, repeats: bool) -> Outcome {
     }
 }
 
+fn word(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Passed => "unchanged",
+        Outcome::Failed => "CHANGED",
+        Outcome::Undecided | Outcome::NotAsked => "undecided",
+    }
+}
+
 /// Returns a check run as text.
 pub(crate) fn comparison(found: &Comparison) -> String {
     let mut out = String::new();
     let outcome = outcome_of(found, found.same_stand);
-    let answer = match outcome {
-        Outcome::Passed => "UNCHANGED",
-        Outcome::Failed => "CHANGED",
-        Outcome::Undecided | Outcome::NotAsked => "UNDECIDED",
-    };
-    let answer = style::marked(outcome, answer);
+    let answer = style::marked(outcome, &word(outcome).to_uppercase());
     let runs = if found.runs == 1 { "run" } else { "runs" };
     let _ = writeln!(out, "{answer}  check against certificate {}, {} {runs}", found.certificate, found.runs);
     for words in &found.findings {
@@ -278,12 +281,7 @@ pub(crate) fn comparison(found: &Comparison) -> String {
         row.push(columns::chi_square(at.test.chi_square));
         row.push(columns::probability(at.test.probability));
         let outcome = outcome_of(found, at.repeats);
-        let word = match outcome {
-            Outcome::Passed => "unchanged",
-            Outcome::Failed => "CHANGED",
-            Outcome::Undecided | Outcome::NotAsked => "undecided",
-        };
-        row.push(style::marked(outcome, word));
+        row.push(style::marked(outcome, word(outcome)));
         row
     });
     let names = ["i", "j", "x, ″", "u", "y, ″", "u", "z, ″", "u", "chi-square", "p", ""];

@@ -423,9 +423,9 @@ mod tests {
         assert_eq!(fitted("        0123456789abcdef\n", 18), "  0123456789abcdef\n");
         // So does one that has no room below the last column, but below the one before.
         assert_eq!(fitted("● ok  id  0123456789abcdef\n", 25), "● ok  id\n      0123456789abcdef\n");
-        // However long, no word begins a line.
         // A command that is copied from a terminal would end at a line break.
         assert_eq!(fitted("  dtg-passport verify a.yaml\n", 10), "  dtg-passport verify a.yaml\n");
+        // However long, no word begins a line.
         assert_eq!(fitted("a 0123456789abcdef\n", 10), "a\n  0123456789abcdef\n");
         let bold = style::heading("two words");
         assert_eq!(fitted(&format!("{bold} more"), 9), format!("{bold}\n  more\n"));

@@ -21,30 +21,20 @@ pub(crate) fn to_json(cases: &[Case]) -> Value {
 /// Returns a table for each example.
 pub(crate) fn text(cases: &[Case]) -> String {
     let failed = cases.iter().filter(|case| !case.passed()).count();
-    let words = match failed {
-        0 => format!(
-            "{}  All {} cases agree with the published values.",
-            style::marked(Some(true), "PASSED"),
-            cases.len()
-        ),
-        failed => format!(
-            "{}  {failed} of {} cases differ from the published values.",
-            style::marked(Some(false), "FAILED"),
-            cases.len()
-        ),
+    let (word, words) = match failed {
+        0 => ("PASSED", format!("All {} cases agree with", cases.len())),
+        failed => ("FAILED", format!("{failed} of {} cases differ from", cases.len())),
     };
-    let mut out = format!("{words}\n\n");
+    let mut out = format!("{}  {words} the published values.\n", style::marked(Some(failed == 0), word));
     for group in cases.chunk_by(|one, other| one.example == other.example) {
         let Some(first) = group.first() else { continue };
-        let _ = writeln!(out, "{}", first.example);
+        let _ = writeln!(out, "\n{}", first.example);
         let digits = group.iter().any(|case| case.digits.is_some());
         let last = if digits { "digits" } else { "tolerance" };
         let rows = group.iter().map(|case| row(case, digits));
         columns::table(&mut out, &["", "expected", "found", last, ""], rows);
         columns::paragraph(&mut out, "  ", &format!("Source: {}.", sources(group)));
-        out.push('\n');
     }
-    out.truncate(out.trim_end().len() + 1);
     out
 }
 

@@ -16,6 +16,7 @@ use std::fmt::Write;
 /// parameters pass, fail and are undecided by their values and by their change, or why no statement is made.
 pub(super) fn headline(document: &CalibrationDocument, gyro_type: Option<&str>, width: usize) -> [String; 2] {
     let judged = gyro_type.zip(document.verdict.as_ref());
+    let change = document.stated_change();
     let because = |text: Text| text.of(Language::English).to_owned();
     let (outcome, word, mut words) = match judged {
         _ if document.hint.is_some() => (Outcome::Failed, "INVALID".to_owned(), because(texts::DOES_NOT_FIT)),
@@ -25,14 +26,14 @@ pub(super) fn headline(document: &CalibrationDocument, gyro_type: Option<&str>, 
             (Outcome::NotAsked, "CALIBRATED".to_owned(), because(texts::NOT_VERIFIED))
         }
         Some((name, verdict)) => {
-            let worst = verdict.with_change(document.change.as_ref());
+            let worst = verdict.with_change(change);
             let words = format!("gyro type {}: {}", printable(name), counted(verdict));
             (worst.into(), word(Some(worst)).to_uppercase(), words)
         }
     };
     if let Some((name, _)) = judged.filter(|(_, verdict)| verdict.withheld) {
         words = format!("{words}. {}", texts::NO_STATEMENT.filled(Language::English, &[("type", &printable(name))]));
-    } else if let Some(change) = document.change.as_ref().filter(|change| !change.withheld) {
+    } else if let Some(change) = change {
         words = format!("{words}. {} {}", because(texts::CHANGE_COUNTED), counted(change));
     }
     [style::marked(outcome, &format!("{word:<width$}")), words]
@@ -94,7 +95,7 @@ pub(super) fn coverage_factor(factors: impl Iterator<Item = f64>, language: Lang
 pub(super) fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str) {
     let rows = verdict.parameters.iter().map(|row| {
         let digits = columns::decimals(row.expanded_uncertainty);
-        let places = columns::decimals(row.coverage_factor * row.standard_uncertainty);
+        let places = columns::decimals(row.expanded_uncertainty_of_value());
         // Of parameters that are not valid, neither says anything.
         let [simple, risk] = match verdict.withheld {
             true => ["–"; 2].map(str::to_owned),

@@ -13,6 +13,9 @@ use crate::units::{printed, quantity};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
+/// Effective degrees of freedom above which ∞ is printed.
+pub(crate) const MANY: f64 = 1e4;
+
 /// Share of the variance below which contributions are combined into one line.
 const SHARE_SHOWN: f64 = 5e-4;
 
@@ -33,7 +36,7 @@ fn parameter(out: &mut String, line: &ParameterBudget) {
     let u = line.standard_uncertainty;
     let digits = columns::decimals(u);
     let freedom = match line.effective_degrees_of_freedom {
-        known if known > 1e4 => "∞".to_owned(),
+        known if known > MANY => "∞".to_owned(),
         known => columns::degrees_of_freedom(known),
     };
     let _ = writeln!(
@@ -52,15 +55,17 @@ fn parameter(out: &mut String, line: &ParameterBudget) {
     let mut rows: Vec<Vec<String>> = shown.iter().map(|part| contribution(part, digits)).collect();
     if !rest.is_empty() {
         let sum: f64 = rest.iter().map(|part| part.contribution * part.contribution).sum();
+        let share: f64 = rest.iter().map(|part| part.share).sum();
+        let share = if share < SHARE_SHOWN { "< 0.1".to_owned() } else { format!("{:.1}", 100.0 * share) };
         let name = format!("{} others", rest.len());
-        rows.push(vec![name, String::new(), String::new(), format!("{:.digits$}", sum.sqrt()), "< 0.1".to_owned()]);
+        rows.push(vec![name, String::new(), String::new(), format!("{:.digits$}", sum.sqrt()), share]);
     }
     columns::table(out, &["input", "u of input", "inputs", "contribution", "share, %"], rows);
 }
 
 fn contribution(part: &Contribution, digits: usize) -> Vec<String> {
     let [low, high] = part.standard_uncertainty.map(|u| part.cause.shown(u));
-    let size = if low < 0.99 * high { format!("{low:.2}–{high:.2}") } else { short(high) };
+    let size = if part.has_several_sizes() { format!("{low:.2}–{high:.2}") } else { short(high) };
     vec![
         part.cause.kind(),
         match part.cause.unit() {

@@ -74,6 +74,15 @@ pub struct Contribution {
     pub share: f64,
 }
 
+#[cfg(feature = "report")]
+impl Contribution {
+    /// Returns `true` if the standard uncertainties of the inputs differ by more than one percent.
+    pub(crate) fn has_several_sizes(&self) -> bool {
+        let [smallest, largest] = self.standard_uncertainty;
+        smallest < 0.99 * largest
+    }
+}
+
 impl Budget {
     /// Computes the budget of `method` for a calibration of `readings` at `setup` with the model of `options`.
     ///

@@ -104,6 +104,17 @@ pub(crate) fn marked(outcome: impl Into<Outcome>, words: &Markup) -> Markup {
     html! { (mark(outcome)) " " (words) }
 }
 
+/// Writes a headline with the mark of an outcome, and words about it, in the box of that outcome.
+pub(crate) fn outcome_box(outcome: impl Into<Outcome>, headline: &Markup, words: Markup) -> Markup {
+    let outcome = outcome.into();
+    let class = match outcome {
+        Outcome::Passed => "verdict",
+        Outcome::Failed => "verdict refused",
+        Outcome::Undecided | Outcome::NotAsked => "verdict neutral",
+    };
+    boxed(class, marked(outcome, headline), words)
+}
+
 /// Writes a headline and words about it in a box.
 pub(crate) fn boxed(class: &str, headline: Markup, words: Markup) -> Markup {
     html! { div class=(class) { p.headline { (headline) } (words) } }

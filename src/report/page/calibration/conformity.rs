@@ -132,7 +132,7 @@ fn table(
     with_u: bool,
 ) -> Markup {
     let rows = &verdict.parameters;
-    let expanded = |row: &ParameterVerdict| row.coverage_factor * row.standard_uncertainty;
+    let expanded = ParameterVerdict::expanded_uncertainty_of_value;
     let strips = Strips::of([verdict]);
     let numbers = |heading, number: &dyn Fn(&ParameterVerdict) -> Number| {
         Column::named(languages, heading, column(languages, rows.iter().map(number)))

@@ -22,7 +22,7 @@ pub(crate) use fit::not_stated;
 
 use self::parameters::name_of;
 use super::language::{Language, Languages, Text, values};
-use super::parts::{Section, boxed, contents, data_address, date_text, listed, marked, numbered};
+use super::parts::{Section, boxed, contents, data_address, date_text, listed, marked, numbered, outcome_box};
 use super::passport::PassportPage;
 use super::shell::{Margins, document};
 use super::symbols::italic;
@@ -122,8 +122,8 @@ impl CalibrationPage<'_> {
 
     /// Returns the headline of parameters that fail, for the head of every sheet.
     fn failed(&self, language: Language) -> Option<String> {
-        let (gyro, verdict) = self.judged().filter(|(_, verdict)| verdict.overall == Decision::Fail)?;
-        (!verdict.withheld).then(|| texts::CONFORMS_NOT.filled(language, values! { type: gyro.r#type }))
+        let (gyro, _) = self.judged().filter(|(_, verdict)| verdict.overall == Decision::Fail)?;
+        Some(texts::CONFORMS_NOT.filled(language, values! { type: gyro.r#type }))
     }
 
     fn content(&self) -> &Content {
@@ -210,17 +210,20 @@ impl CalibrationPage<'_> {
     /// Writes the warnings at the head of the report, the most serious first.
     fn headlines(&self, languages: &Languages) -> Markup {
         html! {
-            @if !self.verified() { (warning(languages, Outcome::NotAsked, texts::NOT_VERIFIED, texts::NOT_VERIFIED_WORDS)) }
+            @if !self.verified() {
+                @let headline = marked(Outcome::NotAsked, &languages.label(texts::NOT_VERIFIED));
+                (boxed("verdict refused", headline, languages.paragraph(texts::NOT_VERIFIED_WORDS)))
+            }
             @if let Some(hint) = &self.calibration.hint {
                 @let words = html! { (languages.paragraph(texts::DOES_NOT_FIT_WORDS)) (fit::what_may_be_wrong(hint, languages)) };
-                (boxed("verdict refused", marked(Outcome::Failed, &languages.label(texts::DOES_NOT_FIT)), words))
+                (outcome_box(Outcome::Failed, &languages.label(texts::DOES_NOT_FIT), words))
             }
             @if let Some(mistake) = &self.document.mistake {
                 @let words = languages.paragraph_with(|language| italic(&mistake::words(mistake, language)));
-                (boxed("verdict refused", marked(Some(false), &languages.label(texts::MISTAKE)), words))
+                (outcome_box(Outcome::Failed, &languages.label(texts::MISTAKE), words))
             }
             @if let Some(why) = self.previous.iter().rev().find_map(|earlier| self.document.no_change(earlier)) {
-                (warning(languages, Outcome::Undecided, texts::NO_CHANGE, why_no_change(why)))
+                (outcome_box(Outcome::Undecided, &languages.label(texts::NO_CHANGE), languages.paragraph(why_no_change(why))))
             }
             (subject::temperature(self, languages))
             (subject::date_of_readings(self, languages))
@@ -231,13 +234,13 @@ impl CalibrationPage<'_> {
     fn verdict(&self, languages: &Languages) -> Markup {
         let Some((gyro, verdict)) = self.judged() else {
             let words = html! { (languages.paragraph(texts::NO_TYPE_WORDS)) (self.not_linear(languages)) };
-            return boxed("verdict neutral", marked(Outcome::NotAsked, &languages.label(texts::NO_TYPE)), words);
+            return outcome_box(Outcome::NotAsked, &languages.label(texts::NO_TYPE), words);
         };
         if verdict.withheld {
             let name = |language: Language| texts::NO_STATEMENT.filled(language, values! { type: gyro.r#type });
             return boxed("verdict neutral", languages.label_with(name), html! {});
         }
-        let change = self.document.change.as_ref().filter(|change| !change.withheld);
+        let change = self.document.stated_change();
         let text = match (verdict.overall, change.map(|change| change.overall)) {
             (Decision::Fail, _) => texts::CONFORMS_NOT,
             (_, Some(Decision::Fail)) => texts::CHANGED_TOO_MUCH,
@@ -246,11 +249,6 @@ impl CalibrationPage<'_> {
             (Decision::Pass, _) => texts::CONFORMS,
         };
         let worst = verdict.with_change(change);
-        let class = match worst {
-            Decision::Pass => "verdict",
-            Decision::Undecided => "verdict neutral",
-            Decision::Fail => "verdict refused",
-        };
         let name = |language: Language| text.filled(language, values! { type: gyro.r#type });
         let words = html! {
             (conformity::counted(verdict, None, languages))
@@ -260,7 +258,7 @@ impl CalibrationPage<'_> {
             (self.not_linear(languages))
             (languages.paragraph(texts::RULE))
         };
-        boxed(class, marked(worst, &languages.label_with(name)), words)
+        outcome_box(worst, &languages.label_with(name), words)
     }
 
     /// Writes the parameters for which a Monte Carlo run shows that the linear approximation is not valid.
@@ -274,11 +272,6 @@ impl CalibrationPage<'_> {
         let names = listed(refuted.iter().map(|line| name_of(line.parameter.symbol())));
         languages.paragraph_with(|language| texts::NOT_LINEAR.marked_up(language, &[("names", names.clone())]))
     }
-}
-
-fn warning(languages: &Languages, outcome: Outcome, headline: Text, words: Text) -> Markup {
-    let class = if outcome == Outcome::Undecided { "verdict neutral" } else { "verdict refused" };
-    boxed(class, marked(outcome, &languages.label(headline)), languages.paragraph(words))
 }
 
 /// Returns the sentence why a difference from an earlier result is no change.

@@ -7,7 +7,7 @@ use crate::laboratory::Laboratory;
 use crate::report::page::language::{Languages, values};
 use crate::report::page::number::Number;
 use crate::report::page::parts::{
-    self, boxed, date, date_text, field, fields, file_name, given, heading, marked, quantity, time, wide_field,
+    self, date, date_text, field, fields, file_name, given, heading, outcome_box, quantity, time, wide_field,
 };
 use crate::report::page::passport::{accuracy, characteristics, checks};
 use crate::report::page::texts::{calibration as texts, passport as passport_texts, record, units, words};
@@ -153,7 +153,7 @@ pub(super) fn date_of_readings(page: &CalibrationPage, languages: &Languages) ->
         let [date, performed] = days.map(|day| date_text(language, day));
         html! { (texts::READINGS_OLDER.filled(language, values! { date, performed })) }
     });
-    boxed("verdict neutral", marked(Outcome::Undecided, &languages.label(texts::READINGS_ARE_OLDER)), words)
+    outcome_box(Outcome::Undecided, &languages.label(texts::READINGS_ARE_OLDER), words)
 }
 
 /// Writes a warning if the deviations are certified for other temperatures.
@@ -165,5 +165,5 @@ pub(super) fn temperature(page: &CalibrationPage, languages: &Languages) -> Mark
     let values = [("here", here_c), ("low", low_c), ("high", high_c)]
         .map(|(name, c)| (name, Number::exact(c).markup(languages)));
     let words = languages.paragraph_with(|language| texts::TEMPERATURE_OUTSIDE.marked_up(language, &values));
-    boxed("verdict neutral", marked(Outcome::Undecided, &languages.label(texts::TEMPERATURE_IS_OUTSIDE)), words)
+    outcome_box(Outcome::Undecided, &languages.label(texts::TEMPERATURE_IS_OUTSIDE), words)
 }

@@ -16,17 +16,12 @@ use crate::report::picture::accuracy::unit as parameter_unit;
 use crate::report::picture::drawing::legend_with;
 use crate::report::picture::shares as strips;
 use crate::report::style::Outcome;
+use crate::report::uncertainty::MANY;
 use crate::uncertainty::budget::{Contribution, ParameterBudget};
 use crate::uncertainty::dominant::{Dominant, Effect, Part, percent};
 use crate::uncertainty::monte_carlo::Distribution;
 use crate::uncertainty::{Budget, MonteCarlo};
 use maud::{Markup, html};
-
-/// Effective degrees of freedom above which ∞ is printed.
-const MANY: f64 = 1e4;
-
-/// Ratio of the smallest and the largest uncertainty of a kind of input from which on they are printed as equal.
-const NEARLY_EQUAL: f64 = 0.99;
 
 /// Least share of a variance with which a kind of input has a part of the strips, and a row of the table.
 const LEAST_NAMED: f64 = 0.02;
@@ -179,9 +174,8 @@ fn input(part: &Contribution, languages: &Languages) -> Markup {
         if language != languages.first() {
             return name;
         }
-        let [low, high] = part.standard_uncertainty;
-        let text = if low < NEARLY_EQUAL * high { texts::INPUTS } else { texts::INPUT };
-        let u = of_input(part.cause, part.cause.shown(high), language);
+        let text = if part.has_several_sizes() { texts::INPUTS } else { texts::INPUT };
+        let u = of_input(part.cause, part.cause.shown(part.standard_uncertainty[1]), language);
         text.filled(language, values! { input: name, u })
     })
 }

@@ -9,7 +9,7 @@ use crate::report::certification::outcome_of;
 use crate::report::page::language::{Languages, Text, values};
 use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{
-    Column, Table, boxed, field, fields, heading, mark, marked, starts, symbol, symbol_and_unit,
+    Column, Table, field, fields, heading, mark, marked, outcome_box, starts, symbol, symbol_and_unit,
 };
 use crate::report::page::spacing::BLANK;
 use crate::report::page::texts::{certification as texts, checks, pictures, units};
@@ -23,13 +23,13 @@ pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup
         let (positions, runs) = (page.certification.stand.positions.len(), page.certification.runs.len());
         let headline = languages.label_with(|language| texts::CERTIFIED.filled(language, values! { positions, runs }));
         let words = html! { (languages.paragraph(texts::NOT_COMPARED)) (warnings(page, languages)) };
-        return boxed("verdict", marked(Some(true), &headline), words);
+        return outcome_box(Outcome::Passed, &headline, words);
     };
     let outcome = outcome_of(comparison, comparison.same_stand);
-    let (class, verdict) = match outcome {
-        Outcome::Passed => ("verdict", texts::SAME),
-        Outcome::Failed => ("verdict refused", texts::CHANGED),
-        Outcome::Undecided | Outcome::NotAsked => ("verdict neutral", texts::UNDECIDED),
+    let verdict = match outcome {
+        Outcome::Passed => texts::SAME,
+        Outcome::Failed => texts::CHANGED,
+        Outcome::Undecided | Outcome::NotAsked => texts::UNDECIDED,
     };
     let headline =
         languages.label_with(|language| verdict.filled(language, values! { number: comparison.certificate }));
@@ -43,7 +43,7 @@ pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup
         }
         (warnings(page, languages))
     };
-    boxed(class, marked(outcome, &headline), reasons)
+    outcome_box(outcome, &headline, reasons)
 }
 
 /// Writes how many warnings the section of the tests has, if there is one.
