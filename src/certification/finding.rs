@@ -8,7 +8,7 @@ use super::rotated_runs::{Pattern, RotatedRuns};
 use super::split_run::SplitRun;
 use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
 use crate::coefficients::PositionIndex;
-use crate::text::number::two_digits;
+use crate::text::number::{decimals, signed, two_digits};
 use crate::text::words;
 
 /// Ratio of the scatter of a check to the certified one above which nothing is decided.
@@ -53,7 +53,7 @@ pub(crate) enum Finding {
     #[error(
         "position {} has changed: {} about x, y, z relative to the other positions",
         .0.index,
-        remark::turns(.0.turn_arcsec)
+        turned(.0)
     )]
     Changed(ComparedPosition),
     /// Significant change that is not that of a single position.
@@ -84,16 +84,16 @@ pub(crate) enum Finding {
     SplitRun(SplitRun),
     /// Outlier among the readings of the check, and its part in the mean of the position, arcsec.
     #[error(
-        "the reading of position {} in run {run} of the check differs by {:+.2}″ about {} from its other runs; the \
-         change of the position includes {mean:+.2}″ of it; measure the run again, or exclude the reading with \
+        "the reading of position {} in run {run} of the check differs by {}″ about {} from its other runs; the \
+         change of the position includes {mean}″ of it; measure the run again, or exclude the reading with \
          --exclude {},{},{run} and --why",
         .0.index,
-        .0.residual_arcsec,
+        remark::signed_two_digits(.0.residual_arcsec),
         AXES[.0.axis],
         .0.index.i,
         .0.index.j,
         run = .0.run,
-        mean = .1
+        mean = remark::signed_two_digits(*.1)
     )]
     Outlier(Outlier, f64),
     /// Rotation of the stand as a whole, which was not tested.
@@ -128,6 +128,12 @@ words! {
         /// Certificate without the common parts of the uncertainty.
         CommonParts = "the certificate does not state common_platform_arcsec and common_base_arcsec",
     }
+}
+
+/// Returns the rotation of a position about x, y and z with the digits of its uncertainty.
+fn turned(at: &ComparedPosition) -> String {
+    let turn = |axis: usize| format!("{}″", signed(at.turn_arcsec[axis], decimals(at.u_arcsec[axis])));
+    [0, 1, 2].map(turn).join(", ")
 }
 
 fn rotated(at: &RotatedRuns) -> String {

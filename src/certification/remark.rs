@@ -9,6 +9,7 @@ use super::unequal_axes::UnequalAxis;
 use super::worse_groups::WorseGroup;
 use crate::calibration::recorded::rounding_of;
 use crate::stand::remarks::Odd;
+use crate::text::number::{decimals, signed, two_digits};
 
 /// A remark on readings or on the certificate made of them.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -35,13 +36,13 @@ pub(crate) enum Remark {
     WorseGroup(WorseGroup),
     /// Reading that differs from those of the other runs.
     #[error(
-        "{}: position {}, run {}{}, differs by {:+.2}″ from the other runs about {} (Grubbs' test: probability {}); it \
+        "{}: position {}, run {}{}, differs by {}″ from the other runs about {} (Grubbs' test: probability {}); it \
          was not excluded; measure it again, or omit the run",
         grade(.0.probability),
         .0.index,
         .0.run,
         line_of(.0),
-        .0.residual_arcsec,
+        signed_two_digits(.0.residual_arcsec),
         AXES[.0.axis],
         probability(.0.probability)
     )]
@@ -83,23 +84,23 @@ pub(crate) enum Remark {
     AxesDiffer(f64),
     /// Axis about which whole runs rotate more than about the others.
     #[error(
-        "from run to run the {part} rotates by {:.2}″ about {axis} and by {:.2}″ about its other two axes (Cochran's \
+        "from run to run the {part} rotates by {}″ about {axis} and by {}″ about its other two axes (Cochran's \
          test: probability {}); common_{part}_arcsec is pooled from all three, which is too small about {axis}; state \
-         a line of type_b that acts on the {part}, of {:.2}″, or find the cause and measure again",
-        .0.deviation_arcsec,
-        .0.others_arcsec,
+         a line of type_b that acts on the {part}, of {}″, or find the cause and measure again",
+        two_digits(.0.deviation_arcsec),
+        two_digits(.0.others_arcsec),
         probability(.0.probability),
-        .0.missing_arcsec,
+        two_digits(.0.missing_arcsec),
         part = .0.axis.part(),
         axis = .0.axis.name()
     )]
     RunAxesDiffer(UnequalAxis),
     /// Setting of an angle that several positions of a run share.
     #[error(
-        "in each run the positions with the same {angle} share an error of {:.2}″ (standard deviation; F test: \
+        "in each run the positions with the same {angle} share an error of {}″ (standard deviation; F test: \
          probability {}), as if {angle} were set once for all of them; the uncertainties take the errors of positions \
          as independent, and are too small; set both angles again before every position, and measure again",
-        .0.deviation_arcsec,
+        two_digits(.0.deviation_arcsec),
         probability(.0.probability),
         angle = .0.setting.symbol()
     )]
@@ -117,8 +118,8 @@ pub(crate) enum Remark {
     /// Number of angles whose readings stay on one step, of how many, and the step, arcsec.
     #[error(
         "the readings of {angles} of {of} angles vary by less than half their step of {step_arcsec}″, so their mean \
-         does not reduce the rounding; its standard uncertainty of {:.2}″ is included; record more digits",
-        rounding_of(*step_arcsec)
+         does not reduce the rounding; its standard uncertainty of {}″ is included; record more digits",
+        two_digits(rounding_of(*step_arcsec))
     )]
     Rounding { angles: usize, of: usize, step_arcsec: f64 },
     /// Largest angle, arcsec, if it is suspiciously small.
@@ -155,9 +156,15 @@ impl Remark {
     }
 }
 
-/// Returns rotations about x, y and z as words have them.
-pub(super) fn turns([x, y, z]: [f64; 3]) -> String {
-    format!("{x:+.2}″, {y:+.2}″, {z:+.2}″")
+/// Returns rotations about three axes as words have them, the largest with two significant digits.
+pub(crate) fn turns(of: [f64; 3]) -> String {
+    let decimals = decimals(of.iter().fold(0.0, |largest, turn| turn.abs().max(largest)));
+    of.map(|turn| format!("{}″", signed(turn, decimals))).join(", ")
+}
+
+/// Returns a value with its sign and two significant digits.
+pub(super) fn signed_two_digits(value: f64) -> String {
+    signed(value, decimals(value.abs()))
 }
 
 /// Returns the line of a reading, in words.
@@ -170,10 +177,10 @@ fn rotated(at: &RotatedRuns) -> String {
     match at.pattern {
         Pattern::One(run) => format!(
             "{}: all positions of run {run} are rotated by {turns} about {axes} relative to the other runs (Grubbs' \
-             test: probability {p}); it was not excluded, and changes certified angles by up to {:.2}″; find the \
+             test: probability {p}); it was not excluded, and changes certified angles by up to {}″; find the \
              cause, then measure the run again, or exclude it with --exclude {run} and --why",
             grade(at.probability),
-            at.largest_effect_arcsec()
+            two_digits(at.largest_effect_arcsec())
         ),
         Pattern::Move(before, after) => format!(
             "the stand seems to have moved between runs {before} and {after}: all positions are rotated by {turns} \
@@ -181,14 +188,11 @@ fn rotated(at: &RotatedRuns) -> String {
              are a mean of both states; find the cause and measure again, or certify the runs from {after} on by \
              themselves: exclude each earlier one with --exclude and --why"
         ),
-        Pattern::Drift => {
-            let [x, y, z] = at.turns_arcsec;
-            format!(
-                "the stand seems to drift: from run to run all positions rotate by {x:+.2}, {y:+.2}, {z:+.2} arcsec \
-                 about {axes} (Student's test of a straight line: probability {p}); no run was excluded, and the \
-                 certified angles are those of the middle of the measurement; find the cause and measure again"
-            )
-        }
+        Pattern::Drift => format!(
+            "the stand seems to drift: from run to run all positions rotate by {turns} about {axes} (Student's test of \
+             a straight line: probability {p}); no run was excluded, and the certified angles are those of the middle \
+             of the measurement; find the cause and measure again"
+        ),
     }
 }
 

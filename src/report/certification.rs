@@ -3,6 +3,7 @@
 use crate::certification::compared::Test;
 use crate::certification::comparison::Comparison;
 use crate::certification::components::{Common, Variance};
+use crate::certification::remark::turns;
 use crate::certification::rotated_runs::{FEWEST_RUNS, FEWEST_RUNS_OF_A_MOVE, Pattern, RotatedRuns};
 use crate::certification::suspects::{AXES, OUTLIER};
 use crate::certification::{Certification, NotCertified};
@@ -293,12 +294,11 @@ pub(crate) fn comparison(found: &Comparison) -> String {
         100.0 * OUTLIER
     );
     columns::paragraph(&mut out, "", &words);
-    let turned = |turn: &[f64; 3]| turn.map(|value| columns::signed(value, 2)).join(", ");
     let judged = found.common.test.as_ref().map_or_else(|| "not tested".to_owned(), line);
     let words = format!(
-        "Common rotation, ″: platform {} about x, y, z, base {} about east, north, up; {judged}",
-        turned(&found.common.platform_arcsec),
-        turned(&found.common.base_arcsec)
+        "Common rotation: platform {} about x, y, z, base {} about east, north, up; {judged}",
+        turns(found.common.platform_arcsec),
+        turns(found.common.base_arcsec)
     );
     columns::paragraph(&mut out, "", &words);
     out

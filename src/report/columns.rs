@@ -4,6 +4,7 @@
 use super::page::number::{THIN_BLANK, superscripts};
 use super::style;
 use crate::text::excerpt::columns_of;
+pub(crate) use crate::text::number::{decimals, signed};
 use crate::text::printable;
 use std::fmt::Write;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -260,26 +261,10 @@ fn neutral(cell: &str) -> String {
     if cell.starts_with(';') { format!("'{neutral}") } else { neutral }
 }
 
-/// Returns the number of decimals, at most 12, that show the standard uncertainty `u` with two significant digits (GUM,
-/// 7.2.6).
-pub(crate) fn decimals(u: f64) -> usize {
-    if !(u.is_finite() && u > 0.0) {
-        return 6;
-    }
-    usize::try_from(1 - crate::text::number::exponent_as_printed(u, 2)).unwrap_or(0).min(12)
-}
-
 /// Formats degrees of freedom with one decimal, or none if it is 0.
 pub(crate) fn degrees_of_freedom(value: f64) -> String {
     let printed = format!("{value:.1}");
     printed.strip_suffix(".0").map_or_else(|| printed.clone(), str::to_owned)
-}
-
-/// Formats a value with its sign; a value that rounds to zero has none.
-pub(crate) fn signed(value: f64, decimals: usize) -> String {
-    let printed = format!("{value:+.decimals$}");
-    let is_zero = printed.chars().all(|c| matches!(c, '+' | '-' | '0' | '.'));
-    if is_zero { format!("{:.decimals$}", 0.0) } else { printed }
 }
 
 /// Formats a probability with two digits, or as `< 10⁻⁶`.

@@ -7,10 +7,11 @@ use crate::laboratory::Laboratory;
 use crate::report::page::language::{Languages, values};
 use crate::report::page::number::Number;
 use crate::report::page::parts::{
-    self, date, date_text, field, fields, file_name, given, heading, outcome_box, quantity, time, wide_field,
+    self, date, date_text, field, fields, file_name, given, heading, not_stated, outcome_box, quantity, time,
+    wide_field,
 };
 use crate::report::page::passport::{accuracy, characteristics, checks};
-use crate::report::page::texts::{calibration as texts, passport as passport_texts, record, units, words};
+use crate::report::page::texts::{calibration as texts, passport as passport_texts, record, units};
 use crate::report::style::Outcome;
 use maud::{Markup, html};
 
@@ -27,8 +28,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
 /// Writes which gyro was calibrated, by whom and when, on which stand, and on whose word.
 pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
     let content = page.content();
-    let or_not =
-        |value: Option<Markup>| value.unwrap_or_else(|| html! { span.absent { (languages.label(words::NOT_STATED)) } });
+    let or_not = |value: Option<Markup>| value.unwrap_or_else(|| not_stated(languages));
     let laboratory = page.laboratory.and_then(|laboratory| laboratory.name.as_deref()).map(given);
     // The title names the serial number if it was stated.
     let no_serial = |language| format!("{}: {}", texts::SERIAL.words(language), texts::NO_SERIAL.words(language));
@@ -126,10 +126,8 @@ fn laboratory(page: &CalibrationPage, languages: &Languages) -> Markup {
     let laboratory = page.laboratory.cloned().unwrap_or_else(Laboratory::paper);
     let celsius = |value: f64| quantity(languages, &Number::exact(value), units::CELSIUS);
     let (g, u) = (page.document.gravity_m_per_s2, page.document.gravity_u_m_per_s2);
-    // A blank invites a second reading of the temperature beside the first.
-    let measured = page.document.subject.as_ref().is_some_and(|subject| subject.temperature_c.is_some());
-    let temperature = (laboratory.temperature_c.is_some() || !measured)
-        .then(|| field(languages, texts::TEMPERATURE, laboratory.temperature_c.map(celsius)));
+    // The temperature during the readings has a field of its own; a second blank would ask for it again.
+    let temperature = laboratory.temperature_c.map(|value| field(languages, texts::TEMPERATURE, Some(celsius(value))));
     html! {
         (fields([
             field(languages, passport_texts::NAME, laboratory.name.as_deref().map(given)),

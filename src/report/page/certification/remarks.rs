@@ -21,6 +21,7 @@ use jiff::civil::Date;
 pub(crate) fn words(remark: &Remark, language: Language) -> String {
     let fill = |text: Text, values: Values| text.filled(language, values);
     let (fixed, exact) = (Number::fixed, Number::exact);
+    let two_digits = |value: f64| Number::significant(value, 2);
     let probability = |p: f64| Number::scientific(p, 2);
     let day = |date: Date| date_text(language, date);
     // A suspect value: how suspect, and its probability.
@@ -41,12 +42,12 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
                 Some(line) => (texts::OUTLIER_IN_LINE, line),
                 None => (texts::OUTLIER_READING, 0),
             };
-            let (residual, axis) = (fixed(out.residual_arcsec, 2), AXES[out.axis]);
+            let (residual, axis) = (two_digits(out.residual_arcsec), AXES[out.axis]);
             let values = values! { index: out.index, run: out.run, residual, axis, line };
             suspect(text, out.probability, values)
         }
         Remark::RotatedRuns(at) => {
-            let ([x, y, z], mean) = (at.turns_arcsec.map(|turn| fixed(turn, 2)), fixed(at.largest_effect_arcsec(), 2));
+            let ([x, y, z], mean) = (together(at.turns_arcsec), two_digits(at.largest_effect_arcsec()));
             let (text, run, after) = match at.pattern {
                 Pattern::One(run) => (texts::BUMPED_RUN, run, 0),
                 Pattern::Move(before, after) => (texts::MOVED, before, after),
@@ -61,12 +62,11 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
         Remark::AxesDiffer(p) => fill(texts::AXES_DIFFER, values! { p: probability(*p) }),
         Remark::RunAxesDiffer(at) => {
             let text = if at.axis.is_of_the_base() { texts::BASE_AXES_DIFFER } else { texts::PLATFORM_AXES_DIFFER };
-            let [own, others, missing] =
-                [at.deviation_arcsec, at.others_arcsec, at.missing_arcsec].map(|value| fixed(value, 2));
+            let [own, others, missing] = [at.deviation_arcsec, at.others_arcsec, at.missing_arcsec].map(two_digits);
             fill(text, values! { axis: axis_name(at.axis), own, others, p: probability(at.probability), missing })
         }
         Remark::SharedSetting(at) => {
-            let (angle, u) = (at.setting.symbol(), fixed(at.deviation_arcsec, 2));
+            let (angle, u) = (at.setting.symbol(), two_digits(at.deviation_arcsec));
             fill(texts::SHARED_SETTING, values! { angle, u, p: probability(at.probability) })
         }
         Remark::FewRuns { runs, degrees_of_freedom: freedom } => {
@@ -76,7 +76,7 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
         Remark::BaseAxes(0) => fill(texts::BASE_NOT_SEEN, &[]),
         Remark::BaseAxes(axes) => fill(texts::BASE_IN_PART, values! { axes }),
         Remark::Rounding { angles, of, step_arcsec } => {
-            let (step, u) = (exact(*step_arcsec), fixed(rounding_of(*step_arcsec), 2));
+            let (step, u) = (exact(*step_arcsec), two_digits(rounding_of(*step_arcsec)));
             fill(texts::ROUNDING, values! { angles, all: of, step, u })
         }
         Remark::SmallAngles(largest) => fill(texts::SMALL_ANGLES, values! { largest: fixed(*largest, 2) }),
@@ -107,7 +107,7 @@ pub(super) fn axis_name(axis: CommonAxis) -> Text {
 /// Returns a run that changed within itself as a sentence.
 fn split_words(text: Text, at: &SplitRun, language: Language) -> String {
     let ([before, after], axes) = (at.between, axes_of(at.axis));
-    let [x, y, z] = at.turns_arcsec.map(|turn| Number::fixed(turn, 2));
+    let [x, y, z] = together(at.turns_arcsec);
     let p = Number::scientific(at.probability, 2);
     text.filled(language, values! { run: at.run, before, after, axes, x, y, z, p })
 }
@@ -129,6 +129,12 @@ fn misread_words(misread: &Misread, language: Language) -> String {
     }
 }
 
+/// Returns rotations about three axes to one place, the second digit of the largest.
+fn together(turns: [f64; 3]) -> [Number; 3] {
+    let place = Number::place_of(turns.iter().fold(0.0, |largest, turn| turn.abs().max(largest)));
+    turns.map(|turn| Number::to_place(turn, place))
+}
+
 /// Returns the names of the three axes with platform or base.
 fn axes_of(axis: CommonAxis) -> Text {
     if axis.is_of_the_base() { texts::AXES_OF_BASE } else { texts::AXES_OF_PLATFORM }
@@ -136,7 +142,6 @@ fn axes_of(axis: CommonAxis) -> Text {
 
 /// Returns a finding of a comparison with the last certificate as a sentence.
 pub(crate) fn finding(finding: &Finding, language: Language) -> String {
-    let arcsec = |value: f64| Number::fixed(value, 2);
     let text = match finding {
         Finding::Changed(ComparedPosition { index, turn_arcsec, u_arcsec, .. }) => {
             let [x, y, z] = std::array::from_fn(|axis| Number::measured(turn_arcsec[axis], u_arcsec[axis]));
@@ -148,8 +153,8 @@ pub(crate) fn finding(finding: &Finding, language: Language) -> String {
             return texts::SCATTERS_MORE.filled(language, values! { found, certified, p });
         }
         Finding::RotatedRuns(at) => {
-            let [x, y, z] = at.turns_arcsec.map(arcsec);
-            let [of_x, of_y, of_z] = at.in_the_mean_arcsec().map(arcsec);
+            let [x, y, z] = together(at.turns_arcsec);
+            let [of_x, of_y, of_z] = together(at.in_the_mean_arcsec());
             let (text, run, after) = match at.pattern {
                 Pattern::One(run) => (texts::CHECK_BUMPED, run, 0),
                 Pattern::Move(before, after) => (texts::CHECK_MOVED, before, after),
@@ -160,8 +165,8 @@ pub(crate) fn finding(finding: &Finding, language: Language) -> String {
         }
         Finding::SplitRun(at) => return split_words(texts::CHECK_SPLIT, at, language),
         Finding::Outlier(out, mean) => {
-            let ([residual, mean], axis) = ([out.residual_arcsec, *mean].map(arcsec), AXES[out.axis]);
-            let (index, run) = (&out.index, &out.run);
+            let [residual, mean] = [out.residual_arcsec, *mean].map(|value| Number::significant(value, 2));
+            let (index, run, axis) = (&out.index, &out.run, AXES[out.axis]);
             return texts::CHECK_OUTLIER.filled(language, values! { index, run, residual, axis, mean });
         }
         Finding::Exchanged([one, other]) => {
