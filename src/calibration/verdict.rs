@@ -251,6 +251,11 @@ impl Verdict {
         change.map_or(self.overall, |change| self.overall.max(change.overall))
     }
 
+    /// Returns the decision on a parameter, or `None` if the result does not have it.
+    pub(crate) fn parameter(&self, parameter: Parameter) -> Option<&ParameterVerdict> {
+        self.parameters.iter().find(|row| row.parameter == parameter)
+    }
+
     /// Returns the decision on a parameter by guarded acceptance, or `None` if no statement is made.
     pub(crate) fn decision(&self, row: &ParameterVerdict) -> Option<Decision> {
         (!self.withheld).then_some(row.guarded)

@@ -219,7 +219,7 @@ fn quantities(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
 
 /// Returns the decisions on parameters and the limits of their tolerances, in their order and unit.
 fn decisions(verdict: &Verdict, parameters: &[Parameter], unit: &str, languages: &Languages) -> Element {
-    let rows = parameters.iter().filter_map(|one| verdict.parameters.iter().find(|row| row.parameter == *one));
+    let rows = parameters.iter().filter_map(|one| verdict.parameter(*one));
     let rows: Vec<_> = rows.collect();
     let each: Vec<&str> = rows.iter().map(|row| decided(row.guarded, passes(row))).collect();
     let limit = |kind, name, sign: f64| {

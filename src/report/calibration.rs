@@ -11,7 +11,7 @@ use crate::calibration::parameter::Parameter;
 use crate::calibration::prediction::FurtherVisit;
 use crate::calibration::readings::Exclusion;
 use crate::calibration::stated::NotStated;
-use crate::calibration::verdict::{BEYOND, PER_G, Verdict, change_in_uncertainties};
+use crate::calibration::verdict::{BEYOND, Verdict, change_in_uncertainties};
 use crate::calibration::{Calibration, MethodResult, Readings};
 use crate::interface::calibrated::Done;
 use crate::report::page::calibration::why_no_change;
@@ -53,36 +53,24 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
         (gravity, Some(u)) => format!("{gravity:.0$} m/s² (u {u:.0$})", columns::decimals(u)),
         (gravity, None) => format!("{gravity} m/s²"),
     };
-    let words = format!("g-sensitive drifts refer to local g, {gravity}. u: standard uncertainty (k = 1).");
+    let of_type =
+        verdict.map(|(_, verdict)| verdict.gravity_m_per_s2).filter(|of_type| *of_type != document.gravity_m_per_s2);
+    let refer_to = of_type.map_or_else(
+        || format!("local g, {gravity}"),
+        |of_type| format!("the g of the type, {of_type} m/s²; local g: {gravity}"),
+    );
+    let words = format!("g-sensitive drifts refer to {refer_to}. u: standard uncertainty (k = 1).");
     columns::paragraph(&mut out, "", &words);
     left_out(&mut out, readings, done.cost_of_missing);
     parameters(&mut out, calibration, verdict.map(|(_, verdict)| verdict));
     if let Some(answer) = calibration.answer() {
         beyond_the_paper(&mut out, answer);
     }
-    if let Some((_, verdict)) = verdict
-        && verdict.gravity_m_per_s2 != document.gravity_m_per_s2
-        && verdict.not_found().is_empty()
-        && !verdict.withheld
-    {
-        let decided = verdict.parameters.iter().filter(|row| PER_G.contains(&row.parameter)).map(|row| {
-            let expanded = row.expanded_uncertainty_of_value();
-            let digits = columns::decimals(expanded);
-            format!("{} = {:.digits$} ± {expanded:.digits$}", row.parameter.symbol(), row.value)
-        });
-        let decided: Vec<String> = decided.collect();
-        let words = format!(
-            "At the g of the type, {} m/s², at which they are decided, {} °/(h·g) (± U).",
-            verdict.gravity_m_per_s2,
-            decided.join(" and ")
-        );
-        columns::paragraph(&mut out, "", &words);
-    }
     fit(&mut out, calibration, &done.missing);
     if meter_assumed {
         columns::paragraph(&mut out, "", texts::METER_ASSUMED.of(Language::English));
     }
-    methods(&mut out, calibration, &document.results);
+    methods(&mut out, calibration, &document.results, of_type.is_some());
     residuals(&mut out, calibration);
     if let Some((name, verdict)) = verdict {
         let words = format!(
@@ -103,7 +91,7 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
         gravity.iter().chain(&turn_ons).for_each(|words| columns::paragraph(&mut out, "  ", words));
     }
     let least_certain = |parameter: Parameter| {
-        let row = verdict.and_then(|(_, verdict)| verdict.parameters.iter().find(|row| row.parameter == parameter));
+        let row = verdict.and_then(|(_, verdict)| verdict.parameter(parameter));
         let share = row.map(|row| 100.0 * row.expanded_uncertainty / row.tolerance);
         share.map_or_else(String::new, |share| format!(": U is {} % of it", columns::two_digits(share)))
     };
@@ -208,20 +196,21 @@ fn in_paper_order(answer: &MethodResult) -> Vec<Parameter> {
     Parameter::in_paper_order(answer.model.parameters().iter().copied(), |parameter| *parameter)
 }
 
-/// Writes the adopted values with their uncertainties, and the decision for each if there is a type.
+/// Writes the adopted values with their uncertainties; if there is a type, as they are decided, at its g, with the decision.
 fn parameters(out: &mut String, calibration: &Calibration, verdict: Option<&Verdict>) {
     let Some(answer) = calibration.answer() else { return };
     let mut names = vec!["", "unit", answer.method.key(), "u"];
     names.extend(verdict.map(|_| "decision"));
     let rows = in_paper_order(answer).into_iter().filter_map(|parameter| {
-        let (value, u) = (answer.value(parameter)?, answer.standard_uncertainty(parameter)?);
+        let judged = verdict.zip(verdict.and_then(|verdict| verdict.parameter(parameter)));
+        let (value, u) = match judged {
+            Some((_, at)) => (at.value, at.standard_uncertainty),
+            None => (answer.value(parameter)?, answer.standard_uncertainty(parameter)?),
+        };
         let digits = columns::decimals(u);
         let mut row = vec![parameter.symbol().to_owned(), printed(parameter.unit())];
         row.extend([format!("{value:.digits$}"), format!("{u:.digits$}")]);
-        if let Some(verdict) = verdict {
-            let decisions = verdict.parameters.iter().filter(|row| row.parameter == parameter);
-            row.extend(decisions.map(|row| decided(verdict.decision(row))));
-        }
+        row.extend(judged.map(|(verdict, at)| decided(verdict.decision(at))));
         Some(row)
     });
     let _ = writeln!(out);
@@ -284,12 +273,12 @@ fn beyond_the_paper(out: &mut String, answer: &MethodResult) {
     }
 }
 
-fn methods(out: &mut String, calibration: &Calibration, results: &[ResultDocument]) {
+fn methods(out: &mut String, calibration: &Calibration, results: &[ResultDocument], at_local_g: bool) {
     let Some(answer) = calibration.answer() else { return };
     let others: Vec<&MethodResult> =
         calibration.results.iter().filter(|result| result.method != answer.method).collect();
     if !(others.is_empty() && calibration.refused.is_empty()) {
-        let _ = writeln!(out, "\nMethods:");
+        let _ = writeln!(out, "\nMethods{}:", if at_local_g { ", at local g" } else { "" });
     }
     if !others.is_empty() {
         comparison(out, answer, &others);

@@ -67,7 +67,7 @@ fn rows(accuracy: &Accuracy, gravity_m_per_s2: f64) -> Vec<Row> {
         Found { parameters, standard_uncertainty, degrees_of_freedom, gravity_m_per_s2, gravity_u_m_per_s2: 0.0 };
     let verdict = against_type(&found, gyro);
     let share = |parameter: Parameter| {
-        let row = verdict.parameters.iter().find(|row| row.parameter == parameter)?;
+        let row = verdict.parameter(parameter)?;
         (row.tolerance > 0.0).then(|| row.expanded_uncertainty / COVERAGE_FACTOR / row.tolerance)
     };
     let row =

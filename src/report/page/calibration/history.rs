@@ -68,7 +68,7 @@ fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
     let names = names.collect();
     let drawn = each.iter().map(|(parameter, _, past, ..)| {
         let Some(verdict) = &past.verdict else { return Markup::default() };
-        let row = verdict.parameters.iter().find(|row| row.parameter == *parameter);
+        let row = verdict.parameter(*parameter);
         row.map_or_else(Markup::default, |row| strips.strip(verdict, row))
     });
     let mut columns =
