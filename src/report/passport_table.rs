@@ -211,7 +211,7 @@ fn vectors(out: &mut String, content: &Content) {
         row.extend([nx, ny, at.specific_force_z_g, wx, wy].map(|value| format!("{value:.9}")));
         row
     });
-    columns::table(out, &["i", "j", "n_x", "n_y", "n_z", "ω_x", "ω_y"], rows);
+    columns::table(out, &["i", "j", "n_x", "n_y", "n_z", "ω_3x", "ω_3y"], rows);
 }
 
 fn accuracy(out: &mut String, content: &Content) {

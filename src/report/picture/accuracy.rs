@@ -45,15 +45,18 @@ pub(crate) fn accuracy(languages: &Languages, accuracy: &Accuracy, gravity_m_per
         line([scale.place(1.0), TOP - 5.0], [scale.place(1.0), bottom + 5.0], "limit"),
     ];
     let description = |language| in_words(language, &rows);
-    panel.alone(PANEL_PIXELS, texts::ACCURACY_TITLE, description, &drawing, &key(languages))
+    panel.alone(PANEL_PIXELS, texts::ACCURACY_TITLE, description, &drawing, &key(&panel))
 }
 
-fn key(languages: &Languages) -> Markup {
+fn key(panel: &Panel) -> Markup {
     let bar = |class: &str| rectangle([2.0, 2.5], [26.0, 11.5], class, None);
-    let limit = line([14.0, 0.0], [14.0, 14.0], "limit");
+    let beyond = html! {
+        (rectangle([14.0, 0.0], [26.0, 14.0], "beyond", Some(&panel.filled_with("beyond"))))
+        (line([14.0, 0.0], [14.0, 14.0], "limit"))
+    };
     let entries =
-        [(bar("bar"), texts::ACCURACY_U), (bar("bar-open"), texts::ACCURACY_EXPANDED), (limit, texts::ACCURACY_LIMIT)];
-    legend(languages, &entries)
+        [(bar("bar"), texts::ACCURACY_U), (bar("bar-open"), texts::ACCURACY_EXPANDED), (beyond, texts::ACCURACY_LIMIT)];
+    legend(panel.languages, &entries)
 }
 
 fn rows(accuracy: &Accuracy, gravity_m_per_s2: f64) -> Vec<Row> {

@@ -252,7 +252,7 @@ pub(crate) fn plain_symbol(name: &str) -> String {
 /// Draws a title, in lines for each language, and returns it with the height of all lines after the first.
 /// `say` gives its words in each.
 pub(crate) fn heading_with(languages: &Languages, at: Point, say: impl Fn(Language) -> String) -> (Markup, f64) {
-    const LINE: f64 = 15.0;
+    const LINE: f64 = 16.0;
     let classes = std::iter::once("title").chain(std::iter::repeat("small"));
     let sayings = classes.zip(languages.sayings(say));
     let lines = sayings.flat_map(|(class, (_, words))| lines_of(&words).into_iter().map(move |line| (class, line)));

@@ -2,8 +2,8 @@
 //! gyro's x-y plane ([the paper](crate::bibliography::Bibliography::Tang17), eq. (5)).
 
 use super::drawing::{
-    Anchor, Panel, Point, Scale, Ticks, arrow, crowding, heading_with, label, legend, line, mark, panels, power,
-    power_of_ten, rectangle, words,
+    Anchor, Panel, Point, Scale, Ticks, arrow, crowding, heading_with, label, legend, line, mark, panels, plain_symbol,
+    power, power_of_ten, rectangle, words,
 };
 use super::label as labels;
 use crate::attitude;
@@ -220,7 +220,8 @@ fn differences_of(
     let name = format!("{}-differences{part}", subject.name);
     let [width, height] = plane.layout.size;
     let panel = Panel { name: &name, languages, size: [width, height + more] };
-    panel.svg(title, |language| in_words(language, subject.unit, pairs), &[title_lines, moved])
+    let spoken = |language| plain_symbol(&title(language));
+    panel.svg(spoken, |language| in_words(language, subject.unit, pairs), &[title_lines, moved])
 }
 
 /// Returns points along a line for labels to avoid. Its ends are omitted, because they have marks.

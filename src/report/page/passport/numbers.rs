@@ -107,7 +107,7 @@ fn vectors(content: &Content, languages: &Languages) -> Markup {
     let unit = |symbol: Markup, unit| symbol_and_unit(languages, &symbol, unit);
     let mut headings = vec![symbol("i", ""), symbol("j", "")];
     headings.extend(["x", "y", "z"].map(|axis| unit(symbol("n", axis), units::G)));
-    headings.extend(["x", "y"].map(|axis| unit(symbol("ω", axis), units::DEG_PER_H)));
+    headings.extend(["3x", "3y"].map(|index| unit(symbol("ω", index), units::DEG_PER_H)));
     if currents.is_some() {
         headings.extend(["x", "y"].map(|axis| unit(symbol("J", axis), units::MILLIAMPERES)));
     }

@@ -183,12 +183,12 @@ texts! {
     MEAN { en: "mean over all positions of", ru: "среднее по всем положениям от" }
     VECTORS { en: "Vectors of the positions", ru: "Векторы положений" }
     VECTORS_ALONE_CAPTION {
-        en: "Specific force n and Earth rate ω in case axes",
-        ru: "Перегрузка n и угловая скорость Земли ω в осях корпуса гироскопа"
+        en: "Specific force n and Earth rate ω_3 in case axes",
+        ru: "Перегрузка n и угловая скорость Земли ω_3 в осях корпуса гироскопа"
     }
     VECTORS_CAPTION {
-        en: "Specific force n and Earth rate ω in case axes, and currents J of the self-check",
-        ru: "Перегрузка n и угловая скорость Земли ω в осях корпуса гироскопа и токи J контрольного примера"
+        en: "Specific force n and Earth rate ω_3 in case axes, and currents J of the self-check",
+        ru: "Перегрузка n и угловая скорость Земли ω_3 в осях корпуса гироскопа и токи J контрольного примера"
     }
     FIGURE_VECTORS {
         en: "Earth rate and specific force in case axes: differences from those of an ideal stand.",
