@@ -1,11 +1,15 @@
 //! C interface of dtg-passport. It only converts types and calls `dtg_passport::interface`; no panic crosses it.
 //!
-//! The comments of the functions are those of the header `dtg_passport.h`.
+//! The comments of the functions are those of the header `dtg_passport.h`. A function that takes a pointer is unsafe as a
+//! whole, by the one duty of its caller: to pass NULL, or what the header states.
 
-use passports::interface::{Enquiry, Failed, calibrate, parameters};
+#![allow(unsafe_op_in_unsafe_fn)]
+
+use passports::interface::{Enquiry, Failed, calibrate, matrix, parameters};
 use passports::jiff::Timestamp;
 use passports::passport::Content;
 use passports::text::LARGEST_DOCUMENT_BYTES;
+use passports::trust::LARGEST_TRUST_FILE_BYTES;
 use std::borrow::Cow;
 use std::ffi::{CStr, CString, c_char, c_double, c_int};
 use std::fs::{self, File};
@@ -20,9 +24,6 @@ pub const DTG_OK: c_int = 0;
 pub const DTG_REFUSED: c_int = 1;
 /// An argument or a file cannot be used.
 pub const DTG_UNUSABLE: c_int = 2;
-
-/// Number of bytes to read of allowed_signers: one more than the library accepts.
-const LARGEST_SIGNERS_BYTES: usize = (1 << 24) + 1;
 
 /// Passport that passed every check; it does not change.
 #[allow(non_camel_case_types)]
@@ -51,16 +52,10 @@ pub unsafe extern "C" fn dtg_load(
     out: *mut *mut dtg_passport,
     report_json: *mut *mut c_char,
 ) -> c_int {
-    // SAFETY: the caller passes NULL or pointers that are valid as the header states.
-    unsafe {
-        loaded(question_json, out, report_json, || {
-            let (path, signers) = (file_name(path, "path")?, file_name(allowed_signers_path, "allowed_signers_path")?);
-            // One byte above the size limit is enough to show that the file is not a passport.
-            let (signers_bytes, bytes) =
-                (read(signers, LARGEST_SIGNERS_BYTES)?, read(path, LARGEST_DOCUMENT_BYTES + 1)?);
-            Ok([(signers.to_string_lossy(), signers_bytes.into()), (path.to_string_lossy(), bytes.into())])
-        })
-    }
+    loaded(question_json, out, report_json, || {
+        let (path, signers) = (file_name(path, "path")?, file_name(allowed_signers_path, "allowed_signers_path")?);
+        Ok([read(signers, LARGEST_TRUST_FILE_BYTES)?, read(path, LARGEST_DOCUMENT_BYTES)?])
+    })
 }
 
 /// Verifies a passport in memory, as dtg_load does; `passport` and `allowed_signers` are the contents of the two files.
@@ -74,13 +69,10 @@ pub unsafe extern "C" fn dtg_loads(
     out: *mut *mut dtg_passport,
     report_json: *mut *mut c_char,
 ) -> c_int {
-    // SAFETY: the caller passes NULL or pointers that are valid as the header states.
-    unsafe {
-        loaded(question_json, out, report_json, || {
-            let given = |name, text| bytes(text, name).map(|bytes| (Cow::from(name), Cow::from(bytes)));
-            Ok([given("allowed_signers", allowed_signers)?, given("passport", passport)?])
-        })
-    }
+    loaded(question_json, out, report_json, || {
+        let given = |name, text| bytes(text, name).map(|bytes| (Cow::from(name), Cow::from(bytes)));
+        Ok([given("allowed_signers", allowed_signers)?, given("passport", passport)?])
+    })
 }
 
 /// Verifies a passport; `files` returns the names and contents of allowed_signers and of the passport.
@@ -90,23 +82,20 @@ unsafe fn loaded<'a>(
     report_json: *mut *mut c_char,
     files: impl FnOnce() -> Result<[(Cow<'a, str>, Cow<'a, [u8]>); 2], Failed>,
 ) -> c_int {
-    // SAFETY: the caller passes NULL or pointers that are valid as the header states.
-    unsafe {
-        give(out, ptr::null_mut());
-        guarded(report_json, || {
-            if out.is_null() {
-                return Err(Failed::unusable("out is NULL"));
-            }
-            let question = if question_json.is_null() { "{}" } else { text(question_json, "question_json")? };
-            let [(signers_name, signers), (name, passport)] = files()?;
-            let enquiry = Enquiry::new((&signers_name, &signers), &[], question, Timestamp::now())?;
-            let answer = enquiry.verify(&name, &passport);
-            let Some(passport) = answer.verification.passport() else { return Ok((DTG_REFUSED, answer.to_json())) };
-            let passport = dtg_passport { content: passport.content().clone(), verified_as_of: answer.time };
-            give(out, Box::into_raw(Box::new(passport)));
-            Ok((DTG_OK, answer.to_json()))
-        })
-    }
+    give(out, ptr::null_mut());
+    guarded(report_json, || {
+        if out.is_null() {
+            return Err(Failed::unusable("out is NULL"));
+        }
+        let question = if question_json.is_null() { "{}" } else { text(question_json, "question_json")? };
+        let [(signers_name, signers), (name, passport)] = files()?;
+        let enquiry = Enquiry::new((&signers_name, &signers), &[], question, Timestamp::now())?;
+        let answer = enquiry.verify(&name, &passport);
+        let Some(passport) = answer.verification.passport() else { return Ok((DTG_REFUSED, answer.to_json())) };
+        let passport = dtg_passport { content: passport.content().clone(), verified_as_of: answer.time };
+        give(out, Box::into_raw(Box::new(passport)));
+        Ok((DTG_OK, answer.to_json()))
+    })
 }
 
 /// Copies a matrix row by row into `out`.
@@ -116,28 +105,15 @@ unsafe fn loaded<'a>(
 /// paper's eight positions; DTG_UNUSABLE if the key is unknown or an argument is NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dtg_matrix(passport: *const dtg_passport, key: *const c_char, out: *mut c_double) -> c_int {
-    // SAFETY: the caller passes NULL, or a passport of this library, a text, and room for four numbers.
-    unsafe {
-        guarded(ptr::null_mut(), || {
-            let key = text(key, "key")?;
-            let (passport, out) = (given(passport, "passport")?, room(out, 4, "out")?);
-            let matrices = passport.content.matrices.as_ref();
-            let matrix = match key {
-                "delta" => matrices.map(|m| m.delta),
-                "b_deg_per_h" => matrices.map(|m| m.b_deg_per_h),
-                "c_deg_per_h_per_g" => matrices.map(|m| m.c_deg_per_h_per_g),
-                "n1" => matrices.map(|m| m.n1),
-                "n2" => matrices.map(|m| m.n2),
-                "n2_inverse" => matrices.map(|m| m.n2_inverse),
-                "omega1_deg_per_h" => matrices.map(|m| m.omega1_deg_per_h),
-                "omega2_deg_per_h" => matrices.map(|m| m.omega2_deg_per_h),
-                _ => return Err(Failed::unusable("unknown key of a matrix")),
-            };
-            let Some(matrix) = matrix else { return Ok((DTG_REFUSED, String::new())) };
-            out.copy_from_slice(&matrix.concat());
-            Ok((DTG_OK, String::new()))
-        })
-    }
+    guarded(ptr::null_mut(), || {
+        let (key, passport, out) = (text(key, "key")?, given(passport, "passport")?, room(out, 4, "out")?);
+        let rows = matrix(&passport.content, key).ok_or_else(|| Failed::unusable("unknown key of a matrix"))?;
+        if passport.content.matrices.is_none() {
+            return Ok((DTG_REFUSED, String::new()));
+        }
+        out.copy_from_slice(rows.as_flattened());
+        Ok((DTG_OK, String::new()))
+    })
 }
 
 /// Returns the number of positions, or 0 if `passport` is NULL.
@@ -158,18 +134,15 @@ pub unsafe extern "C" fn dtg_position(
     n: *mut c_double,
     omega: *mut c_double,
 ) -> c_int {
-    // SAFETY: the caller passes NULL, or a passport of this library and room for two numbers each.
-    unsafe {
-        guarded(ptr::null_mut(), || {
-            let (ij, n, omega) = (room(ij, 2, "ij")?, room(n, 2, "n")?, room(omega, 2, "omega")?);
-            let position = given(passport, "passport")?.content.vectors.get(k);
-            let position = position.ok_or_else(|| Failed::unusable("k is not below dtg_positions"))?;
-            ij.copy_from_slice(&[position.i, position.j]);
-            n.copy_from_slice(&position.specific_force_g);
-            omega.copy_from_slice(&position.omega_deg_per_h);
-            Ok((DTG_OK, String::new()))
-        })
-    }
+    guarded(ptr::null_mut(), || {
+        let (ij, n, omega) = (room(ij, 2, "ij")?, room(n, 2, "n")?, room(omega, 2, "omega")?);
+        let position = given(passport, "passport")?.content.vectors.get(k);
+        let position = position.ok_or_else(|| Failed::unusable("k is not below dtg_positions"))?;
+        ij.copy_from_slice(&[position.i, position.j]);
+        n.copy_from_slice(&position.specific_force_g);
+        omega.copy_from_slice(&position.omega_deg_per_h);
+        Ok((DTG_OK, String::new()))
+    })
 }
 
 /// Calibrates a gyro.
@@ -193,13 +166,10 @@ pub unsafe extern "C" fn dtg_calibrate_csv(
     order_json: *const c_char,
     result_json: *mut *mut c_char,
 ) -> c_int {
-    // SAFETY: the caller passes NULL, or a passport of this library and texts.
-    unsafe {
-        guarded(result_json, || {
-            let order = if order_json.is_null() { "{}" } else { text(order_json, "order_json")? };
-            calibrated(given(passport, "passport")?, text(currents_csv, "currents_csv")?, order)
-        })
-    }
+    guarded(result_json, || {
+        let order = if order_json.is_null() { "{}" } else { text(order_json, "order_json")? };
+        calibrated(given(passport, "passport")?, text(currents_csv, "currents_csv")?, order)
+    })
 }
 
 /// Calibrates a gyro with the paper's meter, as dtg_calibrate_csv does.
@@ -214,20 +184,17 @@ pub unsafe extern "C" fn dtg_calibrate(
     method: *const c_char,
     result_json: *mut *mut c_char,
 ) -> c_int {
-    // SAFETY: the caller passes NULL, or a passport of this library, a text, and 4 · rows numbers.
-    unsafe {
-        guarded(result_json, || {
-            let passport = given(passport, "passport")?;
-            given(currents, "currents")?;
-            let method = if method.is_null() { "least-squares" } else { text(method, "method")? };
-            let numbers = rows.checked_mul(4).filter(|count| *count <= isize::MAX as usize / size_of::<c_double>());
-            let numbers = numbers.ok_or_else(|| Failed::unusable("rows is too large"))?;
-            let (rows, _) = std::slice::from_raw_parts(currents, numbers).as_chunks::<4>();
-            let rows = rows.iter().map(|[i, j, jx_ma, jy_ma]| format!("{i},{j},{jx_ma},{jy_ma}\n"));
-            let csv = "i,j,jx_ma,jy_ma\n".to_owned() + &rows.collect::<String>();
-            calibrated(passport, &csv, &format!(r#"{{"method": {method:?}}}"#))
-        })
-    }
+    guarded(result_json, || {
+        let passport = given(passport, "passport")?;
+        given(currents, "currents")?;
+        let method = if method.is_null() { "least-squares" } else { text(method, "method")? };
+        let numbers = rows.checked_mul(4).filter(|count| *count <= isize::MAX as usize / size_of::<c_double>());
+        let numbers = numbers.ok_or_else(|| Failed::unusable("rows is too large"))?;
+        let (rows, _) = std::slice::from_raw_parts(currents, numbers).as_chunks::<4>();
+        let rows = rows.iter().map(|[i, j, jx_ma, jy_ma]| format!("{i},{j},{jx_ma},{jy_ma}\n"));
+        let csv = "i,j,jx_ma,jy_ma\n".to_owned() + &rows.collect::<String>();
+        calibrated(passport, &csv, &format!(r#"{{"method": {method:?}}}"#))
+    })
 }
 
 /// Copies the eight parameters of a result of dtg_calibrate_csv or dtg_calibrate and their standard uncertainties: K_x,
@@ -239,16 +206,13 @@ pub unsafe extern "C" fn dtg_calibrate(
 /// `result_json` is no such result or an argument is NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dtg_parameters(result_json: *const c_char, value: *mut c_double, u: *mut c_double) -> c_int {
-    // SAFETY: the caller passes NULL, or a text and room for eight numbers each.
-    unsafe {
-        guarded(ptr::null_mut(), || {
-            let (value, u) = (room(value, 8, "value")?, room(u, 8, "u")?);
-            let (found, uncertainty, usable) = parameters(text(result_json, "result_json")?)?;
-            value.copy_from_slice(&found);
-            u.copy_from_slice(&uncertainty);
-            Ok((if usable { DTG_OK } else { DTG_REFUSED }, String::new()))
-        })
-    }
+    guarded(ptr::null_mut(), || {
+        let (value, u) = (room(value, 8, "value")?, room(u, 8, "u")?);
+        let (found, uncertainty, usable) = parameters(text(result_json, "result_json")?)?;
+        value.copy_from_slice(&found);
+        u.copy_from_slice(&uncertainty);
+        Ok((if usable { DTG_OK } else { DTG_REFUSED }, String::new()))
+    })
 }
 
 /// Frees a passport; NULL is allowed.
@@ -261,15 +225,13 @@ pub extern "C" fn dtg_free(passport: Option<Box<dtg_passport>>) {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dtg_string_free(text: *mut c_char) {
     if !text.is_null() {
-        // SAFETY: the caller passes a text of this library that was not freed.
-        drop(unsafe { CString::from_raw(text) });
+        drop(CString::from_raw(text));
     }
 }
 
 fn calibrated(passport: &dtg_passport, csv: &str, order: &str) -> Result<(c_int, String), Failed> {
-    let verified_as_of = Some(passport.verified_as_of);
-    let found = calibrate(&passport.content, verified_as_of, ("currents", csv.as_bytes()), &order.parse()?)?;
-    Ok((DTG_OK, found.json))
+    let (verified_as_of, csv) = (Some(passport.verified_as_of), ("currents", csv.as_bytes()));
+    Ok((DTG_OK, calibrate(&passport.content, verified_as_of, csv, &order.parse()?)?.json))
 }
 
 /// Runs `work`, hands out its text, and returns its code. A panic becomes DTG_UNUSABLE.
@@ -279,59 +241,51 @@ unsafe fn guarded(json: *mut *mut c_char, work: impl FnOnce() -> Result<(c_int, 
         .unwrap_or_else(|failed| (if failed.code == "refused" { DTG_REFUSED } else { DTG_UNUSABLE }, failed.to_json()));
     // A text that the caller did not ask for would never be freed.
     if !json.is_null() {
-        // SAFETY: `json` is valid. JSON has no zero byte.
-        unsafe { give(json, CString::new(text).map_or(ptr::null_mut(), CString::into_raw)) };
+        // JSON has no zero byte.
+        give(json, CString::new(text).map_or(ptr::null_mut(), CString::into_raw));
     }
     code
 }
 
 /// Stores a pointer, unless the caller did not ask for it.
 unsafe fn give<T>(place: *mut *mut T, value: *mut T) {
-    // SAFETY: `place` is NULL or valid.
-    if let Some(place) = unsafe { place.as_mut() } {
+    if let Some(place) = place.as_mut() {
         *place = value;
     }
 }
 
+/// Returns what a pointer points to; refuses NULL.
 unsafe fn given<'a, T>(pointer: *const T, name: &str) -> Result<&'a T, Failed> {
-    // SAFETY: `pointer` is NULL or valid.
-    unsafe { pointer.as_ref() }.ok_or_else(|| Failed::unusable(format!("{name} is NULL")))
+    pointer.as_ref().ok_or_else(|| Failed::unusable(format!("{name} is NULL")))
 }
 
+/// Returns the room that the caller gives for `length` numbers.
 unsafe fn room<'a, T>(pointer: *mut T, length: usize, name: &str) -> Result<&'a mut [T], Failed> {
-    // SAFETY: `pointer` is NULL, or the caller gives room for `length` numbers.
-    unsafe {
-        given(pointer, name)?;
-        Ok(std::slice::from_raw_parts_mut(pointer, length))
-    }
+    given(pointer, name)?;
+    Ok(std::slice::from_raw_parts_mut(pointer, length))
 }
 
+/// Returns a text, which ends with a zero byte.
 unsafe fn bytes<'a>(pointer: *const c_char, name: &str) -> Result<&'a [u8], Failed> {
-    // SAFETY: `pointer` is NULL or a text that ends with a zero byte.
-    unsafe { Ok(CStr::from_ptr(given(pointer, name)?).to_bytes()) }
+    Ok(CStr::from_ptr(given(pointer, name)?).to_bytes())
 }
 
 unsafe fn text<'a>(pointer: *const c_char, name: &str) -> Result<&'a str, Failed> {
-    // SAFETY: as in `bytes`.
-    let bytes = unsafe { bytes(pointer, name) }?;
-    std::str::from_utf8(bytes).map_err(|_| Failed::unusable(format!("{name} is not UTF-8")))
+    std::str::from_utf8(bytes(pointer, name)?).map_err(|_| Failed::unusable(format!("{name} is not UTF-8")))
 }
 
 /// Returns a path; outside Unix it must be UTF-8.
 unsafe fn file_name<'a>(pointer: *const c_char, name: &str) -> Result<&'a Path, Failed> {
     #[cfg(unix)]
-    {
-        use std::os::unix::ffi::OsStrExt;
-        // SAFETY: as in `bytes`.
-        Ok(Path::new(std::ffi::OsStr::from_bytes(unsafe { bytes(pointer, name) }?)))
-    }
+    let name = <std::ffi::OsStr as std::os::unix::ffi::OsStrExt>::from_bytes(bytes(pointer, name)?);
     #[cfg(not(unix))]
-    // SAFETY: as in `bytes`.
-    Ok(Path::new(unsafe { text(pointer, name) }?))
+    let name = text(pointer, name)?;
+    Ok(Path::new(name))
 }
 
-/// Reads at most `limit` bytes of a file. A pipe is refused, because reading it might never end.
-fn read(path: &Path, limit: usize) -> Result<Vec<u8>, Failed> {
+/// Reads a file; of a larger one than `limit`, one byte more, which is enough to refuse it. A pipe is refused, because
+/// reading it might never end.
+fn read(path: &Path, limit: usize) -> Result<(Cow<'_, str>, Cow<'static, [u8]>), Failed> {
     let name = path.to_string_lossy();
     let failed = |error: std::io::Error| match error.kind() {
         ErrorKind::NotFound if name.is_empty() => Failed::unusable("the path is empty"),
@@ -345,6 +299,6 @@ fn read(path: &Path, limit: usize) -> Result<Vec<u8>, Failed> {
         return Err(Failed::unreadable(&name, format!("found {found}, expected a file")));
     }
     let mut bytes = Vec::new();
-    File::open(path).map_err(failed)?.take(limit as u64).read_to_end(&mut bytes).map_err(failed)?;
-    Ok(bytes)
+    File::open(path).map_err(failed)?.take(limit as u64 + 1).read_to_end(&mut bytes).map_err(failed)?;
+    Ok((name, bytes.into()))
 }

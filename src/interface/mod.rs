@@ -4,6 +4,7 @@
 //! checks and computes the same numbers to the bit.
 //!
 //! * [`Enquiry`]: whom to trust and what to ask, and the verification of many passports.
+//! * [`array`], [`matrix`]: the numbers of a passport.
 //! * [`Order`], [`calibrate`]: currents to the parameters of a gyro; [`parameters`]: the numbers of its result;
 //!   `monte_carlo` (with `monte-carlo`): their distributions.
 //! * `issue` (with `factory`), `plan` (with `monte-carlo` too): a signed passport; the best positions.
@@ -31,6 +32,7 @@ pub(crate) mod calibrated;
 pub(crate) mod enquiry;
 #[cfg(feature = "factory")]
 mod issued;
+mod numbers;
 mod order;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod planned;
@@ -41,16 +43,20 @@ pub use calibrated::{Calibrated, calibrate, parameters};
 pub use enquiry::{Answer, Enquiry};
 #[cfg(feature = "factory")]
 pub use issued::issue;
+pub use numbers::{array, matrix};
 pub use order::Order;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 pub use planned::plan;
 
+use crate::document::sha256_hex;
 #[cfg(feature = "factory")]
-use crate::files::FileError;
-use crate::passport::{Check, Content, Verification};
+use crate::files::{self, FileError};
+use crate::passport::{Check, Content, Verification, content_from_anyone};
 #[cfg(feature = "factory")]
 use crate::text::name_of;
 use crate::text::{Node, Path, Problem, Problems, Unreadable, printable, record};
+#[cfg(feature = "factory")]
+use crate::trust::LARGEST_TRUST_FILE_BYTES;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -170,6 +176,23 @@ impl Verdict {
 /// Returns the content of a passport as JSON: the keys of the file without `signature`, and the same binary64 values.
 pub fn content_json(content: &Content) -> String {
     json(content)
+}
+
+/// Returns the content of a passport that is not verified, and the SHA-256 of the whole file: anyone may have written it.
+///
+/// # Errors
+/// Returns [`Failed`] if the file does not have the form of a passport.
+pub fn unverified(file: &str, bytes: &[u8]) -> Result<(Content, String), Failed> {
+    Ok((content_from_anyone(file, bytes)?, sha256_hex(bytes)))
+}
+
+/// Reads a file of any kind but a passport to be verified, so that no pipe is waited for and no memory is exhausted.
+///
+/// # Errors
+/// Returns an error if the file cannot be read, is no regular file, or is larger than any kind may be.
+#[cfg(feature = "factory")]
+pub fn read(path: &std::path::Path) -> Result<Vec<u8>, FileError> {
+    files::read(path, LARGEST_TRUST_FILE_BYTES)
 }
 
 /// Question or order, a JSON object, whose keys may all be absent or null.

@@ -41,4 +41,4 @@ pub use signing_key::SigningKey;
 pub use sshsig::{KeyPoint, Message, Signature};
 
 /// Largest trust file (allowed signers, revoked keys) that is read, in bytes: enough for 100,000 keys.
-pub(crate) const LARGEST_TRUST_FILE_BYTES: usize = 1 << 24;
+pub const LARGEST_TRUST_FILE_BYTES: usize = 1 << 24;
