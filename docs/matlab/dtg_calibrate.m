@@ -7,9 +7,10 @@ function c = dtg_calibrate(passport, signers, currents, varargin)
 %
 % currents has rows i, j, J_x, J_y, currents in mA, or is the path of a CSV file, which may also have cycle, visit and
 % time_s. Options are those of dtg_load, and laboratory, gyro, model, anisoelasticity, drift, exclude, why, gyro-serial,
-% operator, date, temperature-c and previous (the path of an earlier result) of `dtg-passport calibrate`. Without a laboratory the uncertainties are those of the paper's meter. c has K (deg/(h*mA)), omega_0 (deg/h), omega_g and
-% omega_k (deg/h per local g) or in the general model G, u with their standard uncertainties, and document with everything
-% that `dtg-passport calibrate --format json` prints.
+% operator, date, temperature-c and previous (the path of an earlier result) of `dtg-passport calibrate`. Without a
+% laboratory the uncertainties are those of the paper's meter. c has K (deg/(h*mA)), omega_0 (deg/h), omega_g and omega_k
+% (deg/h per local g) or in the general model G, u with their standard uncertainties, and document with everything that
+% `dtg-passport calibrate --format json` prints.
 %
 % The warning dtg:inconsistent means that the readings do not fit the stand, and dtg:mistake that an error such as currents
 % in another unit explains the parameters; they are then not valid. Other remarks are warnings dtg:remark.
@@ -28,10 +29,9 @@ function c = dtg_calibrate(passport, signers, currents, varargin)
         fprintf(id, '%.17g,%.17g,%.17g,%.17g\n', currents');
         fclose(id);
     end
-    known = {'serial', 'at', 'time', 'issuer', 'revoked', 'laboratory', 'gyro', 'model', 'anisoelasticity', 'drift', ...
-             'exclude', 'why', 'gyro-serial', 'operator', 'date', 'temperature-c', 'previous'};
-    fixed = {'--method=least-squares', ['--trust=', signers]};
-    c.document = jsondecode(dtg_run('calibrate', fixed, varargin, known, {passport, file}));
+    known = {'laboratory', 'gyro', 'model', 'anisoelasticity', 'drift', 'exclude', 'why', 'gyro-serial', 'operator', ...
+             'date', 'temperature-c', 'previous'};
+    c.document = jsondecode(dtg_run('calibrate', {'--method=least-squares'}, signers, varargin, known, {passport, file}));
     remarks = {};
     if isfield(c.document, 'remarks')
         remarks = cellstr(c.document.remarks);
@@ -47,9 +47,8 @@ function c = dtg_calibrate(passport, signers, currents, varargin)
     for k = numel(remarks):-1:1
         warning(ids{k}, '%s', remarks{k});
     end
-    result = c.document.results;
-    c = parameters(c, result);
-    c.u = parameters(struct(), result.standard_uncertainty);
+    c.u = parameters(struct(), c.document.results.standard_uncertainty);
+    c = parameters(c, c.document.results);
 end
 
 function to = parameters(to, from)

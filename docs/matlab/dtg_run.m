@@ -1,5 +1,6 @@
-function text = dtg_run(verb, words, options, known, files)
+function text = dtg_run(verb, words, signers, options, known, files)
 % DTG_RUN  Run dtg-passport and return its JSON; used by dtg_load and dtg_calibrate.
+    known = [{'serial', 'at', 'time', 'issuer', 'revoked'}, known];
     if mod(numel(options), 2) ~= 0
         error('dtg:option', 'expected pairs of the name of an option and its value');
     end
@@ -19,7 +20,7 @@ function text = dtg_run(verb, words, options, known, files)
         end
         words{end + 1} = ['--', name, '=', char(value)];
     end
-    words = cellfun(@quoted, [words, {'--'}, files], 'UniformOutput', false);
+    words = cellfun(@quoted, [words, {['--trust=', signers], '--'}, files], 'UniformOutput', false);
     [status, text] = system(['dtg-passport ', verb, ' --format=json ', strjoin(words, ' ')]);
     if status == 1 && strcmp(verb, 'calibrate') && any(strfind(text, '"passport_id"'))
         status = 0;  % the gyro fails its type; the result says so
