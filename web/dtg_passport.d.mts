@@ -1,13 +1,18 @@
 /** Bytes of a file; of allowed_signers, currents and revocation lists also the text. */
 export type Bytes = Uint8Array | ArrayBuffer;
 
-/** What to ask of a passport; every key may be absent, but not `undefined`. */
+/**
+ * What to ask of a passport; every key may be absent. It is a plain object without other keys, and no value may be
+ * `undefined`: a check that was silently left out would look like one that passed.
+ */
 export interface Question {
+    /** RFC 3339 in whole seconds, a UTC date, or a Date; default: now. */
     time?: string | Date;
     serial?: string;
     /** Latitude and longitude, degrees. */
     at?: [number, number];
     issuer?: string;
+    /** Revocation lists. */
     revoked?: (string | Bytes)[];
 }
 
@@ -19,9 +24,9 @@ export interface Order {
     anisoelasticity?: boolean;
     drift?: boolean;
     exclude?: { i: number; j: number; visit: number; cycle?: number; why: string }[];
-    /** The keys of a file dtg-laboratory/1. */
+    /** The keys of a file dtg-laboratory/1; default: the paper's meter. */
     laboratory?: object;
-    /** The keys of a file dtg-gyro/1. */
+    /** The keys of a file dtg-gyro/1; default: no verdict. */
     gyro?: object;
     gyro_serial?: string;
     operator?: string;
@@ -37,10 +42,14 @@ export interface Verdict {
     valid: boolean;
     id: string | null;
     checks: { name: string; passed: boolean | null; code: string; detail: string }[];
+    /** What there is to know about the revocation lists, such as ALARM: two of them contradict. */
     remarks?: string[];
 }
 
-/** The JSON of `calibrate`, described in docs/commands.md. */
+/**
+ * The JSON of `calibrate`, described in docs/commands.md. Use the parameters only if `consistent` is true and `mistake` is
+ * absent; `remarks` has what else to show.
+ */
 export interface Calibration {
     consistent: boolean;
     mistake?: object;
@@ -50,9 +59,15 @@ export interface Calibration {
     [key: string]: unknown;
 }
 
+// Unusable input throws an Error with `cause: {code, message, problems}`; a refusal, one with `cause: {valid, id, checks}`.
+
+/** Verifies a passport with the keys of an OpenSSH allowed_signers file. */
 export function verify(passport: Bytes, allowedSigners: string | Bytes, question?: Question): Promise<Verdict>;
+/** Verifies a passport and returns its content: the keys of the file but `signature`. Throws if a check failed. */
 export function content(passport: Bytes, allowedSigners: string | Bytes, question?: Question): Promise<{ [key: string]: any }>;
+/** Verifies a passport and returns it in printed form, one HTML document. Throws if the passport is not authentic. */
 export function print(passport: Bytes, allowedSigners: string | Bytes, question?: Question): Promise<string>;
+/** Verifies a passport and calibrates a gyro from currents as CSV. Throws if refused. */
 export function calibrate(
     passport: Bytes, allowedSigners: string | Bytes, currents: string | Bytes, question?: Question, order?: Order | string,
 ): Promise<Calibration>;

@@ -5,12 +5,7 @@
 //     const signers = await readFile("allowed_signers", "utf8");
 //     const { valid, id, checks } = await verify(await readFile("moscow-bmstu-1.yaml"), signers, { serial: "0017" });
 //
-// Every function takes the bytes of a passport (Uint8Array or ArrayBuffer), the text or bytes of an OpenSSH
-// allowed_signers file, and a question in which every key may be absent: `time` (text in RFC 3339, whole seconds, a UTC
-// date, or a Date; default: now), `serial`, `at: [latitude, longitude]` in degrees, `issuer`, and `revoked`, a list of
-// revocation lists as text or bytes. Input that cannot be used throws an Error whose `cause` is {code, message,
-// problems}; a refusal, one whose `cause` is {valid, id, checks}. A question is a plain object without other keys, and no
-// value may be `undefined`: a check that was silently left out would look like one that passed.
+// What the functions take, give and throw: dtg_passport.d.mts in the package for npm, and docs/browser.md.
 
 const WASM = "@WASM@"; // base64 of the module, compressed with gzip
 
@@ -89,31 +84,19 @@ async function accepted(...inputs) {
     throw new Error(`refused: ${words}`, { cause: { valid, id, checks } });
 }
 
-/**
- * Verifies a passport: {valid, id, checks: [{name, passed, code, detail}]}, and `remarks` if there is something to know
- * about the revocation lists, such as ALARM: two of them contradict.
- */
 export async function verify(passport, allowedSigners, question) {
     const { valid, id, checks, remarks } = parsed(await call("verify", passport, allowedSigners, question));
     return { valid, id, checks, ...(remarks && { remarks }) };
 }
 
-/** Verifies a passport and returns its content: the keys of the file but `signature`. Throws if a check failed. */
 export async function content(passport, allowedSigners, question) {
     return accepted("content", passport, allowedSigners, question);
 }
 
-/** Verifies a passport and returns it in printed form, one HTML document. Throws if the passport is not authentic. */
 export async function print(passport, allowedSigners, question) {
     return accepted("print", passport, allowedSigners, question);
 }
 
-/**
- * Verifies a passport and calibrates a gyro from currents as CSV: the JSON of `calibrate`. Throws if refused. The keys of
- * `order` may all be absent: `method`, `model`, `drift`, `exclude: [{i, j, visit, cycle, why}]`, `laboratory` and `gyro`
- * with the keys of the files dtg-laboratory/1 (default: the paper's meter) and dtg-gyro/1 (default: no verdict). Use the
- * parameters only if `consistent` is true and `mistake` is absent; `remarks` has what else to show.
- */
 export async function calibrate(passport, allowedSigners, currents, question, order) {
     return accepted("calibrated", passport, allowedSigners, question, currents, order);
 }

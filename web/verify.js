@@ -2,18 +2,16 @@
 
 const byId = (id) => document.getElementById(id);
 
-/** Creates an element. Text of others is only ever text, never markup. */
-function element(name, text, ...children) {
+/** Creates an element of texts and elements. Text of others is only ever text, never markup. */
+function element(name, ...children) {
     const created = document.createElement(name);
-    if (text !== undefined) created.textContent = text;
     created.append(...children);
     return created;
 }
 
 function table(head, rows) {
-    const line = (cells, name) => element("tr", undefined, ...cells.map((cell) => element(name, String(cell))));
-    return element("table", undefined, element("thead", undefined, line(head, "th")),
-        element("tbody", undefined, ...rows.map((row) => line(row, "td"))));
+    const line = (cells, name) => element("tr", ...cells.map((cell) => element(name, String(cell))));
+    return element("table", element("thead", line(head, "th")), element("tbody", ...rows.map((row) => line(row, "td"))));
 }
 
 const file = (id) => byId(id).files[0];
@@ -30,14 +28,11 @@ async function asked() {
     return Object.fromEntries(Object.entries(question).filter(([, given]) => given !== undefined));
 }
 
-const shown = (rows) => rows.map((row) => row.join("  ")).join("\n");
-
-function numbers(found) {
-    const { matrices, vectors, positions } = found;
+function numbers({ matrices, vectors, positions }) {
     const parts = [element("h2", "Numbers")];
     if (matrices) {
-        const rows = Object.entries(matrices).map(([key, rows]) => [key, shown(rows)]);
-        parts.push(table(["matrix", "rows"], rows));
+        const shown = (rows) => rows.map((row) => row.join("  ")).join("\n");
+        parts.push(table(["matrix", "rows"], Object.entries(matrices).map(([key, rows]) => [key, shown(rows)])));
     }
     const rows = vectors.map((at, index) => {
         const { alpha_arcsec, beta_arcsec, gamma_arcsec } = positions[index];
@@ -72,8 +67,10 @@ function printed(html, id) {
     const link = element("a", "Save the printed passport");
     link.href = URL.createObjectURL(new Blob([html], { type: "text/html" }));
     link.download = `${id.replaceAll("/", "-")}.html`;
-    return [element("h2", "Printed passport"), element("p", undefined, link), frame];
+    return [element("h2", "Printed passport"), element("p", link), frame];
 }
+
+const failed = (title) => (error) => [element("h2", title), element("pre", error.message)];
 
 async function answer() {
     const passport = await read(file("passport"));
@@ -94,9 +91,9 @@ async function answer() {
     if (!verdict.valid) return parts;
     parts.push(...numbers(await content(passport, signers, question)));
     const currents = await read(file("currents"));
-    const failed = (error) => [element("h2", "No calibration"), element("pre", error.message)];
     const order = await file("order")?.text();
-    if (currents) parts.push(...(await calibrate(passport, signers, currents, question, order).then(parameters, failed)));
+    const found = () => calibrate(passport, signers, currents, question, order).then(parameters, failed("No calibration"));
+    if (currents) parts.push(...(await found()));
     parts.push(...printed(await print(passport, signers, question), verdict.id));
     return parts;
 }
@@ -105,13 +102,7 @@ byId("question").addEventListener("submit", async (event) => {
     event.preventDefault();
     // An answer of before must not stand beside other files.
     byId("result").replaceChildren();
-    let parts;
-    try {
-        parts = await answer();
-    } catch (error) {
-        parts = [element("h2", "No answer"), element("pre", error.message)];
-    }
-    byId("result").replaceChildren(...parts);
+    byId("result").replaceChildren(...(await answer().catch(failed("No answer"))));
 });
 byId("question").addEventListener("input", () => byId("result").replaceChildren());
 

@@ -50,9 +50,8 @@ pub extern "C" fn content(inputs: &Inputs, now_s: f64) -> *const Slice {
 /// not authentic.
 #[unsafe(no_mangle)]
 pub extern "C" fn print(inputs: &Inputs, now_s: f64) -> *const Slice {
-    let bytes = inputs.passport.bytes();
-    run(inputs, now_s, |enquiry, answer| {
-        let page = PassportPage::of(bytes, &enquiry.trust, &enquiry.question, answer.verification.clone());
+    run(inputs, now_s, |Enquiry { trust, question, .. }, answer| {
+        let page = PassportPage::of(inputs.passport.bytes(), trust, question, answer.verification.clone());
         Ok(page.map_or_else(|_| answer.to_json(), |page| page.html(&Languages::from(Language::English))))
     })
 }
