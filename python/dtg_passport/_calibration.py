@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import sys
 from collections.abc import Callable
@@ -9,6 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from . import _dtg_passport
 from ._common import Array, Frozen, frozen, optional, whole
 
 NAMES = ("K_x", "K_xy", "K_yx", "K_y", "ω_0x", "ω_0y", "ω_g", "ω_k")
@@ -66,17 +68,13 @@ def _eight(values: list[float]) -> Parameters:
 class Calibration(Frozen):
     """Result of `Passport.calibrate`: parameters, their uncertainty, and the fit. It cannot be changed."""
 
-    __slots__ = ("_document", "_covariance", "_run")
+    __slots__ = ("_document", "_result", "_covariance", "_draw")
     __module__ = "dtg_passport"
 
     _document: dict[str, Any]
+    _result: dict[str, Any]
     _covariance: Array
-    _run: Callable[..., str]
-
-    @property
-    def _result(self) -> dict[str, Any]:
-        result: dict[str, Any] = self._document["results"][0]
-        return result
+    _draw: _dtg_passport.Distributions
 
     @property
     def parameters(self) -> Parameters:
@@ -221,7 +219,7 @@ class Calibration(Frozen):
         threads = None if threads is None else whole("threads", threads, 1, 1024)
         if not (progress is None or isinstance(progress, bool) or callable(progress)):
             raise TypeError(f"progress: found {progress!r}, expected a function, True or False")
-        bar = None
+        bar: Any = None
         if progress is True or (progress is None and sys.stderr is not None and sys.stderr.isatty()):
             try:
                 bar = optional("tqdm.auto", "progress").tqdm(unit=" trials", unit_scale=True)
@@ -234,11 +232,8 @@ class Calibration(Frozen):
                 bar.total = due
                 bar.update(done - bar.n)
 
-        try:
-            found = json.loads(self._run(trials, seed, threads, progress if callable(progress) else draw))
-        finally:
-            if bar is not None:
-                bar.close()
+        with contextlib.nullcontext() if bar is None else bar:
+            found = json.loads(self._draw(trials, seed, threads, progress if callable(progress) else draw))
         each = found["parameters"]
         mean, u = (_eight([at[key] for at in each]) for key in ("mean", "standard_uncertainty"))
         low, high = (_eight([at["symmetric_interval"][end] for at in each]) for end in (0, 1))
@@ -263,8 +258,7 @@ class Calibration(Frozen):
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the residuals with their expanded uncertainties (k = 2), deg/h; return the matplotlib axes."""
-        pyplot = optional("matplotlib.pyplot", "plot")
-        ax = pyplot.subplots()[1] if ax is None else ax
+        ax = optional("matplotlib.pyplot", "plot").subplots()[1] if ax is None else ax
         places = np.arange(len(self.ij))
         u = np.array([[at["u_x"], at["u_y"]] for at in self._residuals]).reshape(-1, 2)
         for axis, (name, shift) in enumerate((("x", -0.1), ("y", 0.1))):

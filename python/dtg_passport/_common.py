@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import contextlib
 import datetime
 import importlib
 import json
+import math
 import operator
 import os
-import stat
 from collections.abc import Iterable, Mapping, Set
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+
+from . import _dtg_passport
 
 Path = str | os.PathLike[str]
 Array = npt.NDArray[np.float64]
@@ -55,38 +58,12 @@ def optional(module: str, extra: str) -> Any:
         raise ImportError(f'{name} is not installed; install it with: pip install "dtg-passport[{extra}]"') from error
 
 
-# No file that is read here may be longer; it is that of allowed_signers.
-LARGEST_FILE_BYTES = 1 << 24
-
-
-def named(path: Path) -> tuple[str, bytes]:
-    """Return the name and the content of a file. A pipe or a device is refused, because reading it might never end."""
-    name = os.fspath(path)
-    kind = os.stat(path).st_mode
-    if not stat.S_ISREG(kind) and not stat.S_ISDIR(kind):
-        raise ValueError(f"{name}: found a pipe, a device or a socket, expected a file")
-    with open(path, "rb") as file:
-        data = file.read(LARGEST_FILE_BYTES + 1)
-    if len(data) > LARGEST_FILE_BYTES:
-        raise ValueError(f"{name}: found more than {LARGEST_FILE_BYTES} bytes; check that this is the right file")
-    return name, data
-
-
 def numbers(name: str, values: Any) -> list[float]:
     """Return the numbers of a list; a text, a set or a mapping is none."""
-    if isinstance(values, (str, bytes, Set, Mapping)) or not isinstance(values, Iterable):
-        raise TypeError(f"{name}: found {values!r}, expected a list of numbers")
-    try:
-        return [float(value) for value in values]
-    except (TypeError, ValueError):
-        raise TypeError(f"{name}: found {values!r}, expected a list of numbers") from None
-
-
-def text(name: str, value: object) -> str | None:
-    """Return a text, or None."""
-    if value is None or isinstance(value, str):
-        return value
-    raise TypeError(f"{name}: found {value!r}, expected a text")
+    if isinstance(values, Iterable) and not isinstance(values, (str, bytes, Set, Mapping)):
+        with contextlib.suppress(TypeError, ValueError):
+            return [float(value) for value in values]
+    raise TypeError(f"{name}: found {values!r}, expected a list of numbers")
 
 
 def whole(name: str, value: Any, least: int, most: int) -> int:
@@ -100,39 +77,45 @@ def whole(name: str, value: Any, least: int, most: int) -> int:
     return found
 
 
-def document(file: File, name: str) -> tuple[str, bytes]:
-    """Return the name and the content of a file or of a mapping."""
+def given(name: str, file: File) -> _dtg_passport._File:
+    """Return a file as the compiled part reads it: its path, or a name and the content of a mapping."""
     if not isinstance(file, Mapping):
-        return named(file)
-    return name, json_text(file).encode()
+        return file
+    values = {key: _plain(f"{name}: {key}", value) for key, value in file.items()}
+    # JSON is also YAML; errors name the line.
+    return name, json.dumps(values, ensure_ascii=False, indent=1).encode()
 
 
-def json_text(values: Mapping[str, Any]) -> str:
-    """Return values as JSON, which is also YAML."""
-    return json.dumps(dict(values), default=_plain, ensure_ascii=False, indent=1)
-
-
-def documents(gyro: File | None, laboratory: File | None) -> tuple[tuple[str, bytes] | None, tuple[str, bytes] | None]:
-    """Return the name and the content of a gyro type and of a laboratory."""
+def pair(gyro: File | None, laboratory: File | None) -> _dtg_passport._Pair:
+    """Return a gyro type and a laboratory as the compiled part reads them."""
     return (
-        None if gyro is None else document(gyro, "gyro"),
-        None if laboratory is None else document(laboratory, "laboratory"),
+        None if gyro is None else given("gyro", gyro),
+        None if laboratory is None else given("laboratory", laboratory),
     )
 
 
-def moment(name: str, time: str | datetime.date | None) -> str | None:
-    """Return a time or a date as text."""
-    if isinstance(time, datetime.datetime):
-        return time.isoformat(timespec="seconds")
-    return time.isoformat() if isinstance(time, datetime.date) else text(name, time)
+def asked(**values: Any) -> str:
+    """Return a question or an order as JSON, which the library checks."""
+    return json.dumps({key: _plain(key, value) for key, value in values.items()}, ensure_ascii=False)
 
 
-def _plain(value: Any) -> Any:
-    """Convert what JSON lacks: dates, mappings, numbers and arrays of NumPy."""
-    if isinstance(value, Mapping):
-        return dict(value)
+def _plain(at: str, value: Any) -> Any:
+    """Convert what JSON lacks: dates, mappings, results, numbers and arrays of NumPy. An error names its place."""
+    if value is None:
+        return None
+    value = getattr(value, "_document", value)
+    if isinstance(value, (np.generic, np.ndarray)) and not np.ma.is_masked(value):
+        value = value.tolist()
+    if isinstance(value, float) and not math.isfinite(value):
+        raise ValueError(f"{at}: found {value}, expected a finite number")
+    if isinstance(value, (str, int, float)):
+        return value
+    if isinstance(value, datetime.datetime):
+        return value.isoformat(timespec="seconds")
     if isinstance(value, datetime.date):
-        return moment("", value)
-    if isinstance(value, (np.generic, np.ndarray)):
-        return value.tolist()
-    raise TypeError(f"found {value!r}, expected text, numbers, lists and mappings")
+        return value.isoformat()
+    if isinstance(value, Mapping):
+        return {key: _plain(f"{at}.{key}", part) for key, part in value.items()}
+    if isinstance(value, Iterable) and not isinstance(value, (bytes, Set)):
+        return [_plain(f"{at}[{place}]", part) for place, part in enumerate(value)]
+    raise TypeError(f"{at}: found {value!r}, expected text, numbers, lists and mappings")

@@ -1,12 +1,14 @@
 """Types of the compiled part, which converts types and calls the Rust library."""
 
+import os
 from collections.abc import Callable
 from typing import final
 
-__all__ = ["Content", "Enquiry", "__version__", "issue", "plan"]
+__all__ = ["Content", "Distributions", "Enquiry", "__version__", "issue", "plan", "unverified"]
 
-_File = tuple[str, bytes]
-_Files = tuple[_File | None, _File | None]
+_Path = str | os.PathLike[str]
+_File = _Path | tuple[str, bytes]
+_Pair = tuple[_File | None, _File | None]
 _Check = tuple[str, bool | None, str, str]
 _Answer = tuple[str | None, str, list[_Check], Content | None]
 
@@ -14,42 +16,31 @@ __version__: str
 
 @final
 class Enquiry:
-    def __new__(cls, signers: _File, revoked: list[_File], question: str, register: str | None) -> Enquiry: ...
-    def remarks(self) -> list[str]: ...
+    def __new__(cls, trust: _File, revoked: list[_File], question: str, register: _Path | None) -> Enquiry: ...
     def verify(self, file: str, data: bytes) -> _Answer: ...
     def verify_files(self, paths: list[str], threads: int) -> list[_Answer | OSError]: ...
 
 @final
 class Content:
-    @staticmethod
-    def unverified(file: str, data: bytes) -> Content: ...
-    @property
-    def id(self) -> str: ...
-    @property
-    def gravity(self) -> float: ...
     def json(self) -> str: ...
     def array(self, name: str) -> bytes: ...
-    def calibrate(self, currents: _File, order: str, files: _Files) -> tuple[str, bytes]: ...
-    def monte_carlo(
-        self,
-        currents: _File,
-        order: str,
-        files: _Files,
-        trials: int | None,
-        seed: int,
-        threads: int | None,
-        progress: Callable[[int, int], object] | None,
-    ) -> str: ...
+    def calibrate(self, currents: _File, order: str, files: _Pair) -> tuple[str, bytes, Distributions]: ...
     def self_check_errors(self, found: list[float]) -> tuple[list[float], float]: ...
 
+@final
+class Distributions:
+    def __call__(
+        self, trials: int | None, seed: int, threads: int | None, progress: Callable[[int, int], object]
+    ) -> str: ...
+
+def unverified(file: _File) -> _Answer: ...
 def issue(
-    stand: _File,
-    site: _File,
+    files: tuple[_File, _File],
     order: str,
-    accuracy: _Files | None,
-    key: str,
+    accuracy: _Pair | None,
+    key: _Path,
     passphrase: str | None,
-    signers: _File | None,
-    out: str,
-) -> tuple[str, str, str, bool, list[str]]: ...
-def plan(site: _File, stand: _File | None, files: _Files, question: str) -> str: ...
+    trust: _File | None,
+    out: _Path,
+) -> tuple[str, str, str, bool, tuple[str, ...]]: ...
+def plan(site: _File, stand: _File | None, files: _Pair, question: str) -> str: ...

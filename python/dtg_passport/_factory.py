@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from . import _dtg_passport
 from ._calibration import Parameters, parameters
-from ._common import Array, File, Path, document, documents, frozen, moment, numbers, text, whole
+from ._common import Array, File, Path, asked, frozen, given, numbers, pair, whole
 from ._load import signers
 
 
@@ -95,23 +95,16 @@ def issue(
     """
     if not accuracy and (gyro is not None or laboratory is not None):
         raise ValueError("gyro and laboratory are those of the accuracy; give accuracy=True too")
-    order = {
-        "identity": text("identity", identity) or "",
-        "issued_at": moment("issued_at", issued_at),
-        "valid_until": moment("valid_until", valid_until),
-        "allow_uncalibratable": allow_uncalibratable,
-    }
-    id, path, sha256, new, remarks = _dtg_passport.issue(
-        document(stand, "stand"),
-        document(site, "site"),
-        json.dumps(order),
-        documents(gyro, laboratory) if accuracy else None,
-        os.fspath(key),
+    issued = _dtg_passport.issue(
+        (given("stand", stand), given("site", site)),
+        asked(identity=identity, issued_at=issued_at, valid_until=valid_until, allow_uncalibratable=allow_uncalibratable),
+        pair(gyro, laboratory) if accuracy else None,
+        key,
         os.environ.get("DTG_PASSPORT_PASSPHRASE") if passphrase is None else passphrase,
         None if trust is None else signers(trust),
-        os.fspath(out),
+        out,
     )
-    return Issued(id, os.fspath(path), sha256, new, tuple(remarks))
+    return Issued(*issued)
 
 
 def plan(
@@ -149,14 +142,14 @@ def plan(
         >>> f"{found.u.omega_g:.5f} deg/h/g, with the paper's positions {found.paper_u.omega_g:.5f}"
         "0.00084 deg/h/g, with the paper's positions 0.00120"
     """
-    question = {
-        "readings": whole("readings", readings, 4, 256),
-        "step_deg": None if step is None else float(step),
-        "frame_axis_azimuths_deg": numbers("frame_axis_azimuths", frame_axis_azimuths),
-        "criterion": criterion,
-    }
-    files = (document(site, "site"), None if stand is None else document(stand, "stand"), documents(gyro, laboratory))
-    found = json.loads(_dtg_passport.plan(*files, json.dumps(question)))
+    question = asked(
+        readings=whole("readings", readings, 4, 256),
+        step_deg=None if step is None else float(step),
+        frame_axis_azimuths_deg=numbers("frame_axis_azimuths", frame_axis_azimuths),
+        criterion=criterion,
+    )
+    files = (given("site", site), None if stand is None else given("stand", stand), pair(gyro, laboratory))
+    found = json.loads(_dtg_passport.plan(*files, question))
     u, paper = found["standard_uncertainty"], found.get("paper")
     paper_u = None if paper is None else parameters(paper["standard_uncertainty"])
     order = frozen(found["order"], -1, 2)

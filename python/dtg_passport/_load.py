@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import datetime
 import itertools
-import json
-import math
 import os
 import warnings
 from collections.abc import Iterable, Iterator, Sequence
 
 from . import _dtg_passport
-from ._common import Array, Path, moment, named, numbers, text, whole
-from ._passport import Passport, Refused, Verification, checks_of
+from ._common import Array, Path, asked, numbers, whole
+from ._passport import Check, Passport, Refused, Verification
 
 # Passports verified at a time by load_many: enough work for the threads, little memory.
 CHUNK = 512
@@ -29,30 +27,19 @@ def _enquiry(
 ) -> _dtg_passport.Enquiry:
     if isinstance(revoked, (str, bytes, os.PathLike)):
         revoked = (revoked,)
-    lists = [("revoked", one) if isinstance(one, bytes) else named(one) for one in revoked]
-    place = None if at is None else numbers("at", at)
-    if place is not None and not all(map(math.isfinite, place)):
-        raise ValueError(f"at: found {at!r}, expected latitude and longitude in degrees")
-    question = json.dumps(
-        {"serial": text("serial", serial), "at": place, "time": moment("time", time), "issuer": text("issuer", issuer)}
-    )
-    folder = None if register is None else os.fspath(register)
-    enquiry = _dtg_passport.Enquiry(signers(trust), lists, question, folder)
-    for remark in enquiry.remarks():
-        warnings.warn(remark, stacklevel=3)
-    return enquiry
+    lists = [("revoked", one) if isinstance(one, bytes) else one for one in revoked]
+    question = asked(serial=serial, at=None if at is None else numbers("at", at), time=time, issuer=issuer)
+    return _dtg_passport.Enquiry(signers(trust), lists, question, register)
 
 
-def signers(trust: Path | bytes) -> tuple[str, bytes]:
-    """Return the name and the content of allowed_signers, given as a path or as text.
+def signers(trust: Path | bytes) -> _dtg_passport._File:
+    """Return allowed_signers, given as a path or as text, as the compiled part reads it.
 
     Every line of it has the base64 of a key, which begins with AAAA after a space. No path of a file looks like that.
     """
-    if isinstance(trust, bytes):
-        return "trust", trust
     if isinstance(trust, str) and ("\n" in trust or " AAAA" in trust):
-        return "trust", trust.encode()
-    return named(trust)
+        trust = trust.encode()
+    return ("trust", trust) if isinstance(trust, bytes) else trust
 
 
 def _each(
@@ -67,10 +54,10 @@ def _each(
 
 
 def _passport(path: str, answer: _dtg_passport._Answer) -> Passport:
-    _, sha256, checks, content = answer
+    _, _, checks, content = answer
     if content is None:
-        raise Refused(path, checks_of(checks))
-    return Passport(content, sha256, checks)
+        raise Refused(path, tuple(map(Check._make, checks)))
+    return Passport(*answer)
 
 
 def load(
@@ -135,8 +122,8 @@ def loads(
         9.81572205535764
     """
     enquiry = _enquiry(trust, serial, at, time, issuer, revoked, register)
-    name = "passport"
-    return _passport(name, enquiry.verify(name, data.encode() if isinstance(data, str) else bytes(data)))
+    data = data.encode() if isinstance(data, str) else bytes(data)
+    return _passport("passport", enquiry.verify("passport", data))
 
 
 def verify(
@@ -164,9 +151,8 @@ def verify(
         ['in_force']
     """
     name, answer = next(_each([path], _enquiry(trust, serial, at, time, issuer, revoked, register), 1))
-    id, sha256, checks, content = answer
-    passport = None if content is None else Passport(content, sha256, checks)
-    return Verification(name, passport is not None, id, checks_of(checks), passport)
+    id, _, checks, content = answer
+    return Verification(name, content is not None, id, tuple(map(Check._make, checks)), Passport(*answer) if content else None)
 
 
 def load_many(
@@ -216,9 +202,6 @@ def load_unverified(path: Path) -> Passport:
         ...     load_unverified("docs/self_check.yaml").verified
         False
     """
-    name, data = named(path)
-    content = _dtg_passport.Content.unverified(name, data)
-    warnings.warn(f"{name}: NOT VERIFIED: the origin of these numbers is unknown", stacklevel=2)
-    import hashlib
-
-    return Passport(content, hashlib.sha256(data).hexdigest(), [])
+    answer = _dtg_passport.unverified(path)
+    warnings.warn(f"{os.fspath(path)}: NOT VERIFIED: the origin of these numbers is unknown", stacklevel=2)
+    return Passport(*answer)

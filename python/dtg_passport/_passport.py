@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import datetime
-import functools
 import json
 import os
 import re
@@ -17,22 +16,20 @@ import numpy.typing as npt
 
 from . import _dtg_passport
 from ._calibration import NAMES, Calibration, Parameters
-from ._common import Array, File, Frozen, array, documents, json_text, named, optional
+from ._common import Array, File, Frozen, array, asked, optional, pair
 
-UNITS: Mapping[str, str] = MappingProxyType(
-    {
-        "delta": "1",
-        "B": "deg/h",
-        "C": "deg/(h*g)",
-        "n2_inverse": "1/g",
-        "ij": "1",
-        "omega": "deg/h",
-        "n": "g",
-        "deviations": "arcsec",
-        "u_deviations": "arcsec",
-        "gravity": "m/s^2",
-    }
-)
+# Unit of every array, and what its rows and columns are.
+_ARRAYS = {
+    "delta": ("1", "row", "column"),
+    "B": ("deg/h", "row", "column"),
+    "C": ("deg/(h*g)", "row", "column"),
+    "n2_inverse": ("1/g", "row", "column"),
+    "ij": ("1", "position", "index"),
+    "omega": ("deg/h", "position", "axis"),
+    "n": ("g", "position", "axis"),
+    "deviations": ("arcsec", "position", "angle"),
+    "u_deviations": ("arcsec", "position", "angle"),
+}
 
 
 class Check(NamedTuple):
@@ -46,11 +43,6 @@ class Check(NamedTuple):
     """Result as a code for programs, such as `altered`."""
     detail: str
     """Result as a sentence."""
-
-
-def checks_of(checks: list[_dtg_passport._Check]) -> tuple[Check, ...]:
-    """Return the checks of an answer."""
-    return tuple(Check(*check) for check in checks)
 
 
 class Verification(NamedTuple):
@@ -127,17 +119,18 @@ class Passport(Frozen):
     Rows belong to the positions in the order of `ij`.
     """
 
-    __slots__ = ("_content", "_sha256", "_checks")
+    __slots__ = ("_id", "_sha256", "_checks", "_content")
     __module__ = "dtg_passport"
 
-    _content: _dtg_passport.Content
+    _id: str
     _sha256: str
     _checks: list[_dtg_passport._Check]
+    _content: _dtg_passport.Content
 
     @property
     def id(self) -> str:
         """Identifier: model, serial number, site and revision, separated by `/`."""
-        return self._content.id
+        return self._id
 
     @property
     def sha256(self) -> str:
@@ -152,7 +145,7 @@ class Passport(Frozen):
     @property
     def checks(self) -> tuple[Check, ...]:
         """Every check that was run; empty after `load_unverified`."""
-        return checks_of(self._checks)
+        return tuple(map(Check._make, self._checks))
 
     @property
     def delta(self) -> Array:
@@ -162,12 +155,12 @@ class Passport(Frozen):
     @property
     def B(self) -> Array:
         """Matrix B of the paper, eq. (13), deg/h, shape (2, 2); NaN without the paper's eight positions."""
-        return self._array("B", 2, 2)
+        return self._array("b_deg_per_h", 2, 2)
 
     @property
     def C(self) -> Array:
         """Matrix C of the paper, eq. (15), deg/(h*g), shape (2, 2); NaN without the paper's eight positions."""
-        return self._array("C", 2, 2)
+        return self._array("c_deg_per_h_per_g", 2, 2)
 
     @property
     def n2_inverse(self) -> Array:
@@ -202,7 +195,7 @@ class Passport(Frozen):
     @property
     def gravity(self) -> float:
         """Local gravity to which g-sensitive drifts refer, m/s^2."""
-        return self._content.gravity
+        return float(self._array("gravity"))
 
     @property
     def units(self) -> Mapping[str, str]:
@@ -212,7 +205,7 @@ class Passport(Frozen):
         >>> passport.units["C"]
         'deg/(h*g)'
         """
-        return UNITS
+        return MappingProxyType({name: unit for name, (unit, _, _) in _ARRAYS.items()} | {"gravity": "m/s^2"})
 
     @property
     def content(self) -> dict[str, Any]:
@@ -222,8 +215,7 @@ class Passport(Frozen):
         >>> passport.content["passport"]["issuer"]
         'examples@dtg-passport.test'
         """
-        content: dict[str, Any] = json.loads(self._content.json())
-        return content
+        return dict(json.loads(self._content.json()))
 
     def _array(self, name: str, *shape: int) -> Array:
         return array(self._content.array(name), *shape)
@@ -296,22 +288,21 @@ class Passport(Frozen):
             >>> found.verdict["overall"]
             'undecided'
         """
-        order = {
-            "method": method,
-            "model": model,
-            "anisoelasticity": anisoelasticity,
-            "drift": drift,
-            "exclude": list(exclude),
-            "gyro_serial": gyro_serial,
-            "operator": operator,
-            "date": date,
-            "temperature_c": temperature_c,
-            # A single document is refused as what it is, and not as a list of its keys.
-            "previous": previous if isinstance(previous, Mapping) else [getattr(each, "_document", each) for each in previous],
-        }
-        inputs = (_csv(currents), json_text(order), documents(gyro, laboratory))
-        text, covariance = self._content.calibrate(*inputs)
-        found = Calibration(json.loads(text), array(covariance, 8, 8), functools.partial(self._content.monte_carlo, *inputs))
+        order = asked(
+            method=method,
+            model=model,
+            anisoelasticity=anisoelasticity,
+            drift=drift,
+            exclude=exclude,
+            gyro_serial=gyro_serial,
+            operator=operator,
+            date=date,
+            temperature_c=temperature_c,
+            previous=previous,
+        )
+        text, covariance, distributions = self._content.calibrate(_csv(currents), order, pair(gyro, laboratory))
+        document = json.loads(text)
+        found = Calibration(document, document["results"][0], array(covariance, 8, 8), distributions)
         for remark in found.remarks:
             warnings.warn(remark, stacklevel=2)
         return found
@@ -346,7 +337,7 @@ class Passport(Frozen):
     def to_dataframe(self) -> Any:
         """Return the positions as a pandas DataFrame with the index (i, j); units are in the names of the columns."""
         pandas = optional("pandas", "pandas")
-        columns = {}
+        columns: dict[str, Any] = {}
         for name, unit, parts in (
             ("angles", "deg", ("theta", "phi")),
             ("deviations", "arcsec", ("alpha", "beta", "gamma")),
@@ -354,18 +345,15 @@ class Passport(Frozen):
             ("n", "g", ("n_x", "n_y")),
             ("omega", "deg_per_h", ("omega_x", "omega_y")),
         ):
-            values = self._array(name, -1, len(parts))
-            columns.update({f"{part}_{unit}": values[:, place] for place, part in enumerate(parts)})
+            columns.update(zip([f"{part}_{unit}" for part in parts], self._array(name, -1, len(parts)).T))
         index = pandas.MultiIndex.from_arrays(self.ij.T.astype(int), names=["i", "j"])
         return pandas.DataFrame(columns, index=index)
 
     def to_xarray(self) -> Any:
         """Return every array as an xarray Dataset; each variable has the attribute `units`."""
         xarray = optional("xarray", "xarray")
-        matrix, axes, angles = ("row", "column"), ("position", "axis"), ("position", "angle")
-        dimensions = dict.fromkeys(("delta", "B", "C", "n2_inverse"), matrix)
-        dimensions |= dict.fromkeys(("n", "omega"), axes) | dict.fromkeys(("deviations", "u_deviations"), angles)
-        variables = {name: (of, getattr(self, name), {"units": UNITS[name]}) for name, of in dimensions.items()}
+        named = [(name, unit, of) for name, (unit, *of) in _ARRAYS.items() if name != "ij"]
+        variables = {name: (of, getattr(self, name), {"units": unit}) for name, unit, of in named}
         i, j = self.ij.T.astype(int)
         coordinates = {
             "i": ("position", i),
@@ -378,8 +366,7 @@ class Passport(Frozen):
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the certified deviations with their expanded uncertainties (k = 2), arcsec; return the matplotlib axes."""
-        pyplot = optional("matplotlib.pyplot", "plot")
-        ax = pyplot.subplots()[1] if ax is None else ax
+        ax = optional("matplotlib.pyplot", "plot").subplots()[1] if ax is None else ax
         places = np.arange(len(self.ij))
         for part, (symbol, shift) in enumerate((("α", -0.25), ("β", 0.0), ("γ", 0.25))):
             error = 2.0 * np.nan_to_num(self.u_deviations[:, part])
@@ -407,32 +394,28 @@ class Passport(Frozen):
 
         content = self.content
         header, certificate = content["passport"], content["certificate"]
-        verified = "all checks passed" if self.verified else "<strong>NOT VERIFIED</strong>"
-        head = "".join(f"<th>{name}</th>" for name in ("i", "j", "α, ″", "β, ″", "γ, ″"))
-        rows = [
-            "".join(f"<td>{number:g}</td>" for number in (*ij, *deviations))
-            for ij, deviations in zip(self.ij, self.deviations)
-        ]
-        table = "".join(f"<tr>{row}</tr>" for row in rows)
         facts = (
             f"issued {header['issued_at']} by {header['issuer']}",
             f"certificate {certificate['number']} of {certificate['issued']}, {certificate['laboratory']}",
             f"SHA-256 {self.sha256}",
         )
-        words = "".join(f"<div>{html.escape(fact)}</div>" for fact in facts)
+        verified = "all checks passed" if self.verified else "<strong>NOT VERIFIED</strong>"
         title = f"<strong>Passport {html.escape(self.id)}</strong>: {verified}"
-        return f"<div>{title}{words}<table><tr>{head}</tr>{table}</table></div>"
+        words = "".join(f"<div>{html.escape(fact)}</div>" for fact in facts)
+        table = "<tr><th>i</th><th>j</th><th>α, ″</th><th>β, ″</th><th>γ, ″</th></tr>"
+        for row in np.hstack([self.ij, self.deviations]):
+            table += "<tr>" + "".join(f"<td>{number:g}</td>" for number in row) + "</tr>"
+        return f"<div>{title}{words}<table>{table}</table></div>"
 
 
-# Columns of currents: those of an array, and those that a table may have too.
-_COLUMNS = ("i", "j", "jx_ma", "jy_ma")
-_OPTIONAL_COLUMNS = ("cycle", "visit", "time_s")
+# Columns of currents: the first four are those of an array, the others may be in a table too.
+_COLUMNS = ("i", "j", "jx_ma", "jy_ma", "cycle", "visit", "time_s")
 
 
-def _csv(currents: object) -> tuple[str, bytes]:
-    """Return currents as a name and CSV, which the library reads with every check."""
+def _csv(currents: object) -> _dtg_passport._File:
+    """Return currents as a path, or as a name and CSV, which the library reads with every check."""
     if isinstance(currents, (str, os.PathLike)):
-        return named(currents)
+        return currents
     if currents is None or isinstance(currents, (bytes, Set)):
         found = type(currents).__name__
         raise TypeError(f"currents: found {found}, expected a path, a DataFrame, a mapping or an array")
@@ -441,7 +424,7 @@ def _csv(currents: object) -> tuple[str, bytes]:
         frame = frame if "i" in frame else frame.reset_index()
         currents = {name: frame[name] for name in frame if name != "index"}
     if isinstance(currents, Mapping):
-        known = [name for name in (*_COLUMNS, *_OPTIONAL_COLUMNS) if name in currents]
+        known = [name for name in _COLUMNS if name in currents]
         columns = {name: _column(name, currents[name]) for name in known}
         if len(set(map(len, columns.values()))) > 1:
             lengths = ", ".join(f"{name} {len(column)}" for name, column in columns.items())
@@ -450,24 +433,21 @@ def _csv(currents: object) -> tuple[str, bytes]:
         others = [re.sub(r'[",;\s]+', " ", str(name)).strip() or "_" for name in currents if name not in known]
         rows = [",".join((*row, *("" for _ in others))) for row in zip(*columns.values())]
         return "currents", "\n".join([",".join((*known, *others)), *rows, ""]).encode()
-    _check_array("currents", currents)
-    table = np.asarray(currents, dtype=np.float64)
+    table = np.asanyarray(currents)  # keeps a mask
     if table.ndim != 2 or table.shape[1] != 4:
-        raise ValueError(f"currents: found an array of shape {table.shape}, expected (N, 4): {', '.join(_COLUMNS)}")
+        raise ValueError(f"currents: found an array of shape {table.shape}, expected (N, 4): {', '.join(_COLUMNS[:4])}")
     return _csv(dict(zip(_COLUMNS, table.T)))
 
 
-def _check_array(name: str, values: Any) -> None:
-    """Refuse numbers that would lose their mask or their imaginary part on the way."""
-    if np.ma.is_masked(values):
-        raise ValueError(f"{name}: found masked values; leave out the rows that have one")
-    if np.iscomplexobj(values):
-        raise TypeError(f"{name}: found complex numbers, expected real ones")
-
-
 def _column(name: str, values: Any) -> list[str]:
-    """Return the cells of a column of numbers. NumPy makes even whole numbers such as i and j floats."""
-    _check_array(f"currents: {name}", values)
+    """Return the cells of a column of numbers, none of which loses its mask or its imaginary part on the way.
+
+    NumPy makes even whole numbers such as i and j floats.
+    """
+    if np.ma.is_masked(values):
+        raise ValueError(f"currents: {name}: found masked values; leave out the rows that have one")
+    if np.iscomplexobj(values):
+        raise TypeError(f"currents: {name}: found complex numbers, expected real ones")
     try:
         numbers = np.asarray(values).astype(np.float64).ravel().tolist()
     except (TypeError, ValueError) as error:
