@@ -9,7 +9,6 @@ use dtg_passport::laboratory::Laboratory;
 use dtg_passport::simulation::draw::{self, CurrentError, Deviations};
 use dtg_passport::simulation::{PAPER_LATITUDE_DEG, Stream};
 use dtg_passport::uncertainty::{Budget, EntryUncertainty};
-use dtg_passport::units::radians_from_arcseconds;
 use nalgebra::Vector2;
 use std::hint::black_box;
 use std::time::Instant;
@@ -20,7 +19,7 @@ const CALIBRATIONS: u32 = 5_000;
 fn main() {
     let mut stream = Stream::new(1);
     let stand = draw::stand(&mut stream, Deviations::Uniform, 5.0);
-    let arcsec = radians_from_arcseconds;
+    let arcsec = |value: f64| (value / 3600.0).to_radians();
     let uncertainty = InputUncertainty {
         angles_rad: vec![[arcsec(1.5); 3]; 8],
         angles_degrees_of_freedom: vec![8.0; 8],

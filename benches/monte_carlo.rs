@@ -16,7 +16,6 @@ use dtg_passport::gyro::GyroType;
 use dtg_passport::simulation::draw::{self, Deviations};
 use dtg_passport::simulation::{PAPER_LATITUDE_DEG, Stream};
 use dtg_passport::uncertainty::{Budget, Engine, ReadingShape, Trials, monte_carlo};
-use dtg_passport::units::radians_from_arcseconds;
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::hint::black_box;
@@ -47,7 +46,7 @@ fn case() -> Option<Case> {
     let reading = READING_LIMIT / 3.0_f64.sqrt();
     let meter = MeterUncertainty { reading, floor_ma: 1e-12, noise_ma: 0.0, gain: 0.0, offset_ma: 0.0 };
     let uncertainty = InputUncertainty {
-        angles_rad: vec![[radians_from_arcseconds(U_ANGLE_ARCSEC); 3]; 8],
+        angles_rad: vec![[(U_ANGLE_ARCSEC / 3600.0).to_radians(); 3]; 8],
         ..InputUncertainty::of_meter(meter)
     };
     let earth = EarthRate::at_astronomic_latitude(PAPER_LATITUDE_DEG);
@@ -122,7 +121,7 @@ fn numpy(case: &Case, budget: &Budget) -> Option<Value> {
         "angles_rad": case.positions.iter().map(|at| {
             [at.deviation.alpha_rad, at.deviation.beta_rad, at.deviation.gamma_rad]
         }).collect::<Vec<_>>(),
-        "u_angle_rad": radians_from_arcseconds(U_ANGLE_ARCSEC),
+        "u_angle_rad": (U_ANGLE_ARCSEC / 3600.0).to_radians(),
         "vertical": rows(nominal.iter().map(|a| a.column(2).into_owned()).collect()),
         "earth": rows(nominal.iter().map(|a| a * rate).collect()),
         "currents_ma": currents.iter().map(|j| [j.x, j.y]).collect::<Vec<_>>(),

@@ -43,7 +43,7 @@
 //! | module | what it holds | feature |
 //! |---|---|---|
 //! | [`bibliography`] | the papers and standards that formulas link to | |
-//! | [`units`] | angles and rates: the one place that converts | |
+//! | `units` | angles and rates: the one place that converts | |
 //! | `parallel` | the same work on many things at once | |
 //! | [`text`] | one canonical form out and in, tables, errors that point into the file; hand-written YAML with `factory` | |
 //! | [`attitude`] | eq. (3), (4): A, E, Ã | |
@@ -142,7 +142,7 @@ pub(crate) mod template;
 pub mod text;
 pub mod trust;
 pub mod uncertainty;
-pub mod units;
+pub(crate) mod units;
 #[cfg(feature = "cli")]
 pub(crate) mod workspace;
 

@@ -7,7 +7,7 @@ pub(crate) const SECONDS_PER_HOUR: f64 = 3600.0;
 pub(crate) const ARCSECONDS_PER_DEGREE: f64 = 3600.0;
 
 /// Converts arcseconds to radians.
-pub fn radians_from_arcseconds(arcseconds: f64) -> f64 {
+pub(crate) fn radians_from_arcseconds(arcseconds: f64) -> f64 {
     arcseconds * (PI / 648_000.0)
 }
 
@@ -16,7 +16,7 @@ pub(crate) fn arcseconds_from_radians(radians: f64) -> f64 {
 }
 
 /// Converts degrees to radians.
-pub fn radians_from_degrees(degrees: f64) -> f64 {
+pub(crate) fn radians_from_degrees(degrees: f64) -> f64 {
     degrees * (PI / 180.0)
 }
 

@@ -4,7 +4,7 @@
 //! checks and computes the same numbers to the bit.
 //!
 //! * [`Enquiry`]: whom to trust and what to ask, and the verification of many passports.
-//! * [`array`], [`matrix`]: the numbers of a passport.
+//! * [`fn@array`], [`matrix`]: the numbers of a passport.
 //! * [`Order`], [`calibrate`]: currents to the parameters of a gyro; [`parameters`]: the numbers of its result;
 //!   `monte_carlo` (with `monte-carlo`): their distributions.
 //! * `issue` (with `factory`), `plan` (with `monte-carlo` too): a signed passport; the best positions.
