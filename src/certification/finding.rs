@@ -88,12 +88,12 @@ pub(crate) enum Finding {
          change of the position includes {mean}″ of it; measure the run again, or exclude the reading with \
          --exclude {},{},{run} and --why",
         .0.index,
-        remark::signed_two_digits(.0.residual_arcsec),
+        remark::turned_by(.0.residual_arcsec),
         AXES[.0.axis],
         .0.index.i,
         .0.index.j,
         run = .0.run,
-        mean = remark::signed_two_digits(*.1)
+        mean = remark::turned_by(*.1)
     )]
     Outlier(Outlier, f64),
     /// Rotation of the stand as a whole, which was not tested.

@@ -9,7 +9,7 @@ use super::unequal_axes::UnequalAxis;
 use super::worse_groups::WorseGroup;
 use crate::calibration::recorded::rounding_of;
 use crate::stand::remarks::Odd;
-use crate::text::number::{decimals, signed, two_digits};
+use crate::text::number::{decimals, signed};
 
 /// A remark on readings or on the certificate made of them.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -42,7 +42,7 @@ pub(crate) enum Remark {
         .0.index,
         .0.run,
         line_of(.0),
-        signed_two_digits(.0.residual_arcsec),
+        turned_by(.0.residual_arcsec),
         AXES[.0.axis],
         probability(.0.probability)
     )]
@@ -87,10 +87,10 @@ pub(crate) enum Remark {
         "from run to run the {part} rotates by {}″ about {axis} and by {}″ about its other two axes (Cochran's \
          test: probability {}); common_{part}_arcsec is pooled from all three, which is too small about {axis}; state \
          a line of type_b that acts on the {part}, of {}″, or find the cause and measure again",
-        two_digits(.0.deviation_arcsec),
-        two_digits(.0.others_arcsec),
+        size(.0.deviation_arcsec),
+        size(.0.others_arcsec),
         probability(.0.probability),
-        two_digits(.0.missing_arcsec),
+        size(.0.missing_arcsec),
         part = .0.axis.part(),
         axis = .0.axis.name()
     )]
@@ -100,7 +100,7 @@ pub(crate) enum Remark {
         "in each run the positions with the same {angle} share an error of {}″ (standard deviation; F test: \
          probability {}), as if {angle} were set once for all of them; the uncertainties take the errors of positions \
          as independent, and are too small; set both angles again before every position, and measure again",
-        two_digits(.0.deviation_arcsec),
+        size(.0.deviation_arcsec),
         probability(.0.probability),
         angle = .0.setting.symbol()
     )]
@@ -119,7 +119,7 @@ pub(crate) enum Remark {
     #[error(
         "the readings of {angles} of {of} angles vary by less than half their step of {step_arcsec}″, so their mean \
          does not reduce the rounding; its standard uncertainty of {}″ is included; record more digits",
-        two_digits(rounding_of(*step_arcsec))
+        size(rounding_of(*step_arcsec))
     )]
     Rounding { angles: usize, of: usize, step_arcsec: f64 },
     /// Largest angle, arcsec, if it is suspiciously small.
@@ -156,15 +156,20 @@ impl Remark {
     }
 }
 
-/// Returns rotations about three axes as words have them, the largest with two significant digits.
+/// Returns rotations about three axes as words have them, whole or the largest with two significant digits.
 pub(crate) fn turns(of: [f64; 3]) -> String {
     let decimals = decimals(of.iter().fold(0.0, |largest, turn| turn.abs().max(largest)));
     of.map(|turn| format!("{}″", signed(turn, decimals))).join(", ")
 }
 
-/// Returns a value with its sign and two significant digits.
-pub(super) fn signed_two_digits(value: f64) -> String {
-    signed(value, decimals(value.abs()))
+/// Returns an angle with its sign, whole or with two significant digits.
+pub(super) fn turned_by(arcsec: f64) -> String {
+    signed(arcsec, decimals(arcsec.abs()))
+}
+
+/// Returns a standard deviation or the size of an angle, whole or with two significant digits.
+fn size(arcsec: f64) -> String {
+    format!("{arcsec:.*}", decimals(arcsec))
 }
 
 /// Returns the line of a reading, in words.
@@ -180,7 +185,7 @@ fn rotated(at: &RotatedRuns) -> String {
              test: probability {p}); it was not excluded, and changes certified angles by up to {}″; find the \
              cause, then measure the run again, or exclude it with --exclude {run} and --why",
             grade(at.probability),
-            two_digits(at.largest_effect_arcsec())
+            size(at.largest_effect_arcsec())
         ),
         Pattern::Move(before, after) => format!(
             "the stand seems to have moved between runs {before} and {after}: all positions are rotated by {turns} \

@@ -259,5 +259,5 @@ fn a_remark_says_the_same_in_both_languages() {
     }
     // Expected: 1/√(2·6) = 0.2887 (GUM, E.4.3).
     assert!(words(&remarks[16], Language::Russian).contains("29\u{a0}%"));
-    assert!(words(&remarks[2], Language::Russian).contains("\u{2212}14,25″"));
+    assert!(words(&remarks[2], Language::Russian).contains("\u{2212}14″"));
 }

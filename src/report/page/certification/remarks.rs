@@ -15,13 +15,14 @@ use crate::report::page::parts::date_text;
 use crate::report::page::texts::{remarks as texts, words as compass};
 use crate::report::picture::history::LETTERS;
 use crate::stand::remarks::Odd;
+use crate::text::number::decimals;
 use jiff::civil::Date;
 
 /// Returns a remark as a sentence.
 pub(crate) fn words(remark: &Remark, language: Language) -> String {
     let fill = |text: Text, values: Values| text.filled(language, values);
     let (fixed, exact) = (Number::fixed, Number::exact);
-    let two_digits = |value: f64| Number::significant(value, 2);
+    let two_digits = Number::whole_or_two_digits;
     let probability = |p: f64| Number::scientific(p, 2);
     let day = |date: Date| date_text(language, date);
     // A suspect value: how suspect, and its probability.
@@ -129,10 +130,10 @@ fn misread_words(misread: &Misread, language: Language) -> String {
     }
 }
 
-/// Returns rotations about three axes to one place, the second digit of the largest.
+/// Returns rotations about three axes to one place, the second digit of the largest if it is below 10.
 fn together(turns: [f64; 3]) -> [Number; 3] {
-    let place = Number::place_of(turns.iter().fold(0.0, |largest, turn| turn.abs().max(largest)));
-    turns.map(|turn| Number::to_place(turn, place))
+    let decimals = decimals(turns.iter().fold(0.0, |largest, turn| turn.abs().max(largest)));
+    turns.map(|turn| Number::fixed(turn, decimals))
 }
 
 /// Returns the names of the three axes with platform or base.
@@ -165,7 +166,7 @@ pub(crate) fn finding(finding: &Finding, language: Language) -> String {
         }
         Finding::SplitRun(at) => return split_words(texts::CHECK_SPLIT, at, language),
         Finding::Outlier(out, mean) => {
-            let [residual, mean] = [out.residual_arcsec, *mean].map(|value| Number::significant(value, 2));
+            let [residual, mean] = [out.residual_arcsec, *mean].map(Number::whole_or_two_digits);
             let (index, run, axis) = (&out.index, &out.run, AXES[out.axis]);
             return texts::CHECK_OUTLIER.filled(language, values! { index, run, residual, axis, mean });
         }
