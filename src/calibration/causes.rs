@@ -4,15 +4,15 @@
 //! uncertainty. A fit needs only sums of them (the own part of each position as one 2×2 block). Here each cause has a
 //! column of its own.
 
+use super::data::Data;
 use super::estimates::{Basis, Estimates};
 use super::inputs::Setup;
-use super::offsets::Offsets;
+use super::least_squares::Fit;
 use super::repeats::Repeats;
 use super::sensitivity::Sensitivity;
-use super::unknowns::Unknowns;
 use crate::attitude::ANGLES;
 use crate::coefficients::PositionIndex;
-use nalgebra::{DMatrix, Vector2};
+use nalgebra::DMatrix;
 
 /// Uncertain input quantity. Axes are counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -169,20 +169,14 @@ pub struct Input {
 }
 
 /// Returns all inputs with a positive uncertainty, and F: the change of the misclosures, °/h, for one standard
-/// uncertainty of each input (two rows per position, then one per row of `differences` × inputs).
-pub(crate) fn inputs(
-    setup: &Setup,
-    unknowns: &Unknowns,
-    currents_ma: &[Vector2<f64>],
-    repeats: &Repeats,
-    differences: &Offsets,
-) -> (Vec<Input>, DMatrix<f64>) {
-    let sensitivity = Sensitivity::new(setup, unknowns);
-    let estimates = Estimates::new(setup, repeats);
+/// uncertainty of each input (two rows per position, then one per row of the differences of visits × inputs).
+pub(crate) fn inputs(setup: &Setup, data: &Data, fit: &Fit) -> (Vec<Input>, DMatrix<f64>) {
+    let (sensitivity, currents_ma) = (Sensitivity::new(setup, &fit.unknowns), &fit.currents_ma);
+    let estimates = Estimates::new(setup, &data.repeats);
     let mut inputs = of_stand_and_site(setup, &estimates);
-    inputs.extend(of_gyro_and_meter(setup, repeats, &estimates));
+    inputs.extend(of_gyro_and_meter(setup, &data.repeats, &estimates));
     let positions = inputs.len();
-    let differences = differences.rows.nrows();
+    let differences = data.offsets.rows.nrows();
     let basis = estimates.visits;
     let degrees_of_freedom = estimates.degrees_of_freedom(basis);
     let of_row = |row| Input { cause: Cause::Differences(row), standard_uncertainty: 1.0, degrees_of_freedom, basis };

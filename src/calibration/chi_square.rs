@@ -1,12 +1,9 @@
 //! Chi-square test of a fit: its value from all inputs, and its distribution if uncertainties rest on estimates.
 
 use super::causes::Cause;
-use super::data::Data;
 use super::estimates::{Basis, Estimates};
-use super::inputs::Setup;
-use super::least_squares::{Fit, multiply_rows};
+use super::least_squares::multiply_rows;
 use super::propagation::{self, Propagation, Rest, covariance};
-use super::sensitivity::Sensitivity;
 use crate::statistics::scaled_f::{self, Part, ScaledF};
 use nalgebra::{DMatrix, DVector, Matrix2};
 
@@ -39,14 +36,14 @@ impl ChiSquare {
 /// generalised inverse. The part that the parameters absorb cancels. Chi-square is therefore the same for every method
 /// that fits exact readings exactly. It is computed from z = Q₂'W e, whose covariance 1 + B B' has full rank (B is Q₂'W
 /// times the common part of all positions).
-pub(crate) fn chi_square(setup: &Setup, data: &Data, propagation: &Propagation) -> ChiSquare {
+pub(crate) fn chi_square(propagation: &Propagation) -> ChiSquare {
     let model = &propagation.fit.model;
     let degrees_of_freedom = model.rows - model.columns;
     if degrees_of_freedom == 0 {
         // With as many readings as unknowns, the residuals are only rounding.
         return ChiSquare { value: 0.0, degrees_of_freedom, probability: 1.0, of_uncertainties: f64::INFINITY };
     }
-    let (value, Estimated { parts, visits }) = quadratic_form(setup, data, propagation);
+    let (value, Estimated { parts, visits }) = quadratic_form(propagation);
     let with = |factor: f64| match &visits {
         Some((_, terms)) => terms.iter().map(|term| term.with(factor)).sum(),
         None => value,
@@ -81,8 +78,8 @@ impl Term {
 }
 
 /// Returns the value of chi-square, and the parts of the covariance that rest on estimates.
-pub(crate) fn quadratic_form(setup: &Setup, data: &Data, propagation: &Propagation) -> (f64, Estimated) {
-    let fit = propagation.fit;
+pub(crate) fn quadratic_form(propagation: &Propagation) -> (f64, Estimated) {
+    let Propagation { data, fit, .. } = propagation;
     let mut rotated = DMatrix::zeros(fit.model.rows, 1);
     let top = 2 * fit.whitening.len();
     rotated.rows_range_mut(top..).copy_from(&fit.of_differences(&data.offsets));
@@ -99,7 +96,7 @@ pub(crate) fn quadratic_form(setup: &Setup, data: &Data, propagation: &Propagati
     let cholesky = plus_one(common.tr_mul(common)).cholesky();
     let taken = cholesky.as_ref().map_or(0.0, |cholesky| projected.dot(&cholesky.solve(&projected)));
     let lower = cholesky.map(|cholesky| cholesky.unpack());
-    (z.norm_squared() - taken, estimated(setup, data, propagation, &rest, lower, &z))
+    (z.norm_squared() - taken, estimated(propagation, &rest, lower, &z))
 }
 
 fn plus_one(mut matrix: DMatrix<f64>) -> DMatrix<f64> {
@@ -113,16 +110,9 @@ fn plus_one(mut matrix: DMatrix<f64>) -> DMatrix<f64> {
 /// χ² is y' M y of the whitened misclosures y, with M = 1 − V V'. V consists of Q₁, the part that the parameters absorb,
 /// and Q₂ B L'⁻¹ side by side. A part D of the covariance of y enters through tr D M and tr D M D M. Own parts of positions
 /// are blocks of D, so D M costs little more than M itself.
-fn estimated(
-    setup: &Setup,
-    data: &Data,
-    propagation: &Propagation,
-    rest: &Rest,
-    lower: Option<DMatrix<f64>>,
-    z: &DVector<f64>,
-) -> Estimated {
-    let fit = propagation.fit;
-    let estimates = Estimates::new(setup, &data.repeats);
+fn estimated(propagation: &Propagation, rest: &Rest, lower: Option<DMatrix<f64>>, z: &DVector<f64>) -> Estimated {
+    let positions = propagation.fit.whitening.len();
+    let estimates = Estimates::new(propagation.setup, &propagation.data.repeats);
     if estimates.degrees_of_freedom.is_empty() {
         return Estimated::default();
     }
@@ -137,8 +127,8 @@ fn estimated(
             m[(column, row)] = left;
         }
     }
-    let own = own_parts(setup, fit, data, &estimates);
-    let common = common_parts(setup, fit, data, &estimates);
+    let own = own_parts(propagation, &estimates);
+    let common = common_parts(propagation, &estimates);
     let mut parts = Vec::with_capacity(own.len());
     for (estimate, (own, common)) in own.iter().zip(&common).enumerate() {
         let mut product = m.clone();
@@ -147,7 +137,7 @@ fn estimated(
         }
         // Differences of visits, the last rows, have unit covariance.
         if estimates.visits != Basis::Estimate(estimate) {
-            product.rows_range_mut(2 * fit.whitening.len()..).fill(0.0);
+            product.rows_range_mut(2 * positions..).fill(0.0);
         }
         if common.ncols() > 0 {
             product += propagation::product(common, &common.tr_mul(&m));
@@ -190,10 +180,9 @@ fn absorbed(propagation: &Propagation, Rest { q2, common }: &Rest, lower: Option
 }
 
 /// Returns the whitened own part of each position that rests on each estimate, 2×2.
-fn own_parts(setup: &Setup, fit: &Fit, data: &Data, estimates: &Estimates) -> Vec<Vec<Matrix2<f64>>> {
-    let (repeats, positions) = (&data.repeats, fit.whitening.len());
-    let sensitivity = Sensitivity::new(setup, &fit.unknowns);
-    let k = sensitivity.k_deg_per_h_per_ma();
+fn own_parts(propagation: &Propagation, estimates: &Estimates) -> Vec<Vec<Matrix2<f64>>> {
+    let (fit, repeats, sensitivity) = (propagation.fit, &propagation.data.repeats, propagation.sensitivity());
+    let (positions, k) = (fit.whitening.len(), &fit.unknowns.parameters.k_deg_per_h_per_ma);
     let noise = k * k.transpose();
     let mut parts = vec![vec![Matrix2::zeros(); positions]; estimates.degrees_of_freedom.len()];
     for (place, whiten) in fit.whitening.iter().enumerate() {
@@ -214,10 +203,9 @@ fn own_parts(setup: &Setup, fit: &Fit, data: &Data, estimates: &Estimates) -> Ve
 
 /// Returns the whitened errors for one standard uncertainty of each input common to all positions that rests on each
 /// estimate (rows × inputs).
-fn common_parts(setup: &Setup, fit: &Fit, data: &Data, estimates: &Estimates) -> Vec<DMatrix<f64>> {
-    let u = setup.uncertainty();
-    let sensitivity = Sensitivity::new(setup, &fit.unknowns);
-    let turn_on = data.repeats.turn_on_of_mean_deg_per_h();
+fn common_parts(propagation: &Propagation, estimates: &Estimates) -> Vec<DMatrix<f64>> {
+    let (fit, u, sensitivity) = (propagation.fit, propagation.setup.uncertainty(), propagation.sensitivity());
+    let turn_on = propagation.data.repeats.turn_on_of_mean_deg_per_h();
     let inputs: [(Basis, f64, Vec<Cause>); 3] = [
         (estimates.platform, u.common_platform_rad, [0, 1, 2].map(Cause::Platform).into()),
         (estimates.base, u.common_base_rad, [0, 1, 2].map(Cause::Base).into()),

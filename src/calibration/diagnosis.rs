@@ -225,7 +225,7 @@ fn single_positions(setup: &Setup, data: &Data, model: Model, suspects: &[usize]
     let possible = suspects.iter().filter_map(|&place| {
         let (rest, others) = (setup.without(place), data.without(place));
         let fit = others.fit(&rest, model).ok()?;
-        let found = chi_square::chi_square(&rest, &others, &Propagation::new(&rest, &fit, &others));
+        let found = chi_square::chi_square(&Propagation::new(&rest, &others, &fit));
         if found.degrees_of_freedom == 0 || found.probability <= POSSIBLE {
             return None;
         }
@@ -249,7 +249,7 @@ fn single_positions(setup: &Setup, data: &Data, model: Model, suspects: &[usize]
 
 fn chi_square(setup: &Setup, data: &Data, model: Model) -> Option<ChiSquare> {
     let fit = data.fit(setup, model).ok().filter(|fit| fit.settled)?;
-    let found = chi_square::chi_square(setup, data, &Propagation::new(setup, &fit, data));
+    let found = chi_square::chi_square(&Propagation::new(setup, data, &fit));
     found.value.is_finite().then_some(found)
 }
 

@@ -1,13 +1,13 @@
 //! The whole calibration: every requested method with its uncertainty and its fit.
 
-use super::analytic::{self, AnalyticMap, NoAnalyticSolution};
+use super::analytic::{self, AnalyticMap, AnalyticSolution, NoAnalyticSolution};
 use super::causes;
 use super::chi_square::{ChiSquare, chi_square};
 use super::data::{Data, Observation};
 use super::diagnosis;
 use super::estimates::Estimates;
 use super::inputs::Setup;
-use super::iterative::{self, Iteration, NoIterativeSolution, StopRule};
+use super::iterative::{self, Iteration, IterativeSolution, NoIterativeSolution, StopRule};
 use super::least_squares::{Fit, NoLeastSquares};
 use super::offsets::{Differences, Offsets};
 use super::parameter::Parameter;
@@ -61,7 +61,7 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
     let observation = Observation::new(setup, readings, options.model, options.drift)?;
     let suspects = suspect::all(setup, readings, &observation);
     let Observation { data, fit, seen, .. } = observation;
-    let evaluation = Evaluation::new(setup, &data, &fit);
+    let evaluation = Evaluation::new(Propagation::new(setup, &data, &fit));
     let hint = diagnosis::hint(setup, &data, fit.of, &evaluation.chi_square);
     let mut calibration = Calibration {
         results: Vec::new(),
@@ -80,7 +80,7 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
     };
     let closed = options.model != Model::General && !options.drift && data.offsets.are_balanced();
     let paper = if fit.of == Model::Paper { None } else { Some(data.fit(setup, Model::Paper)?) };
-    let paper = paper.as_ref().map(|paper| Evaluation::new(setup, &data, paper));
+    let paper = paper.as_ref().map(|paper| Evaluation::new(Propagation::new(setup, &data, paper)));
     let of_the_paper = paper.as_ref().unwrap_or(&evaluation);
     let of_closed = of_the_paper.closed();
     for &method in &options.methods {
@@ -127,17 +127,17 @@ fn drift_can_be_fitted(setup: &Setup, readings: &Readings) -> Result<(), NoLeast
 fn drift_test(setup: &Setup, readings: &Readings, options: &Options) -> Option<DriftTest> {
     let Observation { data, fit, .. } = Observation::new(setup, readings, options.model, true).ok()?;
     let drift = fit.drift(&data.offsets)?;
-    let propagation = Propagation::new(setup, &fit, &data);
-    let probability = probability_of_drift(setup, &data, &propagation, &drift)?;
-    let rest = chi_square(setup, &data, &propagation);
+    let propagation = Propagation::new(setup, &data, &fit);
+    let probability = probability_of_drift(&propagation, &drift)?;
+    let rest = chi_square(&propagation);
     let explains = !rest.judges() || rest.probability >= diagnosis::ALARM;
     Some(DriftTest { drift_deg_per_h_per_h: drift, probability, explains })
 }
 
 /// Returns the probability of a larger drift than `drift` if there is none; `None` if its covariance has no inverse.
-fn probability_of_drift(setup: &Setup, data: &Data, propagation: &Propagation, drift: &Vector2<f64>) -> Option<f64> {
-    let fit = propagation.fit;
-    let (inputs, columns) = causes::inputs(setup, &fit.unknowns, &fit.currents_ma, &data.repeats, &data.offsets);
+fn probability_of_drift(propagation: &Propagation, drift: &Vector2<f64>) -> Option<f64> {
+    let Propagation { setup, data, fit, .. } = propagation;
+    let (inputs, columns) = causes::inputs(setup, data, fit);
     let response = propagation.response_of_least_squares();
     let spread = product(&response.rows(response.nrows() - 2, 2).into_owned(), &columns);
     let estimates = Estimates::new(setup, &data.repeats);
@@ -189,7 +189,7 @@ pub(crate) fn linearise(
     let setup = &*setup.of_readings(readings);
     let model = if method == Method::LeastSquares { options.model } else { Model::Paper };
     let Observation { data, fit, .. } = Observation::new(setup, readings, model, options.drift)?;
-    let propagation = Propagation::new(setup, &fit, &data);
+    let propagation = Propagation::new(setup, &data, &fit);
     let (found, response) = match method {
         Method::LeastSquares => (fit.unknowns, propagation.response_of_least_squares()),
         Method::Analytic | Method::Iterative => {
@@ -207,9 +207,6 @@ fn in_units(value: f64, u: f64) -> f64 {
 }
 
 struct Evaluation<'a> {
-    setup: &'a Setup,
-    data: &'a Data,
-    fit: &'a Fit,
     propagation: Propagation<'a>,
     /// L F of least squares (parameters × causes).
     spread: DMatrix<f64>,
@@ -230,16 +227,15 @@ struct Closed {
 }
 
 impl<'a> Evaluation<'a> {
-    fn new(setup: &'a Setup, data: &'a Data, fit: &'a Fit) -> Self {
-        let propagation = Propagation::new(setup, fit, data);
-        let spread = propagation.least_squares();
-        let chi_square = chi_square(setup, data, &propagation);
-        Self { setup, data, fit, propagation, spread, chi_square }
+    fn new(propagation: Propagation<'a>) -> Self {
+        let (spread, chi_square) = (propagation.least_squares(), chi_square(&propagation));
+        Self { propagation, spread, chi_square }
     }
 
     /// Returns the uncertainties of the paper's methods, or `None` if there is no analytic solution.
     fn closed(&self) -> Option<Closed> {
-        let map = AnalyticMap::new(self.setup.coefficients(), &self.fit.currents_ma).ok()?;
+        let Propagation { setup, fit, .. } = self.propagation;
+        let map = AnalyticMap::new(setup.coefficients(), &fit.currents_ma).ok()?;
         let (spread, of_omega_n) = self.propagation.analytic(&map);
         Some(Closed {
             covariance: covariance(&spread),
@@ -250,7 +246,8 @@ impl<'a> Evaluation<'a> {
     }
 
     fn least_squares(&self) -> MethodResult {
-        let (unknowns, model) = (&self.fit.unknowns, self.fit.of);
+        let Propagation { data, fit, .. } = self.propagation;
+        let (unknowns, model) = (&fit.unknowns, fit.of);
         let parameters = unknowns.parameters;
         let anisoelasticity = unknowns.anisoelasticity_deg_per_h_per_g2;
         let all = covariance(&self.spread);
@@ -264,7 +261,7 @@ impl<'a> Evaluation<'a> {
                 covariance[(place, place)].sqrt()
             }),
         });
-        let drift = self.fit.drift(&self.data.offsets).map(|deg_per_h_per_h| {
+        let drift = fit.drift(&data.offsets).map(|deg_per_h_per_h| {
             let place = all.nrows() - 2;
             let u = [0, 1].map(|axis| all[(place + axis, place + axis)].sqrt());
             Drift { deg_per_h_per_h, standard_uncertainty_deg_per_h_per_h: u.into() }
@@ -290,10 +287,11 @@ impl<'a> Evaluation<'a> {
 
     /// Returns ω_0 of each turn-on, whose mean is that of `parameters`.
     fn cycles(&self, parameters: &GyroParameters) -> Vec<Cycle> {
-        let (offsets, omega0) = (&self.data.offsets, parameters.omega0_deg_per_h);
+        let Propagation { data, fit, .. } = self.propagation;
+        let (offsets, omega0) = (&data.offsets, parameters.omega0_deg_per_h);
         let turn_ons = offsets.turn_ons();
         let each = turn_ons.row_iter().zip(&offsets.cycles).map(|(row, &cycle)| {
-            let bias = row.iter().zip(self.fit.changing.chunks_exact(2));
+            let bias = row.iter().zip(fit.changing.chunks_exact(2));
             let bias = bias.fold(Vector2::zeros(), |sum, (a, x)| sum + Vector2::new(x[0], x[1]) * *a);
             Cycle { cycle, omega0_deg_per_h: (omega0 + bias).into() }
         });
@@ -301,35 +299,36 @@ impl<'a> Evaluation<'a> {
     }
 
     fn analytic(&self, closed: Option<&Closed>) -> Result<MethodResult, NoAnalyticSolution> {
-        let solution = analytic::solve(self.setup.coefficients(), &self.data.currents_ma)?;
+        let Propagation { setup, data, .. } = self.propagation;
+        let found = analytic::solve(setup.coefficients(), &data.currents_ma)?;
         let closed = closed.ok_or(NoAnalyticSolution::SingularCurrents)?;
-        let (parameters, omega_n) = (solution.parameters, solution.omega_n_deg_per_h_per_g);
-        Ok(self.of_the_paper(Method::Analytic, parameters, omega_n, None, closed))
+        Ok(self.of_the_paper(Method::Analytic, found, None, closed))
     }
 
     fn iterative(&self, closed: Option<&Closed>, rule: &StopRule) -> Result<MethodResult, MethodRefusal> {
-        let found = iterative::solve(self.setup.coefficients(), &self.data.currents_ma, rule)?;
+        let Propagation { setup, data, .. } = self.propagation;
+        let IterativeSolution { parameters, omega_n_deg_per_h_per_g, iteration, .. } =
+            iterative::solve(setup.coefficients(), &data.currents_ma, rule)?;
         let closed = closed.ok_or(NoIterativeSolution::SingularCurrents)?;
-        let (parameters, omega_n) = (found.parameters, found.omega_n_deg_per_h_per_g);
-        Ok(self.of_the_paper(Method::Iterative, parameters, omega_n, Some(found.iteration), closed))
+        let found = AnalyticSolution { parameters, omega_n_deg_per_h_per_g };
+        Ok(self.of_the_paper(Method::Iterative, found, Some(iteration), closed))
     }
 
     /// Returns the result of one of the paper's methods. The remainder of the iteration is stated separately.
     fn of_the_paper(
         &self,
         method: Method,
-        parameters: GyroParameters,
-        omega_n: Matrix2<f64>,
+        AnalyticSolution { parameters, omega_n_deg_per_h_per_g }: AnalyticSolution,
         iteration: Option<Iteration>,
         closed: &Closed,
     ) -> MethodResult {
-        let (found, answer) = (parameters.to_vector(), self.fit.unknowns.parameters.to_vector());
+        let (found, answer) = (parameters.to_vector(), self.propagation.fit.unknowns.parameters.to_vector());
         let difference = |place| in_units(found[place] - answer[place], closed.from_least_squares[place]);
         MethodResult {
             method,
             model: Model::Paper,
             parameters,
-            omega_n_deg_per_h_per_g: omega_n,
+            omega_n_deg_per_h_per_g,
             anisoelasticity_deg_per_h_per_g2: None,
             g_matrix: None,
             model_test: None,
@@ -346,7 +345,8 @@ impl<'a> Evaluation<'a> {
 
     /// Returns the residuals with their standard uncertainties `u`, °/h.
     fn residuals(&self, unknowns: &Unknowns, u: &[f64]) -> Vec<Residual> {
-        let each = self.fit.positions.iter().zip(&self.data.currents_ma).zip(u.chunks_exact(2));
+        let Propagation { data, fit, .. } = self.propagation;
+        let each = fit.positions.iter().zip(&data.currents_ma).zip(u.chunks_exact(2));
         each.map(|((at, current), u)| {
             let residual = unknowns.misclosure(at, current);
             Residual {

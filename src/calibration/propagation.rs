@@ -16,6 +16,8 @@ use nalgebra::{DMatrix, DMatrixView, Matrix2, Vector2};
 /// Causes of error at a fit, and their propagation by the fit.
 #[derive(Debug, Clone)]
 pub(crate) struct Propagation<'a> {
+    pub(crate) setup: &'a Setup,
+    pub(crate) data: &'a Data,
     pub(crate) fit: &'a Fit,
     /// X: unwhitened design matrix (rows, two per position × parameters).
     pub(crate) design: DMatrix<f64>,
@@ -34,7 +36,8 @@ pub(crate) struct Rest {
 }
 
 impl<'a> Propagation<'a> {
-    pub(crate) fn new(setup: &Setup, fit: &'a Fit, data: &Data) -> Self {
+    /// Propagates the uncertainties of `setup` and of `data` at their `fit`.
+    pub(crate) fn new(setup: &'a Setup, data: &'a Data, fit: &'a Fit) -> Self {
         let rows = fit.model.rows;
         let shared = Sensitivity::new(setup, &fit.unknowns).shared(&fit.currents_ma, &data.repeats);
         // Differences of visits, the last rows, contain nothing that is common to all positions.
@@ -51,7 +54,12 @@ impl<'a> Propagation<'a> {
         }
         rotated.columns_mut(rows, shared.ncols()).copy_from(&shared);
         fit.model.rotate(&mut rotated);
-        Self { fit, design: fit.design(&data.offsets), causes, rotated }
+        Self { setup, data, fit, design: fit.design(&data.offsets), causes, rotated }
+    }
+
+    /// Returns the sensitivities of the misclosures at the fit.
+    pub(crate) fn sensitivity(&self) -> Sensitivity<'a> {
+        Sensitivity::new(self.setup, &self.fit.unknowns)
     }
 
     /// Returns Q₁' (parameters × rows), which takes from whitened misclosures what the parameters absorb.

@@ -87,11 +87,6 @@ impl<'a> Sensitivity<'a> {
         Self { setup, unknowns }
     }
 
-    /// Returns K of the solution, °/(h·mA), 2×2.
-    pub(crate) fn k_deg_per_h_per_ma(&self) -> &Matrix2<f64> {
-        &self.unknowns.parameters.k_deg_per_h_per_ma
-    }
-
     /// Returns the change of the misclosure of position `place` for a change of its vectors.
     fn of_vectors(&self, place: usize, change: &VectorChange) -> Change {
         let VectorChange { earth_rate_deg_per_h, vertical } = change;

@@ -94,7 +94,7 @@ impl Budget {
     pub fn new(setup: &Setup, readings: &Readings, method: Method, options: &Options) -> Result<Self, MethodRefusal> {
         let Linearised { fit, found, data, response } = linearise(setup, readings, method, options)?;
         let setup = &*setup.of_readings(readings);
-        let (inputs, columns) = causes::inputs(setup, &fit.unknowns, &fit.currents_ma, &data.repeats, &data.offsets);
+        let (inputs, columns) = causes::inputs(setup, &data, &fit);
         let spread = product(&response, &columns);
         let of = if method == Method::LeastSquares { fit.of } else { Model::Paper };
         let spread = spread.rows(0, of.columns()).into_owned();

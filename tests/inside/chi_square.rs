@@ -55,8 +55,8 @@ fn chi_square_is_that_of_the_residuals_of_any_method() {
     let each: Vec<_> = positions.iter().map(|at| at.index).zip(currents.clone()).collect();
     let data = Data::new(&setup, &Readings::new(setup.coefficients(), &each).unwrap());
     let fit = data.fit(&setup, Model::Paper).unwrap();
-    let propagation = Propagation::new(&setup, &fit, &data);
-    let ChiSquare { value: expected, degrees_of_freedom, .. } = chi_square(&setup, &data, &propagation);
+    let propagation = Propagation::new(&setup, &data, &fit);
+    let ChiSquare { value: expected, degrees_of_freedom, .. } = chi_square(&propagation);
     assert_eq!(degrees_of_freedom, 8);
     let map = AnalyticMap::new(setup.coefficients(), &fit.currents_ma).unwrap();
     let closed = analytic::solve(setup.coefficients(), &currents).unwrap().parameters;
@@ -102,10 +102,10 @@ fn parts_are_those_of_dense_matrices() {
     for options in [Options::default(), Options { model: Model::General, ..Options::default() }] {
         let linearised = linearise(&setup, &readings, Method::LeastSquares, &options).unwrap();
         let Linearised { fit, data, .. } = &linearised;
-        let (_, Estimated { parts, .. }) = quadratic_form(&setup, data, &Propagation::new(&setup, fit, data));
+        let (_, Estimated { parts, .. }) = quadratic_form(&Propagation::new(&setup, data, fit));
         let estimates = Estimates::new(&setup, &data.repeats);
         assert!(parts.len() >= 6, "angles, returns and noise, platform, base and turn-ons: {parts:?}");
-        let (inputs, columns) = causes::inputs(&setup, &fit.unknowns, &fit.currents_ma, &data.repeats, &data.offsets);
+        let (inputs, columns) = causes::inputs(&setup, data, fit);
         let inverse = (&columns * columns.transpose()).try_inverse().unwrap();
         let design = fit.design(&data.offsets);
         let weighted = &inverse * &design;
@@ -131,9 +131,9 @@ fn parts_are_those_of_dense_matrices() {
 
 /// Checks chi-square with other variances of the visits, which scale the columns of that estimate, against y' P y.
 fn terms_are_those_of_dense_matrices(setup: &Setup, Linearised { fit, data, .. }: &Linearised) {
-    let (_, Estimated { visits, .. }) = quadratic_form(setup, data, &Propagation::new(setup, fit, data));
+    let (_, Estimated { visits, .. }) = quadratic_form(&Propagation::new(setup, data, fit));
     let (of_visits, terms) = visits.expect("a noise of the gyro that is estimated");
-    let (inputs, columns) = causes::inputs(setup, &fit.unknowns, &fit.currents_ma, &data.repeats, &data.offsets);
+    let (inputs, columns) = causes::inputs(setup, data, fit);
     let design = fit.design(&data.offsets);
     let mut y: Vec<f64> = Vec::new();
     for (place, current) in data.currents_ma.iter().enumerate() {
