@@ -1,6 +1,6 @@
 //! Mean currents of all positions with their errors as stated or observed, and fits to them.
 
-use super::inputs::Setup;
+use super::inputs::{Setup, at_places};
 use super::least_squares::{Fit, NoLeastSquares, Problem, SETTLED};
 use super::offsets::{Differences, Offsets};
 use super::readings::Readings;
@@ -76,25 +76,12 @@ impl Data {
         Self { currents_ma, repeats, offsets: Offsets::default() }
     }
 
-    pub(crate) fn without(&self, place: usize) -> Self {
-        let mut rest = self.clone();
-        rest.currents_ma.remove(place);
-        rest.repeats.shares.remove(place);
-        if place < rest.offsets.means.len() {
-            rest.offsets.means.remove(place);
-        }
-        rest
-    }
-
-    /// Returns a copy with the readings of the positions `places` in their order, instead of the order of the setup.
-    pub(crate) fn reordered(&self, places: &[usize]) -> Self {
-        let mut reordered = self.clone();
-        reordered.currents_ma = places.iter().map(|&place| self.currents_ma[place]).collect();
-        reordered.repeats.shares = places.iter().map(|&place| self.repeats.shares[place]).collect();
-        if !self.offsets.means.is_empty() {
-            reordered.offsets.means = places.iter().map(|&place| self.offsets.means[place].clone()).collect();
-        }
-        reordered
+    /// Returns a copy with the readings of the positions `places` in their order, instead of those of the setup.
+    pub(crate) fn at(&self, places: &[usize]) -> Self {
+        let (mut repeats, mut offsets) = (self.repeats.clone(), self.offsets.clone());
+        repeats.shares = at_places(&repeats.shares, places);
+        offsets.means = at_places(&offsets.means, places);
+        Self { currents_ma: at_places(&self.currents_ma, places), repeats, offsets }
     }
 
     pub(crate) fn fit(&self, setup: &Setup, model: Model) -> Result<Fit, NoLeastSquares> {

@@ -175,7 +175,7 @@ fn exchanges(setup: &Setup, data: &Data, model: Model, suspects: &[usize]) -> Ve
             let mut places: Vec<usize> = (0..positions.len()).collect();
             places.swap(one, other);
             let explanation = Explanation::Exchanged(positions[one].index, positions[other].index);
-            possible.extend(score(setup, &data.reordered(&places), model).map(|score| (score, explanation)));
+            possible.extend(score(setup, &data.at(&places), model).map(|score| (score, explanation)));
         }
     }
     possible
@@ -196,7 +196,7 @@ fn renumbered(setup: &Setup, data: &Data, model: Model) -> Vec<(f64, Explanation
                 places[place_of(to_i, to_j)?] = place_of(from_i, from_j)?;
             }
         }
-        Some((score(setup, &data.reordered(&places), model)?, Explanation::Renumbered { i, j }))
+        Some((score(setup, &data.at(&places), model)?, Explanation::Renumbered { i, j }))
     });
     possible.collect()
 }
@@ -223,7 +223,8 @@ fn score(setup: &Setup, data: &Data, model: Model) -> Option<f64> {
 /// Returns every position without which the other positions fit, with its score.
 fn single_positions(setup: &Setup, data: &Data, model: Model, suspects: &[usize]) -> Vec<(f64, Explanation)> {
     let possible = suspects.iter().filter_map(|&place| {
-        let (rest, others) = (setup.without(place), data.without(place));
+        let places: Vec<usize> = (0..data.currents_ma.len()).filter(|other| *other != place).collect();
+        let (rest, others) = (setup.at(&places), data.at(&places));
         let fit = others.fit(&rest, model).ok()?;
         let found = chi_square::chi_square(&Propagation::new(&rest, &others, &fit));
         if found.degrees_of_freedom == 0 || found.probability <= POSSIBLE {

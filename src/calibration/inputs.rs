@@ -2,7 +2,9 @@
 
 use super::readings::Readings;
 use crate::attitude::{self, Deviation};
-use crate::coefficients::{Coefficients, EIGHT_POSITIONS, EarthRate, Position, SingularPositions, StandGeometry};
+use crate::coefficients::{
+    Coefficients, EIGHT_POSITIONS, EarthRate, Position, PositionIndex, SingularPositions, StandGeometry,
+};
 use crate::gyro::GyroNoise;
 use crate::laboratory::Meter;
 use nalgebra::{Matrix3, Vector3};
@@ -241,34 +243,30 @@ impl Setup {
     /// Returns the setup with the positions that have readings, and with the rounding of the readings where it is larger
     /// than the floor of the meter. Closed methods need all of the paper's eight positions.
     pub(crate) fn of_readings(&self, readings: &Readings) -> Cow<'_, Self> {
-        let left_out = |place: &usize| readings.left_out.contains(&self.coefficients.positions[*place].index);
-        let places: Vec<usize> = (0..self.coefficients.positions.len()).filter(left_out).collect();
         let recorded = readings.recorded.applied_to(self);
-        if places.is_empty() {
+        let is_left_out = |index: &PositionIndex| readings.left_out.contains(index);
+        let positions = &self.coefficients.positions;
+        let places: Vec<usize> = (0..positions.len()).filter(|place| !is_left_out(&positions[*place].index)).collect();
+        if places.len() == positions.len() {
             return recorded;
         }
-        let eight = |place: &usize| {
-            EIGHT_POSITIONS.iter().any(|(index, ..)| *index == self.coefficients.positions[*place].index)
-        };
-        let matrices = if places.iter().any(eight) { None } else { self.coefficients.matrices };
-        let mut rest = places.iter().rev().fold(recorded.into_owned(), |rest, place| rest.without(*place));
-        rest.coefficients.matrices = matrices;
+        let mut rest = recorded.at(&places);
+        if !EIGHT_POSITIONS.iter().any(|(index, ..)| is_left_out(index)) {
+            rest.coefficients.matrices = self.coefficients.matrices;
+        }
         Cow::Owned(rest)
     }
 
-    /// Returns a copy without position `place` and without Δ, B, C.
-    pub(crate) fn without(&self, place: usize) -> Self {
-        let mut rest = self.clone();
-        rest.coefficients.positions.remove(place);
-        rest.coefficients.matrices = None;
-        rest.turns.remove(place);
-        if place < rest.uncertainty.angles_rad.len() {
-            rest.uncertainty.angles_rad.remove(place);
-        }
-        if place < rest.uncertainty.angles_degrees_of_freedom.len() {
-            rest.uncertainty.angles_degrees_of_freedom.remove(place);
-        }
-        rest
+    /// Returns a copy with only the positions `places`, in ascending order, and without Δ, B, C.
+    pub(crate) fn at(&self, places: &[usize]) -> Self {
+        let Self { coefficients, turns, earth, uncertainty } = self;
+        let uncertainty = InputUncertainty {
+            angles_rad: at_places(&uncertainty.angles_rad, places),
+            angles_degrees_of_freedom: at_places(&uncertainty.angles_degrees_of_freedom, places),
+            ..uncertainty.clone()
+        };
+        let coefficients = Coefficients { positions: at_places(&coefficients.positions, places), matrices: None };
+        Self { coefficients, turns: at_places(turns, places), earth: *earth, uncertainty }
     }
 
     /// Returns a copy with the frame's axis turned clockwise by this many degrees, and without Δ, B, C.
@@ -294,6 +292,11 @@ impl Setup {
     pub(crate) fn earth_rate_east_north_up(&self) -> Vector3<f64> {
         Vector3::new(0.0, self.earth.horizontal_deg_per_h, self.earth.vertical_deg_per_h)
     }
+}
+
+/// Returns the elements at `places`, as far as a list has them; a list may end before the last position.
+pub(super) fn at_places<T: Clone>(all: &[T], places: &[usize]) -> Vec<T> {
+    places.iter().filter_map(|&place| all.get(place).cloned()).collect()
 }
 
 impl Turn {
