@@ -94,14 +94,20 @@ impl<'a> AnalyticMap<'a> {
 impl AnalyticSolution {
     /// Creates a solution with ω_g and ω_k computed from ω_n by (16).
     pub(super) fn new(k: Matrix2<f64>, omega_n: Matrix2<f64>, omega0: Vector2<f64>) -> Self {
+        let [omega_g_deg_per_h_per_g, omega_k_deg_per_h_per_g] = g_drifts(&omega_n);
         let parameters = GyroParameters {
             k_deg_per_h_per_ma: k,
             omega0_deg_per_h: omega0,
-            omega_g_deg_per_h_per_g: (omega_n.m11 + omega_n.m22) / 2.0,
-            omega_k_deg_per_h_per_g: (omega_n.m21 - omega_n.m12) / 2.0,
+            omega_g_deg_per_h_per_g,
+            omega_k_deg_per_h_per_g,
         };
         Self { parameters, omega_n_deg_per_h_per_g: omega_n }
     }
+}
+
+/// Returns ω_g and ω_k of a given ω_n, or of a change of it (paper, eq. (16)).
+pub(super) fn g_drifts(omega_n: &Matrix2<f64>) -> [f64; 2] {
+    [(omega_n.m11 + omega_n.m22) / 2.0, (omega_n.m21 - omega_n.m12) / 2.0]
 }
 
 /// Returns ω_0, °/h: the mean of ω_3 − K J − ω_n n over all positions (paper, eq. (8)).

@@ -4,7 +4,7 @@
 //! spectral radius ρ(T) < 1, and its fixed point is the analytic solution (13). After any step the remainder is exactly
 //! (K_λ − K_{λ−1}) T (1 − T)⁻¹. The size of a step is no bound of the remainder, because T is not normal.
 
-use super::analytic::{AnalyticSolution, mean_misclosure, of_the_eight};
+use super::analytic::{AnalyticSolution, g_drifts, mean_misclosure, of_the_eight};
 use crate::coefficients::{Coefficients, Matrices, pair_differences};
 use crate::gyro::GyroParameters;
 use nalgebra::{Matrix2, Vector2};
@@ -222,11 +222,6 @@ impl StepChange {
             g_drifts_deg_per_h_per_g: omega_g.abs().max(omega_k.abs()),
         }
     }
-}
-
-/// Returns ω_g and ω_k of a given ω_n (paper, eq. (16)).
-fn g_drifts(omega_n: &Matrix2<f64>) -> [f64; 2] {
-    [(omega_n.m11 + omega_n.m22) / 2.0, (omega_n.m21 - omega_n.m12) / 2.0]
 }
 
 /// Returns `true` if the paper's stop rule (under eq. (19)) is met: K_x, K_y changed by at most Δ₁ %, ω_g, ω_k by at

@@ -1,6 +1,7 @@
 //! The equations of all positions, linear in the unknowns (paper, eq. (2) and (5)):
 //! K J + ω_0 + ω_n n (+ anisoelasticity · n n_z) = ω_3, or K J + ω_0 + G (n_x, n_y, n_z)' = ω_3 in the general model.
 
+use super::analytic::g_drifts;
 use super::parameter::Parameter;
 use crate::coefficients::PositionCoefficients;
 use crate::gyro::GyroParameters;
@@ -75,7 +76,7 @@ impl Unknowns {
             return Self { anisoelasticity_deg_per_h_per_g2, ..Self::of(GyroParameters::from_vector(&eight)) };
         }
         let g = Matrix2x3::from_fn(|row, column| value(6 + 3 * row + column));
-        let (omega_g, omega_k) = ((g.m11 + g.m22) / 2.0, (g.m21 - g.m12) / 2.0);
+        let [omega_g, omega_k] = g_drifts(&g.fixed_columns::<2>(0).into_owned());
         let [kx, kxy, kyx, ky, x, y] = std::array::from_fn(value);
         let parameters = GyroParameters::from_vector(&[kx, kxy, kyx, ky, x, y, omega_g, omega_k]);
         Self { beyond_the_paper_deg_per_h_per_g: g - of_the_paper(&parameters), ..Self::of(parameters) }
