@@ -4,10 +4,12 @@
 //! jumps (2^128 each) from the seed. No two ever overlap, and block n has the same numbers whichever thread computes
 //! it. Only whole numbers, sums, products, quotients and square roots are used, so every platform gives the same bytes.
 //!
-//! Source: [Blackman and Vigna](crate::bibliography::Bibliography::Xoshiro), their generator, jump polynomials and
-//! SplitMix64 seeding; [Box and Muller](crate::bibliography::Bibliography::BoxMuller58).
+//! Source: [Blackman and Vigna](crate::bibliography::Bibliography::Xoshiro), their generator and jump
+//! polynomials; [Box and Muller](crate::bibliography::Bibliography::BoxMuller58).
 
 use super::elementary::{ln, on_circle};
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
 /// Number of generators that run side by side.
 const GENERATORS: usize = 8;
@@ -30,14 +32,8 @@ const ONE: u64 = 0x3ff0_0000_0000_0000;
 impl WideRandom {
     /// Creates block 0 of a seed.
     pub(crate) fn new(seed: u64) -> Self {
-        let mut counter = seed;
-        let mut split_mix = || {
-            counter = counter.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            let mixed = (counter ^ (counter >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-            mixed ^ (mixed >> 31)
-        };
-        let mut state = [0; 4].map(|_: u64| [split_mix(); GENERATORS]);
+        let mut words = SplitMix64::seed_from_u64(seed);
+        let mut state = [(); 4].map(|()| [words.next_u64(); GENERATORS]);
         for from in 1..GENERATORS {
             let mut rest = Self { state };
             rest.ahead(&LONG_JUMP);
@@ -132,7 +128,6 @@ mod tests {
     use super::*;
     use crate::statistics::distributions::normal_below;
     use rand_xoshiro::Xoshiro256PlusPlus;
-    use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
     /// Expected: rand_xoshiro's generator, jumps and seeding.
     #[test]
