@@ -171,7 +171,15 @@ pub(crate) struct Problem<'a, F> {
 
 impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
     pub(crate) fn solve(&self) -> Result<Fit, NoLeastSquares> {
-        self.fit(self.first()?)
+        let start = self.first()?;
+        if let Some(fit) = self.settle(start.clone()) {
+            return Ok(fit);
+        }
+        // No gyro gives such readings. One step with the measured currents as regressors is the best available fit.
+        let (step, mut fit) = self.step(&start, Some(self.currents_ma)).ok_or(NoLeastSquares::NotUsable)?;
+        self.advance(&mut fit, &step.0);
+        fit.settled = false;
+        Ok(fit)
     }
 
     /// Fits the parameters again after a change of weights or offsets, from the solution of `last` on.
@@ -208,11 +216,8 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         let positions = &self.coefficients.positions;
         let unit_ma = largest_current(self.currents_ma);
         let model = self.conditioned(unit_ma)?;
-        let mut right = DMatrix::zeros(2 * positions.len(), 1);
-        for (place, at) in positions.iter().enumerate() {
-            right[(2 * place, 0)] = at.earth_rate_deg_per_h.x;
-            right[(2 * place + 1, 0)] = at.earth_rate_deg_per_h.y;
-        }
+        let rates = positions.iter().flat_map(|at| at.earth_rate_deg_per_h.iter().copied());
+        let mut right = DMatrix::from_iterator(2 * positions.len(), 1, rates);
         model.rotate(&mut right);
         let (mut solution, _) = model.solve_rotated(&right);
         solution.rows_mut(0, 4).scale_mut(1.0 / unit_ma);
@@ -237,13 +242,16 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
             return Ok(());
         }
         let mut design = whole_design(&self.coefficients.positions, currents_ma, self.model, self.offsets);
-        // Rows of differences are in units of their uncertainty, which has no place here; columns have different units.
+        // Rows of differences are in units of their uncertainty, which has no place here.
         let first = 2 * self.coefficients.positions.len();
         let largest = design.rows_range(first..).amax();
         if largest > 0.0 {
             design.rows_range_mut(first..).unscale_mut(largest);
         }
-        let design = scaled_columns(design);
+        // Columns of length 1, so that their units do not matter; columns of zeros stay.
+        for mut column in design.column_iter_mut() {
+            column.try_normalize_mut(0.0);
+        }
         if Factorised::new(design.clone()).is_some_and(|model| model.condition_bound() <= SINGULAR) {
             return Ok(());
         }
@@ -259,18 +267,6 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         let turn_ons = (0..turn_ons).flat_map(|_| [Parameter::TurnOn(0), Parameter::TurnOn(1)]);
         let drift = self.offsets.drift.then_some([Parameter::Drift(0), Parameter::Drift(1)]);
         self.model.parameters().iter().copied().chain(turn_ons).chain(drift.into_iter().flatten()).collect()
-    }
-
-    /// Returns the fit that steps from `start` lead to.
-    fn fit(&self, start: Solution) -> Result<Fit, NoLeastSquares> {
-        if let Some(fit) = self.settle(start.clone()) {
-            return Ok(fit);
-        }
-        // No gyro gives such readings. One step with the measured currents as regressors is the best available fit.
-        let (step, mut fit) = self.step(&start, Some(self.currents_ma)).ok_or(NoLeastSquares::NotUsable)?;
-        self.advance(&mut fit, &step.0);
-        fit.settled = false;
-        Ok(fit)
     }
 
     /// Iterates from `start` until a step is negligible, or returns `None` if the steps do not converge.
@@ -346,17 +342,6 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         }
         Some((fit, right))
     }
-}
-
-/// Returns a matrix with columns of length 1, so that their units do not matter; columns of zeros stay.
-fn scaled_columns(mut matrix: DMatrix<f64>) -> DMatrix<f64> {
-    for mut column in matrix.column_iter_mut() {
-        let length = column.norm();
-        if length > 0.0 {
-            column.unscale_mut(length);
-        }
-    }
-    matrix
 }
 
 /// Returns L⁻¹ for C = L L', or `None` if C is not positive definite.
