@@ -172,14 +172,14 @@ impl Candidates {
         let models: Vec<_> = positions.iter().map(CertifiedPosition::to_model).collect();
         let of_positions = |input: &NotStated| matches!(input, NotStated::Angles | NotStated::Return);
         let not_stated = missing.into_iter().filter(of_positions).collect();
-        Self { certified: true, not_stated, ..Self::of(question, setup, &models, azimuth_deg)? }.checked()
+        Ok(Self { certified: true, not_stated, ..Self::of(question, setup, &models, azimuth_deg)? })
     }
 
     fn nominal(question: &Question, positions: &[Position], azimuth_deg: f64) -> Result<Self, NoPlan> {
         let site = Site { frame_axis_azimuth_deg: Some(azimuth_deg), ..question.site.clone() };
         let uncertainty = InputUncertainty::of_meter((&question.laboratory.meter).into());
         let setup = Setup::new(positions, site.earth().rate(&site), uncertainty)?;
-        Self::of(question, setup, positions, azimuth_deg)?.checked()
+        Self::of(question, setup, positions, azimuth_deg)
     }
 
     fn of(question: &Question, setup: Setup, positions: &[Position], azimuth_deg: f64) -> Result<Self, NoPlan> {
@@ -189,11 +189,17 @@ impl Candidates {
         let unknowns = Unknowns::of(gyro);
         let currents_ma = unknowns.currents_ma(&setup.coefficients().positions).ok_or(NoPlan::SingularGyro)?;
         let turn_on = setup.uncertainty().turn_on_deg_per_h.unwrap_or(0.0) / tolerance[Parameter::Omega0x.place()];
-        let candidates = positions
+        let candidates: Vec<Candidate> = positions
             .iter()
             .enumerate()
             .map(|(place, position)| candidate(&setup, &unknowns, (place, position), currents_ma[place], &tolerance))
             .collect();
+        let finite = candidates.iter().all(|at| {
+            at.rows.as_flattened().iter().chain(&at.fixed).chain(&at.of_visit).all(|value| value.is_finite())
+        });
+        if !finite {
+            return Err(NoPlan::SingularGyro);
+        }
         Ok(Self {
             frame_axis_azimuth_deg: azimuth_deg,
             tolerance,
@@ -364,15 +370,5 @@ impl<'a> Design<'a> {
         let currents: Vec<_> = places.iter().map(|place| currents_ma[*place]).collect();
         let visited = Coefficients { positions, matrices: None };
         least_squares::solve(&visited, &currents, &setup.uncertainty().meter, Model::General).is_ok()
-    }
-}
-
-impl Candidates {
-    /// Returns the candidates if every number of them is finite.
-    fn checked(self) -> Result<Self, NoPlan> {
-        let finite = self.candidates.iter().all(|at| {
-            at.rows.as_flattened().iter().chain(&at.fixed).chain(&at.of_visit).all(|value| value.is_finite())
-        });
-        if finite { Ok(self) } else { Err(NoPlan::SingularGyro) }
     }
 }
