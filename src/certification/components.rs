@@ -293,6 +293,13 @@ impl Components {
     }
 }
 
+/// Returns the sums of the values of all rows about x, y and z; one run of rows after another.
+pub(super) fn by_axis(values: impl Iterator<Item = f64>) -> [f64; 3] {
+    let mut sums = [0.0; 3];
+    values.enumerate().for_each(|(row, value)| sums[row % 3] += value);
+    sums
+}
+
 /// Returns the mean squares of the residuals of every row over the runs.
 fn mean_squares(residuals: &[DVector<f64>]) -> DVector<f64> {
     let changes = residuals.len() as f64 - 1.0;

@@ -182,10 +182,10 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
         excluded: Some(readings.excluded.clone()).filter(|excluded| !excluded.is_empty()),
     };
     certificate.evidence = readings.sha256.as_deref().map(of_readings);
-    let mut rotated_runs = rotated_runs::bumped(header, readings, &components, &suspects.outliers);
+    let mut rotated_runs = rotated_runs::bumped(readings, &components, &suspects.outliers);
     // A run that changed within itself is also rotated on average.
     rotated_runs.retain(|at| suspects.split.is_none_or(|split| at.run() != Some(split.run)));
-    let unequal_axes = unequal_axes::find(header, readings, &components, &suspects.outliers, &rotated_runs);
+    let unequal_axes = unequal_axes::find(readings, &components, &suspects.outliers, &rotated_runs);
     let mut remarks: Vec<Remark> = rotated_runs.iter().copied().map(Remark::RotatedRuns).collect();
     // A shared setting may be the cause of what follows.
     remarks.extend(shared_settings.iter().copied().map(Remark::SharedSetting));

@@ -16,9 +16,9 @@
 //! leaves. Bonferroni's bound counts them with the runs, and only the least probable is named, so a cause has one name. A
 //! move after the first or before the last run is that run's.
 
+use super::AngleReadings;
 use super::components::{Components, RunTurn};
 use super::suspects::{AXES, OUTLIER, Outlier, STEPS_OF_ROUNDING, STRAGGLER};
-use super::{AngleReadings, Header};
 use crate::statistics::outlier::bonferroni_student;
 use nalgebra::Vector3;
 use std::ops::Range;
@@ -123,13 +123,8 @@ type Turn = (u32, [f64; 6]);
 
 /// Returns the bumped runs, the least probable first, and after them a move or a drift of the others. The `outliers`, single
 /// readings that are suspect already, do not count against their run.
-pub(crate) fn bumped(
-    header: &Header,
-    readings: &AngleReadings,
-    components: &Components,
-    outliers: &[Outlier],
-) -> Vec<RotatedRuns> {
-    let mut left = without(header, components, outliers);
+pub(crate) fn bumped(readings: &AngleReadings, components: &Components, outliers: &[Outlier]) -> Vec<RotatedRuns> {
+    let mut left = without(components, outliers);
     let runs = left.len();
     let mut found: Vec<RotatedRuns> = Vec::new();
     while left.len() >= FEWEST_RUNS {
@@ -181,7 +176,7 @@ fn turns(components: &Components) -> Vec<Turn> {
 }
 
 /// Returns the rotations of the runs as they are with the `outliers` brought to where the other readings put them.
-pub(super) fn without(header: &Header, components: &Components, outliers: &[Outlier]) -> Vec<Turn> {
+pub(super) fn without(components: &Components, outliers: &[Outlier]) -> Vec<Turn> {
     let mut turns = turns(components);
     if turns.len() <= 2 {
         return turns;
@@ -189,8 +184,7 @@ pub(super) fn without(header: &Header, components: &Components, outliers: &[Outl
     let model = &components.model;
     let runs = turns.len() as f64;
     for out in outliers {
-        let Some(place) = header.positions.iter().position(|at| at.index() == out.index) else { continue };
-        let effect = model.solve.column(3 * place + out.axis) * out.residual_arcsec;
+        let effect = model.solve.column(3 * out.place + out.axis) * out.residual_arcsec;
         let effect = model.rotations(&effect);
         for (run, turn) in &mut turns {
             // The shift of one reading also moves the mean of the runs.

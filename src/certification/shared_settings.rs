@@ -5,7 +5,7 @@
 //! They are compared with what remains of the residuals (F test), also without each run in turn.
 
 use super::Header;
-use super::components::Components;
+use super::components::{Components, by_axis};
 use super::header::NominalPosition;
 use super::suspects::OUTLIER;
 use crate::calibration::inputs::Turn;
@@ -103,12 +103,9 @@ fn test(runs: &[&DVector<f64>], shared: &DMatrix<f64>, keeps: &DMatrix<f64>) -> 
         }
     }
     // Share of each axis in the combinations, and what they leave of its degrees of freedom.
-    let (mut shares, mut freedom) = ([0.0; 3], [0.0; 3]);
-    for row in 0..shared.nrows() {
-        let share = shared.row(row).norm_squared();
-        shares[row % 3] += share;
-        freedom[row % 3] += (keeps[(row, row)] - share) * changes;
-    }
+    let share = |row: usize| shared.row(row).norm_squared();
+    let shares = by_axis((0..shared.nrows()).map(share));
+    let freedom = by_axis((0..shared.nrows()).map(|row| (keeps[(row, row)] - share(row)) * changes));
     let numerator = shared.ncols() * (runs.len() - 1);
     if numerator == 0 || freedom.iter().any(|freedom| *freedom <= 0.0) {
         return None;

@@ -4,7 +4,7 @@
 //! ones. So a rotation of the platform, or of the base, is fitted to the positions after each reading of each run, in the order
 //! of the rows, and compared with what it leaves (F test).
 
-use super::components::{Combinations, Components};
+use super::components::{Combinations, Components, by_axis};
 use super::remark::turns;
 use super::rotated_runs::CommonAxis;
 use super::suspects::OUTLIER;
@@ -62,10 +62,7 @@ pub(super) fn find(
     }
     let turns = &components.model.turns;
     let parts = [DMatrix::identity(3, 3), components.model.base_axes.clone()];
-    let mut sums_arcsec2 = [0.0; 3];
-    for residual in &components.residuals {
-        residual.iter().enumerate().for_each(|(row, left)| sums_arcsec2[row % 3] += left * left);
-    }
+    let sums_arcsec2 = by_axis(components.residuals.iter().flatten().map(|left| left * left));
     let mut found = Vec::new();
     for run in 0..runs {
         let mut order: Vec<usize> =
@@ -122,11 +119,10 @@ impl Fit {
         let of_all = runs / (runs - 1.0);
         let turn = shares.tr_mul(&effect.component_div(&lengths)) * of_all;
         let fitted = &shared * &effect;
-        let mut shares = [0.0; 3];
         for row in 0..fitted.len() {
             rest[row % 3] -= of_all * fitted[row] * (2.0 * residual[row] - fitted[row]);
-            shares[row % 3] += shared.row(row).norm_squared();
         }
+        let shares = by_axis(shared.row_iter().map(|row| row.norm_squared()));
         let freedom = [0, 1, 2].map(|axis| components.kept(axis) - shares[axis]);
         let scatter = [0, 1, 2].map(|axis| rest[axis].max(0.0) / freedom[axis]);
         let weighted = DMatrix::from_fn(shared.nrows(), shared.ncols(), |row, at| {

@@ -51,6 +51,8 @@ pub(crate) struct WorsePosition {
 pub(crate) struct Outlier {
     /// Index (i, j) of the position.
     pub index: PositionIndex,
+    /// Place of the position in the header.
+    pub(crate) place: usize,
     /// Number of the run.
     pub run: u32,
     /// Line in the file of readings; `None` if they do not come from a file.
@@ -64,7 +66,7 @@ pub(crate) struct Outlier {
 }
 
 /// Results of the tests for outliers.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Suspects {
     /// Test whether all positions scatter alike; `None` if it cannot be made, for instance because a reading is
     /// suspect.
@@ -94,9 +96,8 @@ impl Suspects {
         let group = group.filter(|group| !is_coarse && found.worse.iter().all(|at| group.probability < at.probability));
         let relative = group.as_ref().map_or(alike, WorseGroup::relative);
         let split = split_run::find(header, readings, components, &relative).filter(|_| may_split);
-        if let Some(split) = split.filter(|split| !found.explains(split, header, readings, components)) {
-            let (positions, axes, worse, outliers) = (None, None, Vec::new(), Vec::new());
-            return Self { positions, axes, worse, outliers, split: Some(split), ..found };
+        if let Some(split) = split.filter(|split| !found.explains(split, readings, components)) {
+            return Self { split: Some(split), twins: found.twins, ..Self::default() };
         }
         if group.is_none() {
             return found;
@@ -117,7 +118,7 @@ impl Suspects {
         // Coarse readings repeat by themselves, and a position scatters if its angles happen to be between two steps.
         let repeats = scatter_arcsec < readings.step_arcsec;
         let twins = if repeats { Vec::new() } else { twins(&readings.runs, components) };
-        let none = Self { positions: None, axes: None, worse: Vec::new(), group: None, split: None, outliers, twins };
+        let none = Self { outliers, twins, ..Self::default() };
         if readings.is_coarse(scatter_arcsec) {
             return none;
         }
@@ -136,11 +137,9 @@ impl Suspects {
     }
 
     /// Returns `true` if the outliers explain the readings better than a run that changed within itself, or rounding does.
-    fn explains(&self, split: &SplitRun, header: &Header, readings: &AngleReadings, components: &Components) -> bool {
-        let angle = |out: &Outlier| {
-            let place = header.positions.iter().position(|at| at.index() == out.index)?;
-            Some((readings.runs.iter().position(|run| *run == out.run)?, 3 * place + out.axis))
-        };
+    fn explains(&self, split: &SplitRun, readings: &AngleReadings, components: &Components) -> bool {
+        let angle =
+            |out: &Outlier| Some((readings.runs.iter().position(|run| *run == out.run)?, 3 * out.place + out.axis));
         let deletion = Deletion::of(components, self.outliers.iter().filter_map(angle).collect());
         let is_rounding = split.turns_arcsec.iter().all(|turn| turn.abs() <= STEPS_OF_ROUNDING * readings.step_arcsec);
         is_rounding || deletion.is_some_and(|single| single.unlikelihood(components) <= split.unlikelihood)
@@ -217,6 +216,7 @@ fn outliers(header: &Header, readings: &AngleReadings, components: &Components, 
         let (place, residual_arcsec) = (row / 3, suspect.shifts_arcsec[n]);
         let one = Outlier {
             index: header.positions[place].index(),
+            place,
             run: runs[run],
             line: readings.line(place, run),
             axis: row % 3,

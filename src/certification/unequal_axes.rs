@@ -1,9 +1,9 @@
 //! Axes about which whole runs rotate more than about the others, although the common parts are pooled from all three.
 
+use super::AngleReadings;
 use super::components::Components;
 use super::rotated_runs::{CommonAxis, RotatedRuns, left_squares, without};
 use super::suspects::{OUTLIER, Outlier};
-use super::{AngleReadings, Header};
 use crate::calibration::recorded::rounding_of;
 use crate::statistics::beta::student_factor;
 use crate::statistics::outlier::cochran_probability;
@@ -28,14 +28,13 @@ pub(crate) struct UnequalAxis {
 /// Returns the axes about which the runs, without what is named in `rotated`, rotate more than about the other two: the
 /// common parts are pooled from three axes, and too small about such an axis (Cochran's test).
 pub(crate) fn find(
-    header: &Header,
     readings: &AngleReadings,
     components: &Components,
     outliers: &[Outlier],
     rotated: &[RotatedRuns],
 ) -> Vec<UnequalAxis> {
     let model = &components.model;
-    let (squares, changes) = left_squares(without(header, components, outliers), rotated);
+    let (squares, changes) = left_squares(without(components, outliers), rotated);
     let changes = changes as f64;
     // The variance of a single axis has few degrees of freedom, and those of the common parts are not in the file.
     let widened = student_factor(0.05, changes) / student_factor(0.05, f64::INFINITY);

@@ -41,7 +41,7 @@ pub(super) fn find(header: &Header, components: &Components, outliers: &[Outlier
     angles.sort_by(f64::total_cmp);
     angles.dedup();
     let number = angles.len() as f64;
-    let is_good = |place: &usize| outliers.iter().all(|out| out.index != all[*place].index());
+    let is_good = |place: &usize| outliers.iter().all(|out| out.place != *place);
     let each = angles.into_iter().filter_map(|theta_deg| {
         let (places, others): (Vec<usize>, Vec<usize>) = (0..all.len()).partition(|at| all[*at].theta_deg == theta_deg);
         let [good, rest] = [&places, &others].map(|group| group.iter().copied().filter(is_good).collect::<Vec<_>>());

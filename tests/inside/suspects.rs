@@ -204,7 +204,8 @@ fn a_remark_says_the_same_in_both_languages() {
             probability: 1.5e-6,
         })
     };
-    let outlier = |line| Outlier { index, run: 4, line, axis: 1, residual_arcsec: -14.25, probability: 2.5e-3 };
+    let outlier =
+        |line| Outlier { index, place: 0, run: 4, line, axis: 1, residual_arcsec: -14.25, probability: 2.5e-3 };
     let remarks = [
         Remark::Worse(WorsePosition { index, place: 6, ratio: 2.25, probability: 0.031 }),
         Remark::WorseGroup(WorseGroup {
