@@ -7,7 +7,7 @@
 
 use super::accumulator::{Accumulator, BlockSummary, Histograms, Scale};
 use super::budget::{Budget, COVERAGE, ParameterBudget};
-use super::engine::{BLOCK, Engine};
+use super::engine::{BLOCK, Engine, PAIRS, PARAMETERS, pair};
 use crate::calibration::parameter::Parameter;
 use crate::calibration::{Method, Model, Options};
 use crate::parallel;
@@ -191,17 +191,12 @@ struct Series {
     blocks: u64,
     count: u64,
     failed: u64,
-    sums: [f64; 8],
-    products: [f64; 36],
+    sums: [f64; PARAMETERS],
+    products: [f64; PAIRS],
     histograms: Histograms,
     /// Mean of the blocks' values and the sum of squares about it, for the mean, the standard deviation and the two
     /// quantiles of each parameter.
     of_blocks: [[(f64, f64); 4]; 8],
-}
-
-/// Returns the place of the square of a parameter among the products.
-const fn square(place: usize) -> usize {
-    place * (place + 1) / 2 + place
 }
 
 impl Series {
@@ -212,8 +207,8 @@ impl Series {
             blocks: 0,
             count: 0,
             failed: 0,
-            sums: [0.0; 8],
-            products: [0.0; 36],
+            sums: [0.0; PARAMETERS],
+            products: [0.0; PAIRS],
             histograms: Histograms::default(),
             of_blocks: [[(0.0, 0.0); 4]; 8],
         }
@@ -248,7 +243,7 @@ impl Series {
         for place in 0..8 {
             self.sums[place] += summary.sums[place];
             let mean = summary.sums[place] / good;
-            let variance = (summary.products[square(place)] - good * mean * mean) / (good - 1.0);
+            let variance = (summary.products[pair(place, place)] - good * mean * mean) / (good - 1.0);
             let [low, high] = summary.quantiles[place];
             let values = [mean, variance.max(0.0).sqrt(), low, high];
             for ((mean, squares), value) in self.of_blocks[place].iter_mut().zip(values) {
@@ -290,7 +285,7 @@ impl Series {
     fn covariance(&self, one: usize, other: usize) -> f64 {
         let (row, column) = (one.max(other), one.min(other));
         let count = self.count.max(2) as f64;
-        let product = self.products[row * (row + 1) / 2 + column];
+        let product = self.products[pair(row, column)];
         let about_mean = product - self.sums[row] * self.sums[column] / count;
         about_mean / (count - 1.0) * self.scale.unit[row] * self.scale.unit[column]
     }

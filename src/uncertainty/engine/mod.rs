@@ -58,8 +58,19 @@ pub struct Engine {
     solver: Solver,
 }
 
-/// Eight parameters of every trial of a chunk, in the order of [`crate::calibration::parameter::Parameter::EIGHT`].
-pub(crate) type Solutions = [Column; 8];
+/// Number of parameters of a gyro.
+pub(crate) const PARAMETERS: usize = 8;
+
+/// Parameters of every trial of a chunk, in the order of [`crate::calibration::parameter::Parameter::EIGHT`].
+pub(crate) type Solutions = [Column; PARAMETERS];
+
+/// Number of pairs of parameters, including each with itself: the elements of the lower triangle of 8×8, row by row.
+pub(crate) const PAIRS: usize = PARAMETERS * (PARAMETERS + 1) / 2;
+
+/// Returns the place of (row, column ≤ row) in the lower triangle.
+pub(crate) const fn pair(row: usize, column: usize) -> usize {
+    row * (row + 1) / 2 + column
+}
 
 /// Columns that a chunk works on, reused from chunk to chunk.
 #[derive(Debug, Clone)]

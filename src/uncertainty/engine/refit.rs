@@ -5,17 +5,14 @@
 //! equations are solved for the change from the best fit, so they lose only digits of a small number. Their matrix is
 //! that of the first step; its change from step to step has only a third-order effect.
 
-use super::Solutions;
 use super::kernel::At;
+use super::{PAIRS, Solutions, pair};
 use crate::calibration::least_squares::Fit;
 use crate::statistics::wide_random::{Column, WIDTH};
 use nalgebra::Matrix2;
 
 /// Number of steps from the best fit; the remaining error is of third order in the uncertainties.
 pub(crate) const STEPS: usize = 2;
-
-/// Number of elements of the lower triangle of 8×8.
-const TRIANGLE: usize = 36;
 
 /// Least-squares solver, with the best fit and its weights.
 #[derive(Debug, Clone)]
@@ -24,11 +21,6 @@ pub(crate) struct Refit {
     start: [f64; 8],
     /// Weights P = W'W of every position: p11, p12, p22.
     weights: Vec<[f64; 3]>,
-}
-
-/// Returns the place of (row, column ≤ row) in the triangle.
-const fn place(row: usize, column: usize) -> usize {
-    row * (row + 1) / 2 + column
 }
 
 impl Refit {
@@ -43,7 +35,7 @@ impl Refit {
     #[inline(always)]
     pub(crate) fn solve(&self, positions: &[At], solutions: &mut Solutions) {
         let mut parameters = self.start.map(|value| [value; WIDTH]);
-        let mut normal = [[0.0; WIDTH]; TRIANGLE];
+        let mut normal = [[0.0; WIDTH]; PAIRS];
         for (at, weight) in positions.iter().zip(&self.weights) {
             add_normal(at, weight, &parameters, &mut normal);
         }
@@ -79,7 +71,7 @@ fn balance(at: &At, trial: usize, parameters: &Solutions) -> ([f64; 2], [f64; 2]
 /// Adds X'P X of one position, where X has the rows (j_x, j_y, 0, 0, 1, 0, n_x, −n_y) and (0, 0, j_x, j_y, 0, 1, n_y,
 /// n_x) with the currents j that the parameters give.
 #[inline(always)]
-fn add_normal(at: &At, &[p11, p12, p22]: &[f64; 3], parameters: &Solutions, normal: &mut [Column; TRIANGLE]) {
+fn add_normal(at: &At, &[p11, p12, p22]: &[f64; 3], parameters: &Solutions, normal: &mut [Column; PAIRS]) {
     for trial in 0..WIDTH {
         let (_, [jx, jy]) = balance(at, trial, parameters);
         let (nx, ny) = (at.n[0][trial], at.n[1][trial]);
@@ -124,18 +116,18 @@ fn add_right(at: &At, &[p11, p12, p22]: &[f64; 3], parameters: &Solutions, right
 
 /// Computes L of N = L L' in place, with the reciprocals of its diagonal on the diagonal.
 #[inline(always)]
-fn factorise(normal: &mut [Column; TRIANGLE]) {
+fn factorise(normal: &mut [Column; PAIRS]) {
     for row in 0..8 {
         for column in 0..=row {
-            let mut sum = normal[place(row, column)];
+            let mut sum = normal[pair(row, column)];
             for inner in 0..column {
-                let (one, other) = (&normal[place(row, inner)], &normal[place(column, inner)]);
+                let (one, other) = (&normal[pair(row, inner)], &normal[pair(column, inner)]);
                 for trial in 0..WIDTH {
                     sum[trial] -= one[trial] * other[trial];
                 }
             }
             if column < row {
-                let diagonal = &normal[place(column, column)];
+                let diagonal = &normal[pair(column, column)];
                 for trial in 0..WIDTH {
                     sum[trial] *= diagonal[trial];
                 }
@@ -144,23 +136,23 @@ fn factorise(normal: &mut [Column; TRIANGLE]) {
                     *value = 1.0 / value.sqrt();
                 }
             }
-            normal[place(row, column)] = sum;
+            normal[pair(row, column)] = sum;
         }
     }
 }
 
 /// Solves L L' x = b in place.
 #[inline(always)]
-fn substitute(lower: &[Column; TRIANGLE], right: &mut [Column; 8]) {
+fn substitute(lower: &[Column; PAIRS], right: &mut [Column; 8]) {
     for row in 0..8 {
         let mut sum = right[row];
         for inner in 0..row {
             for trial in 0..WIDTH {
-                sum[trial] -= lower[place(row, inner)][trial] * right[inner][trial];
+                sum[trial] -= lower[pair(row, inner)][trial] * right[inner][trial];
             }
         }
         for trial in 0..WIDTH {
-            sum[trial] *= lower[place(row, row)][trial];
+            sum[trial] *= lower[pair(row, row)][trial];
         }
         right[row] = sum;
     }
@@ -168,11 +160,11 @@ fn substitute(lower: &[Column; TRIANGLE], right: &mut [Column; 8]) {
         let mut sum = right[row];
         for inner in row + 1..8 {
             for trial in 0..WIDTH {
-                sum[trial] -= lower[place(inner, row)][trial] * right[inner][trial];
+                sum[trial] -= lower[pair(inner, row)][trial] * right[inner][trial];
             }
         }
         for trial in 0..WIDTH {
-            sum[trial] *= lower[place(row, row)][trial];
+            sum[trial] *= lower[pair(row, row)][trial];
         }
         right[row] = sum;
     }
