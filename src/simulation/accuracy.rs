@@ -104,17 +104,14 @@ pub struct AccuracyRow {
     pub paper_bound: Option<f64>,
 }
 
-/// Parameters in the order of the paper's table, with their bounds.
-const ROWS: [(Parameter, f64); 8] = [
-    (Parameter::Kx, 0.0645),
-    (Parameter::Ky, 0.0645),
-    (Parameter::Kxy, 0.514),
-    (Parameter::Kyx, 0.514),
-    (Parameter::Omega0x, 0.01),
-    (Parameter::Omega0y, 0.01),
-    (Parameter::OmegaG, 0.01),
-    (Parameter::OmegaK, 0.01),
-];
+/// Returns the error bound of a parameter in the paper's table, in percent for K.
+fn bound_of_the_paper(parameter: Parameter) -> f64 {
+    match parameter {
+        Parameter::Kx | Parameter::Ky => 0.0645,
+        Parameter::Kxy | Parameter::Kyx => 0.514,
+        _ => 0.01,
+    }
+}
 
 /// Simulates the errors of the computed parameters over stands, gyros and currents drawn at random.
 pub fn accuracy(options: &AccuracyOptions, run: &Run) -> Accuracy {
@@ -123,10 +120,10 @@ pub fn accuracy(options: &AccuracyOptions, run: &Run) -> Accuracy {
     let trials = blocks.iter().map(|block| block.trials).sum();
     let mut rows = Vec::new();
     for (place, method) in options.methods.iter().enumerate() {
-        for (parameter, bound) in ROWS {
+        for parameter in Parameter::AS_IN_THE_PAPER {
             let summary =
                 blocks.iter().fold(Summary::default(), |sum, block| sum.with(&block.errors[place][parameter.place()]));
-            rows.push(simulation.row(*method, parameter, bound, &summary, trials));
+            rows.push(simulation.row(*method, parameter, &summary, trials));
         }
     }
     let limit_deg = match options.stands {
@@ -212,7 +209,7 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    fn row(&self, method: Method, parameter: Parameter, bound: f64, errors: &Summary, trials: u64) -> AccuracyRow {
+    fn row(&self, method: Method, parameter: Parameter, errors: &Summary, trials: u64) -> AccuracyRow {
         let of_the_paper = self.options.gyro.nominal == GyroType::gvk_6().nominal;
         let relative = parameter.place() < 4 && self.nominal.to_vector()[parameter.place()] != 0.0;
         let known = |value: f64| if errors.count > 0 { value } else { f64::NAN };
@@ -224,7 +221,7 @@ impl<'a> Simulation<'a> {
             standard_deviation: known(errors.standard_deviation()),
             mean: known(errors.mean()),
             not_solved: trials - errors.count,
-            paper_bound: of_the_paper.then_some(bound),
+            paper_bound: of_the_paper.then(|| bound_of_the_paper(parameter)),
         }
     }
 }
