@@ -52,7 +52,7 @@ impl Estimates {
         let mut pools: Vec<(usize, f64, [Basis; 3])> = Vec::new();
         for place in 0..setup.coefficients().positions.len() {
             let known = degrees_of_freedom_of(u, place);
-            let size = size_of(u, place);
+            let size: f64 = u.angles_rad.get(place).copied().unwrap_or_default().map(|u| u * u).iter().sum();
             let pool = pools.iter().find(|(first, sum, _)| {
                 degrees_of_freedom_of(u, *first) == known && (sum - size).abs() <= SAME_SIZE * sum
             });
@@ -129,8 +129,4 @@ impl Basis {
 
 fn degrees_of_freedom_of(u: &InputUncertainty, place: usize) -> f64 {
     u.angles_degrees_of_freedom.get(place).copied().unwrap_or(f64::INFINITY)
-}
-
-fn size_of(u: &InputUncertainty, place: usize) -> f64 {
-    u.angles_rad.get(place).copied().unwrap_or_default().map(|u| u * u).iter().sum()
 }

@@ -50,14 +50,13 @@ impl Deletion {
             .inverse();
         let shifts_arcsec = &spread * residual;
         let squares_arcsec2 = [0, 1, 2].map(|axis| {
+            let rows = || (axis..keeps.nrows()).step_by(3);
             let of_axis = |a: usize, b: usize| {
-                let rows = (axis..keeps.nrows()).step_by(3);
-                rows.map(|row| keeps[(row, angles[a].1)] * keeps[(row, angles[b].1)]).sum::<f64>()
+                rows().map(|row| keeps[(row, angles[a].1)] * keeps[(row, angles[b].1)]).sum::<f64>()
             };
             let shared = DMatrix::from_fn(count, count, |a, b| of_runs(angles[a], angles[b]) * of_axis(a, b));
             let along = DVector::from_fn(count, |a, _| {
-                let rows = (axis..keeps.nrows()).step_by(3);
-                rows.map(|row| keeps[(row, angles[a].1)] * components.residuals[angles[a].0][row]).sum::<f64>()
+                rows().map(|row| keeps[(row, angles[a].1)] * components.residuals[angles[a].0][row]).sum::<f64>()
             });
             let all = &components.axis_squares_arcsec2[axis];
             let kept = components.kept(axis);

@@ -154,12 +154,7 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
         .map(|(place, ((nominal, mean), turn))| {
             let of_position = scatter.as_ref().map(|scatter| scatter[place]);
             let own = [0, 1, 2].map(|axis| {
-                let share = share_of_mean(
-                    place,
-                    axis,
-                    runs.len(),
-                    deletion.as_ref().map(|at| (at, readings.missing.as_slice())),
-                );
+                let share = share_of_mean(3 * place + axis, runs.len(), deletion.as_ref());
                 of_mean(components.own_arcsec2[axis], of_position, share, &header.certificate)
             });
             let rounding = [0, 1, 2].map(|angle| readings.rounding_arcsec(place, angle));
@@ -246,17 +241,17 @@ pub(crate) fn predicted(
     Ok((completed, Some(deletion)))
 }
 
-/// Returns the variance of the mean of a position about one axis, relative to that of one visit: 1/R for R runs, and more
-/// if some of its readings are predictions.
+/// Returns the variance of the mean of a row (3 position + axis) relative to that of one visit: 1/R for R runs, and more if
+/// some of its readings are predictions.
 ///
 /// The mean of the completed readings is that of all readings less the sum of the shifts over R, and the residuals, on
 /// which the shifts depend, are uncorrelated with the mean.
-fn share_of_mean(place: usize, axis: usize, runs: usize, deletion: Option<(&Deletion, &[(usize, usize)])>) -> f64 {
+fn share_of_mean(row: usize, runs: usize, deletion: Option<&Deletion>) -> f64 {
     let runs = runs as f64;
-    let Some((deletion, missing)) = deletion else { return 1.0 / runs };
-    let own: Vec<usize> = (0..missing.len()).filter(|number| missing[*number].0 == place).collect();
-    let pairs = own.iter().flat_map(|one| own.iter().map(move |other| (3 * one + axis, 3 * other + axis)));
-    let shifts = pairs.map(|at| deletion.spread[at]).sum::<f64>();
+    let Some(Deletion { angles, spread, .. }) = deletion else { return 1.0 / runs };
+    let own: Vec<usize> = (0..angles.len()).filter(|n| angles[*n].1 == row).collect();
+    let pairs = own.iter().flat_map(|one| own.iter().map(move |other| (*one, *other)));
+    let shifts = pairs.map(|at| spread[at]).sum::<f64>();
     1.0 / runs + shifts / (runs * runs)
 }
 

@@ -48,23 +48,21 @@ pub(crate) fn is_better(found: &Found, other: &Found) -> bool {
 
 /// Returns the best choice of `readings` visits, or `None` if none determines the parameters.
 pub(crate) fn best(candidates: &Candidates, readings: u32, criterion: Criterion) -> Option<Found> {
-    match number_of_choices(candidates.len(), readings) {
-        Some(_) => exhaustive(candidates, readings, criterion),
-        None => by_exchange(candidates, readings, criterion),
+    if are_few(candidates.len(), readings) {
+        exhaustive(candidates, readings, criterion)
+    } else {
+        by_exchange(candidates, readings, criterion)
     }
 }
 
-/// Returns the number of choices with repetition, C(n + N − 1, N), or `None` if they are too many to compare.
-fn number_of_choices(candidates: usize, readings: u32) -> Option<u64> {
+/// Returns `true` if the choices with repetition, C(n + N − 1, N), are so few that all can be compared.
+fn are_few(candidates: usize, readings: u32) -> bool {
     let mut number: u64 = 1;
-    for taken in 1..=u64::from(readings) {
+    (1..=u64::from(readings)).all(|taken| {
         // Exact: the product of `taken` consecutive numbers is divisible by their number's factorial.
-        number = number.checked_mul(candidates as u64 + taken - 1)? / taken;
-        if number > MOST_CHOICES {
-            return None;
-        }
-    }
-    Some(number)
+        number = number * (candidates as u64 + taken - 1) / taken;
+        number <= MOST_CHOICES
+    })
 }
 
 pub(crate) fn exhaustive(candidates: &Candidates, readings: u32, criterion: Criterion) -> Option<Found> {

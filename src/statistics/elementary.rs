@@ -76,7 +76,6 @@ pub(crate) fn ln(x: f64) -> f64 {
 
 /// Returns (sin, cos) of π/4 · `share`, `share` in [0, 1), in the octant given by the lowest three bits of `octant`.
 #[inline(always)]
-#[cfg(feature = "monte-carlo")]
 pub(crate) fn on_circle(share: f64, octant: u64) -> (f64, f64) {
     let (sin, cos) = octant_sin_cos(std::f64::consts::FRAC_PI_4 * share);
     let (sin, cos) = (sin.to_bits(), cos.to_bits());

@@ -18,6 +18,7 @@ pub(crate) mod beta;
 pub(crate) mod bins;
 pub(crate) mod coincidences;
 pub(crate) mod distributions;
+#[cfg(feature = "monte-carlo")]
 pub(crate) mod elementary;
 pub(crate) mod least_squares;
 pub(crate) mod outlier;
