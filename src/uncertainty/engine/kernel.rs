@@ -12,7 +12,7 @@ use crate::statistics::wide_random::{Column, WIDTH};
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 /// Quantities of one position in every trial of a chunk.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct At {
     /// Specific force along x and y, g.
     pub n: [Column; 2],
@@ -20,12 +20,6 @@ pub(crate) struct At {
     pub omega: [Column; 2],
     /// Currents of x and y, mA.
     pub current: [Column; 2],
-}
-
-impl Default for At {
-    fn default() -> Self {
-        Self { n: [[0.0; WIDTH]; 2], omega: [[0.0; WIDTH]; 2], current: [[0.0; WIDTH]; 2] }
-    }
 }
 
 /// Column of an input's deviates, with its standard uncertainty.
