@@ -1,7 +1,7 @@
 //! Findings of a comparison: reasons for its result, and its limits.
 
 use super::Certification;
-use super::compared::{CommonTurn, ComparedPosition, Test};
+use super::comparison::{CommonTurn, ComparedPosition, Test};
 use super::misread::Misread;
 use super::remark;
 use super::rotated_runs::{Pattern, RotatedRuns};

@@ -11,15 +11,13 @@
 //! * `shared_settings`: settings of an angle that several positions of a run share.
 //! * `worse_groups`: positions with the same θ that scatter more (F test).
 //! * `remark`: remarks for the signatory.
-//! * `compared`: values of the comparison of a later check run with the certificate.
+//! * `comparison`: the comparison of a later check run with the certificate.
 //! * `finding`: reasons for the result of that comparison, and its limits.
 //! * `misread`: errors of a whole file that the certificate shows.
-//! * `comparison`: the comparison itself.
 //! * `document`: the stand file as text, with comments on the origin of its numbers.
 //!
 //! The model and the meaning of each number are described in docs/certification.md.
 
-pub(crate) mod compared;
 pub(crate) mod comparison;
 pub(crate) mod components;
 mod deletion;
@@ -36,8 +34,7 @@ pub(crate) mod suspects;
 pub(crate) mod unequal_axes;
 pub(crate) mod worse_groups;
 
-pub use compared::{CommonTurn, ComparedPosition, Test};
-pub use comparison::{Comparison, NotCompared, compare};
+pub use comparison::{CommonTurn, ComparedPosition, Comparison, NotCompared, Test, compare};
 use components::{Common, Components, Variance};
 pub use header::{Header, NominalPosition};
 pub use readings::{AngleReadings, NotBalanced};

@@ -1,7 +1,7 @@
 //! Result of a certification, and of a check run, as text and as JSON.
 
-use crate::certification::compared::Test;
 use crate::certification::comparison::Comparison;
+use crate::certification::comparison::Test;
 use crate::certification::components::{Common, Variance};
 use crate::certification::remark::turns;
 use crate::certification::rotated_runs::{FEWEST_RUNS, FEWEST_RUNS_OF_A_MOVE, Pattern, RotatedRuns};

@@ -1,8 +1,8 @@
 //! Change of the stand since its last certificate.
 
 use super::{CertificationPage, remarks};
-use crate::certification::compared::{ComparedPosition, Test};
 use crate::certification::comparison::Comparison;
+use crate::certification::comparison::{ComparedPosition, Test};
 use crate::certification::suspects::AXES;
 use crate::passport::difference::NumberDifference;
 use crate::report::certification::outcome_of;

@@ -2,7 +2,7 @@
 
 use crate::attitude::ANGLES;
 use crate::calibration::recorded::rounding_of;
-use crate::certification::compared::ComparedPosition;
+use crate::certification::comparison::ComparedPosition;
 use crate::certification::finding::{Finding, Untested};
 use crate::certification::misread::Misread;
 use crate::certification::remark::Remark;
