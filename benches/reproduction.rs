@@ -9,7 +9,7 @@ use dtg_passport::coefficients::{EarthRate, Position, StandGeometry};
 use dtg_passport::gyro::GyroType;
 use dtg_passport::simulation::draw::{self, CurrentError, Deviations};
 use dtg_passport::simulation::{AccuracyOptions, PAPER_LATITUDE_DEG, Stands, accuracy};
-use dtg_passport::simulation::{ConvergenceOptions, Run, convergence};
+use dtg_passport::simulation::{LIMITS_DEG, Run, convergence};
 use std::time::Instant;
 
 fn main() {
@@ -150,7 +150,7 @@ fn independent() {
 
 fn fig_4() {
     let start = Instant::now();
-    let found = convergence(&ConvergenceOptions::default(), &Run::new(100_000, 1));
+    let found = convergence(&LIMITS_DEG, &Run::new(100_000, 1));
     println!("Fig. 4, 100,000 stands a row, {:.1} s", start.elapsed().as_secs_f64());
     for row in found.rows {
         println!(

@@ -8,8 +8,8 @@ use crate::gyro::GyroType;
 use crate::report::picture::simulation as picture;
 use crate::report::simulation as table;
 use crate::simulation::accuracy::{AccuracyOptions, PAPER_LATITUDE_DEG, Stands, accuracy};
-use crate::simulation::convergence::{ConvergenceOptions, convergence};
-use crate::simulation::draw::CurrentError;
+use crate::simulation::convergence::{LIMITS_DEG, convergence};
+use crate::simulation::draw::{CurrentError, Deviations};
 use crate::stand::{CertifiedPosition, LARGEST_DEVIATION_DEG};
 use crate::statistics::random::Run;
 use clap::{Args, Subcommand};
@@ -134,13 +134,10 @@ fn run_accuracy(arguments: &AccuracyArguments) -> Result<Code, Failure> {
 }
 
 fn run_convergence(arguments: &ConvergenceArguments) -> Result<Code, Failure> {
-    let mut options = ConvergenceOptions::default();
-    if !arguments.limits_deg.is_empty() {
-        options.limits_deg.clone_from(&arguments.limits_deg);
-    }
-    let rows = (options.limits_deg.len() * options.deviations.len()) as u64;
+    let limits_deg = if arguments.limits_deg.is_empty() { LIMITS_DEG.as_slice() } else { &arguments.limits_deg };
+    let rows = (limits_deg.len() * Deviations::ALL.len()) as u64;
     const TRIALS: u64 = 1_000;
-    let found = watched(&arguments.run, TRIALS, rows, |run| convergence(&options, run))?;
+    let found = watched(&arguments.run, TRIALS, rows, |run| convergence(limits_deg, run))?;
     if let Some(path) = &arguments.output {
         let svg = picture::convergence(&found);
         let svg = svg.ok_or_else(|| Failure::unusable("the picture could not be drawn: no rows"))?;

@@ -3,39 +3,14 @@
 use super::accuracy::PAPER_LATITUDE_DEG;
 use super::draw::{self, Deviations};
 use crate::calibration::iterative::{Plan, StopRule};
-use crate::coefficients::{EarthRate, StandGeometry};
-use crate::gyro::{GyroParameters, GyroType};
-use crate::statistics::random::{Run, Stream};
+use crate::coefficients::{EarthRate, Position, StandGeometry};
+use crate::gyro::GyroType;
+use crate::statistics::random::Run;
 use crate::statistics::summary::{binomial_standard_error, percentile};
 use serde::Serialize;
 
-/// Options of the convergence simulation.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ConvergenceOptions {
-    /// Limits of the deviations, degrees; all limits use the same random numbers.
-    pub limits_deg: Vec<f64>,
-    /// Distributions of the angles, with a series of rows for each.
-    pub deviations: Vec<Deviations>,
-    /// Stop rule of the iteration.
-    pub stop_rule: StopRule,
-    /// Earth rate at the site.
-    pub earth: EarthRate,
-    /// Parameters of the gyro.
-    pub gyro: GyroParameters,
-}
-
-impl Default for ConvergenceOptions {
-    /// Returns the options for the paper's gyro, place and stop rule, up to ±30°, uniform and at the corners.
-    fn default() -> Self {
-        Self {
-            limits_deg: vec![0.1, 1.0, 3.0, 5.0, 7.5, 10.0, 12.5, 15.0, 17.5, 20.0, 25.0, 30.0],
-            deviations: vec![Deviations::Uniform, Deviations::Corners],
-            stop_rule: StopRule::default(),
-            earth: EarthRate::at_astronomic_latitude(PAPER_LATITUDE_DEG),
-            gyro: GyroType::gvk_6().nominal.to_model(),
-        }
-    }
-}
+/// Limits of the deviations in the paper's Fig. 4 and beyond, degrees.
+pub const LIMITS_DEG: [f64; 12] = [0.1, 1.0, 3.0, 5.0, 7.5, 10.0, 12.5, 15.0, 17.5, 20.0, 25.0, 30.0];
 
 /// Result of the convergence simulation: the paper's Fig. 4 as numbers.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -69,21 +44,31 @@ pub struct ConvergenceRow {
     pub stands: u64,
 }
 
-/// Simulates the number of steps over stands drawn at random.
+/// Simulates the number of steps with the paper's gyro, place and stop rule over stands drawn at random: for each
+/// distribution of the angles and each of the limits, degrees, which all use the same random numbers.
 ///
 /// `run.progress` counts all rows together: up to the trials of the run times the number of rows.
-pub fn convergence(options: &ConvergenceOptions, run: &Run) -> Convergence {
+pub fn convergence(limits_deg: &[f64], run: &Run) -> Convergence {
+    let (earth, gyro) = (EarthRate::at_astronomic_latitude(PAPER_LATITUDE_DEG), GyroType::gvk_6().nominal.to_model());
+    let steps = |stand: &[Position]| {
+        let at = StandGeometry::new(stand).ok()?.at(earth);
+        let currents_ma: Option<Vec<_>> = at.positions.iter().map(|position| gyro.currents_ma(position)).collect();
+        u16::try_from(Plan::new(&at, &currents_ma?).ok()?.steps(&StopRule::default())?).ok()
+    };
     let mut rows = Vec::new();
     let mut before = 0;
-    for &deviations in &options.deviations {
-        for &limit_deg in &options.limits_deg {
+    for deviations in Deviations::ALL {
+        for &limit_deg in limits_deg {
             let progress = |done: u64| {
                 if let Some(progress) = run.progress {
                     progress(before + done);
                 }
             };
             let part = Run { progress: Some(&progress), ..*run };
-            let blocks = part.blocks(|stream, trials| steps(options, deviations, limit_deg, stream, trials));
+            let blocks = part.blocks(|stream, trials| {
+                let converged = (0..trials).filter_map(|_| steps(&draw::stand(stream, deviations, limit_deg)));
+                (converged.collect(), trials)
+            });
             if let Some(row) = row(deviations, limit_deg, &blocks) {
                 rows.push(row);
             }
@@ -93,30 +78,8 @@ pub fn convergence(options: &ConvergenceOptions, run: &Run) -> Convergence {
     Convergence { trials: run.trials, seed: run.seed, rows }
 }
 
-/// Returns the numbers of steps of the stands that converged in one block, and the number of stands drawn.
-fn steps(
-    options: &ConvergenceOptions,
-    deviations: Deviations,
-    limit_deg: f64,
-    stream: &mut Stream,
-    trials: u64,
-) -> (Vec<u16>, u64) {
-    let mut converged = Vec::new();
-    for _ in 0..trials {
-        let stand = draw::stand(stream, deviations, limit_deg);
-        let plan = StandGeometry::new(&stand).ok().and_then(|geometry| {
-            let at = geometry.at(options.earth);
-            let currents = at.positions.iter().map(|position| options.gyro.currents_ma(position));
-            Plan::new(&at, &currents.collect::<Option<Vec<_>>>()?).ok()
-        });
-        if let Some(steps) = plan.and_then(|plan| plan.steps(&options.stop_rule)) {
-            converged.extend(u16::try_from(steps));
-        }
-    }
-    (converged, trials)
-}
-
-/// Returns the row of one limit, or `None` if the run was cancelled before the first block.
+/// Returns the row of one limit from the numbers of steps of the stands that converged in each block, and the number of
+/// stands drawn; `None` if the run was cancelled before the first block.
 fn row(deviations: Deviations, limit_deg: f64, blocks: &[(Vec<u16>, u64)]) -> Option<ConvergenceRow> {
     let mut converged: Vec<u16> = blocks.iter().flat_map(|(steps, _)| steps).copied().collect();
     converged.sort_unstable();

@@ -9,7 +9,7 @@ use dtg_passport::report::picture::simulation as picture;
 use dtg_passport::simulation::accuracy::{
     Accuracy, AccuracyOptions, AccuracyRow, PAPER_LATITUDE_DEG, Stands, accuracy,
 };
-use dtg_passport::simulation::convergence::{Convergence, ConvergenceOptions, convergence};
+use dtg_passport::simulation::convergence::{Convergence, LIMITS_DEG, convergence};
 use dtg_passport::simulation::draw::{self, CurrentError, Deviations};
 use dtg_passport::statistics::random::Run;
 use dtg_passport::statistics::summary::Summary;
@@ -123,11 +123,7 @@ fn of(table: &Convergence, deviations: Deviations, limit_deg: f64) -> (f64, usiz
 /// three binomial standard errors of both samples together and 3 stands, and half of the last digit printed there.
 #[test]
 fn steps_of_successive_approximation() {
-    let options = ConvergenceOptions {
-        limits_deg: vec![0.1, 1.0, 3.0, 5.0, 10.0, 15.0, 20.0, 30.0],
-        ..ConvergenceOptions::default()
-    };
-    let table = convergence(&options, &Run::new(20_000, 4));
+    let table = convergence(&[0.1, 1.0, 3.0, 5.0, 10.0, 15.0, 20.0, 30.0], &Run::new(20_000, 4));
     let uniform = [
         (0.1, 2.99, 3, 0.0),
         (1.0, 3.61, 4, 0.0),
@@ -164,9 +160,8 @@ fn the_number_of_threads_changes_nothing() {
         let run = Run { threads, ..Run::new(3_210, 99) };
         let options = drawn(15.0, &Method::ALL);
         let options = AccuracyOptions { within_tolerance: true, ..options };
-        let steps = ConvergenceOptions { limits_deg: vec![5.0, 20.0], ..ConvergenceOptions::default() };
         let accuracy = serde_json::to_string(&accuracy(&options, &run)).unwrap();
-        let convergence = convergence(&steps, &run);
+        let convergence = convergence(&[5.0, 20.0], &run);
         (accuracy, serde_json::to_string(&convergence).unwrap(), picture::convergence(&convergence).unwrap())
     };
     let one = table(1);
@@ -178,7 +173,7 @@ fn the_number_of_threads_changes_nothing() {
 /// No colour but black, white and greys; every series with its name; text, not outlines.
 #[test]
 fn the_picture_reads_without_colour() {
-    let svg = picture::convergence(&convergence(&ConvergenceOptions::default(), &Run::new(500, 1))).unwrap();
+    let svg = picture::convergence(&convergence(&LIMITS_DEG, &Run::new(500, 1))).unwrap();
     for word in ["most", "95th percentile", "mean of the converged", "uniform within", "degrees", "paper: 15"] {
         assert!(svg.contains(word), "{word}");
     }
