@@ -108,7 +108,6 @@ pub struct CalibrationDocument {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Subject {
-    /// Serial number of the gyro.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub gyro_serial: Option<String>,
     /// Name of the operator who took the readings.
@@ -117,13 +116,11 @@ pub(crate) struct Subject {
     /// Day of the readings, YYYY-MM-DD.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub date: Option<Date>,
-    /// Temperature during the readings, °C.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub temperature_c: Option<f64>,
     /// Time for which the passport was verified; it may be in the past.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub passport_verified_as_of: Option<Timestamp>,
-    /// SHA-256 of the file of currents.
     pub currents_sha256: String,
 }
 
@@ -230,12 +227,10 @@ impl CalibrationDocument {
         }
     }
 
-    /// Returns the serial number of the gyro, if it was stated.
     fn gyro_serial(&self) -> Option<&str> {
         self.subject.as_ref()?.gyro_serial.as_deref()
     }
 
-    /// Returns the day of the readings, if it was stated.
     pub(crate) fn date(&self) -> Option<Date> {
         self.subject.as_ref()?.date
     }

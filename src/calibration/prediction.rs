@@ -43,7 +43,6 @@ pub(crate) fn cost_of_missing(setup: &Setup, readings: &Readings, gyro: &GyroPar
 /// Single further visit that would reduce the uncertainty of a parameter most.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct FurtherVisit {
-    /// Position to visit.
     pub index: PositionIndex,
     /// Ratio of the standard uncertainty of the parameter with that visit to the one without it.
     pub ratio: f64,
@@ -104,9 +103,7 @@ pub(crate) struct NoiseGrowth {
     /// Larger ratio of ω_0x, ω_0y.
     #[serde(rename = "omega_0")]
     pub omega0: f64,
-    /// Ratio of ω_g.
     pub omega_g: f64,
-    /// Ratio of ω_k.
     pub omega_k: f64,
 }
 

@@ -141,11 +141,8 @@ fn of_common(certificate: &Certificate, on: ActsOn, common_arcsec: Option<f64>) 
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error("the temperature in the laboratory is {here_c} °C; the deviations are certified from {low_c} to {high_c} °C")]
 pub(crate) struct TemperatureOutside {
-    /// Temperature in the laboratory.
     pub here_c: f64,
-    /// Lowest certified temperature.
     pub low_c: f64,
-    /// Highest certified temperature.
     pub high_c: f64,
 }
 

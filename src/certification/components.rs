@@ -33,7 +33,6 @@ const LEAST_SCATTER_ARCSEC2: f64 = 1e-12;
 pub(crate) struct Variance {
     /// Variance, in the squared unit of the quantity.
     pub value: f64,
-    /// Degrees of freedom of the variance.
     pub degrees_of_freedom: f64,
 }
 

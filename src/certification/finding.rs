@@ -18,10 +18,8 @@ const MUCH_MORE: f64 = 2.0;
 /// `report` has the words of other languages.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub(crate) enum Finding {
-    /// Half of the positions or more have changed.
     #[error("no more than half of the positions agree with each other; this is another stand or another certificate")]
     AnotherStand,
-    /// Two positions, each with the angles that are certified for the other.
     #[error(
         "positions {} and {} are exchanged: each has the angles that the certificate states for the other; check the \
          rows of the readings, and the directions in which theta and phi increase",
@@ -29,10 +27,8 @@ pub(crate) enum Finding {
         .0[1]
     )]
     Exchanged([PositionIndex; 2]),
-    /// File in another unit, with another sign or with other axes.
     #[error("{0}")]
     Misread(Misread),
-    /// Scatter of the check that is significantly larger than the certified one.
     #[error(
         "the visits of the check scatter by {}″, the certificate states {}″ (probability {}): the stand repeats worse, \
          so that uncertainties from its certificate are too small, or the instrument of the check reads worse; read \
@@ -41,40 +37,26 @@ pub(crate) enum Finding {
         two_digits(*certified_arcsec),
         remark::probability(*probability)
     )]
-    ScattersMore {
-        /// Standard deviation of one visit in the check, arcsec.
-        of_check_arcsec: f64,
-        /// Repeatability in the certificate, arcsec.
-        certified_arcsec: f64,
-        /// Probability of a larger scatter by chance.
-        probability: f64,
-    },
-    /// Position that has changed relative to the others.
+    ScattersMore { of_check_arcsec: f64, certified_arcsec: f64, probability: f64 },
     #[error(
         "position {} has changed: {} about x, y, z relative to the other positions",
         .0.index,
         turned(.0)
     )]
     Changed(ComparedPosition),
-    /// Significant change that is not that of a single position.
     #[error("the positions have changed by more than stated; no single position stands out")]
     ChangedTogether,
-    /// Change that is slightly larger than chance explains.
     #[error("the differences of the positions are slightly larger than chance explains; measure another run")]
     Slightly,
-    /// Significant rotation common to all positions.
     #[error(
         "all positions have rotated together; a datum surface has changed (gyro seat, level or azimuth), not single \
          positions"
     )]
     Rotated,
-    /// Common rotation that is slightly larger than chance explains.
     #[error("the common rotation of all positions is slightly larger than chance explains; measure more runs")]
     RotatedSlightly,
-    /// Runs of the check that are rotated as a whole relative to its other runs.
     #[error("{}", rotated(.0))]
     RotatedRuns(RotatedRuns),
-    /// Run of the check that changed within itself.
     #[error(
         "run {run} of the check seems to have changed within itself: {}; measure the run again, or exclude it with \
          --exclude {run} and --why",
@@ -96,19 +78,15 @@ pub(crate) enum Finding {
         mean = remark::turned_by(*.1)
     )]
     Outlier(Outlier, f64),
-    /// Rotation of the stand as a whole, which was not tested.
     #[error("rotation of the stand as a whole was not tested: {}", .0.words())]
     NotTested(Untested),
-    /// Angles without a stated uncertainty.
     #[error(
         "the certificate does not state the uncertainty of all angles (u_alpha_arcsec etc.); these angles were treated \
          as exact, so differences appear more significant than they are"
     )]
     TreatedAsExact,
-    /// Readings that are those of the certificate.
     #[error("the certificate was computed from these readings, so they do not show the present state of the stand")]
     SameReadings,
-    /// Readings that agree better with the certificate than a new measurement can.
     #[error(
         "the readings agree with the certificate better than the repeatability of the stand allows; check whether they \
          are those of the certificate, and measure the stand again"
@@ -120,12 +98,9 @@ words! {
     /// Reason why the rotation of the stand as a whole was not tested.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub(crate) enum Untested: pub(crate) words {
-        /// Variation between the check runs that is unknown.
         Variation = "the variation between the check runs is unknown",
-        /// Check of a single run against a certificate that does not state its number of runs.
         NumberOfRuns = "one run does not show the variation between set-ups, and the certificate does not state the \
                         number of runs behind its common_*; measure two runs or more",
-        /// Certificate without the common parts of the uncertainty.
         CommonParts = "the certificate does not state common_platform_arcsec and common_base_arcsec",
     }
 }

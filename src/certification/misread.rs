@@ -13,10 +13,8 @@ pub(crate) enum Misread {
     /// Angles that are larger by a factor, as if converted twice from the unit of this name.
     #[error("the angles are {0:.0} times those of the certificate; convert them from {1} to arcseconds only once")]
     Larger(f64, &'static str),
-    /// Angles with the opposite sign.
     #[error("the angles are those of the certificate with the opposite sign; correct the sign")]
     Sign,
-    /// Angles of other columns, some perhaps with the opposite sign.
     #[error("the readings have {}; put the angles into their columns, with their signs", in_other_columns(.0))]
     Axes(Axes),
 }

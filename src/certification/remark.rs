@@ -14,7 +14,6 @@ use crate::text::number::{decimals, signed};
 /// A remark on readings or on the certificate made of them.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum Remark {
-    /// Position that scatters more than the others.
     #[error(
         "{}: the standard deviation of position {} is {:.1} times the pooled one (Cochran's test: probability {}); its \
          uncertainty is computed from its own readings, that of the others without it",
@@ -24,7 +23,6 @@ pub(crate) enum Remark {
         probability(.0.probability)
     )]
     Worse(WorsePosition),
-    /// Positions with the same θ that scatter more than the others.
     #[error(
         "the standard deviation of the positions with θ = {}° is {:.1} times that of the others (F test: probability \
          {}); their uncertainty is computed from their own readings, that of the others without them; find the cause, \
@@ -34,7 +32,6 @@ pub(crate) enum Remark {
         probability(.0.probability)
     )]
     WorseGroup(WorseGroup),
-    /// Reading that differs from those of the other runs.
     #[error(
         "{}: position {}, run {}{}, differs by {}″ from the other runs about {} (Grubbs' test: probability {}); it \
          was not excluded; measure it again, or omit the run",
@@ -47,10 +44,8 @@ pub(crate) enum Remark {
         probability(.0.probability)
     )]
     Outlier(Outlier),
-    /// Runs that are rotated as a whole relative to the other runs.
     #[error("{}", rotated(.0))]
     RotatedRuns(RotatedRuns),
-    /// Run that changed within itself.
     #[error(
         "run {run} seems to have changed within itself: {} (F test: probability {}); the run was not excluded, and \
          single readings and positions were not examined; find the cause, then measure the run again, or exclude it \
@@ -60,16 +55,13 @@ pub(crate) enum Remark {
         run = .0.run
     )]
     SplitRun(SplitRun),
-    /// Suspect reading in one of two runs, which do not show which one is wrong.
     #[error("two runs do not show whether run {0} or run {1} is wrong; measure a third run")]
     TwoRuns(u32, u32),
-    /// Single positions that were not compared, because a reading is suspect.
     #[error(
         "because a reading is suspect, the scatter of single positions was not tested; all positions state the pooled \
          standard deviation"
     )]
     NotCompared,
-    /// Two runs that agree too well.
     #[error(
         "runs {0} and {1} agree more than 30 times better than other runs; check whether one is a copy of the other, \
          or whether another run contains an error"
@@ -82,7 +74,6 @@ pub(crate) enum Remark {
         probability(*.0)
     )]
     AxesDiffer(f64),
-    /// Axis about which whole runs rotate more than about the others.
     #[error(
         "from run to run the {part} rotates by {}″ about {axis} and by {}″ about its other two axes (Cochran's \
          test: probability {}); common_{part}_arcsec is pooled from all three, which is too small about {axis}; state \
@@ -95,7 +86,6 @@ pub(crate) enum Remark {
         axis = .0.axis.name()
     )]
     RunAxesDiffer(UnequalAxis),
-    /// Setting of an angle that several positions of a run share.
     #[error(
         "in each run the positions with the same {angle} share an error of {}″ (standard deviation; F test: \
          probability {}), as if {angle} were set once for all of them; the uncertainties take the errors of positions \
@@ -105,7 +95,6 @@ pub(crate) enum Remark {
         angle = .0.setting.symbol()
     )]
     SharedSetting(SharedSetting),
-    /// Number of runs that is small, and the degrees of freedom of the common part.
     #[error(
         "{runs} runs are few: the common part of a run has only {degrees_of_freedom} degrees of freedom, so its \
          uncertainty has an uncertainty of {:.0} %; measure five runs or more",
@@ -122,10 +111,8 @@ pub(crate) enum Remark {
         size(rounding_of(*step_arcsec))
     )]
     Rounding { angles: usize, of: usize, step_arcsec: f64 },
-    /// Largest angle, arcsec, if it is suspiciously small.
     #[error("no angle is larger than {0:.2}″; check that the angles are in arcseconds, not degrees")]
     SmallAngles(f64),
-    /// Unusual value in the certificate.
     #[error("{0}")]
     Odd(Odd),
 }
@@ -172,7 +159,6 @@ fn size(arcsec: f64) -> String {
     format!("{arcsec:.*}", decimals(arcsec))
 }
 
-/// Returns the line of a reading, in words.
 fn line_of(out: &Outlier) -> String {
     out.line.map_or_else(String::new, |line| format!(" (line {line} of the readings)"))
 }

@@ -72,7 +72,6 @@ pub(crate) enum Pattern {
 /// Runs whose common rotation differs from that of the others.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct RotatedRuns {
-    /// Runs that differ.
     pub pattern: Pattern,
     /// Axis of the most improbable rotation.
     pub axis: CommonAxis,
@@ -91,7 +90,6 @@ impl RotatedRuns {
         if let Pattern::One(run) = self.pattern { Some(run) } else { None }
     }
 
-    /// Returns the rotation about the axis, arcsec.
     pub(crate) fn turn_arcsec(&self) -> f64 {
         self.turns_arcsec[self.axis.0 % 3]
     }

@@ -34,7 +34,6 @@ impl Setting {
 /// Error of a setting that positions share.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SharedSetting {
-    /// The angle.
     pub setting: Setting,
     /// Standard deviation of the error from run to run, arcsec.
     pub deviation_arcsec: f64,

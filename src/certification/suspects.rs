@@ -35,7 +35,6 @@ const MOST_PAIRED: usize = 100;
 /// Position that scatters more than the others.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(crate) struct WorsePosition {
-    /// Index (i, j) of the position.
     #[serde(flatten)]
     pub index: PositionIndex,
     /// Place of the position in the header.
@@ -49,7 +48,6 @@ pub(crate) struct WorsePosition {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Outlier {
-    /// Index (i, j) of the position.
     pub index: PositionIndex,
     /// Place of the position in the header.
     pub(crate) place: usize,

@@ -12,7 +12,6 @@ use std::ops::Range;
 /// Axis about which the runs rotate more than about the other two of platform or base.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct UnequalAxis {
-    /// The axis.
     pub axis: CommonAxis,
     /// Standard deviation from run to run about that axis, arcsec.
     pub deviation_arcsec: f64,

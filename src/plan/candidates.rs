@@ -348,7 +348,6 @@ impl<'a> Design<'a> {
         visited.collect()
     }
 
-    /// Returns value, uncertainties and effects of common errors.
     pub(crate) fn evaluation(&self, criterion: Criterion) -> Evaluation {
         let Candidates { tolerance, turn_on, .. } = self.candidates;
         let information = self.candidates.information_of(&self.visits);

@@ -91,7 +91,6 @@ pub(crate) fn cholesky(matrix: &Symmetric) -> Option<Symmetric> {
     Some(lower)
 }
 
-/// Returns L⁻¹.
 pub(crate) fn inverse_of_lower(lower: &Symmetric) -> Symmetric {
     let mut inverse = [[0.0; 8]; 8];
     for column in 0..8 {

@@ -52,7 +52,6 @@ pub(crate) struct Question<'a> {
     pub stand: Option<&'a Stand>,
     /// Nominal angles of candidates without a stand.
     pub angles: Angles,
-    /// Gyro type.
     pub gyro: &'a GyroType,
     /// Laboratory, of which the meter and the seat count.
     pub laboratory: &'a Laboratory,
@@ -60,7 +59,6 @@ pub(crate) struct Question<'a> {
     pub readings: u32,
     /// Azimuths of the frame's axis to choose from, degrees; if there are none, that of the site.
     pub azimuths_deg: Vec<f64>,
-    /// Criterion by which plans are compared.
     pub criterion: Criterion,
 }
 
@@ -93,21 +91,17 @@ pub(crate) enum NoPlan {
 /// Position of a plan.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(crate) struct Visited {
-    /// Frame angle θ, degrees.
     pub theta_deg: f64,
-    /// Platform angle φ, degrees.
     pub phi_deg: f64,
     /// Index of the certified position; `None` without a stand.
     #[serde(flatten)]
     pub index: Option<PositionIndex>,
-    /// Number of visits.
     pub visits: u32,
 }
 
 /// Value of a design, with its uncertainties.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Evaluation {
-    /// Value by the criterion.
     pub value: f64,
     /// Standard uncertainties in the order of [`Parameter::EIGHT`].
     #[serde(serialize_with = "document::by_parameter")]
@@ -124,7 +118,6 @@ pub(crate) struct Plan {
     pub frame_axis_azimuth_deg: f64,
     /// Positions with at least one visit, in the order of the candidates.
     pub readings: Vec<Visited>,
-    /// Order of the visits.
     pub order: Order,
     pub evaluation: Evaluation,
     /// The paper's eight positions with the frame's axis east and as many readings; `None` if the stand lacks one of
@@ -132,7 +125,6 @@ pub(crate) struct Plan {
     pub paper: Option<Evaluation>,
     /// Tolerances in the units of the parameters, in the order of [`Parameter::EIGHT`].
     pub tolerance: [f64; 8],
-    /// Number of candidates.
     pub candidates: usize,
     /// Number of positions that are no candidates, because the meter cannot read the currents of the gyro in them.
     pub beyond_range: usize,

@@ -25,7 +25,6 @@ const RIDGE: f64 = 1e-9;
 /// Numbers of visits that were found.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Found {
-    /// Value by the criterion.
     pub value: f64,
     /// Visits of each candidate.
     pub visits: Vec<u32>,

@@ -52,9 +52,7 @@ pub(crate) struct Effect {
     /// Changes of the parameters in their units, in the order of [`crate::calibration::parameter::Parameter::EIGHT`].
     #[serde(serialize_with = "super::document::by_parameter")]
     pub change: [f64; 8],
-    /// Largest change in units of its tolerance.
     pub largest_over_tolerance: f64,
-    /// Largest residual, °/h.
     pub largest_residual_deg_per_h: f64,
     /// √(Σ r' C⁻¹ r): the residuals in units of their own noise, the root of the chi-square that they add.
     pub residuals_over_noise: f64,

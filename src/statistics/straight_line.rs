@@ -8,11 +8,8 @@ pub(crate) struct StraightLine {
     pub centre: f64,
     /// Value of the line at the centre.
     pub level: f64,
-    /// Standard uncertainty of the level.
     pub u_level: f64,
-    /// Slope.
     pub slope: f64,
-    /// Standard uncertainty of the slope.
     pub u_slope: f64,
     /// Effective degrees of freedom of `u_slope`, by Welch and Satterthwaite's formula.
     pub slope_degrees_of_freedom: f64,

@@ -43,7 +43,6 @@ pub(crate) struct BlockSummary {
     pub count: u64,
     /// Number of trials without finite parameters.
     pub failed: u64,
-    /// Sums of the values.
     pub sums: [f64; PARAMETERS],
     /// Sums of products, row by row of the lower triangle.
     pub products: [f64; PAIRS],

@@ -141,7 +141,6 @@ fn with_unit<S: Serializer>(parameter: &Parameter, serializer: S) -> Result<S::O
     serializer.collect_map([("parameter", parameter.key()), ("unit", parameter.unit())])
 }
 
-/// Writes a matrix as the list of its rows.
 fn by_rows<S: Serializer>(matrix: &DMatrix<f64>, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_seq(matrix.row_iter().map(|row| row.iter().copied().collect::<Vec<f64>>()))
 }

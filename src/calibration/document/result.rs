@@ -15,7 +15,6 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ResultDocument {
-    /// Name of the method.
     pub(crate) method: String,
     /// Model of the g-sensitive drift: paper or general.
     #[serde(default = "paper")]
@@ -51,7 +50,6 @@ pub(crate) struct ResultDocument {
     /// Anisoelastic coefficient, °/(h·g²); absent if it was not fitted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) anisoelasticity_deg_per_h_per_g2: Option<f64>,
-    /// Number of steps of the iterative method.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) iterations: Option<u32>,
     /// Number of steps predicted before the first one; absent if it exceeds the maximum number of steps.
@@ -63,7 +61,6 @@ pub(crate) struct ResultDocument {
     /// Changes of the parameters in each step after the first approximation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) changes: Option<Vec<StepChange>>,
-    /// Spectral radius ρ(T).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) spectral_radius: Option<f64>,
     /// Exact remainder of K, °/(h·mA), 2×2.
@@ -78,7 +75,6 @@ pub(crate) struct ResultDocument {
     /// ω_k.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) from_least_squares: Option<[f64; 8]>,
-    /// Chi-square test of the fit.
     pub(crate) chi_square: ChiSquareDocument,
     /// Residuals of each position, °/h; absent without degrees of freedom.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
@@ -126,30 +122,23 @@ impl NoiseDocument {
     }
 }
 
-/// Standard uncertainties of the values of one method.
+/// Standard uncertainties of the values of one method, each under the key and in the unit of its value, and absent where
+/// the value is.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct UncertaintyDocument {
-    /// Standard uncertainties of the elements of K, °/(h·mA).
     pub(crate) k_deg_per_h_per_ma: [[f64; 2]; 2],
-    /// Standard uncertainties of ω_0, °/h: [x, y].
     pub(crate) omega0_deg_per_h: [f64; 2],
-    /// Standard uncertainties of the elements of ω_n, °/(h·g).
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) omega_n_deg_per_h_per_g: Option<[[f64; 2]; 2]>,
-    /// Standard uncertainty of ω_g, °/(h·g).
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) omega_g_deg_per_h_per_g: Option<f64>,
-    /// Standard uncertainty of ω_k, °/(h·g).
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) omega_k_deg_per_h_per_g: Option<f64>,
-    /// Standard uncertainties of the elements of the matrix of g-sensitive drift, °/(h·g).
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) g_matrix_deg_per_h_per_g: Option<[[f64; 3]; 2]>,
-    /// Standard uncertainties of the drift in time, °/h per hour: [x, y].
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) drift_deg_per_h_per_h: Option<[f64; 2]>,
-    /// Standard uncertainty of the anisoelastic coefficient, °/(h·g²); absent if it was not fitted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) anisoelasticity_deg_per_h_per_g2: Option<f64>,
 }
@@ -158,7 +147,6 @@ pub(crate) struct UncertaintyDocument {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ChiSquareDocument {
-    /// Value of chi-square.
     pub(crate) value: f64,
     /// Number of readings minus number of parameters.
     pub(crate) degrees_of_freedom: usize,
@@ -190,22 +178,17 @@ pub(crate) struct RowScatterDocument {
     pub(crate) variance_factor: Option<f64>,
 }
 
-/// Residuals of one position.
+/// Residuals of one position along x and y and their standard uncertainties, °/h. Results of earlier versions have no
+/// uncertainties.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ResidualDocument {
-    /// Frame index.
     pub(crate) i: u32,
-    /// Platform index.
     pub(crate) j: u32,
-    /// Residual along x, °/h.
     pub(crate) x: f64,
-    /// Residual along y, °/h.
     pub(crate) y: f64,
-    /// Standard uncertainty of the residual along x, °/h; absent in results of earlier versions.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) u_x: Option<f64>,
-    /// Standard uncertainty of the residual along y, °/h.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) u_y: Option<f64>,
 }

@@ -339,7 +339,6 @@ fn turn_factors<const EXACT: bool>(turn: &[f64; 3]) -> (f64, f64) {
     (s1, s2)
 }
 
-/// Returns sin x and cos x − 1.
 #[inline(always)]
 fn sin_cos_less_one<const EXACT: bool>(x: f64) -> (f64, f64) {
     if EXACT && x.abs() > SMALL_RAD {
