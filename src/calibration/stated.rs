@@ -48,65 +48,9 @@ words! {
     }
 }
 
-/// Collects the uncertainties from the certificate and its positions, the site and the laboratory, and the inputs without a
-/// stated uncertainty, which are treated as exact.
-pub(crate) fn uncertainties(
-    certificate: &Certificate,
-    positions: &[CertifiedPosition],
-    site: &Site,
-    laboratory: &Laboratory,
-) -> (InputUncertainty, Vec<NotStated>) {
-    let mut missing = Vec::new();
-    let mut angle = |arcsec: Option<f64>, what: NotStated| {
-        // A 0 that `certify` writes is an estimate from readings.
-        let estimated = certificate.evidence.is_some()
-            && matches!(what, NotStated::Angles | NotStated::Return | NotStated::Platform | NotStated::Base);
-        if !arcsec.is_some_and(|u| u > 0.0 || estimated) && !missing.contains(&what) {
-            missing.push(what);
-        }
-        radians_from_arcseconds(arcsec.unwrap_or(0.0))
-    };
-    let angles_rad = positions.iter().map(|at| at.u_arcsec().map(|u| angle(u, NotStated::Angles))).collect();
-    let (of_site, measured) = (site.uncertainty.as_ref(), laboratory.base.as_ref());
-    let azimuth_mark = site.azimuth_mark.as_ref();
-    // From the mark to the base, stated or measured. From the pillar to the mark it is computed.
-    let azimuth = measured.and_then(|base| base.azimuth_arcsec).or(of_site.and_then(|u| u.azimuth_arcsec));
-    let level = measured.and_then(|base| base.level_arcsec).or(of_site.and_then(|u| u.level_arcsec));
-    let seat = laboratory.seating_arcsec.as_ref();
-    let seat = [seat.map(|seat| seat.about_x), seat.map(|seat| seat.about_y), seat.map(|seat| seat.about_z)];
-    let degrees_of_freedom = |stated: Option<f64>| stated.unwrap_or(f64::INFINITY);
-    let (common_platform, common_base) = (certificate.common_platform_arcsec, certificate.common_base_arcsec);
-    let uncertainty = InputUncertainty {
-        angles_rad,
-        angles_degrees_of_freedom: positions.iter().map(|at| degrees_of_freedom(at.degrees_of_freedom)).collect(),
-        repeatability_degrees_of_freedom: degrees_of_freedom(certificate.repeatability_degrees_of_freedom),
-        repeatability_rad: angle(certificate.repeatability_arcsec, NotStated::Return),
-        common_platform_degrees_of_freedom: of_common(certificate, ActsOn::Platform, common_platform),
-        common_base_degrees_of_freedom: of_common(certificate, ActsOn::Base, common_base),
-        common_platform_rad: angle(common_platform, NotStated::Platform),
-        common_base_rad: angle(common_base, NotStated::Base),
-        latitude_rad: angle(of_site.and_then(|u| u.latitude_arcsec), NotStated::Latitude),
-        deflection_rad: site.latitude_deg.map_or(0.0, |_| angle(site.deflection_u_arcsec(), NotStated::Deflection)),
-        azimuth_rad: angle(azimuth, NotStated::Azimuth),
-        mark_rad: azimuth_mark.map_or(0.0, |_| angle(site.earth().azimuth_u_arcsec, NotStated::Mark)),
-        level_rad: angle(level, NotStated::Level),
-        seating_rad: seat.map(|u| angle(u, NotStated::Seat)),
-        meter: MeterUncertainty::from(&laboratory.meter),
-        visit_deg_per_h: None,
-        turn_on_deg_per_h: None,
-    };
-    let others = [
-        (uncertainty.meter.gain, NotStated::Gain),
-        (uncertainty.meter.offset_ma, NotStated::Offset),
-        (site.gravity_u_m_per_s2().unwrap_or(0.0), NotStated::Gravity),
-    ];
-    missing.extend(others.into_iter().filter(|(u, _)| *u == 0.0).map(|(_, what)| what));
-    (uncertainty, missing)
-}
-
 impl Setup {
     /// Creates the setup of a certified stand at a site, with the uncertainties stated by certificate, site and
-    /// laboratory; also returns the inputs without a stated uncertainty.
+    /// laboratory; also returns the inputs without a stated uncertainty, which are treated as exact.
     ///
     /// # Errors
     /// Returns [`NoSetup`] if n_2 of the eight positions has no inverse, or an uncertainty or its degrees of freedom
@@ -117,7 +61,51 @@ impl Setup {
         site: &Site,
         laboratory: &Laboratory,
     ) -> Result<(Self, Vec<NotStated>), NoSetup> {
-        let (uncertainty, missing) = uncertainties(certificate, positions, site, laboratory);
+        let mut missing = Vec::new();
+        let mut angle = |arcsec: Option<f64>, what: NotStated| {
+            // A 0 that `certify` writes is an estimate from readings.
+            let estimated = certificate.evidence.is_some()
+                && matches!(what, NotStated::Angles | NotStated::Return | NotStated::Platform | NotStated::Base);
+            if !arcsec.is_some_and(|u| u > 0.0 || estimated) && !missing.contains(&what) {
+                missing.push(what);
+            }
+            radians_from_arcseconds(arcsec.unwrap_or(0.0))
+        };
+        let angles_rad = positions.iter().map(|at| at.u_arcsec().map(|u| angle(u, NotStated::Angles))).collect();
+        let (of_site, measured) = (site.uncertainty.as_ref(), laboratory.base.as_ref());
+        let azimuth_mark = site.azimuth_mark.as_ref();
+        // From the mark to the base, stated or measured. From the pillar to the mark it is computed.
+        let azimuth = measured.and_then(|base| base.azimuth_arcsec).or(of_site.and_then(|u| u.azimuth_arcsec));
+        let level = measured.and_then(|base| base.level_arcsec).or(of_site.and_then(|u| u.level_arcsec));
+        let seat = laboratory.seating_arcsec.as_ref();
+        let seat = [seat.map(|seat| seat.about_x), seat.map(|seat| seat.about_y), seat.map(|seat| seat.about_z)];
+        let degrees_of_freedom = |stated: Option<f64>| stated.unwrap_or(f64::INFINITY);
+        let (common_platform, common_base) = (certificate.common_platform_arcsec, certificate.common_base_arcsec);
+        let uncertainty = InputUncertainty {
+            angles_rad,
+            angles_degrees_of_freedom: positions.iter().map(|at| degrees_of_freedom(at.degrees_of_freedom)).collect(),
+            repeatability_degrees_of_freedom: degrees_of_freedom(certificate.repeatability_degrees_of_freedom),
+            repeatability_rad: angle(certificate.repeatability_arcsec, NotStated::Return),
+            common_platform_degrees_of_freedom: of_common(certificate, ActsOn::Platform, common_platform),
+            common_base_degrees_of_freedom: of_common(certificate, ActsOn::Base, common_base),
+            common_platform_rad: angle(common_platform, NotStated::Platform),
+            common_base_rad: angle(common_base, NotStated::Base),
+            latitude_rad: angle(of_site.and_then(|u| u.latitude_arcsec), NotStated::Latitude),
+            deflection_rad: site.latitude_deg.map_or(0.0, |_| angle(site.deflection_u_arcsec(), NotStated::Deflection)),
+            azimuth_rad: angle(azimuth, NotStated::Azimuth),
+            mark_rad: azimuth_mark.map_or(0.0, |_| angle(site.earth().azimuth_u_arcsec, NotStated::Mark)),
+            level_rad: angle(level, NotStated::Level),
+            seating_rad: seat.map(|u| angle(u, NotStated::Seat)),
+            meter: MeterUncertainty::from(&laboratory.meter),
+            visit_deg_per_h: None,
+            turn_on_deg_per_h: None,
+        };
+        let others = [
+            (uncertainty.meter.gain, NotStated::Gain),
+            (uncertainty.meter.offset_ma, NotStated::Offset),
+            (site.gravity_u_m_per_s2().unwrap_or(0.0), NotStated::Gravity),
+        ];
+        missing.extend(others.into_iter().filter(|(u, _)| *u == 0.0).map(|(_, what)| what));
         let positions: Vec<_> = positions.iter().map(CertifiedPosition::to_model).collect();
         Ok((Self::new(&positions, site.earth().rate(site), uncertainty)?, missing))
     }

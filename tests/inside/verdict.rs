@@ -2,7 +2,7 @@
 
 use crate::inside::reference::*;
 use dtg_passport::calibration::document::{CalibrationDocument, Subject};
-use dtg_passport::calibration::stated::{NotStated, TemperatureOutside, uncertainties};
+use dtg_passport::calibration::stated::{NotStated, TemperatureOutside};
 use dtg_passport::calibration::verdict::{Decision, Found, against_earlier, against_type, change_in_uncertainties};
 use dtg_passport::calibration::{InputUncertainty, Options, Parameter, Setup, calibrate};
 use dtg_passport::coefficients::EarthRate;
@@ -303,7 +303,8 @@ fn inputs_as_stated() {
     let stand = Stand::from_yaml("stand.yaml", STAND.as_bytes()).unwrap();
     let site = Site::from_yaml("moscow.yaml", SITE.as_bytes()).unwrap();
     let mut laboratory = Laboratory::paper();
-    let (uncertainty, missing) = uncertainties(&stand.certificate, &stand.positions, &site, &laboratory);
+    let (setup, missing) = Setup::stated(&stand.certificate, &stand.positions, &site, &laboratory).unwrap();
+    let uncertainty = setup.uncertainty();
     let arcsec = radians_from_arcseconds;
     assert_eq!(uncertainty.angles_rad, [[1.2, 1.3, 2.0].map(arcsec)]);
     assert_eq!(uncertainty.repeatability_rad, arcsec(1.5));
@@ -315,10 +316,9 @@ fn inputs_as_stated() {
     let [gain, offset] = ["gain of the meter (meter.gain_percent)", "offset of the meter (meter.offset_ma)"];
     assert_eq!(words, ["common part of the base (common_base_arcsec)", "gyro seat (seating_arcsec)", gain, offset]);
     laboratory.base = Some(dtg_passport::laboratory::Base { azimuth_arcsec: Some(10.0), level_arcsec: None });
-    let (uncertainty, _) = uncertainties(&stand.certificate, &stand.positions, &site, &laboratory);
-    assert_eq!(uncertainty.azimuth_rad, arcsec(10.0));
-    assert_eq!(uncertainty.level_rad, arcsec(5.0));
     let (setup, missing) = Setup::stated(&stand.certificate, &stand.positions, &site, &laboratory).unwrap();
+    assert_eq!(setup.uncertainty().azimuth_rad, arcsec(10.0));
+    assert_eq!(setup.uncertainty().level_rad, arcsec(5.0));
     assert_eq!((setup.coefficients().positions.len(), missing.len()), (1, 4));
 }
 
@@ -330,7 +330,7 @@ fn every_part_that_is_not_stated_is_named() {
     let laboratory = Laboratory::paper();
     let missing = |site: &str| {
         let site = Site::from_yaml("moscow.yaml", site.as_bytes()).unwrap();
-        let (_, missing) = uncertainties(&stand.certificate, &stand.positions, &site, &laboratory);
+        let (_, missing) = Setup::stated(&stand.certificate, &stand.positions, &site, &laboratory).unwrap();
         missing
             .into_iter()
             .filter(|what| ![NotStated::Base, NotStated::Seat, NotStated::Gain, NotStated::Offset].contains(what))
