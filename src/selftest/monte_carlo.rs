@@ -13,7 +13,7 @@
 //! are also those of the R package `propagate`, which contains this example.
 
 use super::Case;
-use crate::statistics::bins::{BINS, Bins, bin};
+use crate::statistics::bins::{BINS, bin, quantile, shortest};
 use crate::statistics::summary::Summary;
 use crate::statistics::wide_random::{Column, WIDTH, WideRandom};
 
@@ -131,10 +131,9 @@ fn compared(printed: &Printed, draw: impl Fn(&mut WideRandom) -> Column) -> Vec<
             counts[bin(scaled)] += 1;
         }
     }
-    let bins = Bins::new(&counts);
     let (kind, ends) = match printed.shortest {
-        Some(_) => ("shortest", bins.shortest(COVERAGE)),
-        None => ("symmetric", [0.5 - COVERAGE / 2.0, 0.5 + COVERAGE / 2.0].map(|share| bins.quantile(share))),
+        Some(_) => ("shortest", shortest(&counts, COVERAGE)),
+        None => ("symmetric", [0.5 - COVERAGE / 2.0, 0.5 + COVERAGE / 2.0].map(|share| quantile(&counts, share))),
     };
     let [low, high] = ends.map(|end| centre + unit * end);
     let case = |quantity: &str, expected, tolerance, found| {

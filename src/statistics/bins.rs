@@ -23,65 +23,56 @@ pub(crate) fn bin(value: f64) -> usize {
     (place + WHOLE).to_bits() as usize & (BINS - 1)
 }
 
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Bins<'a, T>(&'a [T]);
-
 /// Returns the value at a place counted in bins from the lower end.
 fn value_at(bins: f64) -> f64 {
     bins * (2.0 * REACH / BINS as f64) - REACH
 }
 
-impl<'a, T: Copy + Into<u64>> Bins<'a, T> {
-    /// Wraps [`BINS`] counts, the lowest bin first.
-    pub(crate) fn new(counts: &'a [T]) -> Self {
-        Self(counts)
-    }
+fn total<T: Copy + Into<u64>>(counts: &[T]) -> f64 {
+    counts.iter().map(|count| (*count).into()).sum::<u64>() as f64
+}
 
-    fn total(&self) -> u64 {
-        self.0.iter().map(|count| (*count).into()).sum()
-    }
-
-    /// Returns the value that `share` of the sample does not exceed, or 0 for an empty sample.
-    pub(crate) fn quantile(&self, share: f64) -> f64 {
-        let due = share * self.total() as f64;
-        let mut below = 0.0;
-        for (bin, count) in self.0.iter().enumerate() {
-            let count = (*count).into() as f64;
-            if count > 0.0 && below + count >= due {
-                return value_at(bin as f64 + (due - below) / count);
-            }
-            below += count;
+/// Returns the value that `share` of a sample does not exceed, given the counts of its [`BINS`] bins, the lowest first; 0
+/// for an empty sample.
+pub(crate) fn quantile<T: Copy + Into<u64>>(counts: &[T], share: f64) -> f64 {
+    let due = share * total(counts);
+    let mut below = 0.0;
+    for (bin, count) in counts.iter().enumerate() {
+        let count = (*count).into() as f64;
+        if count > 0.0 && below + count >= due {
+            return value_at(bin as f64 + (due - below) / count);
         }
-        0.0
+        below += count;
     }
+    0.0
+}
 
-    /// Returns the shortest interval that contains `share` of the sample
-    /// ([JCGM 101](crate::bibliography::Bibliography::Jcgm101), 5.3.4 and 7.7.3).
-    pub(crate) fn shortest(&self, share: f64) -> [f64; 2] {
-        let total = self.total() as f64;
-        let (mut best, mut width) = ([self.quantile(0.0), self.quantile(1.0)], f64::INFINITY);
-        let mut below = 0.0;
-        // The upper end never moves down while the lower end moves up, so one pass is enough.
-        let (mut upper, mut below_upper) = (0, 0.0);
-        for (bin, count) in self.0.iter().enumerate() {
-            let due = below + share * total;
-            if due > total {
-                break;
-            }
-            while upper < self.0.len() && below_upper + (self.0[upper].into() as f64) < due {
-                below_upper += self.0[upper].into() as f64;
-                upper += 1;
-            }
-            let in_bin = self.0.get(upper).map_or(1.0, |count| (*count).into() as f64);
-            let high = value_at(upper as f64 + (due - below_upper) / in_bin.max(1.0));
-            let low = value_at(bin as f64);
-            if high - low < width {
-                (best, width) = ([low, high], high - low);
-            }
-            below += (*count).into() as f64;
+/// Returns the shortest interval that contains `share` of a sample, given the counts of its bins
+/// ([JCGM 101](crate::bibliography::Bibliography::Jcgm101), 5.3.4 and 7.7.3).
+pub(crate) fn shortest<T: Copy + Into<u64>>(counts: &[T], share: f64) -> [f64; 2] {
+    let total = total(counts);
+    let (mut best, mut width) = ([quantile(counts, 0.0), quantile(counts, 1.0)], f64::INFINITY);
+    let mut below = 0.0;
+    // The upper end never moves down while the lower end moves up, so one pass is enough.
+    let (mut upper, mut below_upper) = (0, 0.0);
+    for (bin, count) in counts.iter().enumerate() {
+        let due = below + share * total;
+        if due > total {
+            break;
         }
-        best
+        while upper < counts.len() && below_upper + (counts[upper].into() as f64) < due {
+            below_upper += counts[upper].into() as f64;
+            upper += 1;
+        }
+        let in_bin = counts.get(upper).map_or(1.0, |count| (*count).into() as f64);
+        let high = value_at(upper as f64 + (due - below_upper) / in_bin.max(1.0));
+        let low = value_at(bin as f64);
+        if high - low < width {
+            (best, width) = ([low, high], high - low);
+        }
+        below += (*count).into() as f64;
     }
+    best
 }
 
 #[cfg(test)]
@@ -96,17 +87,16 @@ mod tests {
         let shares = (0..200_000).map(|rank| (f64::from(rank) + 0.5) / 200_000.0);
         let mut counts = vec![0_u32; BINS];
         shares.clone().for_each(|share| counts[bin(normal_quantile(share))] += 1);
-        let bins = Bins::new(&counts);
         for share in [0.025, 0.3, 0.5, 0.975] {
-            assert!((bins.quantile(share) - normal_quantile(share)).abs() < 2e-4, "{share}");
+            assert!((quantile(&counts, share) - normal_quantile(share)).abs() < 2e-4, "{share}");
         }
-        let [low, high] = bins.shortest(0.95);
+        let [low, high] = shortest(&counts, 0.95);
         assert!((high - low - 2.0 * 1.959_964).abs() < 1e-3 && (low + 1.96).abs() < 0.05, "{low} {high}");
         let mut counts = vec![0_u32; BINS];
         shares.for_each(|share| counts[bin(-libm::log(share))] += 1);
-        let [low, high] = Bins::new(&counts).shortest(0.95);
+        let [low, high] = shortest(&counts, 0.95);
         assert!(low.abs() < 0.005 && (high + libm::log(0.05)).abs() < 0.01, "{low} {high}");
-        assert_eq!(Bins::new(&[0_u32; BINS]).quantile(0.5), 0.0);
+        assert_eq!(quantile(&[0_u32; BINS], 0.5), 0.0);
         assert_eq!([-1e300, f64::NEG_INFINITY, 1e300].map(bin), [0, 0, BINS - 1]);
     }
 }

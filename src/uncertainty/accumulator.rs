@@ -7,7 +7,7 @@
 #![allow(clippy::needless_range_loop, reason = "a loop over trials that indexes several columns is what becomes wide")]
 
 use super::engine::{PAIRS, PARAMETERS, Solutions};
-use crate::statistics::bins::{BINS, Bins, bin};
+use crate::statistics::bins::{BINS, bin, quantile};
 use crate::statistics::wide_random::{Column, WIDTH};
 
 /// Centre and unit of the histogram of every parameter.
@@ -62,8 +62,9 @@ impl Default for Histograms {
 }
 
 impl Histograms {
-    pub(crate) fn of(&self, place: usize) -> Bins<'_, u64> {
-        Bins::new(&self.counts[place * BINS..(place + 1) * BINS])
+    /// Returns the counts of the bins of a parameter.
+    pub(crate) fn of(&self, place: usize) -> &[u64] {
+        &self.counts[place * BINS..(place + 1) * BINS]
     }
 }
 
@@ -154,11 +155,10 @@ impl Accumulator {
 
     /// Returns the summary of the block, adds its counts to those of `all` blocks, and starts the next one.
     pub(crate) fn end_of_block(&mut self, all: &mut Histograms) -> BlockSummary {
-        let mut quantiles = [[0.0; 2]; PARAMETERS];
-        for (place, quantiles) in quantiles.iter_mut().enumerate() {
-            let bins = Bins::new(&self.block[place * BINS..(place + 1) * BINS]);
-            *quantiles = [0.025, 0.975].map(|share| bins.quantile(share));
-        }
+        let quantiles = std::array::from_fn(|place| {
+            let counts = &self.block[place * BINS..(place + 1) * BINS];
+            [0.025, 0.975].map(|share| quantile(counts, share))
+        });
         for (all, count) in all.counts.iter_mut().zip(&mut self.block) {
             *all += u64::from(*count);
             *count = 0;
@@ -205,7 +205,7 @@ mod tests {
         let summary = tally.end_of_block(&mut all);
         assert_eq!((summary.count, summary.failed), ((chunks * WIDTH) as u64, 0));
         for place in 0..PARAMETERS {
-            for found in [summary.quantiles[place][1], all.of(place).quantile(0.975)] {
+            for found in [summary.quantiles[place][1], quantile(all.of(place), 0.975)] {
                 assert!((found - 1.959_964).abs() < 2e-4, "{found}");
             }
             assert!(summary.sums[place].abs() < 1e-6);

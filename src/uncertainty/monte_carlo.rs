@@ -11,6 +11,7 @@ use super::engine::{BLOCK, Engine, PAIRS, PARAMETERS, pair};
 use crate::calibration::parameter::Parameter;
 use crate::calibration::{Method, Model, Options};
 use crate::parallel;
+use crate::statistics::bins::{quantile, shortest};
 use crate::statistics::wide_random::WideRandom;
 use crate::text::number::exponent_as_printed;
 use nalgebra::DMatrix;
@@ -293,8 +294,8 @@ impl Series {
         let distribution = |(place, line): (usize, &ParameterBudget)| {
             let (centre, unit) = (self.scale.centre[place], self.scale.unit[place]);
             let value = |scaled: f64| centre + unit * scaled;
-            let bins = self.histograms.of(place);
-            let symmetric = [0.5 - COVERAGE / 2.0, 0.5 + COVERAGE / 2.0].map(|share| value(bins.quantile(share)));
+            let counts = self.histograms.of(place);
+            let symmetric = [0.5 - COVERAGE / 2.0, 0.5 + COVERAGE / 2.0].map(|share| value(quantile(counts, share)));
             let standard_uncertainty = self.standard_deviation(place);
             let numerical = self.numerical(place);
             Distribution {
@@ -303,7 +304,7 @@ impl Series {
                 standard_uncertainty,
                 coverage_probability: COVERAGE,
                 symmetric,
-                shortest: bins.shortest(COVERAGE).map(value),
+                shortest: shortest(counts, COVERAGE).map(value),
                 numerical,
                 first_order: FirstOrder::new(line, symmetric, [numerical[2], numerical[3]]),
             }
