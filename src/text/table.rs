@@ -71,7 +71,7 @@ impl<'a> Table<'a> {
             return Err(Unreadable::whole(name, None, "only spaces and comments", expected, ""));
         };
         let separator = declared
-            .or_else(|| [',', ';', '\t'].into_iter().find(|&separator| header.contains(separator)))
+            .or_else(|| SEPARATORS.into_iter().map(|(separator, _)| separator).find(|it| header.contains(*it)))
             .unwrap_or(',');
         let header = Header::read(name, (line, header), separator, required, optional)?;
         let mut problems = Vec::new();
@@ -82,7 +82,7 @@ impl<'a> Table<'a> {
                 Ok(cells) if cells.len() == header.names.len() => {
                     rows.push(header.order.iter().map(|&place| cells[place].clone()).collect());
                 }
-                Ok(cells) => problems.push(wrong_number_of_cells((line, text), separator, cells.len(), &header.names)),
+                Ok(cells) => problems.push(header.wrong_number_of_cells((line, text), separator, cells.len())),
                 Err(problem) => problems.push(problem),
             }
             if problems.len() >= MOST_COUNTED {
@@ -201,7 +201,13 @@ fn with_decimal_points(rows: &mut [Row], columns: &[&str]) -> Result<bool, Probl
             return Err(Problem::new(Some(cell.location), column_name(columns, place), found, expected, advice));
         }
     }
-    rows.iter_mut().flatten().for_each(|cell| cell.text = cell.text.replacen(',', ".", 1));
+    // What is no number is quoted as it was written.
+    for cell in rows.iter_mut().flatten() {
+        let number = cell.text.replacen(',', ".", 1);
+        if number.parse::<f64>().is_ok() {
+            cell.text = number;
+        }
+    }
     Ok(true)
 }
 
@@ -249,6 +255,9 @@ fn quoted_cell(quoted: &str, separator: char) -> Option<(String, &str)> {
     (after.is_empty() || after.starts_with(separator)).then(|| (text.trim().to_owned(), after))
 }
 
+/// Separators of columns with their names, in the order in which a header is searched for them.
+const SEPARATORS: [(char, &str); 3] = [(',', "commas"), (';', "semicolons"), ('\t', "tabs")];
+
 struct Header<'a> {
     /// Requested columns that are present.
     columns: Vec<&'a str>,
@@ -269,10 +278,17 @@ impl<'a> Header<'a> {
     ) -> Result<Self, Unreadable> {
         let at = Location { line, column: 1 };
         let expected = || format!("the header {} (columns in any order)", required.join(","));
-        let other = [(',', "commas"), (';', "semicolons"), ('\t', "tabs")];
-        let words = |sought: char| other.iter().find(|(other, _)| *other == sought).map_or("", |(_, words)| words);
-        let found = other.iter().find(|(other, _)| *other != separator && header.contains(*other));
-        if let Some((_, and)) = found {
+        let known: Vec<&str> = required.iter().chain(optional).copied().collect();
+        let is_known = |cell: &str| known.contains(&cell.trim().trim_matches('"'));
+        // Decimal commas in a row of numbers, or commas in a title, do not separate columns.
+        let parts = || header.split([',', ';', '\t']);
+        if parts().all(|part| part.trim().is_empty() || part.trim().parse::<f64>().is_ok()) {
+            let found = "numbers instead of the header";
+            return Err(Unreadable::whole(name, Some(at), found, expected(), "add the header"));
+        }
+        let words = |sought: char| SEPARATORS.iter().find(|(it, _)| *it == sought).map_or("", |(_, words)| words);
+        let other = SEPARATORS.iter().find(|(other, _)| *other != separator && header.contains(*other));
+        if let Some((_, and)) = other.filter(|_| parts().any(is_known)) {
             let found = format!("columns separated by {} and {and}", words(separator));
             let advice = "save as CSV with commas between columns and decimal points in numbers";
             return Err(Unreadable::whole(name, Some(at), found, expected(), advice));
@@ -283,11 +299,6 @@ impl<'a> Header<'a> {
         }
         let cells = cells(line, header, separator).map_err(|problem| Unreadable::of(name, vec![problem]))?;
         let cells = without_trailing(cells, 1);
-        if cells.iter().all(|cell| cell.text.parse::<f64>().is_ok()) {
-            let found = "numbers instead of the header";
-            return Err(Unreadable::whole(name, Some(at), found, expected(), "add the header"));
-        }
-        let known: Vec<&str> = required.iter().chain(optional).copied().collect();
         let mut problems = Vec::new();
         let mut left_out = Vec::new();
         for (index, cell) in cells.iter().enumerate() {
@@ -313,6 +324,9 @@ impl<'a> Header<'a> {
             let found = format!("no column{plural} {}", missing.join(", "));
             let advice = match left_out.is_empty() {
                 true => String::new(),
+                false if header.split_whitespace().filter(|word| is_known(word)).count() > 1 => {
+                    "separate columns by commas, semicolons or tabs, not by spaces".to_owned()
+                }
                 false if missing.len() == required.len() => "put # before the lines above the header".to_owned(),
                 false => {
                     let others: Vec<String> = left_out.iter().map(|name| format!("{name:?}")).collect();
@@ -327,6 +341,35 @@ impl<'a> Header<'a> {
         let (columns, order) = known.into_iter().filter_map(|column| Some((column, place(&column)?))).unzip();
         Ok(Self { columns, order, left_out, names: cells.into_iter().map(|cell| cell.text).collect() })
     }
+
+    /// Creates the report of a row that has another number of cells than the header.
+    fn wrong_number_of_cells(&self, (line, text): (usize, &str), separator: char, found: usize) -> Problem {
+        let names = &self.names;
+        let has_other = SEPARATORS.iter().any(|(other, _)| *other != separator && text.contains(*other));
+        let advice = if separator == ',' && text.contains(';') {
+            "separate columns by commas, and use decimal points"
+        } else if !text.contains(separator) && has_other {
+            "separate columns as in the header"
+        } else if found > names.len() && separator == ',' && has_decimal_commas(text) {
+            "use decimal points; a decimal comma splits a number in two"
+        } else if found > names.len() {
+            "name each column in the header, or delete what goes beyond it"
+        } else if (found..names.len()).all(|place| !self.order.contains(&place)) {
+            "leave the cell of a remark that is missing empty"
+        } else {
+            "add the values that are missing; if the reading was not taken, omit the whole row"
+        };
+        let plural = if found == 1 { "" } else { "s" };
+        let expected = format!("{}, for {}", names.len(), names.join(", "));
+        Problem::new(Some(Location { line, column: 1 }), "", format!("{found} value{plural}"), expected, advice)
+    }
+}
+
+/// Returns `true` if a whole number is followed by digits beyond the first two cells, which are the indices of a position.
+fn has_decimal_commas(row: &str) -> bool {
+    let cells: Vec<&str> = row.split(',').map(str::trim).skip(2).collect();
+    let is_digits = |cell: &str| !cell.is_empty() && cell.bytes().all(|byte| byte.is_ascii_digit());
+    cells.windows(2).any(|pair| is_digits(pair[0].trim_start_matches(['+', '-'])) && is_digits(pair[1]))
 }
 
 /// Returns the known column that `found` misspells: at most two letters differ, or the unit is missing.
@@ -338,23 +381,6 @@ fn meant<'a>(known: &[&'a str], found: &str) -> Option<&'a str> {
     // Any two letters are as near to a short column as this.
     let is_near = nearest.0 <= 2 && nearest.0 < nearest.1.len();
     if is_near { Some(nearest.1) } else { without_unit.copied() }
-}
-
-fn wrong_number_of_cells((line, text): (usize, &str), separator: char, found: usize, names: &[String]) -> Problem {
-    let advice = if separator == ';' {
-        "separate columns by semicolons, as in the header"
-    } else if text.contains(';') {
-        "separate columns by commas, and use decimal points"
-    } else if found > names.len() && separator == ',' {
-        "use decimal points; a decimal comma splits a number in two"
-    } else if found < names.len() {
-        "leave the cell of a value that is missing empty"
-    } else {
-        ""
-    };
-    let plural = if found == 1 { "" } else { "s" };
-    let expected = format!("{}, for {}", names.len(), names.join(", "));
-    Problem::new(Some(Location { line, column: 1 }), "", format!("{found} value{plural}"), expected, advice)
 }
 
 fn described(text: &str) -> String {
@@ -410,14 +436,26 @@ mod tests {
 
     #[test]
     fn the_advice_on_a_row_fits_its_number_of_cells() {
-        let names = ["i", "j", "jx_ma"].map(str::to_owned);
-        for (separator, found, due) in [
-            (',', 2, "leave the cell of a value that is missing empty"),
-            (',', 4, "use decimal points; a decimal comma splits a number in two"),
-            ('\t', 2, "leave the cell of a value that is missing empty"),
-            ('\t', 4, ""),
+        const INCOMPLETE: &str = "add the values that are missing; if the reading was not taken, omit the whole row";
+        const TOO_MANY: &str = "name each column in the header, or delete what goes beyond it";
+        let names = ["i", "j", "jx_ma", "remark"].map(str::to_owned).to_vec();
+        let header = Header { columns: vec!["i", "j", "jx_ma"], order: vec![0, 1, 2], left_out: Vec::new(), names };
+        for (separator, text, due) in [
+            (',', "1,2", INCOMPLETE),
+            (',', "1,2,0.1", "leave the cell of a remark that is missing empty"),
+            (',', "1,2,0,1,x", "use decimal points; a decimal comma splits a number in two"),
+            (',', "1,2,0.1,0,25,x", "use decimal points; a decimal comma splits a number in two"),
+            (',', "1,2,0.1,x,y", TOO_MANY),
+            (',', "1;2;0,1;x", "separate columns by commas, and use decimal points"),
+            (';', "1;2", INCOMPLETE),
+            (';', "1;2;0,1;x;y", TOO_MANY),
+            (';', "1,2,0.1,x", "separate columns as in the header"),
+            ('\t', "1\t2", INCOMPLETE),
+            ('\t', "1", INCOMPLETE),
+            ('\t', "1;2;0,1;x", "separate columns as in the header"),
         ] {
-            assert_eq!(wrong_number_of_cells((2, "1"), separator, found, &names).advice, due, "{separator:?} {found}");
+            let found = cells(2, text, separator).unwrap().len();
+            assert_eq!(header.wrong_number_of_cells((2, text), separator, found).advice, due, "{text:?}");
         }
     }
 

@@ -6,12 +6,17 @@ use dtg_passport::calibration::{Readings, Setup};
 use dtg_passport::coefficients::PositionIndex;
 
 /// (file, what the message must say).
-const BAD: [(&str, &[&str]); 37] = [
+const BAD: [(&str, &[&str]); 42] = [
     ("", &["empty file"]),
     ("# nothing\n\n", &["only spaces and comments"]),
     ("i;j;jx_ma;jy_ma\n1;1;0,1;0.2\n", &["c.csv:2:9", "decimal commas from line 2 on", "the whole file"]),
+    ("i;j;jx_ma;jy_ma\n1,1,0.1,0.2\n", &["c.csv:2:1", "1 value,", "separate columns as in the header"]),
+    ("1;1;0,1;0,2\n", &["c.csv:1:1", "numbers instead of the header"]),
+    ("Kreisel 12, Stand 17;;;\n", &["c.csv:1:1", "no columns i, j, jx_ma, jy_ma", "put # before the lines"]),
+    ("i j jx_ma jy_ma\n", &["c.csv:1:1", "separate columns by commas, semicolons or tabs"]),
+    ("i;j;jx_ma;jy_ma\n1;1;−0,1;0,2\n", &["c.csv:2:5", "\"−0,1\""]),
     ("i;j,jx_ma,jy_ma\n", &["c.csv:1:1", "commas and semicolons", "commas between columns"]),
-    ("i;j;jx_ma;jy_ma\n1;1;0,1\n", &["c.csv:2:1", "3 values", "semicolons, as in the header"]),
+    ("i;j;jx_ma;jy_ma\n1;1;0,1\n", &["c.csv:2:1", "3 values", "omit the whole row"]),
     ("i\tj\tjx_ma,jy_ma\n", &["c.csv:1:1", "commas and tabs"]),
     ("i\tj\tjx_ma\tjy_ma\n1\t1\t\t0.2\n", &["c.csv:2:5", "jx_ma", "found nothing"]),
     ("i\tj\tjx_ma\tjy_ma\n1\t1\t0,1\t0.2\n", &["c.csv:2:9", "decimal commas from line 2 on"]),
