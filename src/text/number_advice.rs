@@ -1,13 +1,21 @@
 //! Advice on what a person or a program wrote where a number belongs.
 
-use super::Node;
 use super::scalar::{STRAIGHT_QUOTES, typographic_quote};
+use super::{Node, Path};
 
 const NOT_FINITE: &str = "use a finite number, because NaN and infinity are not measured values";
 
-/// Returns what to do about a value of YAML that is not the number of `key`; empty without such advice.
-pub(super) fn in_yaml(node: &Node, key: &str) -> &'static str {
+/// Advice on two limits of a parameter, or one with a sign, in place of a tolerance.
+const TOLERANCE: &str = "a tolerance is one number for both directions and both axes: state half the width of the interval, and \
+                         its middle as the nominal value";
+
+/// Returns what to do about a value of YAML that is not a number; empty without such advice.
+pub(super) fn in_yaml(node: &Node, at: &Path) -> &'static str {
+    let key = at.last_key();
+    let is_tolerance = matches!(at, Path::Key(parent, _) if parent.last_key() == "tolerance");
     match node {
+        Node::List(_) | Node::Map(_) if is_tolerance => TOLERANCE,
+        Node::Text(text) if is_tolerance && text.contains(['±', '/']) => TOLERANCE,
         Node::Text(text) if has_two_points(text) && key.ends_with("_deg") => {
             "it has two points; write degrees, minutes and seconds as decimal degrees, with one point"
         }
@@ -137,11 +145,24 @@ mod tests {
             ("\u{2212}5", "alpha_arcsec", ASCII),
             ("nan", "alpha_arcsec", NOT_FINITE),
         ] {
-            assert_eq!(in_yaml(&text(written), key), due, "{written}");
+            assert_eq!(in_yaml(&text(written), &Path::Root.key(key)), due, "{written}");
         }
-        assert!(in_yaml(&text("55.45.56"), "latitude_deg").contains("degrees, minutes and seconds"));
-        assert_eq!(in_yaml(&Node::Number(f64::INFINITY), "alpha_arcsec"), NOT_FINITE);
-        assert_eq!(in_yaml(&Node::Bool(true), "alpha_arcsec"), "");
+        assert!(in_yaml(&text("55.45.56"), &Path::Root.key("latitude_deg")).contains("degrees, minutes and seconds"));
+        let alpha = Path::Root.key("alpha_arcsec");
+        assert_eq!(in_yaml(&Node::Number(f64::INFINITY), &alpha), NOT_FINITE);
+        assert_eq!(in_yaml(&Node::Bool(true), &alpha), "");
+    }
+
+    /// Expected: of a tolerance alone, what to do about an interval that is not symmetric.
+    #[test]
+    fn an_interval_in_place_of_a_tolerance_has_its_advice() {
+        let limits = Node::List(vec![Node::Number(-0.1), Node::Number(0.3)]);
+        let [tolerance, nominal] = ["tolerance", "nominal"].map(|key| Path::Root.key(key));
+        for (node, due) in [(limits, TOLERANCE), (text("±0.3"), TOLERANCE), (text("-0.1/+0.3"), TOLERANCE)] {
+            assert_eq!(in_yaml(&node, &tolerance.key("omega0_deg_per_h")), due);
+            assert_ne!(in_yaml(&node, &nominal.key("omega_g_deg_per_h_per_g")), due);
+        }
+        assert_eq!(in_yaml(&text("0,01"), &tolerance.key("omega0_deg_per_h")), "use a decimal point");
     }
 
     /// Expected: the one remedy for what a person or a program wrote into a cell.
