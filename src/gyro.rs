@@ -76,6 +76,9 @@ impl Parameters {
 
 record! {
     /// Tolerances of the parameters: largest permitted deviations from the nominal values.
+    #[cfg_attr(feature = "cli", schemars(extend("oneOf" = [
+        {"required": ["k_cross_percent"]}, {"required": ["k_cross_deg_per_h_per_ma"]}
+    ])))]
     pub struct Tolerance {
         /// Tolerance of K_x and K_y, in percent of their value.
         pub k_main_percent: f64,

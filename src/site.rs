@@ -76,6 +76,9 @@ record! {
 
 record! {
     /// Site: the place of delivery of a stand (`dtg-site/1`).
+    #[cfg_attr(feature = "cli", schemars(extend("oneOf" = [
+        {"required": ["latitude_deg"]}, {"required": ["astronomic_latitude_deg"]}
+    ])))]
     pub struct Site {
         /// Identifier of the site, which is also the file name.
         pub id: Identifier,

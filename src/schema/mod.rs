@@ -86,3 +86,23 @@ fn without_null(value: &mut Value) {
         _ => {}
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gyro::GyroType;
+    use crate::site::Site;
+
+    /// Expected: the rules of docs/formats.md, that a type has one tolerance of K_xy and K_yx, and a site one latitude.
+    #[test]
+    fn of_two_keys_that_exclude_each_other_a_schema_requires_one() {
+        let one_of = |keys: [&str; 2]| json!(keys.map(|key| json!({"required": [key]})));
+        let tolerances = one_of(["k_cross_percent", "k_cross_deg_per_h_per_ma"]);
+        let latitudes = one_of(["latitude_deg", "astronomic_latitude_deg"]);
+        let [gyro, site, passport] = [of_file::<GyroType>(), of_file::<Site>(), passport()];
+        assert_eq!(gyro.pointer("/$defs/Tolerance/oneOf"), Some(&tolerances));
+        assert_eq!(site.pointer("/oneOf"), Some(&latitudes));
+        assert_eq!(passport.pointer("/$defs/Tolerance/oneOf"), Some(&tolerances));
+        assert_eq!(passport.pointer("/$defs/Site/oneOf"), Some(&latitudes));
+    }
+}

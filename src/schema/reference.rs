@@ -63,7 +63,8 @@ impl Section<'_> {
 
     /// Returns the kind of a value, in words.
     fn value(&self, property: &Map<String, Value>) -> String {
-        if let Some(choices) = property.get("oneOf").and_then(Value::as_array) {
+        // Of a mapping these are keys that exclude each other.
+        if let Some(choices) = property.get("oneOf").and_then(Value::as_array).filter(|_| !is_mapping(property)) {
             return choices
                 .iter()
                 .filter_map(Value::as_object)

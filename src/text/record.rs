@@ -114,9 +114,9 @@ impl<T: Document> Field for File<T> {
 /// A field of type `Option` may be absent; every other field is required. Unknown and duplicate keys are refused.
 macro_rules! record {
     ($(#[$about:meta])* $vis:vis struct $name:ident { $($(#[$doc:meta])* pub $field:ident : $type:ty,)* }) => {
-        $(#[$about])*
         #[derive(Debug, Clone, PartialEq)]
         #[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
+        $(#[$about])*
         $vis struct $name { $($(#[$doc])* pub $field: $type,)* }
 
         impl $crate::text::Field for $name {
