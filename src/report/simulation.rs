@@ -14,7 +14,8 @@ pub(crate) fn accuracy(found: &Accuracy) -> String {
         Some(limit) => format!("all deviations uniform within {limit}°"),
         None => "the specified stand".to_owned(),
     };
-    let _ = writeln!(out, "{} trials, seed {}, {stands}", found.trials, found.seed);
+    let (trials, seed, latitude) = (found.trials, found.seed, found.latitude_deg);
+    let _ = writeln!(out, "{trials} trials, seed {seed}, {stands}, latitude {latitude:.4}°");
     let _ = writeln!(
         out,
         "  {:<13}  {:<9}  {:>10}  {:>10}  {:>9}  unit",

@@ -14,6 +14,7 @@ use crate::gyro::{GyroParameters, GyroType};
 use crate::laboratory::Laboratory;
 use crate::statistics::random::{Run, Stream};
 use crate::statistics::summary::Summary;
+use crate::units::degrees_from_radians;
 use nalgebra::Vector2;
 use serde::Serialize;
 
@@ -78,6 +79,8 @@ pub struct Accuracy {
     /// Limit of the deviations, degrees, if stands were drawn.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limit_deg: Option<f64>,
+    /// Astronomic latitude of the site, degrees.
+    pub latitude_deg: f64,
     /// Rows of the table, one for each method and parameter.
     pub rows: Vec<AccuracyRow>,
 }
@@ -130,7 +133,9 @@ pub fn accuracy(options: &AccuracyOptions, run: &Run) -> Accuracy {
         Stands::Drawn { limit_deg } => Some(limit_deg),
         Stands::Given(_) => None,
     };
-    Accuracy { trials, seed: run.seed, limit_deg, rows }
+    let earth = &options.earth;
+    let latitude_deg = degrees_from_radians(libm::atan2(earth.vertical_deg_per_h, earth.horizontal_deg_per_h));
+    Accuracy { trials, seed: run.seed, limit_deg, latitude_deg, rows }
 }
 
 /// Errors of one block of trials, by method and parameter.
