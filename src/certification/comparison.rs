@@ -174,6 +174,11 @@ pub fn compare(
     let moved = common.test.is_some_and(|test| test.probability < OUTLIER);
     let same_stand = repeating.len() == places.len() && all.probability >= OUTLIER && !moved;
     let mut findings = findings(all, &positions, &common, again, moved, untested, misplaced);
+    if let Some(other) = findings.iter_mut().find(|found| **found == Finding::AnotherStand)
+        && let Some(correlation) = differences.resemblance(certificate)
+    {
+        *other = Finding::Worn(correlation);
+    }
     if let Some((of_check, probability)) = more {
         let [of_check_arcsec, certified_arcsec] = [of_check, scatter].map(|variance| variance.value.sqrt());
         findings.push(Finding::ScattersMore { of_check_arcsec, certified_arcsec, probability });
@@ -354,6 +359,25 @@ impl Differences {
         let degrees_of_freedom = (3 * places.len()).checked_sub(self.model.design.ncols()).filter(|rest| *rest > 0)?;
         let (_, _, chi_square) = self.shared(places)?;
         Some(self.test(chi_square, degrees_of_freedom))
+    }
+
+    /// Returns the correlation of the readings with the certified deviations, without the rotations common to all
+    /// positions, or `None` if it may be chance (Student's t, one-sided).
+    fn resemblance(&self, certificate: &Stand) -> Option<f64> {
+        let certified = certificate.positions.iter().zip(&self.model.turns);
+        let certified: Vec<f64> = certified
+            .flat_map(|(at, turn)| <[f64; 3]>::from(case_turn(turn, &Vector3::from(at.angles_arcsec()))))
+            .collect();
+        let certified = DVector::from_vec(certified);
+        let mut both = DMatrix::from_columns(&[&certified + &self.turns_arcsec, certified]);
+        let model = Factorised::new(self.model.design.clone())?;
+        model.rotate(&mut both);
+        let rest = both.rows(model.columns, both.nrows() - model.columns);
+        let (read, certified) = (rest.column(0), rest.column(1));
+        let correlation = read.dot(&certified) / (read.norm() * certified.norm());
+        let freedom = rest.nrows().checked_sub(1).filter(|freedom| *freedom > 0)? as f64;
+        let t_square = correlation * correlation * freedom / (1.0 - correlation * correlation);
+        (correlation > 0.0 && f_larger(t_square, 1, freedom) / 2.0 < OUTLIER).then_some(correlation)
     }
 
     fn test(&self, chi_square: f64, degrees_of_freedom: usize) -> Test {

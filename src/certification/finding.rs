@@ -18,7 +18,17 @@ const MUCH_MORE: f64 = 2.0;
 /// `report` has the words of other languages.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub(crate) enum Finding {
-    #[error("no more than half of the positions agree with each other; this is another stand or another certificate")]
+    /// Half of the positions or more have changed, to angles that still resemble the certified ones; their correlation.
+    #[error(
+        "no more than half of the positions agree with each other, but the angles resemble the certificate (correlation \
+         {0:.2}): the stand has changed in most positions; check the serial number, and have the stand recertified"
+    )]
+    Worn(f64),
+    /// Half of the positions or more have changed, and the angles do not resemble the certified ones.
+    #[error(
+        "no more than half of the positions agree with each other, and the angles do not resemble the certificate: this is \
+         another stand or another certificate, or the stand was rebuilt or damaged"
+    )]
     AnotherStand,
     #[error(
         "positions {} and {} are exchanged: each has the angles that the certificate states for the other; check the \
@@ -153,7 +163,8 @@ impl Finding {
     pub(crate) fn is_change(&self) -> bool {
         matches!(
             self,
-            Self::AnotherStand
+            Self::Worn(_)
+                | Self::AnotherStand
                 | Self::Exchanged(_)
                 | Self::Misread(_)
                 | Self::Changed(_)

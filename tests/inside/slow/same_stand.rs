@@ -270,6 +270,34 @@ fn exchanged_positions_are_named() {
     assert!(found.words[0].contains("another stand"), "{:?}", found.words);
 }
 
+/// Expected: a stand whose positions have all moved by 20″, a hundredth of its deviations, has changed; of stands that have
+/// nothing to do with the certificate the test takes 1 % for it, within four standard deviations of 400 trials.
+#[test]
+fn a_worn_stand_is_told_from_another() {
+    let truth = quiet();
+    let mut stream = Stream::new(73);
+    let stand = certificate(&truth, &mut stream, 5);
+    let mut is_worn = |kept: f64, change_arcsec: f64, runs: usize| {
+        let mut other = truth;
+        other.angles_arcsec.iter_mut().for_each(|angles| {
+            *angles = *angles * kept + Vector3::from_fn(|_, _| change_arcsec * stream.normal());
+        });
+        let found = against(&stand, &other.measured(&mut stream, runs));
+        assert!(
+            !found.same_stand && !found.is_undecided() && found.positions.iter().all(|at| !at.repeats),
+            "{found:?}"
+        );
+        let is_worn = found.words[0].contains("the stand has changed in most positions");
+        assert_ne!(is_worn, found.words[0].contains("another stand"), "{:?}", found.words);
+        is_worn
+    };
+    for runs in [1, 3] {
+        assert!((0..20).all(|_| is_worn(1.0, 20.0, runs)), "{runs}");
+    }
+    let alike = (0..400).filter(|_| is_worn(0.0, 1000.0, 1)).count();
+    assert!(alike <= 12, "{alike}");
+}
+
 /// A whole file in another unit, with the opposite sign or in other columns: the error is named, and nothing else has changed.
 #[test]
 fn a_misread_file_is_named() {

@@ -174,6 +174,9 @@ pub(crate) fn finding(finding: &Finding, language: Language) -> String {
             return texts::EXCHANGED.filled(language, values! { one, other });
         }
         Finding::Misread(misread) => return misread_words(misread, language),
+        Finding::Worn(correlation) => {
+            return texts::WORN.filled(language, values! { r: Number::fixed(*correlation, 2) });
+        }
         Finding::AnotherStand => texts::ANOTHER_STAND,
         Finding::ChangedTogether => texts::CHANGED_TOGETHER,
         Finding::Slightly => texts::CHANGED_SLIGHTLY,

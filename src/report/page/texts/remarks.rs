@@ -160,9 +160,17 @@ texts! {
         ru: "Температура {value} °C вне диапазона, указанного в сертификате: от {low} до {high} °C."
     }
 
+    WORN {
+        en: "No more than half of the positions agree with each other, but the angles resemble the certificate (correlation {r}): \
+             the stand has changed in most positions.",
+        ru: "Согласуется не более половины положений, но углы коррелируют с сертификатом (r = {r}): стенд изменился в большинстве \
+             положений."
+    }
     ANOTHER_STAND {
-        en: "No more than half of the positions agree with each other; this is another stand or another certificate.",
-        ru: "Согласуется не более половины положений: стенд или сертификат другой."
+        en: "No more than half of the positions agree with each other, and the angles do not resemble the certificate: this is \
+             another stand or another certificate, or the stand was rebuilt or damaged.",
+        ru: "Согласуется не более половины положений, углы не коррелируют с сертификатом: стенд или сертификат другой либо стенд \
+             перебран или повреждён."
     }
     EXCHANGED {
         en: "Positions {one} and {other} are exchanged: each has the angles that the certificate states for the other.",
