@@ -8,7 +8,8 @@
 use super::criterion::{Criterion, Symmetric, add, cholesky, inverse_of_lower};
 use super::sensitivity::effects;
 use super::{Evaluation, NoPlan, Question, Visited};
-use crate::attitude::Deviation;
+use crate::attitude::{Deviation, PAPER_FRAME_AXIS_AZIMUTH_DEG};
+use crate::calibration::least_squares::NoLeastSquares;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::sensitivity::Sensitivity;
 use crate::calibration::unknowns::{Model, Unknowns};
@@ -126,10 +127,23 @@ impl Candidates {
             every if every == all.len() => return Err(NoPlan::Range(question.laboratory.meter.range_ma)),
             some => Self { beyond_range: some, ..Self::without(&beyond, question, azimuth_deg)? },
         };
-        let meter = prepared.setup.uncertainty().meter;
-        least_squares::solve(prepared.setup.coefficients(), &prepared.currents_ma, &meter, Model::Paper)
-            .map_err(NoPlan::Undetermined)?;
+        prepared.determine().map_err(|why| {
+            let earth = question.site.earth();
+            let (latitude_deg, horizontal_deg_per_h) = (earth.latitude_deg, earth.horizontal_deg_per_h);
+            let others = [0.0, PAPER_FRAME_AXIS_AZIMUTH_DEG]
+                .map(|azimuth_deg| Self::nominal(question, &Angles::QUADRANTS.positions(), azimuth_deg));
+            match others.iter().flatten().any(|others| others.determine().is_ok()) {
+                true => NoPlan::Undetermined(why),
+                false => NoPlan::NearThePole { latitude_deg, horizontal_deg_per_h },
+            }
+        })?;
         Ok(prepared)
+    }
+
+    /// Checks that all candidates together determine the parameters.
+    fn determine(&self) -> Result<(), NoLeastSquares> {
+        let meter = self.setup.uncertainty().meter;
+        least_squares::solve(self.setup.coefficients(), &self.currents_ma, &meter, Model::Paper).map(|_| ())
     }
 
     /// Prepares the candidates of a question except some positions.

@@ -84,6 +84,17 @@ pub(crate) enum NoPlan {
         "{0}; certify other positions, such as the paper's eight or theta = 90 and 270 deg with the frame's axis north"
     )]
     Undetermined(NoLeastSquares),
+    /// Site where no positions determine the parameters.
+    #[error(
+        "no choice of positions determines the parameters of this gyro at latitude {latitude_deg:.2}°, where the horizontal Earth \
+         rate is only {horizontal_deg_per_h:.2} °/h; calibrate the gyro at another site"
+    )]
+    NearThePole {
+        /// Astronomic latitude, degrees.
+        latitude_deg: f64,
+        /// Horizontal component of the Earth rate, °/h.
+        horizontal_deg_per_h: f64,
+    },
     #[error("no choice of {0} readings determines the eight parameters; allow more with --readings")]
     TooFew(u32),
 }

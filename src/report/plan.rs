@@ -179,6 +179,18 @@ type Named = fn(&Effect) -> bool;
 /// Returns what a user of the plan must know besides the numbers.
 fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<String> {
     let mut remarks = Vec::new();
+    let of_tolerance = |parameter: &Parameter| {
+        plan.evaluation.standard_uncertainty[parameter.place()] / plan.tolerance[parameter.place()]
+    };
+    let beyond = Parameter::AS_IN_THE_PAPER.into_iter().filter(|parameter| 2.0 * of_tolerance(parameter) > 1.0);
+    let beyond: Vec<&str> = beyond.map(Parameter::symbol).collect();
+    if !beyond.is_empty() {
+        let no_other = if plan.exhaustive { "; no other choice of as many readings is better" } else { "" };
+        remarks.push(format!(
+            "No gyro can pass with these readings, because 2 u is larger than the tolerance of {}{no_other}.",
+            beyond.join(", ")
+        ));
+    }
     if plan.beyond_range > 0 {
         let positions = match plan.beyond_range {
             1 => "One position is".to_owned(),

@@ -543,6 +543,15 @@ fn what_cannot_be_planned_is_refused() {
     assert!(matches!(refused, NoPlan::Undetermined(_)), "{refused}");
     let words = refused.to_string();
     assert!(words.contains("ω_g") && words.contains("ω_k") && words.contains("certify other positions"), "{words}");
+    // Near the pole other positions would not help either, whatever the stand has.
+    let polar = Site { latitude_deg: Some(89.5), ..site.clone() };
+    for (stand, azimuths_deg) in [(Some(&flat), vec![EAST]), (None, vec![EAST, NORTH]), (None, vec![NORTH])] {
+        let refused = plan(&Question { stand, azimuths_deg, ..question(&noise, &polar) }).unwrap_err();
+        assert!(matches!(refused, NoPlan::NearThePole { .. }), "{refused}");
+        // 15.0411 °/h · cos 89.5° = 0.131 °/h.
+        let words = refused.to_string();
+        assert!(words.contains("no choice of positions") && words.contains("0.13 °/h"), "{words}");
+    }
     let mut three = fixtures::stand(fixtures::ARC_MINUTES);
     three.positions.truncate(3);
     assert!(plan(&Question { stand: Some(&three), ..question(&noise, &site) }).is_err());
