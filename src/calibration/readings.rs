@@ -99,8 +99,8 @@ pub struct Readings {
     pub(crate) exclusions: Vec<Exclusion>,
     /// Last digit and scatter of the recorded currents; the default if they were not read from a file.
     pub(crate) recorded: Recorded,
-    /// Remark that lists the columns which were not used.
-    pub(crate) remark: Option<String>,
+    /// Remarks on how the file was read, on columns that were not used, and on times that may be in another unit.
+    pub(crate) remarks: Vec<String>,
 }
 
 /// Reason why readings do not match the positions of the coefficients.
@@ -156,7 +156,7 @@ impl Readings {
                 None => left_out.push(at.index),
             }
         }
-        Ok(Self { positions, left_out, exclusions: Vec::new(), recorded: Recorded::default(), remark: None })
+        Ok(Self { positions, left_out, exclusions: Vec::new(), recorded: Recorded::default(), remarks: Vec::new() })
     }
 
     /// Leaves a visit out, with the reason on record.

@@ -240,9 +240,7 @@ impl Bench<'_> {
         let prepared = Prepared::new(content, &self.laboratory, self.gyro_type.as_ref(), (&name, &bytes));
         let mut prepared = prepared?;
         exclude(options, &mut prepared.readings)?;
-        if let Some(remark) = &prepared.readings.remark {
-            output::say(remark);
-        }
+        prepared.readings.remarks.iter().for_each(|remark| output::say(remark));
         let asked = options.asked();
         let done = prepared.run(&asked, self.subject(), &self.previous)?;
         let tolerance = self.gyro_type.as_ref().map(|gyro_type| &gyro_type.tolerance);

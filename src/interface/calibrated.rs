@@ -221,7 +221,7 @@ impl<'a> Prepared<'a> {
         document.remarks = remarks(&calibration, &readings, document.mistake.as_ref());
         document
             .remarks
-            .extend(readings.remark.iter().cloned().chain(warning.map(|warning| warning.to_string())).chain(early));
+            .extend(readings.remarks.iter().cloned().chain(warning.map(|warning| warning.to_string())).chain(early));
         document.verdict = gyro_type.and_then(|gyro_type| document.judged(gyro_type));
         document.change = last.zip(gyro_type).and_then(|(earlier, gyro_type)| document.changed(earlier, gyro_type));
         let earlier = last.and_then(|earlier| Some((earlier.answer()?, document.no_change(earlier))));

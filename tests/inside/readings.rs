@@ -148,14 +148,14 @@ fn tables_of_spreadsheet_programs_are_read() {
     let german = good.replace(',', ";").replace('.', ",");
     let read = |text: &str| read(&setup, text).unwrap();
     assert_eq!(read(&german).means_ma(), expected.means_ma());
-    assert!(read(&german).remark.unwrap().ends_with("semicolons between columns and decimal commas"));
+    assert!(read(&german).remarks[0].ends_with("semicolons between columns and decimal commas"));
     assert_eq!(read(&format!("\"sep=;\"\n{german}")), read(&german));
     let points = good.replace(',', ";");
     assert_eq!(read(&points).means_ma(), expected.means_ma());
-    assert!(read(&points).remark.unwrap().ends_with("read with semicolons between columns"));
+    assert!(read(&points).remarks[0].ends_with("read with semicolons between columns"));
     let labview = german.replace(';', "\t").replace("\n1\t1\t", "\n1,000\t1,000\t");
     assert_eq!(read(&labview).means_ma(), expected.means_ma());
-    assert!(read(&labview).remark.unwrap().ends_with("read with tabs between columns and decimal commas"));
+    assert!(read(&labview).remarks[0].ends_with("read with tabs between columns and decimal commas"));
 }
 
 /// (cycle, number, rows) of the visits to position (1, 1).
@@ -212,8 +212,8 @@ fn other_columns_are_named_and_left_out() {
     let rows: String = lines.map(|line| format!("{line},\"N. N., \"\"day\"\" shift\" , 20.1\n")).collect();
     let found = read(&setup, &format!("{header}{rows}")).unwrap();
     assert_eq!(found.means_ma(), read(&setup, &good).unwrap().means_ma());
-    assert_eq!(found.remark.as_deref(), Some("c.csv: the columns \"operator\", \"temp_c\" are ignored"));
-    assert_eq!(read(&setup, &good).unwrap().remark, None);
+    assert_eq!(found.remarks, ["c.csv: the columns \"operator\", \"temp_c\" are ignored"]);
+    assert_eq!(read(&setup, &good).unwrap().remarks, [""; 0]);
 }
 
 /// Two visits at once, a cycle that visits one position alone, an exclusion that is not there: refused with the numbers.
@@ -248,4 +248,31 @@ fn visits_and_cycles_that_cannot_be() {
     assert_eq!(readings.positions()[1].visits.len(), 2);
     readings.exclude(exclusion(PositionIndex { i: 2, j: 4 }, 1, None)).unwrap();
     assert_eq!(readings.left_out, [PositionIndex { i: 2, j: 4 }]);
+}
+
+/// Expected: eight positions two minutes apart, counted in seconds, in minutes and in milliseconds; over three days between
+/// two turn-ons, which are no moves; hours and days are refused.
+#[test]
+fn times_that_may_be_in_another_unit_are_named() {
+    let setup = paper();
+    let good = good(&setup);
+    let remarks = |step: f64, cycles: u32, between: f64| {
+        let rows = (1..=cycles).flat_map(|cycle| {
+            let start = f64::from(cycle - 1) * between;
+            let each = good.lines().skip(1).enumerate();
+            each.map(move |(row, line)| format!("{line},{cycle},{}\n", start + step * row as f64))
+        });
+        let rows: String =
+            rows.enumerate().map(|(place, row)| row.replacen(",0.", &format!(",0.0{place}"), 1)).collect();
+        read(&setup, &format!("i,j,jx_ma,jy_ma,cycle,time_s\n{rows}")).map(|readings| readings.remarks)
+    };
+    let none = Vec::<String>::new();
+    assert_eq!(remarks(120.0, 1, 0.0), Ok(none.clone()));
+    assert_eq!(remarks(120.0, 2, 259_200.0), Ok(none));
+    let minutes = remarks(2.0, 1, 0.0).unwrap();
+    assert!(minutes[0].contains("7 moves") && minutes[0].contains("14 s, 2.0 s for each"), "{minutes:?}");
+    assert!(minutes[0].contains("in minutes") && minutes[0].ends_with("60 times too large"), "{minutes:?}");
+    let milliseconds = remarks(120_000.0, 1, 0.0).unwrap();
+    assert!(milliseconds[0].contains("in milliseconds") && milliseconds[0].ends_with("1000 times too small"));
+    assert!(remarks(120.0 / 3600.0, 1, 0.0).unwrap_err().contains("seconds"));
 }

@@ -4,10 +4,11 @@ use super::{PositionReadings, Reading, Readings};
 use crate::calibration::recorded::Recorded;
 use crate::coefficients::{Coefficients, PositionIndex};
 use crate::statistics::coincidences::{self, Coincidence};
-use crate::text::Unreadable;
 use crate::text::number::two_digits;
 use crate::text::problem::{MOST_PROBLEMS, Problem};
 use crate::text::table::{Row, Table};
+use crate::text::{Printable, Unreadable};
+use crate::units::SECONDS_PER_HOUR;
 use nalgebra::Vector2;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -68,7 +69,8 @@ impl Readings {
         if !problems.is_empty() {
             return Err(table.refuse(problems));
         }
-        Ok(Self { recorded, remark: table.remark(), ..readings })
+        let doubt = doubtful_times(&rows).map(|doubt| format!("{}: {doubt}", Printable(name)));
+        Ok(Self { recorded, remarks: table.remark().into_iter().chain(doubt).collect(), ..readings })
     }
 }
 
@@ -196,6 +198,36 @@ fn times_in_another_unit(readings: &[Reading]) -> Vec<Problem> {
     }
     let found = format!("time_s: {} visits within {} s", stays.len(), two_digits(span_s));
     vec![Problem::whole(found, "seconds", "convert the times to seconds; dates of a spreadsheet are in days")]
+}
+
+/// Average time of a move to another position below which times may be minutes, and above which they may be milliseconds, s.
+const USUAL_MOVE_S: [f64; 2] = [10.0, 4.0 * SECONDS_PER_HOUR];
+
+/// Returns a remark if the moves to other positions within a turn-on are so fast or so slow that the times may be in another
+/// unit: the currents fit as well with it, but a drift in time has the wrong size.
+fn doubtful_times(readings: &[Reading]) -> Option<String> {
+    let mut cycles: BTreeMap<u32, (f64, f64, BTreeSet<PositionIndex>)> = BTreeMap::new();
+    for reading in readings {
+        let time_s = reading.time_s?;
+        let (least, most, positions) = cycles.entry(reading.cycle).or_insert((time_s, time_s, BTreeSet::new()));
+        (*least, *most) = (least.min(time_s), most.max(time_s));
+        positions.insert(reading.index);
+    }
+    let span_s: f64 = cycles.values().map(|(least, most, _)| most - least).sum();
+    let moves: usize = cycles.values().map(|(_, _, positions)| positions.len() - 1).sum();
+    let each_s = span_s / moves as f64;
+    let (unit, factor) = match USUAL_MOVE_S {
+        // Times that are all the same, or no moves, say nothing.
+        _ if moves == 0 || span_s == 0.0 => return None,
+        [least, _] if each_s < least => ("minutes", "60 times too large"),
+        [_, most] if each_s > most => ("milliseconds", "1000 times too small"),
+        _ => return None,
+    };
+    let (span, each) = (two_digits(span_s), two_digits(each_s));
+    Some(format!(
+        "time_s: {moves} moves to another position within {span} s, {each} s for each; if the times are in {unit}, convert them \
+         to seconds, because a drift in time would be stated {factor}"
+    ))
 }
 
 /// Returns a problem for each cycle that has readings of one position alone: its own ω_0 would take up all of them.
