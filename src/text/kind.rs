@@ -24,6 +24,7 @@ words! {
         PrivateKey = "a private key",
         KeyRevocationList = "a key revocation list of OpenSSH (KRL)",
         Workbook = "a ZIP archive or an Office file",
+        Measurement = "a data file of MATLAB or LabVIEW",
         Pdf = "a PDF file",
         Html = "an HTML page",
     }
@@ -39,10 +40,13 @@ pub(crate) const FORMATS: [(&str, Kind); 7] = [
     ("dtg-revocation/1", Kind::RevocationList),
 ];
 
-/// First bytes of binary files: ZIP (Office Open XML), Compound File (Office 97), PDF, KRL.
-const MAGIC: [(&[u8], Kind); 4] = [
+/// First bytes of binary files: ZIP (Office Open XML), Compound File (Office 97), MATLAB 5 and 7.3 (HDF5), TDMS, PDF, KRL.
+const MAGIC: [(&[u8], Kind); 7] = [
     (b"PK\x03\x04", Kind::Workbook),
     (b"\xD0\xCF\x11\xE0", Kind::Workbook),
+    (b"MATLAB 5.0 MAT-file", Kind::Measurement),
+    (b"\x89HDF\r\n\x1A\n", Kind::Measurement),
+    (b"TDSm", Kind::Measurement),
     (b"%PDF", Kind::Pdf),
     (b"SSHKRL\n\0", Kind::KeyRevocationList),
 ];
@@ -99,6 +103,7 @@ impl Kind {
             Self::Gyro => "give it with --gyro",
             Self::Laboratory => "give it with --laboratory",
             Self::Dcc => "give it with --administrative",
+            Self::Measurement => "export the table as CSV",
             Self::Workbook => "unpack it, or export the table as CSV",
             Self::Html | Self::Pdf => "give the file from which it was made",
             _ => "check the order of the arguments",
@@ -134,6 +139,8 @@ mod tests {
             (b"-----BEGIN OPENSSH PRIVATE KEY-----\nb3", Kind::PrivateKey),
             (b"SSHKRL\n\0\0\0", Kind::KeyRevocationList),
             (b"PK\x03\x04\x14\0", Kind::Workbook),
+            (b"MATLAB 5.0 MAT-file, Platform: PCWIN64", Kind::Measurement),
+            (b"TDSm\x0E\0\0\0", Kind::Measurement),
             (b"{\n  \"passport_id\": \"a\"", Kind::Result),
             (b"<!DOCTYPE html>", Kind::Html),
         ] {
