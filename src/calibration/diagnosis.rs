@@ -118,7 +118,8 @@ impl fmt::Display for Hint {
                 f,
                 "the readings do not fit, and no single position, no exchange or other numbering of positions and no \
                  other azimuth of the frame's axis explains this; the passport may be that of another stand (all \
-                 positions differ by about {}″), or the gyro may have drifted, or the stand may have moved, during the run",
+                 positions differ by about {}″), or the gyro may have drifted, or the stand may have moved, during the run, \
+                 or the uncertainties of the meter in the laboratory file are too small",
                 two_digits(self.size_arcsec)
             ),
             some => {

@@ -103,8 +103,8 @@ texts! {
     MISTAKE_Y_REVERSED { en: "the sign of the y column is reversed", ru: "знак столбца y изменён" }
     MISTAKE_REVERSED { en: "the signs of both columns are reversed", ru: "знаки обоих столбцов изменены" }
     MISTAKE_MICROAMPERES {
-        en: "the currents are in microamperes instead of milliamperes",
-        ru: "токи указаны в микроамперах, а не в миллиамперах"
+        en: "the currents are in microamperes instead of milliamperes, or the expected scale factors are per ampere",
+        ru: "токи указаны в микроамперах, а не в миллиамперах, либо ожидаемые масштабные коэффициенты указаны на 1 А"
     }
     MISTAKE_TOO_LARGE {
         en: "all currents are too large by a factor of {factor}",
@@ -440,10 +440,12 @@ texts! {
     HINT_NOTHING {
         en: "No single position, no exchange or other numbering of positions and no other azimuth of the frame’s axis \
              explains this. The passport may be that of another stand (all positions differ by about {size}″), or the \
-             gyro may have drifted, or the stand may have moved, during the run.",
+             gyro may have drifted, or the stand may have moved, during the run, or the stated uncertainties of the meter are \
+             too small.",
         ru: "Этого не объясняют ни отклонение одного положения, ни перестановка или иная нумерация положений, ни \
              иной азимут оси рамки. Возможные причины: паспорт относится к другому стенду (все положения \
-             отличаются примерно на {size}″), дрейф гироскопа или смещение стенда во время измерений."
+             отличаются примерно на {size}″), дрейф гироскопа или смещение стенда во время измерений, заниженная \
+             неопределённость измерителя тока."
     }
 
     BLIND { en: "Errors that the residuals do not show", ru: "Погрешности, не выявляемые по остаткам" }
