@@ -178,9 +178,9 @@ impl Reporter {
 
     fn end(mut self) -> Result<Code, Failure> {
         self.bar.finish_and_clear();
-        self.told.lines().iter().for_each(|line| output::say(line));
         let text = self.reports.end();
         self.write(&text);
+        self.told.lines().iter().for_each(|line| output::say(line));
         if let Some(failure) = self.unwritten {
             return Err(failure);
         }
