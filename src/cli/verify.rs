@@ -26,7 +26,7 @@ pub(super) struct Options {
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let verifier = options.trust.load()?;
     let mut code = 0;
-    let mut verdicts = Vec::new();
+    let (mut verdicts, mut text) = (Vec::new(), String::new());
     for path in &options.passports {
         let name = name_of(path);
         // One byte above the size limit is enough to show that the file is not a passport; the result is a normal
@@ -35,7 +35,9 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
             Ok(bytes) => {
                 let verification = verifier.verify(&name, &bytes);
                 code = code.max(if verification.valid() { 0 } else { REFUSED });
-                verdicts.push(verdict::Verdict::of(&name, &verification));
+                let verdict = verdict::Verdict::of(&name, &verification);
+                text += &verdict::text(std::slice::from_ref(&verdict));
+                verdicts.push(verdict);
             }
             Err(error) => {
                 let advice = "list its passports with `register`, or give the files";
@@ -45,10 +47,12 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
                 };
                 output::complain(&words);
                 code = code.max(UNUSABLE);
-                verdicts.push(verdict::Verdict::of(&name, &unreadable(&words, &verifier.question)));
+                let refused = verdict::Verdict::of(&name, &unreadable(&words, &verifier.question));
+                text += &verdict::not_read(&refused);
+                verdicts.push(refused);
             }
         }
     }
-    options.format.write(|| &verdicts, || verdict::text(&verdicts))?;
+    options.format.write(|| &verdicts, || text)?;
     Ok(code)
 }

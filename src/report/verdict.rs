@@ -2,6 +2,7 @@
 
 use super::style;
 pub(crate) use crate::interface::Verdict;
+use crate::passport::checks::Code;
 use crate::passport::{Check, CheckName};
 use crate::text::Printable;
 use std::fmt::Write;
@@ -13,9 +14,11 @@ const ON_REQUEST: [CheckName; 4] = [CheckName::Issuer, CheckName::Stand, CheckNa
 pub(crate) fn text(verdicts: &[Verdict]) -> String {
     let mut text = String::new();
     for verdict in verdicts {
-        let answer = answer(verdict.valid);
-        let id = verdict.id.as_deref().unwrap_or("(id not verified)");
-        let _ = writeln!(text, "{answer}  {id}  {}", Printable(&verdict.file));
+        text += &first_line(verdict);
+        if let Some(check) = verdict.checks.iter().find(|check| check.code == Code::Unreadable) {
+            let _ = writeln!(text, "  {}", check.detail);
+            continue;
+        }
         let _ = writeln!(text, "  {}", counts(&verdict.checks));
         for check in &verdict.checks {
             let (passed, word) = match check.passed() {
@@ -30,6 +33,16 @@ pub(crate) fn text(verdicts: &[Verdict]) -> String {
         }
     }
     text
+}
+
+/// Returns the answer for a file that could not be read, if a message has said why.
+pub(crate) fn not_read(verdict: &Verdict) -> String {
+    first_line(verdict) + "  not read; nothing was checked\n"
+}
+
+fn first_line(verdict: &Verdict) -> String {
+    let id = verdict.id.as_deref().unwrap_or("(id not verified)");
+    format!("{}  {id}  {}\n", answer(verdict.valid), Printable(&verdict.file))
 }
 
 /// Returns the answer in a word.
