@@ -5,7 +5,7 @@ use super::exclusion::ExclusionOptions;
 use super::output::Format;
 use super::render::languages;
 use super::trust_options::OptionalTrust;
-use super::{Code, Failure, REFUSED, inputs, output};
+use super::{Code, Failure, REFUSED, defaults, inputs, output};
 use crate::batch::once::Once;
 use crate::batch::{Purpose, paths};
 use crate::certification::comparison::compare;
@@ -54,8 +54,9 @@ pub(super) struct Options {
     /// Replace an existing stand file
     #[arg(long)]
     force: bool,
-    /// Certified stand or passport to compare the readings with; one run is sufficient. A passport requires --trust
-    #[arg(long, value_name = "FILE")]
+    /// Certified stand or passport to compare the readings with; one run is sufficient. A passport requires --trust. In a
+    /// workspace also MODEL/SERIAL, or the identifier of a passport
+    #[arg(long, value_name = "FILE", value_parser = defaults::certified())]
     against: Option<PathBuf>,
     #[command(flatten)]
     trust: OptionalTrust,

@@ -160,6 +160,12 @@ pub(super) fn passport() -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().map(|path| named(path, |workspace, name| workspace.passport(name)))
 }
 
+/// Parser of the path of a stand file or of a passport; in a workspace also what names one of them.
+pub(super) fn certified() -> impl TypedValueParser<Value = PathBuf> {
+    let find = |workspace: &Workspace, name: &str| workspace.stand(name).or_else(|| workspace.passport(name));
+    PathBufValueParser::new().map(move |path| named(path, find))
+}
+
 /// Returns the file that a name means in the workspace, or the name as a path if that exists or the name means none.
 ///
 /// The file need not exist: the message then names the nearest one of the workspace.

@@ -1,6 +1,6 @@
 //! Failure of a verb: the message and an exit code for people, and the same as JSON for programs.
 
-use super::{Code, REFUSED, UNUSABLE, output};
+use super::{Code, REFUSED, UNUSABLE, defaults, output};
 use crate::files::FileError;
 use crate::folder::Folder;
 use crate::interface::{self, Failed, Place};
@@ -36,7 +36,7 @@ impl From<FileError> for Failure {
     fn from(error: FileError) -> Self {
         let is_id = Folder::new("").path_of_id(&error.path().to_string_lossy()).is_some() && error.is_unlike_any();
         let failure = Self::from(Failed::from(error));
-        if is_id { failure.with_advice(IN_A_WORKSPACE) } else { failure }
+        if is_id && defaults::workspace().is_none() { failure.with_advice(IN_A_WORKSPACE) } else { failure }
     }
 }
 
