@@ -279,7 +279,11 @@ impl Run<'_> {
         let Some(workspace) = &self.change.workspace else { return Vec::new() };
         let verification = workspace.verify(name, bytes);
         let of_the_past = |check: &&Check| check.passed() == Some(false) && check.name != CheckName::InForce;
-        verification.checks().iter().filter(of_the_past).map(|check| format!("WARNING: {}", check.detail)).collect()
+        let failed = verification.checks().iter().filter(of_the_past).map(|check| check.detail.clone());
+        let uncertain = || workspace.register.as_ref().and_then(Register::uncertain).map(Alarm::reason);
+        let failed: Vec<String> = failed.collect();
+        let warnings = if failed.is_empty() { Vec::from_iter(uncertain()) } else { failed };
+        warnings.into_iter().map(|words| format!("WARNING: {words}")).collect()
     }
 
     /// Returns the folder for the successor of the passport at `path`.

@@ -9,7 +9,7 @@ use crate::history::{History, Recorded};
 use crate::parallel;
 use crate::passport::Trust;
 use crate::register::{Alarm, AlarmKind, Asked, Concern, Examined, Line, Register, examine};
-use crate::revocation::{RevocationList, Series, claims_to_be_a_list};
+use crate::revocation::{ListRefused, RevocationList, Series, claims_to_be_a_list};
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use jiff::Timestamp;
 use std::collections::BTreeMap;
@@ -154,8 +154,10 @@ pub(crate) fn register_of(
         lists.extend(list);
         alarms.extend(alarm);
     }
-    let trust = withdraw(lists, lists_above(root), trust, asked.question.time, &mut alarms);
-    let register = Register::of(examined, &trust.withdrawn, alarms);
+    let mut later = Vec::new();
+    let trust = withdraw(lists, lists_above(root), trust, asked.question.time, &mut alarms, &mut later);
+    let mut register = Register::of(examined, &trust.withdrawn, alarms);
+    register.later = later;
     Ok((register, trust))
 }
 
@@ -249,13 +251,15 @@ fn concern(root: &Path, path: &Path) -> Concern {
 
 /// Extends the trust by the newest of the lists in the folder, in those above it, and already trusted.
 ///
-/// Refused lists above raise no alarm unless they are damaged, because they are not part of this register.
+/// Refused lists above raise no alarm unless they are damaged, because they are not part of this register; those that will
+/// count later are added to `later`.
 fn withdraw(
     lists: Vec<Claimed>,
     above: Vec<Claimed>,
     mut trust: Trust,
     time: Timestamp,
     alarms: &mut Vec<Alarm>,
+    later: &mut Vec<Alarm>,
 ) -> Trust {
     let verify =
         |(path, bytes): &Claimed| RevocationList::verify(&name_of(path), bytes, &trust.signers, &trust.revoked, time);
@@ -281,6 +285,9 @@ fn withdraw(
         match verify(claimed) {
             Ok(verified) => good.push(verified),
             Err(error) if error.is_damage() => alarms.push(Alarm::refused_list(&error, &name_of(&claimed.0))),
+            Err(error @ ListRefused::FromTheFuture { .. }) => {
+                later.push(Alarm::refused_list(&error, &name_of(&claimed.0)));
+            }
             Err(_) => {}
         }
     }

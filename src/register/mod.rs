@@ -87,6 +87,10 @@ pub struct Register {
     /// Alarms that make the state of passports unknown.
     #[serde(skip)]
     doubts: Vec<Alarm>,
+    /// Alarms of lists above the folder that were issued after the time of verification: they concern who issues passports
+    /// now, but not the register as of that time.
+    #[serde(skip)]
+    pub(crate) later: Vec<Alarm>,
     #[serde(skip)]
     successors: Successors,
     #[serde(skip)]
@@ -278,6 +282,7 @@ impl Register {
             passports: Vec::new(),
             doubts: alarms.iter().filter(|alarm| alarm.concern.is_some()).cloned().collect(),
             alarms,
+            later: Vec::new(),
             files: files.len(),
             successors,
             originals: originals(&files),
@@ -366,7 +371,7 @@ impl Register {
     /// Returns the alarm that makes it uncertain which passports were withdrawn, or `None` if there is none.
     pub(crate) fn uncertain(&self) -> Option<&Alarm> {
         let uncertain = |alarm: &&Alarm| alarm.kind == AlarmKind::Revocation || alarm.concerns("");
-        self.alarms.iter().find(uncertain)
+        self.alarms.iter().chain(&self.later).find(uncertain)
     }
 
     /// Returns the objections to issuing from the certificate `number` of a stand: that it was replaced, or that the

@@ -109,7 +109,10 @@ pub enum ListRefused {
         why: String,
     },
     /// The list was issued later than the time of verification.
-    #[error("{}: issued at {issued_at}, which is later than {now}; check the clock", Printable(name))]
+    #[error(
+        "{}: issued at {issued_at}, later than the time of verification, {now}; check the clock, and --time if it is given",
+        Printable(name)
+    )]
     FromTheFuture {
         /// File name.
         name: String,

@@ -209,6 +209,30 @@ fn an_expired_passport_is_recertified() {
     assert!(again["passports"].as_array().unwrap().iter().all(|at| at["state"] == "unchanged"), "{again}");
 }
 
+/// Expected: nothing is issued as of a time before a list of withdrawn passports, which is above the stand's folder: what is
+/// issued now would have a predecessor that is withdrawn now.
+#[test]
+fn a_passport_that_was_withdrawn_later_gets_no_successor() {
+    let factory = Factory::new();
+    let trust = "--trust allowed_signers";
+    factory.good(&format!("revoke SPS-2/0017/here/1 --reason pier --list passports {trust} {SIGN}"));
+    let before = factory.passports();
+    let at = "--time 2026-11-03T00:00:01Z --issued-at 2026-11-03T00:00:02Z";
+    for (order, due) in [
+        (
+            format!("recertify {HERE} new.csv --number C-3 --issued 2026-11-03"),
+            "it is unknown which passports are in force",
+        ),
+        ("reissue passports/SPS-2/0017 --site there.yaml --moved".to_owned(), "the withdrawals are uncertain"),
+    ] {
+        let (code, _, said) = factory.run(&format!("{order} --reason moved {SIGN} {trust} {at}"));
+        assert_eq!((code, factory.passports()), (1, before.clone()), "{said}");
+        // The message may be wrapped.
+        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(said.contains(due) && said.contains("later than the time of verification"), "{said}");
+    }
+}
+
 /// Every refusal leaves all files as they were.
 #[test]
 fn a_refusal_writes_nothing() {

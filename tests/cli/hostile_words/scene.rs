@@ -196,7 +196,7 @@ pub const LINES: &[&str] = &[
     "reissue @passport.yaml --site @here.yaml --stand @stand.yaml --reason =why --key @key --identity =factory --out > --trust @allowed_signers --revoked @key.pub --issued-at =2026-11-05 --time =2026-11-05 --format text",
     "reissue @passport.yaml --reason =why --key @key --identity =factory --out > --trust @allowed_signers --issuer =factory --serial =0017 --at =55.7658,37.6856 --issued-at =2026-11-05 --valid-until =2027-11-03 --time =2026-11-05 --format text",
     "reissue @passport.yaml --reason =why --key @key --identity =factory --out > --trust @allowed_signers --issued-at =2026-11-05 --time =2026-11-05 --format json",
-    "reissue @passports --reason =why --key @key --identity =factory --out > --trust @allowed_signers --issued-at =2026-11-05 --time =2026-11-05 --format csv",
+    "reissue @passports --reason =why --key @key --identity =factory --out > --trust @allowed_signers --issued-at =2026-11-05 --format csv",
     "verify @passport.yaml --trust @allowed_signers --revoked @list.yaml --issuer =factory --serial =0017 --at =55.7658,37.6856 --time =2026-11-04 --register @passports --format text",
     "verify @passport.yaml --trust @allowed_signers --revoked @key.pub --issuer =factory --serial =0017 --time =2026-11-04 --register @passports --format json",
     "show @passport.yaml --trust @allowed_signers --revoked @key.pub --issuer =factory --serial =0017 --at =55.7658,37.6856 --time =2026-11-04 --format text",
