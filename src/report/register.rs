@@ -16,9 +16,13 @@ impl State {
     }
 }
 
-/// Returns a line for each passport, the alarms, and the number of passports in each state.
+/// Returns the number of passports in each state and of alarms, a line for each passport, and last the alarms, which a
+/// terminal then shows however long the list is.
 pub(crate) fn text(register: &Register) -> String {
-    let mut out = String::new();
+    let counts: Vec<String> =
+        register.counts().into_iter().map(|(state, count)| format!("{count} {}", state.words())).collect();
+    let summary = if counts.is_empty() { "no passports".to_owned() } else { counts.join(", ") };
+    let mut out = format!("{summary}; alarms: {}\n", register.alarms.len());
     for line in &register.passports {
         let id = line.id.as_deref().unwrap_or("(id not verified)");
         let state = style::marked(line.state.passed(), &format!("{:<13}", line.state.words()));
@@ -26,12 +30,8 @@ pub(crate) fn text(register: &Register) -> String {
         columns::paragraph(&mut out, "                 ", &printable(&line.why));
     }
     for alarm in &register.alarms {
-        columns::paragraph(&mut out, "", &alarm.to_string());
+        columns::paragraph(&mut out, "", &style::marked(Some(false), &alarm.to_string()));
     }
-    let counts: Vec<String> =
-        register.counts().into_iter().map(|(state, count)| format!("{count} {}", state.words())).collect();
-    let summary = if counts.is_empty() { "no passports".to_owned() } else { counts.join(", ") };
-    let _ = writeln!(out, "{summary}; alarms: {}", register.alarms.len());
     out
 }
 
