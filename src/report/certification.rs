@@ -146,6 +146,11 @@ pub(crate) fn certification(found: &Certification) -> String {
     let _ = writeln!(out);
     columns::table(&mut out, &names, rows);
     components(&mut out, found);
+    if stand.certificate.type_b.iter().flatten().next().is_none() {
+        let words = "Not stated in the header (type_b), and not included in any u: errors that are the same in every run, such as the \
+                     calibration of the instruments.";
+        columns::paragraph(&mut out, "", words);
+    }
     tests(&mut out, found);
     for warning in &found.remarks {
         columns::paragraph(&mut out, "", &columns::powers(&format!("WARNING: {warning}.")));
