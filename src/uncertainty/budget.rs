@@ -19,6 +19,9 @@ use std::collections::BTreeMap;
 /// Coverage probability of expanded uncertainties.
 pub(crate) const COVERAGE: f64 = 0.95;
 
+/// Share of the variance below which a contribution is only rounding, because the input does not act on the parameter.
+const ROUNDING: f64 = 1e-18;
+
 /// Uncertainty budget of one method.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Budget {
@@ -68,7 +71,7 @@ pub struct Contribution {
     pub inputs: usize,
     /// Smallest and largest of their standard uncertainties: rad, a share of the reading, or mA.
     pub standard_uncertainty: [f64; 2],
-    /// Contribution of these inputs to the standard uncertainty of the parameter, in its unit.
+    /// Contribution of these inputs to the standard uncertainty of the parameter, in its unit; 0 if it is only rounding.
     pub contribution: f64,
     /// Share of these inputs in the variance of the parameter.
     pub share: f64,
@@ -144,6 +147,9 @@ fn of_parameter(
         }
     }
     for line in &mut contributions {
+        if line.contribution < ROUNDING * variance {
+            line.contribution = 0.0;
+        }
         line.share = if variance > 0.0 { line.contribution / variance } else { 0.0 };
         line.contribution = line.contribution.sqrt();
     }
