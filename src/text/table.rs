@@ -59,7 +59,7 @@ impl<'a> Table<'a> {
         let text = hand_written_text(name, bytes)?;
         let mut lines = text.lines().enumerate().map(|(index, line)| (index + 1, line)).filter(|(_, line)| {
             let line = line.trim();
-            !line.is_empty() && !line.starts_with('#')
+            !line.is_empty() && !is_comment(line)
         });
         let mut first = lines.next();
         let declared = first.and_then(|(_, line)| declared_separator(line));
@@ -170,6 +170,12 @@ fn kind(problem: &Problem) -> Option<(String, String)> {
     let is_row = problem.field.is_empty() && problem.found.contains(" value");
     let counts = problem.location.is_some() && (is_cell || is_row);
     counts.then(|| (problem.expected.clone(), problem.advice.clone()))
+}
+
+/// Returns `true` for a line that begins with `#`, also in quotes, which spreadsheet programs put around a cell with a comma.
+fn is_comment(line: &str) -> bool {
+    let quoted = line.strip_prefix('"').filter(|rest| !rest.starts_with("#\""));
+    quoted.unwrap_or(line).starts_with('#')
 }
 
 /// Returns the separator that a line `sep=;` of a spreadsheet program declares, or `None` for any other line.
@@ -324,6 +330,10 @@ impl<'a> Header<'a> {
             let found = format!("no column{plural} {}", missing.join(", "));
             let advice = match left_out.is_empty() {
                 true => String::new(),
+                false if cells.len() == 1 && cells[0].text.split(',').filter(|word| is_known(word)).count() > 1 => {
+                    "each row is one quoted cell; import the table again with commas between columns, and save it"
+                        .to_owned()
+                }
                 false if header.split_whitespace().filter(|word| is_known(word)).count() > 1 => {
                     "separate columns by commas, semicolons or tabs, not by spaces".to_owned()
                 }

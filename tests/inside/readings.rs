@@ -6,13 +6,14 @@ use dtg_passport::calibration::{Readings, Setup};
 use dtg_passport::coefficients::PositionIndex;
 
 /// (file, what the message must say).
-const BAD: [(&str, &[&str]); 42] = [
+const BAD: [(&str, &[&str]); 43] = [
     ("", &["empty file"]),
     ("# nothing\n\n", &["only spaces and comments"]),
     ("i;j;jx_ma;jy_ma\n1;1;0,1;0.2\n", &["c.csv:2:9", "decimal commas from line 2 on", "the whole file"]),
     ("i;j;jx_ma;jy_ma\n1,1,0.1,0.2\n", &["c.csv:2:1", "1 value,", "separate columns as in the header"]),
     ("1;1;0,1;0,2\n", &["c.csv:1:1", "numbers instead of the header"]),
     ("Kreisel 12, Stand 17;;;\n", &["c.csv:1:1", "no columns i, j, jx_ma, jy_ma", "put # before the lines"]),
+    ("\"i,j,jx_ma,jy_ma\"\n", &["c.csv:1:1", "each row is one quoted cell"]),
     ("i j jx_ma jy_ma\n", &["c.csv:1:1", "separate columns by commas, semicolons or tabs"]),
     ("i;j;jx_ma;jy_ma\n1;1;−0,1;0,2\n", &["c.csv:2:5", "\"−0,1\""]),
     ("i;j,jx_ma,jy_ma\n", &["c.csv:1:1", "commas and semicolons", "commas between columns"]),
@@ -143,6 +144,8 @@ fn tables_of_spreadsheet_programs_are_read() {
     let expected = read(&setup, &good).unwrap();
     let excel = format!("sep=,\r\n{},,\r\n,,,,\r\n", good.trim_end().replace('\n', ",,\r\n"));
     assert_eq!(read(&setup, &excel).unwrap(), expected);
+    let commented = format!("\"# exported, by hand\",,,\n{good}");
+    assert_eq!(read(&setup, &commented).unwrap(), expected);
     let quoted = good.replacen("i,j,jx_ma", "\"i\",\"j\",\"jx_ma\"", 1);
     assert_eq!(read(&setup, &quoted).unwrap(), expected);
     let german = good.replace(',', ";").replace('.', ",");
