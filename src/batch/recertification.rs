@@ -315,8 +315,12 @@ impl Recertification<'_> {
     fn chosen(&self, found: &Register, old: &Stand, new: &Stand, trust: &Trust) -> Result<Chosen, NotRecertified> {
         let id = old.stand.id();
         if let Some(alarm) = found.uncertain().or_else(|| found.doubt(&id)) {
-            let advice = "get the damaged or missing file again, and list the folder with `register`";
-            return Err(refused(format!("it is unknown which passports are in force: {}; {advice}", alarm.reason())));
+            // Of a list that will count later no file is damaged or missing.
+            let advice = match alarm.concern {
+                Some(_) => "; get the damaged or missing file again, and list the folder with `register`",
+                None => "",
+            };
+            return Err(refused(format!("it is unknown which passports are in force: {}{advice}", alarm.reason())));
         }
         let of_stand = |line: &&Line| line.stand.as_deref() == Some(id.as_str());
         let of_stand = || found.passports.iter().filter(of_stand);

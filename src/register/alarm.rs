@@ -121,7 +121,12 @@ impl Alarm {
 
 impl Display for Alarm {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let files = if self.files.is_empty() { String::new() } else { format!(": {}", first_few(&self.files)) };
+        let files = match self.files.as_slice() {
+            [] => String::new(),
+            // The words of a file that was refused begin with its name.
+            [one] if self.words.starts_with(one.as_str()) => String::new(),
+            files => format!(": {}", first_few(files)),
+        };
         Printable(format_args!("ALARM ({}): {}{files}", self.kind.key(), self.words)).fmt(f)
     }
 }
