@@ -7,11 +7,12 @@
 //! bad.
 
 use super::components::{RunModel, Variance, case_turn, turns_at};
-use super::finding::{Finding, Untested, findings};
+use super::finding::{ChangedSetting, Finding, Untested, findings};
 use super::misread::Misread;
 use super::rotated_runs;
+use super::shared_settings::Setting;
 use super::suspects::OUTLIER;
-use super::{AngleReadings, Certification, Header};
+use super::{AngleReadings, Certification, Header, NominalPosition};
 use crate::calibration::inputs::Turn;
 use crate::calibration::recorded::rounding_of;
 use crate::coefficients::PositionIndex;
@@ -174,10 +175,10 @@ pub fn compare(
     let moved = common.test.is_some_and(|test| test.probability < OUTLIER);
     let same_stand = repeating.len() == places.len() && all.probability >= OUTLIER && !moved;
     let mut findings = findings(all, &positions, &common, again, moved, untested, misplaced);
-    if let Some(other) = findings.iter_mut().find(|found| **found == Finding::AnotherStand)
-        && let Some(correlation) = differences.resemblance(certificate)
-    {
-        *other = Finding::Worn(correlation);
+    if let Some(other) = findings.iter_mut().find(|found| **found == Finding::AnotherStand) {
+        let setting = differences.setting(&header.positions).map(Finding::Setting);
+        let worn = || differences.resemblance(certificate).map(Finding::Worn);
+        *other = setting.or_else(worn).unwrap_or(Finding::AnotherStand);
     }
     if let Some((of_check, probability)) = more {
         let [of_check_arcsec, certified_arcsec] = [of_check, scatter].map(|variance| variance.value.sqrt());
@@ -258,10 +259,8 @@ fn check_same(certificate: &Stand, header: &Header) -> Result<(), NotCompared> {
     if of_certificate != of_readings {
         return Err(NotCompared::OtherStand { certificate: of_certificate, readings: of_readings });
     }
-    let nominal: Vec<super::NominalPosition> = certificate.positions.iter().map(super::NominalPosition::from).collect();
-    let alone = |a: &[super::NominalPosition], b: &[super::NominalPosition]| {
-        a.iter().find(|at| !b.contains(at)).map(|at| at.index())
-    };
+    let nominal: Vec<NominalPosition> = certificate.positions.iter().map(NominalPosition::from).collect();
+    let alone = |a: &[NominalPosition], b: &[NominalPosition]| a.iter().find(|at| !b.contains(at)).map(|at| at.index());
     match alone(&nominal, &header.positions).or_else(|| alone(&header.positions, &nominal)) {
         Some(index) => Err(NotCompared::OtherPositions(index)),
         None => Ok(()),
@@ -329,9 +328,14 @@ impl Differences {
     /// Returns the rotation common to `places` by weighted least squares, the R⁻¹ of the fit, and the residual
     /// chi-square; `None` if these positions do not determine it.
     fn shared(&self, places: &[usize]) -> Option<(DVector<f64>, DMatrix<f64>, f64)> {
+        self.fit(&self.model.design, places)
+    }
+
+    /// Fits the rotations of a `design` to those of `places`, as [`Self::shared`] does.
+    fn fit(&self, design: &DMatrix<f64>, places: &[usize]) -> Option<(DVector<f64>, DMatrix<f64>, f64)> {
         let rows: Vec<usize> = places.iter().flat_map(|place| (3 * place)..(3 * place + 3)).collect();
-        let weighted = DMatrix::from_fn(rows.len(), self.model.design.ncols(), |row, column| {
-            self.model.design[(rows[row], column)] / self.u_arcsec[rows[row]]
+        let weighted = DMatrix::from_fn(rows.len(), design.ncols(), |row, column| {
+            design[(rows[row], column)] / self.u_arcsec[rows[row]]
         });
         let mut right =
             DMatrix::from_fn(rows.len(), 1, |row, _| self.turns_arcsec[rows[row]] / self.u_arcsec[rows[row]]);
@@ -359,6 +363,33 @@ impl Differences {
         let degrees_of_freedom = (3 * places.len()).checked_sub(self.model.design.ncols()).filter(|rest| *rest > 0)?;
         let (_, _, chi_square) = self.shared(places)?;
         Some(self.test(chi_square, degrees_of_freedom))
+    }
+
+    /// Returns the change of one setting that explains all differences: the positions with one value of θ or φ have rotated
+    /// about the axis of that angle.
+    fn setting(&self, positions: &[NominalPosition]) -> Option<ChangedSetting> {
+        let places: Vec<usize> = (0..positions.len()).collect();
+        let columns = self.model.design.ncols();
+        let freedom = (3 * positions.len()).checked_sub(columns + 1).filter(|freedom| *freedom > 0)?;
+        let of_value = |setting: Setting, angle_deg: f64| {
+            let mut design = self.model.design.clone().insert_column(columns, 0.0);
+            for place in places.iter().copied().filter(|place| setting.of(&positions[*place]) == angle_deg) {
+                let axis = setting.axis(&self.model.turns[place]);
+                design.fixed_view_mut::<3, 1>(3 * place, columns).copy_from(&axis);
+            }
+            let (found, _, rest) = self.fit(&design, &places)?;
+            let explains = self.test(rest, freedom).probability >= OUTLIER;
+            explains.then_some((rest, ChangedSetting { setting, angle_deg, turn_arcsec: found[columns] }))
+        };
+        let each = Setting::ALL.into_iter().flat_map(|setting| {
+            let mut values: Vec<f64> = positions.iter().map(|at| setting.of(at)).collect();
+            values.sort_by(f64::total_cmp);
+            values.dedup();
+            // Of two values either may have changed: the smaller is the reference.
+            values.into_iter().skip(1).map(move |angle_deg| (setting, angle_deg))
+        });
+        let found = each.filter_map(|(setting, angle_deg)| of_value(setting, angle_deg));
+        found.min_by(|(one, _), (other, _)| one.total_cmp(other)).map(|(_, changed)| changed)
     }
 
     /// Returns the correlation of the readings with the certified deviations, without the rotations common to all

@@ -5,6 +5,7 @@ use super::comparison::{CommonTurn, ComparedPosition, Test};
 use super::misread::Misread;
 use super::remark;
 use super::rotated_runs::{Pattern, RotatedRuns};
+use super::shared_settings::Setting;
 use super::split_run::SplitRun;
 use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
 use crate::coefficients::PositionIndex;
@@ -18,6 +19,15 @@ const MUCH_MORE: f64 = 2.0;
 /// `report` has the words of other languages.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub(crate) enum Finding {
+    /// Change of a setting, which explains all differences.
+    #[error(
+        "the positions with {symbol} = {}° have rotated by {}″ about the axis of {symbol} relative to the others, and nothing \
+         else has changed; check how this angle is set",
+        .0.angle_deg,
+        remark::turned_by(.0.turn_arcsec),
+        symbol = .0.setting.symbol()
+    )]
+    Setting(ChangedSetting),
     /// Half of the positions or more have changed, to angles that still resemble the certified ones; their correlation.
     #[error(
         "no more than half of the positions agree with each other, but the angles resemble the certificate (correlation \
@@ -104,6 +114,17 @@ pub(crate) enum Finding {
     TooClose,
 }
 
+/// Value of an angle at which the stand stops elsewhere than when it was certified.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ChangedSetting {
+    /// The angle.
+    pub setting: Setting,
+    /// Its nominal value, degrees.
+    pub angle_deg: f64,
+    /// Rotation about its axis relative to the positions with other values, arcsec.
+    pub turn_arcsec: f64,
+}
+
 words! {
     /// Reason why the rotation of the stand as a whole was not tested.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -163,7 +184,8 @@ impl Finding {
     pub(crate) fn is_change(&self) -> bool {
         matches!(
             self,
-            Self::Worn(_)
+            Self::Setting(_)
+                | Self::Worn(_)
                 | Self::AnotherStand
                 | Self::Exchanged(_)
                 | Self::Misread(_)

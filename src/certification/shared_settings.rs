@@ -29,6 +29,20 @@ impl Setting {
     pub(crate) fn symbol(self) -> &'static str {
         if self == Self::Theta { "θ" } else { "φ" }
     }
+
+    /// Returns the nominal value of the angle in a position, degrees.
+    pub(super) fn of(self, at: &NominalPosition) -> f64 {
+        if self == Self::Theta { at.theta_deg } else { at.phi_deg }
+    }
+
+    /// Returns the axis of the angle, along the axes of the case.
+    pub(super) fn axis(self, turn: &Turn) -> Vector3<f64> {
+        match self {
+            // The axis of the frame does not turn with θ: along the base it is x.
+            Self::Theta => turn.attitude.column(0).into_owned(),
+            Self::Phi => Vector3::z(),
+        }
+    }
 }
 
 /// Error of a setting that positions share.
@@ -48,12 +62,7 @@ pub(crate) fn find(header: &Header, components: &Components) -> Vec<SharedSettin
 
 fn of(setting: Setting, header: &Header, components: &Components) -> Option<SharedSetting> {
     let turns = &components.model.turns;
-    let angle = |at: &NominalPosition| if setting == Setting::Theta { at.theta_deg } else { at.phi_deg };
-    let axis = |turn: &Turn| match setting {
-        // The axis of the frame does not turn with θ: along the base it is x.
-        Setting::Theta => turn.attitude.column(0).into_owned(),
-        Setting::Phi => Vector3::z(),
-    };
+    let angle = |at: &NominalPosition| setting.of(at);
     let mut values: Vec<f64> = header.positions.iter().map(angle).collect();
     values.sort_by(f64::total_cmp);
     values.dedup();
@@ -66,7 +75,7 @@ fn of(setting: Setting, header: &Header, components: &Components) -> Option<Shar
     let mut rotations = DMatrix::zeros(3 * turns.len(), values.len());
     for (place, (at, turn)) in header.positions.iter().zip(turns).enumerate() {
         if let Some(column) = values.iter().position(|value| *value == angle(at)) {
-            rotations.fixed_view_mut::<3, 1>(3 * place, column).copy_from(&axis(turn));
+            rotations.fixed_view_mut::<3, 1>(3 * place, column).copy_from(&setting.axis(turn));
         }
     }
     let shared = components.combinations(&rotations)?.shared;

@@ -1,8 +1,9 @@
 //! Check runs against a certificate: the same stand passes, a moved position and a turned stand are told from it.
 
-use crate::inside::simulated_stands::{HEADER, Truth, certified, header};
+use crate::inside::simulated_stands::{HEADER, Truth, certified, header, normal};
 use dtg_passport::certification::comparison::{Comparison, compare};
 use dtg_passport::certification::{AngleReadings, Header, certify};
+use dtg_passport::coefficients::EIGHT_POSITIONS;
 use dtg_passport::stand::{Evidence, Stand};
 use dtg_passport::statistics::random::Stream;
 use nalgebra::Vector3;
@@ -296,6 +297,30 @@ fn a_worn_stand_is_told_from_another() {
     }
     let alike = (0..400).filter(|_| is_worn(0.0, 1000.0, 1)).count();
     assert!(alike <= 12, "{alike}");
+}
+
+/// Expected: all positions with θ = 90° rotated by 60″ about the axis of the frame, x of the base, as by a stop that has moved:
+/// that setting is named with its rotation, within five standard deviations of the mean of eight visits, and nothing else.
+#[test]
+fn a_setting_that_has_changed_is_named() {
+    // Without rotations of whole runs, which all positions of a run would share.
+    let truth = Truth::new([1.0; 3], 0.0, 0.0);
+    let mut stream = Stream::new(74);
+    let stand = certificate(&truth, &mut stream, 5);
+    for runs in [1, 3] {
+        let mut check = truth.measured(&mut stream, runs);
+        for (place, (_, theta, phi)) in EIGHT_POSITIONS.iter().enumerate().filter(|(_, (_, theta, _))| *theta == 90.0) {
+            for reading in &mut check.each_arcsec[place] {
+                *reading = truth.read(place, *theta, *phi, normal(&mut stream, [1.0; 3]), Vector3::new(60.0, 0.0, 0.0));
+            }
+        }
+        let found = against(&stand, &check);
+        assert!(!found.same_stand && found.words.len() == 1, "{:?}", found.words);
+        let words = found.words[0].strip_prefix("the positions with θ = 90° have rotated by +").expect(&found.words[0]);
+        let (turn, rest) = words.split_once('″').unwrap();
+        assert!((turn.parse::<f64>().unwrap() - 60.0).abs() < 5.0, "{turn}");
+        assert!(rest.contains("about the axis of θ"), "{rest}");
+    }
 }
 
 /// A whole file in another unit, with the opposite sign or in other columns: the error is named, and nothing else has changed.

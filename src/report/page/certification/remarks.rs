@@ -3,7 +3,7 @@
 use crate::attitude::ANGLES;
 use crate::calibration::recorded::rounding_of;
 use crate::certification::comparison::ComparedPosition;
-use crate::certification::finding::{Finding, Untested};
+use crate::certification::finding::{ChangedSetting, Finding, Untested};
 use crate::certification::misread::Misread;
 use crate::certification::remark::Remark;
 use crate::certification::rotated_runs::{CommonAxis, Pattern};
@@ -174,6 +174,10 @@ pub(crate) fn finding(finding: &Finding, language: Language) -> String {
             return texts::EXCHANGED.filled(language, values! { one, other });
         }
         Finding::Misread(misread) => return misread_words(misread, language),
+        Finding::Setting(ChangedSetting { setting, angle_deg, turn_arcsec }) => {
+            let (symbol, angle, turn) = (setting.symbol(), *angle_deg, Number::significant(*turn_arcsec, 2));
+            return texts::SETTING_CHANGED.filled(language, values! { symbol, angle, turn });
+        }
         Finding::Worn(correlation) => {
             return texts::WORN.filled(language, values! { r: Number::fixed(*correlation, 2) });
         }

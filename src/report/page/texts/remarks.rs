@@ -160,6 +160,12 @@ texts! {
         ru: "Температура {value} °C вне диапазона, указанного в сертификате: от {low} до {high} °C."
     }
 
+    SETTING_CHANGED {
+        en: "The positions with {symbol} = {angle}° have rotated by {turn}″ about the axis of {symbol} relative to the others; \
+             nothing else has changed.",
+        ru: "Положения с {symbol} = {angle}° повернулись на {turn}″ вокруг оси угла {symbol} относительно остальных; других \
+             изменений нет."
+    }
     WORN {
         en: "No more than half of the positions agree with each other, but the angles resemble the certificate (correlation {r}): \
              the stand has changed in most positions.",
