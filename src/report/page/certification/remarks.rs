@@ -175,7 +175,8 @@ pub(crate) fn finding(finding: &Finding, language: Language) -> String {
         }
         Finding::Misread(misread) => return misread_words(misread, language),
         Finding::Setting(ChangedSetting { setting, angle_deg, turn_arcsec }) => {
-            let (symbol, angle, turn) = (setting.symbol(), *angle_deg, Number::significant(*turn_arcsec, 2));
+            let (symbol, angle) = (setting.symbol(), Number::exact(*angle_deg));
+            let turn = Number::whole_or_two_digits(*turn_arcsec);
             return texts::SETTING_CHANGED.filled(language, values! { symbol, angle, turn });
         }
         Finding::Worn(correlation) => {
