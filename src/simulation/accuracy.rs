@@ -135,6 +135,8 @@ pub fn accuracy(options: &AccuracyOptions, run: &Run) -> Accuracy {
     };
     let earth = &options.earth;
     let latitude_deg = degrees_from_radians(libm::atan2(earth.vertical_deg_per_h, earth.horizontal_deg_per_h));
+    // The components are rounded, so the last digits are not those of the latitude.
+    let latitude_deg = (1e9 * latitude_deg).round() / 1e9;
     Accuracy { trials, seed: run.seed, limit_deg, latitude_deg, rows }
 }
 
