@@ -1,69 +1,65 @@
 //! Tables of simulations, with the paper's figures next to ours.
 
-use super::columns;
-use crate::simulation::accuracy::Accuracy;
+use super::style::Outcome;
+use super::{columns, style};
+use crate::simulation::accuracy::{Accuracy, PAPER_LATITUDE_DEG};
 use crate::simulation::convergence::{Convergence, ConvergenceRow};
 use crate::statistics::summary::upper_limit_without_a_case;
 use crate::units::printed;
-use std::fmt::Write;
 
-/// Returns the paper's table: worst error and standard deviation of every parameter by every method.
+/// Returns the paper's table: worst error and standard deviation of every parameter by every method, and whether the worst
+/// error is within the paper's bound.
 pub(crate) fn accuracy(found: &Accuracy) -> String {
-    let mut out = String::new();
     let stands = match found.limit_deg {
         Some(limit) => format!("all deviations uniform within {limit}°"),
         None => "the specified stand".to_owned(),
     };
     let (trials, seed, latitude) = (found.trials, found.seed, found.latitude_deg);
-    let _ = writeln!(out, "{trials} trials, seed {seed}, {stands}, latitude {latitude:.4}°");
-    let _ = writeln!(
-        out,
-        "  {:<13}  {:<9}  {:>10}  {:>10}  {:>9}  unit",
-        "method", "parameter", "worst", "std. dev.", "paper"
-    );
-    for row in &found.rows {
-        let or_dash = |value: f64, decimals: usize| match value.is_nan() {
+    let mut out = format!("{trials} trials, seed {seed}, {stands}, latitude {latitude:.4}°\n");
+    let rows = found.rows.iter().map(|row| {
+        // NaN if no trial gave a result.
+        let three_digits = |value: f64| match value.is_nan() {
             true => "-".to_owned(),
-            false => format!("{value:.decimals$}"),
+            false => format!("{value:.*}", columns::decimals(value) + 1),
         };
-        let paper = row.paper_bound.map_or_else(|| "-".to_owned(), |bound| format!("< {bound}"));
-        let _ = writeln!(
-            out,
-            "  {:<13}  {:<9}  {:>10}  {:>10}  {paper:>9}  {}",
-            row.method,
-            row.parameter.symbol(),
-            or_dash(row.worst, 5),
-            or_dash(row.standard_deviation, 6),
-            printed(row.unit)
-        );
-        if row.not_solved > 0 {
-            let _ = writeln!(out, "                 {} trials gave no result", row.not_solved);
-        }
-    }
+        let judged = row.paper_bound.map(|bound| match row.worst < bound {
+            true => style::marked(Outcome::Passed, "within"),
+            false => style::marked(Outcome::Failed, "BEYOND"),
+        });
+        let without = (row.not_solved > 0).then(|| format!("{} trials gave no result", row.not_solved));
+        vec![
+            row.method.to_string(),
+            row.parameter.symbol().to_owned(),
+            printed(row.unit),
+            three_digits(row.worst),
+            three_digits(row.standard_deviation),
+            row.paper_bound.map_or_else(|| "-".to_owned(), |bound| bound.to_string()),
+            judged.into_iter().chain(without).collect::<Vec<_>>().join("; "),
+        ]
+    });
+    columns::table(&mut out, &["method", "parameter", "unit", "worst", "std. dev.", "paper's bound", ""], rows);
     out
 }
 
 /// Returns the paper's Fig. 4 as numbers.
 pub(crate) fn convergence(found: &Convergence) -> String {
-    let mut out = String::new();
-    let _ = writeln!(out, "Steps of the iterative method, {} stands at each limit, seed {}", found.trials, found.seed);
-    let names = ["limit, °", "angles", "mean", "95th perc.", "most", "not converged, %"];
-    let [limit, angles, mean, percentile, most, not] = names;
-    let _ = writeln!(out, "  {limit:>10}  {angles:<8}  {mean:>7}  {percentile:>10}  {most:>5}  {not:>16}");
-    for row in &found.rows {
+    let (trials, seed) = (found.trials, found.seed);
+    let mut out = format!(
+        "Steps of the iterative method, {trials} stands at each limit, seed {seed}, latitude {PAPER_LATITUDE_DEG:.4}°\n"
+    );
+    let rows = found.rows.iter().map(|row| {
         let or_dash = |value: Option<String>| value.unwrap_or_else(|| "-".to_owned());
-        let fewer = if row.stands < found.trials { format!("  ({} stands)", row.stands) } else { String::new() };
-        let _ = writeln!(
-            out,
-            "  {:>10}  {:<8}  {:>7}  {:>10}  {:>5}  {:>16}{fewer}",
-            row.limit_deg,
-            row.deviations,
+        vec![
+            row.limit_deg.to_string(),
+            row.deviations.to_owned(),
             or_dash(row.mean.map(|mean| format!("{mean:.2}"))),
             or_dash(row.percentile_95.map(|steps| steps.to_string())),
             or_dash(row.most.map(|steps| steps.to_string())),
             not_converged(row),
-        );
-    }
+            if row.stands < found.trials { format!("{} stands", row.stands) } else { String::new() },
+        ]
+    });
+    columns::table(&mut out, &["limit, °", "angles", "mean", "95th perc.", "most", "not converged, %", ""], rows);
     out.push_str("  ±: standard uncertainty; < and >: limit at 95 %, where all stands converged or none did\n");
     out
 }

@@ -79,7 +79,7 @@ impl<'a> Table<'a> {
         for (line, text) in lines {
             match cells(line, text, separator).map(|cells| without_trailing(cells, header.names.len())) {
                 Ok(cells) if cells.iter().all(|cell| cell.text.is_empty()) => {}
-                Ok(cells) if cells.len() == header.names.len() => {
+                Ok(cells) if header.fits(text, separator, cells.len()) => {
                     rows.push(header.order.iter().map(|&place| cells[place].clone()).collect());
                 }
                 Ok(cells) => problems.push(header.wrong_number_of_cells((line, text), separator, cells.len())),
@@ -352,6 +352,18 @@ impl<'a> Header<'a> {
         Ok(Self { columns, order, left_out, names: cells.into_iter().map(|cell| cell.text).collect() })
     }
 
+    /// Returns `true` if a row with this number of cells has those of all columns that are used. Spreadsheet programs omit
+    /// separators at the end of a row, so cells of other columns may be missing there.
+    fn fits(&self, row: &str, separator: char, found: usize) -> bool {
+        let is_short = found < self.names.len();
+        found <= self.names.len() && self.has_used(found) && !(is_short && separator == ',' && has_decimal_commas(row))
+    }
+
+    /// Returns `true` if the first `found` cells are those of all columns that are used.
+    fn has_used(&self, found: usize) -> bool {
+        self.order.iter().all(|place| *place < found)
+    }
+
     /// Creates the report of a row that has another number of cells than the header.
     fn wrong_number_of_cells(&self, (line, text): (usize, &str), separator: char, found: usize) -> Problem {
         let names = &self.names;
@@ -360,12 +372,10 @@ impl<'a> Header<'a> {
             "separate columns by commas, and use decimal points"
         } else if !text.contains(separator) && has_other {
             "separate columns as in the header"
-        } else if found > names.len() && separator == ',' && has_decimal_commas(text) {
+        } else if self.has_used(found) && separator == ',' && has_decimal_commas(text) {
             "use decimal points; a decimal comma splits a number in two"
         } else if found > names.len() {
             "name each column in the header, or delete what goes beyond it"
-        } else if (found..names.len()).all(|place| !self.order.contains(&place)) {
-            "leave the cell of a remark that is missing empty"
         } else {
             "add the values that are missing; if the reading was not taken, omit the whole row"
         };
@@ -444,6 +454,19 @@ mod tests {
         }
     }
 
+    /// Expected: as Excel writes the rows whose last cells are empty; what may be a decimal comma is refused.
+    #[test]
+    fn cells_of_other_columns_may_be_missing_at_the_end() {
+        let table = |rows: &str| {
+            let text = format!("i,j,jx_ma,remark,by\n{rows}");
+            let table = Table::parse("f", text.as_bytes(), &["i", "j", "jx_ma"], &[]);
+            table.map(|table| table.rows.len()).map_err(|error| error.problems()[0].advice.clone())
+        };
+        assert_eq!(table("1,1,0.5,ok,me\n1,2,0.6,ok\n1,3,0.7\n"), Ok(3));
+        let advice = "use decimal points; a decimal comma splits a number in two";
+        assert_eq!(table("1,1,0,25\n"), Err(advice.to_owned()));
+    }
+
     #[test]
     fn the_advice_on_a_row_fits_its_number_of_cells() {
         const INCOMPLETE: &str = "add the values that are missing; if the reading was not taken, omit the whole row";
@@ -452,7 +475,6 @@ mod tests {
         let header = Header { columns: vec!["i", "j", "jx_ma"], order: vec![0, 1, 2], left_out: Vec::new(), names };
         for (separator, text, due) in [
             (',', "1,2", INCOMPLETE),
-            (',', "1,2,0.1", "leave the cell of a remark that is missing empty"),
             (',', "1,2,0,1,x", "use decimal points; a decimal comma splits a number in two"),
             (',', "1,2,0.1,0,25,x", "use decimal points; a decimal comma splits a number in two"),
             (',', "1,2,0.1,x,y", TOO_MANY),
