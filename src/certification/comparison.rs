@@ -58,6 +58,21 @@ pub struct Test {
     /// Probability of a larger value for an unchanged stand, by the F distribution, because the uncertainties have
     /// finite degrees of freedom themselves.
     pub probability: f64,
+    /// Degrees of freedom of the uncertainties.
+    #[serde(skip)]
+    pub(crate) of_u: f64,
+}
+
+impl Test {
+    fn new(chi_square: f64, degrees_of_freedom: usize, of_u: f64) -> Self {
+        let probability = f_larger(chi_square / degrees_of_freedom as f64, degrees_of_freedom, of_u);
+        Self { chi_square, degrees_of_freedom, probability, of_u }
+    }
+
+    /// Returns the statistic to which the probability belongs.
+    pub(crate) fn f(&self) -> f64 {
+        self.chi_square / self.degrees_of_freedom as f64
+    }
 }
 
 /// Result of a comparison for one position.
@@ -412,12 +427,7 @@ impl Differences {
     }
 
     fn test(&self, chi_square: f64, degrees_of_freedom: usize) -> Test {
-        let ratio = chi_square / degrees_of_freedom as f64;
-        Test {
-            chi_square,
-            degrees_of_freedom,
-            probability: f_larger(ratio, degrees_of_freedom, self.degrees_of_freedom),
-        }
+        Test::new(chi_square, degrees_of_freedom, self.degrees_of_freedom)
     }
 
     /// Returns the rotation of a position relative to that of the `others` (without itself), its standard
@@ -485,9 +495,7 @@ impl Differences {
             covariance[(at, at)] += if at < 3 { platform } else { base };
         }
         let chi_square = shared.dot(&covariance.cholesky()?.solve(shared));
-        let freedom = between.degrees_of_freedom.min(self.degrees_of_freedom);
-        let probability = f_larger(chi_square / shared.len() as f64, shared.len(), freedom);
-        Some(Test { chi_square, degrees_of_freedom: shared.len(), probability })
+        Some(Test::new(chi_square, shared.len(), between.degrees_of_freedom.min(self.degrees_of_freedom)))
     }
 }
 

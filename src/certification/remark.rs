@@ -145,18 +145,23 @@ impl Remark {
 
 /// Returns rotations about three axes as words have them, whole or the largest with two significant digits.
 pub(crate) fn turns(of: [f64; 3]) -> String {
-    let decimals = decimals(of.iter().fold(0.0, |largest, turn| turn.abs().max(largest)));
+    let decimals = decimals_of_angle(of.iter().fold(0.0, |largest, turn| turn.abs().max(largest)));
     of.map(|turn| format!("{}″", signed(turn, decimals))).join(", ")
 }
 
 /// Returns an angle with its sign, whole or with two significant digits.
 pub(super) fn turned_by(arcsec: f64) -> String {
-    signed(arcsec, decimals(arcsec.abs()))
+    signed(arcsec, decimals_of_angle(arcsec))
 }
 
 /// Returns a standard deviation or the size of an angle, whole or with two significant digits.
 fn size(arcsec: f64) -> String {
-    format!("{arcsec:.*}", decimals(arcsec))
+    format!("{arcsec:.*}", decimals_of_angle(arcsec))
+}
+
+/// Returns the decimals of an angle with two significant digits, at most hundredths of an arcsecond.
+pub(crate) fn decimals_of_angle(arcsec: f64) -> usize {
+    if arcsec == 0.0 { 0 } else { decimals(arcsec.abs()).min(2) }
 }
 
 fn line_of(out: &Outlier) -> String {

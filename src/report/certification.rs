@@ -160,10 +160,10 @@ pub(crate) fn certification(found: &Certification) -> String {
 
 fn components(out: &mut String, found: &Certification) {
     let components = &found.components;
-    let own = components.own_arcsec2.map(|variance| format!("{:.2}", variance.value.sqrt()));
+    let own = components.own_arcsec2.map(|variance| columns::two_digits(variance.value.sqrt()));
     let words = format!(
-        "Repeatability of one visit: {:.2}″ per axis ({} degrees of freedom); about x, y, z: {}",
-        components.pooled_arcsec2.value.sqrt(),
+        "Repeatability of one visit: {}″ per axis ({} degrees of freedom); about x, y, z: {}",
+        columns::two_digits(components.pooled_arcsec2.value.sqrt()),
         columns::degrees_of_freedom(components.pooled_arcsec2.degrees_of_freedom),
         own.join(", ")
     );
@@ -180,13 +180,13 @@ fn components(out: &mut String, found: &Certification) {
         let type_b = certificate.type_b_arcsec2(on);
         let seen = common.between_runs_arcsec2.sqrt();
         let certified = certified.filter(|_| type_b > 0.0).map_or_else(String::new, |certified| {
-            format!("; {certified:.2}″ with its type B uncertainty, as certified")
+            format!("; {}″ with its type B uncertainty, as certified", columns::two_digits(certified))
         });
         let words = format!(
-            "Common part of the {what}: {seen:.2}″ per axis from run to run (at most {:.2}″ at 95 %), {:.2}″ in \
-             the mean{certified}",
-            common.upper_limit_arcsec2.sqrt(),
-            seen / root
+            "Common part of the {what}: {}″ per axis from run to run (at most {}″ at 95 %), {}″ in the mean{certified}",
+            columns::two_digits(seen),
+            columns::two_digits(common.upper_limit_arcsec2.sqrt()),
+            columns::two_digits(seen / root)
         );
         columns::paragraph(out, "", &words);
     }
@@ -266,9 +266,10 @@ pub(crate) fn comparison(found: &Comparison) -> String {
     }
     let line = |test: &Test| {
         format!(
-            "chi-square {} with {} degrees of freedom, probability {}",
-            columns::chi_square(test.chi_square),
+            "F = {} with {} and {} degrees of freedom, probability {}",
+            columns::chi_square(test.f()),
             test.degrees_of_freedom,
+            if test.of_u.is_finite() { columns::degrees_of_freedom(test.of_u) } else { "∞".to_owned() },
             columns::probability(test.probability)
         )
     };
@@ -276,7 +277,7 @@ pub(crate) fn comparison(found: &Comparison) -> String {
     columns::paragraph(
         &mut out,
         "",
-        &format!("Positions relative to each other (p: probability): {}", line(&found.all)),
+        &format!("Positions relative to each other (p: probability of a larger F): {}", line(&found.all)),
     );
     let rows = found.positions.iter().map(|at| {
         let mut row = vec![at.index.i.to_string(), at.index.j.to_string()];
@@ -284,13 +285,13 @@ pub(crate) fn comparison(found: &Comparison) -> String {
             let digits = columns::decimals(*u);
             row.extend([columns::signed(*turn, digits), format!("{u:.digits$}")]);
         }
-        row.push(columns::chi_square(at.test.chi_square));
+        row.push(columns::chi_square(at.test.f()));
         row.push(columns::probability(at.test.probability));
         let outcome = outcome_of(found, at.repeats);
         row.push(style::marked(outcome, word(outcome)));
         row
     });
-    let names = ["i", "j", "x, ″", "u", "y, ″", "u", "z, ″", "u", "chi-square", "p", ""];
+    let names = ["i", "j", "x, ″", "u", "y, ″", "u", "z, ″", "u", "F", "p", ""];
     columns::table(&mut out, &names, rows);
     let positions = found.positions.len();
     let words = format!(

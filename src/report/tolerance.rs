@@ -135,7 +135,7 @@ pub(super) fn from_gravity(verdict: &Verdict, u_m_per_s2: f64) -> Option<String>
     let parts: Vec<String> = parts.collect();
     let u = quantity(&columns::two_digits(u_m_per_s2), "m/s²");
     let words = || texts::FROM_GRAVITY.filled(Language::English, values! { parts: parts.join(", "), u });
-    (!parts.is_empty()).then(words)
+    (!parts.is_empty() && !verdict.withheld).then(words)
 }
 
 #[cfg(test)]

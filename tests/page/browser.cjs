@@ -84,7 +84,7 @@ function said() {
     sections: all("h2 .number").map(text),
     headings: all("h1, h2, h3, caption").map((heading) => heading.textContent),
     blocks: all("p, dt, dd, th, td, caption, h1, h2, h3, li")
-      .filter((block) => !block.closest(".unseen, .save, .screen, svg, tfoot") && !block.querySelector("sub, sup, p, .pad, .unseen, svg text"))
+      .filter((block) => !block.closest(".unseen, .save, .screen, svg, tfoot") && !block.querySelector("sub, sup, p, .pad, .unseen, .save, svg text"))
       .map(printed),
     annex: document.querySelector("pre").textContent,
     download: { name: link.download, address: link.href },

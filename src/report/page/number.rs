@@ -72,7 +72,7 @@ impl Number {
 
     /// Creates a whole number from 10 upwards, and one with two significant digits below.
     pub(crate) fn whole_or_two_digits(value: f64) -> Self {
-        if value.abs() < 10.0 { Self::significant(value, 2) } else { Self::fixed(value, 0) }
+        if value < 10.0 { Self::significant(value, 2) } else { Self::fixed(value, 0) }
     }
 
     /// Creates a number with `digits` significant digits, and a power of ten if it would otherwise have many zeros.

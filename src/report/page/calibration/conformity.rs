@@ -200,7 +200,7 @@ pub(super) fn with_gravity(languages: &Languages, caption: Text, gravity_m_per_s
 /// Writes the expanded uncertainty that the local g adds to the drifts converted to the type's g, where it is most of it.
 fn from_gravity(page: &CalibrationPage, verdict: &Verdict, languages: &Languages) -> Markup {
     let rows: Vec<_> = verdict.parameters.iter().filter(|row| row.is_mostly_from_gravity()).collect();
-    if rows.is_empty() {
+    if rows.is_empty() || verdict.withheld {
         return html! {};
     }
     let u = Number::uncertainty(page.document.gravity_u_m_per_s2.unwrap_or(0.0));

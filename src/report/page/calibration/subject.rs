@@ -7,7 +7,7 @@ use crate::laboratory::Laboratory;
 use crate::report::page::language::{Languages, values};
 use crate::report::page::number::Number;
 use crate::report::page::parts::{
-    self, date, date_text, field, fields, file_name, given, heading, not_stated, outcome_box, quantity, time,
+    self, blank, date, date_text, field, fields, file_name, given, heading, not_stated, outcome_box, quantity, time,
     wide_field,
 };
 use crate::report::page::passport::{accuracy, characteristics, checks};
@@ -28,7 +28,10 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
 /// Writes which gyro was calibrated, by whom and when, on which stand, and on whose word.
 pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
     let content = page.content();
-    let or_not = |value: Option<Markup>| value.unwrap_or_else(|| not_stated(languages));
+    // A pen completes it on paper.
+    let or_not = |value: Option<Markup>| {
+        value.unwrap_or_else(|| html! { span.save { (not_stated(languages)) } span.pen { (blank(languages)) } })
+    };
     let laboratory = page.laboratory.and_then(|laboratory| laboratory.name.as_deref()).map(given);
     // The title names the serial number if it was stated.
     let no_serial = |language| format!("{}: {}", texts::SERIAL.words(language), texts::NO_SERIAL.words(language));

@@ -80,10 +80,11 @@ fn compared(comparison: &Comparison, changes: &[NumberDifference], languages: &L
     }
 }
 
-/// Writes chi-square with its degrees of freedom and its probability.
+/// Writes F with its degrees of freedom and its probability.
 fn test(test: &Test, languages: &Languages) -> Markup {
     html! {
-        (Number::chi_square(test.chi_square).markup(languages)) " (" (test.degrees_of_freedom) "), "
+        (Number::chi_square(test.f()).markup(languages)) " (" (test.degrees_of_freedom) "; "
+        @if test.of_u.is_finite() { (Number::at_most(test.of_u, 1).markup(languages)) } @else { "∞" } "), "
         (symbol("p", "")) " " (Number::scientific(test.probability, 2).markup(languages))
     }
 }

@@ -5,7 +5,7 @@ use crate::calibration::recorded::rounding_of;
 use crate::certification::comparison::ComparedPosition;
 use crate::certification::finding::{ChangedSetting, Finding, Untested};
 use crate::certification::misread::Misread;
-use crate::certification::remark::Remark;
+use crate::certification::remark::{Remark, decimals_of_angle};
 use crate::certification::rotated_runs::{CommonAxis, Pattern};
 use crate::certification::split_run::SplitRun;
 use crate::certification::suspects::{AXES, OUTLIER};
@@ -15,14 +15,12 @@ use crate::report::page::parts::date_text;
 use crate::report::page::texts::{remarks as texts, words as compass};
 use crate::report::picture::history::LETTERS;
 use crate::stand::remarks::Odd;
-use crate::text::number::decimals;
 use jiff::civil::Date;
 
 /// Returns a remark as a sentence.
 pub(crate) fn words(remark: &Remark, language: Language) -> String {
     let fill = |text: Text, values: Values| text.filled(language, values);
     let (fixed, exact) = (Number::fixed, Number::exact);
-    let two_digits = Number::whole_or_two_digits;
     let probability = |p: f64| Number::scientific(p, 2);
     let day = |date: Date| date_text(language, date);
     // A suspect value: how suspect, and its probability.
@@ -43,12 +41,12 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
                 Some(line) => (texts::OUTLIER_IN_LINE, line),
                 None => (texts::OUTLIER_READING, 0),
             };
-            let (residual, axis) = (two_digits(out.residual_arcsec), AXES[out.axis]);
+            let (residual, axis) = (arcsec(out.residual_arcsec), AXES[out.axis]);
             let values = values! { index: out.index, run: out.run, residual, axis, line };
             suspect(text, out.probability, values)
         }
         Remark::RotatedRuns(at) => {
-            let ([x, y, z], mean) = (together(at.turns_arcsec), two_digits(at.largest_effect_arcsec()));
+            let ([x, y, z], mean) = (together(at.turns_arcsec), arcsec(at.largest_effect_arcsec()));
             let (text, run, after) = match at.pattern {
                 Pattern::One(run) => (texts::BUMPED_RUN, run, 0),
                 Pattern::Move(before, after) => (texts::MOVED, before, after),
@@ -63,11 +61,11 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
         Remark::AxesDiffer(p) => fill(texts::AXES_DIFFER, values! { p: probability(*p) }),
         Remark::RunAxesDiffer(at) => {
             let text = if at.axis.is_of_the_base() { texts::BASE_AXES_DIFFER } else { texts::PLATFORM_AXES_DIFFER };
-            let [own, others, missing] = [at.deviation_arcsec, at.others_arcsec, at.missing_arcsec].map(two_digits);
+            let [own, others, missing] = [at.deviation_arcsec, at.others_arcsec, at.missing_arcsec].map(arcsec);
             fill(text, values! { axis: axis_name(at.axis), own, others, p: probability(at.probability), missing })
         }
         Remark::SharedSetting(at) => {
-            let (angle, u) = (at.setting.symbol(), two_digits(at.deviation_arcsec));
+            let (angle, u) = (at.setting.symbol(), arcsec(at.deviation_arcsec));
             fill(texts::SHARED_SETTING, values! { angle, u, p: probability(at.probability) })
         }
         Remark::FewRuns { runs, degrees_of_freedom: freedom } => {
@@ -77,7 +75,7 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
         Remark::BaseAxes(0) => fill(texts::BASE_NOT_SEEN, &[]),
         Remark::BaseAxes(axes) => fill(texts::BASE_IN_PART, values! { axes }),
         Remark::Rounding { angles, of, step_arcsec } => {
-            let (step, u) = (exact(*step_arcsec), two_digits(rounding_of(*step_arcsec)));
+            let (step, u) = (exact(*step_arcsec), arcsec(rounding_of(*step_arcsec)));
             fill(texts::ROUNDING, values! { angles, all: of, step, u })
         }
         Remark::SmallAngles(largest) => fill(texts::SMALL_ANGLES, values! { largest: fixed(*largest, 2) }),
@@ -130,9 +128,14 @@ fn misread_words(misread: &Misread, language: Language) -> String {
     }
 }
 
+/// Returns an angle in arcseconds, whole or with two significant digits.
+fn arcsec(angle: f64) -> Number {
+    Number::fixed(angle, decimals_of_angle(angle))
+}
+
 /// Returns rotations about three axes to one place, the second digit of the largest if it is below 10.
 fn together(turns: [f64; 3]) -> [Number; 3] {
-    let decimals = decimals(turns.iter().fold(0.0, |largest, turn| turn.abs().max(largest)));
+    let decimals = decimals_of_angle(turns.iter().fold(0.0, |largest, turn| turn.abs().max(largest)));
     turns.map(|turn| Number::fixed(turn, decimals))
 }
 
@@ -166,7 +169,7 @@ pub(crate) fn finding(finding: &Finding, language: Language) -> String {
         }
         Finding::SplitRun(at) => return split_words(texts::CHECK_SPLIT, at, language),
         Finding::Outlier(out, mean) => {
-            let [residual, mean] = [out.residual_arcsec, *mean].map(Number::whole_or_two_digits);
+            let [residual, mean] = [out.residual_arcsec, *mean].map(arcsec);
             let (index, run, axis) = (&out.index, &out.run, AXES[out.axis]);
             return texts::CHECK_OUTLIER.filled(language, values! { index, run, residual, axis, mean });
         }
@@ -176,7 +179,7 @@ pub(crate) fn finding(finding: &Finding, language: Language) -> String {
         Finding::Misread(misread) => return misread_words(misread, language),
         Finding::Setting(ChangedSetting { setting, angle_deg, turn_arcsec }) => {
             let (symbol, angle) = (setting.symbol(), Number::exact(*angle_deg));
-            let turn = Number::whole_or_two_digits(*turn_arcsec);
+            let turn = arcsec(*turn_arcsec);
             return texts::SETTING_CHANGED.filled(language, values! { symbol, angle, turn });
         }
         Finding::Worn(correlation) => {

@@ -8,7 +8,7 @@ use crate::passport::accuracy::Accuracy;
 use crate::passport::annotations::{Absence, absent};
 use crate::report::page::language::{Languages, Text};
 use crate::report::page::number::{Cell, Number};
-use crate::report::page::parts::{fields, figure, given, heading, quantity, stated, symbol, wide_stated};
+use crate::report::page::parts::{fields, figure, given, heading, listed, quantity, stated, symbol, wide_stated};
 use crate::report::page::texts::{absences, passport as texts, units};
 use crate::report::picture::accuracy::accuracy as picture;
 use crate::site::{LATITUDE_MARGIN_ARCSEC, UNKNOWN_DEFLECTION_U_ARCSEC};
@@ -57,22 +57,21 @@ fn stated_for(accuracy: &Accuracy, languages: &Languages) -> Markup {
 /// Writes one sentence about the current meter.
 pub(crate) fn meter(laboratory: &Laboratory, languages: &Languages) -> Markup {
     let meter = &laboratory.meter;
-    let values = [
-        ("reading", meter.reading_percent),
-        ("gain", meter.gain_percent),
-        ("offset", meter.offset_ma),
-        ("floor", meter.floor_ma),
-        ("range", meter.range_ma),
+    let parts = [
+        (texts::METER_READING, meter.reading_percent),
+        (texts::METER_GAIN, meter.gain_percent),
+        (texts::METER_OFFSET, meter.offset_ma),
+        (texts::METER_FLOOR, meter.floor_ma),
+        (texts::METER_NOISE, meter.noise_ma.unwrap_or(0.0)),
+        (texts::METER_RANGE, meter.range_ma),
     ];
-    let values = values.map(|(name, value)| (name, Number::exact(value)));
-    let noise = meter.noise_ma.map(|noise| [("noise", Number::exact(noise))]);
+    // A part that is 0 may not have been stated, and no instrument has it.
+    let stated = || parts.into_iter().filter(|(_, value)| *value > 0.0);
+    let words = |text: Text, value: f64, language| text.with_numbers(language, &[("n", Number::exact(value))]);
     html! {
         @for (index, language) in languages.iter().enumerate() {
             @if index > 0 { br; }
-            span lang=(language.tag()) {
-                (texts::METER_WORDS.with_numbers(language, &values))
-                @if let Some(noise) = &noise { (texts::METER_NOISE.with_numbers(language, noise)) }
-            }
+            span lang=(language.tag()) { (listed(stated().map(|(text, value)| words(text, value, language)))) }
         }
     }
 }

@@ -155,8 +155,8 @@ texts! {
     NEW { en: "now", ru: "стало" }
     DIFFERENCE { en: "change", ru: "изменение" }
     DIFFERENCE_IN_U { en: "change/u", ru: "изменение/u" }
-    ALL_TOGETHER { en: "All positions, chi-square (ν)", ru: "Все положения, хи-квадрат (ν)" }
-    COMMON_TURN { en: "Common rotation, chi-square (ν)", ru: "Общий поворот, хи-квадрат (ν)" }
+    ALL_TOGETHER { en: "All positions, F (ν)", ru: "Все положения, F (ν)" }
+    COMMON_TURN { en: "Common rotation, F (ν)", ru: "Общий поворот, F (ν)" }
 
     MEASURED_BY { en: "Measured by", ru: "Измерения выполнил" }
     CHECKED_BY { en: "Checked by", ru: "Проверил" }

@@ -241,13 +241,12 @@ texts! {
     GYRO_GRAVITY { en: "g to which the type’s drifts refer", ru: "g, к которому отнесён дрейф типа" }
     CALIBRATING_LABORATORY { en: "Calibrating laboratory", ru: "Лаборатория" }
     METER { en: "Current meter (k = 1)", ru: "Измеритель тока (k = 1)" }
-    METER_WORDS {
-        en: "reading {reading} %, gain {gain} %, offset {offset} mA, floor {floor} mA; range \
-             {range} mA",
-        ru: "показание {reading} %, преобразование {gain} %, смещение {offset} мА, постоянная часть \
-             {floor} мА; диапазон {range} мА"
-    }
-    METER_NOISE { en: "; noise of a reading {noise} mA", ru: "; шум показания {noise} мА" }
+    METER_READING { en: "reading {n} %", ru: "показание {n} %" }
+    METER_GAIN { en: "gain {n} %", ru: "коэффициент преобразования {n} %" }
+    METER_OFFSET { en: "offset {n} mA", ru: "смещение {n} мА" }
+    METER_FLOOR { en: "floor {n} mA", ru: "постоянная часть {n} мА" }
+    METER_NOISE { en: "noise of a reading {n} mA", ru: "шум показания {n} мА" }
+    METER_RANGE { en: "range {n} mA", ru: "диапазон {n} мА" }
     SEATING { en: "u of the gyro seat about x, y, z", ru: "u посадки вокруг x, y, z" }
     BASE_AZIMUTH_U { en: "u of the azimuth, in this laboratory", ru: "u азимута в лаборатории" }
     BASE_LEVEL_U { en: "u of the level, in this laboratory", ru: "u горизонтирования в лаборатории" }
