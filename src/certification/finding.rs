@@ -21,8 +21,8 @@ const MUCH_MORE: f64 = 2.0;
 pub(crate) enum Finding {
     /// Change of a setting, which explains all differences.
     #[error(
-        "the positions with {symbol} = {}° have rotated by {}″ about the axis of {symbol} relative to the others, and nothing \
-         else has changed; check how this angle is set",
+        "the positions with {symbol} = {}° have rotated by {}″ about the axis of {symbol} relative to the others; no other \
+         change was found; check how this angle is set",
         .0.angle_deg,
         remark::turned_by(.0.turn_arcsec),
         symbol = .0.setting.symbol()

@@ -162,9 +162,9 @@ texts! {
 
     SETTING_CHANGED {
         en: "The positions with {symbol} = {angle}° have rotated by {turn}″ about the axis of {symbol} relative to the others; \
-             nothing else has changed.",
+             no other change was found.",
         ru: "Положения с {symbol} = {angle}° повернулись на {turn}″ вокруг оси угла {symbol} относительно остальных; других \
-             изменений нет."
+             изменений не обнаружено."
     }
     WORN {
         en: "No more than half of the positions agree with each other, but the angles resemble the certificate (correlation {r}): \
@@ -176,7 +176,7 @@ texts! {
         en: "No more than half of the positions agree with each other, and the angles do not resemble the certificate: this is \
              another stand or another certificate, or the stand was rebuilt or damaged.",
         ru: "Согласуется не более половины положений, углы не коррелируют с сертификатом: стенд или сертификат другой либо стенд \
-             перебран или повреждён."
+             разбирали или повредили."
     }
     EXCHANGED {
         en: "Positions {one} and {other} are exchanged: each has the angles that the certificate states for the other.",
