@@ -65,7 +65,7 @@ fn the_model_is_not_part_of_the_serial_number() {
     }
     // Excel takes 0017 for a number.
     for serial in ["17", "00017"] {
-        assert!(detail(serial).ends_with("give the serial number with all its zeros"), "{}", detail(serial));
+        assert!(detail(serial).ends_with("the zeros before a serial number are part of it"), "{}", detail(serial));
     }
     assert!(detail("SPS-2/0018").ends_with("not SPS-2/0018; its deviations do not apply to stand SPS-2/0018"));
 }

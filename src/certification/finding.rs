@@ -117,11 +117,11 @@ pub(crate) enum Finding {
 /// Value of an angle at which the stand stops elsewhere than when it was certified.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ChangedSetting {
-    /// The angle.
+    /// Angle whose setting has changed.
     pub setting: Setting,
-    /// Its nominal value, degrees.
+    /// Nominal value of the angle, degrees.
     pub angle_deg: f64,
-    /// Rotation about its axis relative to the positions with other values, arcsec.
+    /// Rotation about the axis of the angle relative to the positions with other values, arcsec.
     pub turn_arcsec: f64,
 }
 

@@ -12,6 +12,7 @@
 //! * `worse_groups`: positions with the same θ that scatter more (F test).
 //! * `remark`: remarks for the signatory.
 //! * `comparison`: the comparison of a later check run with the certificate.
+//! * `differences`: check minus certificate as rotations, and the tests of them.
 //! * `finding`: reasons for the result of that comparison, and its limits.
 //! * `misread`: errors of a whole file that the certificate shows.
 //! * `document`: the stand file as text, with comments on the origin of its numbers.
@@ -21,6 +22,7 @@
 pub(crate) mod comparison;
 pub(crate) mod components;
 mod deletion;
+mod differences;
 pub(crate) mod document;
 pub(crate) mod finding;
 pub(crate) mod header;

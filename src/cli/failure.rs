@@ -95,7 +95,7 @@ impl Failure {
         let kind = failed.first().map_or(interface::REFUSED, |check| check.code.as_str());
         let place = |check: &&Check| Place::file(name.to_owned(), format!("{}: {}", check.name.as_str(), check.detail));
         let problems = failed.iter().map(place).collect();
-        let words = format!("{words}{}", style::plain(&verdict::text(&[verdict])));
+        let words = format!("{words}{}", style::plain(&verdict::text(&verdict)));
         Self { failed: Failed::new(kind, words.trim_end().to_owned(), problems), code: REFUSED }
     }
 }

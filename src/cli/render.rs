@@ -71,7 +71,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         let output = output.ok_or_else(|| Failure::usage("missing -o FILE.html or --out DIR"))?;
         output::saved(&output, &page.html(&languages(&options.lang)), options.force)?;
         if options.format == Format::Text && !verdict.valid {
-            output::say(&style::plain(&verdict::text(std::slice::from_ref(&verdict))));
+            output::say(&style::plain(&verdict::text(&verdict)));
         }
         Ok(Rendered { page: name_of(&output), verdict })
     };

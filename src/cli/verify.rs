@@ -36,7 +36,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
                 let verification = verifier.verify(&name, &bytes);
                 code = code.max(if verification.valid() { 0 } else { REFUSED });
                 let verdict = verdict::Verdict::of(&name, &verification);
-                text += &verdict::text(std::slice::from_ref(&verdict));
+                text += &verdict::text(&verdict);
                 verdicts.push(verdict);
             }
             Err(error) => {

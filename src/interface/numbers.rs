@@ -3,7 +3,7 @@
 use crate::passport::Content;
 use crate::passport::content::{MatrixRows, Rows};
 
-/// What a passport does not state.
+/// Value of a number that the passport does not state.
 const NOT_STATED: f64 = f64::NAN;
 
 /// Returns a matrix of the paper by its key, NaN if the passport has no matrices; `None` for an unknown key.

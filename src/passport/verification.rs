@@ -367,7 +367,7 @@ impl Run {
             } else if only_the_serial(content.stand.model.as_str(), serial) == found {
                 (Code::WrongStand, format!("{stand}; give only the serial number, {found}, not {serial:?}"))
             } else if serial.trim_start_matches('0') == found.trim_start_matches('0') {
-                (Code::WrongStand, format!("{stand}, not {serial}; give the serial number with all its zeros"))
+                (Code::WrongStand, format!("{stand}, not {serial}; the zeros before a serial number are part of it"))
             } else {
                 (Code::WrongStand, format!("{stand}, not {serial}; its deviations do not apply to stand {serial}"))
             };

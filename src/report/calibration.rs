@@ -202,7 +202,7 @@ fn parameters(out: &mut String, calibration: &Calibration, verdict: Option<&Verd
     let mut names = vec!["", "unit", answer.method.key(), "u"];
     names.extend(verdict.map(|_| "decision"));
     let rows = in_paper_order(answer).into_iter().filter_map(|parameter| {
-        let judged = verdict.zip(verdict.and_then(|verdict| verdict.parameter(parameter)));
+        let judged = verdict.and_then(|verdict| Some((verdict, verdict.parameter(parameter)?)));
         let (value, u) = match judged {
             Some((_, at)) => (at.value, at.standard_uncertainty),
             None => (answer.value(parameter)?, answer.standard_uncertainty(parameter)?),

@@ -2,6 +2,7 @@
 
 use super::columns;
 use crate::calibration::parameter::Parameter;
+use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::plan::criterion::Criterion;
 use crate::plan::sensitivity::{CommonError, Effect};
 use crate::plan::{Plan, Visited};
@@ -182,7 +183,8 @@ fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<String> {
     let of_tolerance = |parameter: &Parameter| {
         plan.evaluation.standard_uncertainty[parameter.place()] / plan.tolerance[parameter.place()]
     };
-    let beyond = Parameter::AS_IN_THE_PAPER.into_iter().filter(|parameter| 2.0 * of_tolerance(parameter) > 1.0);
+    let beyond =
+        Parameter::AS_IN_THE_PAPER.into_iter().filter(|parameter| COVERAGE_FACTOR * of_tolerance(parameter) > 1.0);
     let beyond: Vec<&str> = beyond.map(Parameter::symbol).collect();
     if !beyond.is_empty() {
         let no_other = if plan.exhaustive { "; no other choice of as many readings is better" } else { "" };

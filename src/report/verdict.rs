@@ -10,27 +10,24 @@ use std::fmt::Write;
 /// Checks that are run only if they are asked for.
 const ON_REQUEST: [CheckName; 4] = [CheckName::Issuer, CheckName::Stand, CheckName::Place, CheckName::Register];
 
-/// Returns the answer for each file, what it is based on, and a line for each of its checks.
-pub(crate) fn text(verdicts: &[Verdict]) -> String {
-    let mut text = String::new();
-    for verdict in verdicts {
-        text += &first_line(verdict);
-        if let Some(check) = verdict.checks.iter().find(|check| check.code == Code::Unreadable) {
-            let _ = writeln!(text, "  {}", check.detail);
-            continue;
-        }
-        let _ = writeln!(text, "  {}", counts(&verdict.checks));
-        for check in &verdict.checks {
-            let (passed, word) = match check.passed() {
-                Some(true) if !check.was_asked() => (None, "not asked"),
-                Some(true) => (Some(true), "passed"),
-                Some(false) => (Some(false), "FAILED"),
-                None => (None, "not run"),
-            };
-            let result = style::marked(passed, &format!("{word:<9}"));
-            let detail = check.detail.replace('\n', "\n                           ");
-            let _ = writeln!(text, "  {result}  {:<10}  {detail}", check.name.as_str());
-        }
+/// Returns the answer for a file, what it is based on, and a line for each of its checks.
+pub(crate) fn text(verdict: &Verdict) -> String {
+    let mut text = first_line(verdict);
+    if let Some(check) = verdict.checks.iter().find(|check| check.code == Code::Unreadable) {
+        let _ = writeln!(text, "  {}", check.detail);
+        return text;
+    }
+    let _ = writeln!(text, "  {}", counts(&verdict.checks));
+    for check in &verdict.checks {
+        let (passed, word) = match check.passed() {
+            Some(true) if !check.was_asked() => (None, "not asked"),
+            Some(true) => (Some(true), "passed"),
+            Some(false) => (Some(false), "FAILED"),
+            None => (None, "not run"),
+        };
+        let result = style::marked(passed, &format!("{word:<9}"));
+        let detail = check.detail.replace('\n', "\n                           ");
+        let _ = writeln!(text, "  {result}  {:<10}  {detail}", check.name.as_str());
     }
     text
 }

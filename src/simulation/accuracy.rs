@@ -14,7 +14,6 @@ use crate::gyro::{GyroParameters, GyroType};
 use crate::laboratory::Laboratory;
 use crate::statistics::random::{Run, Stream};
 use crate::statistics::summary::Summary;
-use crate::units::degrees_from_radians;
 use nalgebra::Vector2;
 use serde::Serialize;
 
@@ -133,10 +132,7 @@ pub fn accuracy(options: &AccuracyOptions, run: &Run) -> Accuracy {
         Stands::Drawn { limit_deg } => Some(limit_deg),
         Stands::Given(_) => None,
     };
-    let earth = &options.earth;
-    let latitude_deg = degrees_from_radians(libm::atan2(earth.vertical_deg_per_h, earth.horizontal_deg_per_h));
-    // The components are rounded, so the last digits are not those of the latitude.
-    let latitude_deg = (1e9 * latitude_deg).round() / 1e9;
+    let latitude_deg = options.earth.astronomic_latitude_deg();
     Accuracy { trials, seed: run.seed, limit_deg, latitude_deg, rows }
 }
 

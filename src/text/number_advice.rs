@@ -5,7 +5,7 @@ use super::{Node, Path};
 
 const NOT_FINITE: &str = "use a finite number, because NaN and infinity are not measured values";
 
-/// Advice on two limits of a parameter, or one with a sign, in place of a tolerance.
+/// Advice for a tolerance that is written as two limits, or with ±.
 const TOLERANCE: &str = "a tolerance is one number for both directions and both axes: state half the width of the interval, and \
                          its middle as the nominal value";
 
