@@ -29,6 +29,9 @@ impl Deviation {
 /// Names of the angles of a deviation.
 pub(crate) const ANGLES: [&str; 3] = ["alpha", "beta", "gamma"];
 
+/// Symbols of the angles of a deviation.
+pub(crate) const ANGLE_SYMBOLS: [&str; 3] = ["α", "β", "γ"];
+
 /// Returns the nominal rotation matrix A = Rz(φ)·Rx(θ), base to platform axes (3×3), for the frame angle θ and the
 /// platform angle φ (paper, eq. (3)).
 ///

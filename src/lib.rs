@@ -46,6 +46,7 @@
 //! | `units` | angles and rates: the one place that converts | |
 //! | `parallel` | the same work on many things at once | |
 //! | [`text`] | one canonical form out and in, tables, errors that point into the file; hand-written YAML with `factory` | |
+//! | `wording` | words for people in each language, with their numbers | `factory` or `report` |
 //! | [`attitude`] | eq. (3), (4): A, E, Ã | |
 //! | [`coefficients`] | eq. (5), (9)-(13): n, ω_3, Δ, B, C | |
 //! | [`earth`] | Earth rate, gravity, deflection, geodesics | |
@@ -143,6 +144,10 @@ pub mod text;
 pub mod trust;
 pub mod uncertainty;
 pub(crate) mod units;
+// `report` makes its languages public.
+#[cfg_attr(not(feature = "report"), allow(unreachable_pub))]
+#[cfg(any(feature = "factory", feature = "report"))]
+pub(crate) mod wording;
 #[cfg(feature = "cli")]
 pub(crate) mod workspace;
 

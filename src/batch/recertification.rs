@@ -286,7 +286,7 @@ impl Recertification<'_> {
         }
         match comparison.findings.iter().find(|finding| finding.is_of_the_certificate()) {
             Some(finding) => Err(of_readings(&format!(
-                "{finding}; to correct the certificate without new readings, use `certify` and `reissue --stand`"
+                "{finding}. To correct the certificate without new readings, use `certify` and `reissue --stand`"
             ))),
             None => Ok((certification, comparison)),
         }

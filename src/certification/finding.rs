@@ -1,117 +1,62 @@
-//! Findings of a comparison: reasons for its result, and its limits.
+//! Findings of a comparison: reasons for its result and its limits, and their words in each language.
 
 use super::Certification;
 use super::comparison::{CommonTurn, ComparedPosition, Test};
 use super::misread::Misread;
-use super::remark;
+use super::remark::{Probability, advised, arcsec, together};
 use super::rotated_runs::{Pattern, RotatedRuns};
 use super::shared_settings::Setting;
 use super::split_run::SplitRun;
 use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
+use super::texts;
 use crate::coefficients::PositionIndex;
-use crate::text::number::{decimals, signed, two_digits};
-use crate::text::words;
+use crate::wording::number::Number;
+use crate::wording::{Language, Text, Values, values};
+use std::fmt::{Display, Formatter};
 
 /// Ratio of the scatter of a check to the certified one above which nothing is decided.
 const MUCH_MORE: f64 = 2.0;
 
-/// Reason for the result of a comparison, or a limit of it. Displayed, it is an English sentence without a full stop;
-/// `report` has the words of other languages.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+/// Reason for the result of a comparison, or a limit of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Finding {
     /// Change of a setting, which explains all differences.
-    #[error(
-        "the positions with {symbol} = {}° have rotated by {}″ about the axis of {symbol} relative to the others; no other \
-         change was found; check how this angle is set",
-        .0.angle_deg,
-        remark::turned_by(.0.turn_arcsec),
-        symbol = .0.setting.symbol()
-    )]
     Setting(ChangedSetting),
     /// Half of the positions or more have changed, to angles that still resemble the certified ones; their correlation.
-    #[error(
-        "no more than half of the positions agree with each other, but the angles resemble the certificate (correlation \
-         {0:.2}): the stand has changed in most positions; check the serial number, and have the stand recertified"
-    )]
     Worn(f64),
     /// Half of the positions or more have changed, and the angles do not resemble the certified ones.
-    #[error(
-        "no more than half of the positions agree with each other, and the angles do not resemble the certificate: this is \
-         another stand or another certificate, or the stand was rebuilt or damaged"
-    )]
     AnotherStand,
-    #[error(
-        "positions {} and {} are exchanged: each has the angles that the certificate states for the other; check the \
-         rows of the readings, and the directions in which theta and phi increase",
-        .0[0],
-        .0[1]
-    )]
+    /// Two positions, each with the angles that the certificate states for the other.
     Exchanged([PositionIndex; 2]),
-    #[error("{0}")]
     Misread(Misread),
-    #[error(
-        "the visits of the check scatter by {}″, the certificate states {}″ (probability {}): the stand repeats worse, \
-         so that uncertainties from its certificate are too small, or the instrument of the check reads worse; read \
-         one position several times without moving the stand to tell which",
-        two_digits(*of_check_arcsec),
-        two_digits(*certified_arcsec),
-        remark::probability(*probability)
-    )]
-    ScattersMore { of_check_arcsec: f64, certified_arcsec: f64, probability: f64 },
-    #[error(
-        "position {} has changed: {} about x, y, z relative to the other positions",
-        .0.index,
-        turned(.0)
-    )]
+    /// Standard deviations of one visit, and the probability that the first is so much larger by chance.
+    ScattersMore {
+        of_check_arcsec: f64,
+        certified_arcsec: f64,
+        probability: f64,
+    },
     Changed(ComparedPosition),
-    #[error("the positions have changed by more than stated; no single position stands out")]
+    /// Significant differences of all positions together, of none alone.
     ChangedTogether,
-    #[error("the differences of the positions are slightly larger than chance explains; measure another run")]
     Slightly,
-    #[error(
-        "all positions have rotated together; a datum surface has changed (gyro seat, level or azimuth), not single \
-         positions"
-    )]
     Rotated,
-    #[error("the common rotation of all positions is slightly larger than chance explains; measure more runs")]
     RotatedSlightly,
-    #[error("{}", rotated(.0))]
     RotatedRuns(RotatedRuns),
-    #[error(
-        "run {run} of the check seems to have changed within itself: {}; measure the run again, or exclude it with \
-         --exclude {run} and --why",
-        .0.words(),
-        run = .0.run
-    )]
     SplitRun(SplitRun),
     /// Outlier among the readings of the check, and its part in the mean of the position, arcsec.
-    #[error(
-        "the reading of position {} in run {run} of the check differs by {}″ about {} from its other runs; the \
-         change of the position includes {mean}″ of it; measure the run again, or exclude the reading with \
-         --exclude {},{},{run} and --why",
-        .0.index,
-        remark::turned_by(.0.residual_arcsec),
-        AXES[.0.axis],
-        .0.index.i,
-        .0.index.j,
-        run = .0.run,
-        mean = remark::turned_by(*.1)
-    )]
     Outlier(Outlier, f64),
-    #[error("rotation of the stand as a whole was not tested: {}", .0.words())]
     NotTested(Untested),
-    #[error(
-        "the certificate does not state the uncertainty of all angles (u_alpha_arcsec etc.); these angles were treated \
-         as exact, so differences appear more significant than they are"
-    )]
+    /// Angles without uncertainty in the certificate.
     TreatedAsExact,
-    #[error("the certificate was computed from these readings, so they do not show the present state of the stand")]
     SameReadings,
-    #[error(
-        "the readings agree with the certificate better than the repeatability of the stand allows; check whether they \
-         are those of the certificate, and measure the stand again"
-    )]
     TooClose,
+}
+
+/// The English sentences without the last full stop, with advice: the wording of terminals.
+impl Display for Finding {
+    fn fmt(&self, to: &mut Formatter<'_>) -> std::fmt::Result {
+        to.write_str(&advised(&self.words(Language::English), self.advice()))
+    }
 }
 
 /// Value of an angle at which the stand stops elsewhere than when it was certified.
@@ -125,44 +70,94 @@ pub(crate) struct ChangedSetting {
     pub turn_arcsec: f64,
 }
 
-words! {
-    /// Reason why the rotation of the stand as a whole was not tested.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    pub(crate) enum Untested: pub(crate) words {
-        Variation = "the variation between the check runs is unknown",
-        NumberOfRuns = "one run does not show the variation between set-ups, and the certificate does not state the \
-                        number of runs behind its common_*; measure two runs or more",
-        CommonParts = "the certificate does not state common_platform_arcsec and common_base_arcsec",
-    }
-}
-
-/// Returns the rotation of a position about x, y and z with the digits of its uncertainty.
-fn turned(at: &ComparedPosition) -> String {
-    let turn = |axis: usize| format!("{}″", signed(at.turn_arcsec[axis], decimals(at.u_arcsec[axis])));
-    [0, 1, 2].map(turn).join(", ")
-}
-
-fn rotated(at: &RotatedRuns) -> String {
-    let (turns, axes) = (remark::turns(at.turns_arcsec), at.axis.names());
-    match at.pattern {
-        Pattern::One(run) => format!(
-            "all positions of run {run} of the check are rotated by {turns} about {axes} relative to its other runs; \
-             the common rotation includes {} of it; measure the run again, or exclude it with --exclude {run} and \
-             --why",
-            remark::turns(at.in_the_mean_arcsec())
-        ),
-        Pattern::Move(before, after) => format!(
-            "the stand seems to have moved between runs {before} and {after} of the check: all positions are rotated \
-             by {turns} about {axes}; the common rotation is a mean of both states; find the cause and measure again"
-        ),
-        Pattern::Drift => format!(
-            "the stand seems to drift: from run to run of the check all positions rotate by {turns} about {axes}; the \
-             common rotation is that of the middle of the check; find the cause and measure again"
-        ),
-    }
+/// Reason why the rotation of the stand as a whole was not tested.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Untested {
+    /// Variation between the check runs that is unknown.
+    Variation,
+    /// One check run, and a certificate that does not state its number of runs.
+    NumberOfRuns,
+    /// Certificate without common parts of the uncertainty.
+    CommonParts,
 }
 
 impl Finding {
+    /// Returns the finding as sentences.
+    pub(crate) fn words(&self, language: Language) -> String {
+        let fill = |text: Text, values: Values| text.filled(language, values);
+        match self {
+            Self::Changed(ComparedPosition { index, turn_arcsec, u_arcsec, .. }) => {
+                let [x, y, z] = std::array::from_fn(|axis| Number::measured(turn_arcsec[axis], u_arcsec[axis]));
+                fill(texts::POSITION_CHANGED, values! { index, x, y, z })
+            }
+            Self::ScattersMore { of_check_arcsec, certified_arcsec, probability } => {
+                let [found, certified] =
+                    [of_check_arcsec, certified_arcsec].map(|value| Number::significant(*value, 2));
+                fill(texts::SCATTERS_MORE, values! { found, certified, p: Probability(*probability) })
+            }
+            Self::RotatedRuns(at) => {
+                let [x, y, z] = together(at.turns_arcsec);
+                let [of_x, of_y, of_z] = together(at.in_the_mean_arcsec());
+                let (text, run, after) = match at.pattern {
+                    Pattern::One(run) => (texts::CHECK_BUMPED, run, 0),
+                    Pattern::Move(before, after) => (texts::CHECK_MOVED, before, after),
+                    Pattern::Drift => (texts::CHECK_DRIFTS, 0, 0),
+                };
+                fill(text, values! { run, after, axes: at.axis.names(), x, y, z, of_x, of_y, of_z })
+            }
+            Self::SplitRun(at) => at.filled(texts::CHECK_SPLIT, language),
+            Self::Outlier(out, mean) => {
+                let [residual, mean] = [out.residual_arcsec, *mean].map(arcsec);
+                let (index, run, axis) = (&out.index, &out.run, AXES[out.axis]);
+                fill(texts::CHECK_OUTLIER, values! { index, run, residual, axis, mean })
+            }
+            Self::Exchanged([one, other]) => fill(texts::EXCHANGED, values! { one, other }),
+            Self::Misread(misread) => misread.words(language),
+            Self::Setting(ChangedSetting { setting, angle_deg, turn_arcsec }) => {
+                let (symbol, angle, turn) = (setting.symbol(), Number::exact(*angle_deg), arcsec(*turn_arcsec));
+                fill(texts::SETTING_CHANGED, values! { symbol, angle, turn })
+            }
+            Self::Worn(correlation) => fill(texts::WORN, values! { r: Number::fixed(*correlation, 2) }),
+            Self::AnotherStand => texts::ANOTHER_STAND.words(language),
+            Self::ChangedTogether => texts::CHANGED_TOGETHER.words(language),
+            Self::Slightly => texts::CHANGED_SLIGHTLY.words(language),
+            Self::Rotated => texts::ROTATED.words(language),
+            Self::RotatedSlightly => texts::ROTATED_SLIGHTLY.words(language),
+            Self::NotTested(Untested::Variation) => texts::NOT_TESTED_VARIATION.words(language),
+            Self::NotTested(Untested::NumberOfRuns) => texts::NOT_TESTED_RUNS.words(language),
+            Self::NotTested(Untested::CommonParts) => texts::NOT_TESTED_COMMON_PARTS.words(language),
+            Self::TreatedAsExact => texts::TREATED_AS_EXACT.words(language),
+            Self::SameReadings => texts::SAME_READINGS.words(language),
+            Self::TooClose => texts::TOO_CLOSE.words(language),
+        }
+    }
+
+    /// Returns what to do at a terminal, with the keys and options of files and commands.
+    fn advice(&self) -> Option<String> {
+        let without = |run: u32| format!("Measure the run again, or exclude it with --exclude {run} and --why.");
+        let advice = match self {
+            Self::RotatedRuns(RotatedRuns { pattern: Pattern::One(run), .. }) => return Some(without(*run)),
+            Self::SplitRun(at) => return Some(without(at.run)),
+            Self::Outlier(Outlier { index, run, .. }, _) => {
+                let of_reading = format!("{},{},{run}", index.i, index.j);
+                let words = "Measure the run again, or exclude the reading with --exclude";
+                return Some(format!("{words} {of_reading} and --why."));
+            }
+            Self::Misread(misread) => return Some(misread.advice()),
+            Self::Setting(_) => "Check how this angle is set.",
+            Self::Worn(_) => "Check the serial number, and have the stand recertified.",
+            Self::Exchanged(_) => "Check the rows of the readings, and the directions in which theta and phi increase.",
+            Self::ScattersMore { .. } => "Read one position several times without moving the stand to tell which.",
+            Self::RotatedRuns(_) => "Find the cause and measure again.",
+            Self::NotTested(Untested::NumberOfRuns) => "Measure two runs or more.",
+            Self::NotTested(Untested::CommonParts) => "They are common_platform_arcsec and common_base_arcsec.",
+            Self::TreatedAsExact => "The uncertainties are u_alpha_arcsec, u_beta_arcsec and u_gamma_arcsec.",
+            Self::TooClose => "Check this, and measure the stand again.",
+            _ => return None,
+        };
+        Some(advice.to_owned())
+    }
+
     /// Returns `true` for readings that are not a new measurement, with which nothing is decided.
     pub(crate) fn is_of_the_certificate(&self) -> bool {
         matches!(self, Self::SameReadings | Self::TooClose)

@@ -1,21 +1,22 @@
 //! Errors of a whole file of readings that a certificate shows: another unit, the opposite sign, exchanged or reversed axes.
 
 use super::readings::whole_runs::{Axes, CLEARLY, UNITS, axes_of_runs, differing};
-use crate::attitude::ANGLES;
+use super::texts;
+use crate::attitude::ANGLE_SYMBOLS;
+use crate::wording::number::Number;
+use crate::wording::{Language, Text, values};
 use nalgebra::Vector3;
 
 /// Way in which all angles of a file differ from those of the certificate.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Misread {
     /// Angles that are smaller by a factor, in the unit of this name.
-    #[error("the angles are those of the certificate divided by {0:.0}; convert them from {1} to arcseconds")]
     Smaller(f64, &'static str),
     /// Angles that are larger by a factor, as if converted twice from the unit of this name.
-    #[error("the angles are {0:.0} times those of the certificate; convert them from {1} to arcseconds only once")]
     Larger(f64, &'static str),
-    #[error("the angles are those of the certificate with the opposite sign; correct the sign")]
+    /// Angles with the opposite sign.
     Sign,
-    #[error("the readings have {}; put the angles into their columns, with their signs", in_other_columns(.0))]
+    /// Angles in other columns or with other signs.
     Axes(Axes),
 }
 
@@ -50,13 +51,29 @@ impl Misread {
         }
     }
 
-    /// Returns the columns that differ: each found, with its sign, and the one that the certificate has.
-    pub(crate) fn columns(axes: &Axes) -> Vec<(String, &'static str)> {
-        differing(axes).map(|(axis, column, sign)| (format!("{sign}{}", ANGLES[column]), ANGLES[axis])).collect()
+    /// Returns the error as a sentence.
+    pub(super) fn words(&self, language: Language) -> String {
+        let times = |text: Text, by: f64| text.filled(language, values! { factor: Number::fixed(by, 0) });
+        match self {
+            Self::Smaller(by, _) => times(texts::SMALLER_UNIT, *by),
+            Self::Larger(by, _) => times(texts::LARGER_UNIT, *by),
+            Self::Sign => texts::OPPOSITE_SIGN.words(language),
+            Self::Axes(axes) => {
+                let each = differing(axes).map(|(axis, column, sign)| {
+                    format!("{}{} → {}", sign.replace('-', "−"), ANGLE_SYMBOLS[column], ANGLE_SYMBOLS[axis])
+                });
+                texts::OTHER_AXES.filled(language, values! { columns: each.collect::<Vec<_>>().join(", ") })
+            }
+        }
     }
-}
 
-fn in_other_columns(axes: &Axes) -> String {
-    let each = Misread::columns(axes).into_iter();
-    each.map(|(found, due)| format!("{found} where the certificate has {due}")).collect::<Vec<_>>().join(", ")
+    /// Returns what to do.
+    pub(super) fn advice(&self) -> String {
+        match self {
+            Self::Smaller(_, unit) => format!("Convert them from {unit} to arcseconds."),
+            Self::Larger(_, unit) => format!("Convert them from {unit} to arcseconds only once."),
+            Self::Sign => "Correct the sign.".to_owned(),
+            Self::Axes(_) => "Put the angles into their columns, with their signs.".to_owned(),
+        }
+    }
 }

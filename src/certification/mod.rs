@@ -15,6 +15,7 @@
 //! * `differences`: check minus certificate as rotations, and the tests of them.
 //! * `finding`: reasons for the result of that comparison, and its limits.
 //! * `misread`: errors of a whole file that the certificate shows.
+//! * `texts`: the words of remarks and findings in every language.
 //! * `document`: the stand file as text, with comments on the origin of its numbers.
 //!
 //! The model and the meaning of each number are described in docs/certification.md.
@@ -33,6 +34,7 @@ pub(crate) mod rotated_runs;
 pub(crate) mod shared_settings;
 pub(crate) mod split_run;
 pub(crate) mod suspects;
+pub(crate) mod texts;
 pub(crate) mod unequal_axes;
 pub(crate) mod worse_groups;
 

@@ -1,120 +1,67 @@
-//! Remarks for the signatory of a certificate, as values. Displayed, a remark is an English sentence without a full stop:
-//! the wording of the comments in a stand file. `report` has the words of other languages.
+//! Remarks for the signatory of a certificate: values, and their words in each language.
 
 use super::rotated_runs::{Pattern, RotatedRuns};
 use super::shared_settings::SharedSetting;
 use super::split_run::SplitRun;
 use super::suspects::{AXES, OUTLIER, Outlier, Suspects, WorsePosition};
+use super::texts;
 use super::unequal_axes::UnequalAxis;
 use super::worse_groups::WorseGroup;
+use crate::attitude::ANGLE_SYMBOLS;
 use crate::calibration::recorded::rounding_of;
 use crate::stand::remarks::Odd;
-use crate::text::number::{decimals, signed};
+use crate::text::number::decimals;
+use crate::wording::number::{Number, THIN_BLANK};
+use crate::wording::spacing::BLANK;
+use crate::wording::{Language, Text, Value, Values, date_text, values};
+use jiff::civil::Date;
+use std::fmt::{Display, Formatter};
+
+/// Least probability that is stated as a number.
+const LEAST: f64 = 1e-99;
 
 /// A remark on readings or on the certificate made of them.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Remark {
-    #[error(
-        "{}: the standard deviation of position {} is {:.1} times the pooled one (Cochran's test: probability {}); its \
-         uncertainty is computed from its own readings, that of the others without it",
-        grade(.0.probability),
-        .0.index,
-        .0.ratio,
-        probability(.0.probability)
-    )]
     Worse(WorsePosition),
-    #[error(
-        "the standard deviation of the positions with θ = {}° is {:.1} times that of the others (F test: probability \
-         {}); their uncertainty is computed from their own readings, that of the others without them; find the cause, \
-         because repeatability_arcsec is pooled from all positions",
-        .0.theta_deg,
-        .0.ratio,
-        probability(.0.probability)
-    )]
     WorseGroup(WorseGroup),
-    #[error(
-        "{}: position {}, run {}{}, differs by {}″ from the other runs about {} (Grubbs' test: probability {}); it \
-         was not excluded; measure it again, or omit the run",
-        grade(.0.probability),
-        .0.index,
-        .0.run,
-        line_of(.0),
-        turned_by(.0.residual_arcsec),
-        AXES[.0.axis],
-        probability(.0.probability)
-    )]
     Outlier(Outlier),
-    #[error("{}", rotated(.0))]
     RotatedRuns(RotatedRuns),
-    #[error(
-        "run {run} seems to have changed within itself: {} (F test: probability {}); the run was not excluded, and \
-         single readings and positions were not examined; find the cause, then measure the run again, or exclude it \
-         with --exclude {run} and --why",
-        .0.words(),
-        probability(.0.probability),
-        run = .0.run
-    )]
     SplitRun(SplitRun),
-    #[error("two runs do not show whether run {0} or run {1} is wrong; measure a third run")]
+    /// Two runs, of which either may be wrong.
     TwoRuns(u32, u32),
-    #[error(
-        "because a reading is suspect, the scatter of single positions was not tested; all positions state the pooled \
-         standard deviation"
-    )]
     NotCompared,
-    #[error(
-        "runs {0} and {1} agree more than 30 times better than other runs; check whether one is a copy of the other, \
-         or whether another run contains an error"
-    )]
+    /// Two runs that agree better than chance allows.
     Twins(u32, u32),
     /// Variances about x, y and z that differ, with the probability of Bartlett's test.
-    #[error(
-        "the variances about x, y and z differ (Bartlett's test: probability {}); repeatability_arcsec is pooled from \
-         all three, which is too large for one axis and too small for another",
-        probability(*.0)
-    )]
     AxesDiffer(f64),
-    #[error(
-        "from run to run the {part} rotates by {}″ about {axis} and by {}″ about its other two axes (Cochran's \
-         test: probability {}); common_{part}_arcsec is pooled from all three, which is too small about {axis}; state \
-         a line of type_b that acts on the {part}, of {}″, or find the cause and measure again",
-        size(.0.deviation_arcsec),
-        size(.0.others_arcsec),
-        probability(.0.probability),
-        size(.0.missing_arcsec),
-        part = .0.axis.part(),
-        axis = .0.axis.name()
-    )]
     RunAxesDiffer(UnequalAxis),
-    #[error(
-        "in each run the positions with the same {angle} share an error of {}″ (standard deviation; F test: \
-         probability {}), as if {angle} were set once for all of them; the uncertainties take the errors of positions \
-         as independent, and are too small; set both angles again before every position, and measure again",
-        size(.0.deviation_arcsec),
-        probability(.0.probability),
-        angle = .0.setting.symbol()
-    )]
     SharedSetting(SharedSetting),
-    #[error(
-        "{runs} runs are few: the common part of a run has only {degrees_of_freedom} degrees of freedom, so its \
-         uncertainty has an uncertainty of {:.0} %; measure five runs or more",
-        Self::doubt_percent(*degrees_of_freedom)
-    )]
-    FewRuns { runs: usize, degrees_of_freedom: usize },
+    FewRuns {
+        runs: usize,
+        degrees_of_freedom: usize,
+    },
     /// Number of axes of the base, 0 to 2, about which a rotation can be distinguished from one of the platform.
-    #[error("{}", base_axes(*.0))]
     BaseAxes(usize),
     /// Number of angles whose readings stay on one step, of how many, and the step, arcsec.
-    #[error(
-        "the readings of {angles} of {of} angles vary by less than half their step of {step_arcsec}″, so their mean \
-         does not reduce the rounding; its standard uncertainty of {}″ is included; record more digits",
-        size(rounding_of(*step_arcsec))
-    )]
-    Rounding { angles: usize, of: usize, step_arcsec: f64 },
-    #[error("no angle is larger than {0:.2}″; check that the angles are in arcseconds, not degrees")]
+    Rounding {
+        angles: usize,
+        of: usize,
+        step_arcsec: f64,
+    },
+    /// Largest angle, arcsec.
     SmallAngles(f64),
-    #[error("{0}")]
     Odd(Odd),
+}
+
+/// The English sentences without the last full stop, with advice: the wording of terminals and of comments in a stand file.
+impl Display for Remark {
+    fn fmt(&self, to: &mut Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Odd(odd) => odd.fmt(to),
+            _ => to.write_str(&advised(&self.words(Language::English), self.advice())),
+        }
+    }
 }
 
 impl Remark {
@@ -141,73 +88,149 @@ impl Remark {
     pub(crate) fn doubt_percent(degrees_of_freedom: usize) -> f64 {
         100.0 / (2.0 * degrees_of_freedom as f64).sqrt()
     }
+
+    /// Returns the remark as sentences.
+    pub(crate) fn words(&self, language: Language) -> String {
+        let fill = |text: Text, values: Values| text.filled(language, values);
+        let (fixed, exact) = (Number::fixed, Number::exact);
+        let day = |date: Date| date_text(language, date);
+        // A suspect value: how suspect, and its probability.
+        let suspect = |text: Text, p: f64, values: Values| {
+            let grade = if p < OUTLIER { texts::OUTLIER } else { texts::STRAGGLER };
+            fill(text, &[values, values! { grade, p: Probability(p) }].concat())
+        };
+        match self {
+            Self::Worse(at) => {
+                suspect(texts::WORSE, at.probability, values! { index: at.index, ratio: fixed(at.ratio, 1) })
+            }
+            Self::WorseGroup(at) => {
+                let (theta, ratio) = (exact(at.theta_deg), fixed(at.ratio, 1));
+                fill(texts::WORSE_GROUP, values! { theta, ratio, p: Probability(at.probability) })
+            }
+            Self::Outlier(out) => {
+                let (text, line) = match out.line {
+                    Some(line) => (texts::OUTLIER_IN_LINE, line),
+                    None => (texts::OUTLIER_READING, 0),
+                };
+                let (residual, axis) = (arcsec(out.residual_arcsec), AXES[out.axis]);
+                let values = values! { index: out.index, run: out.run, residual, axis, line };
+                suspect(text, out.probability, values)
+            }
+            Self::RotatedRuns(at) => {
+                let ([x, y, z], mean) = (together(at.turns_arcsec), arcsec(at.largest_effect_arcsec()));
+                let (text, run, after) = match at.pattern {
+                    Pattern::One(run) => (texts::BUMPED_RUN, run, 0),
+                    Pattern::Move(before, after) => (texts::MOVED, before, after),
+                    Pattern::Drift => (texts::DRIFTS, 0, 0),
+                };
+                suspect(text, at.probability, values! { run, after, x, y, z, axes: at.axis.names(), mean })
+            }
+            Self::SplitRun(at) => at.filled(texts::SPLIT_RUN, language),
+            Self::TwoRuns(one, other) => fill(texts::TWO_RUNS, values! { one, other }),
+            Self::NotCompared => fill(texts::NOT_COMPARED, &[]),
+            Self::Twins(one, other) => fill(texts::TWINS, values! { one, other }),
+            Self::AxesDiffer(p) => fill(texts::AXES_DIFFER, values! { p: Probability(*p) }),
+            Self::RunAxesDiffer(at) => {
+                let text = if at.axis.is_of_the_base() { texts::BASE_AXES_DIFFER } else { texts::PLATFORM_AXES_DIFFER };
+                let [own, others, missing] = [at.deviation_arcsec, at.others_arcsec, at.missing_arcsec].map(arcsec);
+                fill(text, values! { axis: at.axis.word(), own, others, p: Probability(at.probability), missing })
+            }
+            Self::SharedSetting(at) => {
+                let (angle, u) = (at.setting.symbol(), arcsec(at.deviation_arcsec));
+                fill(texts::SHARED_SETTING, values! { angle, u, p: Probability(at.probability) })
+            }
+            Self::FewRuns { runs, degrees_of_freedom: freedom } => {
+                let doubt = fixed(Self::doubt_percent(*freedom), 0);
+                fill(texts::FEW_RUNS, values! { runs, freedom, doubt })
+            }
+            Self::BaseAxes(0) => fill(texts::BASE_NOT_SEEN, &[]),
+            Self::BaseAxes(axes) => fill(texts::BASE_IN_PART, values! { axes }),
+            Self::Rounding { angles, of, step_arcsec } => {
+                let (step, u) = (exact(*step_arcsec), arcsec(rounding_of(*step_arcsec)));
+                fill(texts::ROUNDING, values! { angles, all: of, step, u })
+            }
+            Self::SmallAngles(largest) => fill(texts::SMALL_ANGLES, values! { largest: fixed(*largest, 2) }),
+            Self::Odd(Odd::FarAngle { angle, index, arcsec, usual_arcsec }) => {
+                let (angle, value, usual) = (ANGLE_SYMBOLS[*angle], fixed(*arcsec, 0), fixed(*usual_arcsec, 0));
+                fill(texts::FAR_ANGLE, values! { angle, index, value, usual })
+            }
+            Self::Odd(Odd::Temperature { celsius, .. }) => fill(texts::TEMPERATURE, values! { value: exact(*celsius) }),
+            Self::Odd(Odd::OldMeasurement { performed, issued }) => {
+                fill(texts::OLD_MEASUREMENT, values! { performed: day(*performed), issued: day(*issued) })
+            }
+            Self::Odd(Odd::LongValidity { valid_until, issued }) => {
+                fill(texts::LONG_VALIDITY, values! { until: day(*valid_until), issued: day(*issued) })
+            }
+            Self::Odd(Odd::OutsideRange { celsius, range: [low, high] }) => {
+                fill(texts::OUTSIDE_RANGE, values! { value: exact(*celsius), low: exact(*low), high: exact(*high) })
+            }
+        }
+    }
+
+    /// Returns what to do at a terminal, with the keys and options of files and commands.
+    fn advice(&self) -> Option<String> {
+        Some(match self {
+            Self::WorseGroup(_) => "Find the cause.".to_owned(),
+            Self::Outlier(_) => "Measure it again, or omit the run.".to_owned(),
+            Self::RotatedRuns(at) => match at.pattern {
+                Pattern::One(run) => without_run(run),
+                Pattern::Move(_, after) => format!(
+                    "Find the cause and measure again, or certify the runs from {after} on by themselves: exclude each \
+                     earlier one with --exclude and --why."
+                ),
+                Pattern::Drift => "Find the cause and measure again.".to_owned(),
+            },
+            Self::SplitRun(at) => without_run(at.run),
+            Self::RunAxesDiffer(at) => format!(
+                "State a line of type_b that acts on the {}, of {}″, or find the cause and measure again.",
+                at.axis.part(),
+                arcsec(at.missing_arcsec).text(Language::English)
+            ),
+            Self::SharedSetting(_) => "Measure again.".to_owned(),
+            Self::BaseAxes(0) => "Therefore common_base_arcsec is absent.".to_owned(),
+            Self::Rounding { .. } => "Record more digits.".to_owned(),
+            _ => return None,
+        })
+    }
 }
 
-/// Returns rotations about three axes as words have them, whole or the largest with two significant digits.
-pub(crate) fn turns(of: [f64; 3]) -> String {
-    let decimals = decimals_of_angle(of.iter().fold(0.0, |largest, turn| turn.abs().max(largest)));
-    of.map(|turn| format!("{}″", signed(turn, decimals))).join(", ")
+/// Returns sentences and what to do, without the last full stop, as terminals write them.
+pub(super) fn advised(words: &str, advice: Option<String>) -> String {
+    let said = plain(words) + &advice.map_or_else(String::new, |advice| format!(" {advice}"));
+    said.trim_end_matches('.').to_owned()
 }
 
-/// Returns an angle with its sign, whole or with two significant digits.
-pub(super) fn turned_by(arcsec: f64) -> String {
-    signed(arcsec, decimals_of_angle(arcsec))
+/// Returns words of a page with the spaces and the minus of terminals and of signed files.
+pub(crate) fn plain(words: &str) -> String {
+    words.replace(BLANK, " ").replace(THIN_BLANK, "").replace('\u{2212}', "-")
 }
 
-/// Returns a standard deviation or the size of an angle, whole or with two significant digits.
-fn size(arcsec: f64) -> String {
-    format!("{arcsec:.*}", decimals_of_angle(arcsec))
+fn without_run(run: u32) -> String {
+    format!("Find the cause, then measure the run again, or exclude it with --exclude {run} and --why.")
+}
+
+/// A probability and its relation to it: `p = 0.012`.
+pub(super) struct Probability(pub f64);
+
+impl Value for Probability {
+    fn said(&self, language: Language) -> String {
+        let (relation, p) = if self.0 < LEAST { ('<', LEAST) } else { ('=', self.0) };
+        format!("p{BLANK}{relation}{BLANK}{}", Number::scientific(p, 2).text(language))
+    }
+}
+
+/// Returns an angle in arcseconds, whole or with two significant digits.
+pub(super) fn arcsec(angle: f64) -> Number {
+    Number::fixed(angle, decimals_of_angle(angle))
+}
+
+/// Returns rotations about three axes to one place, the second digit of the largest if it is below 10.
+pub(crate) fn together(turns: [f64; 3]) -> [Number; 3] {
+    let decimals = decimals_of_angle(turns.iter().fold(0.0, |largest, turn| turn.abs().max(largest)));
+    turns.map(|turn| Number::fixed(turn, decimals))
 }
 
 /// Returns the decimals of an angle with two significant digits, at most hundredths of an arcsecond.
-pub(crate) fn decimals_of_angle(arcsec: f64) -> usize {
+fn decimals_of_angle(arcsec: f64) -> usize {
     if arcsec == 0.0 { 0 } else { decimals(arcsec.abs()).min(2) }
-}
-
-fn line_of(out: &Outlier) -> String {
-    out.line.map_or_else(String::new, |line| format!(" (line {line} of the readings)"))
-}
-
-fn rotated(at: &RotatedRuns) -> String {
-    let (turns, axes, p) = (turns(at.turns_arcsec), at.axis.names(), probability(at.probability));
-    match at.pattern {
-        Pattern::One(run) => format!(
-            "{}: all positions of run {run} are rotated by {turns} about {axes} relative to the other runs (Grubbs' \
-             test: probability {p}); it was not excluded, and changes certified angles by up to {}″; find the \
-             cause, then measure the run again, or exclude it with --exclude {run} and --why",
-            grade(at.probability),
-            size(at.largest_effect_arcsec())
-        ),
-        Pattern::Move(before, after) => format!(
-            "the stand seems to have moved between runs {before} and {after}: all positions are rotated by {turns} \
-             about {axes} (Student's test of a step: probability {p}); no run was excluded, and the certified angles \
-             are a mean of both states; find the cause and measure again, or certify the runs from {after} on by \
-             themselves: exclude each earlier one with --exclude and --why"
-        ),
-        Pattern::Drift => format!(
-            "the stand seems to drift: from run to run all positions rotate by {turns} about {axes} (Student's test of \
-             a straight line: probability {p}); no run was excluded, and the certified angles are those of the middle \
-             of the measurement; find the cause and measure again"
-        ),
-    }
-}
-
-fn base_axes(number: usize) -> String {
-    if number == 0 {
-        return "in these positions a rotation of the base cannot be distinguished from one of the platform; \
-                common_base_arcsec is absent, and common_platform_arcsec includes both"
-            .to_owned();
-    }
-    format!(
-        "in these positions only {number} of the three axes of the base can be distinguished from the platform; \
-         common_platform_arcsec includes the rest"
-    )
-}
-
-pub(super) fn probability(p: f64) -> String {
-    if p < 1e-99 { "below 1e-99".to_owned() } else { format!("{p:.2e}") }
-}
-
-fn grade(probability: f64) -> &'static str {
-    if probability < OUTLIER { "outlier" } else { "straggler" }
 }

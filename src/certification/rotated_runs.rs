@@ -19,7 +19,9 @@
 use super::AngleReadings;
 use super::components::{Components, RunTurn};
 use super::suspects::{AXES, OUTLIER, Outlier, STEPS_OF_ROUNDING, STRAGGLER};
+use super::texts;
 use crate::statistics::outlier::bonferroni_student;
+use crate::wording::{Text, compass};
 use nalgebra::Vector3;
 use std::ops::Range;
 
@@ -52,9 +54,14 @@ impl CommonAxis {
     }
 
     /// Returns the names of the three axes of the part, with its name.
-    pub(crate) fn names(self) -> String {
-        let names = if self.is_of_the_base() { COMPASS } else { AXES };
-        format!("{} of the {}", names.join(", "), self.part())
+    pub(crate) fn names(self) -> Text {
+        if self.is_of_the_base() { texts::AXES_OF_BASE } else { texts::AXES_OF_PLATFORM }
+    }
+
+    /// Returns the name of the axis in each language, without platform or base.
+    pub(crate) fn word(self) -> Text {
+        let [x, y, z] = AXES.map(|name| Text { en: name, ru: name });
+        [x, y, z, compass::EAST, compass::NORTH, compass::UP][self.0]
     }
 }
 

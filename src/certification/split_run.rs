@@ -5,7 +5,7 @@
 //! of the rows, and compared with what it leaves (F test).
 
 use super::components::{Combinations, Components, by_axis};
-use super::remark::turns;
+use super::remark::{Probability, together};
 use super::rotated_runs::CommonAxis;
 use super::suspects::OUTLIER;
 use super::{AngleReadings, Header};
@@ -13,6 +13,7 @@ use crate::calibration::inputs::Turn;
 use crate::coefficients::PositionIndex;
 use crate::statistics::beta::f_beyond;
 use crate::statistics::welch_satterthwaite::effective_degrees_of_freedom;
+use crate::wording::{Language, Text, values};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// Smallest number of runs that shows which one changed.
@@ -38,13 +39,11 @@ pub(crate) struct SplitRun {
 }
 
 impl SplitRun {
-    /// Returns the change within the run, in words.
-    pub(super) fn words(&self) -> String {
-        let ([before, after], turns, axes) = (self.between, turns(self.turns_arcsec), self.axis.names());
-        format!(
-            "from position {after} on, its positions are rotated by {turns} about {axes} relative to those up to \
-             {before}, in the order of the rows"
-        )
+    /// Returns a text with the change within the run.
+    pub(super) fn filled(&self, text: Text, language: Language) -> String {
+        let ([before, after], [x, y, z]) = (self.between, together(self.turns_arcsec));
+        let (axes, p) = (self.axis.names(), Probability(self.probability));
+        text.filled(language, values! { run: self.run, before, after, axes, x, y, z, p })
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::certification::comparison::Comparison;
 use crate::certification::comparison::Test;
 use crate::certification::components::{Common, Variance};
-use crate::certification::remark::turns;
+use crate::certification::remark::{plain, together};
 use crate::certification::rotated_runs::{FEWEST_RUNS, FEWEST_RUNS_OF_A_MOVE, Pattern, RotatedRuns};
 use crate::certification::suspects::{AXES, OUTLIER};
 use crate::certification::{Certification, NotCertified};
@@ -12,6 +12,7 @@ use crate::report::{columns, deviations, style};
 use crate::stand::ActsOn;
 use crate::text::record::File;
 use crate::text::{Field, Node, Printable};
+use crate::wording::Language;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -301,6 +302,7 @@ pub(crate) fn comparison(found: &Comparison) -> String {
     );
     columns::paragraph(&mut out, "", &words);
     let judged = found.common.test.as_ref().map_or_else(|| "not tested".to_owned(), line);
+    let turns = |of| plain(&together(of).map(|turn| turn.text(Language::English) + "″").join(", "));
     let words = format!(
         "Common rotation: platform {} about x, y, z, base {} about east, north, up; {judged}",
         turns(found.common.platform_arcsec),

@@ -1,11 +1,11 @@
 //! One stand over the years, as text and as JSON.
 
+use crate::attitude::ANGLE_SYMBOLS;
 use crate::attitude::ANGLES;
 use crate::calibration::document::finite;
 use crate::history::drift::{DRIFTS, Drift, Jump, SUSPECTED, Series};
 use crate::history::{History, PastCertificate, PastPassport};
 use crate::report::page::language::capital;
-use crate::report::picture::history::LETTERS;
 use crate::report::{columns, style};
 use crate::text::printable;
 use serde_json::{Value, json};
@@ -258,7 +258,7 @@ fn row(series: &Series) -> Option<Vec<String>> {
     let mut row = vec![
         series.index.i.to_string(),
         series.index.j.to_string(),
-        LETTERS[series.angle].to_owned(),
+        ANGLE_SYMBOLS[series.angle].to_owned(),
         series.tested_values().count().to_string(),
         columns::signed(change, columns::decimals(u)),
     ];
@@ -273,7 +273,7 @@ fn drift(out: &mut String, drift: &Drift) {
         let names = ["i", "j", "angle", "values", "change, ″", "″/year", "u", "probability", "corrected", ""];
         columns::table(out, &names, rows);
     }
-    let sentence = sentence(drift, LETTERS);
+    let sentence = sentence(drift, ANGLE_SYMBOLS);
     let _ = writeln!(out);
     columns::paragraph(out, "", &format!("{}.", capital(&sentence)));
 }

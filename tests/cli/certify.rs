@@ -193,7 +193,7 @@ fn a_check_has_an_exit_code() {
     let folder = folder("check");
     assert_eq!(run(&folder, "angles.csv --stand header.yaml -o stand.yaml").0, 0);
     let (code, text, _) = run(&folder, "check.csv --against stand.yaml");
-    assert!(code == 1 && text.contains("position (2, 3) has changed"), "{text}");
+    assert!(code == 1 && text.contains("Position (2, 3) has changed"), "{text}");
     let (code, text, _) = run(&folder, "check.csv --against stand.yaml --format json");
     let found: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert!(code == 1 && found["comparison"]["same_stand"] == false, "{text}");

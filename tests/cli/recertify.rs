@@ -287,8 +287,8 @@ fn a_refusal_writes_nothing() {
         ),
         (format!("{HERE} one.csv {good}"), 1, "found one run, expected at least two"),
         (format!("{HERE} rotated.csv {good}"), 1, "check that these are the readings of this stand"),
-        (format!("{HERE} reversed.csv {good}"), 1, "positions (1, 2) and (1, 4) are exchanged"),
-        (format!("{HERE} exchanged.csv {good}"), 1, "positions (2, 2) and (2, 4) are exchanged"),
+        (format!("{HERE} reversed.csv {good}"), 1, "Positions (1, 2) and (1, 4) are exchanged"),
+        (format!("{HERE} exchanged.csv {good}"), 1, "Positions (2, 2) and (2, 4) are exchanged"),
         (format!("{HERE} absent.csv {good}"), 2, "no such file"),
         (format!("{HERE} here.yaml {good}"), 2, "here.yaml"),
         (format!("other/SPS-2/0017/here-1.yaml new.csv {good}"), 1, "failed verification (signature"),
@@ -323,7 +323,7 @@ fn a_passport_is_enough_for_a_check() {
     let (code, stdout, said) = factory.run(&format!("certify new.csv --against {HERE} {TRUST}"));
     let of_passport = stdout.clone();
     assert_eq!(code, 1, "{said}");
-    assert!(stdout.starts_with("✕ CHANGED") && stdout.contains("position (2, 3) has changed"), "{stdout}");
+    assert!(stdout.starts_with("✕ CHANGED") && stdout.contains("Position (2, 3) has changed"), "{stdout}");
     let (_, stdout, _) = factory.run("certify new.csv --against passports/SPS-2/0017/stand.yaml");
     assert_eq!(of_passport, stdout, "the passport and the stand file say the same");
     let (code, stdout, said) = factory.run(&format!("certify new.csv --against {HERE}"));

@@ -99,7 +99,7 @@ fn two_runs_do_not_tell_which_is_off() {
     let named: Vec<_> =
         found.suspects.outliers.iter().map(|out| (out.index.j, out.run, out.residual_arcsec > 0.0)).collect();
     assert!(named.contains(&(3, 1, false)) && named.contains(&(3, 2, true)), "{named:?}");
-    assert!(found.warnings.iter().any(|words| words.contains("two runs do not show whether")), "{:?}", found.warnings);
+    assert!(found.warnings.iter().any(|words| words.contains("Two runs do not show whether")), "{:?}", found.warnings);
 }
 
 /// A position all of whose readings scatter is named as a position, and the others keep their own scatter.
@@ -145,7 +145,7 @@ fn a_shifted_copy_is_named() {
         .collect();
     let found = certified(&AngleReadings::new(vec![1, 2, 3, 4], each).unwrap());
     assert_eq!(found.suspects.twins, [(1, 4)]);
-    assert!(found.warnings.iter().any(|words| words.contains("runs 1 and 4 agree")), "{:?}", found.warnings);
+    assert!(found.warnings.iter().any(|words| words.contains("Runs 1 and 4 agree")), "{:?}", found.warnings);
 }
 
 /// A gross reading is refused with its own line, and with no line of a run that is good.
@@ -187,7 +187,6 @@ fn a_remark_says_the_same_in_both_languages() {
     use dtg_passport::certification::worse_groups::WorseGroup;
     use dtg_passport::coefficients::PositionIndex;
     use dtg_passport::report::page::Language;
-    use dtg_passport::report::page::certification::remarks::words;
     use dtg_passport::stand::remarks::Odd;
     let index = PositionIndex { i: 2, j: 3 };
     let rotated = |pattern, axis| {
@@ -246,7 +245,7 @@ fn a_remark_says_the_same_in_both_languages() {
         Remark::Odd(Odd::OutsideRange { celsius: 25.5, range: [18.0, 22.0] }),
     ];
     for remark in &remarks {
-        let [en, ru] = [Language::English, Language::Russian].map(|language| words(remark, language));
+        let [en, ru] = [Language::English, Language::Russian].map(|language| remark.words(language));
         assert!(!en.chars().any(cyrillic) && ru.chars().any(cyrillic), "{en}\n{ru}");
         assert!(latin_words(&ru).all(|word| LATIN_IN_RUSSIAN.contains(&word)), "{ru}");
         assert!([&en, &ru].iter().all(|said| said.ends_with('.') && !said.contains(['{', '}'])), "{en}\n{ru}");
@@ -259,6 +258,6 @@ fn a_remark_says_the_same_in_both_languages() {
         assert!(least.iter().all(|number| ru.contains(number)), "{en}: {ru:?}");
     }
     // Expected: 1/√(2·6) = 0.2887 (GUM, E.4.3).
-    assert!(words(&remarks[16], Language::Russian).contains("29\u{a0}%"));
-    assert!(words(&remarks[2], Language::Russian).contains("\u{2212}14″"));
+    assert!(remarks[16].words(Language::Russian).contains("29\u{a0}%"));
+    assert!(remarks[2].words(Language::Russian).contains("\u{2212}14″"));
 }

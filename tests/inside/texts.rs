@@ -15,7 +15,7 @@ const CERTIFICATES: &[Table] = &[];
 
 /// All tables of texts: those of pages, and of digital certificates.
 fn tables() -> impl Iterator<Item = Table> {
-    texts::TABLES.into_iter().chain(CERTIFICATES.iter().copied())
+    texts::TABLES.iter().chain(CERTIFICATES).copied()
 }
 
 /// The names in braces.

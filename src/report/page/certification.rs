@@ -7,7 +7,6 @@
 
 mod change;
 mod evidence;
-pub(crate) mod remarks;
 
 use super::language::{Languages, values};
 use super::number::Number;

@@ -1,59 +1,14 @@
-//! Languages of a page, and texts in each of them.
+//! Languages of a page, and texts in each of them as elements of the page.
 
 use super::number::Number;
-use super::spacing::spaced;
 use super::symbols::italic;
-use crate::text::words;
+use crate::wording::{Piece, pieces};
 use maud::{Markup, html};
-use std::fmt::Display;
 
-words! {
-    /// A language of the pages and of a DCC; its word is its code in ISO 639-1.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    #[cfg_attr(feature = "cli", derive(clap::ValueEnum, schemars::JsonSchema))]
-    #[non_exhaustive]
-    pub enum Language: pub tag {
-        /// English.
-        #[cfg_attr(feature = "cli", value(name = "en"), schemars(rename = "en"))]
-        English = "en",
-        /// Russian.
-        #[cfg_attr(feature = "cli", value(name = "ru"), schemars(rename = "ru"))]
-        Russian = "ru",
-    }
-}
-
-/// A text in every language. A new language is a new field, so the compiler reports every text that lacks it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Text {
-    /// English.
-    pub en: &'static str,
-    /// Russian.
-    pub ru: &'static str,
-}
+pub use crate::wording::Language;
+pub(crate) use crate::wording::{Text, Values, capital, texts, values};
 
 impl Text {
-    /// Returns the text in `language` as the table has it.
-    pub(crate) fn of(&self, language: Language) -> &'static str {
-        match language {
-            Language::English => self.en,
-            Language::Russian => self.ru,
-        }
-    }
-
-    /// Returns the text in `language` with its non-breaking spaces.
-    pub(crate) fn words(&self, language: Language) -> String {
-        spaced(self.of(language))
-    }
-
-    /// Returns the text in `language` with every `{name}` replaced by its value.
-    pub(crate) fn filled(&self, language: Language, values: Values) -> String {
-        let piece = |piece: Piece| match piece {
-            Piece::Words(words) => Some(words.to_owned()),
-            Piece::Name(name) => values.iter().find(|(key, _)| *key == name).map(|(_, value)| value.said(language)),
-        };
-        pieces(&self.words(language)).into_iter().filter_map(piece).collect()
-    }
-
     /// Returns the text in `language` with every `{name}` replaced by a number, with the marks of that language.
     pub(crate) fn with_numbers(&self, language: Language, numbers: &[(&str, Number)]) -> Markup {
         let alone = Languages::from(language);
@@ -74,84 +29,6 @@ impl Text {
         }
     }
 }
-
-/// A value in a text.
-pub(crate) trait Value {
-    /// Returns the value as `language` writes it.
-    fn said(&self, language: Language) -> String;
-}
-
-/// Names, words from the file and whole numbers are written alike in every language.
-impl<T: Display> Value for T {
-    fn said(&self, _: Language) -> String {
-        self.to_string()
-    }
-}
-
-impl Value for Text {
-    fn said(&self, language: Language) -> String {
-        self.words(language)
-    }
-}
-
-impl Value for Number {
-    fn said(&self, language: Language) -> String {
-        self.text(language)
-    }
-}
-
-/// Names of values in a text, and the values.
-pub(crate) type Values<'a> = &'a [(&'a str, &'a dyn Value)];
-
-/// Names the values of a text: `values! { run, index: at.index }`.
-macro_rules! values {
-    (@ $name:ident) => { &$name };
-    (@ $name:ident $value:expr) => { &$value };
-    ($($name:ident $(: $value:expr)?),*) => {
-        &[$((stringify!($name), values!(@ $name $($value)?) as &dyn $crate::report::page::language::Value)),*]
-    };
-}
-pub(crate) use values;
-
-/// Returns words with a capital first letter, as at the beginning of a row or a sentence.
-pub(crate) fn capital(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
-}
-
-/// A part of a text.
-enum Piece<'a> {
-    Words(&'a str),
-    /// The name of a value to insert.
-    Name(&'a str),
-}
-
-/// Splits a text into words and names. Values are inserted afterwards, so braces in a value are never read as a name.
-fn pieces(mut rest: &str) -> Vec<Piece<'_>> {
-    let mut pieces = Vec::new();
-    while let Some((before, after)) = rest.split_once('{') {
-        let (name, after) = after.split_once('}').unwrap_or((after, ""));
-        pieces.extend([Piece::Words(before), Piece::Name(name)]);
-        rest = after;
-    }
-    pieces.push(Piece::Words(rest));
-    pieces
-}
-
-/// Defines a table of texts: a constant for each, and a list of all by name for the tests.
-macro_rules! texts {
-    ($($name:ident { en: $en:literal, ru: $ru:literal })*) => {
-        $(
-            #[doc = $en]
-            pub(crate) const $name: $crate::report::page::language::Text =
-                $crate::report::page::language::Text { en: $en, ru: $ru };
-        )*
-        /// Every text of this table by its name.
-        #[cfg(test)]
-        pub(crate) const ALL: &[(&str, $crate::report::page::language::Text)] = &[$((stringify!($name), $name)),*];
-    };
-}
-pub(crate) use texts;
 
 /// The languages of one page, in order. The first one sets the format of numbers and dates.
 #[derive(Debug, Clone, PartialEq, Eq)]

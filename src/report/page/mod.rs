@@ -2,12 +2,12 @@
 //!
 //! * [`calibration`]: the report of a calibration.
 //! * `certification`: the record of a certification.
-//! * [`language`]: the languages of a page, and a text in each of them.
+//! * [`language`]: the languages of a page, and texts as its elements.
 //! * [`texts`]: the table of texts.
-//! * [`number`]: numbers formatted for people.
+//! * [`number`]: numbers as elements, and columns of them.
 //! * [`parts`]: tables, figures, forms.
 //! * [`code`]: QR codes.
-//! * [`spacing`]: non-breaking spaces.
+//! * [`spacing`]: words that no line breaks.
 //! * `symbols`: symbols of quantities within texts.
 //! * [`shell`]: the enclosing HTML document, its style and its running heads.
 //! * [`passport`]: the printed passport.

@@ -6,6 +6,7 @@ use super::spacing::{BLANK, unbroken};
 use super::symbols::index;
 use super::texts::{calibration, record, units, words};
 use crate::report::style::{self, Outcome};
+use crate::wording::date_text;
 use base64ct::{Base64, Encoding};
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -180,14 +181,6 @@ pub(crate) fn quantity(languages: &Languages, number: &Number, unit: Text) -> Ma
 /// Writes a date in the format of the page's first language.
 pub(crate) fn date(languages: &Languages, date: Date) -> Markup {
     html! { time datetime=(date) { (date_text(languages.first(), date)) } }
-}
-
-/// Returns a date in the format of `language`: ISO 8601, or day, month and year with points.
-pub(crate) fn date_text(language: Language, date: Date) -> String {
-    match language {
-        Language::English => date.to_string(),
-        Language::Russian => date.strftime("%d.%m.%Y").to_string(),
-    }
 }
 
 /// Writes a time in UTC.

@@ -7,7 +7,6 @@
 //! * [`absences`]: inputs that a passport does not state, and the effect of each.
 //! * [`calibration`]: the report of a calibration.
 //! * [`certification`]: the record of a certification.
-//! * `remarks`: remarks on a certification.
 //! * [`pictures`]: words in pictures, and their descriptions.
 
 #[cfg(test)]
@@ -21,17 +20,18 @@ pub(crate) mod checks;
 pub(crate) mod passport;
 pub(crate) mod pictures;
 pub(crate) mod record;
-pub(crate) mod remarks;
 
 /// Every table with its name.
 #[cfg(test)]
-pub(crate) const TABLES: [(&str, &[(&str, Text)]); 10] = [
+pub(crate) const TABLES: &[(&str, &[(&str, Text)])] = &[
     ("units", units::ALL),
     ("words", words::ALL),
     ("checks", checks::ALL),
     ("passport", passport::ALL),
     ("record", record::ALL),
-    ("remarks", remarks::ALL),
+    #[cfg(feature = "factory")]
+    ("remarks", crate::certification::texts::ALL),
+    ("compass", crate::wording::compass::ALL),
     ("absences", absences::ALL),
     ("calibration", calibration::ALL),
     ("certification", certification::ALL),
@@ -77,10 +77,5 @@ pub(crate) mod words {
         FIGURE { en: "Figure", ru: "Рисунок" }
         YES { en: "yes", ru: "да" }
         NO { en: "no", ru: "нет" }
-        NORTH { en: "north", ru: "север" }
-        SOUTH { en: "south", ru: "юг" }
-        EAST { en: "east", ru: "восток" }
-        WEST { en: "west", ru: "запад" }
-        UP { en: "up", ru: "верх" }
     }
 }

@@ -4,6 +4,7 @@
 use super::chart::Field;
 use super::drawing::{Anchor, Point, Scale, Ticks, coordinate, label, line, mark, rectangle, symbols, words};
 use super::file::{caption, file};
+use crate::attitude::ANGLE_SYMBOLS;
 use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::history::drift::{DRIFTS, Drift, Series};
 use crate::history::{History, PastPassport};
@@ -26,9 +27,6 @@ const PANEL_ROW: f64 = 74.0;
 const PLOT_HEIGHT: f64 = 52.0;
 const LEFT: f64 = 56.0;
 
-/// Letters of the angles.
-pub(crate) const LETTERS: [&str; 3] = ["α", "β", "γ"];
-
 /// Draws the history as of `now`.
 pub(crate) fn history(history: &History, now: Timestamp) -> String {
     let time = time_scale(history, now);
@@ -37,7 +35,7 @@ pub(crate) fn history(history: &History, now: Timestamp) -> String {
     let panels_top = bottom + 92.0;
     // A single certificate shows no change.
     let changes = history.drift.series.iter().any(|series| series.values.len() > 1);
-    let positions = history.drift.series.len().div_ceil(LETTERS.len()) as f64;
+    let positions = history.drift.series.len().div_ceil(ANGLE_SYMBOLS.len()) as f64;
     let height = if changes { panels_top + PANEL_ROW * positions + 24.0 } else { bottom + 40.0 };
     let day = now.to_zoned(jiff::tz::TimeZone::UTC).date();
     let as_of = format!("as of {day}");
@@ -191,7 +189,7 @@ fn drift(drift: &Drift, top: f64) -> Markup {
                 y: Scale { values: [low, high], places: [upper + PLOT_HEIGHT, upper] },
             };
             // Only the lowest panel of a column has the numbers of its horizontal axis.
-            (panel(series, &field, place + LETTERS.len() >= drift.series.len()))
+            (panel(series, &field, place + ANGLE_SYMBOLS.len() >= drift.series.len()))
         }
     }
 }
@@ -206,7 +204,7 @@ fn panel(series: &Series, field: &Field, lowest: bool) -> Markup {
     let [left, right] = field.x.places;
     let title = format!(
         "{} {}{}",
-        LETTERS[series.angle],
+        ANGLE_SYMBOLS[series.angle],
         series.index,
         match (drifts, &series.jump) {
             (true, _) => ": drifts",
@@ -253,13 +251,13 @@ fn in_words(history: &History) -> String {
     });
     let drifts = history.drift.series.iter().filter_map(|series| {
         let fitted = series.line.as_ref()?;
-        let (name, index) = (LETTERS[series.angle], series.index);
+        let (name, index) = (ANGLE_SYMBOLS[series.angle], series.index);
         Some(format!("{name} {index} {:+.3} arcsec per year, u {:.3}", fitted.slope, fitted.u_slope))
     });
     let all: Vec<String> = certificates
         .chain(passports)
         .chain(drifts)
-        .chain([crate::report::history::sentence(&history.drift, LETTERS)])
+        .chain([crate::report::history::sentence(&history.drift, ANGLE_SYMBOLS)])
         .collect();
     all.join("; ") + "."
 }

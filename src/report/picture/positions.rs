@@ -10,9 +10,10 @@ use super::label::Area;
 use crate::attitude::{self, Deviation};
 use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::Number;
-use crate::report::page::texts::{pictures as texts, words as compass};
+use crate::report::page::texts::pictures as texts;
 use crate::stand::CertifiedPosition;
 use crate::units::{ARCSECONDS_PER_DEGREE, degrees_from_radians, sin_cos_of_degrees};
+use crate::wording::compass;
 use maud::{Markup, html};
 use nalgebra::{Matrix3, Vector3};
 

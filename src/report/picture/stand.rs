@@ -7,7 +7,8 @@ use super::positions::{AXIS, AXIS_HEIGHT, GYRO, GYRO_HEIGHT, View, plate, rows, 
 use crate::attitude;
 use crate::report::page::language::{Languages, values};
 use crate::report::page::number::Number;
-use crate::report::page::texts::{pictures as texts, words as compass};
+use crate::report::page::texts::pictures as texts;
+use crate::wording::compass;
 use maud::{Markup, html};
 use nalgebra::{Matrix3, Vector3};
 

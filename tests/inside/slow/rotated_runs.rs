@@ -77,9 +77,9 @@ fn one_run_by_hand() {
     assert!((at.probability / 9.8458e-5 - 1.0).abs() < 0.01, "{at:?}");
     let words = &found.warnings[0];
     assert!(
-        ["+102″, ", "+103″, "]
+        ["102″, ", "103″, "]
             .iter()
-            .any(|x| words.starts_with(&format!("outlier: all positions of run 5 are rotated by {x}")))
+            .any(|x| words.starts_with(&format!("Outlier: all positions of run 5 are rotated by {x}")))
             && words.contains("″ about x, y, z of the platform relative")
             && ["20″", "21″"].iter().any(|effect| words.contains(&format!("by up to {effect}")))
             && words.contains("--exclude 5"),
@@ -289,7 +289,7 @@ fn a_check_with_an_oblique_bump_is_not_the_same_stand() {
         let check = against(&certificate, &measured(&truth(), &mut stream, 5, USUAL, bumped));
         assert!(!check.same_stand, "{:?}", check.common);
         assert!(!check.words.iter().any(|words| words.contains("datum surface")), "{:?}", check.words);
-        assert!(check.words[0].starts_with("all positions of run 2 of the check are rotated by"), "{:?}", check.words);
+        assert!(check.words[0].starts_with("All positions of run 2 of the check are rotated by"), "{:?}", check.words);
         assert!(check.words[0].contains("about east, north, up of the base"), "{:?}", check.words);
     }
 }
@@ -305,7 +305,7 @@ fn a_check_with_a_move_is_not_the_same_stand() {
         let check = against(&certificate, &in_order(&truth(), &mut stream, 5, USUAL, base));
         assert!(!check.same_stand, "{:?}", check.common);
         assert!(
-            check.words[0].starts_with("the stand seems to have moved between runs 3 and 4 of the check"),
+            check.words[0].starts_with("The stand seems to have moved between runs 3 and 4 of the check"),
             "{:?}",
             check.words
         );
@@ -323,7 +323,7 @@ fn a_check_with_a_bumped_run_says_so() {
         let bumped = Some((2, [300.0, 0.0, 0.0], [0.0; 3]));
         let check = against(&certificate, &measured(&truth(), &mut stream, 5, USUAL, bumped));
         assert!(!check.same_stand, "{:?}", check.common);
-        assert!(check.words[0].starts_with("all positions of run 3 of the check are rotated by"), "{:?}", check.words);
+        assert!(check.words[0].starts_with("All positions of run 3 of the check are rotated by"), "{:?}", check.words);
         assert!(check.words[0].contains("about x, y, z of the platform"), "{:?}", check.words);
         assert!(!check.words.iter().any(|words| words.contains("datum surface")), "{:?}", check.words);
     }

@@ -153,13 +153,13 @@ fn one_run_needs_evidence() {
     let said = |found: &Comparison, words: &str| {
         assert!(found.words.iter().any(|said| said.contains(words)), "{:?}", found.words)
     };
-    said(&found, "rotation of the stand as a whole was not tested: one run does not show");
+    said(&found, "Rotation of the stand as a whole was not tested: one run does not show");
     // Several runs show it themselves.
     let found = against(&stand, &turned.measured(&mut stream, 3));
     assert!(!found.same_stand, "{found:?}");
     stand.certificate.common_platform_arcsec = None;
     let found = against(&stand, &turned.measured(&mut stream, 3));
-    said(&found, "does not state common_platform_arcsec");
+    said(&found, "They are common_platform_arcsec");
 }
 
 /// What repeating cannot show is in common_* and not in what runs vary by. The turn is so large that what the other axes add to
@@ -257,7 +257,7 @@ fn exchanged_positions_are_named() {
         let index = |place: usize| stand.positions[place].index();
         let named: Vec<_> = pairs
             .iter()
-            .map(|(one, other)| format!("positions {} and {} are exchanged", index(*one), index(*other)))
+            .map(|(one, other)| format!("Positions {} and {} are exchanged", index(*one), index(*other)))
             .collect();
         assert!(!found.same_stand && found.words.len() == named.len(), "{:?}", found.words);
         for (said, due) in found.words.iter().zip(&named) {
@@ -316,7 +316,7 @@ fn a_setting_that_has_changed_is_named() {
         }
         let found = against(&stand, &check);
         assert!(!found.same_stand && found.words.len() == 1, "{:?}", found.words);
-        let words = found.words[0].strip_prefix("the positions with θ = 90° have rotated by +").expect(&found.words[0]);
+        let words = found.words[0].strip_prefix("The positions with θ = 90° have rotated by ").expect(&found.words[0]);
         let (turn, rest) = words.split_once('″').unwrap();
         assert!((turn.parse::<f64>().unwrap() - 60.0).abs() < 5.0, "{turn}");
         assert!(rest.contains("about the axis of θ"), "{rest}");
@@ -331,15 +331,12 @@ fn a_misread_file_is_named() {
     let mut stream = Stream::new(72);
     let stand = certificate(&truth, &mut stream, 5);
     let cases: [(Wrong, &str); 6] = [
-        (|at| at / 60.0, "divided by 60; convert them from arcminutes"),
-        (|at| at / 3600.0, "divided by 3600; convert them from degrees"),
+        (|at| at / 60.0, "divided by 60; they are in another unit. Convert them from arcminutes"),
+        (|at| at / 3600.0, "divided by 3600; they are in another unit. Convert them from degrees"),
         (|at| at * 60.0, "60 times those of the certificate"),
         (|at| -at, "with the opposite sign"),
-        (
-            |at| Vector3::new(at.x, at.z, at.y),
-            "have gamma where the certificate has beta, beta where the certificate has gamma;",
-        ),
-        (|at| Vector3::new(-at.x, at.y, at.z), "have -alpha where the certificate has alpha;"),
+        (|at| Vector3::new(at.x, at.z, at.y), "(read → certified: γ → β, β → γ)"),
+        (|at| Vector3::new(-at.x, at.y, at.z), "(read → certified: -α → α)"),
     ];
     for (wrong, due) in cases {
         let mut check = truth.measured(&mut stream, 3);

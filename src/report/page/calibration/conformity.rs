@@ -9,7 +9,7 @@ use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::gyro::GyroType;
 use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::{Cell, Number, column};
-use crate::report::page::parts::{Column, Table, date_text, heading, listed, mark, marked, quantity, symbol_and_unit};
+use crate::report::page::parts::{Column, Table, heading, listed, mark, marked, quantity, symbol_and_unit};
 use crate::report::page::spacing::BLANK;
 use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
@@ -17,6 +17,7 @@ use crate::report::picture::accuracy::unit;
 use crate::report::picture::tolerances::{Strips, decision, key, printed, unit_of};
 use crate::report::style::Outcome;
 use crate::report::tolerance::coverage_factor;
+use crate::wording::date_text;
 use maud::{Markup, html};
 
 /// Limit below which a risk is not printed as a number.

@@ -22,7 +22,7 @@ pub(crate) use fit::not_stated;
 
 use self::parameters::name_of;
 use super::language::{Language, Languages, Text, values};
-use super::parts::{Section, boxed, contents, data_address, date_text, listed, marked, numbered, outcome_box};
+use super::parts::{Section, boxed, contents, data_address, listed, marked, numbered, outcome_box};
 use super::passport::PassportPage;
 use super::shell::{Margins, document};
 use super::symbols::italic;
@@ -38,6 +38,7 @@ use crate::passport::Content;
 use crate::report::mistake;
 use crate::report::style::Outcome;
 use crate::uncertainty::{Budget, MonteCarlo};
+use crate::wording::date_text;
 use jiff::Timestamp;
 use maud::{Markup, html};
 

@@ -7,12 +7,12 @@ use crate::laboratory::Laboratory;
 use crate::report::page::language::{Languages, values};
 use crate::report::page::number::Number;
 use crate::report::page::parts::{
-    self, blank, date, date_text, field, fields, file_name, given, heading, not_stated, outcome_box, quantity, time,
-    wide_field,
+    self, blank, date, field, fields, file_name, given, heading, not_stated, outcome_box, quantity, time, wide_field,
 };
 use crate::report::page::passport::{accuracy, characteristics, checks};
 use crate::report::page::texts::{calibration as texts, passport as passport_texts, record, units};
 use crate::report::style::Outcome;
+use crate::wording::date_text;
 use maud::{Markup, html};
 
 pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {

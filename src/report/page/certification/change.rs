@@ -1,6 +1,6 @@
 //! Change of the stand since its last certificate.
 
-use super::{CertificationPage, remarks};
+use super::CertificationPage;
 use crate::certification::comparison::Comparison;
 use crate::certification::comparison::{ComparedPosition, Test};
 use crate::certification::suspects::AXES;
@@ -37,7 +37,7 @@ pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup
         @if !comparison.findings.is_empty() {
             ul {
                 @for found in &comparison.findings {
-                    li { (languages.label_with(|language| remarks::finding(found, language))) }
+                    li { (languages.label_with(|language| found.words(language))) }
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! Evidence for a certificate: readings, exclusions, components of the uncertainty, tests.
 
-use super::{CertificationPage, remarks};
+use super::CertificationPage;
 use crate::certification::components::{Common, Variance};
 use crate::certification::rotated_runs::{FEWEST_RUNS, FEWEST_RUNS_OF_A_MOVE, Pattern, RotatedRuns};
 use crate::certification::suspects::{AXES, OUTLIER, STRAGGLER};
@@ -10,9 +10,10 @@ use crate::report::page::parts::{
     Column, Table, field, fields, file_name, given, heading, marked, symbol, symbol_and_unit, wide_field,
 };
 use crate::report::page::passport::characteristics;
-use crate::report::page::texts::{calibration, certification as texts, checks, units, words};
+use crate::report::page::texts::{calibration, certification as texts, checks, units};
 use crate::report::style::Outcome;
 use crate::statistics::outlier::Bartlett;
+use crate::wording::compass;
 use maud::{Markup, html};
 
 pub(super) fn readings(page: &CertificationPage, languages: &Languages) -> Markup {
@@ -97,7 +98,7 @@ fn components(page: &CertificationPage, languages: &Languages) -> Markup {
 
 fn run_turns(page: &CertificationPage, languages: &Languages) -> Markup {
     let turns = &page.certification.components.run_turns;
-    let of_base = [words::EAST, words::NORTH, words::UP].map(|text| languages.label(text));
+    let of_base = [compass::EAST, compass::NORTH, compass::UP].map(|text| languages.label(text));
     let headings = AXES.map(|axis| symbol(axis, "")).into_iter().chain(of_base);
     let columns = headings.enumerate().map(|(place, heading)| {
         let values = turns.iter().map(|turn| turn.platform_arcsec.iter().chain(&turn.base_arcsec).nth(place));
@@ -168,8 +169,7 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
             (Pattern::Drift, true) => (texts::DRIFT_BASE, 0),
             (Pattern::Drift, false) => (texts::DRIFT_PLATFORM, 0),
         };
-        let name =
-            languages.label_with(|language| of.filled(language, values! { run, axis: remarks::axis_name(at.axis) }));
+        let name = languages.label_with(|language| of.filled(language, values! { run, axis: at.axis.word() }));
         named(name, at.turn_arcsec(), at.probability)
     }));
     found.extend(without_findings(page, languages));
@@ -193,7 +193,7 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
             (heading(languages, texts::WARNINGS))
             ul {
                 @for remark in &page.certification.remarks {
-                    li { (languages.label_with(|language| remarks::words(remark, language))) }
+                    li { (languages.label_with(|language| remark.words(language))) }
                 }
             }
         }

@@ -1,6 +1,7 @@
 //! Characteristics: the certified deviations with their uncertainties, the datum surfaces, the site.
 
 use super::PassportPage;
+use crate::attitude::ANGLE_SYMBOLS;
 use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::{LARGEST_IN_ARCSEC, LATITUDES, LONGITUDES, Number, column};
 use crate::report::page::parts::{
@@ -9,7 +10,6 @@ use crate::report::page::parts::{
 };
 use crate::report::page::texts::{passport as texts, units};
 use crate::report::picture::deviations::Bars;
-use crate::report::picture::history::LETTERS;
 use crate::report::picture::{place as map, positions as picture};
 use crate::site::{Earth, Site};
 use crate::stand::{ActsOn, Certificate, CertifiedPosition, Datum, Excluded, TypeB};
@@ -56,7 +56,7 @@ pub(crate) fn positions(positions: &[CertifiedPosition], languages: &Languages) 
     // One angle with degrees and minutes, and all are marked in their cells.
     let large =
         positions.iter().flat_map(CertifiedPosition::angles_arcsec).any(|angle| angle.abs() > LARGEST_IN_ARCSEC);
-    for (axis, name) in LETTERS.into_iter().enumerate() {
+    for (axis, name) in ANGLE_SYMBOLS.into_iter().enumerate() {
         let of = |at: &CertifiedPosition| (at.angles_arcsec()[axis], at.u_arcsec()[axis]);
         let heading = if large { symbol(name, "") } else { with(symbol(name, ""), units::ARCSEC) };
         let mut angles = numbers(heading, &|at| Some(Number::angle(of(at).0, of(at).1.unwrap_or(0.0))));

@@ -6,9 +6,10 @@ use crate::passport::place::Nearness;
 use crate::passport::{Check, CheckName, Code, Dated};
 use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::Number;
-use crate::report::page::parts::{Table, boxed, date_text, marked, time_text};
+use crate::report::page::parts::{Table, boxed, marked, time_text};
 use crate::report::page::spacing::BLANK;
 use crate::report::page::texts::{checks as texts, units};
+use crate::wording::date_text;
 use maud::{Markup, html};
 
 /// Returns whether the check `name` passed; `None` if it was not asked. Without any list, nothing was asked about a

@@ -5,10 +5,11 @@ use crate::report::page::code;
 use crate::report::page::language::{Languages, values};
 use crate::report::page::number::{LATITUDES, LONGITUDES, Number};
 use crate::report::page::parts::{
-    band, coordinate, date, date_text, fields, figure, given, marked, quantity, signature, stated, time, wide_stated,
+    band, coordinate, date, fields, figure, given, marked, quantity, signature, stated, time, wide_stated,
 };
 use crate::report::page::texts::{checks as check_texts, passport as texts, record, units, words};
 use crate::report::picture::stand::stand as picture;
+use crate::wording::date_text;
 use maud::{Markup, html};
 
 /// Writes the head of the page: kind of the document, the stand, and the id.

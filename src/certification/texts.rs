@@ -1,68 +1,69 @@
-//! Texts of the remarks on a certification, and of the findings of a comparison with the last certificate.
+//! Texts of the remarks on a certification, and of the findings of a comparison with the last certificate, in all languages.
+//! `{name}` is a placeholder for a value; `{p}` is a probability with its relation.
 
-use super::texts;
+use crate::wording::texts;
 
 texts! {
     OUTLIER { en: "Outlier", ru: "Выброс" }
     STRAGGLER { en: "Straggler", ru: "Квазивыброс" }
     WORSE {
         en: "{grade}: the standard deviation of position {index} is {ratio} times the pooled one (Cochran’s test, \
-             p = {p}). Its uncertainty is computed from its own readings, that of the others without it.",
+             {p}). Its uncertainty is computed from its own readings, that of the others without it.",
         ru: "{grade}: стандартное отклонение положения {index} в {ratio} раза больше объединённого (критерий Кохрена, \
-             p = {p}). Неопределённость этого положения вычислена по его показаниям, остальных — без него."
+             {p}). Неопределённость этого положения вычислена по его показаниям, остальных — без него."
     }
     WORSE_GROUP {
         en: "The standard deviation of the positions with θ = {theta}° is {ratio} times that of the others (F test, \
-             p = {p}). Their uncertainty is computed from their own readings, that of the others without them. The \
+             {p}). Their uncertainty is computed from their own readings, that of the others without them. The \
              repeatability is pooled from all positions.",
         ru: "Стандартное отклонение положений с θ = {theta}° в {ratio} раза больше, чем остальных (критерий Фишера, \
-             p = {p}). Их неопределённость вычислена по их показаниям, остальных — без них. Указана повторяемость, \
+             {p}). Их неопределённость вычислена по их показаниям, остальных — без них. Указана повторяемость, \
              объединённая по всем положениям."
     }
     OUTLIER_READING {
-        en: "{grade}: position {index}, run {run} differs by {residual}″ about {axis} from the other runs (Grubbs’ test, \
-             p = {p}). The reading was not excluded.",
+        en: "{grade}: position {index}, run {run}, differs by {residual}″ about {axis} from the other runs (Grubbs’ test, \
+             {p}). The reading was not excluded.",
         ru: "{grade}: положение {index}, серия {run}, отличие от других серий {residual}″ вокруг {axis} (критерий \
-             Граббса, p = {p}). Показание не исключено."
+             Граббса, {p}). Показание не исключено."
     }
     OUTLIER_IN_LINE {
-        en: "{grade}: position {index}, run {run} (line {line} of the readings) differs by {residual}″ about {axis} from \
-             the other runs (Grubbs’ test, p = {p}). The reading was not excluded.",
+        en: "{grade}: position {index}, run {run} (line {line} of the readings), differs by {residual}″ about {axis} from \
+             the other runs (Grubbs’ test, {p}). The reading was not excluded.",
         ru: "{grade}: положение {index}, серия {run} (строка {line} файла показаний), отличие от других серий \
-             {residual}″ вокруг {axis} (критерий Граббса, p = {p}). Показание не исключено."
+             {residual}″ вокруг {axis} (критерий Граббса, {p}). Показание не исключено."
     }
     AXES_OF_PLATFORM { en: "x, y, z of the platform", ru: "осей x, y, z платформы" }
     AXES_OF_BASE { en: "east, north, up of the base", ru: "осей основания «восток», «север», «верх»" }
     BUMPED_RUN {
         en: "{grade}: all positions of run {run} are rotated by {x}″, {y}″, {z}″ about {axes} relative to the other \
-             runs (Grubbs’ test, p = {p}). The run was not excluded; it changes certified angles by up to {mean}″.",
+             runs (Grubbs’ test, {p}). The run was not excluded; it changes certified angles by up to {mean}″.",
         ru: "{grade}: все положения серии {run} повёрнуты относительно других серий на {x}″, {y}″, {z}″ вокруг {axes} \
-             (критерий Граббса, p = {p}). Серия не исключена; она изменяет отклонения в сертификате не более чем на \
+             (критерий Граббса, {p}). Серия не исключена; она изменяет отклонения в сертификате не более чем на \
              {mean}″."
     }
     MOVED {
         en: "The stand seems to have moved between runs {run} and {after}: all positions are rotated by {x}″, {y}″, \
-             {z}″ about {axes} (Student’s test of a step, p = {p}). No run was excluded; the certified angles are a \
+             {z}″ about {axes} (Student’s test of a step, {p}). No run was excluded; the certified angles are a \
              mean of both states.",
         ru: "По-видимому, между сериями {run} и {after} стенд сместился: все положения повёрнуты на {x}″, {y}″, {z}″ \
-             вокруг {axes} (критерий Стьюдента для скачка, p = {p}). Серии не исключены; отклонения в сертификате — \
+             вокруг {axes} (критерий Стьюдента для скачка, {p}). Серии не исключены; отклонения в сертификате — \
              среднее по обоим состояниям."
     }
     DRIFTS {
         en: "The stand seems to drift: from run to run all positions rotate by {x}″, {y}″, {z}″ about {axes} \
-             (Student’s test of a straight line, p = {p}). No run was excluded; the certified angles are those of the \
+             (Student’s test of a straight line, {p}). No run was excluded; the certified angles are those of the \
              middle of the measurement.",
         ru: "По-видимому, стенд дрейфует: от серии к серии все положения поворачиваются на {x}″, {y}″, {z}″ вокруг \
-             {axes} (критерий Стьюдента для прямой, p = {p}). Серии не исключены; отклонения в сертификате относятся к \
+             {axes} (критерий Стьюдента для прямой, {p}). Серии не исключены; отклонения в сертификате относятся к \
              середине измерений."
     }
     SPLIT_RUN {
         en: "Run {run} seems to have changed within itself: from position {after} on, its positions are rotated by {x}″, \
-             {y}″, {z}″ about {axes} relative to those up to {before}, in the order of the rows (F test, p = {p}). The run \
+             {y}″, {z}″ about {axes} relative to those up to {before}, in the order of the rows (F test, {p}). The run \
              was not excluded; single readings and positions were not examined.",
         ru: "По-видимому, стенд сместился во время серии {run}: её положения начиная с {after} повёрнуты относительно \
              положений до {before} включительно (в порядке строк) на {x}″, {y}″, {z}″ вокруг {axes} (критерий Фишера, \
-             p = {p}). Серия не исключена; отдельные показания и положения не проверялись."
+             {p}). Серия не исключена; отдельные показания и положения не проверялись."
     }
     TWO_RUNS {
         en: "Two runs do not show whether run {one} or run {other} is wrong; a third run is needed.",
@@ -81,33 +82,33 @@ texts! {
              из них — копия другой, или ошибка содержится в другой серии."
     }
     AXES_DIFFER {
-        en: "The variances about x, y and z differ (Bartlett’s test, p = {p}). The repeatability is pooled from all \
-             three.",
-        ru: "Дисперсии вокруг x, y и z различаются (критерий Бартлетта, p = {p}). Указана повторяемость, объединённая по \
-             трём осям."
+        en: "The variances about x, y and z differ (Bartlett’s test, {p}). The repeatability is pooled from all \
+             three, which is too large for one axis and too small for another.",
+        ru: "Дисперсии вокруг x, y и z различаются (критерий Бартлетта, {p}). Указана повторяемость, объединённая по \
+             трём осям: для одной оси она завышена, для другой занижена."
     }
     PLATFORM_AXES_DIFFER {
         en: "From run to run the platform rotates by {own}″ about {axis} and by {others}″ about its other two axes \
-             (Cochran’s test, p = {p}). The common part is pooled from all three and is too small about {axis} \
+             (Cochran’s test, {p}). The common part is pooled from all three and is too small about {axis} \
              unless a component of type B of {missing}″ is stated.",
         ru: "От серии к серии стандартное отклонение поворота платформы вокруг {axis} равно {own}″, вокруг двух других \
-             осей {others}″ (критерий Кохрена, p = {p}). Общая составляющая, объединённая по трём осям, для {axis} \
+             осей {others}″ (критерий Кохрена, {p}). Общая составляющая, объединённая по трём осям, для {axis} \
              занижена, если не указана составляющая по типу B {missing}″."
     }
     BASE_AXES_DIFFER {
         en: "From run to run the base rotates by {own}″ about {axis} and by {others}″ about its other two axes \
-             (Cochran’s test, p = {p}). The common part is pooled from all three and is too small about {axis} \
+             (Cochran’s test, {p}). The common part is pooled from all three and is too small about {axis} \
              unless a component of type B of {missing}″ is stated.",
         ru: "От серии к серии стандартное отклонение поворота основания вокруг оси «{axis}» равно {own}″, вокруг двух \
-             других осей {others}″ (критерий Кохрена, p = {p}). Общая составляющая, объединённая по трём осям, для оси \
+             других осей {others}″ (критерий Кохрена, {p}). Общая составляющая, объединённая по трём осям, для оси \
              «{axis}» занижена, если не указана составляющая по типу B {missing}″."
     }
     SHARED_SETTING {
         en: "In each run the positions with the same {angle} share an error with a standard deviation of {u}″ (F test, \
-             p = {p}), as if {angle} were set once for all of them. The uncertainties take the errors of positions as \
+             {p}), as if {angle} were set once for all of them. The uncertainties take the errors of positions as \
              independent, and are too small. Both angles are to be set again before every position.",
         ru: "В каждой серии положения с одинаковым {angle} имеют общую погрешность со стандартным отклонением {u}″ \
-             (критерий Фишера, p = {p}), как если бы {angle} устанавливался один раз для всех этих положений. \
+             (критерий Фишера, {p}), как если бы {angle} устанавливался один раз для всех этих положений. \
              Неопределённости рассчитаны для независимых погрешностей положений и занижены. Оба угла следует \
              устанавливать заново перед каждым положением."
     }
@@ -199,10 +200,10 @@ texts! {
         ru: "Углы записаны в других столбцах или с другими знаками, чем в сертификате (показание → сертификат: {columns})."
     }
     SCATTERS_MORE {
-        en: "The visits of the check scatter by {found}″, the certificate states {certified}″ (F test, p = {p}). Either the \
+        en: "The visits of the check scatter by {found}″, the certificate states {certified}″ (F test, {p}). Either the \
              stand repeats worse, so that uncertainties from its certificate are too small, or the instrument of the \
              check reads worse.",
-        ru: "Стандартное отклонение одной установки при проверке {found}″, по сертификату {certified}″ (F-критерий, p = {p}). \
+        ru: "Стандартное отклонение одной установки при проверке {found}″, по сертификату {certified}″ (F-критерий, {p}). \
              Либо повторяемость стенда ухудшилась и неопределённости по его сертификату занижены, либо больше погрешность \
              прибора, которым выполнена проверка."
     }

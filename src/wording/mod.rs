@@ -1,0 +1,158 @@
+//! Words for people in each language: texts with values, numbers, non-breaking spaces.
+//!
+//! * `number`: numbers formatted for people.
+//! * `spacing`: places of a text where no line ends.
+
+pub(crate) mod number;
+pub(crate) mod spacing;
+
+use crate::text::words;
+use jiff::civil::Date;
+use number::Number;
+use spacing::spaced;
+use std::fmt::Display;
+
+words! {
+    /// A language of the pages and of a DCC; its word is its code in ISO 639-1.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[cfg_attr(feature = "cli", derive(clap::ValueEnum, schemars::JsonSchema))]
+    #[non_exhaustive]
+    pub enum Language: pub tag {
+        /// English.
+        #[cfg_attr(feature = "cli", value(name = "en"), schemars(rename = "en"))]
+        English = "en",
+        /// Russian.
+        #[cfg_attr(feature = "cli", value(name = "ru"), schemars(rename = "ru"))]
+        Russian = "ru",
+    }
+}
+
+/// A text in every language. A new language is a new field, so the compiler reports every text that lacks it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Text {
+    /// English.
+    pub en: &'static str,
+    /// Russian.
+    pub ru: &'static str,
+}
+
+impl Text {
+    /// Returns the text in `language` as the table has it.
+    pub(crate) fn of(&self, language: Language) -> &'static str {
+        match language {
+            Language::English => self.en,
+            Language::Russian => self.ru,
+        }
+    }
+
+    /// Returns the text in `language` with its non-breaking spaces.
+    pub(crate) fn words(&self, language: Language) -> String {
+        spaced(self.of(language))
+    }
+
+    /// Returns the text in `language` with every `{name}` replaced by its value.
+    pub(crate) fn filled(&self, language: Language, values: Values) -> String {
+        let piece = |piece: Piece| match piece {
+            Piece::Words(words) => Some(words.to_owned()),
+            Piece::Name(name) => values.iter().find(|(key, _)| *key == name).map(|(_, value)| value.said(language)),
+        };
+        pieces(&self.words(language)).into_iter().filter_map(piece).collect()
+    }
+}
+
+/// A value in a text.
+pub(crate) trait Value {
+    /// Returns the value as `language` writes it.
+    fn said(&self, language: Language) -> String;
+}
+
+/// Names, words from the file and whole numbers are written alike in every language.
+impl<T: Display> Value for T {
+    fn said(&self, _: Language) -> String {
+        self.to_string()
+    }
+}
+
+impl Value for Text {
+    fn said(&self, language: Language) -> String {
+        self.words(language)
+    }
+}
+
+impl Value for Number {
+    fn said(&self, language: Language) -> String {
+        self.text(language)
+    }
+}
+
+/// Names of values in a text, and the values.
+pub(crate) type Values<'a> = &'a [(&'a str, &'a dyn Value)];
+
+/// Names the values of a text: `values! { run, index: at.index }`.
+macro_rules! values {
+    (@ $name:ident) => { &$name };
+    (@ $name:ident $value:expr) => { &$value };
+    ($($name:ident $(: $value:expr)?),*) => {
+        &[$((stringify!($name), values!(@ $name $($value)?) as &dyn $crate::wording::Value)),*]
+    };
+}
+pub(crate) use values;
+
+/// Returns words with a capital first letter, as at the beginning of a row or a sentence.
+pub(crate) fn capital(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
+}
+
+/// A part of a text.
+pub(crate) enum Piece<'a> {
+    Words(&'a str),
+    /// The name of a value to insert.
+    Name(&'a str),
+}
+
+/// Splits a text into words and names. Values are inserted afterwards, so braces in a value are never read as a name.
+pub(crate) fn pieces(mut rest: &str) -> Vec<Piece<'_>> {
+    let mut pieces = Vec::new();
+    while let Some((before, after)) = rest.split_once('{') {
+        let (name, after) = after.split_once('}').unwrap_or((after, ""));
+        pieces.extend([Piece::Words(before), Piece::Name(name)]);
+        rest = after;
+    }
+    pieces.push(Piece::Words(rest));
+    pieces
+}
+
+/// Defines a table of texts: a constant for each, and a list of all by name for the tests.
+macro_rules! texts {
+    ($($name:ident { en: $en:literal, ru: $ru:literal })*) => {
+        $(
+            #[doc = $en]
+            pub(crate) const $name: $crate::wording::Text =
+                $crate::wording::Text { en: $en, ru: $ru };
+        )*
+        /// Every text of this table by its name.
+        #[cfg(test)]
+        pub(crate) const ALL: &[(&str, $crate::wording::Text)] = &[$((stringify!($name), $name)),*];
+    };
+}
+pub(crate) use texts;
+
+/// Directions at a site.
+pub(crate) mod compass {
+    super::texts! {
+        NORTH { en: "north", ru: "север" }
+        SOUTH { en: "south", ru: "юг" }
+        EAST { en: "east", ru: "восток" }
+        WEST { en: "west", ru: "запад" }
+        UP { en: "up", ru: "верх" }
+    }
+}
+
+/// Returns a date in the format of `language`.
+pub(crate) fn date_text(language: Language, date: Date) -> String {
+    match language {
+        Language::English => date.to_string(),
+        Language::Russian => date.strftime("%d.%m.%Y").to_string(),
+    }
+}
