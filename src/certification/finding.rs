@@ -3,14 +3,14 @@
 use super::Certification;
 use super::comparison::{CommonTurn, ComparedPosition, Test};
 use super::misread::Misread;
-use super::remark::{Probability, advised, arcsec, together};
+use super::remark::{advised, arcsec, together};
 use super::rotated_runs::{Pattern, RotatedRuns};
 use super::shared_settings::Setting;
 use super::split_run::SplitRun;
 use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
 use super::texts;
 use crate::coefficients::PositionIndex;
-use crate::wording::number::Number;
+use crate::wording::number::{Number, Probability};
 use crate::wording::{Language, Text, Values, values};
 use std::fmt::{Display, Formatter};
 

@@ -11,14 +11,11 @@ use crate::attitude::ANGLE_SYMBOLS;
 use crate::calibration::recorded::rounding_of;
 use crate::stand::remarks::Odd;
 use crate::text::number::decimals;
-use crate::wording::number::{Number, THIN_BLANK};
+use crate::wording::number::{Number, Probability, THIN_BLANK};
 use crate::wording::spacing::BLANK;
-use crate::wording::{Language, Text, Value, Values, date_text, values};
+use crate::wording::{Language, Text, Values, date_text, values};
 use jiff::civil::Date;
 use std::fmt::{Display, Formatter};
-
-/// Least probability that is stated as a number.
-const LEAST: f64 = 1e-99;
 
 /// A remark on readings or on the certificate made of them.
 #[derive(Debug, Clone, PartialEq)]
@@ -207,16 +204,6 @@ pub(crate) fn plain(words: &str) -> String {
 
 fn without_run(run: u32) -> String {
     format!("Find the cause, then measure the run again, or exclude it with --exclude {run} and --why.")
-}
-
-/// A probability and its relation to it: `p = 0.012`.
-pub(super) struct Probability(pub f64);
-
-impl Value for Probability {
-    fn said(&self, language: Language) -> String {
-        let (relation, p) = if self.0 < LEAST { ('<', LEAST) } else { ('=', self.0) };
-        format!("p{BLANK}{relation}{BLANK}{}", Number::scientific(p, 2).text(language))
-    }
 }
 
 /// Returns an angle in arcseconds, whole or with two significant digits.

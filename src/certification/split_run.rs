@@ -5,7 +5,7 @@
 //! of the rows, and compared with what it leaves (F test).
 
 use super::components::{Combinations, Components, by_axis};
-use super::remark::{Probability, together};
+use super::remark::together;
 use super::rotated_runs::CommonAxis;
 use super::suspects::OUTLIER;
 use super::{AngleReadings, Header};
@@ -13,6 +13,7 @@ use crate::calibration::inputs::Turn;
 use crate::coefficients::PositionIndex;
 use crate::statistics::beta::f_beyond;
 use crate::statistics::welch_satterthwaite::effective_degrees_of_freedom;
+use crate::wording::number::Probability;
 use crate::wording::{Language, Text, values};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 

@@ -3,7 +3,8 @@
 //! [JCGM 100](crate::bibliography::Bibliography::Gum), 7.2.6: an uncertainty has two significant digits, and its value
 //! ends at the same decimal place. A narrow non-breaking space separates groups of three digits (SI Brochure, 5.4.4).
 
-use super::{Language, Text};
+use super::spacing::BLANK;
+use super::{Language, Text, Value};
 use crate::text::number;
 
 /// Largest angle that is printed in arcseconds alone.
@@ -19,6 +20,9 @@ pub(crate) fn times(language: Language) -> char {
         Language::Russian => '\u{00B7}',
     }
 }
+
+/// Least probability that is printed as a number.
+pub(crate) const LEAST_PROBABILITY: f64 = 1e-6;
 
 /// A number of a document, and its printed digits.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,6 +79,15 @@ impl Number {
         }
         let decimals = usize::try_from(digits - 1).unwrap_or(0);
         Self::new(value, format!("{value:.decimals$e}"))
+    }
+
+    /// Creates the number of a probability, with two digits, or that of [`LEAST_PROBABILITY`] if it is less.
+    pub(crate) fn probability(p: f64) -> Self {
+        match p {
+            p if p < LEAST_PROBABILITY => Self::scientific(LEAST_PROBABILITY, 1),
+            p if p < 0.1 => Self::scientific(p, 2),
+            p => Self::fixed(p, 2),
+        }
     }
 
     /// Creates a number with the shortest decimal that gives the value back.
@@ -153,6 +166,16 @@ impl Number {
     pub(crate) fn decimals(&self) -> usize {
         let decimals = self.digits.split_once('.').map_or("", |(_, decimals)| decimals);
         decimals.chars().take_while(char::is_ascii_digit).count()
+    }
+}
+
+/// A probability as the value of a text, with its relation: `p = 0.012`, `p < 10⁻⁶`.
+pub(crate) struct Probability(pub f64);
+
+impl Value for Probability {
+    fn said(&self, language: Language) -> String {
+        let relation = if self.0 < LEAST_PROBABILITY { '<' } else { '=' };
+        format!("p{BLANK}{relation}{BLANK}{}", Number::probability(self.0).text(language))
     }
 }
 

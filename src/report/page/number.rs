@@ -7,7 +7,9 @@ use crate::report::columns::decimals_of_chi_square;
 use crate::text::number;
 use maud::{Markup, html};
 
-pub(crate) use crate::wording::number::{LARGEST_IN_ARCSEC, Number, THIN_BLANK, localised, superscripts};
+pub(crate) use crate::wording::number::{
+    LARGEST_IN_ARCSEC, LEAST_PROBABILITY, Number, THIN_BLANK, localised, superscripts,
+};
 
 /// Hemispheres of a latitude and of a longitude: of positive numbers, and of negative ones.
 pub(crate) const LATITUDES: [Text; 2] = [units::NORTH_LATITUDE, units::SOUTH_LATITUDE];
@@ -93,6 +95,17 @@ impl Cell {
     pub(crate) fn none() -> Self {
         Self::Words(html! { "–" })
     }
+
+    /// Returns the cell of a probability.
+    pub(crate) fn probability(p: f64) -> Self {
+        let number = Number::probability(p);
+        if p < LEAST_PROBABILITY { Self::Below(number) } else { Self::Number(number) }
+    }
+}
+
+/// Writes a probability with two digits, or as less than the least that is printed.
+pub(crate) fn probability(languages: &Languages, p: f64) -> Markup {
+    column(languages, [Cell::probability(p)]).remove(0)
 }
 
 impl From<Number> for Cell {

@@ -20,9 +20,6 @@ use crate::report::tolerance::coverage_factor;
 use crate::wording::date_text;
 use maud::{Markup, html};
 
-/// Limit below which a risk is not printed as a number.
-const LEAST_RISK: f64 = 1e-6;
-
 pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
     let adopted = page.adopted();
     html! {
@@ -151,7 +148,7 @@ fn table(
     // Of parameters that are not valid, a risk has no meaning.
     let risk = |row: &ParameterVerdict| match verdict.withheld {
         true => Cell::none(),
-        false => probability_cell(row.specific_risk),
+        false => Cell::probability(row.specific_risk),
     };
     let risks = column(languages, rows.iter().map(risk));
     let mut tolerances = numbers(texts::TOLERANCE, &|row| Number::exact(row.tolerance));
@@ -225,19 +222,4 @@ fn parameter(row: &ParameterVerdict) -> Markup {
 /// Writes a decision with its mark, in the first language only: the key below the table has the mark in all of them.
 fn decided(languages: &Languages, found: Option<Decision>) -> Markup {
     marked(Outcome::of(found), &html! { (languages.spoken(decision(found))) })
-}
-
-/// Writes a probability with two digits, or as less than `LEAST_RISK`.
-pub(super) fn probability(languages: &Languages, p: f64) -> Markup {
-    column(languages, [probability_cell(p)]).remove(0)
-}
-
-fn probability_cell(p: f64) -> Cell {
-    if p < LEAST_RISK {
-        Cell::Below(Number::scientific(LEAST_RISK, 1))
-    } else if p < 0.1 {
-        Cell::Number(Number::scientific(p, 2))
-    } else {
-        Cell::Number(Number::fixed(p, 2))
-    }
 }

@@ -1,7 +1,6 @@
 //! Agreement of the readings with the fit, possible causes of disagreement, and errors that the residuals do not show.
 
 use super::CalibrationPage;
-use super::conformity::probability;
 use crate::calibration::Calibration;
 use crate::calibration::diagnosis::{Explanation, Hint, with_commas};
 use crate::calibration::document::{ResidualDocument, ResultDocument};
@@ -10,7 +9,7 @@ use crate::calibration::scatter::{Agreement, Scatter};
 use crate::calibration::stated::NotStated;
 use crate::calibration::suspect::Suspect;
 use crate::report::page::language::{Language, Languages, Text, values};
-use crate::report::page::number::{Number, column};
+use crate::report::page::number::{Number, column, probability};
 use crate::report::page::parts::{Column, Table, field, fields, quantity, starts, symbol, symbol_and_unit};
 use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};

@@ -14,6 +14,7 @@ use crate::report::page::passport::numbers::parameters;
 use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::convergence::convergence;
+use crate::wording::number::Probability;
 use maud::{Markup, html};
 
 pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
@@ -123,7 +124,7 @@ fn general(result: &ResultDocument, languages: &Languages) -> Markup {
         @if let Some(test) = &result.model_test {
             (languages.paragraph_with(|language| {
                 let [further, rest] = &test.degrees_of_freedom;
-                let (f, p) = (Number::significant(test.f, 3), Number::significant(test.probability, 2));
+                let (f, p) = (Number::significant(test.f, 3), Probability(test.probability));
                 italic(&texts::MODEL_TEST.filled(language, values! { f, further, rest, p }))
             }))
         }

@@ -7,7 +7,7 @@ use crate::certification::suspects::AXES;
 use crate::passport::difference::NumberDifference;
 use crate::report::certification::outcome_of;
 use crate::report::page::language::{Languages, Text, values};
-use crate::report::page::number::{Number, column};
+use crate::report::page::number::{Cell, Number, column, probability};
 use crate::report::page::parts::{
     Column, Table, field, fields, heading, mark, marked, outcome_box, starts, symbol, symbol_and_unit,
 };
@@ -85,7 +85,7 @@ fn test(test: &Test, languages: &Languages) -> Markup {
     html! {
         (Number::chi_square(test.f()).markup(languages)) " (" (test.degrees_of_freedom) "; "
         @if test.of_u.is_finite() { (Number::at_most(test.of_u, 1).markup(languages)) } @else { "∞" } "), "
-        (symbol("p", "")) " " (Number::scientific(test.probability, 2).markup(languages))
+        (symbol("p", "")) " " (probability(languages, test.probability))
     }
 }
 
@@ -99,7 +99,7 @@ fn rotations(comparison: &Comparison, languages: &Languages) -> Markup {
         columns.push(Column::new(heading, column(languages, values)));
         columns.push(Column::new(symbol("u", ""), column(languages, us)));
     }
-    let p = positions.iter().map(|at| Number::scientific(at.test.probability, 2));
+    let p = positions.iter().map(|at| Cell::probability(at.test.probability));
     columns.push(Column::named(languages, texts::PROBABILITY, column(languages, p)));
     let found = |at: &ComparedPosition| {
         let outcome = outcome_of(comparison, at.repeats);

@@ -173,15 +173,14 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
         named(name, at.turn_arcsec(), at.probability)
     }));
     found.extend(without_findings(page, languages));
-    let cells = |number: fn(&Tested) -> Option<Number>| {
-        let cell = |test: &Tested| number(test).map_or(Cell::Words(html! {}), Cell::Number);
-        column(languages, found.iter().map(cell))
+    let cells = |cell: fn(&Tested) -> Option<Cell>| {
+        column(languages, found.iter().map(|test| cell(test).unwrap_or(Cell::Words(html! {}))))
     };
     let columns = [
         (checks::RESULT, found.iter().map(|test| test.result.clone()).collect()),
-        (texts::STATISTIC, cells(|test| test.statistic.clone())),
-        (calibration::FREEDOM, cells(|test| test.freedom.clone())),
-        (texts::PROBABILITY, cells(|test| test.probability.map(|p| Number::scientific(p, 2)))),
+        (texts::STATISTIC, cells(|test| test.statistic.clone().map(Cell::Number))),
+        (calibration::FREEDOM, cells(|test| test.freedom.clone().map(Cell::Number))),
+        (texts::PROBABILITY, cells(|test| test.probability.map(Cell::probability))),
     ];
     let columns = columns.map(|(heading, cells)| Column::named(languages, heading, cells));
     let names = found.iter().map(|test| vec![test.name.clone()]).collect();

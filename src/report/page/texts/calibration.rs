@@ -371,8 +371,8 @@ texts! {
     }
     G_MATRIX { en: "Matrix of g-sensitive drift", ru: "Матрица дрейфа, зависящего от\u{a0}g" }
     MODEL_TEST {
-        en: "Test whether ω_g and ω_k alone are enough: F = {f} with {further} and {rest} degrees of freedom, probability of a larger value {p}.",
-        ru: "Проверка достаточности ω_g и ω_k: F = {f} при {further} и {rest} степенях свободы, вероятность большего значения {p}."
+        en: "Test whether ω_g and ω_k alone are enough: F = {f} with {further} and {rest} degrees of freedom; probability of a larger value, {p}.",
+        ru: "Проверка достаточности ω_g и ω_k: F = {f} при {further} и {rest} степенях свободы; вероятность большего значения {p}."
     }
     CYCLES { en: "Turn-ons", ru: "Запуски" }
     CYCLE { en: "Turn-on", ru: "Запуск" }
