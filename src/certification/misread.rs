@@ -7,11 +7,17 @@ use crate::wording::number::Number;
 use crate::wording::{Language, Text, values};
 use nalgebra::Vector3;
 
+/// Units of autocollimators near an arcsecond, with their factors. Converted twice, they would be taken for one another.
+const NEAR_AN_ARCSECOND: [Misread; 2] =
+    [Misread::Smaller(3.6, "millidegrees"), Misread::SmallerUnit(4.848_136_811, "microradians")];
+
 /// Way in which all angles of a file differ from those of the certificate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Misread {
     /// Angles that are smaller by a factor, in the unit of this name.
     Smaller(f64, &'static str),
+    /// Angles that are larger by a factor, because the unit of this name is smaller than an arcsecond.
+    SmallerUnit(f64, &'static str),
     /// Angles that are larger by a factor, as if converted twice from the unit of this name.
     Larger(f64, &'static str),
     /// Angles with the opposite sign.
@@ -22,7 +28,8 @@ pub(crate) enum Misread {
 
 impl Misread {
     /// Returns the error that makes the angles `read` (α, β, γ of every position) differ from the `certified` ones; `None` if
-    /// none explains at least a factor of five in the difference.
+    /// none explains at least a factor of five in the difference. The corrected angles must also resemble the certified ones:
+    /// divided by a large factor, any angles come near to those of a good stand.
     pub(crate) fn of(read: &[Vector3<f64>], certified: &[Vector3<f64>]) -> Option<Self> {
         let units =
             UNITS.into_iter().flat_map(|(factor, unit)| [Self::Smaller(factor, unit), Self::Larger(factor, unit)]);
@@ -33,19 +40,21 @@ impl Misread {
         let sums: Vec<(f64, Self)> = [Self::Sign]
             .into_iter()
             .chain(units)
+            .chain(NEAR_AN_ARCSECOND)
             .chain(axes)
             .map(|misread| (sum(&|angles| misread.corrected(angles)), misread))
             .collect();
         let least = sums.iter().map(|(sum, _)| *sum).fold(f64::INFINITY, f64::min);
         // An angle near zero does not show its sign: of about equal errors the simplest.
         let found = sums.into_iter().find(|(sum, _)| *sum <= 2.0 * least)?;
-        (CLEARLY * found.0 < sum(&|angles| *angles)).then_some(found.1)
+        let of_no_resemblance = certified.iter().map(Vector3::norm_squared).sum::<f64>();
+        (CLEARLY * found.0 < sum(&|angles| *angles).min(of_no_resemblance)).then_some(found.1)
     }
 
     fn corrected(&self, angles: &Vector3<f64>) -> Vector3<f64> {
         match self {
             Self::Smaller(factor, _) => angles * *factor,
-            Self::Larger(factor, _) => angles / *factor,
+            Self::SmallerUnit(factor, _) | Self::Larger(factor, _) => angles / *factor,
             Self::Sign => -angles,
             Self::Axes(axes) => Vector3::from(axes.map(|(column, sign)| sign * angles[column])),
         }
@@ -53,10 +62,10 @@ impl Misread {
 
     /// Returns the error as a sentence.
     pub(super) fn words(&self, language: Language) -> String {
-        let times = |text: Text, by: f64| text.filled(language, values! { factor: Number::fixed(by, 0) });
+        let times = |text: Text, by: f64| text.filled(language, values! { factor: Number::whole_or_two_digits(by) });
         match self {
             Self::Smaller(by, _) => times(texts::SMALLER_UNIT, *by),
-            Self::Larger(by, _) => times(texts::LARGER_UNIT, *by),
+            Self::SmallerUnit(by, _) | Self::Larger(by, _) => times(texts::LARGER_UNIT, *by),
             Self::Sign => texts::OPPOSITE_SIGN.words(language),
             Self::Axes(axes) => {
                 let each = differing(axes).map(|(axis, column, sign)| {
@@ -70,7 +79,7 @@ impl Misread {
     /// Returns what to do.
     pub(super) fn advice(&self) -> String {
         match self {
-            Self::Smaller(_, unit) => format!("Convert them from {unit} to arcseconds."),
+            Self::Smaller(_, unit) | Self::SmallerUnit(_, unit) => format!("Convert them from {unit} to arcseconds."),
             Self::Larger(_, unit) => format!("Convert them from {unit} to arcseconds only once."),
             Self::Sign => "Correct the sign.".to_owned(),
             Self::Axes(_) => "Put the angles into their columns, with their signs.".to_owned(),

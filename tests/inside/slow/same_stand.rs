@@ -330,10 +330,15 @@ fn a_misread_file_is_named() {
     let truth = quiet();
     let mut stream = Stream::new(72);
     let stand = certificate(&truth, &mut stream, 5);
-    let cases: [(Wrong, &str); 6] = [
+    let cases: [(Wrong, &str); 8] = [
         (|at| at / 60.0, "divided by 60; they are in another unit. Convert them from arcminutes"),
         (|at| at / 3600.0, "divided by 3600; they are in another unit. Convert them from degrees"),
         (|at| at * 60.0, "60 times those of the certificate"),
+        (|at| at / 3.6, "divided by 3.6; they are in another unit. Convert them from millidegrees"),
+        (
+            |at| at * std::f64::consts::PI / 0.648,
+            "4.8 times those of the certificate; they are in another unit. Convert them from microradians",
+        ),
         (|at| -at, "with the opposite sign"),
         (|at| Vector3::new(at.x, at.z, at.y), "(read → certified: γ → β, β → γ)"),
         (|at| Vector3::new(-at.x, at.y, at.z), "(read → certified: -α → α)"),
@@ -349,4 +354,19 @@ fn a_misread_file_is_named() {
             found.words
         );
     }
+}
+
+/// Expected: of a stand whose deviations have become many times larger, in other directions, as after a repair, that it is
+/// another one. Divided by 60, its angles are nearer to the certified ones, as any small angles are.
+#[test]
+fn a_stand_with_larger_deviations_is_not_in_another_unit() {
+    let mut stream = Stream::new(75);
+    let mut truth = quiet();
+    truth.angles_arcsec.iter_mut().for_each(|angles| *angles /= 40.0);
+    let stand = certificate(&truth, &mut stream, 5);
+    let mut rebuilt = truth;
+    rebuilt.angles_arcsec.iter_mut().for_each(|angles| *angles = normal(&mut stream, [2000.0; 3]));
+    let found = against(&stand, &rebuilt.measured(&mut stream, 3));
+    assert!(!found.same_stand && found.words.len() == 1, "{:?}", found.words);
+    assert!(found.words[0].contains("another stand"), "{:?}", found.words);
 }
