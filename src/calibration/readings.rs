@@ -99,7 +99,8 @@ pub struct Readings {
     pub(crate) exclusions: Vec<Exclusion>,
     /// Last digit and scatter of the recorded currents; the default if they were not read from a file.
     pub(crate) recorded: Recorded,
-    /// Remarks on how the file was read, on columns that were not used, and on times that may be in another unit.
+    /// Remarks on how the file was read, on columns that were not used, on times that may be in another unit, and on
+    /// currents at a limit.
     pub(crate) remarks: Vec<String>,
 }
 

@@ -9,6 +9,9 @@ const NOT_FINITE: &str = "use a finite number, because NaN and infinity are not 
 const TOLERANCE: &str = "a tolerance is one number for both directions and both axes: state half the width of the interval, and \
                          its middle as the nominal value";
 
+/// Advice for an angle in degrees, minutes and seconds where the unit is the arcsecond.
+const ARCSECONDS: &str = "write degrees, minutes and seconds of arc as one number of arcseconds";
+
 /// Returns what to do about a value of YAML that is not a number; empty without such advice.
 pub(super) fn in_yaml(node: &Node, at: &Path) -> &'static str {
     let key = at.last_key();
@@ -34,7 +37,8 @@ pub(super) fn in_yaml(node: &Node, at: &Path) -> &'static str {
         Node::Text(text) if key.ends_with("_deg") && is_in_minutes(text) => {
             "write decimal degrees, such as 55.7658; south and west are negative"
         }
-        Node::Text(text) if has_unit(text) => "write the number without a unit; the key states it",
+        Node::Text(text) if key.ends_with("_arcsec") && is_in_parts(text) => ARCSECONDS,
+        Node::Text(text) if has_unit(text) => "write the number alone, in the unit that the key states",
         Node::Text(text) if !text.is_ascii() => "use ASCII digits, a decimal point and an ASCII minus",
         Node::Text(text) if text.parse::<f64>().is_ok() => NOT_FINITE,
         Node::Number(_) => NOT_FINITE,
@@ -42,23 +46,27 @@ pub(super) fn in_yaml(node: &Node, at: &Path) -> &'static str {
     }
 }
 
-/// Returns how to write the number that a cell of CSV seems to mean, or `None` if it means none.
-pub(super) fn in_csv(text: &str) -> Option<&'static str> {
+/// Returns how to write the number that a cell of CSV in a column of this name seems to mean, or `None` if it means none.
+pub(super) fn in_csv(text: &str, column: &str) -> Option<&'static str> {
     let is_number = |text: &str| text.parse::<f64>().is_ok_and(f64::is_finite);
     if text.contains(';') {
         Some("separate columns by commas")
-    } else if text.contains(':') {
+    } else if column.ends_with("_arcsec") && is_in_parts(text) {
+        Some(ARCSECONDS)
+    } else if text.contains(':') && column.ends_with("_s") {
         Some("count seconds from the first reading, as one number")
     } else if has_two_points(text) {
         Some("it has two points; use one decimal point")
     } else if unquoted(text) != text && is_number(unquoted(text)) {
         Some("write the number without quotes")
+    } else if text.strip_prefix('(').and_then(|text| text.strip_suffix(')')).is_some_and(is_number) {
+        Some("write a negative number with a minus, without parentheses")
     } else if is_number(&text.replace([',', ' ', '\u{A0}', '\u{202F}'], "")) {
         Some("use a decimal point, and no separators of thousands")
     } else if is_number(&text.replace(['D', 'd'], "E")) {
         Some("write the exponent with E, such as 1.0E-3")
     } else if has_unit(text) {
-        Some("write the number without a unit; the column name states it")
+        Some("write the number alone, in the unit that the column name states")
     } else if text.chars().any(|c| c.is_ascii_digit()) && !text.is_ascii() {
         Some("use ASCII digits, a decimal point and an ASCII minus")
     } else {
@@ -70,6 +78,12 @@ pub(super) fn in_csv(text: &str) -> Option<&'static str> {
 fn is_in_minutes(text: &str) -> bool {
     let numbers = text.split(|c: char| !c.is_ascii_digit() && c != '.').filter(|part| !part.is_empty()).count();
     numbers > 1 && !text.contains(',') || numbers > 0 && text.contains(|c| "°′″NSEW".contains(c))
+}
+
+/// Returns `true` for an angle in several numbers with colons or the signs of degrees, minutes and seconds between them.
+fn is_in_parts(text: &str) -> bool {
+    let numbers = text.split(|c: char| !c.is_ascii_digit() && c != '.').filter(|part| !part.is_empty()).count();
+    numbers > 1 && text.contains(|c| ":°′'".contains(c))
 }
 
 fn has_unit(text: &str) -> bool {
@@ -118,7 +132,7 @@ mod tests {
     fn the_advice_on_a_number_fits_what_was_written() {
         const WITHOUT_QUOTES: &str = "write the number without quotes";
         const DECIMAL_DEGREES: &str = "write decimal degrees, such as 55.7658; south and west are negative";
-        const WITHOUT_UNIT: &str = "write the number without a unit; the key states it";
+        const WITHOUT_UNIT: &str = "write the number alone, in the unit that the key states";
         const ASCII: &str = "use ASCII digits, a decimal point and an ASCII minus";
         for (written, key, due) in [
             ("55.45.56", "alpha_arcsec", "it has two points; use one decimal point"),
@@ -136,6 +150,9 @@ mod tests {
             ("55.7°", "alpha_arcsec", WITHOUT_UNIT),
             ("12 mA", "jx_ma", WITHOUT_UNIT),
             ("-.5m", "height_m", WITHOUT_UNIT),
+            ("5280 ft", "height_m", WITHOUT_UNIT),
+            ("0°01′10.9″", "alpha_arcsec", ARCSECONDS),
+            ("-1:10.9", "u_arcsec", ARCSECONDS),
             ("m 5", "height_m", ""),
             ("5 (m)", "height_m", ""),
             ("a,b 1 2", "latitude_deg", ""),
@@ -169,12 +186,21 @@ mod tests {
     #[test]
     fn the_advice_on_a_cell_fits_what_was_written() {
         const ASCII: &str = "use ASCII digits, a decimal point and an ASCII minus";
-        const WITHOUT_UNIT: &str = "write the number without a unit; the column name states it";
+        const WITHOUT_UNIT: &str = "write the number alone, in the unit that the column name states";
         const NO_THOUSANDS: &str = "use a decimal point, and no separators of thousands";
+        for (written, column, due) in [
+            ("-1:10.9", "beta_arcsec", ARCSECONDS),
+            ("0°01′10.9″", "alpha_arcsec", ARCSECONDS),
+            ("10.9″", "alpha_arcsec", WITHOUT_UNIT),
+            ("10:02:03", "time_s", "count seconds from the first reading, as one number"),
+        ] {
+            assert_eq!(in_csv(written, column), Some(due), "{written}");
+        }
+        assert_eq!(in_csv("0:10", "jx_ma"), None);
         for (written, due) in [
             ("1;2", "separate columns by commas"),
-            ("10:02:03", "count seconds from the first reading, as one number"),
             ("1.2.3", "it has two points; use one decimal point"),
+            ("(0.2)", "write a negative number with a minus, without parentheses"),
             ("'1.5'", "write the number without quotes"),
             ("1,234.5", NO_THOUSANDS),
             ("-1\u{A0}234.5", NO_THOUSANDS),
@@ -185,24 +211,12 @@ mod tests {
             ("1.5 µA", WITHOUT_UNIT),
             ("-1.5 mA", WITHOUT_UNIT),
         ] {
-            assert_eq!(in_csv(written), Some(due), "{written}");
+            assert_eq!(in_csv(written, "jx_ma"), Some(due), "{written}");
         }
-        for written in [
-            "",
-            "'inf'",
-            "NaN",
-            "-",
-            "—",
-            "#DIV/0!",
-            "#N/A",
-            "OVERLOAD",
-            "01.Feb",
-            "(0.2)",
-            "about 1.5",
-            "a lot",
-            "1.5 (?)",
-        ] {
-            assert_eq!(in_csv(written), None, "{written}");
+        for written in
+            ["", "'inf'", "NaN", "-", "—", "#DIV/0!", "#N/A", "OVERLOAD", "01.Feb", "about 1.5", "a lot", "1.5 (?)"]
+        {
+            assert_eq!(in_csv(written, "jx_ma"), None, "{written}");
         }
     }
 }

@@ -128,7 +128,7 @@ impl<'a> Table<'a> {
         let cell = &row[column];
         let value = cell.text.parse::<f64>().ok().filter(|value| value.is_finite());
         if value.is_none() {
-            let advice = number_advice::in_csv(&cell.text).unwrap_or(not_taken);
+            let advice = number_advice::in_csv(&cell.text, self.columns[column]).unwrap_or(not_taken);
             problems.push(self.problem(cell, column, described(&cell.text), "a number", advice));
         }
         value

@@ -6,7 +6,7 @@ use dtg_passport::calibration::{Readings, Setup};
 use dtg_passport::coefficients::PositionIndex;
 
 /// (file, what the message must say).
-const BAD: [(&str, &[&str]); 43] = [
+const BAD: [(&str, &[&str]); 47] = [
     ("", &["empty file"]),
     ("# nothing\n\n", &["only spaces and comments"]),
     ("i;j;jx_ma;jy_ma\n1;1;0,1;0.2\n", &["c.csv:2:9", "decimal commas from line 2 on", "the whole file"]),
@@ -43,10 +43,14 @@ const BAD: [(&str, &[&str]); 43] = [
     ("ROW 1,1, NaN,0.2\n", &["c.csv:2:6", "a number; omit the whole row"]),
     ("ROW 1,1,0.1,inf\n", &["c.csv:2:9", "jy_ma", "a number; omit the whole row"]),
     ("ROW 1,1,0.1,\n", &["c.csv:2:9", "found nothing", "omit the whole row"]),
-    ("ROW 1,1,0.1mA,0.2\n", &["c.csv:2:5", "the column name states it"]),
+    ("ROW 1,1,0.1mA,0.2\n", &["c.csv:2:5", "in the unit that the column name states"]),
+    ("ROW 1,1,(0.1),0.2\n", &["c.csv:2:5", "with a minus, without parentheses"]),
+    ("ROW 1,1,9.9E+37,0.2\n", &["c.csv:2:5", "found 9.9e37", "for an overload"]),
     ("ROW 1,1,1e6,0.2\n", &["c.csv:2:5", "1000000", "the range of the meter"]),
     ("ROW 1,1,-104.9,0.2\n", &["c.csv:2:5", "it may be in microamperes"]),
-    ("ROW 3,1,0.1,0.2\n", &["c.csv:2:1", "position (3, 1)", "check that this is the passport of this stand"]),
+    ("ROW 3,1,0.1,0.2\n", &["c.csv:2:1", "position (3, 1)", "stand, and that i and j are not exchanged"]),
+    ("ROW 5,1,0.1,0.2\n", &["c.csv:2:1", "position (5, 1)", "check that this is the passport of this stand"]),
+    ("ROW 90,270,0.1,0.2\n", &["c.csv:2:1", "position (90, 270)", "not degrees"]),
     ("ROW 0,1,0.1,0.2\n", &["c.csv:2:1", "a whole number from 1; count from 1"]),
     ("ROW 1,1.5,0.1,0.2\n", &["c.csv:2:3", "a whole number from 1"]),
     ("ROW 1,1,x,0.2\n1,2,0.1,2.5\n", &["c.csv:2:5", "c.csv:3:9"]),
@@ -65,6 +69,19 @@ fn good(setup: &Setup) -> String {
     let each = setup.coefficients().positions.iter().zip(currents(setup, &gvk_6()));
     let rows = each.map(|(at, j)| format!("{},{},{},{}\n", at.index.i, at.index.j, j.x, j.y));
     format!("i,j,jx_ma,jy_ma\n{}", rows.collect::<String>())
+}
+
+/// Expected: of currents that are cut at a limit in two positions of an axis, those positions; nothing of good ones.
+#[test]
+fn a_limit_of_the_meter_is_remarked_upon() {
+    let setup = paper();
+    assert_eq!(read(&setup, &good(&setup)).unwrap().remarks, Vec::<String>::new());
+    let each = setup.coefficients().positions.iter().zip(currents(&setup, &gvk_6()));
+    let cut = each.map(|(at, j)| format!("{},{},{:.6},{:.6}\n", at.index.i, at.index.j, j.x.max(-0.25), j.y));
+    let found = read(&setup, &format!("i,j,jx_ma,jy_ma\n{}", cut.collect::<String>())).unwrap();
+    let due = "c.csv: jx_ma: exactly -0.25, the largest current, in positions (1, 4), (2, 3); check whether the meter or the \
+               feedback loop was at its limit";
+    assert_eq!(found.remarks, [due]);
 }
 
 #[test]

@@ -69,25 +69,37 @@ impl Readings {
         if !problems.is_empty() {
             return Err(table.refuse(problems));
         }
-        let doubt = doubtful_times(&rows).map(|doubt| format!("{}: {doubt}", Printable(name)));
+        let doubts = doubtful_times(&rows).into_iter().chain(saturated(&rows, recorded.last_digit_ma));
+        let doubt = doubts.map(|doubt| format!("{}: {doubt}", Printable(name)));
         Ok(Self { recorded, remarks: table.remark().into_iter().chain(doubt).collect(), ..readings })
     }
 }
+
+/// Number of a position from which it is more likely an angle in degrees.
+const SMALLEST_ANGLE: u32 = 45;
 
 /// Returns the position of a row, from its first two columns, if it is `known`; otherwise adds a problem.
 pub(crate) fn position(
     table: &Table,
     row: &Row,
-    mut known: impl Iterator<Item = PositionIndex>,
+    known: impl Iterator<Item = PositionIndex> + Clone,
     (expected, advice): (&str, &str),
     problems: &mut Vec<Problem>,
 ) -> Option<PositionIndex> {
     let i = table.index(row, 0, problems);
     let j = table.index(row, 1, problems);
     let index = PositionIndex { i: i?, j: j? };
-    let found = known.find(|known| *known == index);
+    let is_known = |index: PositionIndex| known.clone().any(|known| known == index);
+    let found = is_known(index).then_some(index);
     if found.is_none() {
-        problems.push(table.problem(&row[0], 0, format!("position {index}"), expected, advice));
+        let advice = if index.i.max(index.j) >= SMALLEST_ANGLE {
+            "i and j are the numbers of θ and φ in the list of positions, not degrees".to_owned()
+        } else if is_known(PositionIndex { i: index.j, j: index.i }) {
+            format!("{advice}, and that i and j are not exchanged")
+        } else {
+            advice.to_owned()
+        };
+        problems.push(table.problem(&row[0], 0, format!("position {index}"), expected, &advice));
     }
     found
 }
@@ -97,15 +109,21 @@ fn current(table: &Table, row: &Row, column: usize, range_ma: f64, problems: &mu
     if value.abs() <= range_ma {
         return Some(value);
     }
-    let advice = if (1e-3..=1e3).contains(&(value.abs() / range_ma)) && value.abs() > 10.0 * range_ma {
+    let advice = if value.abs() >= OVERLOAD {
+        "a meter writes such a number for an overload; omit the whole row, or measure it in a larger range"
+    } else if (1e-3..=1e3).contains(&(value.abs() / range_ma)) && value.abs() > 10.0 * range_ma {
         "convert it to milliamperes; it may be in microamperes"
     } else {
         "check the value, or the range of the meter in the laboratory file"
     };
     let expected = format!("at most {range_ma} mA in either direction, the range of the meter");
-    problems.push(table.problem(&row[column], column, format!("{value}"), &expected, advice));
+    let found = if value.abs() >= OVERLOAD { format!("{value:e}") } else { format!("{value}") };
+    problems.push(table.problem(&row[column], column, found, &expected, advice));
     None
 }
+
+/// Number from which a current is the sign of a meter for an overload, such as 9.9E+37.
+const OVERLOAD: f64 = 1e9;
 
 /// Returns a problem for each position without a reading if one other position has more rows than all others: its row may
 /// belong there. A column of visits would say that it does not.
@@ -228,6 +246,30 @@ fn doubtful_times(readings: &[Reading]) -> Option<String> {
         "time_s: {moves} moves to another position within {span} s, {each} s for each; if the times are in {unit}, convert them \
          to seconds, because a drift in time would be stated {factor}"
     ))
+}
+
+/// Smallest size of a current, in steps of the meter, at which two positions do not have it by chance.
+const NOT_BY_CHANCE: f64 = 1000.0;
+
+/// Returns a remark if the largest current of an axis was read in several positions to the last digit: that of a meter, or of a
+/// feedback loop, at its limit.
+fn saturated(readings: &[Reading], step_ma: f64) -> Option<String> {
+    let of_axis = |axis: usize| {
+        let current = |row: &Reading| row.current_ma[axis];
+        let largest = readings.iter().map(current).max_by(|one, other| one.abs().total_cmp(&other.abs()))?;
+        let at: BTreeSet<PositionIndex> =
+            readings.iter().filter(|row| current(row) == largest).map(|row| row.index).collect();
+        (at.len() > 1 && largest.abs() > NOT_BY_CHANCE * step_ma).then(|| {
+            let at: Vec<String> = at.iter().map(ToString::to_string).collect();
+            format!(
+                "{}: exactly {largest}, the largest current, in positions {}; check whether the meter or the feedback loop \
+                 was at its limit",
+                COLUMNS[2 + axis],
+                at.join(", ")
+            )
+        })
+    };
+    of_axis(0).or_else(|| of_axis(1))
 }
 
 /// Returns a problem for each cycle that has readings of one position alone: its own ω_0 would take up all of them.
