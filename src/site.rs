@@ -381,7 +381,7 @@ fn check_latitude_range(at: &Path, latitude_deg: Option<f64>, longitude_deg: Opt
 }
 
 /// Returns the advice for a longitude that is counted up to 360 degrees, or `None` for any other.
-fn beyond_180(longitude: f64) -> Option<String> {
+pub(crate) fn beyond_180(longitude: f64) -> Option<String> {
     (longitude.abs() <= 360.0).then(|| {
         // As many decimals as were given, because 316.8 − 360 is not exactly −43.2.
         let decimals = format!("{longitude}").split_once('.').map_or(0, |(_, decimals)| decimals.len());

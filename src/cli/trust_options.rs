@@ -137,8 +137,12 @@ pub(super) fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Resu
 
 pub(super) fn place(text: &str) -> Result<Place, String> {
     const FORM: &str = "two numbers with decimal points, such as 55.7658,37.6856";
-    let (latitude, longitude) = text.split_once(',').ok_or(FORM)?;
-    let number = |text: &str| text.trim().parse::<f64>().map_err(|_| FORM.to_owned());
+    // Without its letter, a southern latitude would be one of the north.
+    const SIGNS: &str = "decimal degrees, such as -33.8688,151.2093; south and west are negative";
+    let in_letters = text.contains(|c: char| c.is_alphabetic() || ":°′″'\"".contains(c));
+    let form = if in_letters { SIGNS } else { FORM };
+    let (latitude, longitude) = text.split_once(',').ok_or(form)?;
+    let number = |text: &str| text.trim().parse::<f64>().map_err(|_| form.to_owned());
     let (latitude_deg, longitude_deg) = (number(latitude)?, number(longitude)?);
     enquiry::place(latitude_deg, longitude_deg)
 }

@@ -8,6 +8,7 @@ use crate::files::{self, FileError};
 use crate::passport::{Question, Trust, Verification, verify};
 use crate::register::Register;
 use crate::revocation::{RevocationList, Series, claims_to_be_a_list};
+use crate::site::beyond_180;
 use crate::text::scalar::{day, impossible_date};
 use crate::text::{Field, Node, Path, Problems};
 #[cfg(feature = "factory")]
@@ -221,7 +222,8 @@ pub(crate) fn place(latitude_deg: f64, longitude_deg: f64) -> Result<Place, Stri
         return Err(format!("latitude {latitude_deg}, expected -90 to 90; give the latitude first"));
     }
     if !(-180.0..=180.0).contains(&longitude_deg) {
-        return Err(format!("longitude {longitude_deg}, expected -180 to 180"));
+        let advice = beyond_180(longitude_deg).map_or_else(String::new, |advice| format!("; {advice}"));
+        return Err(format!("longitude {longitude_deg}, expected -180 to 180{advice}"));
     }
     Ok(Place { latitude_deg, longitude_deg })
 }
