@@ -55,6 +55,10 @@ use nalgebra::{DVector, Vector3};
 /// Smallest number of runs for which the program does not warn that there are few.
 pub(crate) const ENOUGH_RUNS: usize = 4;
 
+/// Standard deviation of a visit, arcsec, below which the readings may be in arcminutes: two-axis stands repeat to about an
+/// arcsecond, and an autocollimator itself to a few hundredths.
+const LEAST_SCATTER_ARCSEC: f64 = 0.1;
+
 /// Reason why a stand was not certified.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -187,7 +191,7 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     remarks.extend(shared_settings.iter().copied().map(Remark::SharedSetting));
     remarks.extend(Remark::of_suspects(&suspects, runs));
     remarks.extend(unequal_axes.iter().copied().map(Remark::RunAxesDiffer));
-    remarks.extend(remarks_on(&components, runs.len(), &stand.positions));
+    remarks.extend(remarks_on(&components, readings, &stand.positions));
     remarks.extend(remark_on_rounding(readings));
     remarks.extend(stand::remarks::of(&stand.certificate, &stand.positions).into_iter().map(Remark::Odd));
     let warnings = remarks.iter().map(ToString::to_string).collect();
@@ -356,8 +360,9 @@ fn remark_on_rounding(readings: &AngleReadings) -> Option<Remark> {
     (angles > 0).then_some(rounding)
 }
 
-fn remarks_on(components: &Components, runs: usize, positions: &[CertifiedPosition]) -> Vec<Remark> {
+fn remarks_on(components: &Components, readings: &AngleReadings, positions: &[CertifiedPosition]) -> Vec<Remark> {
     let mut remarks = Vec::new();
+    let runs = readings.runs.len();
     if runs < ENOUGH_RUNS {
         remarks.push(Remark::FewRuns { runs, degrees_of_freedom: 3 * (runs - 1) });
     }
@@ -366,8 +371,12 @@ fn remarks_on(components: &Components, runs: usize, positions: &[CertifiedPositi
     }
     let angles = positions.iter().flat_map(CertifiedPosition::angles_arcsec);
     let largest_arcsec = angles.fold(0.0, |a, b| f64::max(a, b.abs()));
+    let scatter_arcsec = components.pooled_arcsec2.value.sqrt();
     if largest_arcsec < 0.5 {
         remarks.push(Remark::SmallAngles(largest_arcsec));
+    } else if scatter_arcsec < LEAST_SCATTER_ARCSEC && readings.step_arcsec < LEAST_SCATTER_ARCSEC {
+        // Readings in coarser steps do not show their scatter.
+        remarks.push(Remark::LittleScatter(scatter_arcsec));
     }
     remarks
 }

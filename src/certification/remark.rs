@@ -48,6 +48,8 @@ pub(crate) enum Remark {
     },
     /// Largest angle, arcsec.
     SmallAngles(f64),
+    /// Standard deviation of a visit that no stand has, arcsec.
+    LittleScatter(f64),
     Odd(Odd),
 }
 
@@ -146,7 +148,10 @@ impl Remark {
                 let (step, u) = (exact(*step_arcsec), arcsec(rounding_of(*step_arcsec)));
                 fill(texts::ROUNDING, values! { angles, all: of, step, u })
             }
-            Self::SmallAngles(largest) => fill(texts::SMALL_ANGLES, values! { largest: fixed(*largest, 2) }),
+            Self::SmallAngles(largest) => fill(texts::SMALL_ANGLES, values! { largest: hundredths_above(*largest) }),
+            Self::LittleScatter(scatter) => {
+                fill(texts::LITTLE_SCATTER, values! { scatter: hundredths_above(*scatter) })
+            }
             Self::Odd(Odd::FarAngle { angle, index, arcsec, usual_arcsec }) => {
                 let (angle, value, usual) = (ANGLE_SYMBOLS[*angle], fixed(*arcsec, 0), fixed(*usual_arcsec, 0));
                 fill(texts::FAR_ANGLE, values! { angle, index, value, usual })
@@ -215,6 +220,11 @@ pub(super) fn arcsec(angle: f64) -> Number {
 pub(crate) fn together(turns: [f64; 3]) -> [Number; 3] {
     let decimals = decimals_of_angle(turns.iter().fold(0.0, |largest, turn| turn.abs().max(largest)));
     turns.map(|turn| Number::fixed(turn, decimals))
+}
+
+/// Returns a small angle, rounded up to hundredths of an arcsecond.
+fn hundredths_above(arcsec: f64) -> Number {
+    Number::fixed((arcsec * 100.0).ceil() / 100.0, 2)
 }
 
 /// Returns the decimals of an angle with two significant digits, at most hundredths of an arcsecond.

@@ -140,6 +140,10 @@ texts! {
         en: "No angle is larger than {largest}″; the angles may be in degrees instead of arcseconds.",
         ru: "Ни один угол не превышает {largest}″; возможно, углы указаны в градусах, а не в секундах."
     }
+    LITTLE_SCATTER {
+        en: "The visits scatter by only {scatter}″, less than a stand repeats; the angles may be in arcminutes instead of arcseconds.",
+        ru: "Стандартное отклонение одной установки — лишь {scatter}″, меньше, чем у любого стенда; возможно, углы указаны в минутах, а не в секундах."
+    }
     FAR_ANGLE {
         en: "{angle} of position {index} is {value}″; the angles of the other positions are up to {usual}″.",
         ru: "Угол {angle} положения {index} равен {value}″; у остальных положений — не более {usual}″."

@@ -273,6 +273,27 @@ fn mistakes_of_a_whole_run_are_named() {
     }
 }
 
+/// Expected: of the example, whose visits scatter by 1.7″, the remark if all angles are divided by 60, and none as they are.
+#[test]
+fn a_file_in_arcminutes_is_doubted() {
+    let folder = folder("arcminutes");
+    let good = example("angles.csv");
+    let lines = good.lines().map(|line| {
+        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        if line.starts_with(['1', '2']) {
+            cells[3..].iter_mut().for_each(|cell| *cell = format!("{:.4}", cell.parse::<f64>().unwrap() / 60.0));
+        }
+        cells.join(",") + "\n"
+    });
+    fs::write(folder.join("arcminutes.csv"), lines.collect::<String>()).unwrap();
+    for (file, warnings) in [("angles.csv", "no warnings"), ("arcminutes.csv", "warnings: 1")] {
+        let (code, said, _) = run(&folder, &format!("{file} --stand header.yaml -o {file}.yaml"));
+        assert_eq!(code, 0);
+        assert!(said.lines().next().unwrap().contains(warnings), "{said}");
+        assert_eq!(said.contains("may be in arcminutes"), file == "arcminutes.csv", "{said}");
+    }
+}
+
 /// Other angles never go under a number that is there, --force or not.
 #[test]
 fn a_number_keeps_its_angles() {
