@@ -11,6 +11,7 @@ use crate::files::{self, FileError, folder_of};
 use crate::folder::verifier::Verifier;
 use crate::folder::{Folder, Issued, Superseding, Visited, search};
 use crate::passport::issue::PreparedStand;
+use crate::passport::place::distant_correction;
 use crate::passport::reissue::{Order, ReissueRefused, Successor, successor};
 use crate::passport::{Check, CheckName, Question, Trust, verify};
 use crate::register::{Alarm, AlarmKind, Asked, Line, Register, State};
@@ -269,7 +270,8 @@ impl Run<'_> {
         }
         let folder = self.folder_for(path, &next)?;
         next.rival = self.rival(path, &folder, &next, trust);
-        let warnings = if candidate.found.is_none() { self.warnings(&name, &bytes) } else { Vec::new() };
+        let mut warnings = if candidate.found.is_none() { self.warnings(&name, &bytes) } else { Vec::new() };
+        warnings.extend(verification.content_from_anyone().and_then(|old| distant_correction(old, &next.site)));
         let stays_in_force = !next.supersedes() && verification.passport().is_some();
         Ok(Examined::Next(Box::new(Following { name, successor: next, folder, warnings, stays_in_force })))
     }

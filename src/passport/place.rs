@@ -4,6 +4,8 @@ use super::checks::Code;
 use super::content::Content;
 use crate::earth::{self, Place};
 use crate::site::LATITUDE_MARGIN_ARCSEC;
+#[cfg(feature = "factory")]
+use crate::site::Site;
 use crate::units::{distance, radians_from_arcseconds};
 
 /// Distance of a place from a passport's site, and the limit for it.
@@ -52,19 +54,47 @@ pub(super) fn verdict(content: &Content, place: Place) -> (Code, String) {
     if nearness.within() {
         return (Code::Ok, words);
     }
+    let advice = mistaken(content, place).unwrap_or("request a re-issue for this place from the factory");
+    (Code::WrongPlace, format!("{words}; {advice}"))
+}
+
+/// Returns the advice on coordinates that are those of the site once they are exchanged or have another sign, or `None`.
+fn mistaken(content: &Content, place: Place) -> Option<&'static str> {
     let Place { latitude_deg, longitude_deg } = place;
     let within = |latitude_deg, longitude_deg| Nearness::of(content, Place { latitude_deg, longitude_deg }).within();
-    let may_be_exchanged = site.longitude_deg.is_some() && longitude_deg.abs() <= 90.0;
-    let advice = if may_be_exchanged && within(longitude_deg, latitude_deg) {
-        "check whether latitude and longitude are exchanged"
+    let may_be_exchanged = content.site.longitude_deg.is_some() && longitude_deg.abs() <= 90.0;
+    if may_be_exchanged && within(longitude_deg, latitude_deg) {
+        Some("check whether latitude and longitude are exchanged")
     } else if within(latitude_deg, -longitude_deg) {
-        "check the sign of the longitude; it is negative in the west"
+        Some("check the sign of the longitude; it is negative in the west")
     } else if within(-latitude_deg, longitude_deg) {
-        "check the sign of the latitude; it is negative in the south"
+        Some("check the sign of the latitude; it is negative in the south")
     } else if within(-latitude_deg, -longitude_deg) {
-        "check the signs of latitude and longitude; they are negative in the south and in the west"
+        Some("check the signs of latitude and longitude; they are negative in the south and in the west")
     } else {
-        "request a re-issue for this place from the factory"
-    };
-    (Code::WrongPlace, format!("{words}; {advice}"))
+        None
+    }
+}
+
+/// Largest distance by which the coordinates of a site are usually corrected, m.
+#[cfg(feature = "factory")]
+const LARGEST_CORRECTION_M: f64 = 10_000.0;
+
+/// Returns a warning if `site`, which has the identifier of the site of a passport, is so far from it that it is another
+/// place, or its coordinates are wrong; otherwise `None`.
+#[cfg(feature = "factory")]
+pub(crate) fn distant_correction(content: &Content, site: &Site) -> Option<String> {
+    let old = &content.site;
+    let longitude_deg = site.longitude_deg.or(old.longitude_deg).unwrap_or_default();
+    let place = Place { latitude_deg: site.geodetic_deg(), longitude_deg };
+    let Nearness { distance_m, .. } = Nearness::of(content, place);
+    (site.id == old.id && distance_m > LARGEST_CORRECTION_M).then(|| {
+        let another = "for another place, give the site another id";
+        format!(
+            "WARNING: the coordinates of {} are {} from those in the predecessor; {}",
+            site.id,
+            distance(distance_m),
+            mistaken(content, place).unwrap_or(another)
+        )
+    })
 }
