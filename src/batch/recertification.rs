@@ -281,7 +281,7 @@ impl Recertification<'_> {
         if comparison.positions.iter().all(|at| !at.repeats) {
             return Err(of_readings(
                 &"no more than half of the positions agree with the certificate; check that these are the readings of this stand. \
-                  For a stand that has worn or was rebuilt, use `certify` and `reissue --stand`",
+                  For a stand that has worn or was rebuilt, use `certify`, then `reissue FOLDER --stand` with the new stand file",
             ));
         }
         match comparison.findings.iter().find(|finding| finding.is_of_the_certificate()) {

@@ -251,6 +251,14 @@ impl Series {
         self.jump.is_some() || self.is_drift()
     }
 
+    /// Returns the change between the first and the last tested value with its standard uncertainty, arcsec, or `None` if no
+    /// value was tested.
+    #[cfg(feature = "report")]
+    pub(crate) fn change(&self) -> Option<(f64, f64)> {
+        let (first, last) = (self.tested_values().next()?, self.tested_values().next_back()?);
+        Some((last.arcsec - first.arcsec, libm::hypot(last.u_arcsec?, first.u_arcsec?)))
+    }
+
     /// Returns the values that were tested: those with an uncertainty.
     pub(crate) fn tested_values(&self) -> impl DoubleEndedIterator<Item = &Value> {
         self.values.iter().filter(|at| at.u_arcsec.is_some())

@@ -144,7 +144,14 @@ fn of_lines(drift: &Drift, angles: [&str; 3]) -> String {
     let by = format!("probability {p}, corrected for {tested} tests");
     let slope = worst.line.map_or_else(String::new, |line| measured(line.slope, "″ per year", line.u_slope));
     let drifting = drift.series.iter().filter(|at| at.corrected_probability.is_some_and(|p| p < DRIFTS)).count();
-    if probability < DRIFTS {
+    let between_two = worst.line.filter(|line| line.degrees_of_freedom == 0).and_then(|_| worst.change());
+    if let Some((change, u)) = between_two.filter(|_| probability < DRIFTS) {
+        let change = measured(change, "″", u);
+        format!(
+            "the stand has changed: {drifting} of {tested} deviations; most significant is {name}, {change}, {by}; two \
+             certificates do not show whether this is a drift or a jump"
+        )
+    } else if probability < DRIFTS {
         format!("the stand drifts: {drifting} of {tested} deviations; most significant is {name}, {slope}, {by}")
     } else if probability < SUSPECTED {
         format!("a drift is suspected: {name}, {slope}, {by}; certify the stand again earlier than planned")
