@@ -1,14 +1,16 @@
 //! Possible causes if the readings do not fit, as far as the residuals show them.
 
 use super::chi_square::{self, ChiSquare};
-use super::data::Data;
+use super::data::{Data, Observation};
 use super::inputs::Setup;
 use super::least_squares::Fit;
 use super::mistake::{LARGEST_ROTATION_DEG, minimum};
 use super::propagation::Propagation;
+use super::readings::Readings;
 use super::sensitivity::Sensitivity;
 use super::unknowns::Model;
 use crate::coefficients::PositionIndex;
+use crate::gyro::GyroParameters;
 use crate::text::number::{exponent_as_printed, two_digits};
 use crate::units::arcseconds_from_radians;
 use nalgebra::{Matrix2, Vector2};
@@ -23,7 +25,7 @@ const POSSIBLE: f64 = 0.001;
 
 /// Difference of chi-square above which the worse of two possible explanations is dropped: it is e^(10/2) = 150 times
 /// less likely.
-const WORSE: f64 = 10.0;
+pub(super) const WORSE: f64 = 10.0;
 
 /// Chi-square that an explanation with two free numbers must gain over one without, to be preferred.
 const PRICE_OF_TWO_NUMBERS: f64 = 4.0;
@@ -185,19 +187,49 @@ fn exchanges(setup: &Setup, data: &Data, model: Model, suspects: &[usize]) -> Ve
 /// Returns every other numbering of the paper's eight positions that makes the readings fit, with its score: θ exchanged,
 /// φ counted in the other direction or from another position, or several of these. An exchange of two positions is none.
 fn renumbered(setup: &Setup, data: &Data, model: Model) -> Vec<(f64, Explanation)> {
+    let possible = numberings(setup)
+        .filter_map(|(i, j, places)| Some((score(setup, &data.at(&places), model)?, Explanation::Renumbered { i, j })));
+    possible.collect()
+}
+
+/// Returns every other numbering of the paper's eight positions, with the place of the reading for each position.
+fn numberings(setup: &Setup) -> impl Iterator<Item = ([u32; 2], [u32; 4], Vec<usize>)> {
     let positions = &setup.coefficients().positions;
     let place_of = |i, j| positions.iter().position(|at| at.index == PositionIndex { i, j });
     let numberings = [[1, 2], [2, 1]].into_iter().flat_map(|i| {
         (0..8).map(move |step| (i, [0, 1, 2, 3].map(|j| 1 + (step + if step < 4 { j } else { 4 - j }) % 4)))
     });
-    let possible = numberings.skip(1).filter_map(|(i, j)| {
+    numberings.skip(1).filter_map(move |(i, j)| {
         let mut places: Vec<usize> = (0..positions.len()).collect();
         for (from_i, to_i) in (1..).zip(i) {
             for (from_j, to_j) in (1..).zip(j) {
                 places[place_of(to_i, to_j)?] = place_of(from_i, from_j)?;
             }
         }
-        Some((score(setup, &data.at(&places), model)?, Explanation::Renumbered { i, j }))
+        Some((i, j, places))
+    })
+}
+
+/// Other numbering of the positions with which the readings fit, and their parameters with it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Numbering {
+    pub(crate) i: [u32; 2],
+    pub(crate) j: [u32; 4],
+    pub(crate) chi_square: f64,
+    pub(crate) parameters: GyroParameters,
+}
+
+/// Returns the other numberings of the positions with which readings fit that also fit as they are numbered: deviations that
+/// are no larger than the noise do not show the numbering, but the parameters do.
+pub(crate) fn other_numberings(setup: &Setup, readings: &Readings, model: Model, drift: bool) -> Vec<Numbering> {
+    let setup = &*setup.of_readings(readings);
+    let Ok(Observation { data, .. }) = Observation::new(setup, readings, model, drift) else { return Vec::new() };
+    let possible = numberings(setup).filter_map(|(i, j, places)| {
+        let data = data.at(&places);
+        let fit = data.fit(setup, model).ok().filter(|fit| fit.settled)?;
+        let found = chi_square::chi_square(&Propagation::new(setup, &data, &fit));
+        let parameters = fit.unknowns.parameters;
+        (found.probability > POSSIBLE).then_some(Numbering { i, j, chi_square: found.value, parameters })
     });
     possible.collect()
 }

@@ -8,6 +8,7 @@
 //! ψ − δ)·R(−90°), and W′ is W for δ = 0: exactly for 180°, for quarter turns on a stand of the paper's eight positions
 //! without deviations. Each of these errors can be undone.
 
+use super::diagnosis::{Numbering, WORSE};
 use super::result::Calibration;
 use super::verdict::{Found, Verdict, against_type};
 use crate::coefficients::EarthRate;
@@ -27,6 +28,12 @@ const CLEARLY_ELSEWHERE: f64 = 10.0;
 
 /// Power of ten in the scale factors from which they are implausible for any gyro, if no type is given.
 const IMPLAUSIBLE_POWER: i32 = 3;
+
+/// Deviation of a drift, in units of its tolerance plus its expanded uncertainty, that is not the unit of the currents.
+const FAR_OUT: f64 = 100.0;
+
+/// Factor of all scale factors together that no gyro changes by.
+const LARGEST_CHANGE_OF_SCALE: f64 = 2.0;
 
 /// Largest angle by which a gyro or a base is rotated without being turned by a quarter.
 pub(super) const LARGEST_ROTATION_DEG: f64 = 10.0;
@@ -61,6 +68,23 @@ pub enum Mistake {
         /// Azimuth of the frame's axis that would explain the result, degrees clockwise from north.
         frame_axis_azimuth_deg: f64,
     },
+    /// Currents that are all too large by a factor that is no power of ten, such as the voltage across a shunt.
+    Scaled {
+        /// Factor; below 1 if the currents are too small.
+        factor: f64,
+    },
+    /// Gyro type whose values are all in another unit, such as degrees per second.
+    TypeScaled {
+        /// Factor by which the parameters are larger than the nominal values.
+        factor: f64,
+    },
+    /// Positions that are numbered in another way than in the certificate, such as φ in the other direction.
+    Renumbered {
+        /// Certified i of the readings with i = 1, 2.
+        i: [u32; 2],
+        /// Certified j of the readings with j = 1, 2, 3, 4.
+        j: [u32; 4],
+    },
 }
 
 /// Difference of the columns of currents from J_x and J_y in mA: first exchanged, then reversed.
@@ -94,11 +118,81 @@ impl Mistake {
         }
         match gyro_type {
             Some(gyro_type) => {
-                by_type(found, used, gyro_type).or_else(|| by_size(found, &gyro_type.nominal.to_model()))
+                let by_size = || by_size(found, &gyro_type.nominal.to_model()).filter(|_| has_drifts(found, gyro_type));
+                by_type(found, used, gyro_type).or_else(|| scaled(found, gyro_type)).or_else(by_size)
             }
             None => by_size(found, usual),
         }
     }
+}
+
+impl Mistake {
+    /// Returns the numbering of the positions with which a result that fits, but is not that of the gyro type, becomes it, if
+    /// there is only one.
+    pub(crate) fn of_numbering(
+        found: &Found,
+        gyro_type: &GyroType,
+        others: impl FnOnce() -> Vec<Numbering>,
+    ) -> Option<Self> {
+        let distance = |found: &Found| distance(&against_type(found, gyro_type));
+        let as_read = distance(found);
+        if as_read < CLEARLY {
+            return None;
+        }
+        let near = |other: &Numbering| {
+            let distance = distance(&Found { parameters: other.parameters, ..*found });
+            distance < CLEARLY && as_read >= CLEARLY * distance.max(1.0)
+        };
+        let mut near: Vec<Numbering> = others().into_iter().filter(near).collect();
+        near.sort_by(|one, other| one.chi_square.total_cmp(&other.chi_square));
+        match near.as_slice() {
+            [one] => Some(one),
+            [one, second, ..] if second.chi_square > one.chi_square + WORSE => Some(one),
+            _ => None,
+        }
+        .map(|Numbering { i, j, .. }| Self::Renumbered { i: *i, j: *j })
+    }
+}
+
+/// Returns the factor of the currents, or of all values of the gyro type, with which a result becomes that of the type, if it
+/// is larger than any change of a torquer.
+fn scaled(found: &Found, gyro_type: &GyroType) -> Option<Mistake> {
+    let as_read = distance(&against_type(found, gyro_type));
+    let factor = scale_to(found, &gyro_type.nominal.to_model());
+    if (1.0 / LARGEST_CHANGE_OF_SCALE..=LARGEST_CHANGE_OF_SCALE).contains(&factor) || factor <= 0.0 {
+        return None;
+    }
+    let of_k = |found: &Found, factors: [f64; 8]| {
+        let values = found.parameters.to_vector();
+        Found {
+            parameters: GyroParameters::from_vector(&std::array::from_fn(|place| values[place] * factors[place])),
+            standard_uncertainty: std::array::from_fn(|place| found.standard_uncertainty[place] * factors[place]),
+            ..*found
+        }
+    };
+    let [k, one] = [factor, 1.0];
+    let each = [
+        ([k, k, k, k, one, one, one, one], Mistake::Scaled { factor }),
+        ([factor; 8], Mistake::TypeScaled { factor: 1.0 / factor }),
+    ];
+    let explains = |(factors, _): &([f64; 8], Mistake)| {
+        let near = distance(&against_type(&of_k(found, *factors), gyro_type));
+        near < CLEARLY && as_read >= CLEARLY * near.max(1.0)
+    };
+    each.into_iter().find(explains).map(|(_, mistake)| mistake)
+}
+
+/// Returns `true` if the drifts, which do not depend on the unit of the currents, are not far from those of the gyro type.
+fn has_drifts(found: &Found, gyro_type: &GyroType) -> bool {
+    let verdict = against_type(found, gyro_type);
+    let mut drifts = verdict.parameters.iter().filter(|row| row.parameter.place() >= 4);
+    drifts.all(|row| row.deviation.abs() <= FAR_OUT * (row.tolerance + row.expanded_uncertainty))
+}
+
+/// Returns the factor with which all scale factors come nearest to the expected ones.
+fn scale_to(found: &Found, expected: &GyroParameters) -> f64 {
+    let k = &found.parameters.k_deg_per_h_per_ma;
+    k.dot(&expected.k_deg_per_h_per_ma) / k.norm_squared()
 }
 
 /// Returns an error of the unit if the scale factors are a thousand times or more too small or too large.
@@ -240,9 +334,7 @@ fn other_place(
     let latitude_deg = minimum((coarse - 1.0).max(-MOST_DEG), (coarse + 1.0).min(MOST_DEG), at);
     let best = at(latitude_deg);
     let mut scaled = *found;
-    let k = &found.parameters.k_deg_per_h_per_ma;
-    let scale = k.dot(&expected.k_deg_per_h_per_ma) / k.norm_squared();
-    scaled.parameters.k_deg_per_h_per_ma *= scale;
+    scaled.parameters.k_deg_per_h_per_ma *= scale_to(found, expected);
     let otherwise = distance(&scaled).min(distance(found));
     (otherwise >= CLEARLY_ELSEWHERE * best.max(1.0)).then_some((best, Mistake::OtherPlace { latitude_deg }))
 }

@@ -3,6 +3,7 @@
 use super::{Failed, Order, json};
 #[cfg(not(feature = "report"))]
 use crate::calibration::diagnosis::INCONSISTENT;
+use crate::calibration::diagnosis::other_numberings;
 use crate::calibration::document::{NoChange, Subject};
 use crate::calibration::mistake::Mistake;
 use crate::calibration::prediction::{FurtherVisit, best_further_visit, cost_of_missing};
@@ -218,6 +219,10 @@ impl<'a> Prepared<'a> {
         let usual = usual.map_or_else(|| GyroType::gvk_6().nominal.to_model(), |found| found.parameters);
         let rate = content.earth.rate(&content.site);
         document.mistake = Mistake::explaining(&calibration, &found, &rate, gyro_type, &usual);
+        if let (None, None, Some(gyro_type)) = (&document.mistake, &document.hint, gyro_type) {
+            let others = || other_numberings(&setup, &readings, options.model, options.drift);
+            document.mistake = Mistake::of_numbering(&found, gyro_type, others);
+        }
         document.remarks = remarks(&calibration, &readings, document.mistake.as_ref());
         document
             .remarks

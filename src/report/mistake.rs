@@ -5,6 +5,7 @@ use super::page::language::{Language, Text, values};
 use super::page::number::LATITUDES;
 use super::page::spacing::BLANK;
 use super::page::texts::calibration as texts;
+use crate::calibration::diagnosis::with_commas;
 use crate::calibration::mistake::{CurrentsMistaken, Mistake};
 
 /// Power of ten by which microamperes exceed milliamperes.
@@ -26,10 +27,28 @@ pub(crate) fn words(mistake: &Mistake, language: Language) -> String {
         Mistake::Rotated { by_deg } => {
             texts::MISTAKE_ROTATED.filled(language, values! { angle: Number::significant(*by_deg, 2) })
         }
+        Mistake::Scaled { factor } => {
+            let text = if *factor > 1.0 { texts::MISTAKE_TOO_LARGE } else { texts::MISTAKE_TOO_SMALL };
+            let factor = factor_of(*factor);
+            texts::MISTAKE_CURRENTS.filled(language, values! { causes: text.filled(language, values! { factor }) })
+        }
+        Mistake::TypeScaled { factor } => {
+            let text = if *factor > 1.0 { texts::MISTAKE_TYPE_TOO_SMALL } else { texts::MISTAKE_TYPE_TOO_LARGE };
+            text.filled(language, values! { factor: factor_of(*factor) })
+        }
+        Mistake::Renumbered { i, j } => {
+            texts::MISTAKE_RENUMBERED.filled(language, values! { i: with_commas(i), j: with_commas(j) })
+        }
         Mistake::OtherAxis { frame_axis_azimuth_deg } => {
             texts::MISTAKE_OTHER_AXIS.filled(language, &[("azimuth", frame_axis_azimuth_deg)])
         }
     }
+}
+
+/// Returns a factor or its inverse, whichever is larger, with four significant digits if it is not whole.
+fn factor_of(factor: f64) -> Number {
+    let factor = factor.max(1.0 / factor);
+    if factor < 1000.0 { Number::significant(factor, 3) } else { Number::fixed(factor, 0) }
 }
 
 fn causes(mistaken: &CurrentsMistaken, language: Language) -> Vec<String> {

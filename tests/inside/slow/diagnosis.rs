@@ -3,13 +3,15 @@
 use crate::inside::reference;
 use crate::inside::reference::*;
 use dtg_passport::attitude::Deviation;
-use dtg_passport::calibration::diagnosis::Explanation;
+use dtg_passport::calibration::diagnosis::{Explanation, other_numberings};
 use dtg_passport::calibration::mistake::{CurrentsMistaken, Mistake};
 use dtg_passport::calibration::parameter::Parameter;
+use dtg_passport::calibration::unknowns::Model;
+use dtg_passport::calibration::verdict::Found;
 use dtg_passport::calibration::{Calibration, CalibrationDocument, InputUncertainty, Options, Setup, calibrate};
 use dtg_passport::coefficients::{EarthRate, Position};
 use dtg_passport::earth::{STANDARD_GRAVITY_M_PER_S2, normal_gravity_m_per_s2};
-use dtg_passport::gyro::{GyroParameters, GyroType};
+use dtg_passport::gyro::{GyroParameters, GyroType, Parameters};
 use dtg_passport::statistics::random::{Run, Stream};
 use nalgebra::Vector2;
 
@@ -296,12 +298,26 @@ fn a_wrong_reading_is_named_with_its_size() {
 /// What explains currents that were calibrated with the passport of this stand for this latitude, where the type is the
 /// paper's, and what it is called without a type.
 fn explained(stand: &[Position], latitude_deg: f64, currents_ma: &[Vector2<f64>]) -> [Option<Mistake>; 2] {
+    explained_for([Some(&GyroType::gvk_6()), None], stand, latitude_deg, currents_ma)
+}
+
+/// What explains currents for each of two types, or for none.
+fn explained_for(
+    types: [Option<&GyroType>; 2],
+    stand: &[Position],
+    latitude_deg: f64,
+    currents_ma: &[Vector2<f64>],
+) -> [Option<Mistake>; 2] {
     let calibration = solve(&setup(stand, latitude_deg), currents_ma);
-    let gravity = (normal_gravity_m_per_s2(latitude_deg, 0.0), Some(7.1e-3));
-    let found = CalibrationDocument::new("a/b/c/1", true, gravity, &calibration, &[]).answer().unwrap();
+    let found = found(&calibration, latitude_deg);
     let rate = EarthRate::at_astronomic_latitude(latitude_deg);
-    let explaining = |gyro_type| Mistake::explaining(&calibration, &found, &rate, gyro_type, &gvk_6());
-    [explaining(Some(&GyroType::gvk_6())), explaining(None)]
+    types.map(|gyro_type| Mistake::explaining(&calibration, &found, &rate, gyro_type, &gvk_6()))
+}
+
+/// The adopted result at the normal gravity of a latitude.
+fn found(calibration: &Calibration, latitude_deg: f64) -> Found {
+    let gravity = (normal_gravity_m_per_s2(latitude_deg, 0.0), Some(7.1e-3));
+    CalibrationDocument::new("a/b/c/1", true, gravity, calibration, &[]).answer().unwrap()
 }
 
 /// A gyro within the paper's tolerance, its drifts per the g of a latitude at 100 m.
@@ -449,6 +465,76 @@ fn a_turned_gyro_and_a_turned_base_are_recognised() {
             let due = Mistake::OtherAxis { frame_axis_azimuth_deg };
             assert_eq!(explained(&stand, LATITUDE_DEG, &currents), [Some(due), None]);
         }
+    }
+}
+
+/// On stands of 7″, whose readings fit in any numbering: φ in the other direction, θ exchanged, φ from another position and
+/// several of these are named. A gyro turned by quarters has the currents of φ from another position, and its words say so. A
+/// gyro out of tolerance gets no word.
+#[test]
+fn another_numbering_is_recognised_by_the_parameters() {
+    let mut stream = Stream::new(31);
+    for _ in 0..20 {
+        let stand = drawn_stand(&mut stream, 0.002);
+        let good = good_currents(&mut stream, &stand, LATITUDE_DEG);
+        let numberings = [[1_u32, 2], [2, 1]].into_iter().flat_map(|i| (0..8_u32).map(move |step| (i, step)));
+        for (i, step) in numberings.skip(1) {
+            let j = [0, 1, 2, 3].map(|j| 1 + (step + if step < 4 { j } else { 4 - j }) % 4);
+            let mut read = good.clone();
+            for (row, place) in i.into_iter().flat_map(|i| j.map(|j| 4 * (i - 1) + j - 1)).enumerate() {
+                read[row] = good[place as usize];
+            }
+            let due = match (i, step) {
+                ([1, 2], 1..4) => Mistake::GyroTurned { by_deg: 90 * step as u16 },
+                _ => Mistake::Renumbered { i, j },
+            };
+            assert_eq!(by_the_parameters(&stand, &read), Some(due));
+        }
+        let mut bad = good_gyro(&mut stream, LATITUDE_DEG).to_vector();
+        bad[stream.below(8)] *= 1.0 + 0.5 * stream.within(1.0);
+        let read = noisy(&mut stream, &currents(&setup(&stand, LATITUDE_DEG), &GyroParameters::from_vector(&bad)));
+        assert_eq!(by_the_parameters(&stand, &read), None);
+    }
+}
+
+/// What explains these currents where the type is the paper's: the result, or another numbering.
+fn by_the_parameters(stand: &[Position], read: &[Vector2<f64>]) -> Option<Mistake> {
+    let setup = setup(stand, LATITUDE_DEG);
+    let calibration = solve(&setup, read);
+    assert!(calibration.hint.is_none());
+    let found = found(&calibration, LATITUDE_DEG);
+    let others = || other_numberings(&setup, &readings(&setup, read), Model::Paper, false);
+    let [by_type, _] = explained(stand, LATITUDE_DEG, read);
+    by_type.or_else(|| Mistake::of_numbering(&found, &GyroType::gvk_6(), others))
+}
+
+/// Expected: the factor with which the currents were multiplied, as of a voltage across a shunt of 499 Ω; 3600 for a type in °/s,
+/// and not a unit of the currents.
+#[test]
+fn another_factor_is_recognised() {
+    let mut stream = Stream::new(32);
+    let stand = drawn_stand(&mut stream, 3.0);
+    let good = good_currents(&mut stream, &stand, LATITUDE_DEG);
+    for due in [499.0, 4.99, 0.2] {
+        let scaled: Vec<_> = good.iter().map(|current| current * due).collect();
+        let [Some(Mistake::Scaled { factor }), _] = explained(&stand, LATITUDE_DEG, &scaled) else { panic!("{due}") };
+        assert!((factor / due - 1.0).abs() < 1e-3, "{factor} for {due}");
+    }
+    for due in [3600.0, 60.0, 1.0 / 3600.0] {
+        let mut per_second = GyroType::gvk_6();
+        let values = gvk_6().to_vector().map(|value| value / due);
+        per_second.nominal = Parameters::of(&GyroParameters::from_vector(&values));
+        let tolerance = &mut per_second.tolerance;
+        for limit in [
+            &mut tolerance.omega0_deg_per_h,
+            &mut tolerance.omega_g_deg_per_h_per_g,
+            &mut tolerance.omega_k_deg_per_h_per_g,
+        ] {
+            *limit /= due;
+        }
+        let [found, _] = explained_for([Some(&per_second), None], &stand, LATITUDE_DEG, &good);
+        let Some(Mistake::TypeScaled { factor }) = found else { panic!("{due}: {found:?}") };
+        assert!((factor / due - 1.0).abs() < 1e-3, "{factor} for {due}");
     }
 }
 

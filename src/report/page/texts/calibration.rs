@@ -97,6 +97,28 @@ texts! {
              рамки стенда направлена по азимуту {azimuth}°, а не по указанному в паспорте. Следует проверить выставку \
              основания и повторить калибровку или запросить паспорт для этого азимута."
     }
+    MISTAKE_TYPE_TOO_SMALL {
+        en: "The readings fit, but the parameters do not match this gyro. One error explains this: all values of the gyro \
+             type are too small by a factor of {factor}; degrees per second are to be multiplied by 3600. Correct the \
+             gyro type; then calibrate again.",
+        ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: \
+             все значения типа гироскопа занижены в {factor} раз; значения в градусах в секунду следует умножить на 3600. \
+             Следует исправить тип гироскопа и повторить калибровку."
+    }
+    MISTAKE_TYPE_TOO_LARGE {
+        en: "The readings fit, but the parameters do not match this gyro. One error explains this: all values of the gyro \
+             type are too large by a factor of {factor}. Correct the gyro type; then calibrate again.",
+        ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: \
+             все значения типа гироскопа завышены в {factor} раз. Следует исправить тип гироскопа и повторить калибровку."
+    }
+    MISTAKE_RENUMBERED {
+        en: "The readings fit, but the parameters do not match this gyro. One error explains this: the positions are \
+             numbered in another way, and i = 1, 2 of the readings is i = {i} of the passport, and j = 1, 2, 3, 4 is \
+             j = {j}. Check the numbering and the direction of φ; then calibrate again.",
+        ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: \
+             положения пронумерованы иначе, i = 1, 2 показаний — это i = {i} паспорта, j = 1, 2, 3, 4 — это j = {j}. \
+             Следует проверить нумерацию и направление отсчёта φ и повторить калибровку."
+    }
     MISTAKE_AND { en: "and", ru: "и" }
     MISTAKE_EXCHANGED { en: "the x and y columns are exchanged", ru: "столбцы x и y переставлены" }
     MISTAKE_X_REVERSED { en: "the sign of the x column is reversed", ru: "знак столбца x изменён" }
