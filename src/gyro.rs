@@ -74,6 +74,12 @@ impl Parameters {
     }
 }
 
+/// Tolerance of K_x and K_y above which it is usually in another unit, percent.
+const LARGEST_MAIN_PERCENT: f64 = 20.0;
+
+/// Tolerance of K_xy and K_yx above which it is usually in another unit, percent.
+const LARGEST_CROSS_PERCENT: f64 = 100.0;
+
 record! {
     /// Tolerances of the parameters: largest permitted deviations from the nominal values.
     #[cfg_attr(feature = "cli", schemars(extend("oneOf" = [
@@ -163,6 +169,21 @@ impl GyroType {
             problems.within(&at.key("visit_deg_per_h"), noise.visit_deg_per_h, 0.0, f64::MAX);
             problems.within(&at.key("turn_on_deg_per_h"), noise.turn_on_deg_per_h, 0.0, f64::MAX);
         }
+    }
+
+    /// Returns the tolerances that no gyro fails, a sentence each without a full stop: they are possible, but usually in
+    /// another unit, such as millionths in place of percent.
+    pub(crate) fn remarks(&self) -> Vec<String> {
+        let Tolerance { k_main_percent, k_cross_percent, .. } = self.tolerance;
+        let each = [
+            ("k_main_percent", k_main_percent, LARGEST_MAIN_PERCENT),
+            ("k_cross_percent", k_cross_percent.unwrap_or_default(), LARGEST_CROSS_PERCENT),
+        ];
+        let words = each.into_iter().filter(|(_, value, largest)| value > largest).map(|(key, value, _)| {
+            format!("tolerance.{key} of the gyro type is {value} percent of the scale factor; check the unit, because such a \
+                     tolerance decides nothing")
+        });
+        words.collect()
     }
 
     /// Returns the value of g to which the drifts of the type refer, m/s².

@@ -1,10 +1,17 @@
 //! The laboratory file (`dtg-laboratory/1`): current meter, gyro seat and base.
 
+use crate::text::number::two_digits;
 use crate::text::record::Document;
 use crate::text::{Path, Problems, record};
 
 /// Lowest and highest temperature of a laboratory, °C.
 pub(crate) const TEMPERATURES_C: [f64; 2] = [-90.0, 100.0];
+
+/// Standard uncertainty of a meter above which it is usually in another unit, percent of the reading or of the range.
+const LARGEST_PERCENT: f64 = 1.0;
+
+/// Standard uncertainty of a rotation of the gyro or of the base above which it is usually in another unit, arcsec: a degree.
+const LARGEST_TURN_ARCSEC: f64 = 3600.0;
 
 record! {
     /// Current meter. All values except the range are standard uncertainties.
@@ -97,6 +104,37 @@ impl Laboratory {
         problems.within(&at.key("temperature_c"), self.temperature_c, low, high);
     }
 
+    /// Returns the stated uncertainties that are too large for any laboratory, a sentence each without a full stop: they are
+    /// possible, but usually a wrong unit, such as millionths in place of percent.
+    pub(crate) fn remarks(&self) -> Vec<String> {
+        let Meter { range_ma, reading_percent, gain_percent, offset_ma, floor_ma, noise_ma } = self.meter;
+        let of_range = LARGEST_PERCENT / 100.0 * range_ma;
+        let seat = self.seating_arcsec.as_ref().map_or([0.0; 3], |seat| [seat.about_x, seat.about_y, seat.about_z]);
+        let [azimuth, level] = self
+            .base
+            .as_ref()
+            .map_or([0.0; 2], |base| [base.azimuth_arcsec, base.level_arcsec].map(Option::unwrap_or_default));
+        let [x, y, z] = seat.map(|arcsec| (arcsec, LARGEST_TURN_ARCSEC, "arcseconds"));
+        let each = [
+            ("meter.reading_percent", (reading_percent, LARGEST_PERCENT, "percent")),
+            ("meter.gain_percent", (gain_percent, LARGEST_PERCENT, "percent")),
+            ("meter.offset_ma", (offset_ma, of_range, "milliamperes")),
+            ("meter.floor_ma", (floor_ma, of_range, "milliamperes")),
+            ("meter.noise_ma", (noise_ma.unwrap_or_default(), of_range, "milliamperes")),
+            ("seating_arcsec.about_x", x),
+            ("seating_arcsec.about_y", y),
+            ("seating_arcsec.about_z", z),
+            ("base.azimuth_arcsec", (azimuth, LARGEST_TURN_ARCSEC, "arcseconds")),
+            ("base.level_arcsec", (level, LARGEST_TURN_ARCSEC, "arcseconds")),
+        ];
+        let odd = each.into_iter().filter(|(_, (value, largest, _))| value > largest);
+        let words = odd.map(|(key, (value, largest, unit))| {
+            let largest = two_digits(largest);
+            format!("{key} of the laboratory is {value}, more than {largest} {unit}; check the unit, because no decision is possible with such an uncertainty")
+        });
+        words.collect()
+    }
+
     /// Creates a laboratory with a meter of the paper's accuracy, ±0.015 % of the reading (paper, before the table),
     /// and no other statements.
     ///
@@ -157,6 +195,21 @@ temperature_c: 21.0
         assert_eq!(laboratory.meter, Laboratory::paper().meter);
         assert_eq!(laboratory.seating_arcsec.unwrap().about_z, 10.0);
         assert_eq!(laboratory.base.unwrap().level_arcsec, Some(3.0));
+    }
+
+    /// Expected: a remark on the key alone that is a thousand times too large, as of a unit a thousand times smaller.
+    #[test]
+    fn an_uncertainty_in_another_unit_has_a_remark() {
+        assert_eq!(Laboratory::from_yaml("l", FILE.as_bytes()).unwrap().remarks(), Vec::<String>::new());
+        for (from, to, key) in [
+            ("reading_percent: 0.0087", "reading_percent: 8.7", "meter.reading_percent of the laboratory is 8.7,"),
+            ("floor_ma: 1.0e-06", "floor_ma: 0.5", "meter.floor_ma of the laboratory is 0.5,"),
+            ("about_z: 10.0", "about_z: 10000.0", "seating_arcsec.about_z of the laboratory is 10000,"),
+            ("level_arcsec: 3.0", "level_arcsec: 3600.5", "base.level_arcsec of the laboratory is 3600.5,"),
+        ] {
+            let remarks = Laboratory::from_yaml("l", FILE.replace(from, to).as_bytes()).unwrap().remarks();
+            assert!(remarks.len() == 1 && remarks[0].starts_with(key), "{remarks:?}");
+        }
     }
 
     #[test]

@@ -17,6 +17,7 @@ use crate::coefficients::PositionIndex;
 use crate::gyro::GyroType;
 use crate::stand::Certificate;
 use crate::text::Unreadable;
+use crate::text::printable::printable;
 use jiff::civil::Date;
 use jiff::tz::TimeZone;
 use jiff::{SignedDuration, Timestamp};
@@ -122,6 +123,9 @@ pub(crate) struct Subject {
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub passport_verified_as_of: Option<Timestamp>,
     pub currents_sha256: String,
+    /// Name of the gyro type with which the result was compared.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub gyro_type: Option<String>,
 }
 
 /// Reason why a difference from an earlier result is no change of the gyro.
@@ -131,6 +135,19 @@ pub(crate) enum NoChange {
     SameReadings,
     /// The earlier readings did not fit the stand, or contained an error.
     EarlierNotValid,
+}
+
+/// Returns a warning if one of the `earlier` results was compared with another type than `gyro_type`: it may be that of
+/// another gyro.
+pub(crate) fn another_type(earlier: &[CalibrationDocument], gyro_type: Option<&GyroType>) -> Option<String> {
+    let now = &gyro_type?.r#type;
+    let stated = |result| CalibrationDocument::subject(result)?.gyro_type.as_deref();
+    let other = earlier.iter().filter_map(stated).find(|before| before != now)?;
+    let [before, now] = [other, now].map(printable);
+    Some(format!(
+        "the previous result is that of a gyro of type {before}, not {now}; check that it is that of this gyro, because the \
+         change would otherwise be the difference of two gyros"
+    ))
 }
 
 /// Skips the decisions in an earlier result, because they are made again.
@@ -225,6 +242,10 @@ impl CalibrationDocument {
             hint: calibration.hint.as_ref().map(ToString::to_string),
             ..Self::default()
         }
+    }
+
+    fn subject(&self) -> Option<&Subject> {
+        self.subject.as_ref()
     }
 
     fn gyro_serial(&self) -> Option<&str> {

@@ -9,7 +9,7 @@ use super::trust_options::{Verifier, date};
 use super::{Code, Failure, REFUSED, defaults, exclusion, output, uncertainty};
 use crate::batch::once::Once;
 use crate::batch::{Purpose, paths};
-use crate::calibration::document::{CalibrationDocument, Subject};
+use crate::calibration::document::{CalibrationDocument, Subject, another_type};
 use crate::calibration::iterative::StopRule;
 use crate::calibration::readings::Exclusion;
 use crate::calibration::stated::TemperatureOutside;
@@ -162,6 +162,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         administrative: AdministrativeFile::read(options.administrative.as_deref())?,
     };
     bench.check_date()?;
+    bench.warn_of_the_previous();
     match one {
         Some(currents) => bench.one(currents),
         None => bench.several(),
@@ -230,6 +231,11 @@ impl Bench<'_> {
         let early = self.subject().check_date(&self.passport.content.certificate).map_err(Failure::unusable)?;
         early.iter().for_each(|words| output::complain(&format!("WARNING: {words}")));
         Ok(())
+    }
+
+    fn warn_of_the_previous(&self) {
+        let words = another_type(&self.previous, self.gyro_type.as_ref());
+        words.iter().for_each(|words| output::complain(&format!("WARNING: {words}")));
     }
 
     /// Calibrates the gyro whose currents are at `path`.

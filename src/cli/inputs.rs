@@ -62,12 +62,18 @@ fn site_by(path: &Path, reader: impl FnOnce(&str, &[u8]) -> Result<Site, Unreada
 
 /// Reads a gyro type, or returns `None` without a path.
 pub(super) fn gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
-    path.map(|path| document(path, Kind::Gyro.words(), GyroType::from_yaml)).transpose()
+    let gyro_type = path.map(|path| document(path, Kind::Gyro.words(), GyroType::from_yaml)).transpose()?;
+    let remarks = gyro_type.iter().flat_map(GyroType::remarks);
+    remarks.for_each(|words| output::complain(&format!("WARNING: {words}")));
+    Ok(gyro_type)
 }
 
 /// Reads a laboratory file, or returns the paper's meter without a path.
 pub(super) fn laboratory(path: Option<&Path>) -> Result<Laboratory, Failure> {
-    path.map_or_else(|| Ok(Laboratory::paper()), |path| document(path, Kind::Laboratory.words(), Laboratory::from_yaml))
+    let Some(path) = path else { return Ok(Laboratory::paper()) };
+    let laboratory = document(path, Kind::Laboratory.words(), Laboratory::from_yaml)?;
+    laboratory.remarks().iter().for_each(|words| output::complain(&format!("WARNING: {words}")));
+    Ok(laboratory)
 }
 
 /// Parses a number within limits; `expected` describes it.

@@ -4,7 +4,7 @@ use super::{Failed, Order, json};
 #[cfg(not(feature = "report"))]
 use crate::calibration::diagnosis::INCONSISTENT;
 use crate::calibration::diagnosis::other_numberings;
-use crate::calibration::document::{NoChange, Subject};
+use crate::calibration::document::{NoChange, Subject, another_type};
 use crate::calibration::mistake::Mistake;
 use crate::calibration::prediction::{FurtherVisit, best_further_visit, cost_of_missing};
 use crate::calibration::stated::{NotStated, TemperatureOutside};
@@ -184,7 +184,8 @@ impl<'a> Prepared<'a> {
         let Self { content, laboratory, gyro_type, setup, mut missing, currents_sha256, readings } = self;
         let early = subject.check_date(&content.certificate).map_err(Failed::unusable)?;
         let warning = TemperatureOutside::of(&content.certificate, &subject, Some(laboratory));
-        let subject = Subject { currents_sha256, ..subject };
+        let gyro = gyro_type.map(|gyro_type| gyro_type.r#type.clone());
+        let subject = Subject { currents_sha256, gyro_type: gyro, ..subject };
         if let Some([before, now]) = subject.another_gyro(previous) {
             let [before, now] = [before, now].map(printable::printable);
             return Err(Failed::refused(format!("the previous result is that of gyro {before}, not of {now}")));
@@ -224,9 +225,10 @@ impl<'a> Prepared<'a> {
             document.mistake = Mistake::of_numbering(&found, gyro_type, others);
         }
         document.remarks = remarks(&calibration, &readings, document.mistake.as_ref());
-        document
-            .remarks
-            .extend(readings.remarks.iter().cloned().chain(warning.map(|warning| warning.to_string())).chain(early));
+        let of_conditions = warning.map(|warning| warning.to_string()).into_iter().chain(laboratory.remarks());
+        let of_conditions = of_conditions.chain(gyro_type.into_iter().flat_map(GyroType::remarks));
+        let of_others = of_conditions.chain(early).chain(another_type(previous, gyro_type));
+        document.remarks.extend(readings.remarks.iter().cloned().chain(of_others));
         document.verdict = gyro_type.and_then(|gyro_type| document.judged(gyro_type));
         document.change = last.zip(gyro_type).and_then(|(earlier, gyro_type)| document.changed(earlier, gyro_type));
         let earlier = last.and_then(|earlier| Some((earlier.answer()?, document.no_change(earlier))));
@@ -295,7 +297,7 @@ mod tests {
         let content = content_from_anyone("p", other).unwrap();
         let currents: (&str, &[u8]) = ("c", include_bytes!("../../docs/currents.csv"));
         let mut wide = GyroType::gvk_6();
-        (wide.tolerance.k_main_percent, wide.tolerance.k_cross_percent) = (1e3, Some(1e3));
+        (wide.tolerance.k_main_percent, wide.tolerance.k_cross_percent) = (20.0, Some(100.0));
         (wide.tolerance.omega0_deg_per_h, wide.tolerance.omega_g_deg_per_h_per_g) = (1e3, 1e3);
         wide.tolerance.omega_k_deg_per_h_per_g = 1e3;
         let order = Order { gyro: Some(wide), ..default() };
