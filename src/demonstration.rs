@@ -1,21 +1,19 @@
 //! Demonstration on a built-in example: a key, a stand, two sites, passports, verification, a wrong place, a re-issue,
 //! a calibration, an altered byte. It needs nothing but this program.
 
-use crate::calibration::parameter::Parameter;
-use crate::calibration::{self, Options, Readings, Setup};
+use crate::calibration::{self, Options, Parameter, Readings, Setup};
 use crate::coefficients::PositionIndex;
 use crate::earth::Place;
 use crate::files::{self, Access};
 use crate::folder::{Folder, Issued, Seal};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
-use crate::passport::checks::CheckName;
 use crate::passport::issue::{Issue, PreparedStand};
 use crate::passport::reissue::{Order, successor};
-use crate::passport::verification::{Question, Trust, Verification, verify};
+use crate::passport::{CheckName, Question, Trust, Verification, verify};
 use crate::report::columns::decimals;
-use crate::report::page::{Language, Languages, PassportPage};
 use crate::report::style::marked;
+use crate::report::{Language, Languages, PassportPage};
 use crate::signing::allowed_signers_line;
 use crate::simulation::draw::CurrentError;
 use crate::site::Site;

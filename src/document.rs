@@ -3,11 +3,11 @@
 //! The file consists of `payload`, `signature: |` and the armor indented by two spaces, and nothing else. The signed
 //! message is every byte before `signature: |`.
 
-use crate::text::LARGEST_DOCUMENT_BYTES;
 use crate::text::canonical;
-use crate::text::kind::{Kind, mistaken};
+use crate::text::kind::mistaken;
 pub(crate) use crate::text::scalar::sha256_hex;
 use crate::text::{Field, Printable, Problems, rule};
+use crate::text::{Kind, LARGEST_DOCUMENT_BYTES};
 use crate::text::{Location, Unreadable};
 use crate::trust::{AllowedSigners, KeyPoint, Message, PublicKey, Signature, SignatureError};
 #[cfg(feature = "factory")]

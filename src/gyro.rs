@@ -4,8 +4,7 @@
 
 use crate::coefficients::PositionCoefficients;
 use crate::earth::STANDARD_GRAVITY_M_PER_S2;
-use crate::text::record::Document;
-use crate::text::{Path, Problems, record};
+use crate::text::{Document, Path, Problems, record};
 use nalgebra::{Matrix2, Vector2};
 
 /// Parameters of a dynamically tuned gyro in rate mode.

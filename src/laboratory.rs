@@ -1,8 +1,7 @@
 //! The laboratory file (`dtg-laboratory/1`): current meter, gyro seat and base.
 
 use crate::text::number::two_digits;
-use crate::text::record::Document;
-use crate::text::{Path, Problems, record};
+use crate::text::{Document, Path, Problems, record};
 
 /// Lowest and highest temperature of a laboratory, °C.
 pub(crate) const TEMPERATURES_C: [f64; 2] = [-90.0, 100.0];

@@ -6,9 +6,7 @@ mod consistency;
 use crate::attitude::PAPER_FRAME_AXIS_AZIMUTH_DEG;
 use crate::coefficients::EarthRate;
 use crate::earth::{self, LaplaceCorrection, Place};
-use crate::text::record::Document;
-use crate::text::scalar::Identifier;
-use crate::text::{Path, Problems, number, record};
+use crate::text::{Document, Identifier, Path, Problems, number, record};
 #[cfg(feature = "report")]
 use crate::units::radians_from_arcseconds;
 use crate::units::{ARCSECONDS_PER_DEGREE, sin_cos_of_degrees};

@@ -10,9 +10,7 @@ pub use type_b::{ActsOn, Evidence, TypeB};
 
 use crate::attitude::Deviation;
 use crate::coefficients::{EIGHT_POSITIONS, Position, PositionIndex, SingularPositions, StandGeometry};
-use crate::text::record::Document;
-use crate::text::scalar::Identifier;
-use crate::text::{Path, Problems, record};
+use crate::text::{Document, Identifier, Path, Problems, record};
 use crate::units::{ARCSECONDS_PER_DEGREE, radians_from_arcseconds};
 use jiff::civil::Date;
 use std::collections::BTreeSet;

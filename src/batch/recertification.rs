@@ -6,22 +6,19 @@
 
 use super::Outcome;
 use super::successors::FORKED;
-use crate::certification::comparison::compare;
-use crate::certification::{AngleReadings, Certification, Comparison, Header, certify, predicted};
+use crate::certification::{AngleReadings, Certification, Comparison, Header, certify, compare, predicted};
 use crate::files::{self, FileError, folder_of, leftovers};
 use crate::folder::archive::Superseded;
 use crate::folder::{Folder, FolderRefused, Next, Seal, Sealed, Superseding, search};
-use crate::passport::checks::Code;
 use crate::passport::difference::{NumberDifference, of_deviations};
 use crate::passport::issue::PreparedStand;
 use crate::passport::reissue::{Order, successor};
-use crate::passport::{Content, Question, Trust, Verification, verify};
+use crate::passport::{Code, Content, Question, Trust, Verification, verify};
 use crate::register::{Asked, Line, Register, State};
 use crate::site::Site;
 use crate::stand::{Excluded, Stand};
 use crate::text::scalar::day;
-use crate::text::words::first_few;
-use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, Unreadable, name_of, rule, shown};
+use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, Unreadable, first_few, name_of, rule, shown};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use jiff::tz::TimeZone;

@@ -1,14 +1,13 @@
 //! Possible causes if the readings do not fit, as far as the residuals show them.
 
-use super::chi_square::{self, ChiSquare};
+use super::chi_square;
 use super::data::{Data, Observation};
-use super::inputs::Setup;
 use super::least_squares::Fit;
 use super::mistake::{LARGEST_ROTATION_DEG, minimum};
 use super::propagation::Propagation;
 use super::readings::Readings;
 use super::sensitivity::Sensitivity;
-use super::unknowns::Model;
+use super::{ChiSquare, Model, Setup};
 use crate::coefficients::PositionIndex;
 use crate::gyro::GyroParameters;
 use crate::text::number::{exponent_as_printed, two_digits};

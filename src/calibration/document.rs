@@ -4,15 +4,11 @@ mod result;
 
 pub(crate) use result::{ResidualDocument, ResultDocument, RowScatterDocument, finite};
 
-use super::mistake::Mistake;
-use super::parameter::Parameter;
 use super::readings::Exclusion;
 use super::recorded::Digits;
-use super::result::Calibration;
-use super::scatter::Scatter;
-use super::stated::NotStated;
-use super::suspect::Suspect;
-use super::verdict::{Found, Verdict, against_earlier, against_type};
+use super::{
+    Calibration, Found, Mistake, NotStated, Parameter, Scatter, Suspect, Verdict, against_earlier, against_type,
+};
 use crate::coefficients::PositionIndex;
 use crate::gyro::GyroType;
 use crate::stand::Certificate;

@@ -10,10 +10,9 @@ mod refused;
 
 pub use refused::NoLeastSquares;
 
-use super::inputs::MeterUncertainty;
 use super::offsets::Offsets;
-use super::parameter::Parameter;
-use super::unknowns::{Model, Unknowns, design};
+use super::unknowns::{Unknowns, design};
+use super::{MeterUncertainty, Model, Parameter};
 use crate::coefficients::{Coefficients, PositionCoefficients};
 use crate::gyro::GyroParameters;
 use crate::statistics::least_squares::{Factorised, condition};

@@ -9,8 +9,7 @@
 //! without deviations. Each of these errors can be undone.
 
 use super::diagnosis::{Numbering, WORSE};
-use super::result::Calibration;
-use super::verdict::{Found, Verdict, against_type};
+use super::{Calibration, Found, Verdict, against_type};
 use crate::coefficients::EarthRate;
 use crate::earth::{NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2, normal_gravity_m_per_s2};
 use crate::gyro::{GyroParameters, GyroType};

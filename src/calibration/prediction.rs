@@ -1,12 +1,10 @@
 //! Expected uncertainty of a calibration on a stand, before any reading: computed for the exact currents of a nominal
 //! gyro.
 
-use super::inputs::{MeterUncertainty, Setup};
-use super::least_squares;
-use super::parameter::Parameter;
-use super::procedure::{Options, calibrate};
-use super::readings::{Reading, Readings, Visit};
-use super::result::{Calibration, Method, MethodResult};
+use super::{
+    Calibration, MeterUncertainty, Method, MethodResult, Options, Parameter, Reading, Readings, Setup, Visit,
+    calibrate, least_squares,
+};
 use crate::coefficients::{Coefficients, PositionIndex};
 use crate::gyro::GyroParameters;
 use nalgebra::Vector2;

@@ -1,23 +1,21 @@
 //! The whole calibration: every requested method with its uncertainty and its fit.
 
-use super::analytic::{self, AnalyticMap, AnalyticSolution, NoAnalyticSolution};
-use super::causes;
-use super::chi_square::{ChiSquare, chi_square};
+use super::analytic::{self, AnalyticMap, AnalyticSolution};
+use super::chi_square::chi_square;
 use super::data::{Data, Observation};
 use super::diagnosis;
 use super::estimates::Estimates;
-use super::inputs::Setup;
-use super::iterative::{self, Iteration, IterativeSolution, NoIterativeSolution, StopRule};
-use super::least_squares::{Fit, NoLeastSquares};
+use super::iterative::{self, IterativeSolution, NoIterativeSolution, StopRule};
+use super::least_squares::Fit;
 use super::offsets::{Differences, Offsets};
-use super::parameter::Parameter;
 use super::propagation::{Propagation, covariance, product, standard_deviations};
-use super::readings::Readings;
-use super::result::{
-    Calibration, Cycle, Drift, DriftTest, GMatrix, Method, MethodRefusal, MethodResult, ModelTest, Residual,
-};
+use super::result::{Cycle, Drift, DriftTest, GMatrix, ModelTest};
 use super::suspect;
-use super::unknowns::{Model, Unknowns};
+use super::unknowns::Unknowns;
+use super::{
+    Calibration, ChiSquare, Iteration, Method, MethodRefusal, MethodResult, Model, NoAnalyticSolution, NoLeastSquares,
+    Parameter, Readings, Residual, Setup, causes,
+};
 use crate::gyro::GyroParameters;
 use crate::statistics::scaled_f::{self, Part};
 use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2};

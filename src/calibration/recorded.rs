@@ -1,7 +1,6 @@
 //! Limits of the readings that their digits show: rounding to the last digit, and repeated readings without any scatter.
 
-use super::inputs::{MeterUncertainty, Setup};
-use super::readings::{PositionReadings, Visit};
+use super::{MeterUncertainty, PositionReadings, Setup, Visit};
 use crate::statistics::coincidences::step_of_meter;
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};

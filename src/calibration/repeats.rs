@@ -1,8 +1,6 @@
 //! Numbers of visits and readings, and the errors assumed for each: stated, or estimated from their scatter.
 
-use super::inputs::Setup;
-use super::noise::DriftNoise;
-use super::readings::{PositionReadings, Readings};
+use super::{DriftNoise, PositionReadings, Readings, Setup};
 
 /// Numbers of visits and readings of each position, and the errors assumed for a visit and a reading.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,17 +1,12 @@
 //! Results of a calibration.
 
-use super::analytic::NoAnalyticSolution;
-use super::chi_square::ChiSquare;
-use super::diagnosis::{ALARM, Hint};
-use super::iterative::{Iteration, NoIterativeSolution};
-use super::least_squares::NoLeastSquares;
-use super::noise::{DriftNoise, NoiseSource};
-use super::parameter::Parameter;
+use super::diagnosis::ALARM;
+use super::iterative::NoIterativeSolution;
 use super::recorded::Digits;
-use super::scatter::{RowScatter, Scatter};
-use super::stated::NotStated;
-use super::suspect::Suspect;
-use super::unknowns::Model;
+use super::{
+    ChiSquare, DriftNoise, Hint, Iteration, Model, NoAnalyticSolution, NoLeastSquares, NoiseSource, NotStated,
+    Parameter, RowScatter, Scatter, Suspect,
+};
 use crate::coefficients::PositionIndex;
 use crate::gyro::GyroParameters;
 use crate::statistics::beta::f_larger;

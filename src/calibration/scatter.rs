@@ -3,14 +3,13 @@
 //! Rows of a visit differ only by the noise of a reading. Visits differ also by the repeatability of positioning. The
 //! specification of the meter contributes no scatter, because its error is the same every time.
 
-use super::estimates::{Basis, Estimates};
-use super::inputs::Setup;
+use super::estimates::Estimates;
 use super::least_squares::{Fit, whitening_of};
-use super::noise::{self, DriftNoise, NoiseSource};
+use super::noise;
 use super::offsets::{Differences, Offsets};
-use super::readings::{PositionReadings, Readings, Visit};
 use super::repeats::Repeats;
 use super::sensitivity::Sensitivity;
+use super::{Basis, DriftNoise, NoiseSource, PositionReadings, Readings, Setup, Visit};
 use crate::statistics::distributions::chi_square_larger;
 use crate::statistics::scaled_f::{Part, ScaledF};
 use nalgebra::{DMatrix, DVector, Matrix2};

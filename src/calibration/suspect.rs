@@ -6,11 +6,9 @@
 //! comparisons as there are visits or rows.
 
 use super::data::{Data, Observation};
-use super::inputs::Setup;
-use super::noise::NoiseSource;
 use super::offsets::{Differences, VisitRow, VisitRows};
-use super::readings::Readings;
-use super::scatter::{IMPROBABLE, RowScatter, VisitErrors};
+use super::scatter::{IMPROBABLE, VisitErrors};
+use super::{NoiseSource, Readings, RowScatter, Setup};
 use crate::coefficients::PositionIndex;
 use crate::statistics::beta::f_larger;
 use nalgebra::{Matrix2, Vector2};

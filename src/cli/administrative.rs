@@ -2,9 +2,8 @@
 
 use super::{Failure, inputs};
 use crate::dcc::Administrative;
-use crate::text::kind::Kind;
 use crate::text::placeholder::filled_in;
-use crate::text::{Problems, Unreadable, name_of};
+use crate::text::{Kind, Problems, Unreadable, name_of};
 use std::path::Path;
 
 /// Said once for all certificates of a run.

@@ -2,19 +2,19 @@
 
 use super::administrative::AdministrativeFile;
 use super::inputs::{self, Each};
-use super::output::Format;
 use super::render::languages;
 use super::show::{Read, Reader, Whom};
 use super::trust_options::{Verifier, date};
-use super::{Code, Failure, REFUSED, defaults, exclusion, output, uncertainty};
+use super::{Code, Failure, Format, REFUSED, defaults, exclusion, output, uncertainty};
 use crate::batch::once::Once;
 use crate::batch::{Purpose, paths};
-use crate::calibration::document::{CalibrationDocument, Subject, another_type};
+use crate::calibration::document::{Subject, another_type};
 use crate::calibration::iterative::StopRule;
 use crate::calibration::readings::Exclusion;
 use crate::calibration::stated::TemperatureOutside;
-use crate::calibration::verdict::{Decision, Verdict};
-use crate::calibration::{Method, Model, Options as CalibrationOptions, Readings};
+use crate::calibration::{
+    CalibrationDocument, Decision, Method, Model, Options as CalibrationOptions, Readings, Verdict,
+};
 use crate::coefficients::PositionIndex;
 use crate::dcc::{self, Calibrated};
 use crate::document::sha256_hex;
@@ -22,11 +22,9 @@ use crate::files;
 use crate::gyro::GyroType;
 use crate::interface::calibrated::{Done, Prepared};
 use crate::laboratory::{Laboratory, TEMPERATURES_C};
-use crate::report::Language;
 use crate::report::calibration as report;
-use crate::report::page::{CalibrationPage, PassportPage, UsedPassport};
-use crate::text::kind::Kind;
-use crate::text::{Printable, name_of, printable, shown};
+use crate::report::{CalibrationPage, Language, PassportPage, UsedPassport};
+use crate::text::{Kind, Printable, name_of, printable, shown};
 use clap::{Args, ValueEnum};
 use jiff::Timestamp;
 use jiff::civil::Date;

@@ -2,14 +2,12 @@
 
 use super::diff::past;
 use super::exclusion::ExclusionOptions;
-use super::output::Format;
 use super::render::languages;
 use super::trust_options::OptionalTrust;
-use super::{Code, Failure, REFUSED, defaults, inputs, output};
+use super::{Code, Failure, Format, REFUSED, defaults, inputs, output};
 use crate::batch::once::Once;
 use crate::batch::{Purpose, paths};
-use crate::certification::comparison::compare;
-use crate::certification::{AngleReadings, Certification, Header, certify, predicted};
+use crate::certification::{AngleReadings, Certification, Header, certify, compare, predicted};
 use crate::files;
 use crate::folder::archive::Superseded;
 use crate::passport::content::claims_to_be_a_passport;
@@ -18,8 +16,7 @@ use crate::report::Language;
 use crate::report::certification as report;
 use crate::report::page::certification::CertificationPage;
 use crate::stand::Stand;
-use crate::text::kind::Kind;
-use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, name_of, shown};
+use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, Printable, name_of, shown};
 use clap::Args;
 use serde::Serialize;
 use serde_json::Value;

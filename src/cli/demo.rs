@@ -1,7 +1,6 @@
 //! Verb `demo`: the whole work of factory and laboratory on a built-in example.
 
-use super::output::Format;
-use super::{Code, Failure, REFUSED, output, trust_options};
+use super::{Code, Failure, Format, REFUSED, output, trust_options};
 use crate::demonstration;
 use crate::report::style;
 use crate::text::name_of;

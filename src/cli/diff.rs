@@ -1,13 +1,11 @@
 //! Verb `diff`: two passports, number by number.
 
-use super::output::{self, Format};
 use super::trust_options::{TrustAmong, Verifier};
-use super::{Code, Failure, defaults, inputs};
+use super::{Code, Failure, Format, defaults, inputs, output};
 use crate::document::sha256_hex;
 use crate::passport::difference::Differences;
 use crate::report::difference::{self, Side};
-use crate::text::kind::Kind;
-use crate::text::{name_of, printable};
+use crate::text::{Kind, name_of, printable};
 use clap::Args;
 use std::path::{Path, PathBuf};
 

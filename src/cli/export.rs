@@ -2,10 +2,9 @@
 
 use super::administrative::{AdministrativeFile, DCC_IS_NOT_SIGNED};
 use super::inputs::{self, Each};
-use super::output::Format;
 use super::render::languages;
 use super::trust_options::{TrustAmong, Verifier};
-use super::{Code, Failure, REFUSED, UNUSABLE, defaults, output};
+use super::{Code, Failure, Format, REFUSED, UNUSABLE, defaults, output};
 use crate::batch::{Purpose, paths};
 use crate::dcc;
 use crate::document::sha256_hex;

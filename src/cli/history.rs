@@ -1,16 +1,13 @@
 //! Verb `history`: one stand over the years.
 
-use super::output::{self, Format};
 use super::register::refuse_file;
 use super::trust_options::TrustOptions;
-use super::{Code, Failure, code};
+use super::{Code, Failure, Format, code, output};
 use crate::folder::search;
 use crate::parallel;
 use crate::report::history as report;
 use crate::report::picture::history as picture;
-use crate::text::scalar::Identifier;
-use crate::text::words::first_few;
-use crate::text::{Printable, shown};
+use crate::text::{Identifier, Printable, first_few, shown};
 use clap::Args;
 use std::collections::BTreeSet;
 use std::path::PathBuf;

@@ -1,7 +1,6 @@
 //! Verb `init`: a new workspace.
 
-use super::output::{self, Format};
-use super::{Code, Failure, key_options};
+use super::{Code, Failure, Format, key_options, output};
 use crate::text::{name_of, shown};
 use crate::workspace::{NotMade, make};
 use clap::Args;

@@ -1,7 +1,6 @@
 //! Input files of the verbs: documents read, and several inputs of which one that fails does not stop the others.
 
-use super::output::{self, Format};
-use super::{Code, Failure};
+use super::{Code, Failure, Format, output};
 use crate::batch::Purpose;
 use crate::batch::catalogue::Listed as _;
 use crate::batch::paths;
@@ -12,8 +11,7 @@ use crate::laboratory::Laboratory;
 use crate::report::issued;
 use crate::site::Site;
 use crate::stand::Stand;
-use crate::text::kind::Kind;
-use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, Unreadable, name_of, printable, shown};
+use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, Printable, Unreadable, name_of, printable, shown};
 use serde::Serialize;
 use std::ops::RangeBounds;
 use std::path::{Path, PathBuf};

@@ -5,7 +5,7 @@ use super::key_options::refuse_distrusted;
 use super::{Code, Failure, defaults, inputs, trust_options};
 use crate::batch::issue::Job;
 use crate::gyro::GyroType;
-use crate::passport::accuracy::Stated;
+use crate::passport::Stated;
 use crate::passport::issue::{Issue, time_of_issue};
 use crate::signing::own_trust;
 use clap::Args;

@@ -1,8 +1,7 @@
 //! Verb `keygen`: a new signing key.
 
 use super::key_options::{self, PASSPHRASE_VARIABLE, passphrase, with_pub};
-use super::output::Format;
-use super::{Code, Failure, output};
+use super::{Code, Failure, Format, output};
 use crate::files::{self, Access};
 use crate::signing::{self, allowed_signers_line, forbid_core_dumps};
 use crate::text::{name_of, shown};

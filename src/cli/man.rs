@@ -1,7 +1,6 @@
 //! Verb `man`: manual pages.
 
-use super::output::{self, Format};
-use super::{Code, Failure, help};
+use super::{Code, Failure, Format, help, output};
 use crate::text::{name_of, shown};
 use clap::{Args, Command};
 use serde_json::json;

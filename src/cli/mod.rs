@@ -46,6 +46,7 @@ use crate::text::printable;
 use arguments::Parsed;
 use clap::{Parser, Subcommand};
 use failure::Failure;
+use output::Format;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;

@@ -1,8 +1,7 @@
 //! Verb `new`: templates of the hand-written files.
 
-use super::output::{self, Format};
 use super::trust_options::place;
-use super::{Code, Failure, inputs};
+use super::{Code, Failure, Format, inputs, output};
 use crate::earth::Place;
 use crate::plan::document::Planned;
 use crate::template::{self, Positions};

@@ -3,8 +3,7 @@
 use super::Failure;
 use crate::files;
 use crate::report::{columns, style};
-use crate::text::printable::{self, printable};
-use crate::text::shown;
+use crate::text::{printable, shown};
 use clap::ValueEnum;
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use serde::Serialize;

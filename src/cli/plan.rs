@@ -1,7 +1,6 @@
 //! Verb `plan`: the best positions to certify, or of a certified stand's positions to read, and their order.
 
-use super::output::Format;
-use super::{Code, Failure, defaults, inputs, output};
+use super::{Code, Failure, Format, defaults, inputs, output};
 use crate::gyro::GyroType;
 use crate::plan::candidates::Angles;
 use crate::plan::criterion::Criterion;

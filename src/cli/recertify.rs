@@ -2,10 +2,9 @@
 
 use super::exclusion::ExclusionOptions;
 use super::key_options::{self, refuse_distrusted, signer_of};
-use super::output::{self, Format};
 use super::render::languages;
 use super::trust_options::{self, TrustOptions};
-use super::{Code, Failure, defaults, inputs, long_run};
+use super::{Code, Failure, Format, defaults, inputs, long_run, output};
 use crate::batch::Outcome;
 use crate::batch::recertification::{AtSite, NotRecertified, Recertification};
 use crate::certification::Header;
@@ -16,8 +15,8 @@ use crate::report::Language;
 use crate::report::issued::Told;
 use crate::report::page::certification::CertificationPage;
 use crate::report::recertification as report;
-use crate::text::kind::{Kind, mistaken};
-use crate::text::{Identifier, name_of};
+use crate::text::kind::mistaken;
+use crate::text::{Identifier, Kind, name_of};
 use clap::Args;
 use jiff::Timestamp;
 use jiff::civil::Date;

@@ -1,14 +1,11 @@
 //! Verb `render`: the printed form of a verified passport.
 
-use super::output::Format;
 use super::trust_options::{TrustAmong, Verifier};
-use super::{Code, Failure, defaults, inputs, output};
+use super::{Code, Failure, Format, defaults, inputs, output};
 use crate::batch::Purpose;
 use crate::folder::Folder;
-use crate::report::page::{Language, Languages, PassportPage};
-use crate::report::{style, verdict};
-use crate::text::kind::Kind;
-use crate::text::{name_of, shown};
+use crate::report::{Language, Languages, PassportPage, style, verdict};
+use crate::text::{Kind, name_of, shown};
 use clap::Args;
 use serde::Serialize;
 use std::path::{Path, PathBuf};

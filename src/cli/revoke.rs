@@ -1,16 +1,14 @@
 //! Verb `revoke`: withdrawal of passports.
 
 use super::key_options::{KeyOptions, signer_of};
-use super::output::Format;
 use super::trust_options::{TrustOptions, now};
-use super::{Code, Failure, inputs};
+use super::{Code, Failure, Format, inputs};
 use crate::files::{self, Access};
 use crate::folder::Folder;
 use crate::folder::search::{self, NoNewestList};
 use crate::passport::verify;
-use crate::text::kind::Kind;
 use crate::text::scalar::latin;
-use crate::text::{Printable, name_of, shown};
+use crate::text::{Kind, Printable, name_of, shown};
 use clap::Args;
 use serde_json::json;
 use std::path::{Path, PathBuf};

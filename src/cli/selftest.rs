@@ -1,7 +1,6 @@
 //! Verb `selftest`: the reference cases of the computations.
 
-use super::output::Format;
-use super::{Code, Failure, REFUSED};
+use super::{Code, Failure, Format, REFUSED};
 use crate::report::selftest as report;
 use crate::selftest;
 use clap::Args;

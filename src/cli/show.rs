@@ -1,15 +1,13 @@
 //! Verb `show`: passports as tables, or in full as JSON.
 
 use super::inputs::{self, Each};
-use super::output::Format;
 use super::trust_options::{OptionalTrust, Verifier};
-use super::{Code, Failure, defaults, output};
+use super::{Code, Failure, Format, defaults, output};
 use crate::batch::{Purpose, paths};
 use crate::document::sha256_hex;
 use crate::passport::{Content, Verification, read};
 use crate::report::{exported, passport_table};
-use crate::text::kind::Kind;
-use crate::text::name_of;
+use crate::text::{Kind, name_of};
 use clap::{ArgGroup, Args};
 use serde::Serialize;
 use std::path::{Path, PathBuf};

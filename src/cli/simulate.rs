@@ -1,15 +1,13 @@
 //! Verb `simulate`: the paper's table and its Fig. 4.
 
-use super::output::Format;
-use super::{Code, Failure, defaults, inputs, long_run, output};
+use super::{Code, Failure, Format, defaults, inputs, long_run, output};
 use crate::calibration::Method;
 use crate::coefficients::EarthRate;
 use crate::gyro::GyroType;
 use crate::report::picture::simulation as picture;
 use crate::report::simulation as table;
-use crate::simulation::accuracy::{AccuracyOptions, PAPER_LATITUDE_DEG, Stands, accuracy};
-use crate::simulation::convergence::{LIMITS_DEG, convergence};
 use crate::simulation::draw::{CurrentError, Deviations};
+use crate::simulation::{AccuracyOptions, LIMITS_DEG, PAPER_LATITUDE_DEG, Stands, accuracy, convergence};
 use crate::stand::{CertifiedPosition, LARGEST_DEVIATION_DEG};
 use crate::statistics::random::Run;
 use clap::{Args, Subcommand};

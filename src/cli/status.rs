@@ -1,8 +1,7 @@
 //! Verb `status`: what a workspace holds.
 
-use super::output::Format;
 use super::trust_options::{self, time};
-use super::{Code, Failure, code, defaults};
+use super::{Code, Failure, Format, code, defaults};
 use crate::workspace::status;
 use clap::Args;
 use jiff::Timestamp;

@@ -1,8 +1,7 @@
 //! Verb `verify`: the check that a passport is valid for this stand, place and time.
 
-use super::output::Format;
 use super::trust_options::TrustAmong;
-use super::{Code, Failure, REFUSED, UNUSABLE, defaults, output};
+use super::{Code, Failure, Format, REFUSED, UNUSABLE, defaults, output};
 use crate::files::{self, FileError};
 use crate::passport::verification::unreadable;
 use crate::report::verdict;

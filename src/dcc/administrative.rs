@@ -3,8 +3,7 @@
 #![allow(unreachable_pub)]
 
 use crate::report::Language;
-use crate::text::record::Document;
-use crate::text::{Path, Problems, Unreadable, record, word_of_a_key, words, yaml};
+use crate::text::{Document, Path, Problems, Unreadable, record, word_of_a_key, words, yaml};
 use jiff::civil::Date;
 
 words! {

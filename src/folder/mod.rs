@@ -25,16 +25,13 @@ use crate::document::{SignedText, Signer, sha256_hex};
 #[cfg(feature = "cli")]
 use crate::files::walk::{Entry, Walk};
 use crate::files::{self, Access, or_here};
-use crate::passport::content::Content;
 use crate::passport::issue::{Draft, Issue, PreparedStand, Remarks};
 use crate::passport::reissue::{Successor, changes};
-use crate::passport::verification::{Question, Trust, verify};
-use crate::passport::{NAMESPACE, read};
+use crate::passport::{Content, NAMESPACE, Question, Trust, read, verify};
 use crate::register::{Asked, Line, State};
 use crate::site::Site;
 use crate::stand::{Identity, Stand};
-use crate::text::scalar::Identifier;
-use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
+use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, name_of};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use names::{Names, Of};

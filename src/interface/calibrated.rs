@@ -5,11 +5,13 @@ use super::{Failed, Order, json};
 use crate::calibration::diagnosis::INCONSISTENT;
 use crate::calibration::diagnosis::other_numberings;
 use crate::calibration::document::{NoChange, Subject, another_type};
-use crate::calibration::mistake::Mistake;
 use crate::calibration::prediction::{FurtherVisit, best_further_visit, cost_of_missing};
-use crate::calibration::stated::{NotStated, TemperatureOutside};
-use crate::calibration::verdict::{Found, Verdict, without_nominal};
-use crate::calibration::{self, Calibration, CalibrationDocument, Method, Options, Parameter, Readings, Setup};
+use crate::calibration::stated::TemperatureOutside;
+use crate::calibration::verdict::without_nominal;
+use crate::calibration::{
+    self, Calibration, CalibrationDocument, Found, Method, Mistake, NotStated, Options, Parameter, Readings, Setup,
+    Verdict,
+};
 use crate::document::sha256_hex;
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;

@@ -5,7 +5,7 @@ use super::{Asked, Failed, UNWRITABLE};
 use crate::folder::{Folder, FolderRefused, Issued, Seal};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
-use crate::passport::accuracy::Stated;
+use crate::passport::Stated;
 use crate::passport::issue::{Issue, PreparedStand, time_of_issue};
 use crate::signing::{Signer, own_trust};
 use crate::site::Site;

@@ -1,7 +1,6 @@
 //! Numbers of a passport by name, as binary64.
 
-use crate::passport::Content;
-use crate::passport::content::{MatrixRows, Rows};
+use crate::passport::{Content, MatrixRows, Rows};
 
 /// Value of a number that the passport does not state.
 const NOT_STATED: f64 = f64::NAN;

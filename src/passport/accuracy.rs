@@ -4,10 +4,7 @@
 //! weighted least squares with one reading in each position. `calibrate` will state the same uncertainty for such
 //! a gyro; a passport states it before delivery.
 
-use crate::calibration::least_squares::NoLeastSquares;
-use crate::calibration::parameter::Parameter;
-use crate::calibration::readings::NoReadings;
-use crate::calibration::{Method, NoSetup, Options, Readings, Setup, calibrate};
+use crate::calibration::{Method, NoLeastSquares, NoReadings, NoSetup, Options, Parameter, Readings, Setup, calibrate};
 use crate::gyro::{GyroParameters, GyroType, Parameters};
 use crate::laboratory::Laboratory;
 use crate::passport::content::Content;

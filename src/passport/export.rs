@@ -3,8 +3,8 @@
 use super::content::Content;
 use crate::site::Site;
 use crate::stand::Stand;
-use crate::text::record::{Document, File};
-use crate::text::{Unreadable, canonical};
+use crate::text::record::File;
+use crate::text::{Document, Unreadable, canonical};
 
 /// Returns the stand file (`dtg-stand/1`) of a passport. It is read back and compared first.
 ///

@@ -6,12 +6,9 @@ mod remarks;
 pub use refused::IssueRefused;
 pub use remarks::Remarks;
 
-use super::accuracy::Stated;
 use super::annotations::{self, absences};
-use super::content::{
-    Content, Header, PASSPORT_FORMAT, Predecessor, REFERENCE_GYRO, SelfCheck, derive_from, passport_id,
-};
-use super::{NAMESPACE, read};
+use super::content::{PASSPORT_FORMAT, REFERENCE_GYRO, derive_from, passport_id};
+use super::{Content, Header, NAMESPACE, Predecessor, SelfCheck, Stated, read};
 use crate::attitude::Deviation;
 use crate::calibration::prediction::noise_growth;
 use crate::coefficients::{Coefficients, Position, SingularPositions, StandGeometry};

@@ -1,7 +1,6 @@
 //! Comparison of a place with the site that a passport was issued for.
 
-use super::checks::Code;
-use super::content::Content;
+use super::{Code, Content};
 use crate::earth::{self, Place};
 use crate::site::LATITUDE_MARGIN_ARCSEC;
 #[cfg(feature = "factory")]

@@ -1,7 +1,6 @@
 //! Step 5 of verification: parsing the signed text, and nothing else, into the content of a passport.
 
-use super::NAMESPACE;
-use super::content::Content;
+use super::{Content, NAMESPACE};
 use crate::document::{self, SignedText};
 use crate::text::Unreadable;
 

@@ -1,11 +1,8 @@
 //! Re-issue of a passport: for another site, a corrected stand, a corrected site or another key.
 
-use super::accuracy::Stated;
-use super::checks::{CheckName, Code};
-use super::content::{Content, Predecessor};
 use super::difference::keys;
 use super::issue::{Draft, Issue, IssueRefused, PreparedStand, Reissued};
-use super::verification::Verification;
+use super::{CheckName, Code, Content, Predecessor, Stated, Verification};
 use crate::document::sha256_hex;
 use crate::site::Site;
 use crate::stand::number::NumberInUse;

@@ -6,8 +6,7 @@ use crate::calibration::{NotStated, Parameter};
 use crate::coefficients::PositionIndex;
 use crate::gyro::{GyroParameters, Parameters};
 use crate::stand::MOST_POSITIONS;
-use crate::text::Unreadable;
-use crate::text::kind::Kind;
+use crate::text::{Kind, Unreadable};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Serialize, Serializer};
 

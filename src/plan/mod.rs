@@ -21,9 +21,7 @@ pub(crate) mod search;
 pub(crate) mod sensitivity;
 
 use crate::attitude::PAPER_FRAME_AXIS_AZIMUTH_DEG;
-use crate::calibration::least_squares::NoLeastSquares;
-use crate::calibration::parameter::Parameter;
-use crate::calibration::{NoSetup, NotStated};
+use crate::calibration::{NoLeastSquares, NoSetup, NotStated, Parameter};
 use crate::coefficients::PositionIndex;
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;

@@ -4,7 +4,7 @@
 //! the sensitivities of the calibration, so nothing here says beforehand which errors a plan can see.
 
 use super::candidates::Design;
-use crate::calibration::causes::Cause;
+use crate::calibration::Cause;
 use crate::calibration::sensitivity::Sensitivity;
 use crate::units::radians_from_arcseconds;
 use serde::Serialize;

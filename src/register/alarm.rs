@@ -3,9 +3,8 @@
 use super::successors::Successor;
 use super::{Examined, Line, series_of};
 use crate::revocation::{ListRefused, RevocationList, SeriesAlarm};
-use crate::text::Printable;
 use crate::text::words;
-use crate::text::words::first_few;
+use crate::text::{Printable, first_few};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Display};

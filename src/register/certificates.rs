@@ -5,7 +5,7 @@
 
 use super::{Alarm, AlarmKind, Examined, State};
 use crate::stand::CertifiedPosition;
-use crate::text::words::first_few;
+use crate::text::first_few;
 use std::collections::{BTreeMap, HashMap};
 use std::hash::{DefaultHasher, Hash, Hasher};
 

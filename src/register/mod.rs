@@ -9,9 +9,7 @@ mod successors;
 pub use alarm::{Alarm, AlarmKind, Concern};
 
 use crate::document::sha256_hex;
-use crate::passport::checks::{Check, CheckName, Code};
-use crate::passport::content::Content;
-use crate::passport::verification::{Question, Trust, Verification, verify};
+use crate::passport::{Check, CheckName, Code, Content, Question, Trust, Verification, verify};
 use crate::revocation::Series;
 use crate::text::words;
 use alarm::{absent_predecessors, duplicate_ids, gaps, misplaced};

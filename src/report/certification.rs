@@ -1,12 +1,10 @@
 //! Result of a certification, and of a check run, as text and as JSON.
 
-use crate::certification::comparison::Comparison;
-use crate::certification::comparison::Test;
 use crate::certification::components::{Common, Variance};
 use crate::certification::remark::{plain, together};
 use crate::certification::rotated_runs::{FEWEST_RUNS, FEWEST_RUNS_OF_A_MOVE, Pattern, RotatedRuns};
 use crate::certification::suspects::{AXES, OUTLIER};
-use crate::certification::{Certification, NotCertified};
+use crate::certification::{Certification, Comparison, NotCertified, Test};
 use crate::report::style::Outcome;
 use crate::report::{columns, deviations, style};
 use crate::stand::ActsOn;

@@ -1,9 +1,8 @@
 //! Certified deviations: their numbers as on pages, and a chart in block characters, with sign and size of α, β, γ at each
 //! position on a common scale.
 
-use super::page::Language;
 use super::page::number::{LARGEST_IN_ARCSEC, Number, THIN_BLANK};
-use super::{columns, style};
+use super::{Language, columns, style};
 use crate::stand::CertifiedPosition;
 use std::fmt::Write;
 

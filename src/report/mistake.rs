@@ -6,7 +6,7 @@ use super::page::number::LATITUDES;
 use super::page::spacing::BLANK;
 use super::page::texts::calibration as texts;
 use crate::calibration::diagnosis::with_commas;
-use crate::calibration::mistake::{CurrentsMistaken, Mistake};
+use crate::calibration::{CurrentsMistaken, Mistake};
 
 /// Power of ten by which microamperes exceed milliamperes.
 const MICROAMPERES: i32 = 3;

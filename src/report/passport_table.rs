@@ -1,8 +1,7 @@
 //! Passport in a terminal: aligned tables, units in the headings.
 
-use crate::calibration::parameter::Parameter;
-use crate::passport::content::Rows;
-use crate::passport::{Content, Verification};
+use crate::calibration::Parameter;
+use crate::passport::{Content, Rows, Verification};
 use crate::report::{columns, deviations, style, verdict};
 use crate::stand::{Evidence, TypeB};
 use crate::text::number::decimal;

@@ -1,7 +1,7 @@
 //! A plan as text.
 
 use super::columns;
-use crate::calibration::parameter::Parameter;
+use crate::calibration::Parameter;
 use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::plan::criterion::Criterion;
 use crate::plan::sensitivity::{CommonError, Effect};

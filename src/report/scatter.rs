@@ -3,10 +3,7 @@
 use super::columns;
 use super::page::language::Language;
 use super::page::texts::calibration as texts;
-use crate::calibration::Calibration;
-use crate::calibration::noise::NoiseSource;
-use crate::calibration::scatter::{Agreement, Scatter};
-use crate::calibration::suspect::Suspect;
+use crate::calibration::{Agreement, Calibration, NoiseSource, Scatter, Suspect};
 
 /// Weight of a sentence. Programs show remarks and warnings with the parameters.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -2,8 +2,7 @@
 
 use super::style::Outcome;
 use super::{columns, style};
-use crate::simulation::accuracy::{Accuracy, PAPER_LATITUDE_DEG};
-use crate::simulation::convergence::{Convergence, ConvergenceRow};
+use crate::simulation::{Accuracy, Convergence, ConvergenceRow, PAPER_LATITUDE_DEG};
 use crate::statistics::summary::upper_limit_without_a_case;
 use crate::units::printed;
 

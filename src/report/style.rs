@@ -1,6 +1,6 @@
 //! Emphasis in a terminal: ANSI codes around whole words and lines. [`plain`] removes them for output without emphasis.
 
-use crate::calibration::verdict::Decision;
+use crate::calibration::Decision;
 use crate::text::printable;
 use anstyle::{AnsiColor, Style};
 

@@ -5,10 +5,9 @@ use super::page::language::{Language, Text, values};
 use super::page::texts::calibration as texts;
 use super::style::Outcome;
 use super::{columns, style};
-use crate::calibration::document::CalibrationDocument;
-use crate::calibration::parameter::Parameter;
-use crate::calibration::verdict::{COVERAGE_FACTOR, Decision, ParameterVerdict, Verdict};
-use crate::text::printable::printable;
+use crate::calibration::verdict::COVERAGE_FACTOR;
+use crate::calibration::{CalibrationDocument, Decision, Parameter, ParameterVerdict, Verdict};
+use crate::text::printable;
 use crate::units::{printed, quantity};
 use std::fmt::Write;
 

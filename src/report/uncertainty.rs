@@ -1,14 +1,14 @@
 //! Uncertainty budget as text and as JSON, and result of a Monte Carlo run as text.
 
+use crate::calibration::Parameter;
 use crate::calibration::document::finite;
-use crate::calibration::parameter::Parameter;
 use crate::report::columns;
 use crate::report::page::Language;
 use crate::report::page::texts::calibration as texts;
 use crate::report::style::{self, Outcome};
-use crate::uncertainty::budget::{COVERAGE, Contribution, ParameterBudget};
+use crate::uncertainty::budget::COVERAGE;
 use crate::uncertainty::monte_carlo::Distribution;
-use crate::uncertainty::{Budget, MonteCarlo};
+use crate::uncertainty::{Budget, Contribution, MonteCarlo, ParameterBudget};
 use crate::units::{printed, quantity};
 use serde_json::{Value, json};
 use std::fmt::Write;

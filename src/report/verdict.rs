@@ -2,8 +2,7 @@
 
 use super::style;
 pub(crate) use crate::interface::Verdict;
-use crate::passport::checks::Code;
-use crate::passport::{Check, CheckName};
+use crate::passport::{Check, CheckName, Code};
 use crate::text::Printable;
 use std::fmt::Write;
 

@@ -7,7 +7,7 @@ pub(crate) use reference::tables;
 use crate::passport::Content;
 use crate::passport::content::PASSPORT_FORMAT;
 use crate::revocation::{REVOCATION_FORMAT, RevocationList};
-use crate::text::record::Document;
+use crate::text::Document;
 use schemars::{JsonSchema, Schema, schema_for};
 use serde_json::{Value, json};
 

@@ -7,8 +7,7 @@
 
 use super::draw::{self, CurrentError, Deviations};
 use crate::calibration::iterative::{self, StopRule};
-use crate::calibration::parameter::Parameter;
-use crate::calibration::{MeterUncertainty, Method, Model, analytic, least_squares};
+use crate::calibration::{MeterUncertainty, Method, Model, Parameter, analytic, least_squares};
 use crate::coefficients::{Coefficients, EarthRate, Position, StandGeometry};
 use crate::gyro::{GyroParameters, GyroType};
 use crate::laboratory::Laboratory;

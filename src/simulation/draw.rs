@@ -1,7 +1,7 @@
 //! Stands, gyros and current errors drawn at random.
 
 use crate::attitude::Deviation;
-use crate::calibration::parameter::Parameter;
+use crate::calibration::Parameter;
 use crate::coefficients::{Position, eight_positions};
 use crate::gyro::{GyroParameters, GyroType};
 use crate::statistics::random::Stream;

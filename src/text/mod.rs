@@ -34,13 +34,14 @@ pub(crate) mod words;
 pub(crate) mod yaml;
 
 pub use excerpt::Location;
+pub(crate) use kind::Kind;
 pub(crate) use node::Node;
 pub(crate) use printable::{Printable, name_of, printable, shown};
 pub(crate) use problem::{Path, Problems};
 pub use problem::{Problem, Unreadable};
-pub(crate) use record::{Field, record};
+pub(crate) use record::{Document, Field, record};
 pub use scalar::{Identifier, NotAnIdentifier};
-pub(crate) use words::{word_of_a_key, words};
+pub(crate) use words::{first_few, word_of_a_key, words};
 
 /// Size of the largest document that is read, in bytes.
 ///

@@ -1,9 +1,7 @@
 //! Documents as trees: every key is kept in order, including duplicates. Trees are serialised as JSON. And destinations of
 //! a document, written value by value: a text in canonical form, or a tree.
 
-use super::excerpt::Location;
-use super::problem::Unreadable;
-use super::{Field, LARGEST_DOCUMENT_BYTES};
+use super::{Field, LARGEST_DOCUMENT_BYTES, Location, Unreadable};
 use serde::de::{self, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::{Serialize, Serializer};
 use std::cell::Cell;

@@ -1,7 +1,6 @@
 //! Placeholders of the templates: values that only the user knows, and that must not be signed.
 
-use super::problem::{Problems, Unreadable};
-use super::{Node, Path, yaml};
+use super::{Node, Path, Problems, Unreadable, yaml};
 
 /// Word that a template contains instead of a value.
 const PLACEHOLDER: &str = "CHANGE";

@@ -6,12 +6,11 @@
 //! columns are accepted and reported, and with them decimal commas if the whole file has them; anything in between is
 //! refused, because its meaning depends on the country of the reader.
 
-use super::excerpt::Location;
-use super::kind::{Kind, mistaken};
-use super::known_name;
+use super::kind::mistaken;
 use super::node::hand_written_text;
 use super::number_advice::{self, unquoted};
-use super::problem::{MOST_COUNTED, MOST_PROBLEMS, Problem, Unreadable, counted};
+use super::problem::{MOST_COUNTED, MOST_PROBLEMS, counted};
+use super::{Kind, Location, Problem, Unreadable, known_name};
 
 /// Table: rows of cells, in the order of the requested columns.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,11 +1,10 @@
 //! Conversion of hand-written YAML to a tree with `serde_yaml`, with the line and column of every error.
 
-use super::excerpt::Location;
-use super::kind::{Kind, mistaken};
+use super::kind::mistaken;
 use super::node::{Builder, MOST_BRACKETS, REPEATED, hand_written_text, location_of};
-use super::problem::{Problems, Step, Unreadable};
-use super::record::{Document, File};
-use super::{Field, Node, Path};
+use super::problem::Step;
+use super::record::File;
+use super::{Document, Field, Kind, Location, Node, Path, Problems, Unreadable};
 use serde::de::{self, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use std::cell::Cell;
 use std::fmt;

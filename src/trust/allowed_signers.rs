@@ -3,13 +3,12 @@
 //! This reader is stricter than OpenSSH, which skips a line that it cannot read. Here such a line is an error, because
 //! its author meant to trust a key or to end that trust.
 
-use super::PublicKey;
 use super::lines;
 use super::pattern::matches_list;
 use super::signer_line::{self, SignerLine};
-use super::sshsig::KeyPoint;
-use crate::text::kind::{Kind, mistaken};
-use crate::text::{Printable, Unreadable};
+use super::{KeyPoint, PublicKey};
+use crate::text::kind::mistaken;
+use crate::text::{Kind, Printable, Unreadable};
 use jiff::Timestamp;
 use thiserror::Error;
 

@@ -3,8 +3,8 @@
 use super::krl::{self, Revoked};
 use super::signer_line::read_key;
 use super::{PublicKey, lines};
-use crate::text::Unreadable;
-use crate::text::kind::{Kind, mistaken};
+use crate::text::kind::mistaken;
+use crate::text::{Kind, Unreadable};
 use sha1::Sha1;
 use sha2::{Digest, Sha256};
 

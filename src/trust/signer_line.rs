@@ -1,10 +1,9 @@
 //! A line of allowed signers (ssh-keygen(1), ALLOWED SIGNERS): `principals [options] key-type base64-key [comment]`.
 
-use super::error::KeyError;
 use super::lines::Line;
 use super::pattern::LONGEST_PATTERN;
 use super::public_key::{AnyKey, fingerprint, shortened};
-use super::sshsig::KeyPoint;
+use super::{KeyError, KeyPoint};
 use crate::text::problem::{MOST_COUNTED, Problem};
 use jiff::Timestamp;
 use jiff::civil::DateTime;

@@ -1,10 +1,9 @@
 //! Private signing keys: Ed25519, in OpenSSH's file format (OpenSSH's PROTOCOL.key).
 
-use super::error::{KeyError, SignatureError};
-use super::public_key::{AnyKey, PublicKey, shortened};
-use super::sshsig::{KeyPoint, Message, Signature};
+use super::public_key::{AnyKey, shortened};
 use super::wire::{Truncated, Wire};
-use crate::text::kind::Kind;
+use super::{KeyError, KeyPoint, Message, PublicKey, Signature, SignatureError};
+use crate::text::Kind;
 use base64ct::{Base64, Encoding};
 use ed25519_dalek::Signer as _;
 use ssh_key::private::{Ed25519Keypair, KeypairData};

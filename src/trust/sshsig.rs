@@ -4,8 +4,7 @@
 //! the message. They do not include the version of the block, and base64 can be wrapped in many ways. Therefore only
 //! version 1 in OpenSSH's own form is accepted, so that no byte of the block can be changed.
 
-use super::error::{KeyError, SignatureError};
-use super::public_key::PublicKey;
+use super::{KeyError, PublicKey, SignatureError};
 use base64ct::{Base64, Encoding};
 use ed25519_dalek::VerifyingKey;
 use sha2::{Digest, Sha256};

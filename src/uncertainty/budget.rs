@@ -4,13 +4,11 @@
 //! and G.3.3 (coverage factor); [JCGM 102](crate::bibliography::Bibliography::Jcgm102), 6.2.1 (covariance of several
 //! results).
 
-use crate::calibration::causes::{self, Cause, Input};
-use crate::calibration::estimates::{Basis, Estimates};
-use crate::calibration::parameter::Parameter;
+use crate::calibration::causes;
+use crate::calibration::estimates::Estimates;
 use crate::calibration::procedure::{Linearised, linearise};
 use crate::calibration::propagation::{covariance, product};
-use crate::calibration::result::MethodRefusal;
-use crate::calibration::{Method, Model, Options, Readings, Setup};
+use crate::calibration::{Basis, Cause, Input, Method, MethodRefusal, Model, Options, Parameter, Readings, Setup};
 use crate::statistics::beta::student_factor;
 use crate::statistics::welch_satterthwaite;
 use nalgebra::DMatrix;

@@ -1,7 +1,7 @@
 //! Dominant contribution of a budget: the worst parameter, its main source, and what would halve its uncertainty.
 
 use super::budget::{Budget, Contribution, ParameterBudget};
-use crate::calibration::causes::Cause;
+use crate::calibration::Cause;
 use crate::gyro::Tolerance;
 use crate::text::number::two_digits;
 use crate::units::quantity;

@@ -4,10 +4,10 @@
 //! (11)-(15) of [the paper](crate::bibliography::Bibliography::Tang17). The seat of the gyro, the repeatability of
 //! positions and the currents are not part of a passport and do not affect its numbers.
 
-use crate::calibration::Setup;
-use crate::calibration::causes::{Input, of_stand_and_site};
+use crate::calibration::causes::of_stand_and_site;
 use crate::calibration::estimates::Estimates;
 use crate::calibration::sensitivity::VectorChange;
+use crate::calibration::{Input, Setup};
 use crate::coefficients::{Matrices, PositionIndex, pair_differences};
 use nalgebra::{DMatrix, Matrix2};
 

@@ -8,8 +8,7 @@
 use super::accumulator::{Accumulator, BlockSummary, Histograms, Scale};
 use super::budget::{Budget, COVERAGE, ParameterBudget};
 use super::engine::{BLOCK, Engine, PAIRS, PARAMETERS, pair};
-use crate::calibration::parameter::Parameter;
-use crate::calibration::{Method, Model, Options};
+use crate::calibration::{Method, Model, Options, Parameter};
 use crate::parallel;
 use crate::statistics::bins::{quantile, shortest};
 use crate::statistics::wide_random::WideRandom;

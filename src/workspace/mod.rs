@@ -12,8 +12,7 @@ pub(crate) use status::status;
 
 use crate::files::{self, FileError};
 use crate::folder::{Folder, search};
-use crate::text::problem::Problem;
-use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, Location, Unreadable, name_of};
+use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, Location, Problem, Unreadable, name_of};
 use std::path::{Path, PathBuf};
 use toml::de::DeTable;
 

@@ -1,11 +1,11 @@
 //! Expected calibration uncertainty: the standard uncertainty of every parameter against the tolerance of a gyro type.
 
 use super::drawing::{Anchor, Panel, Scale, Ticks, label, legend, line, plain_symbol, rectangle, symbol, words};
-use crate::calibration::parameter::Parameter;
-use crate::calibration::verdict::{COVERAGE_FACTOR, Found, against_type};
-use crate::passport::accuracy::Accuracy;
+use crate::calibration::verdict::COVERAGE_FACTOR;
+use crate::calibration::{Found, Parameter, against_type};
+use crate::passport::Accuracy;
+use crate::report::page::Number;
 use crate::report::page::language::{Language, Languages, Text, values};
-use crate::report::page::number::Number;
 use crate::report::page::texts::{calibration, pictures as texts, units};
 use maud::{Markup, html};
 

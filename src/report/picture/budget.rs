@@ -3,12 +3,10 @@
 use super::accuracy::unit;
 use super::drawing::{Anchor, Point, Scale, label, number, plain_symbol, rectangle, symbol, symbols};
 use super::file::file;
-use crate::calibration::parameter::Parameter;
-use crate::report::page::language::Language;
-use crate::report::page::number::Number;
+use crate::calibration::Parameter;
 use crate::report::page::spacing::BLANK;
-use crate::uncertainty::Budget;
-use crate::uncertainty::budget::ParameterBudget;
+use crate::report::page::{Language, Number};
+use crate::uncertainty::{Budget, ParameterBudget};
 use maud::{Markup, html};
 
 /// Largest number of bars of a panel; one more bar combines the rest.

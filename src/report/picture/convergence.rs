@@ -4,8 +4,8 @@ use super::chart::{Field, Look, sample};
 use super::drawing::{Anchor, Panel, Point, Scale, Ticks, label, legend, line, power};
 use crate::calibration::document::ResultDocument;
 use crate::calibration::iterative::{StepChange, StopRule};
+use crate::report::page::Number;
 use crate::report::page::language::{Language, Languages, values};
-use crate::report::page::number::Number;
 use crate::report::page::texts::pictures as texts;
 use maud::{Markup, html};
 

@@ -2,9 +2,9 @@
 
 use super::drawing::{Scale, Ticks, legend, line, rectangle, strip, strip_axis, whisker};
 use crate::calibration::verdict::COVERAGE_FACTOR;
-use crate::report::page::language::{Language, Languages};
 use crate::report::page::number::LARGEST_IN_ARCSEC;
 use crate::report::page::texts::pictures as texts;
+use crate::report::page::{Language, Languages};
 use crate::stand::CertifiedPosition;
 use crate::units::ARCSECONDS_PER_DEGREE;
 use maud::{Markup, html};

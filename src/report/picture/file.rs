@@ -2,7 +2,7 @@
 
 use super::drawing::{Anchor, Panel, Point, coordinate, label, symbols};
 use super::label::width;
-use crate::report::page::language::Language;
+use crate::report::page::Language;
 use maud::{Markup, PreEscaped, html};
 
 /// Style in black and grey on a white ground. Its rules are plain, because not only browsers draw these files.

@@ -8,7 +8,7 @@ use crate::attitude::ANGLE_SYMBOLS;
 use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::history::drift::{DRIFTS, Drift, Series};
 use crate::history::{History, PastPassport};
-use crate::report::page::language::Language;
+use crate::report::page::Language;
 use jiff::Timestamp;
 use jiff::civil::Date;
 use maud::{Markup, html};

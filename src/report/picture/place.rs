@@ -1,7 +1,7 @@
 //! Area where a passport is valid: a schematic map around the site, north at the top.
 
 use super::drawing::{Anchor, Panel, Point, arrow, coordinate, legend, line, number, rectangle, round_below, words};
-use crate::passport::content::Content;
+use crate::passport::Content;
 use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::{LATITUDES, LONGITUDES, Number, localised};
 use crate::report::page::spacing::BLANK;

@@ -3,7 +3,7 @@
 
 use super::drawing::{Anchor, Point, Scale, label, number, plain_symbol, rectangle, symbol, symbols, words};
 use super::file::{caption, file};
-use crate::calibration::parameter::Parameter;
+use crate::calibration::Parameter;
 use crate::plan::{Evaluation, Plan};
 use crate::report::plan::{percent, percent_of_tolerance, size};
 use maud::{Markup, html};

@@ -8,8 +8,8 @@
 use super::drawing::{Anchor, Panel, Point, arrow, label, legend, line, panels, polygon, power_of_ten, words};
 use super::label::Area;
 use crate::attitude::{self, Deviation};
+use crate::report::page::Number;
 use crate::report::page::language::{Language, Languages, Text, values};
-use crate::report::page::number::Number;
 use crate::report::page::texts::pictures as texts;
 use crate::stand::CertifiedPosition;
 use crate::units::{ARCSECONDS_PER_DEGREE, degrees_from_radians, sin_cos_of_degrees};

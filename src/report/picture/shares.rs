@@ -1,7 +1,7 @@
 //! Shares of the inputs in the variance of each parameter, as strips in their table, all as long as the whole variance.
 
 use super::drawing::{Anchor, Scale, rectangle, strip, strip_axis, words};
-use crate::report::page::language::Languages;
+use crate::report::page::Languages;
 use maud::{Markup, html};
 
 const WIDTH: f64 = 560.0;

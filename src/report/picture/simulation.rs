@@ -4,10 +4,9 @@ use super::chart::{Field, Look, sample};
 use super::drawing::{Anchor, Point, Scale, Ticks, label, line, symbols, words};
 use super::file::{caption, file};
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
-use crate::report::page::language::Language;
-use crate::report::page::number::Number;
+use crate::report::page::{Language, Number};
 use crate::report::simulation::not_converged;
-use crate::simulation::convergence::{Convergence, ConvergenceRow};
+use crate::simulation::{Convergence, ConvergenceRow};
 use maud::{Markup, html};
 
 const SIZE: Point = [660.0, 492.0];

@@ -5,8 +5,8 @@ use super::drawing::{Anchor, Panel, Point, arrow, label, line, list, symbols, wo
 use super::label::width;
 use super::positions::{AXIS, AXIS_HEIGHT, GYRO, GYRO_HEIGHT, View, plate, rows, stand as parts};
 use crate::attitude;
+use crate::report::page::Number;
 use crate::report::page::language::{Languages, values};
-use crate::report::page::number::Number;
 use crate::report::page::texts::pictures as texts;
 use crate::wording::compass;
 use maud::{Markup, html};

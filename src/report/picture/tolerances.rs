@@ -3,9 +3,9 @@
 
 use super::accuracy::unit;
 use super::drawing::{Point, Scale, arrow, coordinate, legend, line, polygon, rectangle, strip, strip_axis, whisker};
-use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
+use crate::calibration::{Decision, ParameterVerdict, Verdict};
+use crate::report::page::Number;
 use crate::report::page::language::{Languages, Text};
-use crate::report::page::number::Number;
 use crate::report::page::texts::{pictures as texts, units};
 use maud::{Markup, html};
 

@@ -8,9 +8,9 @@ use super::drawing::{
 use super::label as labels;
 use crate::attitude;
 use crate::coefficients::PositionIndex;
-use crate::passport::content::Content;
+use crate::passport::Content;
+use crate::report::page::Number;
 use crate::report::page::language::{Language, Languages, Text, values};
-use crate::report::page::number::Number;
 use crate::report::page::texts::{pictures as texts, units};
 use maud::{Markup, html};
 use std::collections::BTreeSet;

@@ -18,10 +18,8 @@ pub(crate) mod plan;
 pub(crate) mod refit;
 mod student;
 
-use crate::calibration::analytic::NoAnalyticSolution;
 use crate::calibration::procedure::{Linearised, linearise};
-use crate::calibration::result::MethodRefusal;
-use crate::calibration::{Method, Options, Readings, Setup};
+use crate::calibration::{Method, MethodRefusal, NoAnalyticSolution, Options, Readings, Setup};
 use crate::statistics::wide_random::{Column, WIDTH, WideRandom};
 use kernel::Kernel;
 use plan::Plan;

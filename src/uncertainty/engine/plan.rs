@@ -5,9 +5,9 @@
 //! degrees of freedom (6.4.9).
 
 use super::{ReadingShape, student};
-use crate::calibration::estimates::{Basis, Estimates};
+use crate::calibration::estimates::Estimates;
 use crate::calibration::repeats::Repeats;
-use crate::calibration::{Cause, Input, Setup};
+use crate::calibration::{Basis, Cause, Input, Setup};
 use crate::statistics::wide_random::{Column, WIDTH, WideRandom};
 use nalgebra::Vector2;
 
