@@ -1,5 +1,24 @@
 //! The JSON result of `calibrate`, which a later calibration can read for comparison.
 
+/// Declares a part of the result. A key with `= default` is omitted while its value is the default one: `None`, or an empty
+/// list. Keys that are not declared are refused.
+macro_rules! result {
+    ($(#[$about:meta])* $vis:vis struct $name:ident {
+        $($(#[$doc:meta])* $field_vis:vis $field:ident: $type:ty $(= $default:ident)?,)*
+    }) => {
+        #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        $(#[$about])*
+        $vis struct $name {
+            $(
+                $(#[$doc])*
+                $(#[serde(skip_serializing_if = "crate::calibration::document::is_default", $default)])?
+                $field_vis $field: $type,
+            )*
+        }
+    };
+}
+
 mod result;
 
 pub(crate) use result::{ResidualDocument, ResultDocument, RowScatterDocument, finite};
@@ -21,107 +40,87 @@ use serde::de::IgnoredAny;
 use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeMap;
 
-/// JSON result of a calibration, with the keys in the order of writing.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct CalibrationDocument {
-    /// Identifier of the passport used.
-    pub(crate) passport_id: String,
-    /// `true` if the passport was verified.
-    pub(crate) passport_verified: bool,
-    /// Value of g to which g-sensitive drifts refer, m/s².
-    pub(crate) gravity_m_per_s2: f64,
-    /// Standard uncertainty of g, m/s²; absent if it is not stated.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) gravity_u_m_per_s2: Option<f64>,
-    /// Gyro, operator, conditions and file of currents; absent in results of earlier versions.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) subject: Option<Subject>,
-    /// Visits that were left out, each with its reason.
-    #[serde(skip_serializing_if = "Vec::is_empty", default)]
-    pub(crate) excluded: Vec<Exclusion>,
-    /// Positions of the passport without a reading.
-    #[serde(skip_serializing_if = "Vec::is_empty", default)]
-    pub(crate) left_out: Vec<PositionIndex>,
-    /// Method whose result is adopted.
-    #[serde(default)]
-    pub(crate) adopted: String,
-    /// `false` if the readings do not fit this stand, so that the parameters are not valid; `hint` then has the causes.
-    #[serde(default)]
-    pub(crate) consistent: bool,
-    /// Effective degrees of freedom of the adopted uncertainties by the keys of the parameters; those without a key are
-    /// unlimited.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty", default)]
-    pub(crate) degrees_of_freedom: BTreeMap<String, f64>,
-    /// Results, one for each method.
-    pub(crate) results: Vec<ResultDocument>,
-    /// Reasons why methods gave no result, by the keys of the methods.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty", default)]
-    pub(crate) refused: BTreeMap<String, String>,
-    /// Inputs whose uncertainty certificate, site and laboratory do not state; the result does not include it.
-    #[serde(skip_serializing_if = "Vec::is_empty", default)]
-    pub(crate) not_stated: Vec<String>,
-    /// Agreement of the visits of a position; present if there are several visits.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) scatter: Option<Scatter>,
-    /// Agreement of the turn-ons with the gyro type; present if there are several and the type states their noise.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) turn_on_scatter: Option<Scatter>,
-    /// Probability of a larger drift in time if there is none; present if the readings have times and none was fitted.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) drift_probability: Option<f64>,
-    /// Scatter of the rows of a visit; present if there are several rows.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) row_scatter: Option<RowScatterDocument>,
-    /// Readings that differ from the others by more than chance explains: a row, a visit, or both.
-    #[serde(skip_serializing_if = "Vec::is_empty", default)]
-    pub(crate) suspects: Vec<Suspect>,
-    /// Rounding of the currents, and repeated readings without scatter; absent if there is nothing to state.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) digits: Option<Digits>,
-    /// Possible causes if the readings do not fit, in words.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) hint: Option<String>,
-    /// Error that explains the result if the readings fit but the parameters are not those of the gyro.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) mistake: Option<Mistake>,
-    /// Remarks for the user on the currents, the laboratory and the fit, one sentence each.
-    #[serde(skip_serializing_if = "Vec::is_empty", default)]
-    pub(crate) remarks: Vec<String>,
-    /// Comparison with the gyro type.
-    #[serde(skip_serializing_if = "Option::is_none", default, deserialize_with = "left_aside")]
-    pub(crate) verdict: Option<Verdict>,
-    /// Comparison with an earlier result.
-    #[serde(skip_serializing_if = "Option::is_none", default, deserialize_with = "left_aside")]
-    pub(crate) change: Option<Verdict>,
-    /// Keys that are added to a result outside this type; they are accepted and ignored on reading.
-    #[serde(skip_serializing, default)]
-    budget: IgnoredAny,
-    #[serde(skip_serializing, default)]
-    monte_carlo: IgnoredAny,
+result! {
+    /// JSON result of a calibration, with the keys in the order of writing.
+    #[derive(Default)]
+    pub struct CalibrationDocument {
+        /// Identifier of the passport used.
+        pub(crate) passport_id: String,
+        /// `true` if the passport was verified.
+        pub(crate) passport_verified: bool,
+        /// Value of g to which g-sensitive drifts refer, m/s².
+        pub(crate) gravity_m_per_s2: f64,
+        /// Standard uncertainty of g, m/s²; absent if it is not stated.
+        pub(crate) gravity_u_m_per_s2: Option<f64> = default,
+        /// Gyro, operator, conditions and file of currents; absent in results of earlier versions.
+        pub(crate) subject: Option<Subject> = default,
+        /// Visits that were left out, each with its reason.
+        pub(crate) excluded: Vec<Exclusion> = default,
+        /// Positions of the passport without a reading.
+        pub(crate) left_out: Vec<PositionIndex> = default,
+        /// Method whose result is adopted.
+        #[serde(default)]
+        pub(crate) adopted: String,
+        /// `false` if the readings do not fit this stand, so that the parameters are not valid; `hint` then has the causes.
+        #[serde(default)]
+        pub(crate) consistent: bool,
+        /// Effective degrees of freedom of the adopted uncertainties by the keys of the parameters; those without a key are
+        /// unlimited.
+        pub(crate) degrees_of_freedom: BTreeMap<String, f64> = default,
+        /// Results, one for each method.
+        pub(crate) results: Vec<ResultDocument>,
+        /// Reasons why methods gave no result, by the keys of the methods.
+        pub(crate) refused: BTreeMap<String, String> = default,
+        /// Inputs whose uncertainty certificate, site and laboratory do not state; the result does not include it.
+        pub(crate) not_stated: Vec<String> = default,
+        /// Agreement of the visits of a position; present if there are several visits.
+        pub(crate) scatter: Option<Scatter> = default,
+        /// Agreement of the turn-ons with the gyro type; present if there are several and the type states their noise.
+        pub(crate) turn_on_scatter: Option<Scatter> = default,
+        /// Probability of a larger drift in time if there is none; present if the readings have times and none was fitted.
+        pub(crate) drift_probability: Option<f64> = default,
+        /// Scatter of the rows of a visit; present if there are several rows.
+        pub(crate) row_scatter: Option<RowScatterDocument> = default,
+        /// Readings that differ from the others by more than chance explains: a row, a visit, or both.
+        pub(crate) suspects: Vec<Suspect> = default,
+        /// Rounding of the currents, and repeated readings without scatter; absent if there is nothing to state.
+        pub(crate) digits: Option<Digits> = default,
+        /// Possible causes if the readings do not fit, in words.
+        pub(crate) hint: Option<String> = default,
+        /// Error that explains the result if the readings fit but the parameters are not those of the gyro.
+        pub(crate) mistake: Option<Mistake> = default,
+        /// Remarks for the user on the currents, the laboratory and the fit, one sentence each.
+        pub(crate) remarks: Vec<String> = default,
+        /// Comparison with the gyro type.
+        #[serde(deserialize_with = "left_aside")]
+        pub(crate) verdict: Option<Verdict> = default,
+        /// Comparison with an earlier result.
+        #[serde(deserialize_with = "left_aside")]
+        pub(crate) change: Option<Verdict> = default,
+        /// Keys that are added to a result outside this type; they are accepted and ignored on reading.
+        #[serde(skip_serializing, default)]
+        budget: IgnoredAny,
+        #[serde(skip_serializing, default)]
+        monte_carlo: IgnoredAny,
+    }
 }
 
-/// Gyro, operator and conditions of a calibration, and the file of its currents.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Subject {
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub gyro_serial: Option<String>,
-    /// Name of the operator who took the readings.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub operator: Option<String>,
-    /// Day of the readings, YYYY-MM-DD.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub date: Option<Date>,
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub temperature_c: Option<f64>,
-    /// Time for which the passport was verified; it may be in the past.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub passport_verified_as_of: Option<Timestamp>,
-    pub currents_sha256: String,
-    /// Name of the gyro type with which the result was compared.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub gyro_type: Option<String>,
+result! {
+    /// Gyro, operator and conditions of a calibration, and the file of its currents.
+    #[derive(Default)]
+    pub(crate) struct Subject {
+        pub gyro_serial: Option<String> = default,
+        /// Name of the operator who took the readings.
+        pub operator: Option<String> = default,
+        /// Day of the readings, YYYY-MM-DD.
+        pub date: Option<Date> = default,
+        pub temperature_c: Option<f64> = default,
+        /// Time for which the passport was verified; it may be in the past.
+        pub passport_verified_as_of: Option<Timestamp> = default,
+        pub currents_sha256: String,
+        /// Name of the gyro type with which the result was compared.
+        pub gyro_type: Option<String> = default,
+    }
 }
 
 /// Reason why a difference from an earlier result is no change of the gyro.
@@ -144,6 +143,10 @@ pub(crate) fn another_type(earlier: &[CalibrationDocument], gyro_type: Option<&G
         "the previous result is that of a gyro of type {before}, not {now}; check that it is that of this gyro, because the \
          change would otherwise be the difference of two gyros"
     ))
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 /// Skips the decisions in an earlier result, because they are made again.
@@ -314,7 +317,6 @@ impl CalibrationDocument {
     }
 
     /// Returns the comparison with the earlier result, if a statement is made on the change.
-    #[cfg(feature = "report")]
     pub(crate) fn stated_change(&self) -> Option<&Verdict> {
         self.change.as_ref().filter(|change| !change.withheld)
     }

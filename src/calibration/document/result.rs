@@ -11,100 +11,78 @@ use crate::gyro::GyroParameters;
 use nalgebra::SMatrix;
 use serde::{Deserialize, Serialize};
 
-/// JSON result of one method.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ResultDocument {
-    pub(crate) method: String,
-    /// Model of the g-sensitive drift: paper or general.
-    #[serde(default = "paper")]
-    pub(crate) model: String,
-    /// K, °/(h·mA): [[K_x, K_xy], [K_yx, K_y]].
-    pub(crate) k_deg_per_h_per_ma: [[f64; 2]; 2],
-    /// ω_0, °/h: [x, y].
-    pub(crate) omega0_deg_per_h: [f64; 2],
-    /// ω_n, °/(h·g), 2×2: four independent numbers for the paper's methods.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) omega_n_deg_per_h_per_g: Option<[[f64; 2]; 2]>,
-    /// ω_g, °/h per local g; absent in the general model, as ω_n and ω_k are.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) omega_g_deg_per_h_per_g: Option<f64>,
-    /// ω_k, °/h per local g.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) omega_k_deg_per_h_per_g: Option<f64>,
-    /// Matrix of g-sensitive drift of the general model, °/h per local g, 2×3, for (n_x, n_y, n_z).
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) g_matrix_deg_per_h_per_g: Option<[[f64; 3]; 2]>,
-    /// F test whether the paper's model is enough; present with a larger one.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) model_test: Option<ModelTest>,
-    /// Linear drift of ω_0 in time, °/h per hour: [x, y]; ω_0 is then that at the mean time of the readings.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) drift_deg_per_h_per_h: Option<[f64; 2]>,
-    /// ω_0 of each turn-on of the gyro.
-    #[serde(skip_serializing_if = "Vec::is_empty", default)]
-    pub(crate) cycles: Vec<Cycle>,
-    /// Noise of the gyro's drift that the uncertainties contain; absent in results of earlier versions.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) noise: Option<NoiseDocument>,
-    /// Anisoelastic coefficient, °/(h·g²); absent if it was not fitted.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) anisoelasticity_deg_per_h_per_g2: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) iterations: Option<u32>,
-    /// Number of steps predicted before the first one; absent if it exceeds the maximum number of steps.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) iterations_predicted: Option<u32>,
-    /// Stop rule of the iteration, Δ₁ and Δ₂.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) stop_rule: Option<StopRule>,
-    /// Changes of the parameters in each step after the first approximation.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) changes: Option<Vec<StepChange>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) spectral_radius: Option<f64>,
-    /// Exact remainder of K, °/(h·mA), 2×2.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) remainder_k_deg_per_h_per_ma: Option<[[f64; 2]; 2]>,
-    /// Exact remainder of ω_n, °/(h·g), 2×2.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) remainder_omega_n_deg_per_h_per_g: Option<[[f64; 2]; 2]>,
-    /// Standard uncertainties, under the keys of the values.
-    pub(crate) standard_uncertainty: UncertaintyDocument,
-    /// Differences from least squares in units of their standard uncertainties: K_x, K_xy, K_yx, K_y, ω_0x, ω_0y, ω_g,
-    /// ω_k.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) from_least_squares: Option<[f64; 8]>,
-    pub(crate) chi_square: ChiSquareDocument,
-    /// Residuals of each position, °/h; absent without degrees of freedom.
-    #[serde(skip_serializing_if = "Vec::is_empty", default)]
-    pub(crate) residuals_deg_per_h: Vec<ResidualDocument>,
+result! {
+    /// JSON result of one method.
+    pub(crate) struct ResultDocument {
+        pub(crate) method: String,
+        /// Model of the g-sensitive drift: paper or general.
+        #[serde(default = "paper")]
+        pub(crate) model: String,
+        /// K, °/(h·mA): [[K_x, K_xy], [K_yx, K_y]].
+        pub(crate) k_deg_per_h_per_ma: [[f64; 2]; 2],
+        /// ω_0, °/h: [x, y].
+        pub(crate) omega0_deg_per_h: [f64; 2],
+        /// ω_n, °/(h·g), 2×2: four independent numbers for the paper's methods.
+        pub(crate) omega_n_deg_per_h_per_g: Option<[[f64; 2]; 2]> = default,
+        /// ω_g, °/h per local g; absent in the general model, as ω_n and ω_k are.
+        pub(crate) omega_g_deg_per_h_per_g: Option<f64> = default,
+        /// ω_k, °/h per local g.
+        pub(crate) omega_k_deg_per_h_per_g: Option<f64> = default,
+        /// Matrix of g-sensitive drift of the general model, °/h per local g, 2×3, for (n_x, n_y, n_z).
+        pub(crate) g_matrix_deg_per_h_per_g: Option<[[f64; 3]; 2]> = default,
+        /// F test whether the paper's model is enough; present with a larger one.
+        pub(crate) model_test: Option<ModelTest> = default,
+        /// Linear drift of ω_0 in time, °/h per hour: [x, y]; ω_0 is then that at the mean time of the readings.
+        pub(crate) drift_deg_per_h_per_h: Option<[f64; 2]> = default,
+        /// ω_0 of each turn-on of the gyro.
+        pub(crate) cycles: Vec<Cycle> = default,
+        /// Noise of the gyro's drift that the uncertainties contain; absent in results of earlier versions.
+        pub(crate) noise: Option<NoiseDocument> = default,
+        /// Anisoelastic coefficient, °/(h·g²); absent if it was not fitted.
+        pub(crate) anisoelasticity_deg_per_h_per_g2: Option<f64> = default,
+        pub(crate) iterations: Option<u32> = default,
+        /// Number of steps predicted before the first one; absent if it exceeds the maximum number of steps.
+        pub(crate) iterations_predicted: Option<u32> = default,
+        /// Stop rule of the iteration, Δ₁ and Δ₂.
+        pub(crate) stop_rule: Option<StopRule> = default,
+        /// Changes of the parameters in each step after the first approximation.
+        pub(crate) changes: Option<Vec<StepChange>> = default,
+        pub(crate) spectral_radius: Option<f64> = default,
+        /// Exact remainder of K, °/(h·mA), 2×2.
+        pub(crate) remainder_k_deg_per_h_per_ma: Option<[[f64; 2]; 2]> = default,
+        /// Exact remainder of ω_n, °/(h·g), 2×2.
+        pub(crate) remainder_omega_n_deg_per_h_per_g: Option<[[f64; 2]; 2]> = default,
+        /// Standard uncertainties, under the keys of the values.
+        pub(crate) standard_uncertainty: UncertaintyDocument,
+        /// Differences from least squares in units of their standard uncertainties: K_x, K_xy, K_yx, K_y, ω_0x, ω_0y, ω_g,
+        /// ω_k.
+        pub(crate) from_least_squares: Option<[f64; 8]> = default,
+        pub(crate) chi_square: ChiSquareDocument,
+        /// Residuals of each position, °/h; absent without degrees of freedom.
+        pub(crate) residuals_deg_per_h: Vec<ResidualDocument> = default,
+    }
 }
 
 fn paper() -> String {
     Model::Paper.key().to_owned()
 }
 
-/// Noise of the gyro's drift: from visit to visit, and from one turn-on to the next.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct NoiseDocument {
-    /// Standard deviation from visit to visit, each axis; absent if it is not known.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) visit_deg_per_h: Option<f64>,
-    /// stated, estimated or not_stated.
-    pub(crate) visit_source: String,
-    /// Degrees of freedom of an estimate.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) visit_degrees_of_freedom: Option<f64>,
-    /// Standard deviation of ω_0 from one turn-on to the next, each axis; absent if it is not known.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) turn_on_deg_per_h: Option<f64>,
-    /// stated, estimated or not_stated.
-    pub(crate) turn_on_source: String,
-    /// Degrees of freedom of an estimate.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) turn_on_degrees_of_freedom: Option<f64>,
+result! {
+    /// Noise of the gyro's drift: from visit to visit, and from one turn-on to the next.
+    pub(crate) struct NoiseDocument {
+        /// Standard deviation from visit to visit, each axis; absent if it is not known.
+        pub(crate) visit_deg_per_h: Option<f64> = default,
+        /// stated, estimated or not_stated.
+        pub(crate) visit_source: String,
+        /// Degrees of freedom of an estimate.
+        pub(crate) visit_degrees_of_freedom: Option<f64> = default,
+        /// Standard deviation of ω_0 from one turn-on to the next, each axis; absent if it is not known.
+        pub(crate) turn_on_deg_per_h: Option<f64> = default,
+        /// stated, estimated or not_stated.
+        pub(crate) turn_on_source: String,
+        /// Degrees of freedom of an estimate.
+        pub(crate) turn_on_degrees_of_freedom: Option<f64> = default,
+    }
 }
 
 impl NoiseDocument {
@@ -122,79 +100,65 @@ impl NoiseDocument {
     }
 }
 
-/// Standard uncertainties of the values of one method, each under the key and in the unit of its value, and absent where
-/// the value is.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct UncertaintyDocument {
-    pub(crate) k_deg_per_h_per_ma: [[f64; 2]; 2],
-    pub(crate) omega0_deg_per_h: [f64; 2],
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) omega_n_deg_per_h_per_g: Option<[[f64; 2]; 2]>,
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) omega_g_deg_per_h_per_g: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) omega_k_deg_per_h_per_g: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) g_matrix_deg_per_h_per_g: Option<[[f64; 3]; 2]>,
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) drift_deg_per_h_per_h: Option<[f64; 2]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) anisoelasticity_deg_per_h_per_g2: Option<f64>,
+result! {
+    /// Standard uncertainties of the values of one method, each under the key and in the unit of its value, and absent where
+    /// the value is.
+    pub(crate) struct UncertaintyDocument {
+        pub(crate) k_deg_per_h_per_ma: [[f64; 2]; 2],
+        pub(crate) omega0_deg_per_h: [f64; 2],
+        pub(crate) omega_n_deg_per_h_per_g: Option<[[f64; 2]; 2]> = default,
+        pub(crate) omega_g_deg_per_h_per_g: Option<f64> = default,
+        pub(crate) omega_k_deg_per_h_per_g: Option<f64> = default,
+        pub(crate) g_matrix_deg_per_h_per_g: Option<[[f64; 3]; 2]> = default,
+        pub(crate) drift_deg_per_h_per_h: Option<[f64; 2]> = default,
+        pub(crate) anisoelasticity_deg_per_h_per_g2: Option<f64> = default,
+    }
 }
 
-/// Chi-square test of a fit.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ChiSquareDocument {
-    pub(crate) value: f64,
-    /// Number of readings minus number of parameters.
-    pub(crate) degrees_of_freedom: usize,
-    /// Probability of a larger value if the readings agree with all stated uncertainties; absent without degrees of
-    /// freedom.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) probability: Option<f64>,
-    /// Degrees of freedom of the uncertainties from which chi-square is computed; absent if infinite.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) uncertainty_degrees_of_freedom: Option<f64>,
+result! {
+    /// Chi-square test of a fit.
+    pub(crate) struct ChiSquareDocument {
+        pub(crate) value: f64,
+        /// Number of readings minus number of parameters.
+        pub(crate) degrees_of_freedom: usize,
+        /// Probability of a larger value if the readings agree with all stated uncertainties; absent without degrees of
+        /// freedom.
+        pub(crate) probability: Option<f64> = default,
+        /// Degrees of freedom of the uncertainties from which chi-square is computed; absent if infinite.
+        pub(crate) uncertainty_degrees_of_freedom: Option<f64> = default,
+    }
 }
 
-/// Scatter of the rows of each visit, compared with the stated noise.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct RowScatterDocument {
-    /// Standard deviation of one reading, mA.
-    pub(crate) standard_deviation_ma: f64,
-    /// Degrees of freedom: two for each row after a visit's first.
-    pub(crate) degrees_of_freedom: usize,
-    /// Sum of squares in units of the stated variance; absent if no noise is stated.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) chi_square: Option<f64>,
-    /// Probability of more scatter if the stated noise is correct; close to 1 if there is less than stated.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) probability: Option<f64>,
-    /// Factor by which the variance of a reading was enlarged.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) variance_factor: Option<f64>,
+result! {
+    /// Scatter of the rows of each visit, compared with the stated noise.
+    pub(crate) struct RowScatterDocument {
+        /// Standard deviation of one reading, mA.
+        pub(crate) standard_deviation_ma: f64,
+        /// Degrees of freedom: two for each row after a visit's first.
+        pub(crate) degrees_of_freedom: usize,
+        /// Sum of squares in units of the stated variance; absent if no noise is stated.
+        pub(crate) chi_square: Option<f64> = default,
+        /// Probability of more scatter if the stated noise is correct; close to 1 if there is less than stated.
+        pub(crate) probability: Option<f64> = default,
+        /// Factor by which the variance of a reading was enlarged.
+        pub(crate) variance_factor: Option<f64> = default,
+    }
 }
 
-/// Residuals of one position along x and y and their standard uncertainties, °/h. Results of earlier versions have no
-/// uncertainties.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ResidualDocument {
-    pub(crate) i: u32,
-    pub(crate) j: u32,
-    pub(crate) x: f64,
-    pub(crate) y: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) u_x: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) u_y: Option<f64>,
+result! {
+    /// Residuals of one position along x and y and their standard uncertainties, °/h. Results of earlier versions have no
+    /// uncertainties.
+    pub(crate) struct ResidualDocument {
+        pub(crate) i: u32,
+        pub(crate) j: u32,
+        pub(crate) x: f64,
+        pub(crate) y: f64,
+        pub(crate) u_x: Option<f64> = default,
+        pub(crate) u_y: Option<f64> = default,
+    }
 }
 
 /// Share of a standard uncertainty below which a remaining error is rounding, not a result.
-#[cfg(feature = "report")]
 const NEGLIGIBLE: f64 = 1e-3;
 
 fn rows<const C: usize>(matrix: &SMatrix<f64, 2, C>) -> [[f64; C]; 2] {
@@ -249,7 +213,6 @@ impl ResultDocument {
 
     /// Returns the largest remaining error of the iterative method in K, °/(h·mA), and in ω_n, °/(h·g), each `None` if it is
     /// negligible; or `None` for other methods.
-    #[cfg(feature = "report")]
     pub(crate) fn remaining_errors(&self) -> Option<[Option<f64>; 2]> {
         let largest =
             |rows: [[f64; 2]; 2]| rows.into_iter().flatten().fold(0.0, |most, x: f64| f64::max(most, x.abs()));
