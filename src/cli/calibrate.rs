@@ -1,11 +1,10 @@
 //! Verb `calibrate`: the gyro's parameters from a passport and currents, or those of several gyros.
 
 use super::administrative::AdministrativeFile;
-use super::inputs::{self, Each};
 use super::render::languages;
 use super::show::{Read, Reader, Whom};
 use super::trust_options::{Verifier, date};
-use super::{Code, Failure, Format, REFUSED, defaults, exclusion, output, uncertainty};
+use super::{Code, Failure, Format, REFUSED, defaults, exclusion, inputs, output, uncertainty};
 use crate::batch::once::Once;
 use crate::batch::{Purpose, paths};
 use crate::calibration::document::{Subject, another_type};
@@ -29,6 +28,7 @@ use clap::{Args, ValueEnum};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use serde::Serialize;
+use serde_json::Value;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -200,10 +200,10 @@ impl Found {
 
 /// Result for one of several gyros.
 #[derive(Serialize)]
-struct Line<'a> {
-    file: &'a str,
+struct Line {
+    file: String,
     #[serde(flatten)]
-    result: uncertainty::WholeDocument<'a>,
+    result: Value,
 }
 
 impl Bench<'_> {
@@ -304,20 +304,12 @@ impl Bench<'_> {
             if let Some(folder) = &options.out {
                 self.write(folder, path, &found, &mut written)?;
             }
-            let code = found.code();
-            Ok((found, code))
+            let trials = found.uncertainty.monte_carlo.as_ref();
+            let text = report::line(&found.currents.0, &found.done, trials, self.gyro_name());
+            let result = serde_json::to_value(found.whole()).map_err(Failure::unusable)?;
+            Ok(((Line { file: found.currents.0.clone(), result }, text), found.code()))
         };
-        inputs::each(&options.currents, Purpose::Tables, calibrate, |done| match done {
-            Each::Done(found) => {
-                let file = found.currents.0.as_str();
-                let trials = found.uncertainty.monte_carlo.as_ref();
-                let text = report::line(file, &found.done, trials, self.gyro_name());
-                inputs::print(&Each::Done((Line { file, result: found.whole() }, text)), options.format)
-            }
-            Each::Refused { file, refusal } => {
-                inputs::print(&Each::<(Line, String)>::Refused { file, refusal }, options.format)
-            }
-        })
+        inputs::each(&options.currents, Purpose::Tables, calibrate, |done| inputs::print(&done, options.format))
     }
 
     /// Writes the result and the report of one of several gyros, whose names must differ.

@@ -1,12 +1,10 @@
 //! Work that takes long: Ctrl-C asks it to stop, and a progress bar shows how far it is.
 
 use super::{Failure, output};
+use crate::interface::Failed;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// Progress of trials.
-pub(super) const TRIALS: &str = "{wide_bar} {human_pos} of {human_len} trials, {eta} left";
 
 /// Returns a flag that Ctrl-C sets; the work ends at the next point where nothing is left half done.
 pub(super) fn cancelled_by_ctrl_c() -> Result<Arc<AtomicBool>, Failure> {
@@ -23,8 +21,18 @@ pub(super) fn bar(length: u64, template: &str) -> Result<ProgressBar, Failure> {
     Ok(bar)
 }
 
-pub(super) fn report_interruption(cancel: &AtomicBool) {
+/// Runs trials with a progress bar on a terminal (none in a pipe). Ctrl-C ends them with those completed so far.
+pub(super) fn trials<T>(
+    length: u64,
+    run: impl FnOnce(&AtomicBool, &ProgressBar) -> Result<T, Failed>,
+) -> Result<T, Failure> {
+    let cancel = cancelled_by_ctrl_c()?;
+    let bar = bar(length, "{wide_bar} {human_pos} of {human_len} trials, {eta} left")?;
+    let found = run(&cancel, &bar);
+    bar.finish_and_clear();
+    let found = found?;
     if cancel.load(Ordering::Relaxed) {
         output::say("interrupted; the result is from the trials completed so far");
     }
+    Ok(found)
 }

@@ -145,8 +145,7 @@ fn run_convergence(arguments: &ConvergenceArguments) -> Result<Code, Failure> {
     Ok(0)
 }
 
-/// Runs a simulation with a progress bar on a terminal (none in a pipe). Ctrl-C ends it with the trials completed so
-/// far.
+/// Runs a simulation of `rows` times the trials.
 fn watched<T>(
     arguments: &RunArguments,
     default_trials: u64,
@@ -154,15 +153,12 @@ fn watched<T>(
     simulate: impl FnOnce(&Run) -> T,
 ) -> Result<T, Failure> {
     let trials = arguments.trials.unwrap_or(default_trials);
-    let cancel = long_run::cancelled_by_ctrl_c()?;
-    let bar = long_run::bar(trials.saturating_mul(rows), long_run::TRIALS)?;
-    let progress = |done: u64| bar.set_position(done);
-    let mut run = Run { cancel: Some(&cancel), progress: Some(&progress), ..Run::new(trials, arguments.seed) };
-    if let Some(threads) = arguments.threads {
-        run.threads = threads as usize;
-    }
-    let result = simulate(&run);
-    bar.finish_and_clear();
-    long_run::report_interruption(&cancel);
-    Ok(result)
+    long_run::trials(trials.saturating_mul(rows), |cancel, bar| {
+        let progress = |done: u64| bar.set_position(done);
+        let mut run = Run { cancel: Some(cancel), progress: Some(&progress), ..Run::new(trials, arguments.seed) };
+        if let Some(threads) = arguments.threads {
+            run.threads = threads as usize;
+        }
+        Ok(simulate(&run))
+    })
 }

@@ -121,37 +121,29 @@ impl UncertaintyOptions {
         Ok(Found { budget: self.budget.then_some((budget, sentence)), monte_carlo: trials })
     }
 
-    /// Runs the trials with a progress bar on a terminal. Ctrl-C ends them with the trials completed so far.
+    /// Runs the trials, and announces a run that takes long.
     fn trials(
         &self,
         setup: &Setup,
         readings: &Readings,
         of: (&Budget, &CalibrationOptions),
     ) -> Result<MonteCarlo, Failure> {
-        let cancel = long_run::cancelled_by_ctrl_c()?;
-        let bar = long_run::bar(self.trials.unwrap_or(0), long_run::TRIALS)?;
         let (start, told) = (Instant::now(), AtomicBool::new(false));
-        let progress = |done: u64, due: u64| {
-            bar.set_length(due);
-            bar.set_position(done);
-            let whole = start.elapsed().mul_f64(due as f64 / done.max(1) as f64);
-            if whole > LONG && !told.swap(true, Ordering::Relaxed) {
-                output::say(&format!("{due} trials will take about {}", HumanDuration(whole)));
+        long_run::trials(self.trials.unwrap_or(0), |cancel, bar| {
+            let progress = |done: u64, due: u64| {
+                bar.set_length(due);
+                bar.set_position(done);
+                let whole = start.elapsed().mul_f64(due as f64 / done.max(1) as f64);
+                if whole > LONG && !told.swap(true, Ordering::Relaxed) {
+                    output::say(&format!("{due} trials will take about {}", HumanDuration(whole)));
+                }
+            };
+            let watched = Trials { cancel: Some(cancel), progress: Some(&progress), ..Trials::adaptive(self.seed) };
+            let mut run = Trials { trials: self.trials, ..watched };
+            if let Some(threads) = self.threads {
+                run.threads = threads as usize;
             }
-        };
-        let mut run = Trials {
-            trials: self.trials,
-            cancel: Some(&cancel),
-            progress: Some(&progress),
-            ..Trials::adaptive(self.seed)
-        };
-        if let Some(threads) = self.threads {
-            run.threads = threads as usize;
-        }
-        let found = distributions(setup, readings, of, &run);
-        bar.finish_and_clear();
-        let found = found.map_err(Failure::refused)?;
-        long_run::report_interruption(&cancel);
-        Ok(found)
+            distributions(setup, readings, of, &run)
+        })
     }
 }

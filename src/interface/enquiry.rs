@@ -5,19 +5,18 @@ use crate::document::sha256_hex;
 use crate::earth::Place;
 #[cfg(feature = "factory")]
 use crate::files::{self, FileError};
+#[cfg(feature = "factory")]
+use crate::folder::verifier::Verifier;
 use crate::passport::{Question, Trust, Verification, verify};
 use crate::register::Register;
 use crate::revocation::{RevocationList, Series, claims_to_be_a_list};
 use crate::site::beyond_180;
 use crate::text::scalar::{day, impossible_date};
-use crate::text::{Field, Node, Path, Problems};
-#[cfg(feature = "factory")]
-use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
+use crate::text::{Field, LARGEST_DOCUMENT_BYTES, Node, Path, Problems, name_of};
 use crate::trust::{AllowedSigners, RevokedKeys};
 use jiff::Timestamp;
 use jiff::civil::{Date, DateTime};
 use serde::Serialize;
-#[cfg(feature = "factory")]
 use std::path::{Path as FilePath, PathBuf};
 
 /// Trusted keys and the question to verify passports for.
@@ -105,12 +104,10 @@ impl Enquiry {
     /// Returns an error if the folder cannot be read.
     #[cfg(feature = "factory")]
     pub fn with_register(self, folder: &FilePath) -> Result<Self, FileError> {
-        let asked = crate::register::Asked::at(self.question.time);
-        let threads = crate::parallel::processors();
-        let (register, trust) = crate::folder::register(folder, self.trust, &asked, threads)?;
+        let Verifier { trust, question, register } = Verifier::new(self.trust, self.question, Some(folder))?;
         let mut remarks = self.remarks;
-        remarks.extend(register.alarms.iter().map(ToString::to_string));
-        Ok(Self { trust, register: Some(register), remarks, ..self })
+        remarks.extend(register.iter().flat_map(|register| &register.alarms).map(ToString::to_string));
+        Ok(Self { trust, question, remarks, register })
     }
 
     /// Verifies the bytes of a passport; `file` is the file name in messages.
