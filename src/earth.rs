@@ -37,7 +37,6 @@ impl EarthRate {
     }
 
     /// Returns the astronomic latitude Φ, degrees, without the last digits, which are those of the rounded components.
-    #[cfg(feature = "monte-carlo")]
     pub(crate) fn astronomic_latitude_deg(&self) -> f64 {
         let latitude_deg = degrees_from_radians(libm::atan2(self.vertical_deg_per_h, self.horizontal_deg_per_h));
         (1e9 * latitude_deg).round() / 1e9

@@ -1,13 +1,11 @@
 //! Sites: the file `sites/<id>.yaml` (`dtg-site/1`), and the Earth parameters at a site.
 
-#[cfg(feature = "factory")]
 mod consistency;
 
 use crate::attitude::PAPER_FRAME_AXIS_AZIMUTH_DEG;
 use crate::coefficients::EarthRate;
 use crate::earth::{self, LaplaceCorrection, Place};
 use crate::text::{Document, Identifier, Path, Problems, number, record};
-#[cfg(feature = "report")]
 use crate::units::radians_from_arcseconds;
 use crate::units::{ARCSECONDS_PER_DEGREE, sin_cos_of_degrees};
 
@@ -150,7 +148,6 @@ impl Earth {
 
     /// Returns the standard uncertainties of ω_Γ and ω_B at `site`, °/h. They come from the latitude alone, by which the
     /// derivative of one component is the other one; the Earth rate is known.
-    #[cfg(feature = "report")]
     pub(crate) fn rate_u_deg_per_h(&self, site: &Site) -> [f64; 2] {
         let latitude_u = radians_from_arcseconds(site.astronomic_latitude_u_arcsec());
         [self.vertical_deg_per_h, self.horizontal_deg_per_h].map(|slope| slope.abs() * latitude_u)
@@ -181,7 +178,6 @@ impl Site {
     }
 
     /// Returns the standard uncertainty of the astronomic latitude, as far as it is stated.
-    #[cfg(feature = "report")]
     pub(crate) fn astronomic_latitude_u_arcsec(&self) -> f64 {
         let latitude_u = self.uncertainty.as_ref().and_then(|base| base.latitude_arcsec);
         libm::hypot(latitude_u.unwrap_or(0.0), self.deflection_u_arcsec().unwrap_or(0.0))

@@ -199,7 +199,6 @@ impl Stand {
 }
 
 /// Returns the refusal of a stand file in one sentence if only the angles are missing: it is then a header.
-#[cfg(feature = "factory")]
 fn without_angles(refused: &crate::text::Unreadable) -> Option<crate::text::Unreadable> {
     let angles = [".alpha_arcsec", ".beta_arcsec", ".gamma_arcsec"];
     let is_angle = |problem: &crate::text::Problem| {

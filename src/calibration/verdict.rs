@@ -152,13 +152,11 @@ impl Found {
     }
 
     /// Returns the expanded uncertainty of a parameter: k = 2, or Student's t for few degrees of freedom.
-    #[cfg(feature = "report")]
     pub(crate) fn expanded_uncertainty(&self, parameter: Parameter) -> f64 {
         self.coverage_factor(parameter) * self.standard_uncertainty[parameter.place()]
     }
 
     /// Returns the coverage factor of the expanded uncertainty of a parameter.
-    #[cfg(feature = "report")]
     pub(crate) fn coverage_factor(&self, parameter: Parameter) -> f64 {
         coverage_factor(self.degrees_of_freedom[parameter.place()])
     }

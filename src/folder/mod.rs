@@ -22,7 +22,6 @@ pub(crate) use superseding::Superseding;
 pub(crate) use visited::Visited;
 
 use crate::document::{SignedText, Signer, sha256_hex};
-#[cfg(feature = "cli")]
 use crate::files::walk::{Entry, Walk};
 use crate::files::{self, Access, or_here};
 use crate::passport::issue::{Draft, Issue, PreparedStand, Remarks};
@@ -106,7 +105,6 @@ pub(crate) struct Sealed {
 const ATTEMPTS: usize = 8;
 
 /// Number of files among which the nearest id is looked for.
-#[cfg(feature = "cli")]
 const MOST_FILES: usize = 10_000;
 
 impl Folder {
@@ -164,7 +162,6 @@ impl Folder {
     }
 
     /// Returns the id nearest to `id` among those that the names of the files show, or `None` if none is near.
-    #[cfg(feature = "cli")]
     pub(crate) fn nearest_id(&self, id: &str) -> Option<String> {
         let files = Walk::deep(&self.root, search::is_numbered).filter_map(|entry| match entry {
             Ok(Entry::File(path)) => Some(path),

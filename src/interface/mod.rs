@@ -52,10 +52,7 @@ use crate::document::sha256_hex;
 #[cfg(feature = "factory")]
 use crate::files::{self, FileError};
 use crate::passport::{Check, Content, Verification, content_from_anyone};
-#[cfg(feature = "factory")]
-use crate::text::name_of;
-use crate::text::{Node, Path, Problem, Problems, Unreadable, printable, record};
-#[cfg(feature = "factory")]
+use crate::text::{Node, Path, Problem, Problems, Unreadable, name_of, printable, record};
 use crate::trust::LARGEST_TRUST_FILE_BYTES;
 use serde::Serialize;
 use std::collections::BTreeMap;

@@ -119,7 +119,6 @@ pub(crate) const MOST_PROBLEMS: usize = 50;
 
 /// Maximum number of bytes read again to locate errors. Each location needs the text once more, so fewer errors are
 /// reported for large texts. A hostile text with a hundred thousand errors must not occupy the program for hours.
-#[cfg(feature = "factory")]
 const READ_AGAIN_BYTES: usize = 1 << 22;
 
 /// Maximum number of errors displayed for a document.

@@ -16,7 +16,6 @@ use std::str::FromStr;
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(transparent))]
 pub struct Identifier(#[cfg_attr(feature = "cli", schemars(regex(pattern = PATTERN)))] String);
 
-#[cfg(feature = "cli")]
 const PATTERN: &str = concat!(
     r"^(?!.*\.\.)(?!.*\.$)",
     r"(?!([Cc][Oo][Nn]|[Pp][Rr][Nn]|[Aa][Uu][Xx]|[Nn][Uu][Ll]|([Cc][Oo][Mm]|[Ll][Pp][Tt])[0-9])(\.|$))",

@@ -2,7 +2,6 @@
 
 use super::error::KeyError;
 use super::wire::Wire;
-#[cfg(feature = "factory")]
 use super::wire::string;
 use base64ct::{Base64, Encoding};
 use sha2::{Digest, Sha256};
@@ -75,7 +74,6 @@ impl PublicKey {
     }
 
     /// Creates the public half of a private key of this process.
-    #[cfg(feature = "factory")]
     pub(super) fn of_ed25519(key: ssh_key::public::Ed25519PublicKey) -> Self {
         let blob = [string(KEY_TYPES[0].0.as_bytes()), string(&key.0)].concat();
         Self { data: key.into(), blob }

@@ -60,7 +60,6 @@ impl Signature {
     }
 
     /// Writes a signature block in the form that OpenSSH writes.
-    #[cfg(feature = "factory")]
     pub(super) fn of(inner: SshSig) -> Result<Self, SignatureError> {
         let armor = inner.to_pem(ssh_key::LineEnding::LF).map_err(refusal)?;
         Self::checked(inner, armor)

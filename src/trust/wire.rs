@@ -71,7 +71,6 @@ impl<'a> Wire<'a> {
 }
 
 /// Writes a string: its length in four bytes, then its bytes.
-#[cfg(feature = "factory")]
 pub(super) fn string(bytes: &[u8]) -> Vec<u8> {
     [&(bytes.len() as u32).to_be_bytes()[..], bytes].concat()
 }

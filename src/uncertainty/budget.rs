@@ -75,7 +75,6 @@ pub struct Contribution {
     pub share: f64,
 }
 
-#[cfg(feature = "report")]
 impl Contribution {
     /// Returns `true` if the standard uncertainties of the inputs differ by more than one percent.
     pub(crate) fn has_several_sizes(&self) -> bool {

@@ -23,7 +23,6 @@ pub struct Remarks {
 
 impl Remarks {
     /// Returns warnings for the factory, and the inputs that the passport does not state, one sentence each.
-    #[cfg(feature = "factory")]
     pub(crate) fn words(&self) -> Vec<String> {
         let mut words = Vec::new();
         match &self.noise {
