@@ -3,7 +3,8 @@
 use super::catalogue::{Catalogue, Listed};
 use super::{Batch, Event, Failure, Listener, Outcome, Purpose, fail, parallel, paths, sweep};
 use crate::files::folder_of;
-use crate::folder::{Folder, Visited, search};
+use crate::files::walk::Visited;
+use crate::folder::{Folder, search};
 use crate::passport::Trust;
 use crate::passport::content::passport_id;
 use crate::passport::issue::{Issue, PreparedStand};

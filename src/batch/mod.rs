@@ -23,8 +23,9 @@ pub(crate) mod successors;
 
 use shard::Shard;
 
+use crate::files::walk::Visited;
 use crate::files::{Durability, FileError, leftovers};
-use crate::folder::{self, FolderRefused, Issued, Next, Seal, Visited};
+use crate::folder::{self, FolderRefused, Issued, Next, Seal};
 use crate::parallel;
 use crate::passport::issue::Remarks;
 use crate::text::{Unreadable, name_of};

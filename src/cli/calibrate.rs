@@ -1,10 +1,10 @@
 //! Verb `calibrate`: the gyro's parameters from a passport and currents, or those of several gyros.
 
-use super::administrative::AdministrativeFile;
+use super::inputs::{self, AdministrativeFile};
 use super::render::languages;
 use super::show::{Read, Reader, Whom};
 use super::trust_options::{Verifier, date};
-use super::{Code, Failure, Format, REFUSED, defaults, exclusion, inputs, output, uncertainty};
+use super::{Code, Failure, Format, REFUSED, defaults, exclusion, output, uncertainty};
 use crate::batch::once::Once;
 use crate::batch::{Purpose, paths};
 use crate::calibration::document::{Subject, another_type};

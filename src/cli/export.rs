@@ -1,7 +1,6 @@
 //! Verb `export`: verified passports in other forms: stand and site files again, JSON, and a DCC.
 
-use super::administrative::{AdministrativeFile, DCC_IS_NOT_SIGNED};
-use super::inputs::{self, Each};
+use super::inputs::{self, AdministrativeFile, Each};
 use super::render::languages;
 use super::trust_options::{TrustAmong, Verifier};
 use super::{Code, Failure, Format, REFUSED, UNUSABLE, defaults, output};
@@ -86,7 +85,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     }
     run.chunk()?;
     if options.to.contains(&Form::Dcc) && !run.written.is_empty() {
-        output::say(DCC_IS_NOT_SIGNED);
+        output::say("the DCC is not signed; only the passport in it is: save that passport and verify it");
     }
     Ok(run.code)
 }

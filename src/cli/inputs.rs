@@ -4,6 +4,7 @@ use super::{Code, Failure, Format, output};
 use crate::batch::Purpose;
 use crate::batch::catalogue::Listed as _;
 use crate::batch::paths;
+use crate::dcc::Administrative;
 use crate::files::{self, FileError};
 use crate::gyro::GyroType;
 use crate::interface::Failed;
@@ -11,7 +12,8 @@ use crate::laboratory::Laboratory;
 use crate::report::issued;
 use crate::site::Site;
 use crate::stand::Stand;
-use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, Printable, Unreadable, name_of, printable, shown};
+use crate::text::placeholder::filled_in;
+use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, Printable, Problems, Unreadable, name_of, printable, shown};
 use serde::Serialize;
 use std::ops::RangeBounds;
 use std::path::{Path, PathBuf};
@@ -77,6 +79,40 @@ pub(super) fn laboratory(path: Option<&Path>) -> Result<Laboratory, Failure> {
 /// Parses a number within limits; `expected` describes it.
 pub(super) fn number(text: &str, limits: impl RangeBounds<f64>, expected: String) -> Result<f64, String> {
     text.parse().ok().filter(|value| limits.contains(value)).ok_or(expected + ", with a decimal point")
+}
+
+/// Administrative file that was read, or none.
+pub(super) struct AdministrativeFile {
+    name: String,
+    text: String,
+    content: Option<Administrative>,
+}
+
+impl AdministrativeFile {
+    /// Reads the file. Without one, everything that it would state is missing.
+    pub(super) fn read(path: Option<&Path>) -> Result<Self, Failure> {
+        let Some(path) = path else {
+            return Ok(Self { name: "--administrative".to_owned(), text: String::new(), content: None });
+        };
+        let name = name_of(path);
+        let bytes = bytes(path, Kind::Dcc.words())?;
+        let content = filled_in(&name, &bytes, Administrative::from_yaml)?;
+        let text = String::from_utf8_lossy(&bytes);
+        let text = text.strip_prefix('\u{FEFF}').unwrap_or(&text).to_owned();
+        Ok(Self { name, text, content: Some(content) })
+    }
+
+    pub(super) fn content(&self) -> Option<&Administrative> {
+        self.content.as_ref()
+    }
+
+    /// Returns the refusal of a DCC, with the lines of the file.
+    pub(super) fn refuse(&self, problems: Problems) -> Unreadable {
+        match &self.content {
+            Some(_) => problems.refuse(&self.name, &self.text).in_text(self.text.as_bytes()),
+            None => problems.refuse_by_field(&self.name),
+        }
+    }
 }
 
 /// Result of a verb for one of several inputs.

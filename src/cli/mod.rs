@@ -4,7 +4,6 @@
 //! valid document. 1: a document or a result was refused. 2: wrong usage, or a file that cannot be read in the expected
 //! format. With several files, every one is reported and the highest code is returned.
 
-mod administrative;
 mod arguments;
 mod batch;
 mod calibrate;

@@ -13,16 +13,14 @@ mod refused;
 pub(crate) mod search;
 mod superseding;
 pub(crate) mod verifier;
-mod visited;
 
 pub use crate::files::{Durability, FileError};
 pub use refused::FolderRefused;
 pub use search::register;
 pub(crate) use superseding::Superseding;
-pub(crate) use visited::Visited;
 
 use crate::document::{SignedText, Signer, sha256_hex};
-use crate::files::walk::{Entry, Walk};
+use crate::files::walk::{Entry, Visited, Walk};
 use crate::files::{self, Access, or_here};
 use crate::passport::issue::{Draft, Issue, PreparedStand, Remarks};
 use crate::passport::reissue::{Successor, changes};

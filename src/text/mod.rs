@@ -1,7 +1,7 @@
 //! Text of documents: strict YAML input, canonical output, and errors with their location in the file.
 //!
 //! * `rule`: allowed content of signed texts, form of strings, and the check of both.
-//! * `number`: form of numbers; `number_advice`: advice on text where a number is expected.
+//! * `number`: form of numbers; `advice`: what to do about text where a number is expected, and about unknown names.
 //! * `canonical`: canonical form of content, and its reader.
 //! * `node`: documents as trees, and destinations of a document.
 //! * `record`: conversion of trees to Rust structs and back; every error is reported, not only the first.
@@ -14,13 +14,12 @@
 //! * `kind`: what a file is that was given instead of another.
 //! * `problem`: location, found content, expected content and advice of an error; `excerpt`: its line.
 
+mod advice;
 pub(crate) mod canonical;
 pub(crate) mod excerpt;
 pub(crate) mod kind;
-mod known_name;
 pub(crate) mod node;
 pub(crate) mod number;
-mod number_advice;
 #[cfg(feature = "factory")]
 pub(crate) mod placeholder;
 pub(crate) mod printable;

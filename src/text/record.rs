@@ -3,7 +3,7 @@
 use super::canonical::Scanner;
 use super::node::{Sink, Tree};
 use super::scalar::{STRAIGHT_QUOTES, latin, typographic_quote};
-use super::{Node, Path, Problems, known_name, number_advice};
+use super::{Node, Path, Problems, advice};
 use std::collections::HashSet;
 
 /// Type of a field of a document.
@@ -222,7 +222,7 @@ fn unknown_key_advice(entries: &[(String, Node)], index: usize, key: &str, value
     {
         return format!("use a decimal point: {name}: {whole}.{key}");
     }
-    if let Some(advice) = known_name::advice(known, key) {
+    if let Some(advice) = advice::on_name(known, key) {
         return advice;
     }
     let alike = |name: &&str| strsim::jaro_winkler(name, key);
@@ -263,7 +263,7 @@ impl Field for f64 {
             // Adding zero turns -0.0 into 0.0, the only zero that a document can contain.
             Node::Number(value) if value.is_finite() => Some(*value + 0.0),
             Node::Integer(value) => Some(*value as f64),
-            other => refuse(other, at, number_advice::in_yaml(other, at), problems),
+            other => refuse(other, at, advice::on_yaml(other, at), problems),
         }
     }
 

@@ -6,11 +6,11 @@
 //! columns are accepted and reported, and with them decimal commas if the whole file has them; anything in between is
 //! refused, because its meaning depends on the country of the reader.
 
+use super::advice::{self, unquoted};
 use super::kind::mistaken;
 use super::node::hand_written_text;
-use super::number_advice::{self, unquoted};
 use super::problem::{MOST_COUNTED, MOST_PROBLEMS, counted};
-use super::{Kind, Location, Problem, Unreadable, known_name};
+use super::{Kind, Location, Problem, Unreadable};
 
 /// Table: rows of cells, in the order of the requested columns.
 #[derive(Debug, Clone, PartialEq)]
@@ -127,7 +127,7 @@ impl<'a> Table<'a> {
         let cell = &row[column];
         let value = cell.text.parse::<f64>().ok().filter(|value| value.is_finite());
         if value.is_none() {
-            let advice = number_advice::in_csv(&cell.text, self.columns[column]).unwrap_or(not_taken);
+            let advice = advice::on_cell(&cell.text, self.columns[column]).unwrap_or(not_taken);
             problems.push(self.problem(cell, column, described(&cell.text), "a number", advice));
         }
         value
@@ -314,7 +314,7 @@ impl<'a> Header<'a> {
                 if cells[..index].iter().any(|earlier| earlier.text == cell.text) {
                     problem(format!("duplicate column {:?}", cell.text), String::new());
                 }
-            } else if let Some(advice) = known_name::advice(&known, &cell.text) {
+            } else if let Some(advice) = advice::on_name(&known, &cell.text) {
                 problem(format!("column {:?}", cell.text), advice);
             } else if let Some(column) = meant(&known, &cell.text) {
                 problem(format!("column {:?}", cell.text), format!("did you mean {column}?"));

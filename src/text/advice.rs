@@ -1,6 +1,7 @@
-//! Advice on what a person or a program wrote where a number belongs.
+//! Advice on what a person or a program wrote where a number belongs, and on unknown names that are known ones in letters of
+//! another alphabet, or in another unit.
 
-use super::scalar::{STRAIGHT_QUOTES, typographic_quote};
+use super::scalar::{STRAIGHT_QUOTES, latin, typographic_quote};
 use super::{Node, Path};
 
 const NOT_FINITE: &str = "use a finite number, because NaN and infinity are not measured values";
@@ -13,7 +14,7 @@ const TOLERANCE: &str = "a tolerance is one number for both directions and both 
 const ARCSECONDS: &str = "write degrees, minutes and seconds of arc as one number of arcseconds";
 
 /// Returns what to do about a value of YAML that is not a number; empty without such advice.
-pub(super) fn in_yaml(node: &Node, at: &Path) -> &'static str {
+pub(super) fn on_yaml(node: &Node, at: &Path) -> &'static str {
     let key = at.last_key();
     let is_tolerance = matches!(at, Path::Key(parent, _) if parent.last_key() == "tolerance");
     match node {
@@ -47,7 +48,7 @@ pub(super) fn in_yaml(node: &Node, at: &Path) -> &'static str {
 }
 
 /// Returns how to write the number that a cell of CSV in a column of this name seems to mean, or `None` if it means none.
-pub(super) fn in_csv(text: &str, column: &str) -> Option<&'static str> {
+pub(super) fn on_cell(text: &str, column: &str) -> Option<&'static str> {
     let is_number = |text: &str| text.parse::<f64>().is_ok_and(f64::is_finite);
     if text.contains(';') {
         Some("separate columns by commas")
@@ -109,6 +110,44 @@ fn has_two_points(text: &str) -> bool {
         && digits.split('.').all(|part| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
+/// Last parts of names that are units.
+const UNITS: [&str; 36] = [
+    "s", "ms", "us", "ns", "min", "h", "a", "ma", "ua", "na", "v", "mv", "uv", "deg", "rad", "mrad", "urad", "arcsec",
+    "arcmin", "gon", "ppm", "percent", "mm", "cm", "m", "km", "ft", "s2", "g", "g2", "gal", "mgal", "c", "k", "f",
+    "mas",
+];
+
+/// Returns the advice for an unknown name that only looks like one of the `known`, is one of them in another unit, whose
+/// numbers must be converted, or is an expanded uncertainty instead of a standard one; `None` for other names.
+pub(super) fn on_name(known: &[&str], found: &str) -> Option<String> {
+    if let Some((latin, odd)) = latin(found).filter(|(latin, _)| known.contains(&latin.as_str())) {
+        return Some(format!("the {odd} only looks like a Latin letter; type {latin} again"));
+    }
+    if let Some(name) = known.iter().find(|name| found.starts_with("U_") && **name == found.to_lowercase()) {
+        return Some(format!(
+            "if U is an expanded uncertainty, divide the numbers by its coverage factor k; then name it {name}"
+        ));
+    }
+    let found = found.to_lowercase();
+    let (quantity, unit) = split(&found)?;
+    let (name, known) = known.iter().find_map(|name| {
+        let (of, known) = split(name)?;
+        (of == quantity && known != unit).then_some((name, known))
+    })?;
+    let words = |unit: &str| unit.replace('_', " ");
+    Some(format!("convert the numbers from {} to {}, then name it {name}", words(unit), words(known)))
+}
+
+/// Returns the quantity and the unit of a name such as `alpha_arcsec` or `k_x_deg_per_h_per_ma`; `None` if it states no unit.
+fn split(name: &str) -> Option<(&str, &str)> {
+    let is_unit = |(_, unit): &(&str, &str)| UNITS.contains(unit);
+    let (mut quantity, _) = name.rsplit_once('_').filter(is_unit)?;
+    while let Some((stem, _)) = quantity.strip_suffix("_per").and_then(|name| name.rsplit_once('_')).filter(is_unit) {
+        quantity = stem;
+    }
+    Some((quantity, &name[quantity.len() + 1..]))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -162,12 +201,12 @@ mod tests {
             ("\u{2212}5", "alpha_arcsec", ASCII),
             ("nan", "alpha_arcsec", NOT_FINITE),
         ] {
-            assert_eq!(in_yaml(&text(written), &Path::Root.key(key)), due, "{written}");
+            assert_eq!(on_yaml(&text(written), &Path::Root.key(key)), due, "{written}");
         }
-        assert!(in_yaml(&text("55.45.56"), &Path::Root.key("latitude_deg")).contains("degrees, minutes and seconds"));
+        assert!(on_yaml(&text("55.45.56"), &Path::Root.key("latitude_deg")).contains("degrees, minutes and seconds"));
         let alpha = Path::Root.key("alpha_arcsec");
-        assert_eq!(in_yaml(&Node::Number(f64::INFINITY), &alpha), NOT_FINITE);
-        assert_eq!(in_yaml(&Node::Bool(true), &alpha), "");
+        assert_eq!(on_yaml(&Node::Number(f64::INFINITY), &alpha), NOT_FINITE);
+        assert_eq!(on_yaml(&Node::Bool(true), &alpha), "");
     }
 
     /// Expected: of a tolerance alone, what to do about an interval that is not symmetric.
@@ -176,10 +215,10 @@ mod tests {
         let limits = Node::List(vec![Node::Number(-0.1), Node::Number(0.3)]);
         let [tolerance, nominal] = ["tolerance", "nominal"].map(|key| Path::Root.key(key));
         for (node, due) in [(limits, TOLERANCE), (text("±0.3"), TOLERANCE), (text("-0.1/+0.3"), TOLERANCE)] {
-            assert_eq!(in_yaml(&node, &tolerance.key("omega0_deg_per_h")), due);
-            assert_ne!(in_yaml(&node, &nominal.key("omega_g_deg_per_h_per_g")), due);
+            assert_eq!(on_yaml(&node, &tolerance.key("omega0_deg_per_h")), due);
+            assert_ne!(on_yaml(&node, &nominal.key("omega_g_deg_per_h_per_g")), due);
         }
-        assert_eq!(in_yaml(&text("0,01"), &tolerance.key("omega0_deg_per_h")), "use a decimal point");
+        assert_eq!(on_yaml(&text("0,01"), &tolerance.key("omega0_deg_per_h")), "use a decimal point");
     }
 
     /// Expected: the one remedy for what a person or a program wrote into a cell.
@@ -194,9 +233,9 @@ mod tests {
             ("10.9″", "alpha_arcsec", WITHOUT_UNIT),
             ("10:02:03", "time_s", "count seconds from the first reading, as one number"),
         ] {
-            assert_eq!(in_csv(written, column), Some(due), "{written}");
+            assert_eq!(on_cell(written, column), Some(due), "{written}");
         }
-        assert_eq!(in_csv("0:10", "jx_ma"), None);
+        assert_eq!(on_cell("0:10", "jx_ma"), None);
         for (written, due) in [
             ("1;2", "separate columns by commas"),
             ("1.2.3", "it has two points; use one decimal point"),
@@ -211,12 +250,49 @@ mod tests {
             ("1.5 µA", WITHOUT_UNIT),
             ("-1.5 mA", WITHOUT_UNIT),
         ] {
-            assert_eq!(in_csv(written, "jx_ma"), Some(due), "{written}");
+            assert_eq!(on_cell(written, "jx_ma"), Some(due), "{written}");
         }
         for written in
             ["", "'inf'", "NaN", "-", "—", "#DIV/0!", "#N/A", "OVERLOAD", "01.Feb", "about 1.5", "a lot", "1.5 (?)"]
         {
-            assert_eq!(in_csv(written, "jx_ma"), None, "{written}");
+            assert_eq!(on_cell(written, "jx_ma"), None, "{written}");
+        }
+    }
+
+    /// Expected: the units by hand; GUM 2.3.5 and 6.2.1 for U = k u.
+    #[test]
+    fn another_unit_is_to_be_converted() {
+        let known = [
+            "alpha_arcsec",
+            "u_arcsec",
+            "u_alpha_arcsec",
+            "jx_ma",
+            "time_s",
+            "gravity_m_per_s2",
+            "height_m",
+            "omega_g_deg_per_h_per_g",
+        ];
+        for (found, from, to, name) in [
+            ("alpha_arcmin", "arcmin", "arcsec", "alpha_arcsec"),
+            ("alpha_deg", "deg", "arcsec", "alpha_arcsec"),
+            ("alpha_mrad", "mrad", "arcsec", "alpha_arcsec"),
+            ("u_arcmin", "arcmin", "arcsec", "u_arcsec"),
+            ("jx_uA", "ua", "ma", "jx_ma"),
+            ("jx_A", "a", "ma", "jx_ma"),
+            ("time_ms", "ms", "s", "time_s"),
+            ("gravity_mGal", "mgal", "m per s2", "gravity_m_per_s2"),
+            ("height_km", "km", "m", "height_m"),
+            ("omega_g_rad_per_s_per_g", "rad per s per g", "deg per h per g", "omega_g_deg_per_h_per_g"),
+        ] {
+            let due = format!("convert the numbers from {from} to {to}, then name it {name}");
+            assert_eq!(on_name(&known, found), Some(due), "{found}");
+        }
+        for name in ["u_arcsec", "u_alpha_arcsec"] {
+            let said = on_name(&known, &name.replacen('u', "U", 1)).unwrap();
+            assert!(said.contains("divide") && said.ends_with(name), "{said}");
+        }
+        for other in ["alpha_arcsecs", "alfa_arcsec", "alpha", "jx_mA", "time_of_day", "omega_k_deg_per_h_per_g", "k"] {
+            assert_eq!(on_name(&known, other), None, "{other}");
         }
     }
 }
