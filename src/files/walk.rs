@@ -51,6 +51,14 @@ impl Walk {
         Self { deep: false, ..Self::deep(root, wanted) }
     }
 
+    /// Returns the files; other entries, and folders that cannot be read, are omitted.
+    pub(crate) fn files(self) -> impl Iterator<Item = PathBuf> {
+        self.filter_map(|entry| match entry {
+            Ok(Entry::File(path)) => Some(path),
+            _ => None,
+        })
+    }
+
     fn enter(&mut self, folder: PathBuf) -> Result<(), FileError> {
         let failed = |error| FileError::Read(folder.clone(), error);
         let mut entries: Vec<Listed> = Vec::new();

@@ -20,7 +20,7 @@ pub use search::register;
 pub(crate) use superseding::Superseding;
 
 use crate::document::{SignedText, Signer, sha256_hex};
-use crate::files::walk::{Entry, Visited, Walk};
+use crate::files::walk::{Visited, Walk};
 use crate::files::{self, Access, or_here};
 use crate::passport::issue::{Draft, Issue, PreparedStand, Remarks};
 use crate::passport::reissue::{Successor, changes};
@@ -161,15 +161,12 @@ impl Folder {
 
     /// Returns the id nearest to `id` among those that the names of the files show, or `None` if none is near.
     pub(crate) fn nearest_id(&self, id: &str) -> Option<String> {
-        let files = Walk::deep(&self.root, search::is_numbered).filter_map(|entry| match entry {
-            Ok(Entry::File(path)) => Some(path),
-            _ => None,
-        });
         let id_of = |path: PathBuf| {
             let name = path.strip_prefix(&self.root).ok()?.to_str()?.strip_suffix(".yaml")?.replace('\\', "/");
             let (site, revision) = name.rsplit_once('-')?;
             Some(format!("{site}/{revision}"))
         };
+        let files = Walk::deep(&self.root, search::is_numbered).files();
         let ids = files.take(MOST_FILES).filter_map(id_of);
         let near = ids.map(|other| (strsim::damerau_levenshtein(&other, id), other));
         let most = id.chars().count() / 3;

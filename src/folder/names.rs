@@ -1,7 +1,7 @@
 //! Names in the folders of passports: those that differ only in case, which some systems do not distinguish, and the last
 //! revisions.
 
-use super::search::{numbered, revision};
+use super::search::numbered;
 use crate::files::FileError;
 use std::collections::HashMap;
 use std::fs;
@@ -79,7 +79,7 @@ impl Names {
                 && let Some(name) = self.name(Path::new(&file))
             {
                 let last = &mut names.entry(name.to_ascii_lowercase()).or_insert((name.to_owned(), 0)).1;
-                *last = (*last).max(revision(&file));
+                *last = (*last).max(numbered(&file).map_or(0, |(_, revision)| revision));
             }
         }
         Ok(names)
@@ -89,7 +89,7 @@ impl Names {
         let name = path.file_name()?;
         match self.of {
             Of::Folders => name.to_str(),
-            Of::Passports => numbered(name),
+            Of::Passports => numbered(name).map(|(site, _)| site),
         }
     }
 }

@@ -303,14 +303,11 @@ fn lists_above(root: &Path) -> Vec<Claimed> {
     let Ok(root) = root.canonicalize() else { return Vec::new() };
     let folders = root.ancestors().skip(1).take(LEVELS_ABOVE);
     // Errors there are ignored, because those folders are not part of this register.
-    let entries = folders.flat_map(|folder| Walk::flat(folder, is_lasting)).flatten();
-    let lists = entries.filter_map(|entry| match entry {
-        Entry::File(path) => {
-            let beginning = files::read_first(&path, BEGINNING_BYTES).ok()?;
-            let bytes = claims_to_be_a_list(&beginning).then(|| files::read_first(&path, LARGEST_DOCUMENT_BYTES + 1));
-            Some((path, bytes?.ok()?))
-        }
-        _ => None,
+    let files = folders.flat_map(|folder| Walk::flat(folder, is_lasting).files());
+    let lists = files.filter_map(|path| {
+        let beginning = files::read_first(&path, BEGINNING_BYTES).ok()?;
+        let bytes = claims_to_be_a_list(&beginning).then(|| files::read_first(&path, LARGEST_DOCUMENT_BYTES + 1));
+        Some((path, bytes?.ok()?))
     });
     lists.collect()
 }
@@ -398,14 +395,10 @@ pub(crate) fn is_numbered(name: &OsStr) -> bool {
     numbered(name).is_some()
 }
 
-/// Returns the part before the number in `<name>-<number>.yaml`, or `None` if the name has another form.
-pub(super) fn numbered(name: &OsStr) -> Option<&str> {
+/// Returns the name and the number in `<name>-<number>.yaml`, 0 for a number that no revision has, or `None` if the name has
+/// another form.
+pub(super) fn numbered(name: &OsStr) -> Option<(&str, u32)> {
     let (name, number) = name.to_str()?.strip_suffix(".yaml")?.rsplit_once('-')?;
-    (!number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit())).then_some(name)
-}
-
-/// Returns the number in `<name>-<number>.yaml`, or 0 if the name has another form.
-pub(super) fn revision(name: &OsStr) -> u32 {
-    let number = name.to_str().and_then(|name| name.strip_suffix(".yaml")?.rsplit('-').next()?.parse().ok());
-    number.unwrap_or(0)
+    let is_number = !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit());
+    is_number.then(|| (name, number.parse().unwrap_or(0)))
 }

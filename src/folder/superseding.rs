@@ -2,7 +2,7 @@
 
 use crate::files;
 use crate::files::leftovers::is_lasting;
-use crate::files::walk::{Entry, Walk};
+use crate::files::walk::Walk;
 use crate::passport::Trust;
 use crate::register::{Asked, examine};
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
@@ -39,23 +39,16 @@ impl Superseding {
 pub(super) fn may_contradict(folder: &Path, of_stand: &str) -> bool {
     let has = |bytes: &[u8], text: &[u8]| memchr::memmem::find(bytes, text).is_some();
     let mut bytes = Vec::new();
-    files_of(folder).any(|path| {
+    Walk::flat(folder, is_lasting).files().any(|path| {
         let read = files::read_into(&mut bytes, &path, LARGEST_DOCUMENT_BYTES);
         read.is_ok() && (has(&bytes, SUPERSEDES) || !has(&bytes, of_stand.as_bytes()))
-    })
-}
-
-fn files_of(folder: &Path) -> impl Iterator<Item = PathBuf> {
-    Walk::flat(folder, is_lasting).flatten().filter_map(|entry| match entry {
-        Entry::File(path) => Some(path),
-        _ => None,
     })
 }
 
 /// Reads the successors in a folder; files that cannot be read are ignored.
 fn read(folder: &Path, trust: &Trust, asked: &Asked) -> BySha256 {
     let (mut successors, mut bytes) = (BySha256::new(), Vec::new());
-    for path in files_of(folder) {
+    for path in Walk::flat(folder, is_lasting).files() {
         let read = files::read_into(&mut bytes, &path, LARGEST_DOCUMENT_BYTES);
         if read.is_err() || memchr::memmem::find(&bytes, SUPERSEDES).is_none() {
             continue;
