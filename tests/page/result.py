@@ -380,6 +380,9 @@ class Report:
         for row, line in zip(table["rows"], self.result[part]["parameters"], strict=True):
             # The decision stands beside the name, for telephones.
             near, name = row[0]["text"].split(",")[0].split("\u00a0")
+            # A drift at the g of the type has another unit than one at local g.
+            if "·g" in row[0]["text"] and "·g₀" not in row[0]["text"]:
+                self.wrong.append(f"{part}: the unit of {row[0]['text']} is that of a drift at local g")
             if name != symbol_of(line["parameter"]):
                 self.wrong.append(f"{part}: {name} stands in the row of {line['parameter']}")
             u = line["coverage_factor"] * line["standard_uncertainty"]
@@ -415,6 +418,14 @@ class Report:
     def stated(self):
         """No statement is made on parameters that are not valid, or that rest on a passport that was not verified."""
         return self.result["consistent"] and "mistake" not in self.result and self.result["passport_verified"]
+
+    def not_in_u(self):
+        """The number of inputs without a stated uncertainty stands beside the verdict, if there is one."""
+        missing = len(self.result.get("not_stated", []))
+        if missing and (self.stated() or "verdict" not in self.result):
+            said = " ".join(self.said["verdicts"]).replace("\u00a0", " ")
+            if not any(f"{words} U: {missing};" in said for words in ("not included in", "не учтённые в")):
+                self.wrong.append(f"{missing} inputs are not in U, and the verdict says {said!r}")
 
     def simple(self, part):
         """The sentence on simple acceptance below the table: how many pass, and the names of those that fail."""
@@ -470,6 +481,7 @@ def main():
         if not words["drawn"]:
             report.sentence(words)
     report.tables()
+    report.not_in_u()
     annex = json.loads(said["annex"])
     if annex != {key: value for key, value in result.items() if key not in ("budget", "monte_carlo")}:
         report.wrong.append("the annex is not the result")

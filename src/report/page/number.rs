@@ -136,6 +136,21 @@ pub(crate) fn column(languages: &Languages, cells: impl IntoIterator<Item = impl
     written.collect()
 }
 
+/// Writes the cells of a column of quantities: each unit directly after its number, the decimal marks of the numbers aligned.
+/// All units have one width.
+pub(crate) fn column_with_units(
+    languages: &Languages,
+    cells: impl IntoIterator<Item = (Number, Markup)>,
+) -> Vec<Markup> {
+    let cells: Vec<(Number, Markup)> = cells.into_iter().collect();
+    let tails = cells.iter().map(|(number, _)| Tail::of(&number.text(languages.first())));
+    let longest = tails.fold(Tail::default(), Tail::or_longer);
+    let written = cells.iter().map(|(number, unit)| {
+        html! { (number.markup(languages)) " " span.unit { (unit) } (number.pad(languages, &longest)) }
+    });
+    written.collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

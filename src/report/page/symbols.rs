@@ -54,7 +54,9 @@ fn is_symbol(before: Option<char>, letter: char, after: &str) -> bool {
     let begins = !unit && before.is_none_or(|c| factor(c) || !c.is_alphanumeric() && !"·°'’.-_@".contains(c));
     let subscript = |c: char| c == '_' || ('₀'..='₉').contains(&c);
     let squared = |c: char| letter == 'u' && c == '²';
-    let ends = next.is_none_or(|c| greek && subscript(c) || squared(c) || !c.is_alphanumeric() && !"'’_@".contains(c));
+    let ends = next.is_none_or(|c| {
+        (greek || letter == 'g') && subscript(c) || squared(c) || !c.is_alphanumeric() && !"'’_@".contains(c)
+    });
     let abbreviated = next == Some('.') && second.is_some_and(char::is_alphanumeric);
     begins && ends && !abbreviated
 }

@@ -52,6 +52,8 @@ pub(crate) mod units {
         DEG_PER_H { en: "°/h", ru: "°/ч" }
         DEG_PER_H2 { en: "°/h²", ru: "°/ч²" }
         DEG_PER_H_PER_G { en: "°/(h·g)", ru: "°/(ч·g)" }
+        // Per the g of a gyro type; without a zero, per local g.
+        DEG_PER_H_PER_G0 { en: "°/(h·g₀)", ru: "°/(ч·g₀)" }
         DEG_PER_H_PER_G2 { en: "°/(h·g²)", ru: "°/(ч·g²)" }
         DEG_PER_H_PER_MA { en: "°/(h·mA)", ru: "°/(ч·мА)" }
         M_PER_S2 { en: "m/s²", ru: "м/с²" }

@@ -3,7 +3,7 @@
 
 use super::accuracy::unit;
 use super::drawing::{Point, Scale, arrow, coordinate, legend, line, polygon, rectangle, strip, strip_axis, whisker};
-use crate::calibration::{Decision, ParameterVerdict, Verdict};
+use crate::calibration::{Decision, Parameter, ParameterVerdict, Verdict};
 use crate::report::page::Number;
 use crate::report::page::language::{Languages, Text};
 use crate::report::page::texts::{pictures as texts, units};
@@ -136,7 +136,15 @@ pub(crate) fn printed(row: &ParameterVerdict) -> (Number, Number) {
 
 /// Returns the unit of a line of a verdict: percent for scale factors, the parameter's own otherwise.
 pub(crate) fn unit_of(row: &ParameterVerdict) -> Text {
-    if row.unit == "%" { units::PERCENT } else { unit(row.parameter) }
+    if row.unit == "%" { units::PERCENT } else { unit_at_type(row.parameter) }
+}
+
+/// Returns the unit of a parameter that refers to the g of a gyro type; that of one at local g has no zero.
+pub(crate) fn unit_at_type(parameter: Parameter) -> Text {
+    match unit(parameter) {
+        units::DEG_PER_H_PER_G => units::DEG_PER_H_PER_G0,
+        other => other,
+    }
 }
 
 /// Returns a decision as a text for pages.

@@ -8,13 +8,13 @@ use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::gyro::GyroType;
 use crate::report::page::language::{Language, Languages, Text, values};
-use crate::report::page::number::{Cell, Number, column};
+use crate::report::page::number::{Cell, Number, column, column_with_units};
 use crate::report::page::parts::{Column, Table, heading, listed, mark, marked, quantity, symbol_and_unit};
 use crate::report::page::spacing::BLANK;
 use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::accuracy::unit;
-use crate::report::picture::tolerances::{Strips, decision, key, printed, unit_of};
+use crate::report::picture::tolerances::{Strips, decision, key, printed, unit_at_type, unit_of};
 use crate::report::style::Outcome;
 use crate::report::tolerance::coverage_factor;
 use crate::wording::date_text;
@@ -142,7 +142,7 @@ fn table(
         // A telephone shows the first column and few others: the decision is there too.
         html! {
             span.narrow-only { (mark(Outcome::of(verdict.decision(row)))) (BLANK) }
-            (parameter(row)) ", " (languages.spoken(unit(row.parameter)))
+            (parameter(row)) ", " (languages.spoken(unit_at_type(row.parameter)))
         }
     };
     // Of parameters that are not valid, a risk has no meaning.
@@ -151,17 +151,15 @@ fn table(
         false => Cell::probability(row.specific_risk),
     };
     let risks = column(languages, rows.iter().map(risk));
-    let mut tolerances = numbers(texts::TOLERANCE, &|row| Number::exact(row.tolerance));
-    for (tolerance, row) in tolerances.cells.iter_mut().zip(rows) {
-        *tolerance = html! { (tolerance) " " span.unit { (languages.spoken(unit_of(row))) } };
-    }
+    let tolerance = |row: &ParameterVerdict| (Number::exact(row.tolerance), html! { (languages.spoken(unit_of(row))) });
+    let tolerances = column_with_units(languages, rows.iter().map(tolerance));
     let mut columns = vec![
         numbers(texts::FOUND, &|row| Number::measured(row.value, expanded(row))),
         numbers(texts::PLUS_MINUS, &|row| Number::uncertainty(expanded(row))),
         numbers(reference, &|row| Number::measured(row.reference_value, expanded(row))),
         numbers(deviation, &|row| printed(row).0),
         numbers(texts::PLUS_MINUS, &|row| printed(row).1),
-        tolerances,
+        Column::named(languages, texts::TOLERANCE, tolerances),
         Column { foot: strips.axis(languages), ..each(texts::IN_TOLERANCE, &|row| strips.strip(verdict, row)) },
         each(texts::GUARDED, &|row| decided(languages, verdict.decision(row))),
         Column::named(languages, texts::RISK, risks),

@@ -5,12 +5,12 @@ use super::parameters::name_of;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{COVERAGE_FACTOR, Found, Verdict};
 use crate::gyro::GyroType;
-use crate::report::page::language::Languages;
+use crate::report::page::language::{Languages, values};
 use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{Column, Table, date, heading, starts};
 use crate::report::page::texts::calibration as texts;
 use crate::report::picture::accuracy::unit;
-use crate::report::picture::tolerances::Strips;
+use crate::report::picture::tolerances::{Strips, unit_at_type};
 use jiff::civil::Date;
 use maud::{Markup, html};
 
@@ -42,6 +42,8 @@ pub(super) fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
 
 fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
     let gravity = page.gyro.map_or(page.document.gravity_m_per_s2, GyroType::gravity);
+    let (unit_of, of): (fn(_) -> _, _) =
+        if page.gyro.is_some() { (unit_at_type, texts::OF_TYPE) } else { (unit, texts::OF_PLACE) };
     let strips = Strips::of(all.iter().filter_map(|past| past.verdict.as_ref()));
     // The calibrations of a parameter stand below one another, so that its strips show what has changed.
     let each = Parameter::AS_IN_THE_PAPER.into_iter().flat_map(|parameter| {
@@ -60,7 +62,7 @@ fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
     let starts = starts(each.iter().map(|(parameter, ..)| *parameter));
     let names = each.iter().enumerate().map(|(place, (parameter, number, past, ..))| {
         // The name is shown once for its calibrations; screen readers say it in each row.
-        let name = html! { (name_of(parameter.symbol())) ", " (languages.spoken(unit(*parameter))) };
+        let name = html! { (name_of(parameter.symbol())) ", " (languages.spoken(unit_of(*parameter))) };
         let first = place == 0 || starts.contains(&place);
         let day = past.date.map_or_else(|| html! { (number) }, |day| date(languages, day));
         vec![html! { @if first { (name) } @else { span.unseen { (name) } } }, day]
@@ -79,5 +81,13 @@ fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
     }
     let headings = [texts::PARAMETER, texts::CALIBRATED].map(|text| languages.label(text));
     let table = Table::of(headings.into(), names, &columns);
-    Table { starts, class: "numbers result past", ..table }.captioned(languages, texts::HISTORY_CAPTION)
+    let caption = languages.label_with(|language| {
+        let g = Number::measured(
+            gravity,
+            if page.gyro.is_some() { 0.0 } else { page.document.gravity_u_m_per_s2.unwrap_or(0.0) },
+        );
+        texts::HISTORY_CAPTION.filled(language, values! { of, g })
+    });
+    let table = Table { caption: Some(caption), starts, class: "numbers result past", ..table };
+    table.markup(languages.spoken(texts::HISTORY))
 }

@@ -198,10 +198,10 @@ impl CalibrationPage<'_> {
                 h1 { (languages.label_with(|language| self.gyro_name(language))) }
                 p.subject { (languages.label(texts::SUBTITLE)) }
             }
-            (contents(languages, texts::SAVE, (&address, "calibration.json"), &sections, texts::ANNEX))
             main {
                 (self.headlines(languages))
                 (subject::band(self, languages))
+                (contents(languages, texts::SAVE, (&address, "calibration.json"), &sections, texts::ANNEX))
                 (numbered(languages, &sections))
                 (closing::sections(self, languages))
             }
@@ -234,7 +234,11 @@ impl CalibrationPage<'_> {
 
     fn verdict(&self, languages: &Languages) -> Markup {
         let Some((gyro, verdict)) = self.judged() else {
-            let words = html! { (languages.paragraph(texts::NO_TYPE_WORDS)) (self.not_linear(languages)) };
+            let words = html! {
+                (languages.paragraph(texts::NO_TYPE_WORDS))
+                (self.not_in_u(languages))
+                (self.not_linear(languages))
+            };
             return outcome_box(Outcome::NotAsked, &languages.label(texts::NO_TYPE), words);
         };
         if verdict.withheld {
@@ -256,10 +260,22 @@ impl CalibrationPage<'_> {
             @if let Some(change) = change {
                 (conformity::counted(change, Some(texts::CHANGE_COUNTED), languages))
             }
+            (self.not_in_u(languages))
             (self.not_linear(languages))
             (languages.paragraph(texts::RULE))
         };
         outcome_box(worst, &languages.label_with(name), words)
+    }
+
+    /// Writes how many inputs U does not include, if there are any.
+    fn not_in_u(&self, languages: &Languages) -> Markup {
+        let count = self.missing.len();
+        if count == 0 {
+            return html! {};
+        }
+        languages.paragraph_with(|language| {
+            italic(&texts::NOT_IN_U.filled(language, values! { count, section: texts::BLIND }))
+        })
     }
 
     /// Writes the parameters for which a Monte Carlo run shows that the linear approximation is not valid.

@@ -52,6 +52,10 @@ texts! {
         ru: "Правило принятия решения: приёмка с защитной полосой, равной расширенной неопределённости U (JCGM 106, \
              8.3). Вероятность охвата 95,45 %."
     }
+    NOT_IN_U {
+        en: "Inputs without a stated uncertainty, not included in U: {count}; see section “{section}”.",
+        ru: "Входные величины без указанной неопределённости, не учтённые в U: {count}; см. раздел «{section}»."
+    }
     NO_TYPE { en: "Parameters determined", ru: "Параметры определены" }
     NO_TYPE_WORDS {
         en: "No gyro type was specified; this report makes no statement of conformity.",
@@ -197,18 +201,15 @@ texts! {
         ru: "Температура в лаборатории {here} °C; отклонения стенда определены при температуре от {low} до \
              {high} °C."
     }
-    GRAVITY {
-        en: "Local gravity (the g of the drifts)",
-        ru: "Местное ускорение свободного падения (g, к которому отнесены составляющие дрейфа)"
-    }
+    GRAVITY { en: "Gravity g, local", ru: "Ускорение g, местное" }
 
     PARAMETERS { en: "Parameters", ru: "Параметры" }
     RESULT { en: "Result", ru: "Результат" }
     RESULT_CAPTION {
-        en: "Parameters with their expanded uncertainty U (coverage factor k = {k}; coverage probability 95.45 %); drifts \
-             refer to local g",
+        en: "Parameters with their expanded uncertainty U (coverage factor k = {k}; coverage probability 95.45 %); ω_g and \
+             ω_k refer to local g",
         ru: "Параметры и их расширенная неопределённость U (коэффициент охвата k = {k}; вероятность охвата 95,45 %); \
-             составляющие дрейфа отнесены к местному g"
+             ω_g и ω_k отнесены к местному g"
     }
     PASSED { en: "{passed} of {all} parameters pass", ru: "Соответствуют допускам {passed} из {all} параметров" }
     CHANGE_COUNTED { en: "Change since the previous calibration:", ru: "Изменение после предыдущей калибровки." }
@@ -223,8 +224,8 @@ texts! {
     METHODS { en: "Methods and convergence", ru: "Методы и сходимость" }
     NEGLIGIBLE { en: "negligible, below a thousandth of u", ru: "пренебрежимо мала, менее тысячной доли u" }
     PARAMETERS_CAPTION {
-        en: "Values, each with its standard uncertainty u (k = 1) below it; drifts refer to local g, {g} m/s²",
-        ru: "Значения и под ними стандартная неопределённость u (k = 1); составляющие дрейфа отнесены к \
+        en: "Values, each with its standard uncertainty u (k = 1) below it; ω_g and ω_k refer to local g, {g} m/s²",
+        ru: "Значения и под ними стандартная неопределённость u (k = 1); ω_g и ω_k отнесены к \
              местному g, {g} м/с²"
     }
     ADOPTED { en: "{method} (adopted result)", ru: "{method} (принятый результат)" }
@@ -273,25 +274,27 @@ texts! {
     CONFORMITY { en: "Comparison with gyro type {type}", ru: "Сравнение с типом {type}" }
     VERDICT_CAPTION {
         en: "Deviation from the nominal value; expanded uncertainty U (coverage factor k = {k}; coverage probability \
-             95.45 %); drifts refer to the g of the type, {g} m/s²",
+             95.45 %); ω_g and ω_k refer to the g of the type, g₀\u{a0}=\u{a0}{g} m/s²",
         ru: "Отклонение от номинального значения; расширенная неопределённость U (коэффициент охвата k = {k}; вероятность \
-             охвата 95,45 %); составляющие дрейфа отнесены к g типа, {g} м/с²"
+             охвата 95,45 %); ω_g и ω_k отнесены к g типа, g₀\u{a0}=\u{a0}{g} м/с²"
     }
     STUDENT { en: "{k} (Student’s t)", ru: "{k} (коэффициент Стьюдента)" }
     CHANGE { en: "Change since the previous calibration", ru: "Изменение после предыдущей калибровки" }
     HISTORY { en: "All calibrations of this gyro", ru: "Все калибровки этого гироскопа" }
     HISTORY_CAPTION {
         en: "Parameters from the earliest calibration to this one, with expanded uncertainty U\u{a0}=\u{a0}2u \
-             (coverage factor k = 2; for the marks, U of coverage probability 95.45 %); drifts refer to the same g",
+             (coverage factor k = 2; for the marks, U of coverage probability 95.45 %); ω_g and ω_k refer to {of}\u{a0}{g} m/s²",
         ru: "Параметры от первой калибровки до этой, с расширенной неопределённостью U\u{a0}=\u{a0}2u \
-             (коэффициент охвата k = 2; для отметок — U для вероятности охвата 95,45 %); составляющие дрейфа отнесены к одному g"
+             (коэффициент охвата k = 2; для отметок — U для вероятности охвата 95,45 %); ω_g и ω_k отнесены к {of}\u{a0}{g} м/с²"
     }
+    OF_TYPE { en: "the g of the type, g₀\u{a0}=", ru: "g типа, g₀\u{a0}=" }
+    OF_PLACE { en: "local g,", ru: "местному g," }
     CALIBRATED { en: "Calibration", ru: "Калибровка" }
     CHANGE_CAPTION {
         en: "Change; the tolerance also limits the instability; expanded uncertainty U (coverage factor k = {k}; coverage \
-             probability 95.45 %); drifts refer to the g of the type, {g} m/s²",
+             probability 95.45 %); ω_g and ω_k refer to the g of the type, g₀\u{a0}=\u{a0}{g} m/s²",
         ru: "Изменение (допуск относится и к нестабильности); расширенная неопределённость U (коэффициент охвата k = {k}; \
-             вероятность охвата 95,45 %); составляющие дрейфа отнесены к g типа, {g} м/с²"
+             вероятность охвата 95,45 %); ω_g и ω_k отнесены к g типа, g₀\u{a0}=\u{a0}{g} м/с²"
     }
     PARAMETER { en: "Parameter", ru: "Параметр" }
     NOMINAL { en: "Nominal", ru: "Номин. значение" }
@@ -308,8 +311,8 @@ texts! {
     FROM_TURN_ONS {
         en: "The scatter of the turn-ons, {u}, is most of the standard uncertainty of ω_0x and ω_0y. To reduce it, take more \
              turn-ons.",
-        ru: "Нестабильность от запуска к запуску, {u}, составляет большую часть стандартной неопределённости ω_0x и \
-             ω_0y. Для её уменьшения следует увеличить число запусков."
+        ru: "Шум гироскопа от запуска к запуску, {u}, составляет большую часть стандартной неопределённости ω_0x и \
+             ω_0y. Для его уменьшения следует увеличить число запусков."
     }
     DEVIATION { en: "Deviation", ru: "Отклонение" }
     CHANGED_BY { en: "Change", ru: "Изменение" }
@@ -359,7 +362,7 @@ texts! {
         ru: "Рассеяние между запусками, хи-квадрат"
     }
     VISIT_NOISE { en: "Gyro noise from visit to visit", ru: "Шум гироскопа от установки к установке" }
-    TURN_ON_NOISE { en: "Gyro noise from turn-on to turn-on", ru: "Нестабильность гироскопа от запуска к запуску" }
+    TURN_ON_NOISE { en: "Gyro noise from turn-on to turn-on", ru: "Шум гироскопа от запуска к запуску" }
     NOISE_STATED { en: "as the gyro type states", ru: "по данным типа гироскопа" }
     NOISE_ESTIMATED {
         en: "estimated, {known} degrees of freedom",
@@ -494,21 +497,22 @@ texts! {
     NOT_STATED_GAIN { en: "gain of the meter", ru: "коэффициент преобразования измерителя" }
     NOT_STATED_OFFSET { en: "offset of the meter", ru: "смещение нуля измерителя" }
     NOT_STATED_VISITS { en: "gyro noise from visit to visit", ru: "шум гироскопа от установки к установке" }
-    NOT_STATED_TURN_ONS { en: "gyro noise from turn-on to turn-on", ru: "нестабильность гироскопа от запуска к запуску" }
+    NOT_STATED_TURN_ONS { en: "gyro noise from turn-on to turn-on", ru: "шум гироскопа от запуска к запуску" }
     NOT_STATED_GRAVITY { en: "gravity", ru: "ускорение свободного падения" }
     NOT_STATED_LEVEL { en: "level of the base", ru: "горизонтирование основания" }
     NOT_STATED_SEAT { en: "gyro seat", ru: "установка гироскопа на посадочную поверхность" }
 
     BUDGET { en: "Uncertainty budget", ru: "Бюджет неопределённости" }
     BUDGET_CAPTION {
-        en: "Contributions of the inputs, by kind, to the standard uncertainty of each parameter; drifts refer to local \
+        en: "Contributions of the inputs, by kind, to the standard uncertainty of each parameter; ω_g and ω_k refer to local \
              g, whose own uncertainty is not included",
-        ru: "Вклады входных величин по видам в стандартную неопределённость каждого параметра; составляющие дрейфа \
-             отнесены к местному g, неопределённость которого не включена"
+        ru: "Вклады входных величин по видам в стандартную неопределённость каждого параметра; ω_g и ω_k отнесены к \
+             местному g, неопределённость которого не включена"
     }
     SHARES_CAPTION {
-        en: "Standard uncertainty u of each parameter, and where its variance u² comes from",
-        ru: "Стандартная неопределённость u каждого параметра и составляющие её дисперсии u²"
+        en: "Standard uncertainty u of each parameter, and where its variance u² comes from; ω_g and ω_k refer to \
+             local g",
+        ru: "Стандартная неопределённость u каждого параметра и составляющие её дисперсии u²; ω_g и ω_k отнесены к местному g"
     }
     SHARES { en: "Share of the variance, %", ru: "Доля дисперсии, %" }
     OTHER_INPUTS { en: "other inputs", ru: "прочие входные величины" }
@@ -561,8 +565,8 @@ texts! {
     CAUSE_DIFFERENCES { en: "differences between visits", ru: "разности между установками" }
     CAUSE_TURN_ON { en: "gyro, turn-ons about {axis}", ru: "гироскоп, среднее по запускам, ось {axis}" }
     CAUSE_NOISE { en: "meter, noise", ru: "измеритель, шум показаний" }
-    CAUSE_PLATFORM { en: "platform about {axis}", ru: "поворот платформы вокруг {axis}" }
-    CAUSE_SEAT { en: "gyro seat about {axis}", ru: "поворот посадочной поверхности вокруг {axis}" }
+    CAUSE_PLATFORM { en: "platform about {axis}", ru: "платформа, ось {axis}" }
+    CAUSE_SEAT { en: "gyro seat about {axis}", ru: "посадочная поверхность, ось {axis}" }
     CAUSE_BASE { en: "base of the stand about {axis}", ru: "поворот основания стенда вокруг {axis}" }
     ABOUT_EAST { en: "east", ru: "направления на восток" }
     ABOUT_NORTH { en: "north", ru: "направления на север" }
@@ -577,8 +581,10 @@ texts! {
 
     MONTE_CARLO { en: "Monte Carlo method", ru: "Метод Монте-Карло" }
     MONTE_CARLO_CAPTION {
-        en: "{trials} trials, seed {seed}; probabilistically symmetric 95 % coverage intervals",
-        ru: "Число испытаний {trials}, начальное значение генератора {seed}; вероятностно симметричные интервалы охвата для вероятности 95 %"
+        en: "{trials} trials, seed {seed}; probabilistically symmetric coverage intervals of coverage probability 95 % (that of U: \
+             95.45 %); ω_g and ω_k refer to local g",
+        ru: "Число испытаний {trials}, начальное значение генератора {seed}; вероятностно симметричные интервалы охвата для \
+             вероятности 95 % (для U — 95,45 %); ω_g и ω_k отнесены к местному g"
     }
     MEAN { en: "Mean", ru: "Среднее" }
     LOWER { en: "Lower end", ru: "Нижняя граница" }
@@ -617,8 +623,7 @@ texts! {
     ANNEX_NOTE {
         en: "The result as computed by the program, with all digits. A later calibration can be compared with this \
              file.",
-        ru: "Вычисленный программой результат, все числа приведены полностью. С этим файлом сравнивают результат \
-             последующей калибровки."
+        ru: "Результат вычислений со всеми цифрами. С этим файлом можно сравнить последующую калибровку."
     }
     SAVE { en: "Save the result", ru: "Сохранить результат" }
 }
