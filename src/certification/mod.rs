@@ -289,17 +289,38 @@ fn differences(turns: &[Turn], readings: &AngleReadings) -> Vec<DVector<f64>> {
     (0..readings.runs.len()).map(of_run).collect()
 }
 
+impl Certification {
+    /// Returns the degrees of freedom of the common parts of platform and base in the certificate, from the runs and the type B
+    /// variances that act on them; `None` for a part that is absent or known exactly.
+    pub(crate) fn freedom_of_common_parts(&self) -> [Option<f64>; 2] {
+        let (components, number) = (&self.components, self.runs.len() as f64);
+        let of = |seen: Option<&Common>, on: ActsOn| {
+            let seen = seen.map(|common| Variance {
+                value: common.between_runs_arcsec2 / number,
+                degrees_of_freedom: common.degrees_of_freedom,
+            });
+            let freedom = Variance::sum(seen.into_iter().chain(type_b(&self.stand.certificate, on))).degrees_of_freedom;
+            freedom.is_finite().then_some(freedom)
+        };
+        [of(Some(&components.platform), ActsOn::Platform), of(components.base.as_ref(), ActsOn::Base)]
+    }
+}
+
+/// Returns the type B variances that a certificate states for `on`, arcsec².
+fn type_b(certificate: &Certificate, on: ActsOn) -> impl Iterator<Item = Variance> {
+    certificate.type_b_on(on).map(|line| Variance {
+        value: line.u_arcsec * line.u_arcsec,
+        degrees_of_freedom: line.degrees_of_freedom.unwrap_or(f64::INFINITY),
+    })
+}
+
 /// Returns the variance of a certified mean about one axis of the case, arcsec²: the variance `axis` of one visit,
 /// scaled by the `scatter` of the position relative to that of all and by its `share` in the mean, plus the type B
 /// variances that `certificate` states for a position.
 fn of_mean(axis: Variance, scatter: Option<Variance>, share: f64, certificate: &Certificate) -> Variance {
     let of_position = scatter.unwrap_or(Variance { value: 1.0, ..axis });
     let repeated = Variance { value: axis.value * of_position.value * share, ..of_position };
-    let type_b = certificate.type_b_on(ActsOn::Position).map(|line| Variance {
-        value: line.u_arcsec * line.u_arcsec,
-        degrees_of_freedom: line.degrees_of_freedom.unwrap_or(f64::INFINITY),
-    });
-    Variance::sum(std::iter::once(repeated).chain(type_b))
+    Variance::sum(std::iter::once(repeated).chain(type_b(certificate, ActsOn::Position)))
 }
 
 /// Returns the certified position with the means `mean` (α, β, γ, arcsec) and their uncertainties, where `own` is the

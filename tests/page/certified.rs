@@ -195,6 +195,8 @@ fn a_record_begins_with_its_result() {
         for key in ["repeatability_arcsec", "common_platform_arcsec", "common_base_arcsec"] {
             assert!(band.contains(&format!("value=\"{}\"", certificate[key])), "{}: {key} in {band}", record.name);
         }
+        // Each with its degrees of freedom.
+        assert_eq!(band.matches("ν</i></span> = ").count(), 3, "{}: {band}", record.name);
         let (_, first) = sections.split_once("<section id=\"").unwrap();
         assert!(first.starts_with("result\""), "{}", record.name);
     }
@@ -252,7 +254,11 @@ fn every_test_has_a_result_with_its_mark() {
         // The angles that were tested, if the test names none.
         if certification["outliers"].as_array().unwrap().is_empty() {
             let runs = certification["run_turns"].as_array().unwrap().len();
-            let angles = 3 * runs * certification["stand"]["positions"].as_array().unwrap().len();
+            // An excluded reading was not tested; an excluded run has no turn.
+            let excluded = certification["stand"]["certificate"]["evidence"]["excluded"].as_array();
+            let readings = excluded.map_or(0, |all| all.iter().filter(|one| one.get("i").is_some()).count());
+            let positions = certification["stand"]["positions"].as_array().unwrap().len();
+            let angles = 3 * (runs * positions - readings);
             assert!(
                 rows.iter().any(|row| row[1]["text"].as_str().unwrap().contains(&format!(" {angles}"))),
                 "{rows:?}"

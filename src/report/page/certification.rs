@@ -11,8 +11,8 @@ mod evidence;
 use super::language::{Languages, values};
 use super::number::Number;
 use super::parts::{
-    band, boxed, contents, data_address, date, file_name, given, heading, not_stated, numbered, quantity, section,
-    signatures, symbol, verbatim,
+    band, boxed, contents, data_address, date, file_name, given, heading, marked, not_stated, numbered, quantity,
+    section, signatures, symbol, verbatim,
 };
 use super::passport::{characteristics, general};
 use super::shell::{Margins, document};
@@ -70,13 +70,13 @@ impl CertificationPage<'_> {
                 h1 { (given(stand.stand.model.as_str())) " №\u{a0}" (given(stand.stand.serial.as_str())) ", " (given(&stand.certificate.number)) }
                 p.subject { (languages.label(texts::SUBTITLE)) }
             }
-            (contents(languages, texts::SAVE, (&address, file_name(self.readings.0)), &sections, texts::ANNEX))
             main {
                 @if self.dry_run {
                     (boxed("verdict refused", languages.label(texts::DRAFT), languages.paragraph(texts::DRAFT_WORDS)))
                 }
                 (change::verdict(self, languages))
                 (self.band(languages))
+                (contents(languages, texts::SAVE, (&address, file_name(self.readings.0)), &sections, texts::ANNEX))
                 (numbered(languages, &sections))
                 @if !self.dry_run {
                     (section(languages, "signatures", calibration_texts::SIGNATURES, signatures(languages, who)))
@@ -91,7 +91,11 @@ impl CertificationPage<'_> {
         let certificate = &self.certification.stand.certificate;
         let arcsec = |u| quantity(languages, &Number::uncertainty(u), units::ARCSEC);
         let u = |value: Option<f64>| value.map_or_else(|| not_stated(languages), arcsec);
-        let k = html! { p { (languages.label(texts::STANDARD)) } };
+        let [of_platform, of_base] = self.certification.freedom_of_common_parts();
+        let k = |freedom: Option<f64>| {
+            let freedom = freedom.map(|freedom| Number::at_most(freedom, 1).markup(languages));
+            html! { p { (languages.label(texts::STANDARD)) } @if let Some(freedom) = freedom { p { (symbol("ν", "")) " = " (freedom) } } }
+        };
         let freedom =
             certificate.repeatability_degrees_of_freedom.map(|number| Number::exact(number).markup(languages));
         let day = certificate.performed.map(|day| date(languages, day));
@@ -108,8 +112,8 @@ impl CertificationPage<'_> {
                     u(certificate.repeatability_arcsec),
                     html! { p { (languages.label(texts::OF_A_VISIT)) } @if let Some(freedom) = freedom { p { (symbol("ν", "")) " = " (freedom) } } },
                 ),
-                (passport_texts::COMMON_PLATFORM, u(certificate.common_platform_arcsec), k.clone()),
-                (passport_texts::COMMON_BASE, u(certificate.common_base_arcsec), k),
+                (passport_texts::COMMON_PLATFORM, u(certificate.common_platform_arcsec), k(of_platform)),
+                (passport_texts::COMMON_BASE, u(certificate.common_base_arcsec), k(of_base)),
             ],
         )
     }
@@ -128,7 +132,27 @@ impl CertificationPage<'_> {
         html! {
             (characteristics::positions(&self.certification.stand.positions, languages))
             (languages.paragraph(passport_texts::DEVIATIONS_NOTE))
+            (self.outliers(languages))
         }
+    }
+
+    /// Writes which readings in the means the tests name.
+    fn outliers(&self, languages: &Languages) -> Markup {
+        let mut named: Vec<_> =
+            self.certification.suspects.outliers.iter().map(|out| (out.index, out.run, out.probability)).collect();
+        named.dedup_by_key(|(index, run, _)| (*index, *run));
+        let Some(worst) = named.iter().map(|(.., p)| *p).reduce(f64::min) else { return html! {} };
+        languages.paragraph_with(|language| {
+            let readings: Vec<String> = named
+                .iter()
+                .map(|(index, run, _)| texts::READING_OF.filled(language, values! { index, run }))
+                .collect();
+            let (readings, section) = (readings.join(", "), texts::TESTS);
+            marked(
+                evidence::graded(worst),
+                &html! { (texts::WITH_OUTLIERS.filled(language, values! { readings, section })) },
+            )
+        })
     }
 
     /// Writes the file of readings verbatim.

@@ -72,6 +72,7 @@ fn compared(comparison: &Comparison, changes: &[NumberDifference], languages: &L
     html! {
         (heading(languages, texts::ROTATIONS))
         (rotations(comparison, languages))
+        (languages.paragraph(texts::TWO_CHANGES))
         (fields([
             field(languages, texts::ALL_TOGETHER, Some(test(&comparison.all, languages))),
             field(languages, texts::COMMON_TURN, Some(common.map_or_else(|| html! { "–" }, |of| test(of, languages)))),

@@ -12,9 +12,13 @@ use crate::report::page::parts::{
 use crate::report::page::passport::characteristics;
 use crate::report::page::texts::{calibration, certification as texts, checks, units};
 use crate::report::style::Outcome;
+use crate::stand::Excluded;
 use crate::statistics::outlier::Bartlett;
 use crate::wording::compass;
 use maud::{Markup, html};
+
+/// Degrees of freedom at which a standard deviation has a relative standard uncertainty of 35 %: 1/√(2ν), JCGM 100, E.4.3.
+const FEW_DEGREES: f64 = 4.0;
 
 pub(super) fn readings(page: &CertificationPage, languages: &Languages) -> Markup {
     let certification = page.certification;
@@ -58,9 +62,17 @@ pub(super) fn uncertainty(page: &CertificationPage, languages: &Languages) -> Ma
         (heading(languages, texts::COMPONENTS))
         (languages.paragraph(texts::COMPONENTS_NOTE))
         (components(page, languages))
+        @if has_few_degrees(page) { (languages.paragraph(texts::FEW_DEGREES)) }
         (heading(languages, texts::RUN_TURNS))
         (run_turns(page, languages))
     }
+}
+
+/// Returns `true` if the common part of the platform or of the base has so few degrees of freedom that it says little.
+fn has_few_degrees(page: &CertificationPage) -> bool {
+    let components = &page.certification.components;
+    let mut common = std::iter::once(&components.platform).chain(&components.base);
+    common.any(|part| part.degrees_of_freedom < FEW_DEGREES)
 }
 
 fn components(page: &CertificationPage, languages: &Languages) -> Markup {
@@ -205,7 +217,11 @@ fn without_findings<'a>(page: &CertificationPage, languages: &'a Languages) -> i
     let (runs, axes) = (page.certification.runs.len(), 3 + components.base_axes);
     let (bumped, moved): (Vec<&RotatedRuns>, Vec<_>) =
         page.certification.rotated_runs.iter().partition(|at| at.run().is_some());
-    let angles = runs * components.keeps.nrows();
+    // An excluded reading has no residual: the three angles of its position are predicted.
+    let evidence = page.certification.stand.certificate.evidence.as_ref();
+    let excluded = evidence.and_then(|evidence| evidence.excluded.as_deref()).unwrap_or_default();
+    let is_left_out = |at: &&Excluded| at.index().is_some() && page.certification.runs.contains(&at.run);
+    let angles = runs * components.keeps.nrows() - 3 * excluded.iter().filter(is_left_out).count();
     let none = [
         (texts::OUTLYING_ANGLES, texts::NO_ANGLE, angles, suspects.outliers.is_empty() && suspects.split.is_none()),
         (texts::ROTATED_RUNS, texts::NO_RUN, runs, bumped.is_empty() && runs >= FEWEST_RUNS),
@@ -221,7 +237,7 @@ fn without_findings<'a>(page: &CertificationPage, languages: &'a Languages) -> i
 }
 
 /// Returns the outcome of a test from its probability: an outlier fails, a straggler decides nothing.
-fn graded(probability: f64) -> Outcome {
+pub(super) fn graded(probability: f64) -> Outcome {
     match probability {
         p if p < OUTLIER => Outcome::Failed,
         p if p < STRAGGLER => Outcome::Undecided,

@@ -3,14 +3,14 @@
 use super::texts;
 
 texts! {
-    TITLE { en: "Record of the certification of a test stand", ru: "Протокол калибровки поворотного стенда" }
+    TITLE { en: "Record of the calibration of a test stand", ru: "Протокол калибровки поворотного стенда" }
     SUBTITLE {
         en: "Readings, tests and uncertainty behind a calibration certificate",
         ru: "Показания, критерии и неопределённость, на которых основан сертификат калибровки"
     }
-    MARGIN { en: "Record of the certification, certificate {number}", ru: "Протокол к сертификату {number}" }
+    MARGIN { en: "Calibration record, certificate {number}", ru: "Протокол к сертификату {number}" }
     MARGIN_SHA256 { en: "SHA-256 of the file of readings {sha256}", ru: "SHA-256 файла показаний {sha256}" }
-    END { en: "End of the record of the certification, certificate {number}", ru: "Конец протокола к сертификату {number}" }
+    END { en: "End of the calibration record, certificate {number}", ru: "Конец протокола к сертификату {number}" }
 
     SUBJECT { en: "Stand and certificate", ru: "Стенд и сертификат" }
 
@@ -34,7 +34,12 @@ texts! {
     REASON { en: "Reason", ru: "Причина" }
 
     RESULT { en: "Certified deviations", ru: "Отклонения положений" }
-    OF_A_VISIT { en: "standard deviation of one visit", ru: "стандартное отклонение одной установки" }
+    WITH_OUTLIERS {
+        en: "The means include readings that a test names as outliers or stragglers: {readings}; see section “{section}”.",
+        ru: "В средние вошли показания, отмеченные критерием как выбросы или квазивыбросы: {readings}; см. раздел «{section}»."
+    }
+    READING_OF { en: "position {index}, run {run}", ru: "положение {index}, серия {run}" }
+    OF_A_VISIT { en: "standard deviation of one visit, pooled over x, y, z", ru: "стандартное отклонение одной установки, общее для x, y, z" }
     STANDARD { en: "standard uncertainty (k = 1)", ru: "стандартная неопределённость (k = 1)" }
 
     UNCERTAINTY { en: "Uncertainty", ru: "Неопределённость" }
@@ -43,10 +48,14 @@ texts! {
     COMPONENTS_NOTE {
         en: "A reading differs from the mean of its position by a rotation of the platform and one of the base, both \
              common to the whole run, and by the scatter of the single visit. s: standard deviation; ν: its degrees of \
-             freedom; s/√R: its part in the mean of R runs.",
+             freedom; s/√R: its part in the mean of R runs. The repeatability is their quadratic mean over x, y and z.",
         ru: "Показание отличается от среднего по положению на поворот платформы и поворот основания, общие для всей \
              серии, и на разброс одной установки. s — стандартное отклонение, ν — число его степеней свободы, \
-             s/√R — его часть в среднем по R\u{a0}сериям."
+             s/√R — его часть в среднем по R\u{a0}сериям. Повторяемость — их среднее квадратическое по x, y и z."
+    }
+    FEW_DEGREES {
+        en: "Below ν = 4 the uncertainty of s itself exceeds 35 % (JCGM 100, E.4.3): see its upper limit.",
+        ru: "При ν < 4 неопределённость самой s более 35 % (JCGM 100, E.4.3): см. её верхнюю границу."
     }
     COMPONENT { en: "Component", ru: "Составляющая" }
     OWN_X { en: "Visit, about x", ru: "Установка, вокруг x" }
@@ -62,10 +71,10 @@ texts! {
 
     TESTS { en: "Tests", ru: "Статистические критерии" }
     TEST { en: "Test", ru: "Критерий" }
-    STATISTIC { en: "Statistic", ru: "Статистика" }
+    STATISTIC { en: "Value", ru: "Значение" }
     PROBABILITY { en: "Probability", ru: "Вероятность" }
-    BARTLETT_POSITIONS { en: "Bartlett: equal variances of all positions", ru: "Бартлетта: равенство дисперсий всех положений" }
-    BARTLETT_AXES { en: "Bartlett: equal variances about x, y and z", ru: "Бартлетта: равенство дисперсий вокруг x, y и z" }
+    BARTLETT_POSITIONS { en: "Bartlett: equal variances of all positions, chi-square", ru: "Бартлетта: равенство дисперсий всех положений, хи-квадрат" }
+    BARTLETT_AXES { en: "Bartlett: equal variances about x, y and z, chi-square", ru: "Бартлетта: равенство дисперсий вокруг x, y и z, хи-квадрат" }
     COCHRAN { en: "Cochran: position {index} scatters more, ratio", ru: "Кохрена: наибольший разброс в положении {index}, отношение" }
     GRUBBS {
         en: "Grubbs: position {index}, run {run}, about {axis}, residual, ″",
@@ -110,9 +119,9 @@ texts! {
     OUTLIER { en: "outlier", ru: "выброс" }
     STRAGGLER { en: "straggler", ru: "квазивыброс" }
     TESTS_NOTE {
-        en: "Probability of a result at least as extreme by chance: below 5 % a value is a straggler and equality is \
+        en: "Value: the quantity that the row names last. Probability of a result at least as extreme by chance: below 5 % a value is a straggler and equality is \
              doubtful, below 1 % it is an outlier and the variances are different. The tests exclude nothing.",
-        ru: "Вероятность случайно получить столь же большое значение: менее 5 % — квазивыброс, равенство сомнительно; \
+        ru: "Значение: величина, названная в строке последней. Вероятность случайно получить столь же большое значение: менее 5 % — квазивыброс, равенство сомнительно; \
              менее 1 % — выброс, дисперсии различаются. По критериям ничего не исключается."
     }
     WARNINGS_COUNTED {
@@ -148,6 +157,14 @@ texts! {
     ROTATIONS {
         en: "Rotation of each position relative to the other positions",
         ru: "Поворот каждого положения относительно остальных"
+    }
+    TWO_CHANGES {
+        en: "The rotation is of the case, relative to the other positions; its u is from one repeatability of all positions, \
+             and it decides. The change below is of the certified angles; its u is from the uncertainties of that angle in \
+             both certificates.",
+        ru: "Поворот корпуса — относительно остальных положений; его u — по единой повторяемости положений; по нему \
+             принимается решение. Изменение (ниже) — аттестованных углов; его u — по неопределённостям этого угла в обоих \
+             сертификатах."
     }
     REPEATS { en: "unchanged", ru: "без изменений" }
     REPEATS_NOT { en: "changed", ru: "изменилось" }
