@@ -112,6 +112,17 @@ function unfit() {
     if (seen(link) && !seen(target)) found.push(`a link to what is not seen: ${name(link)}`);
   }
   if (document.documentElement.scrollWidth > width) found.push(`the page scrolls sideways: ${document.documentElement.scrollWidth} > ${width}`);
+  // What the page answers stands above its list of contents.
+  const tops = [".verdict, .band", ".screen"].map((selector) => document.querySelector(selector).getBoundingClientRect()).filter((box) => box.height > 0);
+  if (tops.length === 2 && tops[0].top > tops[1].top) found.push("the contents stand above the verdict");
+  // Commands, designations and the parts of ids stand on one line, where the line is long enough.
+  for (const element of document.querySelectorAll(".n")) {
+    if (element.closest("pre") || element.textContent.length > 30) continue;
+    const range = document.createRange();
+    range.selectNodeContents(element);
+    const tops = new Set([...range.getClientRects()].filter((box) => box.width > 0).map((box) => Math.round(box.top / 4)));
+    if (tops.size > 1) found.push(`broken: ${name(element)}`);
+  }
   // The kind of the document is not broken before its last word.
   const kind = document.createRange();
   kind.selectNodeContents(document.querySelector(".kind > span"));
@@ -227,6 +238,17 @@ function misaligned() {
   return found;
 }
 
+/** Quantities in cells whose unit does not follow directly after the number: within the width of a digit and a space. */
+function torn() {
+  const found = [];
+  for (const unit of document.querySelectorAll(".numbers td > .unit")) {
+    const number = unit.parentElement.querySelector(":scope > data").getBoundingClientRect();
+    const gap = unit.getBoundingClientRect().left - number.right;
+    if (gap > parseFloat(getComputedStyle(unit).fontSize) * 0.5) found.push(`${gap.toFixed(1)} px between number and unit of ${unit.parentElement.textContent}`);
+  }
+  return found;
+}
+
 /** Marks the beginning of every heading and of every row below one, and says what was marked, in the order of the page. */
 function marked() {
   const heads = { H2: 2, H3: 3, CAPTION: 4, THEAD: 5 };
@@ -320,7 +342,7 @@ async function look(browser, folder, name) {
   await page.setViewportSize({ width: Math.floor((180 / 25.4) * 96), height: 1000 });
   result.unfit.print = await page.evaluate(unfit);
   result.crowded.print = await page.evaluate(crowded);
-  result.print = { small: await page.evaluate(small), misaligned: await page.evaluate(misaligned), upright: await page.evaluate(upright) };
+  result.print = { small: await page.evaluate(small), misaligned: await page.evaluate(misaligned), upright: await page.evaluate(upright), torn: await page.evaluate(torn) };
   const printed = path.join(folder, `${name}.pdf`);
   await page.pdf({ path: printed, preferCSSPageSize: true });
   const marks = await page.evaluate(marked);

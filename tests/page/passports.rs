@@ -115,7 +115,7 @@ fn the_verdict_is_large() {
         let (russian, english) = match case.name {
             "elsewhere-en" | "elsewhere-both" => (
                 "Не применять: относится к другому стенду, выдан для другого места",
-                "Not to be used: for another stand, for another place",
+                "Not to be used: for another stand, for another site",
             ),
             "expired-ru" => ("Не применять: срок действия истёк", "Not to be used: expired"),
             _ => ("Действует", "In force"),
@@ -138,7 +138,7 @@ const CHECKS: [[&str; 2]; 11] = [
     ["Withdrawal", "Отзыв"],
     ["Numbers", "Числа"],
     ["Validity period", "Срок действия"],
-    ["Issuer", "Кем выдан"],
+    ["Issuer", "Организация"],
     ["Stand", "Стенд"],
     ["Place", "Место"],
     ["Register", "Реестр"],

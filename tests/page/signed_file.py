@@ -52,15 +52,27 @@ def printed(text, comma):
 
 
 def derived(content):
-    """The uncertainties of the components of the Earth rate, which are not in the file: those of the latitude, propagated."""
+    """Uncertainties that are not in the file: of the astronomic latitude, and, propagated, of the components of the Earth rate."""
     site, earth = content["site"], content["earth"]
     latitude = (site.get("uncertainty") or {}).get("latitude_arcsec", 0)
     deflection = 0
     if "latitude_deg" in site:
         # An unknown deflection is taken as 0 with u = 10 arcseconds, as the file says.
         deflection = (site.get("deflection_arcsec") or {"u": 10}).get("u", 0)
-    u = math.radians(math.hypot(latitude, deflection) / 3600)
-    return [abs(earth[f"{other}_deg_per_h"]) * u for other in ("vertical", "horizontal")]
+    arcsec = math.hypot(latitude, deflection)
+    u = math.radians(arcsec / 3600)
+    return [arcsec, *(abs(earth[f"{other}_deg_per_h"]) * u for other in ("vertical", "horizontal"))]
+
+
+def of_the_mark(content):
+    """Coordinates that only the azimuth mark has, and the place of the second digit of their uncertainty."""
+    mark = content["site"].get("azimuth_mark") or {}
+    u = mark.get("position_u_m")
+    if not u:
+        return {}
+    along = math.cos(math.radians(mark["latitude_deg"]))
+    place = lambda metres: math.floor(math.log10(metres / 111e3)) - 1
+    return {mark["latitude_deg"]: place(u), mark["longitude_deg"]: place(u / along)}
 
 
 def main():
@@ -90,6 +102,14 @@ def main():
             wrong.append(f"{value} is on the page and not in the file")
         elif digits != Decimal(float(value)).quantize(Decimal(1).scaleb(place), ROUND_HALF_EVEN) and float(digits) != float(value):
             wrong.append(f"{shown} is not {value} rounded")
+
+    latitude_u, *_ = derived(content)
+    if latitude_u and not any(math.isclose(float(number["value"]), latitude_u, rel_tol=1e-12) for number in said["numbers"]):
+        wrong.append(f"the uncertainty of the astronomic latitude, {latitude_u}, is not on the page")
+    for value, due in of_the_mark(content).items():
+        places = [printed(number["text"], number["lang"] == "ru")[1] for number in said["numbers"] if float(number["value"]) == abs(value)]
+        if due not in places:
+            wrong.append(f"{value} has the last place {places}, and its uncertainty {due}")
 
     for day in said["days"]:
         year, month, date = day["value"][:10].split("-")

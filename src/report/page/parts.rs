@@ -45,9 +45,9 @@ pub(crate) fn heading(languages: &Languages, text: Text) -> Markup {
     html! { h3 { (languages.label(text)) } }
 }
 
-/// Writes words from the file, whose language is unknown.
+/// Writes words from the file, whose language is unknown; designations and the parts of an id stay whole.
 pub(crate) fn given(words: &str) -> Markup {
-    html! { span.given lang="" { (words) } }
+    html! { span.given lang="" { (unbroken(words)) } }
 }
 
 /// Writes an empty space to fill in by hand.

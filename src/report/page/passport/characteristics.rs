@@ -13,8 +13,11 @@ use crate::report::picture::deviations::Bars;
 use crate::report::picture::{place as map, positions as picture};
 use crate::site::{Earth, Site};
 use crate::stand::{ActsOn, Certificate, CertifiedPosition, Datum, Excluded, TypeB};
-use crate::units::ARCSECONDS_PER_DEGREE;
+use crate::units::{ARCSECONDS_PER_DEGREE, sin_cos_of_degrees};
 use maud::{Markup, html};
+
+/// Length of a degree on the ground, in metres, for the number of printed digits.
+const METRES_PER_DEGREE: f64 = 111e3;
 
 pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let content = &page.content;
@@ -205,8 +208,13 @@ fn with_u(value: f64, u: f64, unit: Text, languages: &Languages) -> Markup {
 
 fn mark(site: &Site, languages: &Languages) -> Markup {
     let Some(mark) = &site.azimuth_mark else { return html! {} };
+    // To the digits of their uncertainty on the ground.
+    let u_deg = mark.position_u_m.unwrap_or(0.0) / METRES_PER_DEGREE;
     let pair = |latitude: f64, longitude: f64| {
-        html! { (coordinate(languages, latitude, LATITUDES)) ", " (coordinate(languages, longitude, LONGITUDES)) }
+        let cosine = sin_cos_of_degrees(latitude).1;
+        let [latitude, longitude] =
+            [Number::measured(latitude, u_deg), Number::measured(longitude, u_deg / cosine.max(f64::MIN_POSITIVE))];
+        html! { (in_hemisphere(languages, latitude, LATITUDES)) ", " (in_hemisphere(languages, longitude, LONGITUDES)) }
     };
     let metres = |u: f64| quantity(languages, &Number::uncertainty(u), units::METRES);
     fields([
@@ -234,7 +242,13 @@ fn the_earth(site: &Site, earth: &Earth, languages: &Languages) -> Markup {
             (quantity(languages, &angle(azimuth, 0.0), units::DEGREES)) ", " (symbol("u", "")) " " (not_stated(languages))
         },
     });
-    let latitude = in_hemisphere(languages, angle(earth.latitude_deg, site.astronomic_latitude_u_arcsec()), LATITUDES);
+    let latitude_u = site.astronomic_latitude_u_arcsec();
+    let latitude = html! {
+        (in_hemisphere(languages, angle(earth.latitude_deg, latitude_u), LATITUDES))
+        @if latitude_u > 0.0 {
+            ", " (symbol("u", "")) " " (quantity(languages, &Number::uncertainty(latitude_u), units::ARCSEC))
+        }
+    };
     let [horizontal_u, vertical_u] = earth.rate_u_deg_per_h(site);
     fields([
         stated(languages, texts::EARTH_RATE, Some(rate(earth.rate_deg_per_h, 0.0))),

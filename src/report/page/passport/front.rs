@@ -25,13 +25,15 @@ pub(super) fn title(page: &PassportPage, languages: &Languages) -> Markup {
     }
 }
 
-pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
+/// Writes the first page; `contents` stands below the answers, which come first on a telephone too.
+pub(super) fn section(page: &PassportPage, languages: &Languages, contents: &Markup) -> Markup {
     let heading = "verification-heading";
     html! {
         section id="verification" aria-labelledby=(heading) {
             h2.unseen id=(heading) { (languages.label(texts::FRONT)) }
             (checks::refusal(page, languages))
             (answers(page, languages))
+            (contents)
             div.front {
                 (figure(languages, "stand", &picture(languages, page.content.site.frame_axis_azimuth_deg()), texts::FIGURE_STAND))
                 (proof(page, languages))
@@ -90,7 +92,7 @@ fn answers(page: &PassportPage, languages: &Languages) -> Markup {
         @if content.positions.iter().any(|at| at.u_alpha_arcsec.is_none()) {
             p { (languages.label(texts::WITHOUT_UNCERTAINTY)) }
         }
-        p.name { (languages.label(texts::SIGNED_BY)) }
+        p.name { (languages.label(texts::PASSPORT_ISSUER)) }
         p { (given(&content.passport.issuer)) }
     };
     let radius = quantity(languages, &Number::fixed(content.earth.valid_radius_m, 0), units::METRES);

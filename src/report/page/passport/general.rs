@@ -48,7 +48,7 @@ pub(crate) fn certificate(certificate: &Certificate, languages: &Languages) -> M
         stated(languages, texts::RECEIVED, certificate.received.map(day)),
         stated(languages, texts::VALID_UNTIL, certificate.valid_until.map(day)),
         stated(languages, texts::VALID_UNTIL_BASIS, certificate.valid_until_basis.as_deref().map(given)),
-        stated(languages, texts::LABORATORY, Some(given(&certificate.laboratory))),
+        stated(languages, texts::LABORATORY_OF_CERTIFICATE, Some(given(&certificate.laboratory))),
         stated(languages, texts::ADDRESS, certificate.address.as_deref().map(given)),
         stated(languages, texts::AUTHORISED_BY, certificate.authorized_by.as_deref().map(given)),
         stated(languages, texts::ACCREDITATION, certificate.accreditation.as_deref().map(given)),

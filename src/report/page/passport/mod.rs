@@ -122,11 +122,11 @@ impl<'a> PassportPage<'a> {
             ("accuracy", texts::ACCURACY, accuracy::section(self, languages)),
             ("record", record_texts::RECORD, record::section(self, languages)),
         ];
+        let contents = contents(languages, texts::SAVE, (&address, &self.file_name()), &sections, texts::ANNEX);
         html! {
             (front::title(self, languages))
-            (contents(languages, texts::SAVE, (&address, &self.file_name()), &sections, texts::ANNEX))
             main {
-                (front::section(self, languages))
+                (front::section(self, languages, &contents))
                 (numbered(languages, &sections))
                 (self.annex(languages))
             }

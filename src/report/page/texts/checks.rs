@@ -26,7 +26,7 @@ texts! {
     EXPIRED { en: "expired", ru: "срок действия истёк" }
     NOT_YET { en: "not yet in force", ru: "ещё не вступил в силу" }
     ANOTHER_STAND { en: "for another stand", ru: "относится к другому стенду" }
-    ANOTHER_PLACE { en: "for another place", ru: "выдан для другого места" }
+    ANOTHER_PLACE { en: "for another site", ru: "выдан для другого места" }
     SUPERSEDED { en: "superseded", ru: "заменён другим паспортом" }
     WITHDRAWN { en: "withdrawn by its issuer", ru: "отозван выдавшей организацией" }
     REFUSED { en: "rejected", ru: "отклонён" }
@@ -85,7 +85,7 @@ texts! {
         en: "issued at {time}, later than the time of verification",
         ru: "выдан {time}, позже момента проверки"
     }
-    ISSUER { en: "Issuer", ru: "Кем выдан" }
+    ISSUER { en: "Issuer", ru: "Организация" }
     ISSUER_OK { en: "issued by {issuer}, as required", ru: "выдан {issuer}, как требовалось" }
     ISSUER_NOT_ASKED { en: "no issuer was required", ru: "выдавшая организация не задана" }
     STAND { en: "Stand", ru: "Стенд" }
@@ -101,7 +101,7 @@ texts! {
         ru: "стенд в {distance} от места установки; радиус применимости {radius}"
     }
     PLACE_WRONG {
-        en: "the stand is {distance} from the site, outside the validity radius of {radius}; request a re-issue for this place",
+        en: "the stand is {distance} from the site, outside the validity radius of {radius}; request a re-issue for its new site",
         ru: "стенд в {distance} от места установки, за пределами радиуса применимости {radius}; следует запросить перевыпуск для этого места"
     }
     PLACE_NOT_ASKED { en: "no place was given", ru: "место не задано" }

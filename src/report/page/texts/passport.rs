@@ -20,12 +20,12 @@ texts! {
         en: "no expiry date is stated; withdrawal not checked",
         ru: "срок действия не указан; отзыв не\u{a0}проверен"
     }
-    WHERE { en: "Place of use: within", ru: "Применять в пределах" }
+    WHERE { en: "Site: within", ru: "Применять в пределах" }
     AROUND { en: "of", ru: "от" }
     AROUND_PARALLEL { en: "north or south of latitude", ru: "к северу и югу от широты" }
     WORD { en: "Based on certificate", ru: "На основании сертификата" }
     WITHOUT_UNCERTAINTY { en: "no uncertainty stated", ru: "неопределённость не указана" }
-    SIGNED_BY { en: "Passport signed by", ru: "Паспорт подписал" }
+    PASSPORT_ISSUER { en: "Issuer of the passport", ru: "Выдавшая организация" }
     CHECKING { en: "How to check", ru: "Как проверить" }
     CHECKING_HOW {
         en: "of the file: scan the code and compare, or run dtg-passport verify",
@@ -75,6 +75,7 @@ texts! {
     RECEIVED { en: "Stand received", ru: "Дата поступления" }
     VALID_UNTIL_BASIS { en: "Basis of validity period", ru: "Основание срока действия" }
     LABORATORY { en: "Laboratory", ru: "Лаборатория" }
+    LABORATORY_OF_CERTIFICATE { en: "Laboratory of the certificate", ru: "Лаборатория, выдавшая сертификат" }
     ADDRESS { en: "Address", ru: "Адрес" }
     AUTHORISED_BY { en: "Authorised by", ru: "Утвердил" }
     ACCREDITATION { en: "Accreditation", ru: "Аккредитация" }
@@ -85,10 +86,10 @@ texts! {
     FROM_TO { en: "{low} to {high}", ru: "от {low} до {high}" }
     THIS_ITEM_ONLY {
         en: "The results relate only to the stand identified here. This passport shall not be reproduced except in \
-             full without the written approval of the laboratory. It contains no statement of conformity, no opinion \
-             and no interpretation.",
+             full without the written approval of the laboratory. The calibration results include no statement of \
+             conformity, no opinion and no interpretation.",
         ru: "Результаты относятся только к указанному здесь стенду. Частичное воспроизведение паспорта без письменного \
-             согласия лаборатории не допускается. Паспорт не содержит заключений о соответствии, мнений и толкований."
+             согласия лаборатории не допускается. Результаты калибровки не включают заключений о соответствии, мнений и толкований."
     }
 
     CHARACTERISTICS { en: "Characteristics", ru: "Основные технические данные" }
@@ -100,12 +101,12 @@ texts! {
     DEVIATIONS_NOTE {
         en: "Position (i, j): frame angle θ about ξ, then platform angle φ about the spin axis. α, β, γ transform \
              coordinates from the nominal to the actual platform, eq. (4). u: standard uncertainty \
-             (k = 1) of the certified mean, own part of the position; ν: degrees of freedom of u (–: not stated). \
+             (k = 1) of the certified mean, own part of the position; ν: degrees of freedom, the fewest of the three u (–: not stated). \
              Uncertainties have two significant digits; values are rounded to the same decimal place.",
         ru: "Положение (i, j): угол рамки θ вокруг ξ, затем угол платформы φ вокруг оси собственного вращения. α, β, γ \
              преобразуют координаты от номинальной платформы к реальной, формула (4). u — стандартная \
              неопределённость (k = 1) среднего по сертификату, собственная составляющая положения; ν — \
-             число её степеней свободы (прочерк — не указано). В неопределённостях две значащие цифры, значения — до того же разряда."
+             число степеней свободы, наименьшее у трёх u (прочерк — не указано). В неопределённостях две значащие цифры, значения — до того же разряда."
     }
     FIGURE_POSITIONS {
         en: "The stand in its positions (i, j), viewed as in Figure 1.",
@@ -239,7 +240,7 @@ texts! {
     }
     GYRO_TYPE { en: "Gyro type", ru: "Тип гироскопа" }
     GYRO_GRAVITY { en: "g to which the type’s drifts refer", ru: "g, к которому отнесён дрейф типа" }
-    CALIBRATING_LABORATORY { en: "Calibrating laboratory", ru: "Лаборатория" }
+    CALIBRATING_LABORATORY { en: "Laboratory that calibrates the gyro", ru: "Лаборатория, калибрующая гироскоп" }
     METER { en: "Current meter (k = 1)", ru: "Измеритель тока (k = 1)" }
     METER_READING { en: "reading {n} %", ru: "показание {n} %" }
     METER_GAIN { en: "gain {n} %", ru: "коэффициент преобразования {n} %" }

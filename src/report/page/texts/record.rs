@@ -3,7 +3,7 @@
 use super::texts;
 
 texts! {
-    LEFT_TO_THE_LABORATORY { en: "To be filled in by the laboratory", ru: "Заполняет лаборатория" }
+    LEFT_TO_THE_LABORATORY { en: "To be filled in by the laboratory of the certificate", ru: "Заполняет лаборатория, выдавшая сертификат" }
     CUSTOMER_CONTACT { en: "Contact of the customer", ru: "Контактные данные заказчика" }
     PLACE_OF_MEASUREMENT { en: "Place of measurement", ru: "Место проведения измерений" }
     CONDITION { en: "Condition of the stand", ru: "Состояние стенда" }
@@ -70,7 +70,7 @@ texts! {
 
     MOVEMENT { en: "Relocation in use", ru: "Движение изделия в эксплуатации" }
     INSTALLED { en: "Date installed", ru: "Дата установки" }
-    WHERE { en: "Place of installation", ru: "Место установки" }
+    WHERE { en: "Site", ru: "Место установки" }
     REMOVED { en: "Date removed", ru: "Дата снятия" }
     WHY_REMOVED { en: "Reason for removal", ru: "Причина снятия" }
 
