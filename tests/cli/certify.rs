@@ -290,7 +290,7 @@ fn a_file_in_arcminutes_is_doubted() {
         let (code, said, _) = run(&folder, &format!("{file} --stand header.yaml -o {file}.yaml"));
         assert_eq!(code, 0);
         assert!(said.lines().next().unwrap().contains(warnings), "{said}");
-        assert_eq!(said.contains("may be in arcminutes"), file == "arcminutes.csv", "{said}");
+        assert_eq!(said.contains("visits scatter by only 0.03″"), file == "arcminutes.csv", "{said}");
     }
 }
 
