@@ -424,7 +424,8 @@ class Report:
         missing = len(self.result.get("not_stated", []))
         if missing and (self.stated() or "verdict" not in self.result):
             said = " ".join(self.said["verdicts"]).replace("\u00a0", " ")
-            if not any(f"{words} U: {missing};" in said for words in ("not included in", "не учтённые в")):
+            due = {"en": f"which U omits: {missing} (", "ru": f"указанной u: {missing} ("}
+            if due[self.said["lang"]] not in said:
                 self.wrong.append(f"{missing} inputs are not in U, and the verdict says {said!r}")
 
     def simple(self, part):

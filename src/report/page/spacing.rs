@@ -21,11 +21,10 @@ pub(crate) fn unbroken(words: &str) -> Markup {
         _ => false,
     };
     let whole = |word: &str| {
-        let (solidi, hyphen) = (word.matches('/').count(), word.contains('-'));
         word.as_bytes().windows(3).any(is_designation)
             || WITH_SOLIDUS.iter().any(|unit| word.contains(unit))
-            || word.contains(PROGRAM)
-            || hyphen && (solidi >= SOLIDI_OF_AN_ID || word.contains('@'))
+            || word.starts_with(PROGRAM)
+            || word.contains('-') && word.matches('/').count() >= SOLIDI_OF_AN_ID
     };
     html! {
         @for word in words.split_inclusive(' ') {
@@ -53,7 +52,7 @@ mod tests {
             "u: [3.2e-05,] [C-18,] g-sensitive",
             "[GVK-6] and [SPS-2] № 0017, [SHA-256]",
             "run [dtg-passport] verify or ssh-keygen",
-            "by [name@dtg-passport.test]",
+            "by name@dtg-passport.test",
             "passport [SPS-2/0017/moscow-bmstu/1] of",
             "[a-1-2]",
             "of [9.8\u{a0}м/с²,] and/or",

@@ -58,8 +58,13 @@ fn compared(page: &CalibrationPage, gyro: &GyroType, verdict: &Verdict, language
 }
 
 /// Writes how many parameters pass by guarded acceptance, and which are undecided or fail; `of_what` says of which
-/// comparison if it is the second.
-pub(super) fn counted(verdict: &Verdict, of_what: Option<Text>, languages: &Languages) -> Markup {
+/// comparison if it is the second, and `then` what follows.
+pub(super) fn counted(
+    verdict: &Verdict,
+    of_what: Option<Text>,
+    then: impl Fn(Language) -> Markup,
+    languages: &Languages,
+) -> Markup {
     let not_found = verdict.not_found();
     let not_found_names = listed(not_found.iter().map(|one| name_of(one.symbol())));
     languages.paragraph_with(|language| {
@@ -69,7 +74,7 @@ pub(super) fn counted(verdict: &Verdict, of_what: Option<Text>, languages: &Lang
             @if !not_found.is_empty() {
                 "; " (texts::NOT_IN_THE_MODEL.marked_up(language, &[("names", not_found_names.clone())]))
             }
-            "."
+            "." (then(language))
         }
     })
 }

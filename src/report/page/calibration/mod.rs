@@ -235,8 +235,7 @@ impl CalibrationPage<'_> {
     fn verdict(&self, languages: &Languages) -> Markup {
         let Some((gyro, verdict)) = self.judged() else {
             let words = html! {
-                (languages.paragraph(texts::NO_TYPE_WORDS))
-                (self.not_in_u(languages))
+                (languages.paragraph_with(|language| html! { (texts::NO_TYPE_WORDS.words(language)) (self.not_in_u(language)) }))
                 (self.not_linear(languages))
             };
             return outcome_box(Outcome::NotAsked, &languages.label(texts::NO_TYPE), words);
@@ -256,26 +255,20 @@ impl CalibrationPage<'_> {
         let worst = verdict.with_change(change);
         let name = |language: Language| text.filled(language, values! { type: gyro.r#type });
         let words = html! {
-            (conformity::counted(verdict, None, languages))
+            (conformity::counted(verdict, None, |language| self.not_in_u(language), languages))
             @if let Some(change) = change {
-                (conformity::counted(change, Some(texts::CHANGE_COUNTED), languages))
+                (conformity::counted(change, Some(texts::CHANGE_COUNTED), |_| html! {}, languages))
             }
-            (self.not_in_u(languages))
             (self.not_linear(languages))
             (languages.paragraph(texts::RULE))
         };
         outcome_box(worst, &languages.label_with(name), words)
     }
 
-    /// Writes how many inputs U does not include, if there are any.
-    fn not_in_u(&self, languages: &Languages) -> Markup {
+    /// Writes how many inputs U does not include, after a sentence; nothing if there are none.
+    fn not_in_u(&self, language: Language) -> Markup {
         let count = self.missing.len();
-        if count == 0 {
-            return html! {};
-        }
-        languages.paragraph_with(|language| {
-            italic(&texts::NOT_IN_U.filled(language, values! { count, section: texts::BLIND }))
-        })
+        html! { @if count > 0 { " " (italic(&texts::NOT_IN_U.filled(language, values! { count }))) } }
     }
 
     /// Writes the parameters for which a Monte Carlo run shows that the linear approximation is not valid.

@@ -53,8 +53,8 @@ texts! {
              8.3). Вероятность охвата 95,45 %."
     }
     NOT_IN_U {
-        en: "Inputs without a stated uncertainty, not included in U: {count}; see section “{section}”.",
-        ru: "Входные величины без указанной неопределённости, не учтённые в U: {count}; см. раздел «{section}»."
+        en: "Inputs without a stated uncertainty, which U omits: {count} (section 3).",
+        ru: "Не учтено в U величин без указанной u: {count} (раздел\u{a0}3)."
     }
     NO_TYPE { en: "Parameters determined", ru: "Параметры определены" }
     NO_TYPE_WORDS {
