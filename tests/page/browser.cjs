@@ -249,6 +249,12 @@ function torn() {
   return found;
 }
 
+/** Rows of forms in which no pen has room: lower than 8 mm. */
+function low() {
+  const millimetres = (row) => (row.getBoundingClientRect().height / 96) * 25.4;
+  return [...document.querySelectorAll(".form tbody tr")].map(millimetres).filter((height) => height < 7.99).map((height) => `${height.toFixed(1)} mm`);
+}
+
 /** Marks the beginning of every heading and of every row below one, and says what was marked, in the order of the page. */
 function marked() {
   const heads = { H2: 2, H3: 3, CAPTION: 4, THEAD: 5 };
@@ -342,7 +348,7 @@ async function look(browser, folder, name) {
   await page.setViewportSize({ width: Math.floor((180 / 25.4) * 96), height: 1000 });
   result.unfit.print = await page.evaluate(unfit);
   result.crowded.print = await page.evaluate(crowded);
-  result.print = { small: await page.evaluate(small), misaligned: await page.evaluate(misaligned), upright: await page.evaluate(upright), torn: await page.evaluate(torn) };
+  result.print = { small: await page.evaluate(small), misaligned: await page.evaluate(misaligned), upright: await page.evaluate(upright), torn: await page.evaluate(torn), low: await page.evaluate(low) };
   const printed = path.join(folder, `${name}.pdf`);
   await page.pdf({ path: printed, preferCSSPageSize: true });
   const marks = await page.evaluate(marked);

@@ -74,7 +74,8 @@ fn no_words_of_a_picture_lie_on_others() {
 }
 
 /// In print: nothing below 8 pt, 6.5 pt in pictures and in the annex; decimal marks of a column one below the other; symbols of
-/// quantities italic; at the foot of a sheet no heading, caption or table head without three rows, or all it has.
+/// quantities italic; units directly after their numbers; rows of forms 8 mm high; at the foot of a sheet no heading, caption or
+/// table head without three rows, or all it has.
 #[test]
 fn print_is_large_enough_columns_align_and_heads_have_rows() {
     all_pages().for_each(|page| page.nothing("print"));
