@@ -3,14 +3,14 @@
 use super::texts;
 
 texts! {
-    TITLE { en: "Record of the calibration of a test stand", ru: "Протокол калибровки поворотного стенда" }
+    TITLE { en: "Record of the certification of a test stand", ru: "Протокол калибровки поворотного стенда" }
     SUBTITLE {
         en: "Readings, tests and uncertainty behind a calibration certificate",
         ru: "Показания, критерии и неопределённость, на которых основан сертификат калибровки"
     }
-    MARGIN { en: "Calibration record, certificate {number}", ru: "Протокол к сертификату {number}" }
+    MARGIN { en: "Record of the certification, certificate {number}", ru: "Протокол к сертификату {number}" }
     MARGIN_SHA256 { en: "SHA-256 of the file of readings {sha256}", ru: "SHA-256 файла показаний {sha256}" }
-    END { en: "End of the calibration record, certificate {number}", ru: "Конец протокола к сертификату {number}" }
+    END { en: "End of the record of the certification, certificate {number}", ru: "Конец протокола к сертификату {number}" }
 
     SUBJECT { en: "Stand and certificate", ru: "Стенд и сертификат" }
 
