@@ -247,7 +247,11 @@ impl CalibrationDocument {
         self.subject.as_ref()
     }
 
-    fn gyro_serial(&self) -> Option<&str> {
+    pub(crate) fn currents_sha256(&self) -> Option<&str> {
+        Some(self.subject.as_ref()?.currents_sha256.as_str())
+    }
+
+    pub(crate) fn gyro_serial(&self) -> Option<&str> {
         self.subject.as_ref()?.gyro_serial.as_deref()
     }
 

@@ -127,6 +127,11 @@ fn values_have_the_digits_of_their_uncertainty() {
     assert!(page.contains(&due), "{due}");
 }
 
+/// Returns the paragraph on the previous calibration.
+fn previous_calibration(page: &str) -> &str {
+    page.split_once("Previous calibration: ").unwrap().1.split_once("</p>").unwrap().0
+}
+
 #[test]
 fn the_annex_is_the_result() {
     let folder = Folder::new();
@@ -143,6 +148,11 @@ fn the_annex_is_the_result() {
     let (page, result) = folder.page(CURRENTS, &[VERIFIED, LABORATORY, GYRO, &["--previous", &earlier]]);
     assert!(result["change"].is_object());
     assert!(page.contains("Change since the previous calibration"));
+    let of_earlier = previous_calibration(&page);
+    let sha256 = &result["subject"]["currents_sha256"].as_str().unwrap()[..8];
+    for words in ["date not stated", "SPS-2/0017/moscow-bmstu/1", sha256, "Serial numbers do not show"] {
+        assert!(of_earlier.contains(words), "{words}: {of_earlier}");
+    }
 }
 
 /// Three earlier results, given in any order: the page has the parameters of each below one another, by date, and the result
@@ -171,8 +181,10 @@ fn earlier_results_stand_in_the_order_of_their_dates() {
         .flat_map(|date| ["--previous".to_owned(), folder.path(&format!("{date}.json")).display().to_string()])
         .collect();
     let previous: Vec<&str> = previous.iter().map(String::as_str).collect();
-    let asked = [VERIFIED, LABORATORY, GYRO, &previous, &["--date", "2026-11-20"]];
+    let asked = [VERIFIED, LABORATORY, GYRO, &previous, &["--date", "2026-11-20", "--gyro-serial", "4711"]];
     let (page, result) = folder.page(CURRENTS, &asked);
+    let of_earlier = previous_calibration(&page);
+    assert!(of_earlier.contains("2026-05-12") && !of_earlier.contains("Serial numbers"), "{of_earlier}");
     let now = result["results"][2]["k_deg_per_h_per_ma"][0][0].to_string();
     assert_eq!(result["change"]["parameters"][0]["reference_value"].to_string(), k_x["2026-05-12"]);
     let table = page.split_once("All calibrations of this gyro").unwrap().1.split_once("</table>").unwrap().0;

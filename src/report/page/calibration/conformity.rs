@@ -31,8 +31,8 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
         @if let Some(result) = adopted { (parameters::beyond_the_eight(result, languages)) }
         @if let Some(change) = &page.document.change {
             (heading(languages, texts::CHANGE))
-            @if let Some(day) = page.previous.last().and_then(CalibrationDocument::date) {
-                (languages.paragraph_with(|language| italic(&texts::PREVIOUS_DAY.filled(language, values! { day: date_text(language, day) }))))
+            @if let Some(earlier) = page.previous.last() {
+                (languages.paragraph_with(|language| italic(&previous(page, earlier, language))))
             }
             (table(languages, change, texts::CHANGE_CAPTION, [texts::EARLIER, texts::CHANGED_BY], false))
             @if !change.withheld { (simple(change, None, languages)) }
@@ -55,6 +55,21 @@ fn compared(page: &CalibrationPage, gyro: &GyroType, verdict: &Verdict, language
             }))
         }
     }
+}
+
+/// Returns which calibration is the previous one, and whether it is known to be that of this gyro.
+fn previous(page: &CalibrationPage, earlier: &CalibrationDocument, language: Language) -> String {
+    let day = earlier.date().map_or_else(|| texts::NO_DAY.words(language), |day| date_text(language, day));
+    let currents = earlier.currents_sha256().map_or_else(
+        || texts::NO_CURRENTS.words(language),
+        |sha256| {
+            let beginning: String = sha256.chars().take(8).collect();
+            texts::SHA256_BEGINS.filled(language, values! { beginning })
+        },
+    );
+    let which = texts::PREVIOUS.filled(language, values! { day, passport: earlier.passport_id, currents });
+    let is_same = earlier.gyro_serial().is_some() && earlier.gyro_serial() == page.document.gyro_serial();
+    if is_same { which } else { format!("{which} {}", texts::SAME_GYRO_NOT_SHOWN.words(language)) }
 }
 
 /// Writes how many parameters pass by guarded acceptance, and which are undecided or fail; `of_what` says of which

@@ -298,7 +298,17 @@ texts! {
     }
     PARAMETER { en: "Parameter", ru: "Параметр" }
     NOMINAL { en: "Nominal", ru: "Номин. значение" }
-    PREVIOUS_DAY { en: "Date of the previous calibration: {day}.", ru: "Дата предыдущей калибровки: {day}." }
+    PREVIOUS {
+        en: "Previous calibration: {day}, passport {passport}, file of currents {currents}.",
+        ru: "Предыдущая калибровка: {day}, паспорт {passport}, файл токов {currents}."
+    }
+    NO_CURRENTS { en: "not stated", ru: "не указан" }
+    NO_DAY { en: "date not stated", ru: "дата не указана" }
+    SHA256_BEGINS { en: "with SHA-256 {beginning}…", ru: "с SHA-256 {beginning}…" }
+    SAME_GYRO_NOT_SHOWN {
+        en: "Serial numbers do not show that it was the same gyro.",
+        ru: "Что гироскоп тот же, по заводским номерам не подтверждено."
+    }
     EARLIER { en: "Previous", ru: "Прежнее значение" }
     FOUND { en: "Value", ru: "Значение" }
     FROM_GRAVITY {

@@ -119,10 +119,12 @@ texts! {
     OUTLIER { en: "outlier", ru: "выброс" }
     STRAGGLER { en: "straggler", ru: "квазивыброс" }
     TESTS_NOTE {
-        en: "Value: the quantity that the row names last. Probability of a result at least as extreme by chance: below 5 % a value is a straggler and equality is \
-             doubtful, below 1 % it is an outlier and the variances are different. The tests exclude nothing.",
-        ru: "Значение: величина, названная в строке последней. Вероятность случайно получить столь же большое значение: менее 5 % — квазивыброс, равенство сомнительно; \
-             менее 1 % — выброс, дисперсии различаются. По критериям ничего не исключается."
+        en: "Value: the quantity that the row names last. Probability of a result at least as extreme by chance: below 5 % a \
+             value is a straggler and equality is doubtful, below 1 % it is an outlier and the variances are different. The \
+             tests exclude nothing.",
+        ru: "Значение: величина, названная в строке последней. Вероятность случайно получить столь же большое значение: \
+             менее 5 % — квазивыброс, равенство сомнительно; менее 1 % — выброс, дисперсии различаются. По критериям ничего \
+             не исключается."
     }
     WARNINGS_COUNTED {
         en: "Warnings of the program: {count}; see section “{section}”.",
