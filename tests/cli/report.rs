@@ -127,9 +127,10 @@ fn values_have_the_digits_of_their_uncertainty() {
     assert!(page.contains(&due), "{due}");
 }
 
-/// Returns the paragraph on the previous calibration.
-fn previous_calibration(page: &str) -> &str {
-    page.split_once("Previous calibration: ").unwrap().1.split_once("</p>").unwrap().0
+/// Returns the words of the paragraph on the previous calibration.
+fn previous_calibration(page: &str) -> String {
+    let markup = page.split_once("Previous calibration: ").unwrap().1.split_once("</p>").unwrap().0;
+    markup.split('<').map(|part| part.split_once('>').map_or(part, |(_, words)| words)).collect()
 }
 
 #[test]

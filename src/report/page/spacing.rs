@@ -14,7 +14,8 @@ const PROGRAM: &str = "dtg-passport";
 const SOLIDI_OF_AN_ID: usize = 3;
 
 /// Writes words so that no line ends at the hyphen of a date, of a designation or of an id, at the minus of a power of ten, where
-/// browsers see a hyphen, after the solidus of a unit, or within the name of the program. What is copied has the characters of the text.
+/// browsers see a hyphen, after the solidus of a unit, or within the name of the program. An id may end a line after its solidi.
+/// What is copied has the characters of the text.
 pub(crate) fn unbroken(words: &str) -> Markup {
     let is_designation = |around: &[u8]| match around {
         [before, b'-', after] => before.is_ascii_alphanumeric() && after.is_ascii_digit(),
@@ -24,19 +25,33 @@ pub(crate) fn unbroken(words: &str) -> Markup {
         word.as_bytes().windows(3).any(is_designation)
             || WITH_SOLIDUS.iter().any(|unit| word.contains(unit))
             || word.starts_with(PROGRAM)
-            || word.contains('-') && word.matches('/').count() >= SOLIDI_OF_AN_ID
+            || word.contains('-') && is_id(word)
     };
     html! {
         @for word in words.split_inclusive(' ') {
             @let shown = word.trim_end();
             @if whole(shown) {
-                span.n { (shown) }
+                @for (place, part) in parts(shown).enumerate() {
+                    @if place > 0 { wbr; }
+                    span.n { (part) }
+                }
                 (&word[shown.len()..])
             } @else {
                 (word)
             }
         }
     }
+}
+
+/// Returns `true` for the id of a passport. In quotes it is part of a file, which stays as it is.
+fn is_id(word: &str) -> bool {
+    word.matches('/').count() >= SOLIDI_OF_AN_ID && !word.contains('"')
+}
+
+/// Returns the parts of an id, each with the solidus at its end; of anything else the whole.
+fn parts(word: &str) -> impl Iterator<Item = &str> {
+    let id = is_id(word);
+    word.split_inclusive(move |c| id && c == '/')
 }
 
 #[cfg(test)]
@@ -53,11 +68,13 @@ mod tests {
             "[GVK-6] and [SPS-2] № 0017, [SHA-256]",
             "run [dtg-passport] verify or ssh-keygen",
             "by name@dtg-passport.test",
-            "passport [SPS-2/0017/moscow-bmstu/1] of",
+            "passport [SPS-2/]<wbr>[0017/]<wbr>[moscow-bmstu/]<wbr>[1] of",
+            "id: \"XYZ/0017/moscow-bmstu/1\"",
             "[a-1-2]",
             "of [9.8\u{a0}м/с²,] and/or",
         ] {
-            let written = unbroken(&due.replace(['[', ']'], "")).into_string();
+            let written =
+                unbroken(&due.replace(['[', ']'], "").replace("<wbr>", "")).into_string().replace("&quot;", "\"");
             assert_eq!(written.replace("<span class=\"n\">", "[").replace("</span>", "]"), due);
         }
     }

@@ -9,7 +9,7 @@ use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::gyro::GyroType;
 use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::{Cell, Number, column, column_with_units};
-use crate::report::page::parts::{Column, Table, heading, listed, mark, marked, quantity, symbol_and_unit};
+use crate::report::page::parts::{Column, Table, given, heading, listed, mark, marked, quantity, symbol_and_unit};
 use crate::report::page::spacing::BLANK;
 use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
@@ -31,11 +31,11 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
         @if let Some(result) = adopted { (parameters::beyond_the_eight(result, languages)) }
         @if let Some(change) = &page.document.change {
             (heading(languages, texts::CHANGE))
-            @if let Some(earlier) = page.previous.last() {
-                (languages.paragraph_with(|language| italic(&previous(page, earlier, language))))
-            }
             (table(languages, change, texts::CHANGE_CAPTION, [texts::EARLIER, texts::CHANGED_BY], false))
             @if !change.withheld { (simple(change, None, languages)) }
+            @if let Some(earlier) = page.previous.last() {
+                (languages.paragraph_with(|language| previous(page, earlier, language)))
+            }
         }
         (history::table(page, languages))
     }
@@ -57,19 +57,17 @@ fn compared(page: &CalibrationPage, gyro: &GyroType, verdict: &Verdict, language
     }
 }
 
-/// Returns which calibration is the previous one, and whether it is known to be that of this gyro.
-fn previous(page: &CalibrationPage, earlier: &CalibrationDocument, language: Language) -> String {
+/// Writes which calibration is the previous one, and whether it is known to be that of this gyro.
+fn previous(page: &CalibrationPage, earlier: &CalibrationDocument, language: Language) -> Markup {
     let day = earlier.date().map_or_else(|| texts::NO_DAY.words(language), |day| date_text(language, day));
-    let currents = earlier.currents_sha256().map_or_else(
-        || texts::NO_CURRENTS.words(language),
-        |sha256| {
-            let beginning: String = sha256.chars().take(8).collect();
-            texts::SHA256_BEGINS.filled(language, values! { beginning })
-        },
-    );
-    let which = texts::PREVIOUS.filled(language, values! { day, passport: earlier.passport_id, currents });
+    let beginning = |sha256: &str| html! { code { (sha256.chars().take(8).collect::<String>()) "…" } };
+    let sha256 = earlier.currents_sha256().map_or_else(|| html! { "–" }, beginning);
+    let values = [("day", html! { (day) }), ("passport", given(&earlier.passport_id)), ("sha256", sha256)];
     let is_same = earlier.gyro_serial().is_some() && earlier.gyro_serial() == page.document.gyro_serial();
-    if is_same { which } else { format!("{which} {}", texts::SAME_GYRO_NOT_SHOWN.words(language)) }
+    html! {
+        (texts::PREVIOUS.marked_up(language, &values))
+        @if !is_same { " " (texts::SAME_GYRO_NOT_SHOWN.words(language)) }
+    }
 }
 
 /// Writes how many parameters pass by guarded acceptance, and which are undecided or fail; `of_what` says of which

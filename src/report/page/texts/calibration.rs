@@ -274,9 +274,9 @@ texts! {
     CONFORMITY { en: "Comparison with gyro type {type}", ru: "Сравнение с типом {type}" }
     VERDICT_CAPTION {
         en: "Deviation from the nominal value; expanded uncertainty U (coverage factor k = {k}; coverage probability \
-             95.45 %); ω_g and ω_k refer to the g of the type, g₀\u{a0}=\u{a0}{g} m/s²",
+             95.45 %); ω_g and ω_k refer to the g of the type, g_0\u{a0}=\u{a0}{g} m/s²",
         ru: "Отклонение от номинального значения; расширенная неопределённость U (коэффициент охвата k = {k}; вероятность \
-             охвата 95,45 %); ω_g и ω_k отнесены к g типа, g₀\u{a0}=\u{a0}{g} м/с²"
+             охвата 95,45 %); ω_g и ω_k отнесены к g типа, g_0\u{a0}=\u{a0}{g} м/с²"
     }
     STUDENT { en: "{k} (Student’s t)", ru: "{k} (коэффициент Стьюдента)" }
     CHANGE { en: "Change since the previous calibration", ru: "Изменение после предыдущей калибровки" }
@@ -287,27 +287,25 @@ texts! {
         ru: "Параметры от первой калибровки до этой, с расширенной неопределённостью U\u{a0}=\u{a0}2u \
              (коэффициент охвата k = 2; для отметок — U для вероятности охвата 95,45 %); ω_g и ω_k отнесены к {of}\u{a0}{g} м/с²"
     }
-    OF_TYPE { en: "the g of the type, g₀\u{a0}=", ru: "g типа, g₀\u{a0}=" }
+    OF_TYPE { en: "the g of the type, g_0\u{a0}=", ru: "g типа, g_0\u{a0}=" }
     OF_PLACE { en: "local g,", ru: "местному g," }
     CALIBRATED { en: "Calibration", ru: "Калибровка" }
     CHANGE_CAPTION {
         en: "Change; the tolerance also limits the instability; expanded uncertainty U (coverage factor k = {k}; coverage \
-             probability 95.45 %); ω_g and ω_k refer to the g of the type, g₀\u{a0}=\u{a0}{g} m/s²",
+             probability 95.45 %); ω_g and ω_k refer to the g of the type, g_0\u{a0}=\u{a0}{g} m/s²",
         ru: "Изменение (допуск относится и к нестабильности); расширенная неопределённость U (коэффициент охвата k = {k}; \
-             вероятность охвата 95,45 %); ω_g и ω_k отнесены к g типа, g₀\u{a0}=\u{a0}{g} м/с²"
+             вероятность охвата 95,45 %); ω_g и ω_k отнесены к g типа, g_0\u{a0}=\u{a0}{g} м/с²"
     }
     PARAMETER { en: "Parameter", ru: "Параметр" }
     NOMINAL { en: "Nominal", ru: "Номин. значение" }
     PREVIOUS {
-        en: "Previous calibration: {day}, passport {passport}, file of currents {currents}.",
-        ru: "Предыдущая калибровка: {day}, паспорт {passport}, файл токов {currents}."
+        en: "Previous calibration: {day}, passport {passport}, SHA-256 of the currents {sha256}.",
+        ru: "Предыдущая калибровка: {day}, паспорт {passport}, SHA-256 токов {sha256}."
     }
-    NO_CURRENTS { en: "not stated", ru: "не указан" }
     NO_DAY { en: "date not stated", ru: "дата не указана" }
-    SHA256_BEGINS { en: "with SHA-256 {beginning}…", ru: "с SHA-256 {beginning}…" }
     SAME_GYRO_NOT_SHOWN {
         en: "Serial numbers do not show that it was the same gyro.",
-        ru: "Что гироскоп тот же, по заводским номерам не подтверждено."
+        ru: "Тот же ли это гироскоп, не подтверждено."
     }
     EARLIER { en: "Previous", ru: "Прежнее значение" }
     FOUND { en: "Value", ru: "Значение" }
