@@ -170,8 +170,8 @@ impl GyroType {
         }
     }
 
-    /// Returns the tolerances that no gyro fails, a sentence each without a full stop: they are possible, but usually in
-    /// another unit, such as millionths in place of percent.
+    /// Returns the tolerances that no gyro fails, a sentence each without a full stop: they are possible, but usually
+    /// stated in another unit, such as parts per million instead of percent.
     pub(crate) fn remarks(&self) -> Vec<String> {
         let Tolerance { k_main_percent, k_cross_percent, .. } = self.tolerance;
         let each = [

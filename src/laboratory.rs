@@ -104,7 +104,7 @@ impl Laboratory {
     }
 
     /// Returns the stated uncertainties that are too large for any laboratory, a sentence each without a full stop: they are
-    /// possible, but usually a wrong unit, such as millionths in place of percent.
+    /// possible, but usually stated in another unit, such as parts per million instead of percent.
     pub(crate) fn remarks(&self) -> Vec<String> {
         let Meter { range_ma, reading_percent, gain_percent, offset_ma, floor_ma, noise_ma } = self.meter;
         let of_range = LARGEST_PERCENT / 100.0 * range_ma;
@@ -129,7 +129,10 @@ impl Laboratory {
         let odd = each.into_iter().filter(|(_, (value, largest, _))| value > largest);
         let words = odd.map(|(key, (value, largest, unit))| {
             let largest = two_digits(largest);
-            format!("{key} of the laboratory is {value}, more than {largest} {unit}; check the unit, because no decision is possible with such an uncertainty")
+            format!(
+                "{key} of the laboratory is {value}, more than {largest} {unit}; check the unit, because no decision is \
+                 possible with such an uncertainty"
+            )
         });
         words.collect()
     }

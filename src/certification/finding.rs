@@ -75,7 +75,7 @@ pub(crate) struct ChangedSetting {
 pub(crate) enum Untested {
     /// Variation between the check runs that is unknown.
     Variation,
-    /// One check run, and a certificate that does not state its number of runs.
+    /// The check has one run, and the certificate does not state its number of runs.
     NumberOfRuns,
     /// Certificate without common parts of the uncertainty.
     CommonParts,

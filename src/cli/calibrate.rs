@@ -227,13 +227,13 @@ impl Bench<'_> {
     /// Refuses readings of a day that has not come, and warns of those from before the stand was measured.
     fn check_date(&self) -> Result<(), Failure> {
         let early = self.subject().check_date(&self.passport.content.certificate).map_err(Failure::unusable)?;
-        early.iter().for_each(|words| output::complain(&format!("WARNING: {words}")));
+        early.iter().for_each(|words| output::warn(words));
         Ok(())
     }
 
     fn warn_of_the_previous(&self) {
         let words = another_type(&self.previous, self.gyro_type.as_ref());
-        words.iter().for_each(|words| output::complain(&format!("WARNING: {words}")));
+        words.iter().for_each(|words| output::warn(words));
     }
 
     /// Calibrates the gyro whose currents are at `path`.

@@ -63,8 +63,7 @@ fn site_by(path: &Path, reader: impl FnOnce(&str, &[u8]) -> Result<Site, Unreada
 /// Reads a gyro type, or returns `None` without a path.
 pub(super) fn gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
     let gyro_type = path.map(|path| document(path, Kind::Gyro.words(), GyroType::from_yaml)).transpose()?;
-    let remarks = gyro_type.iter().flat_map(GyroType::remarks);
-    remarks.for_each(|words| output::complain(&format!("WARNING: {words}")));
+    gyro_type.iter().flat_map(GyroType::remarks).for_each(|words| output::warn(&words));
     Ok(gyro_type)
 }
 
@@ -72,7 +71,7 @@ pub(super) fn gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
 pub(super) fn laboratory(path: Option<&Path>) -> Result<Laboratory, Failure> {
     let Some(path) = path else { return Ok(Laboratory::paper()) };
     let laboratory = document(path, Kind::Laboratory.words(), Laboratory::from_yaml)?;
-    laboratory.remarks().iter().for_each(|words| output::complain(&format!("WARNING: {words}")));
+    laboratory.remarks().iter().for_each(|words| output::warn(words));
     Ok(laboratory)
 }
 

@@ -67,7 +67,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         None => output::say(&format!("{wrote}; add this line to allowed_signers:")),
     }
     if let Some(remark) = signing::protection_remark(&options.key) {
-        output::complain(&format!("WARNING: {remark}"));
+        output::warn(&remark);
     }
     match options.format {
         Format::Text if appended_to.is_none() => output::result(&format!("{line}\n"))?,

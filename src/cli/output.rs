@@ -139,6 +139,11 @@ pub(super) fn usage(words: &str) {
     let _ = anstream::stderr().lock().write_all(words.as_bytes());
 }
 
+/// Writes a warning beside the output.
+pub(super) fn warn(words: &str) {
+    complain(&format!("WARNING: {words}"));
+}
+
 /// Writes a message about a failure. Errors are ignored, because there is nowhere left to report them.
 pub(super) fn complain(words: &str) {
     let lines: Vec<String> = words.trim_end().split('\n').map(printable).collect();

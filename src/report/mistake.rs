@@ -45,7 +45,7 @@ pub(crate) fn words(mistake: &Mistake, language: Language) -> String {
     }
 }
 
-/// Returns a factor or its inverse, whichever is larger, with four significant digits if it is not whole.
+/// Returns a factor or its inverse, whichever is larger, with three significant digits, and whole from 1000 on.
 fn factor_of(factor: f64) -> Number {
     let factor = factor.max(1.0 / factor);
     if factor < 1000.0 { Number::significant(factor, 3) } else { Number::fixed(factor, 0) }

@@ -15,7 +15,7 @@ const SOLIDI_OF_AN_ID: usize = 3;
 
 /// Writes words so that no line ends at the hyphen of a date, of a designation or of an id, at the minus of a power of ten, where
 /// browsers see a hyphen, after the solidus of a unit, or within the name of the program. An id may end a line after its solidi.
-/// What is copied has the characters of the text.
+/// The text that a reader copies is unchanged.
 pub(crate) fn unbroken(words: &str) -> Markup {
     let is_designation = |around: &[u8]| match around {
         [before, b'-', after] => before.is_ascii_alphanumeric() && after.is_ascii_digit(),

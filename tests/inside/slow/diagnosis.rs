@@ -295,13 +295,13 @@ fn a_wrong_reading_is_named_with_its_size() {
     }
 }
 
-/// What explains currents that were calibrated with the passport of this stand for this latitude, where the type is the
-/// paper's, and what it is called without a type.
+/// Returns the mistakes that explain currents calibrated with the passport of this stand for this latitude: with the paper's
+/// type, and without a type.
 fn explained(stand: &[Position], latitude_deg: f64, currents_ma: &[Vector2<f64>]) -> [Option<Mistake>; 2] {
     explained_for([Some(&GyroType::gvk_6()), None], stand, latitude_deg, currents_ma)
 }
 
-/// What explains currents for each of two types, or for none.
+/// Returns the mistake that explains currents for each of two types; `None` is no type.
 fn explained_for(
     types: [Option<&GyroType>; 2],
     stand: &[Position],
@@ -497,7 +497,7 @@ fn another_numbering_is_recognised_by_the_parameters() {
     }
 }
 
-/// What explains these currents where the type is the paper's: the result, or another numbering.
+/// Returns the mistake that explains currents for the paper's type: one that the result shows, or another numbering.
 fn by_the_parameters(stand: &[Position], read: &[Vector2<f64>]) -> Option<Mistake> {
     let setup = setup(stand, LATITUDE_DEG);
     let calibration = solve(&setup, read);
