@@ -244,6 +244,12 @@ impl Verdict {
         Parameter::AS_IN_THE_PAPER.into_iter().filter(|parameter| !found(parameter)).collect()
     }
 
+    /// Returns the parameters that no gyro could pass, because the expanded uncertainty alone exceeds the tolerance.
+    pub(crate) fn too_uncertain(&self) -> Vec<Parameter> {
+        let is_too_uncertain = |row: &&ParameterVerdict| row.expanded_uncertainty > row.tolerance;
+        self.parameters.iter().filter(is_too_uncertain).map(|row| row.parameter).collect()
+    }
+
     /// Returns the worse of the decisions of this verdict and on a change since an earlier result.
     pub(crate) fn with_change(&self, change: Option<&Self>) -> Decision {
         change.map_or(self.overall, |change| self.overall.max(change.overall))

@@ -7,6 +7,7 @@ use super::style::Outcome;
 use super::{columns, style};
 use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::calibration::{CalibrationDocument, Decision, Parameter, ParameterVerdict, Verdict};
+use crate::earth::NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2;
 use crate::text::printable;
 use crate::units::{printed, quantity};
 use std::fmt::Write;
@@ -119,6 +120,11 @@ pub(super) fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str
     if close && verdict.overall == Decision::Undecided {
         columns::paragraph(out, "  ", "undecided: the uncertainty does not permit a decision.");
     }
+    let too_uncertain: Vec<&str> = verdict.too_uncertain().into_iter().map(Parameter::symbol).collect();
+    if !too_uncertain.is_empty() && !verdict.withheld {
+        let words = texts::TOO_UNCERTAIN.filled(Language::English, &[("names", &too_uncertain.join(", "))]);
+        columns::paragraph(out, "  ", &words);
+    }
     if let Some(not_found) = not_found(verdict) {
         columns::paragraph(out, "  ", &format!("{not_found}."));
     }
@@ -133,8 +139,17 @@ pub(super) fn from_gravity(verdict: &Verdict, u_m_per_s2: f64) -> Option<String>
     });
     let parts: Vec<String> = parts.collect();
     let u = quantity(&columns::two_digits(u_m_per_s2), "m/s²");
-    let words = || texts::FROM_GRAVITY.filled(Language::English, values! { parts: parts.join(", "), u });
+    let words = || gravity_contributes(u_m_per_s2).filled(Language::English, values! { parts: parts.join(", "), u });
     (!parts.is_empty() && !verdict.withheld).then(words)
+}
+
+/// Returns the sentence on what this uncertainty of local g contributes: on normal gravity without a height, what it
+/// assumes.
+pub(super) fn gravity_contributes(u_m_per_s2: f64) -> Text {
+    match u_m_per_s2 == NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2 {
+        true => texts::FROM_UNKNOWN_HEIGHT,
+        false => texts::FROM_GRAVITY,
+    }
 }
 
 #[cfg(test)]

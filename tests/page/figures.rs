@@ -98,8 +98,12 @@ fn verdict_and_change_are_where_their_axes_say() {
                 axis.says(number(limit, "x1"), due);
             }
             let [from, to] = reach(of_class(*strip, "whisker")[0]);
-            axis.says(from, percent(deviation - expanded));
-            axis.says(to, percent(deviation + expanded));
+            // The axis ends at one and a half tolerances; arrows point to what is beyond.
+            let ends = [deviation - expanded, deviation + expanded].map(percent);
+            axis.says(from, ends[0].max(-150.0));
+            axis.says(to, ends[1].min(150.0));
+            let beyond = ends.iter().filter(|end| end.abs() > 150.0).count();
+            assert_eq!(of_class(*strip, "meridian").len(), beyond, "{line}");
             let values: Vec<f64> = row
                 .descendants()
                 .filter(|node| node.has_tag_name("data"))

@@ -226,8 +226,8 @@ fn the_headline_is_the_verdict() {
 fn a_report_is_named_after_the_gyro_and_its_currents() {
     let due = [
         ("calibrated-en", "GVK-6, currents", ["not stated"]),
-        ("calibrated-ru", "GVK-6, токи", ["не указан"]),
-        ("plain-ru", "Тип и\u{a0}номер не указаны, токи", ["не указан"]),
+        ("calibrated-ru", "GVK-6, токи", ["не указано"]),
+        ("plain-ru", "Тип и\u{a0}номер не указаны, токи", ["не указано"]),
         ("history-en", "GVK-6 №\u{a0}G-0042, 2026-11-18, currents", ["G-0042"]),
     ];
     for (name, gyro, serials) in due {

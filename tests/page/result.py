@@ -24,9 +24,10 @@ TOKEN = re.compile(
     r"(?<![\w.,−-])[−-]?\d(?:[\d\u202f]*\d)?(?:[.,]\d(?:[\d\u202f]*\d)?)?(?:\u202f?[·×]\u202f?10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?(?!\w)"
 )
 DAY = re.compile(r"\d{4}-\d\d-\d\d|\d\d\.\d\d\.\d{4}")
-# What is no number of the result: clauses of standards, coverage, the sum's name, ids, times of day, the limit of risks.
+# What is no number of the result: clauses of standards, coverage, the sum's name, ids, times of day, the limit of risks,
+# the greatest of the heights that are as probable if none is stated.
 NAMES = re.compile(
-    r"JCGM[\u00a0 ]\d+, [\d.]+|k[\u00a0 ]=[\u00a0 ]1\b|^[\u00a0 ]=[\u00a0 ]1[.,]96\b|95(?:[.,]45)?[\u00a0 ]?%|SHA-256|[A-Z]+-\d+(?:/\w+/[\w-]+/\d+)?|\d\d:\d\d:\d\d|< 1\u202f[·×]\u202f10⁻⁶"
+    r"JCGM[\u00a0 ]\d+, [\d.]+|k[\u00a0 ]=[\u00a0 ]1\b|^[\u00a0 ]=[\u00a0 ]1[.,]96\b|95(?:[.,]45)?[\u00a0 ]?%|SHA-256|[A-Z]+-\d+(?:/\w+/[\w-]+/\d+)?|\d\d:\d\d:\d\d|< 1\u202f[·×]\u202f10⁻⁶|4000\u00a0[mм]\b"
 )
 # The eight of every table of parameters, by their symbols.
 PLACES = {

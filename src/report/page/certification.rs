@@ -8,7 +8,7 @@
 mod change;
 mod evidence;
 
-use super::language::{Languages, values};
+use super::language::{Languages, Text, values};
 use super::number::Number;
 use super::parts::{
     band, boxed, contents, data_address, date, file_name, given, heading, marked, not_stated, numbered, quantity,
@@ -56,14 +56,14 @@ impl CertificationPage<'_> {
         let stand = &self.certification.stand;
         let who = [texts::MEASURED_BY, texts::CHECKED_BY, passport_texts::AUTHORISED_BY];
         let address = data_address("text/csv", self.readings.1);
-        let sections = [
-            ("result", texts::RESULT, self.result(languages)),
-            ("change", texts::CHANGE, change::section(self, languages)),
+        let mut sections = vec![("result", texts::RESULT, self.result(languages))];
+        sections.extend(change::section(self, languages).map(|change| ("change", texts::CHANGE, change)));
+        sections.extend([
             ("uncertainty", texts::UNCERTAINTY, evidence::uncertainty(self, languages)),
             ("tests", texts::TESTS, evidence::tests(self, languages)),
             ("readings", texts::READINGS, evidence::readings(self, languages)),
             ("subject", texts::SUBJECT, self.subject(languages)),
-        ];
+        ]);
         html! {
             header.title {
                 p.kind { (languages.label(texts::TITLE)) }
@@ -86,34 +86,46 @@ impl CertificationPage<'_> {
         }
     }
 
-    /// Writes who measured the stand and when, and the uncertainties that all positions have in common.
+    /// Writes who measured the stand and when, until when the certificate is valid, and the uncertainties that all positions
+    /// have in common.
     fn band(&self, languages: &Languages) -> Markup {
         let certificate = &self.certification.stand.certificate;
         let arcsec = |u| quantity(languages, &Number::uncertainty(u), units::ARCSEC);
         let u = |value: Option<f64>| value.map_or_else(|| not_stated(languages), arcsec);
         let [of_platform, of_base] = self.certification.freedom_of_common_parts();
-        let k = |freedom: Option<f64>| {
-            let freedom = freedom.map(|freedom| Number::at_most(freedom, 1).markup(languages));
-            html! { p { (languages.label(texts::STANDARD)) } @if let Some(freedom) = freedom { p { (symbol("ν", "")) " = " (freedom) } } }
-        };
         let freedom =
             certificate.repeatability_degrees_of_freedom.map(|number| Number::exact(number).markup(languages));
-        let day = certificate.performed.map(|day| date(languages, day));
+        let of_part = |freedom: Option<f64>| {
+            freedom.map_or_else(|| html! { "–" }, |freedom| Number::at_most(freedom, 1).markup(languages))
+        };
+        let common = [certificate.common_platform_arcsec, certificate.common_base_arcsec].map(u);
+        let on = |name: Text, day| html! { p { (languages.inline(name)) ": " (date(languages, day)) } };
         band(
             languages,
             [
                 (
                     passport_texts::LABORATORY,
                     given(&certificate.laboratory),
-                    html! { @if let Some(day) = day { p { (languages.inline(passport_texts::PERFORMED)) ": " (day) } } },
+                    certificate.performed.map_or_else(|| html! {}, |day| on(passport_texts::PERFORMED, day)),
+                ),
+                (
+                    passport_texts::VALID_UNTIL,
+                    certificate.valid_until.map_or_else(|| not_stated(languages), |day| date(languages, day)),
+                    on(passport_texts::CERTIFICATE_ISSUED, certificate.issued),
                 ),
                 (
                     passport_texts::REPEATABILITY,
                     u(certificate.repeatability_arcsec),
                     html! { p { (languages.label(texts::OF_A_VISIT)) } @if let Some(freedom) = freedom { p { (symbol("ν", "")) " = " (freedom) } } },
                 ),
-                (passport_texts::COMMON_PLATFORM, u(certificate.common_platform_arcsec), k(of_platform)),
-                (passport_texts::COMMON_BASE, u(certificate.common_base_arcsec), k(of_base)),
+                (
+                    texts::COMMON_PARTS,
+                    html! { (common[0]) "; " (common[1]) },
+                    html! {
+                        p { (languages.label(texts::STANDARD)) }
+                        p { (symbol("ν", "")) " = " (of_part(of_platform)) "; " (of_part(of_base)) }
+                    },
+                ),
             ],
         )
     }

@@ -13,77 +13,60 @@ const WIDTH: f64 = 132.0;
 const HEIGHT: f64 = 17.0;
 const FIELD: [f64; 2] = [7.0, WIDTH - 7.0];
 
-/// Smallest and largest end of the axis, in tolerances. An arrow points to values beyond.
-const REACH: [f64; 2] = [1.3, 4.0];
+/// The axis of every strip, in tolerances: to both limits and half as far again, so that strips of all reports compare. An
+/// arrow points to what is beyond it.
+const SCALE: Scale = Scale { values: [-1.5, 1.5], places: FIELD };
 const ROOM_FOR_ARROW: f64 = 22.0;
 
-/// Strips of verdicts against a type, or on a change since an earlier result, all to one scale.
-pub(crate) struct Strips(Scale);
+/// Draws the axis of the strips, in percent of the tolerance.
+pub(crate) fn axis(languages: &Languages) -> Markup {
+    let percent = Scale { values: SCALE.values.map(|value| 100.0 * value), ..SCALE };
+    strip_axis(languages, &percent, WIDTH, "")
+}
 
-impl Strips {
-    /// Creates strips that reach to the farthest deviation with its uncertainty.
-    pub(crate) fn of<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> Self {
-        let rows = verdicts.into_iter().flat_map(|verdict| &verdict.parameters);
-        let ends = rows.filter(|row| row.tolerance > 0.0);
-        let farthest =
-            ends.map(|row| (row.deviation.abs() + row.expanded_uncertainty) / row.tolerance).fold(0.0, f64::max);
-        let reach = (1.1 * farthest).clamp(REACH[0], REACH[1]);
-        Self(Scale { values: [-reach, reach], places: FIELD })
-    }
+/// Returns the ends of the interval of a deviation with its expanded uncertainty.
+fn ends(row: &ParameterVerdict) -> [f64; 2] {
+    [-1.0, 1.0].map(|sign| row.deviation + sign * row.expanded_uncertainty)
+}
 
-    /// Draws the axis of the strips, in percent of the tolerance.
-    pub(crate) fn axis(&self, languages: &Languages) -> Markup {
-        let percent = Scale { values: self.0.values.map(|value| 100.0 * value), places: self.0.places };
-        strip_axis(languages, &percent, WIDTH, "")
-    }
+/// Returns `true` if a deviation is within the axis.
+fn reaches(row: &ParameterVerdict, deviation: f64) -> bool {
+    let [low, high] = SCALE.values;
+    (low..=high).contains(&(deviation / row.tolerance))
+}
 
-    /// Returns `true` if a deviation is within the axis.
-    fn reaches(&self, row: &ParameterVerdict, deviation: f64) -> bool {
-        let [low, high] = self.0.values;
-        (low..=high).contains(&(deviation / row.tolerance))
-    }
-
-    /// Returns `true` if the axis does not reach to a deviation with its uncertainty.
-    fn cuts(&self, row: &ParameterVerdict) -> bool {
-        let ends = [-1.0, 1.0].map(|sign| row.deviation + sign * row.expanded_uncertainty);
-        row.tolerance > 0.0 && !ends.iter().all(|end| self.reaches(row, *end))
-    }
-
-    /// Draws a parameter of a verdict: only the limits if its tolerance is 0.
-    pub(crate) fn strip(&self, verdict: &Verdict, row: &ParameterVerdict) -> Markup {
-        let decision = verdict.decision(row);
-        let Self(scale) = self;
-        let (y, guarded) = (0.5 * HEIGHT, row.tolerance - row.expanded_uncertainty);
-        let share = |value: f64| scale.clamped(value / row.tolerance);
-        // An arrow marks a value beyond the axis, because a mark at its end would be misplaced.
-        let [low, high] = scale.values;
-        let beyond = match row.deviation / row.tolerance {
-            share if share < low => Some((FIELD[0], 1.0)),
-            share if share > high => Some((FIELD[1], -1.0)),
-            _ => None,
-        };
-        let limits = [-1.0, 1.0].map(|limit| scale.place(limit));
-        let drawing = html! {
-            @if row.tolerance > 0.0 {
-                @if guarded > 0.0 { (rectangle([share(-guarded), y - 6.0], [share(guarded), y + 6.0], "limits", None)) }
-                (line([scale.place(0.0), 0.0], [scale.place(0.0), HEIGHT], "grid"))
-                @if let Some((end, inwards)) = beyond {
-                    (arrow([end + inwards * ROOM_FOR_ARROW, y], [end, y], "meridian"))
-                    (decided([end + inwards * ROOM_FOR_ARROW, y], decision))
-                } @else {
-                    @let ends = [-1.0, 1.0].map(|sign| row.deviation + sign * row.expanded_uncertainty);
-                    @let within = ends.map(|end| self.reaches(row, end));
-                    (whisker(ends.map(share), within, y, 4.0))
-                    @for end in ends.iter().zip(within).filter(|(_, within)| !within).map(|(end, _)| share(*end)) {
-                        (arrow([share(row.deviation), y], [end, y], "meridian"))
-                    }
-                    (decided([share(row.deviation), y], decision))
+/// Draws a parameter of a verdict: only the limits if its tolerance is 0.
+pub(crate) fn of_parameter(verdict: &Verdict, row: &ParameterVerdict) -> Markup {
+    let decision = verdict.decision(row);
+    let (y, guarded) = (0.5 * HEIGHT, row.tolerance - row.expanded_uncertainty);
+    let share = |value: f64| SCALE.clamped(value / row.tolerance);
+    // An arrow marks a value beyond the axis, because a mark at its end would be misplaced.
+    let beyond = match row.deviation / row.tolerance {
+        share if share < SCALE.values[0] => Some((FIELD[0], 1.0)),
+        share if share > SCALE.values[1] => Some((FIELD[1], -1.0)),
+        _ => None,
+    };
+    let limits = [-1.0, 1.0].map(|limit| SCALE.place(limit));
+    let drawing = html! {
+        @if row.tolerance > 0.0 {
+            @if guarded > 0.0 { (rectangle([share(-guarded), y - 6.0], [share(guarded), y + 6.0], "limits", None)) }
+            (line([SCALE.place(0.0), 0.0], [SCALE.place(0.0), HEIGHT], "grid"))
+            @if let Some((end, inwards)) = beyond {
+                (arrow([end + inwards * ROOM_FOR_ARROW, y], [end, y], "meridian"))
+                (decided([end + inwards * ROOM_FOR_ARROW, y], decision))
+            } @else {
+                @let ends = ends(row);
+                @let within = ends.map(|end| reaches(row, end));
+                (whisker(ends.map(share), within, y, 4.0))
+                @for end in ends.iter().zip(within).filter(|(_, within)| !within).map(|(end, _)| share(*end)) {
+                    (arrow([share(row.deviation), y], [end, y], "meridian"))
                 }
+                (decided([share(row.deviation), y], decision))
             }
-            @for x in limits { (line([x, 0.0], [x, HEIGHT], "limit")) }
-        };
-        strip([WIDTH, HEIGHT], &drawing)
-    }
+        }
+        @for x in limits { (line([x, 0.0], [x, HEIGHT], "limit")) }
+    };
+    strip([WIDTH, HEIGHT], &drawing)
 }
 
 /// Draws what the parts of the strips of a verdict mean.
@@ -93,9 +76,9 @@ pub(crate) fn key(languages: &Languages, verdict: &Verdict) -> Markup {
         true => vec![entry(None)],
         false => [Decision::Pass, Decision::Undecided, Decision::Fail].map(|found| entry(Some(found))).to_vec(),
     };
-    let strips = Strips::of([verdict]);
-    let beyond = verdict.parameters.iter().any(|row| strips.cuts(row));
-    let arrow = beyond.then(|| (arrow([2.0, 7.0], [26.0, 7.0], "meridian"), texts::TOLERANCES_BEYOND));
+    let is_cut = |row: &&ParameterVerdict| row.tolerance > 0.0 && !ends(row).iter().all(|end| reaches(row, *end));
+    let cut = verdict.parameters.iter().find(is_cut);
+    let arrow = cut.map(|_| (arrow([2.0, 7.0], [26.0, 7.0], "meridian"), texts::TOLERANCES_BEYOND));
     let parts = [
         (whisker([2.0, 26.0], [true; 2], 7.0, 4.0), texts::TOLERANCES_WHISKER),
         (line([21.0, 0.0], [21.0, 14.0], "limit"), texts::TOLERANCES_LIMIT),

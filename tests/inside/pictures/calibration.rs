@@ -5,8 +5,7 @@ use dtg_passport::calibration::Parameter;
 use dtg_passport::calibration::document::{CalibrationDocument, ResultDocument};
 use dtg_passport::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use dtg_passport::report::page::texts::units;
-use dtg_passport::report::picture::tolerances::Strips;
-use dtg_passport::report::picture::{convergence, residuals};
+use dtg_passport::report::picture::{convergence, residuals, tolerances};
 use roxmltree::Document;
 
 /// A result as a file holds it, its numbers made up: two positions, and three steps that fall by 1000 and by 100.
@@ -75,12 +74,11 @@ fn row(
 /// The strips of a verdict, each as a document, and the axis below them.
 fn strips(parameters: Vec<ParameterVerdict>) -> (Vec<String>, String) {
     let verdict = Verdict { overall: Decision::Fail, gravity_m_per_s2: 9.8, parameters, withheld: false };
-    let strips = Strips::of([&verdict]);
-    let each = verdict.parameters.iter().map(|row| whole(&[strips.strip(&verdict, row)])).collect();
-    (each, whole(&[strips.axis(&english())]))
+    let each = verdict.parameters.iter().map(|row| whole(&[tolerances::of_parameter(&verdict, row)])).collect();
+    (each, whole(&[tolerances::axis(&english())]))
 }
 
-/// An interval of 128 tolerances to both sides, where the axis ends at four: it has no ends there.
+/// An interval of 128 tolerances to both sides, where the axis ends at one and a half: it has no ends there.
 #[test]
 fn an_interval_beyond_the_axis_has_arrows_at_its_ends() {
     let (drawn, axis) = strips(vec![row(Parameter::Kx, 0.01, 6.4, 0.05, Decision::Undecided)]);
@@ -88,13 +86,13 @@ fn an_interval_beyond_the_axis_has_arrows_at_its_ends() {
     let axis = Axis::along_x(axis.root_element());
     let page = Document::parse(&drawn[0]).unwrap();
     let [left, right] = of_class(page.root(), "meridian")[..] else { panic!("{drawn:?}") };
-    axis.says(tip(left)[0], -400.0);
-    axis.says(tip(right)[0], 400.0);
+    axis.says(tip(left)[0], -150.0);
+    axis.says(tip(right)[0], 150.0);
     let [whisker] = of_class(page.root(), "whisker")[..] else { panic!("{drawn:?}") };
     assert!(!whisker.attribute("d").unwrap().contains('V'), "{drawn:?}");
 }
 
-/// Ten tolerances off to the right, and nine to the left, where the axis ends at four.
+/// Ten tolerances off to the right, and nine to the left, where the axis ends at one and a half.
 #[test]
 fn an_arrow_points_to_what_the_axis_does_not_reach() {
     let (drawn, axis) = strips(vec![
@@ -103,7 +101,7 @@ fn an_arrow_points_to_what_the_axis_does_not_reach() {
     ]);
     let axis = Document::parse(&axis).unwrap();
     let axis = Axis::along_x(axis.root_element());
-    for (text, due) in drawn.iter().zip([400.0, -400.0]) {
+    for (text, due) in drawn.iter().zip([150.0, -150.0]) {
         let page = Document::parse(text).unwrap();
         let [arrow] = of_class(page.root(), "meridian")[..] else { panic!("{text}") };
         axis.says(tip(arrow)[0], due);

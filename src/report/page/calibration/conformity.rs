@@ -14,9 +14,9 @@ use crate::report::page::spacing::BLANK;
 use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::accuracy::unit;
-use crate::report::picture::tolerances::{Strips, decision, key, printed, unit_at_type, unit_of};
+use crate::report::picture::tolerances::{self, decision, key, printed, unit_at_type, unit_of};
 use crate::report::style::Outcome;
-use crate::report::tolerance::coverage_factor;
+use crate::report::tolerance::{coverage_factor, gravity_contributes};
 use crate::wording::date_text;
 use maud::{Markup, html};
 
@@ -92,12 +92,15 @@ pub(super) fn counted(
     })
 }
 
-/// Writes the outcome of simple acceptance, and a note on the risks in the table.
+/// Writes the outcome of simple acceptance, a note on the risks in the table, and which parameters no gyro could pass.
 fn simple(verdict: &Verdict, note: Option<Text>, languages: &Languages) -> Markup {
+    let too_uncertain = verdict.too_uncertain();
+    let names = listed(too_uncertain.iter().map(|one| name_of(one.symbol())));
     languages.paragraph_with(|language| {
         html! {
             (counts(verdict, |row| row.simple, texts::PASSED_BY_SIMPLE, language)) "."
             @if let Some(note) = note { " " (italic(&note.words(language))) }
+            @if !too_uncertain.is_empty() { " " (texts::TOO_UNCERTAIN.marked_up(language, &[("names", names.clone())])) }
         }
     })
 }
@@ -149,7 +152,6 @@ fn table(
 ) -> Markup {
     let rows = &verdict.parameters;
     let expanded = ParameterVerdict::expanded_uncertainty_of_value;
-    let strips = Strips::of([verdict]);
     let numbers = |heading, number: &dyn Fn(&ParameterVerdict) -> Number| {
         Column::named(languages, heading, column(languages, rows.iter().map(number)))
     };
@@ -178,7 +180,10 @@ fn table(
         numbers(deviation, &|row| printed(row).0),
         numbers(texts::PLUS_MINUS, &|row| printed(row).1),
         Column::named(languages, texts::TOLERANCE, tolerances),
-        Column { foot: strips.axis(languages), ..each(texts::IN_TOLERANCE, &|row| strips.strip(verdict, row)) },
+        Column {
+            foot: tolerances::axis(languages),
+            ..each(texts::IN_TOLERANCE, &|row| tolerances::of_parameter(verdict, row))
+        },
         each(texts::GUARDED, &|row| decided(languages, verdict.decision(row))),
         Column::named(languages, texts::RISK, risks),
     ];
@@ -217,7 +222,8 @@ fn from_gravity(page: &CalibrationPage, verdict: &Verdict, languages: &Languages
     if rows.is_empty() || verdict.withheld {
         return html! {};
     }
-    let u = Number::uncertainty(page.document.gravity_u_m_per_s2.unwrap_or(0.0));
+    let u_m_per_s2 = page.document.gravity_u_m_per_s2.unwrap_or(0.0);
+    let u = Number::uncertainty(u_m_per_s2);
     let part = |row: &ParameterVerdict, language: Language| {
         let gravity = Number::uncertainty(row.expanded_uncertainty_from_gravity.unwrap_or(0.0));
         let gravity = quantity(&language.into(), &gravity, unit_of(row));
@@ -226,7 +232,7 @@ fn from_gravity(page: &CalibrationPage, verdict: &Verdict, languages: &Languages
     languages.paragraph_with(|language| {
         let parts = listed(rows.iter().map(|row| part(row, language)));
         let u = quantity(&language.into(), &u, units::M_PER_S2);
-        texts::FROM_GRAVITY.marked_up(language, &[("parts", parts), ("u", u)])
+        gravity_contributes(u_m_per_s2).marked_up(language, &[("parts", parts), ("u", u)])
     })
 }
 

@@ -10,7 +10,7 @@ use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{Column, Table, date, heading, starts};
 use crate::report::page::texts::calibration as texts;
 use crate::report::picture::accuracy::unit;
-use crate::report::picture::tolerances::{Strips, unit_at_type};
+use crate::report::picture::tolerances::{self, unit_at_type};
 use jiff::civil::Date;
 use maud::{Markup, html};
 
@@ -44,7 +44,6 @@ fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
     let gravity = page.gyro.map_or(page.document.gravity_m_per_s2, GyroType::gravity);
     let (unit_of, of): (fn(_) -> _, _) =
         if page.gyro.is_some() { (unit_at_type, texts::OF_TYPE) } else { (unit, texts::OF_PLACE) };
-    let strips = Strips::of(all.iter().filter_map(|past| past.verdict.as_ref()));
     // The calibrations of a parameter stand below one another, so that its strips show what has changed.
     let each = Parameter::AS_IN_THE_PAPER.into_iter().flat_map(|parameter| {
         (1..).zip(all).filter_map(move |(number, past)| {
@@ -71,13 +70,13 @@ fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
     let drawn = each.iter().map(|(parameter, _, past, ..)| {
         let Some(verdict) = &past.verdict else { return Markup::default() };
         let row = verdict.parameter(*parameter);
-        row.map_or_else(Markup::default, |row| strips.strip(verdict, row))
+        row.map_or_else(Markup::default, |row| tolerances::of_parameter(verdict, row))
     });
     let mut columns =
         vec![Column::named(languages, texts::FOUND, values), Column::named(languages, texts::PLUS_MINUS, us)];
     if page.gyro.is_some() {
         let drawn = Column::named(languages, texts::IN_TOLERANCE, drawn.collect());
-        columns.push(Column { foot: strips.axis(languages), ..drawn });
+        columns.push(Column { foot: tolerances::axis(languages), ..drawn });
     }
     let headings = [texts::PARAMETER, texts::CALIBRATED].map(|text| languages.label(text));
     let table = Table::of(headings.into(), names, &columns);

@@ -33,9 +33,16 @@ pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
         value.unwrap_or_else(|| html! { span.save { (not_stated(languages)) } span.pen { (blank(languages)) } })
     };
     let laboratory = page.laboratory.and_then(|laboratory| laboratory.name.as_deref()).map(given);
-    // The title names the serial number if it was stated.
-    let no_serial = |language| format!("{}: {}", texts::SERIAL.words(language), texts::NO_SERIAL.words(language));
-    let day = or_not(page.document.date().map(|day| date(languages, day)));
+    let day = page.document.date().map(|day| date(languages, day));
+    // The title names the serial number if it was stated. Without it a report is of no gyro.
+    let gyro = match page.serial() {
+        Some(_) => (texts::MEASURED, or_not(day), html! {}),
+        None => (
+            texts::SERIAL,
+            or_not(None),
+            html! { @if let Some(day) = day { p { (languages.label(texts::MEASURED)) " " (day) } } },
+        ),
+    };
     let stand = html! { (given(content.stand.model.as_str())) " №\u{a0}" (given(content.stand.serial.as_str())) };
     let site = content.site.name.as_deref().unwrap_or(content.site.id.as_str());
     let verified = match &page.passport {
@@ -46,17 +53,12 @@ pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
     parts::band(
         languages,
         [
-            (texts::MEASURED, day, html! { @if page.serial().is_none() { p { (languages.label_with(no_serial)) } } }),
+            gyro,
             (passport_texts::LABORATORY, or_not(laboratory), html! {}),
             (texts::STAND, stand, html! { p { (given(site)) } }),
             (passport_texts::WORD, given(&content.certificate.number), certificate),
         ],
     )
-}
-
-/// Writes the serial number of the gyro, or that it was not stated: a report is of one gyro.
-fn serial(page: &CalibrationPage, languages: &Languages) -> Markup {
-    page.serial().map_or_else(|| html! { span.absent { (languages.inline(texts::NO_SERIAL)) } }, given)
 }
 
 fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
@@ -67,15 +69,23 @@ fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
     let celsius = |value: f64| quantity(languages, &Number::exact(value), units::CELSIUS);
     let temperature = subject.and_then(|subject| subject.temperature_c).map(celsius);
     let site = content.site.name.as_deref().unwrap_or(content.site.id.as_str());
+    // What the band leaves blank has its only blank there.
+    let serial = page.serial().map(given);
+    let day = result.date().map(|day| date(languages, day));
+    let has_blank = serial.is_some() && day.is_none();
     fields([
         field(languages, texts::TYPE, page.gyro.map(|gyro| given(&gyro.r#type))),
-        field(languages, texts::SERIAL, Some(serial(page, languages))),
+        serial.map(|serial| field(languages, texts::SERIAL, Some(serial))).unwrap_or_default(),
         field(languages, texts::CONDITION, None),
         field(languages, texts::REPORT_NUMBER, None),
         field(languages, passport_texts::CUSTOMER, None),
         field(languages, record::CUSTOMER_CONTACT, None),
         field(languages, texts::RECEIVED, None),
-        field(languages, texts::MEASURED, result.date().map(|day| date(languages, day))),
+        (if has_blank {
+            html! {}
+        } else {
+            field(languages, texts::MEASURED, day)
+        }),
         field(languages, texts::OPERATOR, subject.and_then(|subject| subject.operator.as_deref()).map(given)),
         field(languages, texts::MEASURED_TEMPERATURE, temperature),
         field(languages, texts::STAND, Some(given(&stand))),
@@ -133,7 +143,7 @@ fn laboratory(page: &CalibrationPage, languages: &Languages) -> Markup {
     let temperature = laboratory.temperature_c.map(|value| field(languages, texts::TEMPERATURE, Some(celsius(value))));
     html! {
         (fields([
-            field(languages, passport_texts::NAME, laboratory.name.as_deref().map(given)),
+            laboratory.name.as_deref().map(|name| field(languages, passport_texts::NAME, Some(given(name)))).unwrap_or_default(),
             field(languages, passport_texts::ADDRESS, None),
             field(languages, texts::PROCEDURE, None),
             temperature.unwrap_or_default(),

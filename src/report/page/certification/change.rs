@@ -23,7 +23,8 @@ pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup
         let (positions, runs) = (page.certification.stand.positions.len(), page.certification.runs.len());
         let headline = languages.label_with(|language| texts::CERTIFIED.filled(language, values! { positions, runs }));
         let words = html! { (languages.paragraph(texts::NOT_COMPARED)) (warnings(page, languages)) };
-        return outcome_box(Outcome::Passed, &headline, words);
+        let is_clear = page.certification.remarks.is_empty();
+        return outcome_box(if is_clear { Outcome::Passed } else { Outcome::Undecided }, &headline, words);
     };
     let outcome = outcome_of(comparison, comparison.same_stand);
     let verdict = match outcome {
@@ -59,11 +60,9 @@ fn warnings(page: &CertificationPage, languages: &Languages) -> Markup {
     }
 }
 
-pub(super) fn section(page: &CertificationPage, languages: &Languages) -> Markup {
-    match &page.change {
-        None => languages.paragraph(texts::NOT_COMPARED),
-        Some((comparison, changes)) => compared(comparison, changes, languages),
-    }
+/// Writes the comparison with the last certificate, if there is one.
+pub(super) fn section(page: &CertificationPage, languages: &Languages) -> Option<Markup> {
+    page.change.as_ref().map(|(comparison, changes)| compared(comparison, changes, languages))
 }
 
 fn compared(comparison: &Comparison, changes: &[NumberDifference], languages: &Languages) -> Markup {

@@ -160,8 +160,17 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
         freedom: None,
         probability: Some(p),
     };
-    found.extend(suspects.positions.iter().map(|test| bartlett(texts::BARTLETT_POSITIONS, test)));
-    found.extend(suspects.axes.iter().map(|test| bartlett(texts::BARTLETT_AXES, test)));
+    let of_variances = [(texts::BARTLETT_POSITIONS, &suspects.positions), (texts::BARTLETT_AXES, &suspects.axes)];
+    found.extend(of_variances.map(|(name, test)| match test {
+        Some(test) => bartlett(name, test),
+        None => Tested {
+            name: languages.label(name),
+            result: said(Outcome::NotAsked, texts::NOT_MADE),
+            statistic: None,
+            freedom: None,
+            probability: None,
+        },
+    }));
     found.extend(suspects.worse.iter().map(|at| {
         let name = languages.label_with(|language| texts::COCHRAN.filled(language, values! { index: at.index }));
         named(name, at.ratio, at.probability)
@@ -186,7 +195,7 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
     }));
     found.extend(without_findings(page, languages));
     let cells = |cell: fn(&Tested) -> Option<Cell>| {
-        column(languages, found.iter().map(|test| cell(test).unwrap_or(Cell::Words(html! {}))))
+        column(languages, found.iter().map(|test| cell(test).unwrap_or_else(Cell::none)))
     };
     let columns = [
         (checks::RESULT, found.iter().map(|test| test.result.clone()).collect()),

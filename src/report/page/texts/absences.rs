@@ -39,7 +39,7 @@ texts! {
         ru: "В сертификате не все восемь положений: матриц нет, применим только метод наименьших квадратов."
     }
     DEFLECTION {
-        en: "The deflection of the vertical is unknown; it is taken as 0 with u = {u}″, which adds up to \
+        en: "The deflection of the vertical is unknown; it is taken as 0 with u = {u}″, which contributes at most \
              {cost} °/h to the Earth-rate components.",
         ru: "Уклонение отвесной линии неизвестно: принято равным 0 с u = {u}″, что даёт до {cost} °/ч в \
              составляющих угловой скорости Земли."

@@ -157,7 +157,6 @@ texts! {
     SUBJECT { en: "Object, place and equipment of the calibration", ru: "Объект, место и средства калибровки" }
     TYPE { en: "Type", ru: "Тип" }
     SERIAL { en: "Serial number of the gyro", ru: "Заводской номер гироскопа" }
-    NO_SERIAL { en: "not stated", ru: "не указан" }
     CONDITION { en: "Condition of the gyro", ru: "Состояние гироскопа" }
     RECEIVED { en: "Gyro received", ru: "Дата поступления" }
     MEASURED { en: "Date of the readings", ru: "Дата измерений" }
@@ -310,10 +309,15 @@ texts! {
     EARLIER { en: "Previous", ru: "Прежнее значение" }
     FOUND { en: "Value", ru: "Значение" }
     FROM_GRAVITY {
-        en: "Local gravity, with an uncertainty of {u}, contributes {parts}. To reduce this, measure gravity or state the \
-             height in the site file.",
+        en: "Local gravity, with an uncertainty of {u}, contributes {parts}. To reduce this, measure gravity.",
         ru: "Местное g, неопределённость которого {u}, вносит {parts}. Для уменьшения этого вклада следует измерить \
-             ускорение свободного падения или указать высоту в файле места установки."
+             ускорение свободного падения."
+    }
+    FROM_UNKNOWN_HEIGHT {
+        en: "Local g contributes {parts}: the height is not stated, so it is that at 0 m with an uncertainty of {u}, all \
+             heights up to 4000 m being equally probable. To reduce this, state the height in the site file or measure g.",
+        ru: "Местное g вносит {parts}: высота не указана, поэтому g вычислено для 0 м с неопределённостью {u} (высоты до \
+             4000 м равновероятны). Для уменьшения этого вклада следует указать высоту в файле места установки или измерить g."
     }
     FROM_GRAVITY_PART { en: "{gravity} to U of {parameter}", ru: "{gravity} в U параметра {parameter}" }
     FROM_TURN_ONS {
@@ -332,6 +336,10 @@ texts! {
     PASSED_BY_SIMPLE {
         en: "By simple acceptance, without a guard band, {passed} of {all} parameters pass",
         ru: "При простой приёмке, без защитной полосы, соответствуют допускам {passed} из {all} параметров"
+    }
+    TOO_UNCERTAIN {
+        en: "No gyro can pass with these readings: U alone exceeds the tolerance of {names}.",
+        ru: "С этими показаниями подтвердить соответствие невозможно: U больше допуска для {names}."
     }
     RISK_NOTE {
         en: "Risk (specific risk): probability that this decision on the parameter is wrong. Guarded acceptance is \

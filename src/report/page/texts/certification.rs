@@ -40,6 +40,7 @@ texts! {
     }
     READING_OF { en: "position {index}, run {run}", ru: "положение {index}, серия {run}" }
     OF_A_VISIT { en: "standard deviation of one visit, pooled over x, y, z", ru: "стандартное отклонение одной установки, общее для x, y, z" }
+    COMMON_PARTS { en: "Common parts, per axis: platform; base", ru: "Общие составляющие (по осям): платформа; основание" }
     STANDARD { en: "standard uncertainty (k = 1)", ru: "стандартная неопределённость (k = 1)" }
 
     UNCERTAINTY { en: "Uncertainty", ru: "Неопределённость" }
@@ -48,10 +49,13 @@ texts! {
     COMPONENTS_NOTE {
         en: "A reading differs from the mean of its position by a rotation of the platform and one of the base, both \
              common to the whole run, and by the scatter of the single visit. s: standard deviation; ν: its degrees of \
-             freedom; s/√R: its part in the mean of R runs. The repeatability is their quadratic mean over x, y and z.",
+             freedom; s/√R: its part in the mean of R runs. The repeatability is their quadratic mean over x, y and z. The upper \
+             limit is one-sided, from the chi-square distribution of the mean square between runs, less the scatter of the visits.",
         ru: "Показание отличается от среднего по положению на поворот платформы и поворот основания, общие для всей \
              серии, и на разброс одной установки. s — стандартное отклонение, ν — число его степеней свободы, \
-             s/√R — его часть в среднем по R\u{a0}сериям. Повторяемость — их среднее квадратическое по x, y и z."
+             s/√R — его часть в среднем по R\u{a0}сериям. Повторяемость — их среднее квадратическое по x, y и z. Верхняя \
+             граница односторонняя: по распределению хи-квадрат среднего квадрата между сериями за вычетом разброса \
+             установок."
     }
     FEW_DEGREES {
         en: "Below ν = 4 the uncertainty of s itself exceeds 35 % (JCGM 100, E.4.3): see its upper limit.",
@@ -116,15 +120,17 @@ texts! {
     EQUAL { en: "no difference", ru: "различий нет" }
     DOUBTFUL { en: "doubtful", ru: "сомнительно" }
     UNEQUAL { en: "different", ru: "различаются" }
+    NOT_MADE { en: "not made", ru: "не применялся" }
     OUTLIER { en: "outlier", ru: "выброс" }
     STRAGGLER { en: "straggler", ru: "квазивыброс" }
     TESTS_NOTE {
         en: "Value: the quantity that the row names last. Probability of a result at least as extreme by chance: below 5 % a \
              value is a straggler and equality is doubtful, below 1 % it is an outlier and the variances are different. The \
-             tests exclude nothing.",
+             tests exclude nothing. Bartlett’s is not made if a suspect reading or the step of the readings would decide it.",
         ru: "Значение: величина, названная в строке последней. Вероятность случайно получить столь же большое значение: \
              менее 5 % — квазивыброс, равенство сомнительно; менее 1 % — выброс, дисперсии различаются. По критериям ничего \
-             не исключается."
+             не исключается. Критерий Бартлетта не применяется, если его исход определили бы сомнительное показание или шаг \
+             отсчёта."
     }
     WARNINGS_COUNTED {
         en: "Warnings of the program: {count}; see section “{section}”.",

@@ -20,7 +20,7 @@ texts! {
         en: "no expiry date is stated; withdrawal not checked",
         ru: "срок действия не указан; отзыв не\u{a0}проверен"
     }
-    WHERE { en: "Site: within", ru: "Применять в пределах" }
+    WHERE { en: "Use within", ru: "Применять в пределах" }
     AROUND { en: "of", ru: "от" }
     AROUND_PARALLEL { en: "north or south of latitude", ru: "к северу и югу от широты" }
     WORD { en: "Based on certificate", ru: "На основании сертификата" }
