@@ -72,6 +72,7 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
         visit_noise: data.repeats.visit,
         turn_on_noise: data.repeats.turn_on,
         drift_test: if possible.is_ok() && !options.drift { drift_test(setup, readings, options) } else { None },
+        drift_in_order: drift_in_order(setup, readings, options),
         drift_or_noise: possible == Err(NoLeastSquares::DriftOrNoise),
         settled: fit.settled,
         hint,
@@ -130,6 +131,13 @@ fn drift_test(setup: &Setup, readings: &Readings, options: &Options) -> Option<D
     let rest = chi_square(&propagation);
     let explains = !rest.judges() || rest.probability >= diagnosis::ALARM;
     Some(DriftTest { drift_deg_per_h_per_h: drift, probability, explains })
+}
+
+/// Tests for a drift in the order of the rows, if there are no times.
+fn drift_in_order(setup: &Setup, readings: &Readings, options: &Options) -> Option<DriftTest> {
+    let timed = readings.timed_by_order()?;
+    drift_can_be_fitted(setup, &timed).ok()?;
+    drift_test(setup, &timed, options)
 }
 
 /// Returns the probability of a larger drift than `drift` if there is none; `None` if its covariance has no inverse.

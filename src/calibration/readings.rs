@@ -8,6 +8,7 @@ pub(crate) mod csv;
 use super::recorded::Recorded;
 use crate::coefficients::{Coefficients, PositionIndex};
 use crate::text::record;
+use crate::units::SECONDS_PER_HOUR;
 use nalgebra::Vector2;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -40,6 +41,9 @@ pub struct Visit {
     pub mean_ma: Vector2<f64>,
     /// Mean time of the readings, s; `None` if it is not known.
     pub time_s: Option<f64>,
+    /// Number of visits before this one, if the order of the rows tells it; not if each position was visited once, because
+    /// the rows may then be in the order of the positions.
+    pub(crate) before: Option<usize>,
 }
 
 /// Readings of one position, grouped by visit.
@@ -222,6 +226,17 @@ impl Readings {
         Some(sum / count)
     }
 
+    /// Returns the readings with the number of earlier visits as the time, one hour for each, if they have no times and the
+    /// order of their rows tells the visits; otherwise `None`.
+    pub(crate) fn timed_by_order(&self) -> Option<Self> {
+        let mut timed = self.clone();
+        for visit in timed.positions.iter_mut().flat_map(|at| &mut at.visits) {
+            let before = visit.before.filter(|_| visit.time_s.is_none())?;
+            visit.time_s = Some(before as f64 * SECONDS_PER_HOUR);
+        }
+        Some(timed)
+    }
+
     pub(crate) fn visits(&self) -> impl Iterator<Item = &Visit> {
         self.positions.iter().flat_map(|at| &at.visits)
     }
@@ -239,6 +254,7 @@ fn visits(rows: &[Reading]) -> BTreeMap<PositionIndex, Vec<Visit>> {
     let mut places: BTreeMap<(PositionIndex, u32, u32), usize> = BTreeMap::new();
     let mut counted: BTreeMap<(PositionIndex, u32), u32> = BTreeMap::new();
     let mut before = None;
+    let mut total = 0;
     for row in rows {
         let (index, cycle, stretch) = (row.index, row.cycle, Some((row.index, row.cycle)));
         let last = counted.entry((index, cycle)).or_default();
@@ -249,13 +265,18 @@ fn visits(rows: &[Reading]) -> BTreeMap<PositionIndex, Vec<Visit>> {
         let here = visits.entry(index).or_default();
         let place = *places.entry((index, cycle, number)).or_insert(here.len());
         if place == here.len() {
-            here.push(Visit { cycle, number, each_ma: Vec::new(), mean_ma: Vector2::zeros(), time_s: Some(0.0) });
+            let (each_ma, mean_ma, time_s) = (Vec::new(), Vector2::zeros(), Some(0.0));
+            let before = row.visit.is_none().then_some(total);
+            here.push(Visit { cycle, number, each_ma, mean_ma, time_s, before });
+            total += 1;
         }
         here[place].each_ma.push(row.current_ma);
         // The sum; its mean is taken after the last row.
         here[place].time_s = here[place].time_s.zip(row.time_s).map(|(sum, time_s)| sum + time_s);
     }
+    let once = total == visits.len();
     for visit in visits.values_mut().flatten() {
+        visit.before = visit.before.filter(|_| !once);
         visit.mean_ma = mean(visit.each_ma.iter());
         visit.time_s = visit.time_s.map(|sum| sum / visit.each_ma.len() as f64);
     }

@@ -56,6 +56,8 @@ pub struct Calibration {
     /// Test for a drift in time that was not fitted; `None` if it was, the readings have no times, or the repeated visits
     /// cannot tell it from the noise of the gyro.
     pub drift_test: Option<DriftTest>,
+    /// Test for a drift in the order of the rows, °/h per visit, of repeated visits without times.
+    pub(crate) drift_in_order: Option<DriftTest>,
     /// `true` if there are times, but the repeated visits cannot tell a drift from the noise of the gyro.
     pub(crate) drift_or_noise: bool,
     /// `true` if the fit converged. Otherwise the readings are far from those of any gyro on this stand.
