@@ -258,8 +258,8 @@ class Passport(Frozen):
 
         Args:
             currents: Path of a CSV file, a DataFrame or a mapping of columns (`i`, `j`, `jx_ma`, `jy_ma`, and if
-                present `cycle`, `visit`, `time_s`), or an array of shape (N, 4) with rows i, j, jx_ma, jy_ma. Currents
-                in mA.
+                present `cycle`, `visit`, `time_s`, `theta_deg`, `phi_deg`), or an array of shape (N, 4) with rows i, j,
+                jx_ma, jy_ma. Currents in mA.
             laboratory: Laboratory, `dtg-laboratory/1`: path of the file, or a mapping. Default: the paper's meter,
                 0.015 %.
             gyro: Gyro type, `dtg-gyro/1`, for the verdict: path of the file, or a mapping.
@@ -409,7 +409,7 @@ class Passport(Frozen):
 
 
 # Columns of currents: the first four are those of an array, the others may be in a table too.
-_COLUMNS = ("i", "j", "jx_ma", "jy_ma", "cycle", "visit", "time_s")
+_COLUMNS = ("i", "j", "jx_ma", "jy_ma", "cycle", "visit", "time_s", "theta_deg", "phi_deg")
 
 
 def _csv(currents: object) -> _dtg_passport._File:

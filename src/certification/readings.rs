@@ -3,7 +3,7 @@
 pub(super) mod whole_runs;
 
 use super::header::NominalPosition;
-use crate::calibration::readings::csv::position;
+use crate::calibration::readings::csv::{ANGLE_COLUMNS, compare_angles, position};
 use crate::calibration::recorded::{SPREAD_OVER_DIGITS, rounding_of};
 use crate::coefficients::PositionIndex;
 use crate::stand::{Excluded, LARGEST_DEVIATION_DEG};
@@ -95,7 +95,7 @@ impl AngleReadings {
         positions: &[NominalPosition],
         excluded: &[Excluded],
     ) -> Result<Self, Unreadable> {
-        let table = Table::read(name, bytes, &COLUMNS, &[])?;
+        let table = Table::read(name, bytes, &COLUMNS, &ANGLE_COLUMNS)?;
         let mut problems = Vec::new();
         let mut rows: Vec<Reading> = Vec::new();
         let is_out = |place| excluded.iter().any(|excluded| is_excluded(excluded, place));
@@ -106,6 +106,8 @@ impl AngleReadings {
             let known = positions.iter().map(NominalPosition::index);
             let advice = "check that these are the readings of this stand";
             let index = position(&table, row, known, ("a position of the stand file", advice), &mut problems);
+            let nominal = positions.iter().map(|at| (at.index(), [at.theta_deg, at.phi_deg]));
+            compare_angles(&table, row, index, nominal, &mut problems);
             let run = table.index(row, 2, &mut problems);
             // The angles of an excluded reading are not examined; its cells may be empty.
             if let Some(place) = index.zip(run).filter(|place| is_out(*place)) {

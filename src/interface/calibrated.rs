@@ -170,7 +170,9 @@ impl<'a> Prepared<'a> {
                 parameter.symbol()
             )));
         }
-        let readings = Readings::from_csv(name, currents, setup.coefficients(), laboratory.meter.range_ma)?;
+        let angles: Vec<_> = content.positions.iter().map(|at| (at.index(), [at.theta_deg, at.phi_deg])).collect();
+        let range_ma = laboratory.meter.range_ma;
+        let readings = Readings::from_csv_at(&angles, name, currents, setup.coefficients(), range_ma)?;
         let currents_sha256 = sha256_hex(currents);
         Ok(Self { content, laboratory, gyro_type, setup, missing, currents_sha256, readings })
     }

@@ -287,3 +287,20 @@ fn rounding_of_readings_is_included() {
         assert!(!found.warnings.iter().any(|words| words.contains("step of")), "{:?}", found.warnings);
     }
 }
+
+/// Expected: the nominal angles of the header; φ counted the other way round is that of another position.
+#[test]
+fn nominal_angles_of_a_row_are_compared() {
+    let text = csv(&Truth::new([1.0; 3], 0.0, 0.0).measured(&mut Stream::new(5), 2));
+    let with = |phi_deg: [f64; 8]| {
+        let angles = EIGHT_POSITIONS.iter().zip(phi_deg).map(|((_, theta_deg, _), phi_deg)| (theta_deg, phi_deg));
+        let rows = text.lines().skip(1).zip(angles.collect::<Vec<_>>().repeat(2));
+        let rows: String = rows.map(|(row, (theta_deg, phi_deg))| format!("{row},{theta_deg},{phi_deg}\n")).collect();
+        let header = format!("{},theta_deg,phi_deg", text.lines().next().unwrap());
+        AngleReadings::from_csv("a.csv", format!("{header}\n{rows}").as_bytes(), &self::header().positions)
+    };
+    let good = with([0.0, 90.0, 180.0, 270.0, 0.0, 90.0, 180.0, 270.0]).unwrap();
+    assert_eq!((good.each_arcsec, good.remark), (read(&text).each_arcsec, None));
+    let error = with([0.0, 270.0, 180.0, 90.0, 0.0, 270.0, 180.0, 90.0]).unwrap_err().to_string();
+    assert!(error.contains("a.csv:3:") && error.contains("found 270, expected 90, the nominal angle"), "{error}");
+}

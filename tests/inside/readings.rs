@@ -236,6 +236,28 @@ fn other_columns_are_named_and_left_out() {
     assert_eq!(read(&setup, &good).unwrap().remarks, [""; 0]);
 }
 
+/// Expected: the paper's angles of its positions; 450° is 90°, and 270° is not 90°.
+#[test]
+fn nominal_angles_are_compared() {
+    let setup = paper();
+    let good = good(&setup);
+    let with = |angles: [&str; 8]| {
+        let rows: String = good.lines().skip(1).zip(angles).map(|(row, angle)| format!("{row},{angle}\n")).collect();
+        read(&setup, &format!("i,j,jx_ma,jy_ma,theta_deg,phi_deg\n{rows}"))
+    };
+    let due = ["0,0", "0,90.2", "360,180", "0,-90", "90,0", "90,450", "89.5,180", "90,270"];
+    assert_eq!(with(due).unwrap(), read(&setup, &good).unwrap());
+    let clockwise = ["0,0", "0,270", "0,180", "0,90", "90,0", "90,270", "90,180", "90,90"];
+    let error = with(clockwise).unwrap_err();
+    for words in ["c.csv:3:", "phi_deg: found 270, expected 90, the nominal angle of position (1, 2)", "check i and j"]
+    {
+        assert!(error.contains(words), "{error}");
+    }
+    let error = with(["90,0", "0,90", "0,180", "0,270", "0,0", "90,90", "90,180", "90,270"]).unwrap_err();
+    assert!(error.contains("theta_deg: found 90, expected 0"), "{error}");
+    assert!(error.contains("theta_deg: found 0, expected 90"), "{error}");
+}
+
 /// Two visits at once, a cycle that visits one position alone, an exclusion that is not there: refused with the numbers.
 #[test]
 fn visits_and_cycles_that_cannot_be() {

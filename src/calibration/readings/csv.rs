@@ -1,8 +1,8 @@
-//! Currents from CSV: `i,j,jx_ma,jy_ma`, and optionally `cycle`, `visit`, `time_s`.
+//! Currents from CSV: `i,j,jx_ma,jy_ma`, and optionally `cycle`, `visit`, `time_s`, `theta_deg`, `phi_deg`.
 
 use super::{PositionReadings, Reading, Readings};
 use crate::calibration::recorded::Recorded;
-use crate::coefficients::{Coefficients, PositionIndex};
+use crate::coefficients::{Coefficients, EIGHT_POSITIONS, PositionIndex};
 use crate::statistics::coincidences::{self, Coincidence};
 use crate::text::number::two_digits;
 use crate::text::problem::MOST_PROBLEMS;
@@ -17,7 +17,16 @@ pub(crate) const COLUMNS: [&str; 4] = ["i", "j", "jx_ma", "jy_ma"];
 /// Advice on a cell without a number.
 const NOT_TAKEN: &str = "omit the whole row of a reading that was not taken";
 
-pub(crate) const OPTIONAL_COLUMNS: [&str; 3] = ["cycle", "visit", "time_s"];
+pub(crate) const OPTIONAL_COLUMNS: [&str; 5] = ["cycle", "visit", "time_s", ANGLE_COLUMNS[0], ANGLE_COLUMNS[1]];
+
+/// Columns of the nominal angles of a row, which must be those of its position.
+pub(crate) const ANGLE_COLUMNS: [&str; 2] = ["theta_deg", "phi_deg"];
+
+/// Difference from which the angle of a row is that of another position, degrees.
+const ANOTHER_ANGLE_DEG: f64 = 5.0;
+
+/// Position with its nominal angles θ and φ, degrees.
+pub(crate) type Nominal = (PositionIndex, [f64; 2]);
 
 impl Readings {
     /// Reads the CSV file `name` for the positions of `coefficients`; `range_ma` is the range of the meter, mA.
@@ -26,8 +35,20 @@ impl Readings {
     /// Returns [`Unreadable`] with the line and column of every error: invalid form or number, missing or unknown
     /// position, current beyond the range, axis without current.
     pub fn from_csv(name: &str, bytes: &[u8], coefficients: &Coefficients, range_ma: f64) -> Result<Self, Unreadable> {
+        let eight = EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| (index, [theta_deg, phi_deg]));
+        Self::from_csv_at(&eight, name, bytes, coefficients, range_ma)
+    }
+
+    /// Reads a CSV file as [`Readings::from_csv`] does, and compares the angles of its rows with the `nominal` ones.
+    pub(crate) fn from_csv_at(
+        nominal: &[Nominal],
+        name: &str,
+        bytes: &[u8],
+        coefficients: &Coefficients,
+        range_ma: f64,
+    ) -> Result<Self, Unreadable> {
         let table = Table::read(name, bytes, &COLUMNS, &OPTIONAL_COLUMNS)?;
-        let [cycle, visit, time] = OPTIONAL_COLUMNS.map(|column| table.place(column));
+        let [cycle, visit, time, ..] = OPTIONAL_COLUMNS.map(|column| table.place(column));
         let mut problems = Vec::new();
         let mut readings = Vec::new();
         for row in &table.rows {
@@ -37,6 +58,7 @@ impl Readings {
             let known = coefficients.positions.iter().map(|at| at.index);
             let advice = "check that this is the passport of this stand";
             let index = position(&table, row, known, ("a position of the passport", advice), &mut problems);
+            compare_angles(&table, row, index, nominal.iter().copied(), &mut problems);
             let x = current(&table, row, 2, range_ma, &mut problems);
             let y = current(&table, row, 3, range_ma, &mut problems);
             let mut whole = |column: Option<usize>| column.and_then(|column| table.index(row, column, &mut problems));
@@ -102,6 +124,30 @@ pub(crate) fn position(
         problems.push(table.problem(&row[0], 0, format!("position {index}"), expected, &advice));
     }
     found
+}
+
+/// Adds a problem for each angle of a row that is not the `nominal` one of its position.
+pub(crate) fn compare_angles(
+    table: &Table,
+    row: &Row,
+    index: Option<PositionIndex>,
+    mut nominal: impl Iterator<Item = Nominal>,
+    problems: &mut Vec<Problem>,
+) {
+    let Some((index, angles_deg)) = nominal.find(|(known, _)| Some(*known) == index) else { return };
+    for (name, nominal_deg) in ANGLE_COLUMNS.into_iter().zip(angles_deg) {
+        let Some(column) = table.place(name) else { continue };
+        let Some(angle_deg) = table.number(row, column, "state the nominal angle, or delete the column", problems)
+        else {
+            continue;
+        };
+        let difference_deg = libm::remainder(angle_deg - nominal_deg, 360.0);
+        if difference_deg.abs() > ANOTHER_ANGLE_DEG {
+            let expected = format!("{nominal_deg}, the nominal angle of position {index}");
+            let advice = "check i and j of this row, and how the stand counts its angles";
+            problems.push(table.problem(&row[column], column, format!("{angle_deg}"), &expected, advice));
+        }
+    }
 }
 
 fn current(table: &Table, row: &Row, column: usize, range_ma: f64, problems: &mut Vec<Problem>) -> Option<f64> {
