@@ -35,7 +35,7 @@ class Plan(NamedTuple):
     order: Array
     """Nominal angles theta and phi of each visit, in the best order, degrees, shape (N, 2)."""
     u: Parameters
-    """Standard uncertainties of a calibration with this plan."""
+    """Standard uncertainties from errors of single readings; those that all share are in `document`."""
     paper_u: Parameters | None
     """The same with the paper's eight positions; None if they cannot be compared."""
     frame_axis_azimuth: float

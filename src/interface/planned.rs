@@ -39,6 +39,11 @@ pub fn plan(
             "readings: found {readings}, expected {FEWEST_READINGS} to {MOST_READINGS}"
         )));
     }
+    if step_deg.is_some() && stand.is_some() {
+        return Err(Failed::unusable(
+            "step_deg: found a step and a stand, whose positions are certified; state one of the two",
+        ));
+    }
     let angles = match step_deg {
         None => Angles::QUADRANTS,
         Some(step_deg) => Angles::every(step_deg)
@@ -73,5 +78,8 @@ mod tests {
             let failed = plan(SITE, None, None, None, question).unwrap_err();
             assert!(failed.code == "unusable" && failed.message.contains(words), "{question}: {failed}");
         }
+        let stand = ("stand.yaml", include_bytes!("../../passports/SPS-2/0017/stand.yaml").as_slice());
+        let failed = plan(SITE, Some(stand), None, None, r#"{"step_deg": 45}"#).unwrap_err();
+        assert!(failed.code == "unusable" && failed.message.contains("a step and a stand"), "{failed}");
     }
 }

@@ -134,6 +134,8 @@ pub(crate) struct Plan {
     pub paper: Option<Evaluation>,
     /// Tolerances in the units of the parameters, in the order of [`Parameter::EIGHT`].
     pub tolerance: [f64; 8],
+    /// Standard uncertainty that the local g adds to ω_g or ω_k at the g of the type, the larger in units of its tolerance.
+    pub gravity_over_tolerance: f64,
     pub candidates: usize,
     /// Number of positions that are no candidates, because the meter cannot read the currents of the gyro in them.
     pub beyond_range: usize,
@@ -184,6 +186,7 @@ pub(crate) fn plan(question: &Question) -> Result<Plan, NoPlan> {
         evaluation: design.evaluation(question.criterion),
         paper: paper(question)?,
         tolerance: candidates.tolerance,
+        gravity_over_tolerance: gravity_over_tolerance(question, &candidates.tolerance),
         candidates: candidates.len(),
         beyond_range: candidates.beyond_range,
         exhaustive: found.exhaustive,
@@ -192,6 +195,14 @@ pub(crate) fn plan(question: &Question) -> Result<Plan, NoPlan> {
         of_positions_not_stated: candidates.not_stated.clone(),
         noise_not_stated: question.gyro.noise.as_ref().is_none_or(|noise| noise.visit_deg_per_h.is_none()),
     })
+}
+
+/// Returns what the uncertainty of the local g adds to ω_g or ω_k in a decision, the larger in units of its tolerance.
+fn gravity_over_tolerance(question: &Question, tolerance: &[f64; 8]) -> f64 {
+    let relative = question.site.gravity_u_m_per_s2().unwrap_or(0.0) / question.site.earth().gravity_m_per_s2;
+    let nominal = question.gyro.nominal.to_model().to_vector();
+    let places = [Parameter::OmegaG, Parameter::OmegaK].map(Parameter::place);
+    places.into_iter().map(|place| nominal[place].abs() * relative / tolerance[place]).fold(0.0, f64::max)
 }
 
 /// Evaluates the paper's eight positions with the frame's axis east, each visited an eighth of the readings.

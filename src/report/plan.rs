@@ -13,6 +13,9 @@ use std::fmt::Write;
 /// Rise of ω_0 during the run for which the text states its effect, °/h.
 const DRIFT_DEG_PER_H: f64 = 0.01;
 
+/// Share of the tolerance from which the text states the uncertainty of the local g.
+const LARGE_GRAVITY_SHARE: f64 = 0.1;
+
 /// Returns the plan: positions, order, uncertainties next to those of the paper's eight, and what it cannot see.
 /// `site` is the identifier of the site, and `site_azimuth_deg` its azimuth of the frame's axis.
 pub(crate) fn text(plan: &Plan, site: &str, site_azimuth_deg: f64) -> String {
@@ -109,6 +112,12 @@ fn uncertainties(out: &mut String, plan: &Plan) {
         row
     };
     columns::table(out, &names, Parameter::AS_IN_THE_PAPER.map(row));
+    columns::paragraph(
+        out,
+        "  ",
+        "u: standard uncertainty (k = 1) from errors of single readings, drifts at local g; `calibrate` adds the errors below, \
+         as far as they are stated.",
+    );
     let value = plan.evaluation.value;
     let mut words = format!("Value: {}.", significant(value));
     if let Some(paper) = &plan.paper {
@@ -191,6 +200,14 @@ fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<String> {
         remarks.push(format!(
             "No gyro can pass with these readings, because 2 u is larger than the tolerance of {}{no_other}.",
             beyond.join(", ")
+        ));
+    }
+    if plan.gravity_over_tolerance > LARGE_GRAVITY_SHARE {
+        let so = if COVERAGE_FACTOR * plan.gravity_over_tolerance > 1.0 { ", so that no gyro can pass" } else { "" };
+        remarks.push(format!(
+            "The uncertainty of the local g adds {} % of the tolerance to u of ω_g or ω_k at the g of the type{so}; the height of \
+             the site, if it is not stated, or its measured gravity reduces this.",
+            percent(plan.gravity_over_tolerance)
         ));
     }
     if plan.beyond_range > 0 {

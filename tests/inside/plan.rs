@@ -614,3 +614,27 @@ fn hundred_candidates_and_24_readings_take_a_second() {
         assert!(seconds <= 1.0);
     }
 }
+
+/// Expected: 10 °/(h·g) times 0.0071/9.8157, the g of the Moscow example and its u, over 0.01 °/(h·g), is 0.723; with u = 1e-5
+/// m/s² 0.0010.
+#[test]
+fn the_uncertainty_of_the_local_g_is_stated() {
+    let noise = proportional();
+    for (gravity, due, words) in [
+        (
+            "",
+            0.7233,
+            Some("adds 72 % of the tolerance to u of ω_g or ω_k at the g of the type, so that no gyro can pass; the"),
+        ),
+        ("gravity_m_per_s2: 9.8156\ngravity_u_m_per_s2: 1.0e-5\n", 0.00102, None),
+    ] {
+        let text = format!("format: \"dtg-site/1\"\nid: \"moscow\"\nlatitude_deg: {LATITUDE_DEG}\n{gravity}");
+        let site = fixtures::site(&text);
+        let found = plan(&question(&noise, &site)).unwrap();
+        assert!((found.gravity_over_tolerance / due - 1.0).abs() < 2e-3, "{}", found.gravity_over_tolerance);
+        let said = dtg_passport::report::plan::text(&found, "moscow", EAST);
+        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!(said.contains("The uncertainty of the local g"), words.is_some(), "{said}");
+        assert!(words.is_none_or(|words| said.contains(words)), "{said}");
+    }
+}
