@@ -15,7 +15,7 @@ function c = dtg_calibrate(passport, signers, currents, varargin)
 % The warning dtg:inconsistent means that the readings do not fit the stand, and dtg:mistake that an error such as currents
 % in another unit explains the parameters; they are then not valid. Other remarks are warnings dtg:remark.
     file = currents;
-    if ~ischar(currents)
+    if ~ischar(currents) && ~isa(currents, 'string')
         if ~isnumeric(currents) || ~isreal(currents)
             error('dtg:unusable', 'currents are not real numbers');
         end

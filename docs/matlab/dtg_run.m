@@ -6,8 +6,9 @@ function text = dtg_run(verb, words, signers, options, known, files)
     end
     for k = 1:2:numel(options)
         [name, value] = options{k:k + 1};
+        name = char(name);  % also strings of MATLAB, in double quotes
         if ~ismember(name, known)
-            error('dtg:option', 'unknown option %s, expected one of: %s', char(name), strjoin(known, ', '));
+            error('dtg:option', 'unknown option %s, expected one of: %s', name, strjoin(known, ', '));
         elseif strcmp(name, 'at') && isnumeric(value)
             value = sprintf('%.10f,%.10f', value);
         elseif islogical(value)
@@ -20,7 +21,8 @@ function text = dtg_run(verb, words, signers, options, known, files)
         end
         words{end + 1} = ['--', name, '=', char(value)];
     end
-    words = cellfun(@quoted, [words, {['--trust=', signers], '--'}, files], 'UniformOutput', false);
+    files = cellfun(@char, files, 'UniformOutput', false);
+    words = cellfun(@quoted, [words, {['--trust=', char(signers)], '--'}, files], 'UniformOutput', false);
     [status, text] = system(['dtg-passport ', verb, ' --format=json ', strjoin(words, ' ')]);
     if status == 1 && strcmp(verb, 'calibrate') && any(strfind(text, '"passport_id"'))
         status = 0;  % the gyro fails its type; the result says so
