@@ -273,6 +273,7 @@ impl Run<'_> {
         next.rival = self.rival(path, &folder, &next, trust);
         let mut warnings = if candidate.found.is_none() { self.warnings(&name, &bytes) } else { Vec::new() };
         warnings.extend(verification.content_from_anyone().and_then(|old| distant_correction(old, &next.site)));
+        let warnings = warnings.into_iter().map(|words| format!("WARNING: {words}")).collect();
         let stays_in_force = !next.supersedes() && verification.passport().is_some();
         Ok(Examined::Next(Box::new(Following { name, successor: next, folder, warnings, stays_in_force })))
     }
@@ -285,8 +286,7 @@ impl Run<'_> {
         let failed = verification.checks().iter().filter(of_the_past).map(|check| check.detail.clone());
         let uncertain = || workspace.register.as_ref().and_then(Register::uncertain).map(Alarm::reason);
         let failed: Vec<String> = failed.collect();
-        let warnings = if failed.is_empty() { Vec::from_iter(uncertain()) } else { failed };
-        warnings.into_iter().map(|words| format!("WARNING: {words}")).collect()
+        if failed.is_empty() { Vec::from_iter(uncertain()) } else { failed }
     }
 
     /// Returns the folder for the successor of the passport at `path`.

@@ -90,7 +90,7 @@ pub(crate) fn distant_correction(content: &Content, site: &Site) -> Option<Strin
     (site.id == old.id && distance_m > LARGEST_CORRECTION_M).then(|| {
         let another = "for another place, give the site another id";
         format!(
-            "WARNING: the coordinates of {} are {} from those in the predecessor; {}",
+            "the coordinates of {} are {} from those in the predecessor; {}",
             site.id,
             distance(distance_m),
             mistaken(content, place).unwrap_or(another)

@@ -327,7 +327,9 @@ impl Run {
         let last = content.last_day();
         let (code, detail) = match last {
             _ if issued_at > time => {
-                (Code::NotYetValid, format!("issued at {issued_at}, which is later than {time}; check the clock"))
+                let advice = "check the clock, and --time if it is given";
+                let detail = format!("issued at {issued_at}, later than the time of verification, {time}; {advice}");
+                (Code::NotYetValid, detail)
             }
             // A passport is valid until the last second of its expiry date.
             Some((last, which)) if time.as_second() > day(last).1.as_second() => {
