@@ -338,14 +338,12 @@ texts! {
         ru: "При простой приёмке, без защитной полосы, соответствуют допускам {passed} из {all} параметров"
     }
     TOO_UNCERTAIN {
-        en: "No gyro can pass with these readings: U alone exceeds the tolerance of {names}.",
-        ru: "С этими показаниями подтвердить соответствие невозможно: U больше допуска для {names}."
+        en: "No gyro can pass by guarded acceptance: U exceeds the tolerance of {names}.",
+        ru: "Приёмка с защитной полосой невозможна: U больше допуска для {names}."
     }
     RISK_NOTE {
-        en: "Risk (specific risk): probability that this decision on the parameter is wrong. Guarded acceptance is \
-             undecided where the uncertainty does not permit a decision.",
-        ru: "Риск: вероятность того, что это решение по параметру ошибочно. При приёмке с защитной полосой решение не \
-             определено, если неопределённость не позволяет его принять."
+        en: "Risk (specific risk): probability that this decision on the parameter is wrong.",
+        ru: "Риск: вероятность того, что это решение по параметру ошибочно."
     }
 
     FIT { en: "Goodness of fit", ru: "Согласие показаний с моделью" }
@@ -405,6 +403,11 @@ texts! {
     DRIFTS {
         en: "The residuals change with time more than chance explains: the gyro drifted during the run. Fit a linear drift with {option}.",
         ru: "Остатки меняются со временем больше, чем можно объяснить случайностью: за\u{a0}время измерений гироскоп дрейфовал. Учтите линейное изменение: {option}."
+    }
+    DRIFTS_IN_ORDER {
+        en: "In the order of the rows the residuals show a drift of ω_0 from visit to visit, which is not fitted and enlarges u.",
+        ru: "В порядке строк остатки обнаруживают изменение ω_0 от установки к установке; модель его не содержит, и оно \
+             увеличивает u."
     }
     DRIFT_OR_NOISE {
         en: "A drift in time was not tested, because the repeated visits cannot tell it from the noise of the gyro.",

@@ -121,8 +121,8 @@ texts! {
         ru: "расширенная неопределённость ±U"
     }
     TOLERANCES_GUARDED {
-        en: "guarded acceptance: within the tolerance minus U",
-        ru: "приёмка с защитной полосой: в пределах допуска за вычетом U"
+        en: "guarded acceptance",
+        ru: "приёмка с защитной полосой"
     }
     TOLERANCES_BEYOND { en: "beyond the axis", ru: "за пределами шкалы" }
     TOLERANCES_LIMIT { en: "tolerance", ru: "допуск" }
