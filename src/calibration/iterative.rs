@@ -186,7 +186,7 @@ impl Plan {
             (k, omega_n) = (next_k, next_omega_n);
             let moved = StepChange::new(step, &k, &change, &change_omega_n);
             watch(moved);
-            if meets(rule, &k, &change, &change_omega_n) {
+            if moved.meets(rule) {
                 return Some(LastStep { k, omega_n, change, steps: step });
             }
         }
@@ -222,17 +222,11 @@ impl StepChange {
             g_drifts_deg_per_h_per_g: omega_g.abs().max(omega_k.abs()),
         }
     }
-}
 
-/// Returns `true` if the paper's stop rule (under eq. (19)) is met: K_x, K_y changed by at most Δ₁ %, ω_g, ω_k by at
-/// most Δ₂.
-fn meets(rule: &StopRule, k: &Matrix2<f64>, change: &Matrix2<f64>, change_omega_n: &Matrix2<f64>) -> bool {
-    let share = rule.delta1_percent / 100.0;
-    let [omega_g, omega_k] = g_drifts(change_omega_n);
-    change.m11.abs() <= share * k.m11.abs()
-        && change.m22.abs() <= share * k.m22.abs()
-        && omega_g.abs() <= rule.delta2_deg_per_h
-        && omega_k.abs() <= rule.delta2_deg_per_h
+    /// Returns `true` if the paper's stop rule (under eq. (19)) is met.
+    fn meets(&self, rule: &StopRule) -> bool {
+        self.main_scale_factors_percent <= rule.delta1_percent && self.g_drifts_deg_per_h_per_g <= rule.delta2_deg_per_h
+    }
 }
 
 /// Solves for the gyro parameters by the iterative method, with ω_0 from (8).
