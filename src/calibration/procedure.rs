@@ -201,7 +201,8 @@ pub(crate) fn linearise(
         Method::Analytic | Method::Iterative => {
             let parameters = analytic::solve(setup.coefficients(), &data.currents_ma)?.parameters;
             let map = AnalyticMap::new(setup.coefficients(), &fit.currents_ma)?;
-            (Unknowns::of(parameters), propagation.response_of_analytic(&map))
+            let rows = propagation.causes.nrows();
+            (Unknowns::of(parameters), propagation.analytic(&map, &DMatrix::identity(rows, rows)).0)
         }
     };
     Ok(Linearised { fit, found, data, response })
@@ -242,7 +243,7 @@ impl<'a> Evaluation<'a> {
     fn closed(&self) -> Option<Closed> {
         let Propagation { setup, fit, .. } = self.propagation;
         let map = AnalyticMap::new(setup.coefficients(), &fit.currents_ma).ok()?;
-        let (spread, of_omega_n) = self.propagation.analytic(&map);
+        let (spread, of_omega_n) = self.propagation.analytic(&map, &self.propagation.causes);
         Some(Closed {
             covariance: covariance(&spread),
             omega_n_deg_per_h_per_g: Matrix2::from_row_slice(&standard_deviations(&of_omega_n)),

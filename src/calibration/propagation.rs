@@ -95,20 +95,9 @@ impl<'a> Propagation<'a> {
         product(&self.fit.model.r_inverse, &owned(&rotated.view_range(..self.fit.model.columns, ..)))
     }
 
-    /// Returns L F of the analytic method: the changes of the eight parameters (8 × causes), and of the four elements
-    /// of ω_n by rows (4 × causes).
-    pub(crate) fn analytic(&self, map: &AnalyticMap) -> (DMatrix<f64>, DMatrix<f64>) {
-        self.by(map, &self.causes)
-    }
-
-    /// Returns L of the analytic method: the change of each of its eight parameters per misclosure (8 × misclosures).
-    pub(crate) fn response_of_analytic(&self, map: &AnalyticMap) -> DMatrix<f64> {
-        let rows = self.causes.nrows();
-        self.by(map, &DMatrix::identity(rows, rows)).0
-    }
-
-    /// Returns the changes of the parameters and of ω_n for each column of `misclosures`.
-    fn by(&self, map: &AnalyticMap, misclosures: &DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
+    /// Returns L M of the analytic method for columns M of misclosures, such as [`Self::causes`]: the changes of the eight
+    /// parameters (8 × columns), and of the four elements of ω_n by rows (4 × columns).
+    pub(crate) fn analytic(&self, map: &AnalyticMap, misclosures: &DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
         let columns = misclosures.ncols();
         let (mut spread, mut omega_n) = (DMatrix::zeros(8, columns), DMatrix::zeros(4, columns));
         let mut each = vec![Vector2::zeros(); self.fit.whitening.len()];

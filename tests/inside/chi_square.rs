@@ -61,7 +61,8 @@ fn chi_square_is_that_of_the_residuals_of_any_method() {
     let map = AnalyticMap::new(setup.coefficients(), &fit.currents_ma).unwrap();
     let closed = analytic::solve(setup.coefficients(), &currents).unwrap().parameters;
     let closed = Unknowns::of(closed);
-    let methods = [(fit.unknowns, propagation.least_squares()), (closed, propagation.analytic(&map).0)];
+    let methods =
+        [(fit.unknowns, propagation.least_squares()), (closed, propagation.analytic(&map, &propagation.causes).0)];
     for (unknowns, spread) in methods {
         let rows = positions.iter().zip(&currents).flat_map(|(at, j)| {
             let misclosure = unknowns.misclosure(at, j);
