@@ -206,27 +206,17 @@ impl Setup {
     /// Returns the setup with the noise that the type of the gyro states; without one it is left out of account, or
     /// estimated from repeated readings.
     #[must_use]
-    pub(crate) fn of_gyro(mut self, noise: Option<&GyroNoise>) -> Self {
-        self.uncertainty.visit_deg_per_h = noise.and_then(|noise| noise.visit_deg_per_h);
-        self.uncertainty.turn_on_deg_per_h = noise.and_then(|noise| noise.turn_on_deg_per_h);
-        self
+    pub(crate) fn of_gyro(self, noise: Option<&GyroNoise>) -> Self {
+        self.with(|u| {
+            u.visit_deg_per_h = noise.and_then(|noise| noise.visit_deg_per_h);
+            u.turn_on_deg_per_h = noise.and_then(|noise| noise.turn_on_deg_per_h);
+        })
     }
 
-    /// Returns the setup with the noises of visits and turn-ons, °/h, that a calibration used, and with that of a reading,
-    /// mA, if none is stated.
-    pub(crate) fn with_noise(mut self, [visit, turn_on]: [f64; 2], reading_ma: Option<f64>) -> Self {
-        self.uncertainty.visit_deg_per_h = Some(visit);
-        self.uncertainty.turn_on_deg_per_h = Some(turn_on);
-        let meter = &mut self.uncertainty.meter;
-        if let Some(noise_ma) = reading_ma.filter(|_| meter.noise_ma == 0.0) {
-            meter.noise_ma = noise_ma;
-        }
-        self
-    }
-
-    /// Returns the setup with another floor of the meter, mA.
-    pub(crate) fn with_floor(mut self, floor_ma: f64) -> Self {
-        self.uncertainty.meter.floor_ma = floor_ma;
+    /// Returns the setup with other uncertainties, all of them still finite and not negative.
+    #[must_use]
+    pub(crate) fn with(mut self, change: impl FnOnce(&mut InputUncertainty)) -> Self {
+        change(&mut self.uncertainty);
         self
     }
 

@@ -14,11 +14,14 @@ use serde::Serialize;
 ///
 /// Its covariance is the one that a laboratory can expect, to first order.
 pub fn predicted(setup: &Setup, gyro: &GyroParameters, method: Method) -> Option<MethodResult> {
-    let positions = &setup.coefficients().positions;
-    let each: Option<Vec<_>> = positions.iter().map(|at| Some((at.index, gyro.currents_ma(at)?))).collect();
-    let readings = Readings::new(setup.coefficients(), &each?).ok()?;
+    let readings = Readings::new(setup.coefficients(), &exact_currents_ma(setup, gyro)?).ok()?;
     let options = Options { methods: vec![method], ..Options::default() };
     calibrate(setup, &readings, &options).ok()?.results.pop()
+}
+
+/// Returns the exact currents (J_x, J_y) of `gyro` in every position, mA, or `None` if its K has no inverse.
+pub(crate) fn exact_currents_ma(setup: &Setup, gyro: &GyroParameters) -> Option<Vec<(PositionIndex, Vector2<f64>)>> {
+    setup.coefficients().positions.iter().map(|at| Some((at.index, gyro.currents_ma(at)?))).collect()
 }
 
 /// Returns the parameter whose standard uncertainty suffers most from the positions that `readings` left out, with its
@@ -56,13 +59,16 @@ pub(crate) fn best_further_visit(
     (calibration, gyro): (&Calibration, &GyroParameters),
     (parameter, options): (Parameter, &Options),
 ) -> Option<FurtherVisit> {
-    let noise = [calibration.visit_noise, calibration.turn_on_noise].map(|noise| noise.deg_per_h);
-    let of_reading = calibration.row_scatter.map(|rows| rows.standard_deviation_ma);
-    let setup = readings.recorded.applied_to(setup).into_owned().with_noise(noise, of_reading);
+    // The noises that the calibration used.
+    let setup = readings.recorded.applied_to(setup).into_owned().with(|u| {
+        u.visit_deg_per_h = Some(calibration.visit_noise.deg_per_h);
+        u.turn_on_deg_per_h = Some(calibration.turn_on_noise.deg_per_h);
+        if let Some(rows) = calibration.row_scatter.filter(|_| u.meter.noise_ma == 0.0) {
+            u.meter.noise_ma = rows.standard_deviation_ma;
+        }
+    });
     let options = Options { methods: vec![Method::LeastSquares], ..options.clone() };
-    let positions = &setup.coefficients().positions;
-    let exact: Option<Vec<_>> = positions.iter().map(|at| Some((at.index, gyro.currents_ma(at)?))).collect();
-    let exact = exact?;
+    let exact = exact_currents_ma(&setup, gyro)?;
     let current_of = |index| exact.iter().find(|(known, _)| *known == index).map(|(_, current_ma)| *current_ma);
     let mut rows = Vec::new();
     for position in readings.positions() {

@@ -87,7 +87,7 @@ impl Recorded {
         if rounding_ma <= meter.floor_ma {
             return Cow::Borrowed(setup);
         }
-        Cow::Owned(setup.clone().with_floor(rounding_ma))
+        Cow::Owned(setup.clone().with(|u| u.meter.floor_ma = rounding_ma))
     }
 }
 

@@ -4,6 +4,7 @@
 //! weighted least squares with one reading in each position. `calibrate` will state the same uncertainty for such
 //! a gyro; a passport states it before delivery.
 
+use crate::calibration::prediction::exact_currents_ma;
 use crate::calibration::{Method, NoLeastSquares, NoReadings, NoSetup, Options, Parameter, Readings, Setup, calibrate};
 use crate::gyro::{GyroParameters, GyroType, Parameters};
 use crate::laboratory::Laboratory;
@@ -67,8 +68,7 @@ impl Stated {
         let (setup, _) = Setup::stated(certificate, positions, site, &self.laboratory)?;
         let setup = setup.of_gyro(self.gyro.noise.as_ref());
         let gyro = at_gravity(&self.gyro, site.earth().gravity_m_per_s2);
-        let each = setup.coefficients().positions.iter().map(|at| Some((at.index, gyro.currents_ma(at)?)));
-        let currents: Vec<_> = each.collect::<Option<_>>().ok_or(NoAccuracy::SingularGyro)?;
+        let currents = exact_currents_ma(&setup, &gyro).ok_or(NoAccuracy::SingularGyro)?;
         let readings = Readings::new(setup.coefficients(), &currents)?;
         let options = Options { methods: vec![Method::LeastSquares], ..Options::default() };
         let calibration = calibrate(&setup, &readings, &options)?;

@@ -91,7 +91,7 @@ fn the_rounding_takes_the_place_of_a_smaller_floor_only() {
     assert!((coarse / fine / 10.0 - 1.0).abs() < 0.02, "{coarse} {fine}");
     let seven = solved(&setup, &written(&setup, 1, (&mut Stream::new(2), 0.0), 7));
     assert_eq!(seven.digits, None);
-    setup = setup.with_floor(3e-5);
+    setup = setup.with(|u| u.meter.floor_ma = 3e-5);
     let stated = solved(&setup, &written(&setup, 1, (&mut Stream::new(2), 0.0), 4));
     assert_eq!(stated.digits, None);
     assert!((u(&stated, Parameter::Omega0x) / fine - 3e-5 / (1e-4 / 12_f64.sqrt())).abs() < 1e-3);
