@@ -136,8 +136,8 @@ pub(crate) enum NoChange {
 /// another gyro.
 pub(crate) fn another_type(earlier: &[CalibrationDocument], gyro_type: Option<&GyroType>) -> Option<String> {
     let now = &gyro_type?.r#type;
-    let stated = |result| CalibrationDocument::subject(result)?.gyro_type.as_deref();
-    let other = earlier.iter().filter_map(stated).find(|before| before != now)?;
+    let mut stated = earlier.iter().filter_map(|result| result.subject.as_ref()?.gyro_type.as_deref());
+    let other = stated.find(|before| before != now)?;
     let [before, now] = [other, now].map(printable);
     Some(format!(
         "the previous result is that of a gyro of type {before}, not {now}; check that it is that of this gyro, because the \
@@ -243,10 +243,6 @@ impl CalibrationDocument {
         }
     }
 
-    fn subject(&self) -> Option<&Subject> {
-        self.subject.as_ref()
-    }
-
     pub(crate) fn currents_sha256(&self) -> Option<&str> {
         Some(self.subject.as_ref()?.currents_sha256.as_str())
     }
@@ -309,8 +305,8 @@ impl CalibrationDocument {
 
     /// Returns the reason why a difference from `earlier` is no change of the gyro, if there is one.
     pub(crate) fn no_change(&self, earlier: &Self) -> Option<NoChange> {
-        let file = |of: &Self| of.subject.as_ref().map(|subject| subject.currents_sha256.clone());
-        let same_file = file(self).filter(|sha256| !sha256.is_empty()).is_some_and(|here| file(earlier) == Some(here));
+        let file = self.currents_sha256().filter(|sha256| !sha256.is_empty());
+        let same_file = file.is_some() && file == earlier.currents_sha256();
         // The same readings may have been saved anew.
         let same_result = || self.answer().zip(earlier.answer()).is_some_and(|(here, there)| here.is_same(&there));
         if same_file || same_result() {

@@ -123,9 +123,7 @@ impl Mistake {
             None => by_size(found, usual),
         }
     }
-}
 
-impl Mistake {
     /// Returns the numbering of the positions with which a result that fits, but is not that of the gyro type, becomes it, if
     /// there is only one.
     pub(crate) fn of_numbering(

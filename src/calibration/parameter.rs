@@ -71,8 +71,10 @@ impl Parameter {
             Self::OmegaK => ["omega_k", "ω_k", "deg/h/g"],
             Self::Anisoelasticity => ["anisoelasticity", "ω_n (anisoelasticity)", "deg/h/g^2"],
             Self::G(row, column) => G[usize::from(row)][usize::from(column)],
-            Self::TurnOn(axis) => TURN_ON[usize::from(axis)],
-            Self::Drift(axis) => DRIFT[usize::from(axis)],
+            Self::TurnOn(0) => ["turn_on_x", "the turn-ons about x", "deg/h"],
+            Self::TurnOn(_) => ["turn_on_y", "the turn-ons about y", "deg/h"],
+            Self::Drift(0) => ["drift_x", "the drift in time about x", "deg/h/h"],
+            Self::Drift(_) => ["drift_y", "the drift in time about y", "deg/h/h"],
         }
     }
 
@@ -116,15 +118,11 @@ impl Serialize for Parameter {
     }
 }
 
-/// Words of the elements of G, of turn-ons and of drifts.
+/// Words of the elements of G.
 const G: [[[&str; 3]; 3]; 2] = [
     [["g_xx", "G_xx", "deg/h/g"], ["g_xy", "G_xy", "deg/h/g"], ["g_xz", "G_xz", "deg/h/g"]],
     [["g_yx", "G_yx", "deg/h/g"], ["g_yy", "G_yy", "deg/h/g"], ["g_yz", "G_yz", "deg/h/g"]],
 ];
-const TURN_ON: [[&str; 3]; 2] =
-    [["turn_on_x", "the turn-ons about x", "deg/h"], ["turn_on_y", "the turn-ons about y", "deg/h"]];
-const DRIFT: [[&str; 3]; 2] =
-    [["drift_x", "the drift in time about x", "deg/h/h"], ["drift_y", "the drift in time about y", "deg/h/h"]];
 
 impl Tolerance {
     /// Returns the tolerance of one of the eight parameters: in percent of the nominal value or in the unit of the parameter,
