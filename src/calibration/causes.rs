@@ -8,7 +8,7 @@ use super::data::Data;
 use super::estimates::{Basis, Estimates};
 use super::inputs::Setup;
 use super::least_squares::Fit;
-use super::repeats::Repeats;
+use super::scatter::Repeats;
 use super::sensitivity::Sensitivity;
 use crate::attitude::ANGLES;
 use crate::coefficients::PositionIndex;
@@ -197,15 +197,18 @@ pub(crate) fn inputs(setup: &Setup, data: &Data, fit: &Fit) -> (Vec<Input>, DMat
 /// passport's numbers.
 pub(crate) fn of_stand_and_site(setup: &Setup, estimates: &Estimates) -> Vec<Input> {
     let u = setup.uncertainty();
-    let input = |cause, u, basis| Input::new(cause, u, basis, estimates.degrees_of_freedom(basis));
     let mut inputs = Vec::new();
     for (place, at) in setup.coefficients().positions.iter().enumerate() {
         let angles = u.angles_rad.get(place).copied().unwrap_or_default();
         let basis = estimates.angles[place];
-        inputs.extend((0..3).filter_map(|angle| input(Cause::Angle(at.index, angle), angles[angle], basis[angle])));
+        inputs.extend(
+            (0..3).filter_map(|angle| estimates.input(Cause::Angle(at.index, angle), angles[angle], basis[angle])),
+        );
     }
-    inputs.extend((0..3).filter_map(|axis| input(Cause::Platform(axis), u.common_platform_rad, estimates.platform)));
-    inputs.extend((0..3).filter_map(|axis| input(Cause::Base(axis), u.common_base_rad, estimates.base)));
+    inputs.extend(
+        (0..3).filter_map(|axis| estimates.input(Cause::Platform(axis), u.common_platform_rad, estimates.platform)),
+    );
+    inputs.extend((0..3).filter_map(|axis| estimates.input(Cause::Base(axis), u.common_base_rad, estimates.base)));
     let others = [
         (Cause::Level(0), u.level_rad),
         (Cause::Level(1), u.level_rad),
@@ -214,40 +217,41 @@ pub(crate) fn of_stand_and_site(setup: &Setup, estimates: &Estimates) -> Vec<Inp
         (Cause::Latitude, u.latitude_rad),
         (Cause::Deflection, u.deflection_rad),
     ];
-    inputs.extend(others.into_iter().filter_map(|(cause, u)| input(cause, u, Basis::Known)));
+    inputs.extend(others.into_iter().filter_map(|(cause, u)| estimates.input(cause, u, Basis::Known)));
     inputs
 }
 
 /// Returns the inputs with a positive uncertainty that a calibration adds: repeatability, gyro seat, currents.
 fn of_gyro_and_meter(setup: &Setup, repeats: &Repeats, estimates: &Estimates) -> Vec<Input> {
     let u = setup.uncertainty();
-    let input = |cause, u, basis| Input::new(cause, u, basis, estimates.degrees_of_freedom(basis));
-    let known = |cause, u| input(cause, u, Basis::Known);
+    let known = |cause, u| estimates.input(cause, u, Basis::Known);
     let mut inputs = Vec::new();
     for (place, at) in setup.coefficients().positions.iter().enumerate() {
         let of_returns = u.repeatability_rad * repeats.return_share(place).sqrt();
-        inputs.extend((0..3).filter_map(|axis| input(Cause::Return(at.index, axis), of_returns, estimates.returns)));
+        inputs.extend(
+            (0..3).filter_map(|axis| estimates.input(Cause::Return(at.index, axis), of_returns, estimates.returns)),
+        );
         let noise = repeats.noise_variance_ma2(place).sqrt();
         for axis in 0..2 {
             inputs.extend(known(Cause::Reading(at.index, axis), u.meter.reading));
             inputs.extend(known(Cause::Floor(at.index, axis), u.meter.floor_ma));
-            inputs.extend(input(Cause::Noise(at.index, axis), noise, estimates.noise));
+            inputs.extend(estimates.input(Cause::Noise(at.index, axis), noise, estimates.noise));
             let drift = repeats.drift_variance(place).sqrt();
-            inputs.extend(input(Cause::Visits(at.index, axis), drift, estimates.visits));
+            inputs.extend(estimates.input(Cause::Visits(at.index, axis), drift, estimates.visits));
         }
     }
     inputs.extend((0..3).filter_map(|axis| known(Cause::Seat(axis), u.seating_rad[axis])));
     inputs.extend(known(Cause::Gain, u.meter.gain));
     inputs.extend(known(Cause::Offset, u.meter.offset_ma));
     let turn_on = repeats.turn_on_of_mean_deg_per_h();
-    inputs.extend((0..2).filter_map(|axis| input(Cause::TurnOn(axis), turn_on, estimates.turn_ons)));
+    inputs.extend((0..2).filter_map(|axis| estimates.input(Cause::TurnOn(axis), turn_on, estimates.turn_ons)));
     inputs
 }
 
-impl Input {
-    /// Creates an input, or returns `None` if its uncertainty is 0.
-    pub(crate) fn new(cause: Cause, standard_uncertainty: f64, basis: Basis, degrees_of_freedom: f64) -> Option<Self> {
-        let input = Self { cause, standard_uncertainty, degrees_of_freedom, basis };
-        (standard_uncertainty > 0.0).then_some(input)
+impl Estimates {
+    /// Returns the input with this basis, or `None` if its uncertainty is 0.
+    pub(crate) fn input(&self, cause: Cause, standard_uncertainty: f64, basis: Basis) -> Option<Input> {
+        let degrees_of_freedom = self.degrees_of_freedom(basis);
+        (standard_uncertainty > 0.0).then_some(Input { cause, standard_uncertainty, degrees_of_freedom, basis })
     }
 }

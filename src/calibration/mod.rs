@@ -9,8 +9,7 @@
 //! * `procedure`: all methods side by side; `result`: their results with uncertainties and residuals.
 //! * `data`: mean currents with their errors, and fits to them; `chi_square`: the test of a fit.
 //! * `recorded`: rounding of the readings, and repeated readings without scatter.
-//! * `repeats`: numbers of visits and readings, and the errors assumed for each.
-//! * `scatter`: agreement of the rows of a visit, of the visits of a position and of the turn-ons with what was stated.
+//! * `scatter`: numbers of visits and readings, the errors assumed for each, and their agreement with what was stated.
 //! * `suspect`: the visit or row that agrees least with the others.
 //! * `noise`: the gyro's own noise; `offsets`: drift that changes during a run.
 //! * `diagnosis`: possible causes if the readings do not fit.
@@ -64,7 +63,6 @@ pub(crate) mod procedure;
 pub(crate) mod propagation;
 pub(crate) mod readings;
 pub(crate) mod recorded;
-pub(crate) mod repeats;
 pub(crate) mod result;
 pub(crate) mod scatter;
 pub(crate) mod sensitivity;

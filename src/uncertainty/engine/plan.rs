@@ -6,7 +6,7 @@
 
 use super::{ReadingShape, student};
 use crate::calibration::estimates::Estimates;
-use crate::calibration::repeats::Repeats;
+use crate::calibration::scatter::Repeats;
 use crate::calibration::{Basis, Cause, Input, Setup};
 use crate::statistics::wide_random::{Column, WIDTH, WideRandom};
 use nalgebra::Vector2;
@@ -37,9 +37,7 @@ impl Plan {
         let u = setup.uncertainty();
         let estimates = Estimates::new(setup, repeats);
         let mut inputs = Vec::new();
-        let mut add = |cause, u: f64, basis| {
-            inputs.extend(Input::new(cause, u, basis, estimates.degrees_of_freedom(basis)));
-        };
+        let mut add = |cause, u: f64, basis| inputs.extend(estimates.input(cause, u, basis));
         let positions = &setup.coefficients().positions;
         for (place, at) in positions.iter().enumerate() {
             for (angle, u_rad) in u.angles_rad.get(place).copied().unwrap_or_default().into_iter().enumerate() {
