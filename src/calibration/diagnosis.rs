@@ -147,7 +147,9 @@ pub(crate) fn hint(setup: &Setup, data: &Data, model: Model, chi_square: &ChiSqu
     let suspects = suspects(setup, data, &fit);
     let mut possible: Vec<(f64, Explanation)> = exchanges(setup, data, model, &suspects);
     possible.extend(single_positions(setup, data, model, &suspects));
-    let of_all = renumbered(setup, data, model).into_iter().chain(other_axes(setup, data, model));
+    let renumbered = numberings(setup)
+        .filter_map(|(i, j, places)| Some((score(setup, &data.at(&places), model)?, Explanation::Renumbered { i, j })));
+    let of_all = renumbered.chain(other_axes(setup, data, model));
     possible.extend(of_all.filter(|(score, _)| score + WORSE <= chi_square.value));
     possible.sort_by(|(one, _), (other, _)| one.total_cmp(other));
     let best = possible.first().map_or(0.0, |(score, _)| *score);
@@ -183,15 +185,9 @@ fn exchanges(setup: &Setup, data: &Data, model: Model, suspects: &[usize]) -> Ve
     possible
 }
 
-/// Returns every other numbering of the paper's eight positions that makes the readings fit, with its score: θ exchanged,
-/// φ counted in the other direction or from another position, or several of these. An exchange of two positions is none.
-fn renumbered(setup: &Setup, data: &Data, model: Model) -> Vec<(f64, Explanation)> {
-    let possible = numberings(setup)
-        .filter_map(|(i, j, places)| Some((score(setup, &data.at(&places), model)?, Explanation::Renumbered { i, j })));
-    possible.collect()
-}
-
-/// Returns every other numbering of the paper's eight positions, with the place of the reading for each position.
+/// Returns every other numbering of the paper's eight positions, with the place of the reading for each position: θ
+/// exchanged, φ counted in the other direction or from another position, or several of these. An exchange of two positions
+/// is none.
 fn numberings(setup: &Setup) -> impl Iterator<Item = ([u32; 2], [u32; 4], Vec<usize>)> {
     let positions = &setup.coefficients().positions;
     let place_of = |i, j| positions.iter().position(|at| at.index == PositionIndex { i, j });

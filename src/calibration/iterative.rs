@@ -199,7 +199,6 @@ impl Plan {
     }
 }
 
-/// State of the iteration at its last step.
 struct LastStep {
     k: Matrix2<f64>,
     omega_n: Matrix2<f64>,

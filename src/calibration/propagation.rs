@@ -57,7 +57,6 @@ impl<'a> Propagation<'a> {
         Self { setup, data, fit, design: fit.design(&data.offsets), causes, rotated }
     }
 
-    /// Returns the sensitivities of the misclosures at the fit.
     pub(crate) fn sensitivity(&self) -> Sensitivity<'a> {
         Sensitivity::new(self.setup, &self.fit.unknowns)
     }

@@ -81,7 +81,7 @@ pub(crate) fn all(setup: &Setup, readings: &Readings, observation: &Observation)
 /// `k` is K, °/(h·mA), and `covariance` returns the covariance of the errors of a visit, (°/h)², by the indices of
 /// position and visit. Its scale is that of the scatter, but not less than the share that `explained` returns. The result
 /// is `None` if no visit is suspect, or without enough repeated visits.
-fn of_visits(
+pub(crate) fn of_visits(
     readings: &Readings,
     differences: &Differences,
     k: &Matrix2<f64>,
@@ -166,52 +166,4 @@ fn largest(
         difference_ma: difference_ma.into(),
         probability,
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::attitude::Deviation;
-    use crate::calibration::InputUncertainty;
-    use crate::calibration::offsets::Offsets;
-    use crate::coefficients::{EarthRate, eight_positions};
-    use crate::laboratory::Laboratory;
-
-    /// Expected: NumPy, the model of all visits fitted with and without each of them, by `lstsq`; the tail of F with 2 and
-    /// ν degrees of freedom is (1 + 2 F/ν)^(−ν/2).
-    #[test]
-    fn a_visit_that_numpy_finds() {
-        let stand = eight_positions(Deviation::default);
-        let meter = InputUncertainty::of_meter((&Laboratory::paper().meter).into());
-        let setup = Setup::new(&stand, EarthRate::at_astronomic_latitude(55.7658), meter).unwrap();
-        let moved = include_str!("../../docs/run.csv").replace("2,4,-0.22799247,", "2,4,-0.22749247,");
-        assert_ne!(moved, include_str!("../../docs/run.csv"));
-        let readings = Readings::from_csv("run.csv", moved.as_bytes(), setup.coefficients(), 1.0).unwrap();
-        let k = Matrix2::new(95.0, 9.5, 9.5, 95.0);
-        let unlike = |place: usize, visit: usize| {
-            Matrix2::new(1.0, 0.3, 0.3, 2.0) * (1.0 + ((place % 4 + 1) * (visit + 1)) as f64 / 4.0)
-        };
-        type Covariance<'a> = &'a dyn Fn(usize, usize) -> Matrix2<f64>;
-        let cases: [(Covariance, bool, f64, [f64; 2]); 3] = [
-            (&|_, _| Matrix2::identity(), false, 6.375_051_471_998_137e-19, [5.292_392_86e-4, 2.347_071_43e-5]),
-            (&unlike, false, 5.532_272_870_865_271e-19, [5.327_358_16e-4, 2.395_163_64e-5]),
-            (&unlike, true, 1.227_381_674_506_125_3e-16, [5.078_959_51e-4, 1.034_736_65e-5]),
-        ];
-        for (covariance, drift, probability, difference_ma) in cases {
-            let found = of_visits(&readings, &differences_of(&readings, drift), &k, covariance, |_, _| 0.0).unwrap();
-            assert_eq!((found.index().to_string().as_str(), found.cycle, found.visit), ("(2, 4)", 2, 1));
-            assert!((found.probability / probability - 1.0).abs() < 1e-6, "{found:?}");
-            for (found, expected) in found.difference_ma.iter().zip(difference_ma) {
-                assert!((found / expected - 1.0).abs() < 1e-7, "{found} {expected}");
-            }
-            assert!(!found.one_of_two && found.row.is_none());
-            let good =
-                Readings::from_csv("run.csv", include_bytes!("../../docs/run.csv"), setup.coefficients(), 1.0).unwrap();
-            assert_eq!(of_visits(&good, &differences_of(&good, drift), &k, covariance, |_, _| 0.0), None);
-        }
-    }
-
-    fn differences_of(readings: &Readings, drift: bool) -> Differences {
-        Differences::new(readings, &Offsets::new(readings, drift)).unwrap()
-    }
 }

@@ -2,11 +2,13 @@
 
 use crate::inside::reference::*;
 use dtg_passport::calibration::noise::NoiseSource;
+use dtg_passport::calibration::offsets::{Differences, Offsets};
 use dtg_passport::calibration::parameter::Parameter;
 use dtg_passport::calibration::prediction::best_further_visit;
 use dtg_passport::calibration::readings::Reading;
 use dtg_passport::calibration::{
     Calibration, InputUncertainty, Method, MethodResult, Model, NoLeastSquares, Options, Readings, Setup, calibrate,
+    suspect,
 };
 use dtg_passport::coefficients::{EIGHT_POSITIONS, EarthRate, Position};
 use dtg_passport::statistics::random::Stream;
@@ -633,4 +635,42 @@ fn figures_of_coverage() {
     let found = coverage(0.002, 0.01, false, 3, 1, 200);
     print("turn-ons of 0.01 deg/h, estimated from 3 cycles", found);
     assert!(found.iter().all(|share| (share - 95.0).abs() < 1.0), "{found:?}");
+}
+
+/// Expected: NumPy, the model of all visits fitted with and without each of them, by `lstsq`; the tail of F with 2 and
+/// ν degrees of freedom is (1 + 2 F/ν)^(−ν/2).
+#[test]
+fn a_visit_that_numpy_finds() {
+    let meter = InputUncertainty::of_meter(paper_meter());
+    let setup = Setup::new(&ideal(), EarthRate::at_astronomic_latitude(LATITUDE_DEG), meter).unwrap();
+    let moved = include_str!("../../docs/run.csv").replace("2,4,-0.22799247,", "2,4,-0.22749247,");
+    assert_ne!(moved, include_str!("../../docs/run.csv"));
+    let readings = Readings::from_csv("run.csv", moved.as_bytes(), setup.coefficients(), 1.0).unwrap();
+    let k = Matrix2::new(95.0, 9.5, 9.5, 95.0);
+    let unlike = |place: usize, visit: usize| {
+        Matrix2::new(1.0, 0.3, 0.3, 2.0) * (1.0 + ((place % 4 + 1) * (visit + 1)) as f64 / 4.0)
+    };
+    type Covariance<'a> = &'a dyn Fn(usize, usize) -> Matrix2<f64>;
+    let cases: [(Covariance, bool, f64, [f64; 2]); 3] = [
+        (&|_, _| Matrix2::identity(), false, 6.375_051_471_998_137e-19, [5.292_392_86e-4, 2.347_071_43e-5]),
+        (&unlike, false, 5.532_272_870_865_271e-19, [5.327_358_16e-4, 2.395_163_64e-5]),
+        (&unlike, true, 1.227_381_674_506_125_3e-16, [5.078_959_51e-4, 1.034_736_65e-5]),
+    ];
+    for (covariance, drift, probability, difference_ma) in cases {
+        let found =
+            suspect::of_visits(&readings, &differences_of(&readings, drift), &k, covariance, |_, _| 0.0).unwrap();
+        assert_eq!((found.index().to_string().as_str(), found.cycle, found.visit), ("(2, 4)", 2, 1));
+        assert!((found.probability / probability - 1.0).abs() < 1e-6, "{found:?}");
+        for (found, expected) in found.difference_ma.iter().zip(difference_ma) {
+            assert!((found / expected - 1.0).abs() < 1e-7, "{found} {expected}");
+        }
+        assert!(!found.one_of_two && found.row.is_none());
+        let good =
+            Readings::from_csv("run.csv", include_bytes!("../../docs/run.csv"), setup.coefficients(), 1.0).unwrap();
+        assert_eq!(suspect::of_visits(&good, &differences_of(&good, drift), &k, covariance, |_, _| 0.0), None);
+    }
+}
+
+fn differences_of(readings: &Readings, drift: bool) -> Differences {
+    Differences::new(readings, &Offsets::new(readings, drift)).unwrap()
 }
