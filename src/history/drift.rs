@@ -1,14 +1,15 @@
 //! Drift of the certified deviations: a straight line through each over the years, and the tests of the line and of its
-//! slope. A deviation that is not on a line has jumped: it has no rate.
+//! slope. A deviation that is not on a line has jumped: it has no rate. Deviations are also tested relative to each other, for
+//! a change of one position that the parts common to all positions hide.
 
-use super::relative;
+use crate::calibration::inputs::Turn;
 use crate::coefficients::PositionIndex;
 use crate::passport::difference::u_of_deviations_arcsec;
 use crate::stand::{ActsOn, Certificate, CertifiedPosition, Stand};
-use crate::statistics::beta::f_larger;
+use crate::statistics::beta::{effective_degrees_of_freedom, f_larger};
 use crate::statistics::straight_line::{Point, StraightLine, holm};
-use crate::statistics::welch_satterthwaite::effective_degrees_of_freedom;
 use jiff::civil::Date;
+use nalgebra::{DMatrix, DVector, Matrix3};
 use serde::Serialize;
 
 /// Corrected probability below which a deviation drifts, as for an outlier in
@@ -108,7 +109,7 @@ impl Drift {
                 Series::of(position.0, angle, values)
             })
             .collect();
-        let mut relative = relative::series(certificates, first);
+        let mut relative = relative_series(certificates, first);
         for all in [&mut series, &mut relative] {
             test_lines(all);
         }
@@ -158,14 +159,6 @@ impl Drift {
     }
 }
 
-/// Tests the slope of every line, and replaces the lines that their own residuals reject.
-fn test_lines(series: &mut [Series]) {
-    for (at, corrected) in corrected(series, |at| Some(at.line?.probability())) {
-        series[at].corrected_probability = Some(corrected);
-    }
-    reject_lines(series);
-}
-
 /// Returns the places of the series that have a `probability`, with this probability corrected for their number by Holm's
 /// procedure.
 fn corrected(series: &[Series], probability: impl Fn(&Series) -> Option<f64>) -> Vec<(usize, f64)> {
@@ -175,14 +168,17 @@ fn corrected(series: &[Series], probability: impl Fn(&Series) -> Option<f64>) ->
 }
 
 /// Returns the years from the first certificate to the measurement of another one.
-pub(super) fn years(first: Date, certificate: &Certificate) -> f64 {
+fn years(first: Date, certificate: &Certificate) -> f64 {
     let days = first.until(certificate.measured()).map_or(0, |span| span.get_days());
     f64::from(days) / DAYS_PER_YEAR
 }
 
-/// Replaces the lines that their own residuals reject by the largest change. F allows for the degrees of freedom of the
-/// uncertainties.
-fn reject_lines(series: &mut [Series]) {
+/// Tests the slope of every line, and replaces the lines that their own residuals reject by the largest change. F allows for
+/// the degrees of freedom of the uncertainties.
+fn test_lines(series: &mut [Series]) {
+    for (at, corrected) in corrected(series, |at| Some(at.line?.probability())) {
+        series[at].corrected_probability = Some(corrected);
+    }
     let probability = |at: &Series| {
         let line = at.line.filter(|line| line.degrees_of_freedom > 0)?;
         let fewest = at.values.iter().map(|value| value.degrees_of_freedom).fold(f64::INFINITY, f64::min);
@@ -232,8 +228,90 @@ fn degrees_of_freedom(stand: &Stand, at: &CertifiedPosition, angle: usize, u: f6
     ])
 }
 
+/// Returns every deviation less its expectation given the others, up to a constant, with the uncertainty of this
+/// difference; `first` is the date of the first certificate. Certificates that do not state all uncertainties, and
+/// positions that are not in all of the others, are left out; empty if nothing common is stated or nothing can be compared.
+///
+/// Platform and base are set up anew for every certificate, which turns all positions together. If these common parts are
+/// larger than the own part of a position, its drift does not show in the deviation itself; its expectation given the others
+/// they do not change much.
+///
+/// With the covariance V of the deviations y of a certificate, mean of all certificates, the difference of y_k from its
+/// expectation is (V⁻¹ y)_k / (V⁻¹)_kk.
+fn relative_series(certificates: &[&Stand], first: Date) -> Vec<Series> {
+    let stated = |stand: &&&Stand| stand.positions.iter().all(|at| at.u_arcsec().iter().all(Option::is_some));
+    let known: Vec<&Stand> = certificates.iter().filter(stated).copied().collect();
+    let is_common = |stand: &&Stand| {
+        let certificate = &stand.certificate;
+        [certificate.common_platform_arcsec, certificate.common_base_arcsec].iter().flatten().any(|u| *u > 0.0)
+    };
+    if known.len() < 2 || !known.iter().any(is_common) {
+        return Vec::new();
+    }
+    let mut wanted: Vec<&CertifiedPosition> = known[0].positions.iter().collect();
+    wanted.retain(|at| known.iter().all(|stand| position(stand, at).is_some()));
+    wanted.sort_by_key(|at| at.index());
+    let positions =
+        known.iter().map(|stand| -> Vec<_> { wanted.iter().filter_map(|at| position(stand, at)).collect() });
+    let each: Vec<_> = positions
+        .zip(&known)
+        .map(|(positions, stand)| (covariance(&positions, &stand.certificate), positions, *stand))
+        .collect();
+    let size = 3 * wanted.len();
+    let mean = each.iter().fold(DMatrix::zeros(size, size), |sum, (covariance, ..)| sum + covariance);
+    let Some(inverse) = mean.cholesky().map(|factor| factor.inverse()) else { return Vec::new() };
+    let relative = DMatrix::from_fn(size, size, |row, column| inverse[(row, column)] / inverse[(row, row)]);
+    let values = each.iter().map(|(covariance, positions, stand)| {
+        let deviations = DVector::from_iterator(size, positions.iter().flat_map(|at| at.angles_arcsec()));
+        let variance = (&relative * covariance * relative.transpose()).diagonal();
+        let differences = &relative * deviations;
+        let value = |row: usize| Value {
+            certificate: stand.certificate.number.clone(),
+            date: stand.certificate.measured(),
+            years: years(first, &stand.certificate),
+            arcsec: differences[row],
+            u_arcsec: Some(variance[row].sqrt()),
+            degrees_of_freedom: positions[row / 3].degrees_of_freedom.unwrap_or(f64::INFINITY),
+        };
+        (0..size).map(value).collect::<Vec<_>>()
+    });
+    let values: Vec<Vec<Value>> = values.collect();
+    let of_row = |row: usize| {
+        let values = values.iter().map(|certificate| certificate[row].clone()).collect();
+        Series::of(wanted[row / 3].index(), row % 3, values)
+    };
+    (0..size).map(of_row).collect()
+}
+
+/// Returns the position of a stand with the index and the nominal angles of another one.
+fn position<'a>(stand: &'a Stand, other: &CertifiedPosition) -> Option<&'a CertifiedPosition> {
+    let nominal = |at: &CertifiedPosition| (at.index(), at.theta_deg, at.phi_deg);
+    stand.positions.iter().find(|at| nominal(at) == nominal(other))
+}
+
+/// Returns the covariance of α, β, γ of all positions, arcsec²: their own parts, and the turns of platform and base.
+fn covariance(positions: &[&CertifiedPosition], certificate: &Certificate) -> DMatrix<f64> {
+    let size = 3 * positions.len();
+    let (mut platform, mut base) = (DMatrix::zeros(size, 3), DMatrix::zeros(size, 3));
+    let mut own = DVector::zeros(size);
+    for (place, at) in positions.iter().enumerate() {
+        let turn = Turn::of(&at.to_model(), &Matrix3::identity());
+        let to_angles = turn.angles_of_rotation();
+        platform.fixed_rows_mut::<3>(3 * place).copy_from(&to_angles);
+        base.fixed_rows_mut::<3>(3 * place).copy_from(&(to_angles * turn.attitude));
+        for (angle, u) in at.u_arcsec().into_iter().enumerate() {
+            own[3 * place + angle] = u.unwrap_or(0.0) * u.unwrap_or(0.0);
+        }
+    }
+    let common =
+        |turns: DMatrix<f64>, u: Option<f64>| &turns * turns.transpose() * (u.unwrap_or(0.0) * u.unwrap_or(0.0));
+    DMatrix::from_diagonal(&own)
+        + common(platform, certificate.common_platform_arcsec)
+        + common(base, certificate.common_base_arcsec)
+}
+
 impl Series {
-    pub(super) fn of(index: PositionIndex, angle: usize, values: Vec<Value>) -> Self {
+    fn of(index: PositionIndex, angle: usize, values: Vec<Value>) -> Self {
         let point = |at: &Value| {
             Some(Point { x: at.years, y: at.arcsec, u: at.u_arcsec?, degrees_of_freedom: at.degrees_of_freedom })
         };
@@ -253,7 +331,6 @@ impl Series {
 
     /// Returns the change between the first and the last tested value with its standard uncertainty, arcsec, or `None` if no
     /// value was tested.
-    #[cfg(feature = "report")]
     pub(crate) fn change(&self) -> Option<(f64, f64)> {
         let (first, last) = (self.tested_values().next()?, self.tested_values().next_back()?);
         Some((last.arcsec - first.arcsec, libm::hypot(last.u_arcsec?, first.u_arcsec?)))

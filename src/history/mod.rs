@@ -1,16 +1,14 @@
 //! One stand over the years: its certificates, passports, places and withdrawals, and the drift of its deviations.
 //!
-//! * `drift`: the deviations of all certificates, and the test whether they drift.
-//! * `relative`: the deviations relative to each other, without what all positions have in common.
+//! `drift`: the deviations of all certificates, also relative to each other, and the test whether they drift.
 //!
 //! A history is a function of verified passports; [`crate::folder`] finds the files.
 
 pub(crate) mod drift;
-mod relative;
 
 use crate::document::sha256_hex;
 use crate::passport::{Content, Question, Trust, verify};
-use crate::register::{Line, Register, State};
+use crate::register::{Alarm, Line, Register, State};
 use crate::revocation::Entry;
 use crate::stand::Stand;
 use crate::text::first_few;
@@ -19,6 +17,7 @@ use drift::Drift;
 use jiff::Timestamp;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
+use std::iter;
 
 /// Certificate of the stand, as its passports state it.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,7 +30,6 @@ pub(crate) struct PastCertificate {
     pub counts: bool,
 }
 
-/// Passport of the stand.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(crate) struct PastPassport {
     /// Entry of the register.
@@ -45,16 +43,12 @@ pub(crate) struct PastPassport {
     /// Time at which a passport in force expires, if it does; for pictures.
     #[serde(skip)]
     pub expires_at: Option<Timestamp>,
-    /// Identifier of the predecessor.
     pub predecessor: Option<String>,
-    /// Reason for the re-issue.
     pub reason: Option<String>,
 }
 
-/// Stay of the stand at a site.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(crate) struct Stay {
-    /// Identifier of the site.
     pub site: String,
     /// Issue of the first passport for the site.
     pub from: Timestamp,
@@ -101,8 +95,9 @@ impl History {
     /// Creates the history of a stand, `<model>/<serial>`, from the files of its passports; `register` and `trust` are
     /// those of their folder.
     pub(crate) fn of(stand: &str, recorded: Vec<Recorded>, register: &Register, trust: &Trust, now: Timestamp) -> Self {
-        let mut remarks: Vec<String> =
-            register.alarms.iter().filter(|alarm| concerns(alarm, stand, &recorded)).map(ToString::to_string).collect();
+        let concerns =
+            |alarm: &&Alarm| alarm.concerns(stand) || recorded.iter().any(|at| alarm.files.contains(&at.line.file));
+        let mut remarks: Vec<String> = register.alarms.iter().filter(concerns).map(ToString::to_string).collect();
         let certificates = certificates(&recorded, &mut remarks);
         let passports = passports(&recorded, trust, now);
         let withdrawals = withdrawals(&recorded, trust);
@@ -123,10 +118,6 @@ impl History {
         let mut known = BTreeSet::new();
         self.places.iter().map(|stay| stay.site.as_str()).filter(|site| known.insert(*site)).collect()
     }
-}
-
-fn concerns(alarm: &crate::register::Alarm, stand: &str, recorded: &[Recorded]) -> bool {
-    alarm.concerns(stand) || recorded.iter().any(|at| alarm.files.contains(&at.line.file))
 }
 
 fn certificates(recorded: &[Recorded], remarks: &mut Vec<String>) -> Vec<PastCertificate> {
@@ -229,16 +220,9 @@ fn passports(recorded: &[Recorded], trust: &Trust, now: Timestamp) -> Vec<PastPa
         })
         .collect();
     let ancestors = |at: &PastPassport| {
-        let mut sha256 = at.line.sha256.as_str();
+        let before = |sha256: &&str| predecessors.get(sha256).copied();
         // A chain cannot be longer than the number of files.
-        (0..recorded.len())
-            .take_while(|_| {
-                predecessors.get(sha256).is_some_and(|from| {
-                    sha256 = from;
-                    true
-                })
-            })
-            .count()
+        iter::successors(before(&at.line.sha256.as_str()), before).take(recorded.len()).count()
     };
     passports.sort_by(|a, b| {
         // Of two passports of the same second, the predecessor comes first.

@@ -1,4 +1,4 @@
-//! Student's t and Fisher's F, computed through the regularised incomplete beta function.
+//! Student's t with the effective degrees of freedom of a sum, and Fisher's F, computed through the regularised incomplete beta function.
 //!
 //! Degrees of freedom are any positive numbers, as Welch and Satterthwaite's formula gives them. Infinite ones give the
 //! normal and the chi-square distribution.
@@ -112,6 +112,15 @@ pub(crate) fn chi_square_point(probability: f64, degrees_of_freedom: usize) -> f
     falling_root(|value| chi_square_larger(value, degrees_of_freedom), probability)
 }
 
+/// Returns the effective degrees of freedom of a sum of independent contributions, each (standard uncertainty, degrees
+/// of freedom), by Welch and Satterthwaite's formula
+/// ([GUM](crate::bibliography::Bibliography::Gum), eq. (G.2b)); infinite if all of them are known exactly.
+pub(crate) fn effective_degrees_of_freedom(contributions: &[(f64, f64)]) -> f64 {
+    let variance: f64 = contributions.iter().map(|(u, _)| u * u).sum();
+    let doubt: f64 = contributions.iter().map(|(u, nu)| u * u * u * u / nu).sum();
+    if doubt > 0.0 { variance * variance / doubt } else { f64::INFINITY }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -161,5 +170,13 @@ mod tests {
         assert_eq!((student_beyond(0.0, 3.0), student_beyond(-3.0, 2.0)), (1.0, student_beyond(3.0, 2.0)));
         assert_eq!((f_larger(0.0, 3, 4.0), f_larger(f64::INFINITY, 3, 4.0)), (1.0, 0.0));
         assert!(f_larger(1.0, 1, -1.0).is_nan() && student_factor(0.0, 3.0).is_nan());
+    }
+
+    /// Equal contributions with equal degrees of freedom add them up; one that is exact adds none of its own.
+    #[test]
+    fn degrees_of_freedom_add() {
+        assert!((effective_degrees_of_freedom(&[(1.0, 4.0), (1.0, 4.0)]) - 8.0).abs() < 1e-15);
+        assert!((effective_degrees_of_freedom(&[(1.0, 4.0), (1.0, f64::INFINITY)]) - 16.0).abs() < 1e-15);
+        assert_eq!(effective_degrees_of_freedom(&[(1.0, f64::INFINITY)]), f64::INFINITY);
     }
 }

@@ -1,24 +1,21 @@
 //! General statistics, independent of gyros: least squares, distributions, random streams.
 //!
 //! * [`least_squares`]: weighted linear models through QR, with rank and condition through the SVD.
-//! * [`distributions`]: chi-square and normal probabilities; [`beta`]: Student's t and Fisher's F; `saddle_point`:
-//!   terms that both need for large parameters.
+//! * [`distributions`]: chi-square and normal probabilities; [`beta`]: Student's t and Fisher's F, effective degrees of
+//!   freedom; `saddle_point`: terms that both need for large parameters.
 //! * `scaled_f`: the distribution of a chi-square whose covariance was partly estimated.
 //! * [`outlier`]: Bartlett's test for unequal variances, Cochran's for the largest variance, Grubbs' for an outlier.
 //! * `coincidences`: readings that are copies of earlier ones.
 //! * [`random`]: streams of random numbers that do not depend on the number of threads or on the platform.
 //! * [`wide_random`]: many random numbers at a time; [`elementary`]: the sine, cosine and logarithm for them.
 //! * [`straight_line`]: a straight line through points of known uncertainty; Holm's correction for many tests.
-//! * [`welch_satterthwaite`]: effective degrees of freedom of a sum.
 //! * [`bins`]: quantiles and coverage intervals of a sample of any size.
 //! * [`summary`]: largest value, mean, standard deviation, percentiles, and the standard error of a share.
 
 pub(crate) mod beta;
-#[cfg(feature = "monte-carlo")]
 pub(crate) mod bins;
 pub(crate) mod coincidences;
 pub(crate) mod distributions;
-#[cfg(feature = "monte-carlo")]
 pub(crate) mod elementary;
 pub(crate) mod least_squares;
 pub(crate) mod outlier;
@@ -28,6 +25,5 @@ pub(crate) mod saddle_point;
 pub(crate) mod scaled_f;
 pub(crate) mod straight_line;
 pub(crate) mod summary;
-pub(crate) mod welch_satterthwaite;
 #[cfg(feature = "monte-carlo")]
 pub(crate) mod wide_random;

@@ -6,7 +6,6 @@
 pub(crate) struct StraightLine {
     /// Weighted mean of x.
     pub centre: f64,
-    /// Value of the line at the centre.
     pub level: f64,
     pub u_level: f64,
     pub slope: f64,
@@ -58,7 +57,7 @@ impl StraightLine {
             u_level: 1.0 / weights.sqrt(),
             slope,
             u_slope: 1.0 / spread.sqrt(),
-            slope_degrees_of_freedom: super::welch_satterthwaite::effective_degrees_of_freedom(&contributions),
+            slope_degrees_of_freedom: super::beta::effective_degrees_of_freedom(&contributions),
             chi_square: points.iter().map(|at| residual(at) * residual(at)).sum(),
             degrees_of_freedom: points.len().saturating_sub(2),
         })

@@ -9,8 +9,7 @@ use crate::calibration::estimates::Estimates;
 use crate::calibration::procedure::{Linearised, linearise};
 use crate::calibration::propagation::{covariance, product};
 use crate::calibration::{Basis, Cause, Input, Method, MethodRefusal, Model, Options, Parameter, Readings, Setup};
-use crate::statistics::beta::student_factor;
-use crate::statistics::welch_satterthwaite;
+use crate::statistics::beta::{self, student_factor};
 use nalgebra::DMatrix;
 use std::collections::BTreeMap;
 
@@ -176,5 +175,5 @@ fn effective_degrees_of_freedom(inputs: &[Input], changes: &[f64], estimates: &[
         }
     }
     let contributions: Vec<(f64, f64)> = terms.into_iter().map(|(square, known)| (square.sqrt(), known)).collect();
-    welch_satterthwaite::effective_degrees_of_freedom(&contributions)
+    beta::effective_degrees_of_freedom(&contributions)
 }
