@@ -197,14 +197,14 @@ fn quantities(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
         let uncertainties: Vec<_> = parameters.iter().map(|one| Some(u[one.place()])).collect();
         let list = parts::reals(Some(&labels(parameters)), &each, unit, &uncertainties);
         let decisions = calibrated.judged.map(|(_, verdict)| decisions(verdict, parameters, unit, languages));
-        quantity(Some("basic_measuredValue"), in_words("dcc:name", name, languages), list).and(decisions)
+        quantity(Some("basic_measuredValue"), name, list, languages).and(decisions)
     };
     // Unlimited degrees of freedom are not stated.
     let freedom = Parameter::EIGHT.map(|one| (one, per_m_per_s2.degrees_of_freedom[one.place()]));
     let (known, each): (Vec<_>, Vec<_>) = freedom.into_iter().filter(|(_, freedom)| freedom.is_finite()).unzip();
     let freedom = (!known.is_empty()).then(|| {
-        let name = in_words("dcc:name", texts::EFFECTIVE_FREEDOM, languages);
-        quantity(None, name, parts::reals(Some(&labels(&known)), &each, units::ONE, &[]))
+        let list = parts::reals(Some(&labels(&known)), &each, units::ONE, &[]);
+        quantity(None, texts::EFFECTIVE_FREEDOM, list, languages)
     });
     let mut quantities = vec![
         group(words::SCALE_FACTORS, &[Kx, Kxy, Kyx, Ky], units::DEG_PER_H_PER_MA),
@@ -222,7 +222,7 @@ fn decisions(verdict: &Verdict, parameters: &[Parameter], unit: &str, languages:
     let each: Vec<&str> = rows.iter().map(|row| decided(row.guarded, passes(row))).collect();
     let limit = |kind, name, sign: f64| {
         let values: Vec<f64> = rows.iter().map(|row| limit_of(row, sign, verdict.gravity_m_per_s2)).collect();
-        quantity(Some(kind), in_words("dcc:name", name, languages), parts::reals(None, &values, unit, &[]))
+        quantity(Some(kind), name, parts::reals(None, &values, unit, &[]), languages)
     };
     let limits = [
         limit("basic_toleranceLimitLower", words::LOWER_LIMIT, -1.0),

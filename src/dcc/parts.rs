@@ -6,7 +6,6 @@ use super::words;
 use super::xml::Element;
 use crate::report::Languages;
 use crate::report::page::language::{Text, Values};
-use base64ct::{Base64, Encoding};
 
 const SCHEMA_VERSION: &str = "3.3.0";
 
@@ -75,8 +74,8 @@ pub(super) fn reals(
 }
 
 /// Returns a quantity: its kind in PTB's vocabulary, its name and its value.
-pub(super) fn quantity(kind: Option<&str>, name: Element, value: Element) -> Element {
-    let quantity = Element::new("dcc:quantity").and(name).and(value);
+pub(super) fn quantity(kind: Option<&str>, name: Text, value: Element, languages: &Languages) -> Element {
+    let quantity = Element::new("dcc:quantity").and(in_words("dcc:name", name, languages)).and(value);
     match kind {
         Some(kind) => quantity.with("refType", kind),
         None => quantity,
@@ -113,20 +112,6 @@ pub(super) fn hashed(name: &'static str, what: Text, id: &str, sha256: &str, lan
         .and(Element::text("dcc:referralID", id))
         .and(Element::text("dcc:procedure", "SHA-256"))
         .and(Element::text("dcc:value", sha256))
-}
-
-/// Returns a file in base64.
-pub(super) fn file(
-    name: &'static str,
-    [title, description]: [Element; 2],
-    (file_name, mime_type, bytes): (&str, &str, &[u8]),
-) -> Element {
-    Element::new(name)
-        .and(title)
-        .and(description)
-        .and(Element::text("dcc:fileName", file_name))
-        .and(Element::text("dcc:mimeType", mime_type))
-        .and(Element::text("dcc:dataBase64", Base64::encode_string(bytes)))
 }
 
 /// Returns this program. The release has a letter before the numbers, as PTB's rules demand.
@@ -168,9 +153,10 @@ pub(super) fn temperature(temperature_c: f64, languages: &Languages) -> Element 
 }
 
 pub(super) fn condition(name: Text, value: Element, languages: &Languages) -> Element {
-    let name = || in_words("dcc:name", name, languages);
-    let value = quantity(Some("basic_measuredValue"), name(), value);
-    Element::new("dcc:influenceCondition").and(name()).and(Element::new("dcc:data").and(value))
+    let value = quantity(Some("basic_measuredValue"), name, value, languages);
+    Element::new("dcc:influenceCondition")
+        .and(in_words("dcc:name", name, languages))
+        .and(Element::new("dcc:data").and(value))
 }
 
 /// Parts of the administrative data that differ between a stand and a gyro.

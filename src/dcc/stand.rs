@@ -12,6 +12,7 @@ use crate::report::page::language::{Text, values};
 use crate::report::page::texts::calibration as texts;
 use crate::stand::{CertifiedPosition, Datum};
 use crate::text::Problems;
+use base64ct::{Base64, Encoding};
 
 /// Returns the DCC of the certificate in a verified passport; `bytes` is the signed file, which the DCC contains.
 pub(crate) fn of_stand(
@@ -34,14 +35,12 @@ pub(crate) fn of_stand(
     };
     let sha256 = sha256_hex(bytes);
     let file_name = format!("{}-{}.yaml", content.site.id, content.passport.revision);
-    let document = parts::file(
-        "dcc:document",
-        [
-            in_words("dcc:name", words::PASSPORT, languages),
-            parts::filled("dcc:description", words::PASSPORT_NOTE, values! { id, sha256 }, languages),
-        ],
-        (&file_name, "application/yaml", bytes),
-    );
+    let document = Element::new("dcc:document")
+        .and(in_words("dcc:name", words::PASSPORT, languages))
+        .and(parts::filled("dcc:description", words::PASSPORT_NOTE, values! { id, sha256 }, languages))
+        .and(Element::text("dcc:fileName", file_name))
+        .and(Element::text("dcc:mimeType", "application/yaml"))
+        .and(Element::text("dcc:dataBase64", Base64::encode_string(bytes)));
     let xml = parts::certificate(&facts, subject, result(content, &facts), Some(document));
     Ok(Dcc { number: facts.number, xml })
 }
@@ -94,9 +93,7 @@ fn statements(content: &Content, facts: &Facts) -> Vec<Element> {
             .and(Element::text("dcc:date", day))
     });
     let range = certificate.temperature_range_c.map(|[low, high]| {
-        let limit = |kind, name, value| {
-            quantity(Some(kind), in_words("dcc:name", name, languages), real(value, units::CELSIUS, None))
-        };
+        let limit = |kind, name, value| quantity(Some(kind), name, real(value, units::CELSIUS, None), languages);
         let data = [limit("math_minimum", words::LOWEST, low), limit("math_maximum", words::HIGHEST, high)];
         parts::statement(words::TEMPERATURE_RANGE, None, languages).and(Element::new("dcc:data").and(data))
     });
@@ -112,7 +109,7 @@ fn statements(content: &Content, facts: &Facts) -> Vec<Element> {
         (words::COMMON_BASE, certificate.common_base_arcsec),
     ];
     let shared = shared.into_iter().filter_map(|(name, value)| {
-        let value = quantity(None, in_words("dcc:name", name, languages), real(value?, units::ARCSECOND, None));
+        let value = quantity(None, name, real(value?, units::ARCSECOND, None), languages);
         Some(parts::statement(name, None, languages).and(Element::new("dcc:data").and(value)))
     });
     traceability.into_iter().chain(valid_until).chain(range).chain(surfaces).chain(shared).collect()
@@ -133,17 +130,17 @@ fn result(content: &Content, facts: &Facts) -> Element {
 fn quantities(positions: &[CertifiedPosition], languages: &Languages) -> Vec<Element> {
     let column = |kind: Option<&str>, name: Text, unit: &str, value: fn(&CertifiedPosition) -> f64| {
         let values: Vec<f64> = positions.iter().map(value).collect();
-        quantity(kind, in_words("dcc:name", name, languages), reals(None, &values, unit, &[]))
+        quantity(kind, name, reals(None, &values, unit, &[]), languages)
     };
     let measured = |name: Text, value: fn(&CertifiedPosition) -> (f64, Option<f64>)| {
         let (values, u): (Vec<f64>, Vec<Option<f64>>) = positions.iter().map(value).unzip();
-        let name = in_words("dcc:name", name, languages);
-        quantity(Some("basic_measuredValue"), name, reals(None, &values, units::ARCSECOND, &u))
+        quantity(Some("basic_measuredValue"), name, reals(None, &values, units::ARCSECOND, &u), languages)
     };
     let freedom: Vec<f64> = positions.iter().map(|at| at.degrees_of_freedom.unwrap_or(f64::NAN)).collect();
-    let freedom = positions.iter().any(|at| at.degrees_of_freedom.is_some()).then(|| {
-        quantity(None, in_words("dcc:name", texts::FREEDOM, languages), reals(None, &freedom, units::ONE, &[]))
-    });
+    let freedom = positions
+        .iter()
+        .any(|at| at.degrees_of_freedom.is_some())
+        .then(|| quantity(None, texts::FREEDOM, reals(None, &freedom, units::ONE, &[]), languages));
     let mut quantities = vec![
         column(None, words::INDEX_I, units::ONE, |at| f64::from(at.i)),
         column(None, words::INDEX_J, units::ONE, |at| f64::from(at.j)),
