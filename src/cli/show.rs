@@ -5,7 +5,7 @@ use super::trust_options::{OptionalTrust, Verifier};
 use super::{Code, Failure, Format, defaults, output};
 use crate::batch::{Purpose, paths};
 use crate::document::sha256_hex;
-use crate::passport::{Content, Verification, read};
+use crate::passport::{Content, Verification, content_from_anyone};
 use crate::report::{exported, passport_table};
 use crate::text::{Kind, name_of};
 use clap::{ArgGroup, Args};
@@ -68,7 +68,7 @@ impl Reader {
         let bytes = inputs::bytes(path, Kind::Passport.words())?;
         let name = name_of(path);
         let Some(verifier) = &self.0 else {
-            let content = read::content_from_anyone(&name, &bytes)?;
+            let content = content_from_anyone(&name, &bytes)?;
             return Ok(Read { content, bytes, verification: None });
         };
         let verification = verifier.verify(&name, &bytes);

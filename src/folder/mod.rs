@@ -24,7 +24,7 @@ use crate::files::walk::{Visited, Walk};
 use crate::files::{self, Access, or_here};
 use crate::passport::issue::{Draft, Issue, PreparedStand, Remarks};
 use crate::passport::reissue::{Successor, changes};
-use crate::passport::{Content, NAMESPACE, Question, Trust, read, verify};
+use crate::passport::{Content, NAMESPACE, Question, Trust, content, verify};
 use crate::register::{Asked, Line, State};
 use crate::site::Site;
 use crate::stand::{Identity, Stand};
@@ -408,7 +408,7 @@ impl Existing {
         let text = SignedText::split(&name, bytes, NAMESPACE)
             .map_err(|malformed| incomparable(malformed.fault.to_string()))?;
         let payload = text.signed_payload(None).map_err(|error| incomparable(error.to_string()))?;
-        let content = read::content(&name, payload).map_err(|error| incomparable(error.to_string()))?;
+        let content = content::read(&name, payload).map_err(|error| incomparable(error.to_string()))?;
         Ok(Self { path: path.to_owned(), sha256: sha256_hex(bytes), content })
     }
 

@@ -1,16 +1,18 @@
 //! Content of a passport (`dtg-passport/1`), and the numbers in it that are computed from the stand and the site.
 
+use super::NAMESPACE;
 use super::accuracy::Accuracy;
 use crate::calibration::{Model, analytic, least_squares};
 use crate::coefficients::{
     Coefficients, Matrices, PositionCoefficients, PositionIndex, SingularPositions, StandGeometry,
 };
+use crate::document::{self, SignedText};
 use crate::gyro::{GyroParameters, Parameters};
 use crate::laboratory::Laboratory;
 use crate::site::{Earth, Site};
 use crate::stand::{self, Certificate, CertifiedPosition, Datum, Identity, Stand};
 use crate::text::scalar::day;
-use crate::text::{Identifier, Path, Problems, record, words};
+use crate::text::{Identifier, Path, Problems, Unreadable, record, words};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use nalgebra::{Matrix2, Vector2};
@@ -412,6 +414,20 @@ impl Content {
             problems.at(&at.key("positions"), "positions out of order", "positions sorted by i, then j", "");
         }
     }
+}
+
+/// Parses the payload of a passport, step 5 of verification: see [`document::parse`].
+pub(crate) fn read(name: &str, payload: &str) -> Result<Content, Unreadable> {
+    document::parse(name, payload, Content::check)
+}
+
+/// Parses the content of a passport file without verifying its signature: anyone may have written it.
+///
+/// # Errors
+/// Returns an error if the file does not have the form of a passport, or if its content breaks a rule.
+pub fn content_from_anyone(name: &str, bytes: &[u8]) -> Result<Content, Unreadable> {
+    let text = SignedText::split(name, bytes, NAMESPACE).map_err(|malformed| malformed.fault)?;
+    read(name, text.unverified_payload())
 }
 
 /// Returns the identifier of a passport: `<model>/<serial>/<site id>/<revision>`.

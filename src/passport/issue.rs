@@ -1,25 +1,20 @@
 //! Issue of a signed passport from a certified stand and a site.
 
-mod refused;
-mod remarks;
-
-pub use refused::IssueRefused;
-pub use remarks::Remarks;
-
+use super::accuracy::NoAccuracy;
 use super::annotations::{self, absences};
-use super::content::{PASSPORT_FORMAT, REFERENCE_GYRO, derive_from, passport_id};
-use super::{Content, Header, NAMESPACE, Predecessor, SelfCheck, Stated, read};
+use super::content::{Dated, PASSPORT_FORMAT, REFERENCE_GYRO, derive_from, passport_id};
+use super::{Content, Header, NAMESPACE, Predecessor, SelfCheck, Stated, content};
 use crate::attitude::Deviation;
-use crate::calibration::prediction::noise_growth;
+use crate::calibration::prediction::{NoiseGrowth, noise_growth};
 use crate::coefficients::{Coefficients, Position, SingularPositions, StandGeometry};
-use crate::document::{self, Signer};
+use crate::document::{self, Signer, SigningFailed};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::site::Site;
 use crate::stand::{self, CertifiedPosition, Stand};
 use crate::text::scalar::day;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Path, Problems, Unreadable, rule};
-use crate::trust::check_identity;
+use crate::trust::{BadIdentity, SignatureError, check_identity};
 use jiff::Timestamp;
 use jiff::civil::Date;
 
@@ -70,6 +65,102 @@ impl Issue {
             allow_uncalibratable: false,
         }
     }
+}
+
+/// Reason why a passport was not issued.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum IssueRefused {
+    /// The matrix n_2 has no inverse.
+    #[error(transparent)]
+    Singular(#[from] SingularPositions),
+    /// The time of issue is earlier than the date of the certificate.
+    #[error("issued_at {issued_at} is earlier than the date of the certificate, {certified} (UTC); check both")]
+    BeforeCertificate {
+        /// Time of issue.
+        issued_at: Timestamp,
+        /// Date of the certificate.
+        certified: Date,
+    },
+    /// The time of issue is ahead of the clock.
+    #[error(
+        "issued_at {issued_at} is more than one day later than the clock, {clock}; specify the time of issue, or omit \
+         it"
+    )]
+    AheadOfClock {
+        /// Requested time of issue.
+        issued_at: Timestamp,
+        /// Time of the clock.
+        clock: Timestamp,
+    },
+    /// The passport would be valid longer than its certificate.
+    #[error(
+        "the passport would be valid until {passport}, but the certificate only until {certificate}; specify an \
+             earlier date"
+    )]
+    BeyondCertificate {
+        /// Requested expiry date of the passport.
+        passport: Date,
+        /// Expiry date of the certificate.
+        certificate: Date,
+    },
+    /// The time of issue is later than the expiry date.
+    #[error(
+        "issued_at {issued_at} is later than {last}, until which the {} is valid; {}",
+        document.word(),
+        if *document == Dated::Certificate { "have the stand recertified" } else { "specify a later date" }
+    )]
+    AlreadyExpired {
+        /// Time of issue.
+        issued_at: Timestamp,
+        /// Earlier of the two expiry dates.
+        last: Date,
+        /// Document with that expiry date.
+        document: Dated,
+    },
+    /// The statements of the site contradict each other.
+    #[error("{0}")]
+    ImplausibleSite(Unreadable),
+    /// The expected calibration uncertainty cannot be computed.
+    #[error("the expected calibration uncertainty cannot be computed: {0}")]
+    Accuracy(#[from] NoAccuracy),
+    /// The issuer's name cannot be a principal of allowed_signers.
+    #[error(transparent)]
+    Identity(#[from] BadIdentity),
+    /// The positions do not determine the parameters of a gyro.
+    #[error(
+        "the positions of the stand do not determine the parameters of a gyro at this site; certify further \
+         positions, or issue the passport anyway with --allow-uncalibratable"
+    )]
+    Uncalibratable,
+    /// The self-check does not reproduce its own parameters.
+    #[error(
+        "the self-check fails: the relative error of a parameter is {error:.1e} (limit {limit:e}); on this stand at this \
+         site the eight positions do not determine the gyro (the uncertainty of K grows as 1/cos(latitude), here \
+         {growth:.4})",
+        limit = SelfCheck::LIMIT
+    )]
+    SelfCheckFails {
+        /// Largest relative error of a parameter.
+        error: f64,
+        /// Growth of the uncertainty, 1/cos Φ, which is large near the poles.
+        growth: f64,
+    },
+    /// The passport would have this many bytes without its signature, more than verifiers accept.
+    #[error(
+        "the passport would have {0} bytes, more than the limit of {LARGEST_DOCUMENT_BYTES}; certify fewer \
+         positions"
+    )]
+    TooLarge(usize),
+    /// The text read back differs from the text written: a defect of this program.
+    #[error("the text read back differs from the text written; nothing was signed. {0}")]
+    ReadBack(Unreadable),
+    /// The signer produced no signature.
+    #[error(transparent)]
+    Signing(#[from] SigningFailed),
+    /// The signer produced a wrong signature.
+    #[error("verification of the new signature failed: {0}")]
+    BadSignature(#[from] SignatureError),
 }
 
 /// Returns the time of issue: `asked`, or the time of the `clock` if `asked` is `None`.
@@ -136,7 +227,7 @@ impl PreparedStand {
         check_identity(&issue.issuer)?;
         check_site(site)?;
         let (geometry, text) = self.geometry.as_ref().map_err(|singular| *singular)?;
-        let content = content(&self.stand, geometry, site, issue)?;
+        let content = content_of(&self.stand, geometry, site, issue)?;
         check_dates(&content)?;
         // Whenever the positions determine the parameters of a gyro, there is a self-check.
         if !issue.allow_uncalibratable && content.self_check.is_none() {
@@ -166,7 +257,7 @@ pub fn draft(stand: &Stand, site: &Site, issue: &Issue) -> Result<Draft, IssueRe
     PreparedStand::new(stand.clone()).draft(site, issue)
 }
 
-fn content(stand: &Stand, geometry: &StandGeometry, site: &Site, issue: &Issue) -> Result<Content, IssueRefused> {
+fn content_of(stand: &Stand, geometry: &StandGeometry, site: &Site, issue: &Issue) -> Result<Content, IssueRefused> {
     let derived = derive_from(geometry, site, &REFERENCE_GYRO);
     let accuracy = |stated: &Stated| stated.accuracy(&stand.certificate, &stand.positions, site);
     let accuracy = issue.accuracy.as_ref().map(accuracy);
@@ -230,7 +321,7 @@ fn check_dates(content: &Content) -> Result<(), IssueRefused> {
 fn read_back(payload: &str, content: &Content) -> Result<Content, IssueRefused> {
     const NAME: &str = "the new passport";
     rule::check(NAME, payload.as_bytes()).map_err(IssueRefused::ReadBack)?;
-    let read = read::content(NAME, payload).map_err(IssueRefused::ReadBack)?;
+    let read = content::read(NAME, payload).map_err(IssueRefused::ReadBack)?;
     if read != *content {
         let fault = Unreadable::whole(NAME, None, "other content", "the content that was written", "");
         return Err(IssueRefused::ReadBack(fault));
@@ -273,113 +364,48 @@ impl Draft {
     }
 }
 
-#[cfg(all(test, feature = "factory"))]
-mod tests {
-    use super::*;
-    use crate::passport::content::derive;
+/// Noise growth relative to the ideal stand from which the factory is warned.
+const NOISE_WARNING: f64 = 2.0;
 
-    const STANDS: [&str; 2] =
-        [include_str!("../../passports/SPS-1/0203/stand.yaml"), include_str!("../../passports/SPS-2/0017/stand.yaml")];
-    const SITES: [&str; 3] = [
-        include_str!("../../sites/moscow-bmstu.yaml"),
-        include_str!("../../sites/ny-alesund-kartverket.yaml"),
-        include_str!("../../sites/singapore-nus.yaml"),
-    ];
+/// Growth of K's uncertainty towards the poles above which the factory is warned.
+const POLAR_WARNING: f64 = 3.0;
 
-    /// The shipped stands, and reduced copies of each: no datum, seven positions, no optional statement.
-    fn stands() -> Vec<Stand> {
-        let variants = |number: usize| {
-            let (stand, _) = read(number, 0);
-            let without_datum = Stand { datum: None, ..stand.clone() };
-            let mut seven = stand.clone();
-            seven.positions.remove(3);
-            let mut bare = stand.clone();
-            bare.certificate.repeatability_arcsec = None;
-            bare.certificate.traceability = None;
-            bare.certificate.valid_until = None;
-            bare.certificate.valid_until_basis = None;
-            bare.positions.iter_mut().for_each(|position| position.u_beta_arcsec = None);
-            [stand, without_datum, seven, bare]
-        };
-        (0..STANDS.len()).flat_map(variants).collect()
-    }
+/// Remarks for the factory to read before it delivers a passport.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Remarks {
+    /// Noise relative to the ideal stand; `None` if the positions do not determine all parameters.
+    pub(crate) noise: Option<NoiseGrowth>,
+    /// Growth of the uncertainty with latitude, 1/cos Φ.
+    pub uncertainty_growth: f64,
+    /// Implausible statements of certificate, site and accuracy, one sentence each.
+    pub odd: Vec<String>,
+    /// Missing statements and their effects, one sentence each.
+    pub absences: Vec<String>,
+}
 
-    fn read(stand: usize, site: usize) -> (Stand, Site) {
-        let stand = Stand::from_yaml("stand", STANDS[stand].as_bytes()).unwrap();
-        (stand, Site::from_yaml("site", SITES[site].as_bytes()).unwrap())
-    }
-
-    fn order() -> Issue {
-        Issue::first("factory@example.org", "2026-11-09T08:00:00Z".parse().unwrap())
-    }
-
-    #[test]
-    fn what_a_stand_has_in_common_is_what_each_passport_would_find() {
-        for stand in stands() {
-            let prepared = PreparedStand::new(stand.clone());
-            for number in 0..SITES.len() {
-                let (_, site) = read(0, number);
-                let draft = prepared.draft(&site, &order()).unwrap();
-                assert_eq!(draft.payload(), annotations::payload(draft.content()));
-                let alone = derive(&stand.positions, &site, &REFERENCE_GYRO).unwrap();
-                let content = draft.content().clone();
-                assert_eq!((content.earth, content.matrices), (alone.earth, alone.matrices));
-                assert_eq!((content.vectors, content.self_check), (alone.vectors, alone.self_check));
-            }
+impl Remarks {
+    /// Returns warnings for the factory, and the inputs that the passport does not state, one sentence each.
+    pub(crate) fn words(&self) -> Vec<String> {
+        let mut words = Vec::new();
+        match &self.noise {
+            None => words.push(
+                "WARNING: least squares cannot determine all parameters of a gyro from these positions at this site"
+                    .to_owned(),
+            ),
+            Some(growth) if growth.worst() > NOISE_WARNING => words.push(format!(
+                "WARNING: the noise of a calibration on this stand is up to {:.2} times that on an ideal stand",
+                growth.worst()
+            )),
+            Some(_) => {}
         }
-    }
-
-    /// Expected: a day of 86,400 seconds is allowed, a second more is not.
-    #[test]
-    fn nothing_is_issued_more_than_a_day_ahead_of_the_clock() {
-        let clock = "2026-11-09T08:00:00Z".parse().unwrap();
-        assert_eq!(time_of_issue(None, clock), Ok(clock));
-        for good in ["1970-01-01T00:00:07Z", "2026-11-10T08:00:00Z"] {
-            assert_eq!(time_of_issue(Some(good.parse().unwrap()), clock), Ok(good.parse().unwrap()));
+        if self.uncertainty_growth > POLAR_WARNING {
+            words.push(format!(
+                "WARNING: at this latitude, near the pole, the uncertainty of K is {:.1} times that at the equator",
+                self.uncertainty_growth
+            ));
         }
-        for bad in ["2026-11-10T08:00:01Z", "2036-11-09T08:00:00Z"] {
-            let refused = IssueRefused::AheadOfClock { issued_at: bad.parse().unwrap(), clock };
-            assert_eq!(time_of_issue(Some(bad.parse().unwrap()), clock), Err(refused));
-        }
-    }
-
-    #[test]
-    fn no_passport_outlasts_its_certificate() {
-        let (stand, site) = read(1, 0);
-        let mut endless = stand.clone();
-        (endless.certificate.valid_until, endless.certificate.valid_until_basis) = (None, None);
-        let last_day = |day: &str| Issue { valid_until: Some(day.parse().unwrap()), ..order() };
-        // The certificate ends on 2028-11-01.
-        draft(&stand, &site, &last_day("2028-11-01")).unwrap();
-        let refused = draft(&stand, &site, &last_day("2028-11-02"));
-        assert!(matches!(refused, Err(IssueRefused::BeyondCertificate { .. })), "{refused:?}");
-        draft(&endless, &site, &last_day("2038-11-02")).unwrap();
-    }
-
-    /// Expected: three positions give six readings, fewer than the eight parameters; seven give fourteen.
-    #[test]
-    fn a_stand_that_determines_no_gyro_is_issued_on_request_alone() {
-        let (whole, site) = read(1, 0);
-        let with = |positions: usize| Stand { positions: whole.positions[..positions].to_vec(), ..whole.clone() };
-        let all_the_same = Issue { allow_uncalibratable: true, ..order() };
-        draft(&with(7), &site, &order()).unwrap();
-        for few in [1, 2, 3] {
-            assert_eq!(draft(&with(few), &site, &order()), Err(IssueRefused::Uncalibratable), "{few}");
-            draft(&with(few), &site, &all_the_same).unwrap();
-        }
-    }
-
-    /// All positions have the same orientation, so n_2 is zero.
-    #[test]
-    fn a_stand_without_passports_says_so_for_each() {
-        let (mut stand, site) = read(0, 0);
-        for position in &mut stand.positions {
-            (position.theta_deg, position.phi_deg) = (0.0, 0.0);
-            (position.alpha_arcsec, position.beta_arcsec, position.gamma_arcsec) = (0.0, 0.0, 0.0);
-        }
-        let prepared = PreparedStand::new(stand);
-        for _ in 0..2 {
-            assert!(matches!(prepared.draft(&site, &order()), Err(IssueRefused::Singular(_))));
-        }
+        words.extend(self.odd.iter().map(|odd| format!("WARNING: {odd}")));
+        words.extend(self.absences.iter().cloned());
+        words
     }
 }

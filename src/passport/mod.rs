@@ -1,9 +1,8 @@
 //! Signed passports: content, text form, issue, re-issue and verification.
 //!
-//! * `content`: records, and the numbers computed from stand and site.
+//! * `content`: records, their reader, which accepts only the canonical form, and the numbers computed from stand and site.
 //! * `accuracy`: expected calibration uncertainty for a stated gyro type and meter.
 //! * `annotations`: comments between the records.
-//! * `read`: parsing of the signed text, which must be in canonical form.
 //! * [`issue`]: issue of a signed passport from a stand and a site.
 //! * `recomputed`: recomputation of every number from the signed inputs.
 //! * `checks`: names and results of the checks.
@@ -23,7 +22,6 @@ pub(crate) mod export;
 #[cfg(feature = "factory")]
 pub mod issue;
 pub(crate) mod place;
-pub(crate) mod read;
 pub(crate) mod recomputed;
 #[cfg(feature = "factory")]
 pub mod reissue;
@@ -34,8 +32,8 @@ pub use accuracy::{Accuracy, NoAccuracy, Stated};
 pub use checks::{Check, CheckName, Code};
 pub use content::{
     Content, Dated, Header, MatrixRows, PositionCurrents, PositionVectors, Predecessor, Rows, SelfCheck,
+    content_from_anyone,
 };
-pub use read::content_from_anyone;
 pub use verification::{Question, Trust, Verification, VerifiedPassport, verify};
 
 /// Namespace of the signatures of passports.

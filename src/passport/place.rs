@@ -3,7 +3,6 @@
 use super::{Code, Content};
 use crate::earth::{self, Place};
 use crate::site::LATITUDE_MARGIN_ARCSEC;
-#[cfg(feature = "factory")]
 use crate::site::Site;
 use crate::units::{distance, radians_from_arcseconds};
 
@@ -76,12 +75,10 @@ fn mistaken(content: &Content, place: Place) -> Option<&'static str> {
 }
 
 /// Largest distance by which the coordinates of a site are usually corrected, m.
-#[cfg(feature = "factory")]
 const LARGEST_CORRECTION_M: f64 = 10_000.0;
 
 /// Returns a warning if `site`, which has the identifier of the site of a passport, is so far from it that it is another
 /// place, or its coordinates are wrong; otherwise `None`.
-#[cfg(feature = "factory")]
 pub(crate) fn distant_correction(content: &Content, site: &Site) -> Option<String> {
     let old = &content.site;
     let longitude_deg = site.longitude_deg.or(old.longitude_deg).unwrap_or_default();

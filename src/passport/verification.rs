@@ -6,7 +6,7 @@
 
 use super::checks::{Check, CheckName, Code, NO_LIST};
 use super::content::{Content, Dated, PASSPORT_FORMAT};
-use super::{NAMESPACE, place, read, recomputed};
+use super::{NAMESPACE, content, place, recomputed};
 use crate::coefficients::Coefficients;
 use crate::document::sha256_hex;
 use crate::document::{Malformed, SignedText};
@@ -261,7 +261,7 @@ impl Run {
     }
 
     fn schema(&mut self, name: &str, payload: &str) -> Option<Content> {
-        let content = read::content(name, payload);
+        let content = content::read(name, payload);
         let (code, detail) = match &content {
             Ok(_) => (Code::Ok, format!("the content is complete and conforms to {PASSPORT_FORMAT}")),
             Err(error) => (Code::BadContent, error.to_string()),

@@ -17,7 +17,7 @@ use dtg_passport::document::{SignedText, join};
 use dtg_passport::gyro::GyroType;
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::passport::issue::{Issue, draft};
-use dtg_passport::passport::{NAMESPACE, Question, Trust, annotations, read, verify};
+use dtg_passport::passport::{NAMESPACE, Question, Trust, annotations, content, content_from_anyone, verify};
 use dtg_passport::report::passport_table;
 use dtg_passport::revocation::{REVOCATION_NAMESPACE, RevocationList};
 use dtg_passport::site::Site;
@@ -85,7 +85,7 @@ static BENCH: LazyLock<Bench> = LazyLock::new(|| {
     let stand = Stand::from_yaml("stand", include_bytes!("../../passports/SPS-2/0017/stand.yaml")).unwrap();
     let site = Site::from_yaml("site", include_bytes!("../../sites/moscow-bmstu.yaml")).unwrap();
     let passport = include_bytes!("../../passports/SPS-2/0017/moscow-bmstu-1.yaml");
-    let content = read::content_from_anyone("passport", passport).unwrap();
+    let content = content_from_anyone("passport", passport).unwrap();
     let stated = Setup::stated(&content.certificate, &content.positions, &content.site, &Laboratory::paper());
     Bench {
         trust: Trust::of(AllowedSigners::parse("trust", include_bytes!("../keys/allowed_signers")).unwrap()),
@@ -190,13 +190,13 @@ fn payload(bytes: &[u8]) -> Option<&str> {
 /// What may be in a passport: read, shown and calculated with.
 fn content(bytes: &[u8]) -> bool {
     let Some(payload) = payload(bytes) else { return false };
-    let content = match read::content("f", payload) {
+    let content = match content::read("f", payload) {
         Ok(content) => content,
         Err(error) => return refused(&error, payload.as_bytes()),
     };
     assert_eq!(rule::differs(payload, &written(&content)), None);
     let written = annotations::payload(&content);
-    assert_eq!(read::content("written", &written).as_ref(), Ok(&content));
+    assert_eq!(content::read("written", &written).as_ref(), Ok(&content));
     assert!(!passport_table::text(&content, None).is_empty());
     let _ = content.coefficients();
     true
@@ -206,7 +206,7 @@ fn content(bytes: &[u8]) -> bool {
 fn passport(bytes: &[u8]) -> bool {
     let answer = verify("f", bytes, &BENCH.trust, &BENCH.question);
     assert!(!answer.checks().is_empty());
-    let _ = read::content_from_anyone("f", bytes).map_err(|error| refused(&error, bytes));
+    let _ = content_from_anyone("f", bytes).map_err(|error| refused(&error, bytes));
     if answer.valid() {
         const PUBLISHED: [&[u8]; 4] = [
             include_bytes!("../../passports/SPS-1/0203/beijing-nim-1.yaml"),

@@ -13,7 +13,7 @@ use dtg_passport::earth::{Place, place_at};
 use dtg_passport::passport::annotations::payload;
 use dtg_passport::passport::checks::{CheckName, Code};
 use dtg_passport::passport::content::{Content, Predecessor, derive};
-use dtg_passport::passport::{NAMESPACE, Question, Trust, read, verify};
+use dtg_passport::passport::{NAMESPACE, Question, Trust, content, content_from_anyone, verify};
 use dtg_passport::trust::{Signature, SigningKey};
 use proptest::prelude::*;
 use std::fs;
@@ -999,8 +999,8 @@ fn show(bytes: &[u8]) {
     let (trust, good) = good();
     let answer = verify("f", bytes, trust, &question());
     assert!(!answer.valid() || bytes == good.as_bytes());
-    let _ = read::content_from_anyone("f", bytes).map_err(|error| error.to_string());
-    let _ = read::content("f", &String::from_utf8_lossy(bytes)).map_err(|error| error.to_string());
+    let _ = content_from_anyone("f", bytes).map_err(|error| error.to_string());
+    let _ = content::read("f", &String::from_utf8_lossy(bytes)).map_err(|error| error.to_string());
     let _ = Signature::from_armor(&String::from_utf8_lossy(bytes));
 }
 

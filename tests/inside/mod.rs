@@ -35,6 +35,8 @@ mod forgeries;
 mod frame_axis;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod hidden_drift;
+#[cfg(feature = "factory")]
+mod issue;
 mod model;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod other_axes;

@@ -4,9 +4,8 @@ use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::accuracy::Stated;
 use crate::passport::annotations;
-use crate::passport::content::{Content, Predecessor};
+use crate::passport::content::{self, Content, Predecessor};
 use crate::passport::issue::{Issue, Reissued, draft};
-use crate::passport::read::content;
 use crate::site::Site;
 use crate::stand::Stand;
 use crate::text::number::decimal;
@@ -67,7 +66,7 @@ fn general(text: &str) -> Option<Content> {
 /// Returns `true` if the reader accepts the text. Among the texts that obey the rule of signed texts, it must
 /// accept exactly those that a general YAML reader accepts, with the same content.
 fn readers_agree(text: &str) -> bool {
-    let read = content("t", text).ok();
+    let read = content::read("t", text).ok();
     if read.is_some() || rule::check("t", text.as_bytes()).is_ok() {
         // Compare as text, because 0.0 and -0.0 are equal as numbers.
         assert_eq!(format!("{read:?}"), format!("{:?}", general(text)), "{text}");
@@ -79,7 +78,7 @@ fn readers_agree(text: &str) -> bool {
 fn both_readers_take_every_passport() {
     for payload in payloads() {
         assert!(readers_agree(&payload), "{payload}");
-        let content = content("t", &payload).unwrap();
+        let content = content::read("t", &payload).unwrap();
         assert_eq!(annotations::payload(&content), payload);
     }
 }

@@ -4,7 +4,7 @@ use super::passport::passport;
 use crate::inside::fixtures;
 use crate::inside::picture::{Axis, end, english, middle, number, of_class, reach, row, svgs, tip, whole, words};
 use dtg_passport::passport::content::Content;
-use dtg_passport::passport::read;
+use dtg_passport::passport::content_from_anyone;
 use dtg_passport::report::picture::deviations::Bars;
 use dtg_passport::report::picture::{accuracy, positions, vectors};
 use roxmltree::{Document, Node};
@@ -14,7 +14,7 @@ fn passports() -> Vec<Content> {
     let own = include_bytes!("../../../passports/SPS-2/0017/moscow-bmstu-1.yaml");
     let minutes = passport(fixtures::ARC_MINUTES, fixtures::SITE).0;
     let degrees = passport(fixtures::DEGREES, fixtures::SITE).0;
-    vec![minutes, degrees, read::content_from_anyone("own", own).unwrap()]
+    vec![minutes, degrees, content_from_anyone("own", own).unwrap()]
 }
 
 /// The middle of a mark: a circle of the first frame index, a square of the second.

@@ -1,0 +1,104 @@
+//! Issue of passports: of stands that were prepared, at the limits of dates and of positions.
+
+use crate::inside::fixtures;
+use dtg_passport::passport::annotations;
+use dtg_passport::passport::content::{REFERENCE_GYRO, derive};
+use dtg_passport::passport::issue::{Issue, IssueRefused, PreparedStand, draft, time_of_issue};
+use dtg_passport::stand::Stand;
+
+const SITES: [&str; 3] = [
+    include_str!("../../sites/moscow-bmstu.yaml"),
+    include_str!("../../sites/ny-alesund-kartverket.yaml"),
+    include_str!("../../sites/singapore-nus.yaml"),
+];
+
+/// The shipped stands, and reduced copies of each: no datum, seven positions, no optional statement.
+fn stands() -> Vec<Stand> {
+    let variants = |text: &str| {
+        let stand = fixtures::stand(text);
+        let without_datum = Stand { datum: None, ..stand.clone() };
+        let mut seven = stand.clone();
+        seven.positions.remove(3);
+        let mut bare = stand.clone();
+        bare.certificate.repeatability_arcsec = None;
+        bare.certificate.traceability = None;
+        bare.certificate.valid_until = None;
+        bare.certificate.valid_until_basis = None;
+        bare.positions.iter_mut().for_each(|position| position.u_beta_arcsec = None);
+        [stand, without_datum, seven, bare]
+    };
+    [fixtures::DEGREES, fixtures::ARC_MINUTES].into_iter().flat_map(variants).collect()
+}
+
+fn order() -> Issue {
+    Issue::first(fixtures::ISSUER, fixtures::at(fixtures::ISSUED_AT))
+}
+
+#[test]
+fn what_a_stand_has_in_common_is_what_each_passport_would_find() {
+    for stand in stands() {
+        let prepared = PreparedStand::new(stand.clone());
+        for site in SITES.map(fixtures::site) {
+            let draft = prepared.draft(&site, &order()).unwrap();
+            assert_eq!(draft.payload(), annotations::payload(draft.content()));
+            let alone = derive(&stand.positions, &site, &REFERENCE_GYRO).unwrap();
+            let content = draft.content().clone();
+            assert_eq!((content.earth, content.matrices), (alone.earth, alone.matrices));
+            assert_eq!((content.vectors, content.self_check), (alone.vectors, alone.self_check));
+        }
+    }
+}
+
+/// Expected: a day of 86,400 seconds is allowed, a second more is not.
+#[test]
+fn nothing_is_issued_more_than_a_day_ahead_of_the_clock() {
+    let clock = fixtures::at("2026-11-09T08:00:00Z");
+    assert_eq!(time_of_issue(None, clock), Ok(clock));
+    for good in ["1970-01-01T00:00:07Z", "2026-11-10T08:00:00Z"] {
+        assert_eq!(time_of_issue(Some(fixtures::at(good)), clock), Ok(fixtures::at(good)));
+    }
+    for bad in ["2026-11-10T08:00:01Z", "2036-11-09T08:00:00Z"] {
+        let refused = IssueRefused::AheadOfClock { issued_at: fixtures::at(bad), clock };
+        assert_eq!(time_of_issue(Some(fixtures::at(bad)), clock), Err(refused));
+    }
+}
+
+#[test]
+fn no_passport_outlasts_its_certificate() {
+    let (stand, site) = (fixtures::stand(fixtures::ARC_MINUTES), fixtures::site(SITES[0]));
+    let mut endless = stand.clone();
+    (endless.certificate.valid_until, endless.certificate.valid_until_basis) = (None, None);
+    let last_day = |day: &str| Issue { valid_until: Some(day.parse().unwrap()), ..order() };
+    // The certificate ends on 2028-11-01.
+    draft(&stand, &site, &last_day("2028-11-01")).unwrap();
+    let refused = draft(&stand, &site, &last_day("2028-11-02"));
+    assert!(matches!(refused, Err(IssueRefused::BeyondCertificate { .. })), "{refused:?}");
+    draft(&endless, &site, &last_day("2038-11-02")).unwrap();
+}
+
+/// Expected: three positions give six readings, fewer than the eight parameters; seven give fourteen.
+#[test]
+fn a_stand_that_determines_no_gyro_is_issued_on_request_alone() {
+    let (whole, site) = (fixtures::stand(fixtures::ARC_MINUTES), fixtures::site(SITES[0]));
+    let with = |positions: usize| Stand { positions: whole.positions[..positions].to_vec(), ..whole.clone() };
+    let all_the_same = Issue { allow_uncalibratable: true, ..order() };
+    draft(&with(7), &site, &order()).unwrap();
+    for few in [1, 2, 3] {
+        assert_eq!(draft(&with(few), &site, &order()), Err(IssueRefused::Uncalibratable), "{few}");
+        draft(&with(few), &site, &all_the_same).unwrap();
+    }
+}
+
+/// All positions have the same orientation, so n_2 is zero.
+#[test]
+fn a_stand_without_passports_says_so_for_each() {
+    let (mut stand, site) = (fixtures::stand(fixtures::DEGREES), fixtures::site(SITES[0]));
+    for position in &mut stand.positions {
+        (position.theta_deg, position.phi_deg) = (0.0, 0.0);
+        (position.alpha_arcsec, position.beta_arcsec, position.gamma_arcsec) = (0.0, 0.0, 0.0);
+    }
+    let prepared = PreparedStand::new(stand);
+    for _ in 0..2 {
+        assert!(matches!(prepared.draft(&site, &order()), Err(IssueRefused::Singular(_))));
+    }
+}
