@@ -202,11 +202,11 @@ fn widest(cells: &[String]) -> usize {
     cells.iter().map(|cell| shown_columns(cell)).max().unwrap_or(0)
 }
 
-/// Returns a heading in lines that are as narrow as its cells, or as its longest word.
-fn stacked(name: &str, columns: usize) -> Vec<String> {
-    let columns = name.split(' ').map(shown_columns).max().unwrap_or(0).max(columns);
+/// Returns words in lines that are as narrow as `columns`, or as the longest word.
+pub(crate) fn stacked(words: &str, columns: usize) -> Vec<String> {
+    let columns = words.split(' ').map(shown_columns).max().unwrap_or(0).max(columns);
     let mut lines: Vec<String> = Vec::new();
-    for word in name.split(' ') {
+    for word in words.split(' ') {
         match lines.last_mut().filter(|line| shown_columns(line) + 1 + shown_columns(word) <= columns) {
             Some(line) => *line += &format!(" {word}"),
             None => lines.push(word.to_owned()),

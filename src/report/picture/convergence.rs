@@ -1,7 +1,6 @@
 //! Convergence of the iterative method: the change in each step, relative to the stop limit.
 
-use super::chart::{Field, Look, sample};
-use super::drawing::{Anchor, Panel, Point, Scale, Ticks, label, legend, line, power};
+use super::drawing::{Anchor, Field, Look, Panel, Point, Scale, Ticks, label, legend, line, power, sample};
 use crate::calibration::document::ResultDocument;
 use crate::calibration::iterative::{StepChange, StopRule};
 use crate::report::page::Number;

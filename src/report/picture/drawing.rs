@@ -1,9 +1,10 @@
-//! Common parts of all pictures: panels with words for screen readers, lines, arrows, labels, hatches, scales.
+//! Common parts of all pictures: panels with words for screen readers, lines, arrows, labels, hatches, scales, plot areas.
 //!
 //! A picture consists of one or more panels. Each has about the size at which it is shown, so that letters stay
 //! readable if a narrow screen puts the panels below each other. Nothing has a fixed colour: the classes are defined in
 //! `style.css`.
 
+use crate::report::columns::stacked;
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::{Number, localised};
 use crate::report::page::symbols::{Piece, index_letters, pieces};
@@ -15,7 +16,6 @@ pub(crate) type Point = [f64; 2];
 /// Largest magnification of a panel.
 const LARGEST: f64 = 1.15;
 
-/// A drawing with its words.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Panel<'a> {
     /// Name of the panel, unique on a page; the ids within begin with it.
@@ -166,12 +166,10 @@ pub(crate) fn list(points: &[Point]) -> String {
     each.join(" ")
 }
 
-/// Draws a straight line.
 pub(crate) fn line([x1, y1]: Point, [x2, y2]: Point, class: &str) -> Markup {
     html! { line class=(class) x1=(coordinate(x1)) y1=(coordinate(y1)) x2=(coordinate(x2)) y2=(coordinate(y2)) {} }
 }
 
-/// Draws a closed shape.
 pub(crate) fn polygon(points: &[Point], class: &str) -> Markup {
     html! { polygon class=(class) points=(list(points)) {} }
 }
@@ -205,7 +203,6 @@ pub(crate) fn label([x, y]: Point, anchor: Anchor, class: &str, words: &Markup) 
     html! { text class=[(!class.is_empty()).then_some(class)] x=(coordinate(x)) y=(coordinate(y)) text-anchor=[anchor] { (words) } }
 }
 
-/// Draws a label of plain words.
 pub(crate) fn words(at: Point, anchor: Anchor, class: &str, words: &str) -> Markup {
     label(at, anchor, class, &html! { (words) })
 }
@@ -253,9 +250,12 @@ pub(crate) fn plain_symbol(name: &str) -> String {
 /// `say` gives its words in each.
 pub(crate) fn heading_with(languages: &Languages, at: Point, say: impl Fn(Language) -> String) -> (Markup, f64) {
     const LINE: f64 = 16.0;
+    // Characters of a line that is not wider than a panel.
+    const LONGEST: usize = 42;
     let classes = std::iter::once("title").chain(std::iter::repeat("small"));
     let sayings = classes.zip(languages.sayings(say));
-    let lines = sayings.flat_map(|(class, (_, words))| lines_of(&words).into_iter().map(move |line| (class, line)));
+    let lines =
+        sayings.flat_map(|(class, (_, words))| stacked(&words, LONGEST).into_iter().map(move |line| (class, line)));
     let lines: Vec<(&str, String)> = lines.collect();
     let drawn = html! {
         @for (row, (class, line)) in lines.iter().enumerate() {
@@ -263,19 +263,6 @@ pub(crate) fn heading_with(languages: &Languages, at: Point, say: impl Fn(Langua
         }
     };
     (drawn, LINE * (lines.len() - 1) as f64)
-}
-
-/// Splits a title into lines that are not wider than a panel.
-fn lines_of(title: &str) -> Vec<String> {
-    const LONGEST: usize = 42;
-    let mut lines: Vec<String> = Vec::new();
-    for word in title.split(' ') {
-        match lines.last_mut().filter(|line| line.chars().count() + 1 + word.chars().count() <= LONGEST) {
-            Some(line) => *line += &format!(" {word}"),
-            None => lines.push(word.to_owned()),
-        }
-    }
-    lines
 }
 
 /// Draws a line with a head at its end. If the line is shorter than its head, only the head is drawn; if it has no
@@ -322,7 +309,6 @@ pub(crate) struct Scale {
 }
 
 impl Scale {
-    /// Returns the place of a value.
     pub(crate) fn place(&self, value: f64) -> f64 {
         let ([from, to], [start, end]) = (self.values, self.places);
         start + (value - from) / (to - from) * (end - start)
@@ -333,6 +319,53 @@ impl Scale {
         let [from, to] = self.values;
         self.place(value.clamp(from.min(to), from.max(to)))
     }
+}
+
+/// The appearance of a series: the frame index whose mark it uses, and the class of its line.
+pub(crate) type Look = (u32, &'static str);
+
+/// A plot area: values increase to the right along `x`, upwards along `y`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Field {
+    /// Horizontal scale, from the left end to the right end.
+    pub x: Scale,
+    /// Vertical scale, from the lower end to the upper end.
+    pub y: Scale,
+}
+
+impl Field {
+    /// Draws both axes, and at each axis mark a faint line with its number.
+    pub(crate) fn axes(&self, x_marks: &[(f64, String)], y_marks: &[(f64, String)]) -> Markup {
+        let ([left, right], [bottom, top]) = (self.x.places, self.y.places);
+        html! {
+            @for (value, printed) in x_marks {
+                @let x = self.x.place(*value);
+                (line([x, top], [x, bottom + 4.0], "grid"))
+                (words([x, bottom + 16.0], Anchor::Middle, "small", printed))
+            }
+            @for (value, printed) in y_marks {
+                @let y = self.y.place(*value);
+                (line([left - 4.0, y], [right, y], "grid"))
+                (words([left - 7.0, y + 4.0], Anchor::End, "small", printed))
+            }
+            (line([left, top], [left, bottom], "zero"))
+            (line([left, bottom], [right, bottom], "zero"))
+        }
+    }
+
+    /// Draws a line through `values`, with the mark of `index` at each. Values beyond an axis are drawn at its end.
+    pub(crate) fn series(&self, values: &[Point], (index, class): Look) -> Markup {
+        let points: Vec<Point> = values.iter().map(|[x, y]| [self.x.clamped(*x), self.y.clamped(*y)]).collect();
+        html! {
+            polyline class=(class) points=(list(&points)) {}
+            @for at in &points { (mark(*at, index, "mark")) }
+        }
+    }
+}
+
+/// Draws the sample of a series for a legend.
+pub(crate) fn sample((index, class): Look) -> Markup {
+    html! { (line([1.0, 7.0], [27.0, 7.0], class)) (mark([14.0, 7.0], index, "mark")) }
 }
 
 /// Round values for the marks of an axis: multiples of 1, 2 or 5 times a power of ten.
@@ -393,7 +426,6 @@ fn round_step(step: f64) -> (f64, i32) {
     }
 }
 
-/// Returns 10 to the power `exponent`.
 pub(crate) fn power_of_ten(exponent: i32) -> f64 {
     libm::pow(10.0, f64::from(exponent))
 }

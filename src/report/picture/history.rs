@@ -1,8 +1,7 @@
 //! One stand over the years as a picture file: the time line above, below it the change of every deviation since the
 //! first certificate, all to one scale.
 
-use super::chart::Field;
-use super::drawing::{Anchor, Point, Scale, Ticks, coordinate, label, line, mark, rectangle, symbols, words};
+use super::drawing::{Anchor, Field, Point, Scale, Ticks, coordinate, label, line, mark, rectangle, symbols, words};
 use super::file::{caption, file};
 use crate::attitude::ANGLE_SYMBOLS;
 use crate::calibration::verdict::COVERAGE_FACTOR;
@@ -43,11 +42,7 @@ pub(crate) fn history(history: &History, now: Timestamp) -> String {
     let drawing = [
         words([20.0, 20.0], Anchor::Start, "title", &title),
         time_line(history, (now, &as_of), &time, bottom),
-        if changes {
-            drift(&history.drift, panels_top)
-        } else {
-            html! {}
-        },
+        html! { @if changes { (drift(&history.drift, panels_top)) } },
     ];
     file("history", [WIDTH, height], &title, &in_words(history), &drawing)
 }
@@ -156,9 +151,6 @@ fn shortened(site: &str) -> String {
 }
 
 fn drift(drift: &Drift, top: f64) -> Markup {
-    if drift.series.is_empty() {
-        return html! {};
-    }
     let ends = drift.series.iter().flat_map(|series| {
         let first = series.values.first().map_or(0.0, |at| at.arcsec);
         series.values.iter().flat_map(move |at| {

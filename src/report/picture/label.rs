@@ -19,7 +19,6 @@ const DISTANCES: [f64; 6] = [8.0, 16.0, 26.0, 38.0, 52.0, 68.0];
 const MISTAKEN: f64 = 60.0;
 const NEARER: f64 = 5.0;
 
-/// A label to be placed.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Label {
     at: Point,
@@ -47,7 +46,6 @@ impl Area {
         Self { low: [x - half, y - half], high: [x + half, y + half] }
     }
 
-    /// Returns the distance of a point from the box.
     fn distance(&self, at: Point) -> f64 {
         let [x, y] = [0, 1].map(|axis| at[axis] - at[axis].clamp(self.low[axis], self.high[axis]));
         libm::hypot(x, y)

@@ -12,11 +12,10 @@
 //! * [`residuals`], [`tolerances`], [`convergence`]: pictures of a calibration.
 //! * [`budget`], [`simulation`], `plan`, [`history`]: picture files of a budget, of the paper's Fig. 4, of a plan, and of
 //!   a stand over the years.
-//! * [`chart`], [`drawing`], [`file`], [`label`]: common parts.
+//! * [`drawing`], [`file`], [`label`]: common parts.
 
 pub(crate) mod accuracy;
 pub(crate) mod budget;
-pub(crate) mod chart;
 pub(crate) mod convergence;
 pub(crate) mod deviations;
 pub(crate) mod drawing;

@@ -1,7 +1,6 @@
 //! The paper's Fig. 4 as a picture file: steps of the iterative method against the limit of the deviations.
 
-use super::chart::{Field, Look, sample};
-use super::drawing::{Anchor, Point, Scale, Ticks, label, line, symbols, words};
+use super::drawing::{Anchor, Field, Look, Point, Scale, Ticks, label, line, sample, symbols, words};
 use super::file::{caption, file};
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::report::page::{Language, Number};
