@@ -87,18 +87,17 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
         });
         gravity.iter().chain(&turn_ons).for_each(|words| columns::paragraph(&mut out, "  ", words));
     }
-    let least_certain = |parameter: Parameter| {
-        let row = verdict.and_then(|(_, verdict)| verdict.parameter(parameter));
-        let share = row.map(|row| 100.0 * row.expanded_uncertainty / row.tolerance);
-        share.map_or_else(String::new, |share| format!(": U is {} % of it", columns::two_digits(share)))
-    };
     if let Some((parameter, FurtherVisit { index, ratio })) = done.further {
         let (symbol, percent) = (parameter.symbol(), 100.0 * (1.0 - ratio));
         let effect = match percent < LEAST_EFFECT_PERCENT {
             true => format!("No single further visit would reduce it by {LEAST_EFFECT_PERCENT} %."),
             false => format!("A further visit to position {index} would reduce it most, by {percent:.0} %."),
         };
-        let of_tolerance = least_certain(parameter);
+        let share = verdict
+            .and_then(|(_, verdict)| verdict.parameter(parameter))
+            .map(|row| 100.0 * row.expanded_uncertainty / row.tolerance);
+        let of_tolerance =
+            share.map_or_else(String::new, |share| format!(": U is {} % of it", columns::two_digits(share)));
         let words =
             format!("Of all parameters {symbol} is the least certain for its tolerance{of_tolerance}. {effect}");
         columns::paragraph(&mut out, "  ", &words);
@@ -121,21 +120,20 @@ fn gyro(Subject { gyro_serial, date, .. }: &Subject) -> Option<String> {
 
 /// Returns what makes the parameters or their uncertainties unusable, a sentence each.
 pub(crate) fn warnings(Done { calibration, document, .. }: &Done, trials: Option<&MonteCarlo>) -> Vec<String> {
-    let inconsistent = calibration.hint.iter().map(|hint| format!("{INCONSISTENT}: {hint}."));
-    let warnings = inconsistent.chain(not_of_this_gyro(document.mistake.as_ref()));
-    warnings.chain(trials.and_then(not_linear)).map(|words| format!("WARNING: {words}")).collect()
+    let warnings = unusable(calibration, document.mistake.as_ref()).chain(trials.and_then(not_linear));
+    warnings.map(|words| format!("WARNING: {words}")).collect()
 }
 
-/// Returns what makes the parameters unusable although the readings fit.
-fn not_of_this_gyro(mistake: Option<&Mistake>) -> Option<String> {
-    mistake.map(|mistake| mistake::words(mistake, Language::English))
+/// Returns what makes the parameters unusable: readings that do not fit, or those of another gyro.
+fn unusable(calibration: &Calibration, mistake: Option<&Mistake>) -> impl Iterator<Item = String> {
+    let inconsistent = calibration.hint.iter().map(|hint| format!("{INCONSISTENT}: {hint}."));
+    inconsistent.chain(mistake.map(|mistake| mistake::words(mistake, Language::English)))
 }
 
 /// Returns what a program should show with the parameters, a sentence each: what makes them unusable, what the readings
 /// cannot tell, and a scatter that is not the stated one.
 pub(crate) fn remarks(calibration: &Calibration, readings: &Readings, mistake: Option<&Mistake>) -> Vec<String> {
-    let inconsistent = calibration.hint.iter().map(|hint| format!("{INCONSISTENT}: {hint}."));
-    let mut remarks: Vec<String> = inconsistent.chain(not_of_this_gyro(mistake)).collect();
+    let mut remarks: Vec<String> = unusable(calibration, mistake).collect();
     let tested = calibration.answer().is_some_and(|answer| answer.chi_square.judges());
     remarks.extend((!tested).then(|| UNTESTED.to_owned()));
     remarks.extend(calibration.digits.iter().flat_map(|digits| recorded::words(digits, Language::English)));

@@ -1,7 +1,6 @@
 //! One stand over the years, as text and as JSON.
 
-use crate::attitude::ANGLE_SYMBOLS;
-use crate::attitude::ANGLES;
+use crate::attitude::{ANGLE_SYMBOLS, ANGLES};
 use crate::calibration::document::finite;
 use crate::history::drift::{DRIFTS, Drift, Jump, SUSPECTED, Series};
 use crate::history::{History, PastCertificate, PastPassport};
@@ -132,9 +131,8 @@ fn jumped(drift: &Drift, angles: [&str; 3], series: &Series, jump: &Jump) -> Str
 
 /// Returns the result of the test for drift of the deviations that are on a line.
 fn of_lines(drift: &Drift, angles: [&str; 3]) -> String {
-    let (Some(worst), Some(probability)) =
-        (drift.most_significant(), drift.most_significant().and_then(|worst| worst.corrected_probability))
-    else {
+    let tested = drift.most_significant().and_then(|worst| Some((worst, worst.corrected_probability?)));
+    let Some((worst, probability)) = tested else {
         let what = "two certificates from different dates that state the uncertainties of the deviations";
         return format!("drift was not tested: this needs {what}");
     };

@@ -53,7 +53,6 @@ impl State {
     }
 }
 
-/// The outcome of one order.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Report {
     /// Id of the passport; for a refused re-issue, the predecessor's file; for an input, its file.

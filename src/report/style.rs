@@ -25,13 +25,10 @@ pub(crate) fn bad(words: &str) -> String {
 /// Outcome of a check, a test or a decision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Outcome {
-    /// Passed.
     Passed,
-    /// Failed.
     Failed,
     /// Asked, but not decided.
     Undecided,
-    /// Not asked.
     NotAsked,
 }
 
@@ -70,7 +67,6 @@ pub(crate) fn mark(outcome: Outcome) -> &'static str {
     }
 }
 
-/// Formats an outcome with its mark.
 pub(crate) fn marked(outcome: impl Into<Outcome>, words: &str) -> String {
     let outcome = outcome.into();
     let words = format!("{} {words}", mark(outcome));

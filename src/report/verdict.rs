@@ -6,9 +6,6 @@ use crate::passport::{Check, CheckName, Code};
 use crate::text::Printable;
 use std::fmt::Write;
 
-/// Checks that are run only if they are asked for.
-const ON_REQUEST: [CheckName; 4] = [CheckName::Issuer, CheckName::Stand, CheckName::Place, CheckName::Register];
-
 /// Returns the answer for a file, what it is based on, and a line for each of its checks.
 pub(crate) fn text(verdict: &Verdict) -> String {
     let mut text = first_line(verdict);
@@ -51,7 +48,8 @@ pub(crate) fn counts(checks: &[Check]) -> String {
     let checked = checks.iter().filter(|check| check.was_asked() && check.passed().is_some()).count();
     let not_run = checks.iter().filter(|check| check.passed().is_none()).count();
     let idle = checks.iter().filter(|check| !check.was_asked()).map(|check| check.name);
-    let absent = ON_REQUEST.into_iter().filter(|name| checks.iter().all(|check| check.name != *name));
+    // Only those that are made on request.
+    let absent = CheckName::ALL.into_iter().filter(|name| checks.iter().all(|check| check.name != *name));
     let not_asked: Vec<&str> = idle.chain(absent).map(CheckName::as_str).collect();
     let failed = checks.iter().filter(|check| check.passed() == Some(false)).map(|check| check.name.as_str());
     let failed: Vec<&str> = failed.collect();

@@ -90,13 +90,8 @@ impl Languages {
 
     /// Returns plain text for places without markup, such as the words of a picture: `north / север`.
     pub(crate) fn plain(&self, text: Text) -> String {
-        self.plain_with(|language| text.words(language))
-    }
-
-    /// Returns plain text as `plain` does, from words that `say` makes for each language.
-    pub(crate) fn plain_with(&self, say: impl Fn(Language) -> String) -> String {
-        let words: Vec<String> = self.sayings(say).into_iter().map(|(_, words)| words).collect();
-        words.join(" / ")
+        let sayings = self.sayings(|language| text.words(language));
+        sayings.into_iter().map(|(_, words)| words).collect::<Vec<_>>().join(" / ")
     }
 
     /// Writes the text within a line, one language after the other.

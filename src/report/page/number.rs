@@ -79,13 +79,14 @@ impl Tail {
     }
 }
 
-/// A cell of a column.
 #[derive(Debug, Clone)]
 pub(crate) enum Cell {
     /// A number; its decimal mark aligns with those of the column.
     Number(Number),
     /// A number that is only said to be below this limit.
     Below(Number),
+    /// A number directly followed by its unit; all units of a column have one width.
+    WithUnit(Number, Markup),
     /// Anything else.
     Words(Markup),
 }
@@ -124,31 +125,29 @@ impl From<Option<Number>> for Cell {
 pub(crate) fn column(languages: &Languages, cells: impl IntoIterator<Item = impl Into<Cell>>) -> Vec<Markup> {
     let cells: Vec<Cell> = cells.into_iter().map(Into::into).collect();
     let tails = cells.iter().filter_map(|cell| match cell {
-        Cell::Number(number) | Cell::Below(number) => Some(Tail::of(&number.text(languages.first()))),
+        Cell::Number(number) | Cell::Below(number) | Cell::WithUnit(number, _) => {
+            Some(Tail::of(&number.text(languages.first())))
+        }
         Cell::Words(_) => None,
     });
     let longest = tails.fold(Tail::default(), Tail::or_longer);
     let written = cells.into_iter().map(|cell| match cell {
         Cell::Number(number) => number.aligned(languages, &longest),
         Cell::Below(limit) => limit.below(languages, &longest),
+        Cell::WithUnit(number, unit) => {
+            html! { (number.markup(languages)) " " span.unit { (unit) } (number.pad(languages, &longest)) }
+        }
         Cell::Words(words) => words,
     });
     written.collect()
 }
 
-/// Writes the cells of a column of quantities: each unit directly after its number, the decimal marks of the numbers aligned.
-/// All units have one width.
+/// Writes the cells of a column of quantities, as [`column`] does.
 pub(crate) fn column_with_units(
     languages: &Languages,
     cells: impl IntoIterator<Item = (Number, Markup)>,
 ) -> Vec<Markup> {
-    let cells: Vec<(Number, Markup)> = cells.into_iter().collect();
-    let tails = cells.iter().map(|(number, _)| Tail::of(&number.text(languages.first())));
-    let longest = tails.fold(Tail::default(), Tail::or_longer);
-    let written = cells.iter().map(|(number, unit)| {
-        html! { (number.markup(languages)) " " span.unit { (unit) } (number.pad(languages, &longest)) }
-    });
-    written.collect()
+    column(languages, cells.into_iter().map(|(number, unit)| Cell::WithUnit(number, unit)))
 }
 
 #[cfg(test)]

@@ -17,7 +17,6 @@ use std::path::Path;
 /// Anchor, heading and content of a section.
 pub(crate) type Section = (&'static str, Text, Markup);
 
-/// Writes sections with their numbers.
 pub(crate) fn numbered(languages: &Languages, sections: &[Section]) -> Markup {
     html! { @for (number, section) in (1..).zip(sections) { (section_of(languages, Some(number), section)) } }
 }
@@ -40,7 +39,6 @@ fn section_of(languages: &Languages, number: Option<usize>, (id, heading, body):
     }
 }
 
-/// Writes a heading within a section.
 pub(crate) fn heading(languages: &Languages, text: Text) -> Markup {
     html! { h3 { (languages.label(text)) } }
 }
@@ -194,7 +192,6 @@ pub(crate) fn time_text(language: Language, time: Timestamp) -> String {
     format!("{}{BLANK}{}{BLANK}UTC", date_text(language, at.date()), at.strftime("%H:%M:%S"))
 }
 
-/// Writes a symbol with its subscript.
 pub(crate) fn symbol(letter: &str, subscript: &str) -> Markup {
     html! { span.symbol { i { (letter) } @if !subscript.is_empty() { (index(subscript)) } } }
 }
@@ -267,14 +264,11 @@ pub(crate) fn contents(
 /// A table with its caption, its row of headings (repeated on every sheet) and its rows.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Table {
-    /// Caption of the table.
     pub caption: Option<Markup>,
     /// Headings over several columns: number of columns, and heading, empty over columns that have none. Most tables have
     /// no groups.
     pub groups: Vec<(usize, Markup)>,
-    /// Heading of each column.
     pub headings: Vec<Markup>,
-    /// Cells of each row.
     pub rows: Vec<Vec<Markup>>,
     /// Rows with which a group begins; a rule separates them from the row before.
     pub starts: Vec<usize>,
@@ -289,7 +283,6 @@ pub(crate) struct Table {
 /// A column of a table after the names of its rows.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Column {
-    /// Heading of the column.
     pub heading: Markup,
     /// A cell for each row.
     pub cells: Vec<Markup>,

@@ -6,7 +6,6 @@ use maud::{Markup, html};
 /// Latin letters that are symbols wherever they stand alone.
 const LATIN: &str = "DFJKRUgijknpsuxyz";
 
-/// A part of a text.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum Piece<'a> {
     /// Upright words.
@@ -68,7 +67,6 @@ pub(crate) fn index_letters(index: &str) -> impl Iterator<Item = (char, bool)> {
     index.chars().map(move |c| (c, running && c.is_ascii_alphabetic()))
 }
 
-/// Writes the index of a symbol.
 pub(crate) fn index(index: &str) -> Markup {
     html! { sub { @for (c, italic) in index_letters(index) { @if italic { i { (c) } } @else { (c) } } } }
 }
