@@ -1,10 +1,10 @@
-//! Student's t with the effective degrees of freedom of a sum, and Fisher's F, computed through the regularised incomplete beta function.
+//! Student's t with the effective degrees of freedom of a sum, and Fisher's F, computed through the regularised incomplete
+//! beta function.
 //!
 //! Degrees of freedom are any positive numbers, as Welch and Satterthwaite's formula gives them. Infinite ones give the
 //! normal and the chi-square distribution.
 
-use super::distributions::{chi_square_larger, falling_root, normal_below};
-use super::saddle_point::binomial_term;
+use super::distributions::{binomial_term, chi_square_larger, falling_root, normal_below};
 
 /// Returns the regularised incomplete beta function I_x(a, b), given both x and y = 1 − x so that neither loses digits;
 /// a and b positive, 0 ≤ x ≤ 1.

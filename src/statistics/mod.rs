@@ -2,7 +2,7 @@
 //!
 //! * [`least_squares`]: weighted linear models through QR, with rank and condition through the SVD.
 //! * [`distributions`]: chi-square and normal probabilities; [`beta`]: Student's t and Fisher's F, effective degrees of
-//!   freedom; `saddle_point`: terms that both need for large parameters.
+//!   freedom.
 //! * `scaled_f`: the distribution of a chi-square whose covariance was partly estimated.
 //! * [`outlier`]: Bartlett's test for unequal variances, Cochran's for the largest variance, Grubbs' for an outlier.
 //! * `coincidences`: readings that are copies of earlier ones.
@@ -21,7 +21,6 @@ pub(crate) mod least_squares;
 pub(crate) mod outlier;
 #[cfg(feature = "monte-carlo")]
 pub(crate) mod random;
-pub(crate) mod saddle_point;
 pub(crate) mod scaled_f;
 pub(crate) mod straight_line;
 pub(crate) mod summary;

@@ -1,8 +1,7 @@
 //! Tests for unequal variances (Bartlett), a largest variance (Cochran) and an outlier (Grubbs).
 
 use super::beta::{f_beyond, student_beyond};
-use super::distributions::chi_square_larger;
-use super::saddle_point::deviance;
+use super::distributions::{chi_square_larger, deviance};
 use serde::Serialize;
 
 /// Result of Bartlett's test that several variances are equal.
