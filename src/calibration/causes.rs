@@ -140,11 +140,6 @@ impl Cause {
         }
     }
 
-    /// Returns `true` if the cause acts on a single position other than `index`.
-    pub(crate) fn is_elsewhere(self, index: PositionIndex) -> bool {
-        self.position().is_some_and(|at| at != index)
-    }
-
     /// Converts an uncertainty from its internal unit (rad, fraction of the reading, mA) to [`Self::unit`].
     pub(crate) fn shown(self, uncertainty: f64) -> f64 {
         match self.unit() {

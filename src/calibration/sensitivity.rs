@@ -180,9 +180,10 @@ impl<'a> Sensitivity<'a> {
 
     /// Returns the change of the misclosure of position `place` per unit of a cause, °/h.
     pub(crate) fn to(&self, place: usize, current_ma: &Vector2<f64>, cause: Cause) -> Change {
-        let k = &self.unknowns.parameters.k_deg_per_h_per_ma;
+        let (k, here) =
+            (&self.unknowns.parameters.k_deg_per_h_per_ma, self.setup.coefficients().positions[place].index);
         match cause {
-            _ if cause.is_elsewhere(self.setup.coefficients().positions[place].index) => Change::zeros(),
+            _ if cause.position().is_some_and(|at| at != here) => Change::zeros(),
             Cause::Reading(_, axis) => -k.column(axis) * current_ma[axis],
             Cause::Floor(_, axis) | Cause::Noise(_, axis) => -k.column(axis),
             Cause::Visits(_, axis) | Cause::TurnOn(axis) => -Change::ith(axis, 1.0),
