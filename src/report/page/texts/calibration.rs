@@ -315,9 +315,9 @@ texts! {
     }
     FROM_UNKNOWN_HEIGHT {
         en: "Local g contributes {parts}: the height is not stated, so it is that at 0 m with an uncertainty of {u}, all \
-             heights up to 4000 m being equally probable. To reduce this, state the height in the site file or measure g.",
-        ru: "Местное g вносит {parts}: высота не указана, поэтому g вычислено для 0 м с неопределённостью {u} (высоты до \
-             4000 м равновероятны). Для уменьшения этого вклада следует указать высоту в файле места установки или измерить g."
+             heights up to 4000 m being equally probable. To reduce this, state the height or measure g.",
+        ru: "Местное g вносит {parts}: высота не указана, g вычислено для 0 м с неопределённостью {u} (высоты до 4000 м \
+             равновероятны). Чтобы её уменьшить, следует указать высоту или измерить g."
     }
     FROM_GRAVITY_PART { en: "{gravity} to U of {parameter}", ru: "{gravity} в U параметра {parameter}" }
     FROM_TURN_ONS {

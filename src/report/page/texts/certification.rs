@@ -39,7 +39,7 @@ texts! {
         ru: "В средние вошли показания, отмеченные критерием как выбросы или квазивыбросы: {readings}; см. раздел «{section}»."
     }
     READING_OF { en: "position {index}, run {run}", ru: "положение {index}, серия {run}" }
-    OF_A_VISIT { en: "standard deviation of one visit, pooled over x, y, z", ru: "стандартное отклонение одной установки, общее для x, y, z" }
+    OF_A_VISIT { en: "standard deviation of a visit, pooled", ru: "стандартное отклонение установки, общее" }
     COMMON_PARTS { en: "Common parts, per axis: platform; base", ru: "Общие составляющие (по осям): платформа; основание" }
     STANDARD { en: "standard uncertainty (k = 1)", ru: "стандартная неопределённость (k = 1)" }
 
@@ -49,13 +49,12 @@ texts! {
     COMPONENTS_NOTE {
         en: "A reading differs from the mean of its position by a rotation of the platform and one of the base, both \
              common to the whole run, and by the scatter of the single visit. s: standard deviation; ν: its degrees of \
-             freedom; s/√R: its part in the mean of R runs. The repeatability is their quadratic mean over x, y and z. The upper \
-             limit is one-sided, from the chi-square distribution of the mean square between runs, less the scatter of the visits.",
+             freedom; s/√R: its part in the mean of R runs. The repeatability is their quadratic mean over x, y and z. Upper \
+             limit: one-sided, by chi-square, less the scatter of the visits.",
         ru: "Показание отличается от среднего по положению на поворот платформы и поворот основания, общие для всей \
              серии, и на разброс одной установки. s — стандартное отклонение, ν — число его степеней свободы, \
              s/√R — его часть в среднем по R\u{a0}сериям. Повторяемость — их среднее квадратическое по x, y и z. Верхняя \
-             граница односторонняя: по распределению хи-квадрат среднего квадрата между сериями за вычетом разброса \
-             установок."
+             граница — односторонняя, по хи-квадрат, за вычетом разброса установок."
     }
     FEW_DEGREES {
         en: "Below ν = 4 the uncertainty of s itself exceeds 35 % (JCGM 100, E.4.3): see its upper limit.",
@@ -126,11 +125,10 @@ texts! {
     TESTS_NOTE {
         en: "Value: the quantity that the row names last. Probability of a result at least as extreme by chance: below 5 % a \
              value is a straggler and equality is doubtful, below 1 % it is an outlier and the variances are different. The \
-             tests exclude nothing. Bartlett’s is not made if a suspect reading or the step of the readings would decide it.",
+             tests exclude nothing. Bartlett’s needs readings of fine steps and none that is suspect.",
         ru: "Значение: величина, названная в строке последней. Вероятность случайно получить столь же большое значение: \
              менее 5 % — квазивыброс, равенство сомнительно; менее 1 % — выброс, дисперсии различаются. По критериям ничего \
-             не исключается. Критерий Бартлетта не применяется, если его исход определили бы сомнительное показание или шаг \
-             отсчёта."
+             не исключается. Критерию Бартлетта нужны показания с малым шагом и без сомнительных."
     }
     WARNINGS_COUNTED {
         en: "Warnings of the program: {count}; see section “{section}”.",
