@@ -9,7 +9,7 @@ use super::{
 };
 use crate::coefficients::PositionIndex;
 use crate::gyro::GyroParameters;
-use crate::statistics::beta::f_larger;
+use crate::statistics::student::f_larger;
 use crate::text::{word_of_a_key, words};
 use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2};
 use serde::{Deserialize, Serialize};

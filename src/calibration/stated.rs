@@ -5,7 +5,7 @@ use super::inputs::{InputUncertainty, MeterUncertainty, NoSetup, Setup};
 use crate::laboratory::Laboratory;
 use crate::site::Site;
 use crate::stand::{ActsOn, Certificate, CertifiedPosition};
-use crate::statistics::beta::effective_degrees_of_freedom;
+use crate::statistics::student::effective_degrees_of_freedom;
 use crate::text::words;
 use crate::units::radians_from_arcseconds;
 

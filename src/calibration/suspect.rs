@@ -10,7 +10,7 @@ use super::offsets::{Differences, VisitRow, VisitRows};
 use super::scatter::{IMPROBABLE, VisitErrors};
 use super::{NoiseSource, Readings, RowScatter, Setup};
 use crate::coefficients::PositionIndex;
-use crate::statistics::beta::f_larger;
+use crate::statistics::student::f_larger;
 use nalgebra::{Matrix2, Vector2};
 use serde::{Deserialize, Serialize};
 

@@ -7,7 +7,7 @@
 
 use super::parameter::Parameter;
 use crate::gyro::{GyroParameters, GyroType};
-use crate::statistics::beta::{effective_degrees_of_freedom, student_beyond, student_factor};
+use crate::statistics::student::{effective_degrees_of_freedom, student_beyond, student_factor};
 use serde::Serialize;
 
 /// Coverage factor of expanded uncertainties with unlimited degrees of freedom.

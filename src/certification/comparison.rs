@@ -15,7 +15,7 @@ use super::{AngleReadings, Certification, Header, NominalPosition};
 use crate::calibration::recorded::rounding_of;
 use crate::coefficients::PositionIndex;
 use crate::stand::Stand;
-use crate::statistics::beta::{f_beyond, f_larger};
+use crate::statistics::student::{f_beyond, f_larger};
 use nalgebra::Vector3;
 use serde::Serialize;
 

@@ -9,8 +9,8 @@ use super::suspects::OUTLIER;
 use super::{AngleReadings, Certification, NominalPosition};
 use crate::calibration::inputs::Turn;
 use crate::stand::{ActsOn, Certificate, CertifiedPosition, Stand};
-use crate::statistics::beta::f_larger;
 use crate::statistics::least_squares::Factorised;
+use crate::statistics::student::f_larger;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// Differences between check and certificate as rotations of the case, with their standard uncertainties and the model of

@@ -9,7 +9,7 @@ use super::components::{Components, by_axis};
 use super::header::NominalPosition;
 use super::suspects::OUTLIER;
 use crate::calibration::inputs::Turn;
-use crate::statistics::beta::{effective_degrees_of_freedom, f_larger};
+use crate::statistics::student::{effective_degrees_of_freedom, f_larger};
 use crate::text::words;
 use nalgebra::{DMatrix, DVector, Vector3};
 

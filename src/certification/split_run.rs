@@ -11,7 +11,7 @@ use super::suspects::OUTLIER;
 use super::{AngleReadings, Header};
 use crate::calibration::inputs::Turn;
 use crate::coefficients::PositionIndex;
-use crate::statistics::beta::{effective_degrees_of_freedom, f_beyond};
+use crate::statistics::student::{effective_degrees_of_freedom, f_beyond};
 use crate::wording::number::Probability;
 use crate::wording::{Language, Text, values};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};

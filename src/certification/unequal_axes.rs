@@ -5,8 +5,8 @@ use super::components::Components;
 use super::rotated_runs::{CommonAxis, RotatedRuns, left_squares, without};
 use super::suspects::{OUTLIER, Outlier};
 use crate::calibration::recorded::rounding_of;
-use crate::statistics::beta::student_factor;
 use crate::statistics::outlier::cochran_probability;
+use crate::statistics::student::student_factor;
 use std::ops::Range;
 
 /// Axis about which the runs rotate more than about the other two of platform or base.

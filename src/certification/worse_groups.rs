@@ -7,7 +7,7 @@
 use super::Header;
 use super::components::{Components, RunModel, Variance};
 use super::suspects::{OUTLIER, Outlier, STRAGGLER};
-use crate::statistics::beta::f_beyond;
+use crate::statistics::student::f_beyond;
 use nalgebra::DVector;
 
 /// Positions with the same θ that scatter more than the others.

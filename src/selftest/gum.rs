@@ -5,8 +5,8 @@
 
 use super::Case;
 use crate::calibration::propagation::{covariance, product, standard_deviations};
-use crate::statistics::beta::effective_degrees_of_freedom;
 use crate::statistics::least_squares::Factorised;
+use crate::statistics::student::effective_degrees_of_freedom;
 use nalgebra::DMatrix;
 
 const BY_GTC: &str = "GTC 1.5.1 (Measurement Standards Laboratory of New Zealand) with the same inputs";

@@ -1,7 +1,7 @@
 //! General statistics, independent of gyros: least squares, distributions, random streams.
 //!
 //! * [`least_squares`]: weighted linear models through QR, with rank and condition through the SVD.
-//! * [`distributions`]: chi-square and normal probabilities; [`beta`]: Student's t and Fisher's F, effective degrees of
+//! * [`distributions`]: chi-square and normal probabilities; [`student`]: Student's t and Fisher's F, effective degrees of
 //!   freedom.
 //! * `scaled_f`: the distribution of a chi-square whose covariance was partly estimated.
 //! * [`outlier`]: Bartlett's test for unequal variances, Cochran's for the largest variance, Grubbs' for an outlier.
@@ -12,7 +12,6 @@
 //! * [`bins`]: quantiles and coverage intervals of a sample of any size.
 //! * [`summary`]: largest value, mean, standard deviation, percentiles, and the standard error of a share.
 
-pub(crate) mod beta;
 pub(crate) mod bins;
 pub(crate) mod coincidences;
 pub(crate) mod distributions;
@@ -23,6 +22,7 @@ pub(crate) mod outlier;
 pub(crate) mod random;
 pub(crate) mod scaled_f;
 pub(crate) mod straight_line;
+pub(crate) mod student;
 pub(crate) mod summary;
 #[cfg(feature = "monte-carlo")]
 pub(crate) mod wide_random;

@@ -1,7 +1,7 @@
 //! Tests for unequal variances (Bartlett), a largest variance (Cochran) and an outlier (Grubbs).
 
-use super::beta::{f_beyond, student_beyond};
 use super::distributions::{chi_square_larger, deviance};
+use super::student::{f_beyond, student_beyond};
 use serde::Serialize;
 
 /// Result of Bartlett's test that several variances are equal.
@@ -71,7 +71,7 @@ pub(crate) fn bonferroni_student(t: f64, values: usize, degrees_of_freedom: f64)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::statistics::beta::student_factor;
+    use crate::statistics::student::student_factor;
 
     /// Expected: gear diameters, ten batches of ten: NIST/SEMATECH e-Handbook, 1.3.5.7 with the data of 1.3.5.8.1
     /// (GEAR.DAT): T = 20.78587 with 9 degrees of freedom, critical value at 5 % 16.919.

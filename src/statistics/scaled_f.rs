@@ -7,7 +7,7 @@
 //! first order in the variances of the estimates, are those of a scaled F. With one estimate of all of Ĉ the
 //! distribution is F itself; without estimates it is chi-square.
 
-use super::beta::f_larger;
+use super::student::f_larger;
 
 /// Part of the covariance that is scaled by one estimate with few degrees of freedom.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -57,7 +57,7 @@ impl StraightLine {
             u_level: 1.0 / weights.sqrt(),
             slope,
             u_slope: 1.0 / spread.sqrt(),
-            slope_degrees_of_freedom: super::beta::effective_degrees_of_freedom(&contributions),
+            slope_degrees_of_freedom: super::student::effective_degrees_of_freedom(&contributions),
             chi_square: points.iter().map(|at| residual(at) * residual(at)).sum(),
             degrees_of_freedom: points.len().saturating_sub(2),
         })
@@ -69,7 +69,7 @@ impl StraightLine {
 
     /// Returns the probability that |slope| is larger by chance if there is none, by Student's distribution.
     pub(crate) fn probability(&self) -> f64 {
-        super::beta::student_beyond(self.slope / self.u_slope, self.slope_degrees_of_freedom)
+        super::student::student_beyond(self.slope / self.u_slope, self.slope_degrees_of_freedom)
     }
 }
 

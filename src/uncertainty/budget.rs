@@ -9,7 +9,7 @@ use crate::calibration::estimates::Estimates;
 use crate::calibration::procedure::{Linearised, linearise};
 use crate::calibration::propagation::{covariance, product};
 use crate::calibration::{Basis, Cause, Input, Method, MethodRefusal, Model, Options, Parameter, Readings, Setup};
-use crate::statistics::beta::{self, student_factor};
+use crate::statistics::student::{self, student_factor};
 use nalgebra::DMatrix;
 use std::collections::BTreeMap;
 
@@ -175,5 +175,5 @@ fn effective_degrees_of_freedom(inputs: &[Input], changes: &[f64], estimates: &[
         }
     }
     let contributions: Vec<(f64, f64)> = terms.into_iter().map(|(square, known)| (square.sqrt(), known)).collect();
-    beta::effective_degrees_of_freedom(&contributions)
+    student::effective_degrees_of_freedom(&contributions)
 }

@@ -5,8 +5,8 @@ use dtg_passport::attitude;
 use dtg_passport::certification::{AngleReadings, Header, NotCertified, certify};
 use dtg_passport::coefficients::{EIGHT_POSITIONS, PositionIndex};
 use dtg_passport::stand::{Excluded, Stand};
-use dtg_passport::statistics::beta::student_factor;
 use dtg_passport::statistics::random::Stream;
+use dtg_passport::statistics::student::student_factor;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 /// The mean of the estimated variances is the true one, for every component, at 3 and 6 runs.

@@ -115,7 +115,7 @@ fn the_verdict_is_large() {
         let (russian, english) = match case.name {
             "elsewhere-en" | "elsewhere-both" => (
                 "Не применять: относится к другому стенду, выдан для другого места",
-                "Not to be used: for another stand, for another site",
+                "Not to be used: issued for another stand, issued for another site",
             ),
             "expired-ru" => ("Не применять: срок действия истёк", "Not to be used: expired"),
             _ => ("Действует", "In force"),

@@ -5,8 +5,8 @@ use crate::inside::simulated_stands::{HEADER, Truth};
 use dtg_passport::certification::{AngleReadings, Header, certify};
 use dtg_passport::coefficients::EIGHT_POSITIONS;
 use dtg_passport::stand::Stand;
-use dtg_passport::statistics::beta::student_factor;
 use dtg_passport::statistics::random::Stream;
+use dtg_passport::statistics::student::student_factor;
 use nalgebra::Vector3;
 
 /// docs/figures.md: runs that vary differently about the three axes. Good stands vary alike, or not at all.

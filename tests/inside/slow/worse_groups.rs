@@ -4,8 +4,8 @@
 use crate::inside::simulated_stands::{Truth, header, normal};
 use dtg_passport::certification::{AngleReadings, Certification, certify};
 use dtg_passport::coefficients::EIGHT_POSITIONS;
-use dtg_passport::statistics::beta::student_factor;
 use dtg_passport::statistics::random::Stream;
+use dtg_passport::statistics::student::student_factor;
 
 /// Returns readings whose visits scatter by `own` times a ratio for each position.
 fn measured(truth: &Truth, stream: &mut Stream, runs: usize, ratios: [f64; 8]) -> AngleReadings {

@@ -63,7 +63,9 @@ fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
         // The name is shown once for its calibrations; screen readers say it in each row.
         let name = html! { (name_of(parameter.symbol())) ", " (languages.spoken(unit_of(*parameter))) };
         let first = place == 0 || starts.contains(&place);
-        let day = past.date.map_or_else(|| html! { (number) }, |day| date(languages, day));
+        let day = past
+            .date
+            .map_or_else(|| html! { (number) " (" (languages.inline(texts::NO_DAY)) ")" }, |day| date(languages, day));
         vec![html! { @if first { (name) } @else { span.unseen { (name) } } }, day]
     });
     let names = names.collect();

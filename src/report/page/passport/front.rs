@@ -2,7 +2,7 @@
 
 use super::{PassportPage, checks};
 use crate::report::page::code;
-use crate::report::page::language::{Languages, values};
+use crate::report::page::language::{Language, Languages, values};
 use crate::report::page::number::{LATITUDES, LONGITUDES, Number};
 use crate::report::page::parts::{
     band, coordinate, date, fields, figure, given, marked, quantity, signature, stated, time, wide_stated,
@@ -77,13 +77,18 @@ fn answers(page: &PassportPage, languages: &Languages) -> Markup {
         None => html! { p { (languages.label(if unchecked { texts::NO_END_NOT_CHECKED } else { texts::NO_END })) } },
     };
     let latitude = site.latitude_deg.or(site.astronomic_latitude_deg).unwrap_or(content.earth.latitude_deg);
-    let latitude = coordinate(languages, latitude, LATITUDES);
+    let coordinates = |language: Language| {
+        let one = Languages::from(language);
+        let latitude = coordinate(&one, latitude, LATITUDES);
+        let around = if site.longitude_deg.is_some() { texts::AROUND } else { texts::AROUND_PARALLEL };
+        html! {
+            (around.words(language)) " " (latitude)
+            @if let Some(longitude) = site.longitude_deg { ", " (coordinate(&one, longitude, LONGITUDES)) }
+        }
+    };
     let place = html! {
-        @if let Some(longitude) = site.longitude_deg {
-            p { (languages.inline(texts::AROUND)) " " (latitude) ", " (coordinate(languages, longitude, LONGITUDES)) }
-        } @else {
-            p { (languages.label(texts::AROUND_PARALLEL)) }
-            p { (latitude) }
+        @for (index, language) in languages.iter().enumerate() {
+            p lang=(language.tag()) class=[(index > 0).then_some("second")] { (coordinates(language)) }
         }
         p { (given(site.name.as_deref().unwrap_or(site.id.as_str()))) }
     };

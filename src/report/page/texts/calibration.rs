@@ -54,7 +54,7 @@ texts! {
     }
     NOT_IN_U {
         en: "Inputs without a stated uncertainty, which U omits: {count} (section 3).",
-        ru: "Не учтено в U величин без указанной u: {count} (раздел\u{a0}3)."
+        ru: "В U не учтены величины без указанной u: {count} (раздел\u{a0}3)."
     }
     NO_TYPE { en: "Parameters determined", ru: "Параметры определены" }
     NO_TYPE_WORDS {
@@ -196,9 +196,9 @@ texts! {
     }
     TEMPERATURE_OUTSIDE {
         en: "The temperature in the laboratory is {here} °C; the deviations of the stand are certified from \
-             {low} °C to {high} °C.",
+             {low} °C to {high} °C. U does not include the effect of this.",
         ru: "Температура в лаборатории {here} °C; отклонения стенда определены при температуре от {low} до \
-             {high} °C."
+             {high} °C. Влияние этого в U не учтено."
     }
     GRAVITY { en: "Gravity g, local", ru: "Ускорение g, местное" }
 
@@ -211,7 +211,7 @@ texts! {
              ω_g и ω_k отнесены к местному g"
     }
     PASSED { en: "{passed} of {all} parameters pass", ru: "Соответствуют допускам {passed} из {all} параметров" }
-    CHANGE_COUNTED { en: "Change since the previous calibration:", ru: "Изменение после предыдущей калибровки." }
+    CHANGE_COUNTED { en: "Change since the previous calibration:", ru: "Изменение после предыдущей калибровки:" }
     ARE_UNDECIDED { en: "; undecided: {names}", ru: "; не определено: {names}" }
     FAIL { en: "; fail: {names}", ru: "; не соответствуют: {names}" }
     NOT_IN_THE_MODEL {
@@ -231,7 +231,7 @@ texts! {
     LEAST_SQUARES_NAME { en: "Least squares", ru: "Метод наименьших квадратов" }
     ANALYTIC { en: "Analytic method", ru: "Аналитический метод" }
     ITERATIVE { en: "Iterative method", ru: "Итерационный метод" }
-    OFF_BY { en: "Difference from least squares, in its u", ru: "Отличие от МНК в единицах его\u{a0}u" }
+    OFF_BY { en: "Difference from least squares, over its u", ru: "Отличие от МНК, делённое на его\u{a0}u" }
     OFF_BY_NOTE {
         en: "Difference from least squares: in units of the standard uncertainty of that difference. The same input \
              errors act on both methods.",
@@ -304,7 +304,7 @@ texts! {
     NO_DAY { en: "date not stated", ru: "дата не указана" }
     SAME_GYRO_NOT_SHOWN {
         en: "Serial numbers do not show that it was the same gyro.",
-        ru: "Тот же ли это гироскоп, не подтверждено."
+        ru: "Не подтверждено, что это тот же гироскоп."
     }
     EARLIER { en: "Previous", ru: "Прежнее значение" }
     FOUND { en: "Value", ru: "Значение" }
@@ -314,10 +314,10 @@ texts! {
              ускорение свободного падения."
     }
     FROM_UNKNOWN_HEIGHT {
-        en: "Local g contributes {parts}: the height is not stated, so it is that at 0 m with an uncertainty of {u}, all \
+        en: "Local g contributes {parts}: the height is not stated, so g is that at 0 m with an uncertainty of {u}, all \
              heights up to 4000 m being equally probable. To reduce this, state the height or measure g.",
         ru: "Местное g вносит {parts}: высота не указана, g вычислено для 0 м с неопределённостью {u} (высоты до 4000 м \
-             равновероятны). Чтобы её уменьшить, следует указать высоту или измерить g."
+             равновероятны). Для уменьшения следует указать высоту или измерить g."
     }
     FROM_GRAVITY_PART { en: "{gravity} to U of {parameter}", ru: "{gravity} в U параметра {parameter}" }
     FROM_TURN_ONS {
@@ -476,10 +476,10 @@ texts! {
         ru: "Возможно, паспорт относится к другому стенду."
     }
     HINT_DID_NOT_REPEAT {
-        en: "Position {index} may not have repeated: by {angle}″ if the angle changed, or by {jx} µA along x and \
-             {jy} µA along y if the currents are wrong.",
-        ru: "Возможно, положение {index} не воспроизведено: на {angle}″, если изменился угол, или на {jx} мкА по \
-             x и {jy} мкА по y, если неверны токи."
+        en: "Position {index} may not have repeated: it is off by {angle}″ if the angle changed; if the currents are wrong, they \
+             are off by {jx} µA along x and {jy} µA along y.",
+        ru: "Возможно, положение {index} не воспроизведено: если изменился угол, отличие равно {angle}″; если неверны токи, \
+             их погрешность {jx} мкА по x и {jy} мкА по y."
     }
     HINT_NOTHING {
         en: "No single position, no exchange or other numbering of positions and no other azimuth of the frame’s axis \

@@ -123,10 +123,10 @@ texts! {
     OUTLIER { en: "outlier", ru: "выброс" }
     STRAGGLER { en: "straggler", ru: "квазивыброс" }
     TESTS_NOTE {
-        en: "Value: the quantity that the row names last. Probability of a result at least as extreme by chance: below 5 % a \
+        en: "Value: the quantity at the end of the name of the test. Probability of a result at least as extreme by chance: below 5 % a \
              value is a straggler and equality is doubtful, below 1 % it is an outlier and the variances are different. The \
              tests exclude nothing. Bartlett’s needs readings of fine steps and none that is suspect.",
-        ru: "Значение: величина, названная в строке последней. Вероятность случайно получить столь же большое значение: \
+        ru: "Значение: величина, указанная в конце названия критерия. Вероятность случайно получить столь же большое значение: \
              менее 5 % — квазивыброс, равенство сомнительно; менее 1 % — выброс, дисперсии различаются. По критериям ничего \
              не исключается. Критерию Бартлетта нужны показания с малым шагом и без сомнительных."
     }
@@ -144,7 +144,7 @@ texts! {
     CHANGE { en: "Change since the previous certificate", ru: "Изменение после предыдущей калибровки" }
     CERTIFIED {
         en: "Positions certified: {positions}; runs: {runs}",
-        ru: "Откалибровано положений: {positions}; серий: {runs}"
+        ru: "Откалибровано положений: {positions} (серий: {runs})"
     }
     NOT_COMPARED {
         en: "The readings were not compared with an earlier certificate.",
