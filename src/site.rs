@@ -325,11 +325,16 @@ impl Site {
     /// normal gravity, which is larger if the height is unknown. Returns `None` if gravity was measured and its
     /// uncertainty is not stated.
     pub(crate) fn gravity_u_m_per_s2(&self) -> Option<f64> {
-        match (self.gravity_m_per_s2, self.height_m) {
-            (Some(_), _) => self.gravity_u_m_per_s2,
-            (None, Some(_)) => Some(earth::NORMAL_GRAVITY_U_M_PER_S2),
-            (None, None) => Some(earth::NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2),
+        match self.gravity_m_per_s2 {
+            Some(_) => self.gravity_u_m_per_s2,
+            None if self.is_gravity_without_height() => Some(earth::NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2),
+            None => Some(earth::NORMAL_GRAVITY_U_M_PER_S2),
         }
+    }
+
+    /// Returns `true` if the gravity in [`Site::earth`] is normal gravity at 0 m, because the height is unknown.
+    pub(crate) fn is_gravity_without_height(&self) -> bool {
+        self.gravity_m_per_s2.is_none() && self.height_m.is_none()
     }
 
     /// Returns 1/cos Φ, the ratio of the uncertainty of K to its value at the equator.

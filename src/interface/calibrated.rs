@@ -150,6 +150,8 @@ pub(crate) struct Done {
     pub further: Option<(Parameter, FurtherVisit)>,
     /// Warning on the conditions in the laboratory.
     pub warning: Option<TemperatureOutside>,
+    /// `true` if local g is normal gravity at 0 m, because the height of the site is unknown.
+    pub without_height: bool,
 }
 
 impl<'a> Prepared<'a> {
@@ -241,7 +243,19 @@ impl<'a> Prepared<'a> {
             let result = (&calibration, &found.parameters);
             Some((parameter, best_further_visit(&setup, &readings, result, (parameter, options))?))
         });
-        Ok(Done { setup, readings, calibration, missing, document, earlier, cost_of_missing, further, warning })
+        let without_height = content.site.is_gravity_without_height();
+        Ok(Done {
+            setup,
+            readings,
+            calibration,
+            missing,
+            document,
+            earlier,
+            cost_of_missing,
+            further,
+            warning,
+            without_height,
+        })
     }
 }
 

@@ -80,7 +80,7 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
         let _ = writeln!(out);
         columns::paragraph(&mut out, "", &words);
         verdict_table(&mut out, verdict, "deviation");
-        let gravity = document.gravity_u_m_per_s2.and_then(|u| from_gravity(verdict, u));
+        let gravity = document.gravity_u_m_per_s2.and_then(|u| from_gravity(verdict, u, done.without_height));
         let turn_ons = calibration.mostly_from_turn_ons().map(|u| {
             let u = quantity(&columns::two_digits(u), "deg/h");
             texts::FROM_TURN_ONS.filled(Language::English, values! { u })

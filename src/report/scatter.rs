@@ -75,9 +75,9 @@ pub(super) fn scatter(calibration: &Calibration) -> Vec<(Weight, String)> {
     }
     if let Some(test) = calibration.drift_in_order.filter(|test| test.is_significant()) {
         let words = format!(
-            "in the order of the rows the residuals show a drift of ω_0, ({}, {}) °/h from visit to visit, which is not \
-             fitted and enlarges u (probability of a larger one: {}). If the rows are in the order of time, add their times \
-             as time_s, and fit the drift with --drift.",
+            "{} It is ({}, {}) °/h from one visit to the next (probability of a larger one: {}). If the rows are in the order \
+             of time, add their times as time_s, and fit the drift with --drift.",
+            texts::DRIFTS_IN_ORDER.of(Language::English),
             with_sign(test.drift_deg_per_h_per_h.x),
             with_sign(test.drift_deg_per_h_per_h.y),
             columns::probability(test.probability)

@@ -7,7 +7,6 @@ use super::style::Outcome;
 use super::{columns, style};
 use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::calibration::{CalibrationDocument, Decision, Parameter, ParameterVerdict, Verdict};
-use crate::earth::NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2;
 use crate::text::printable;
 use crate::units::{printed, quantity};
 use std::fmt::Write;
@@ -131,7 +130,7 @@ pub(super) fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str
 }
 
 /// Returns how much local g adds to the uncertainties of the drifts, where that is most of them.
-pub(super) fn from_gravity(verdict: &Verdict, u_m_per_s2: f64) -> Option<String> {
+pub(super) fn from_gravity(verdict: &Verdict, u_m_per_s2: f64, without_height: bool) -> Option<String> {
     let parts = verdict.parameters.iter().filter(|row| row.is_mostly_from_gravity()).map(|row| {
         let gravity = columns::two_digits(row.expanded_uncertainty_from_gravity.unwrap_or(0.0));
         let gravity = quantity(&gravity, row.unit);
@@ -139,17 +138,14 @@ pub(super) fn from_gravity(verdict: &Verdict, u_m_per_s2: f64) -> Option<String>
     });
     let parts: Vec<String> = parts.collect();
     let u = quantity(&columns::two_digits(u_m_per_s2), "m/s²");
-    let words = || gravity_contributes(u_m_per_s2).filled(Language::English, values! { parts: parts.join(", "), u });
+    let words =
+        || gravity_contributes(without_height).filled(Language::English, values! { parts: parts.join(", "), u });
     (!parts.is_empty() && !verdict.withheld).then(words)
 }
 
-/// Returns the sentence on what this uncertainty of local g contributes: on normal gravity without a height, what it
-/// assumes.
-pub(super) fn gravity_contributes(u_m_per_s2: f64) -> Text {
-    match u_m_per_s2 == NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2 {
-        true => texts::FROM_UNKNOWN_HEIGHT,
-        false => texts::FROM_GRAVITY,
-    }
+/// Returns the sentence on what the uncertainty of local g contributes: on normal gravity without a height, what it assumes.
+pub(super) fn gravity_contributes(without_height: bool) -> Text {
+    if without_height { texts::FROM_UNKNOWN_HEIGHT } else { texts::FROM_GRAVITY }
 }
 
 #[cfg(test)]

@@ -253,6 +253,61 @@ fn readings_that_do_not_fit_are_said_not_to() {
     assert!(page.contains("Возможно, положение (1, 3) не воспроизведено"));
 }
 
+/// Three rounds of the eight positions, J_x increasing by 3e-5 mA with each visit: paper and JSON name the drift.
+#[test]
+fn a_drift_in_the_order_of_the_rows_is_named() {
+    let folder = Folder::new();
+    let good = std::fs::read_to_string(programs::project(CURRENTS)).unwrap();
+    let rows: Vec<Vec<&str>> =
+        good.lines().filter(|line| line.starts_with(['1', '2'])).map(|line| line.split(',').collect()).collect();
+    let table = |drift_ma: f64| {
+        let visits = rows.iter().cycle().take(3 * rows.len()).enumerate().map(|(visit, row)| {
+            // Visits that are equal to the last digit would be copies.
+            let [jx, jy]: [f64; 2] = [2, 3].map(|column| row[column].parse().unwrap());
+            let noise = [7, 11].map(|factor| 2e-7 * (visit * factor % 13) as f64);
+            let jx = jx + drift_ma * visit as f64 + noise[0];
+            format!("{},{},{jx:.7},{:.7}\n", row[0], row[1], jy + noise[1])
+        });
+        format!("i,j,jx_ma,jy_ma\n{}", visits.collect::<String>())
+    };
+    for (drift_ma, is_named) in [(3e-5, true), (0.0, false)] {
+        let currents = folder.write("rounds.csv", &table(drift_ma));
+        let (page, result) = folder.page(&currents, &[VERIFIED, LABORATORY, GYRO, &["--lang", "en,ru"]]);
+        let remarks = result["remarks"].to_string();
+        for (text, words) in [
+            (&page, "the residuals show a drift of"),
+            (&page, "остатки обнаруживают"),
+            (&remarks, "from one visit to the next"),
+        ] {
+            let text = text.replace('\u{a0}', " ");
+            assert_eq!(text.contains(words), is_named, "{drift_ma}: {words}");
+        }
+    }
+}
+
+/// Expected: U of ω_g is at least 2·10 °/(h·g)·0.0071/9.8157 = 0.0145 °/(h·g) without a height, over its tolerance of 0.01.
+#[test]
+fn parameters_that_no_gyro_can_pass_are_named_with_the_reason() {
+    let folder = Folder::new();
+    let (page, _) = folder.page(CURRENTS, &[VERIFIED, LABORATORY, GYRO, &["--lang", "en,ru"]]);
+    let mut terminal = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
+    terminal.current_dir(programs::project("")).args(["calibrate", PASSPORT, CURRENTS]);
+    let text = terminal.args([VERIFIED, LABORATORY, GYRO].concat()).output().unwrap().stdout;
+    let text = String::from_utf8(text).unwrap();
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(text.contains("No gyro can pass by guarded acceptance: U exceeds the tolerance of ω_g, ω_k."), "{text}");
+    assert!(
+        text.contains("the height is not stated, so g is that at 0 m with an uncertainty of 0.0071 m/s²"),
+        "{text}"
+    );
+    let page = page.replace('\u{a0}', " ");
+    for words in
+        ["No gyro can pass by guarded acceptance", "Приёмка с защитной полосой невозможна", "the height is not stated"]
+    {
+        assert!(page.contains(words), "{words}");
+    }
+}
+
 #[test]
 fn what_nobody_stated_is_named() {
     let folder = Folder::new();

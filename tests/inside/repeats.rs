@@ -58,6 +58,7 @@ fn done(setup: &Setup, readings: Readings, calibration: Calibration) -> Done {
         cost_of_missing: None,
         further: None,
         warning: None,
+        without_height: false,
     }
 }
 

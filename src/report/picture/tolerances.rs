@@ -76,9 +76,9 @@ pub(crate) fn key(languages: &Languages, verdict: &Verdict) -> Markup {
         true => vec![entry(None)],
         false => [Decision::Pass, Decision::Undecided, Decision::Fail].map(|found| entry(Some(found))).to_vec(),
     };
-    let is_cut = |row: &&ParameterVerdict| row.tolerance > 0.0 && !ends(row).iter().all(|end| reaches(row, *end));
-    let cut = verdict.parameters.iter().find(is_cut);
-    let arrow = cut.map(|_| (arrow([2.0, 7.0], [26.0, 7.0], "meridian"), texts::TOLERANCES_BEYOND));
+    let is_cut = |row: &ParameterVerdict| row.tolerance > 0.0 && !ends(row).iter().all(|end| reaches(row, *end));
+    let beyond = verdict.parameters.iter().any(is_cut);
+    let arrow = beyond.then(|| (arrow([2.0, 7.0], [26.0, 7.0], "meridian"), texts::TOLERANCES_BEYOND));
     let parts = [
         (whisker([2.0, 26.0], [true; 2], 7.0, 4.0), texts::TOLERANCES_WHISKER),
         (line([21.0, 0.0], [21.0, 14.0], "limit"), texts::TOLERANCES_LIMIT),

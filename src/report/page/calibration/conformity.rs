@@ -222,8 +222,8 @@ fn from_gravity(page: &CalibrationPage, verdict: &Verdict, languages: &Languages
     if rows.is_empty() || verdict.withheld {
         return html! {};
     }
-    let u_m_per_s2 = page.document.gravity_u_m_per_s2.unwrap_or(0.0);
-    let u = Number::uncertainty(u_m_per_s2);
+    let u = Number::uncertainty(page.document.gravity_u_m_per_s2.unwrap_or(0.0));
+    let contributes = gravity_contributes(page.content().site.is_gravity_without_height());
     let part = |row: &ParameterVerdict, language: Language| {
         let gravity = Number::uncertainty(row.expanded_uncertainty_from_gravity.unwrap_or(0.0));
         let gravity = quantity(&language.into(), &gravity, unit_of(row));
@@ -232,7 +232,7 @@ fn from_gravity(page: &CalibrationPage, verdict: &Verdict, languages: &Languages
     languages.paragraph_with(|language| {
         let parts = listed(rows.iter().map(|row| part(row, language)));
         let u = quantity(&language.into(), &u, units::M_PER_S2);
-        gravity_contributes(u_m_per_s2).marked_up(language, &[("parts", parts), ("u", u)])
+        contributes.marked_up(language, &[("parts", parts), ("u", u)])
     })
 }
 

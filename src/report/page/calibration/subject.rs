@@ -72,7 +72,7 @@ fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
     // What the band leaves blank has its only blank there.
     let serial = page.serial().map(given);
     let day = result.date().map(|day| date(languages, day));
-    let has_blank = serial.is_some() && day.is_none();
+    let day_is_in_the_band = serial.is_some() && day.is_none();
     fields([
         field(languages, texts::TYPE, page.gyro.map(|gyro| given(&gyro.r#type))),
         serial.map(|serial| field(languages, texts::SERIAL, Some(serial))).unwrap_or_default(),
@@ -81,7 +81,7 @@ fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
         field(languages, passport_texts::CUSTOMER, None),
         field(languages, record::CUSTOMER_CONTACT, None),
         field(languages, texts::RECEIVED, None),
-        (if has_blank {
+        (if day_is_in_the_band {
             html! {}
         } else {
             field(languages, texts::MEASURED, day)

@@ -134,6 +134,12 @@ struct Tested {
     probability: Option<f64>,
 }
 
+impl Tested {
+    fn without_numbers(name: Markup, result: Markup) -> Self {
+        Self { name, result, statistic: None, freedom: None, probability: None }
+    }
+}
+
 pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
     let suspects = &page.certification.suspects;
     let mut found: Vec<Tested> = Vec::new();
@@ -163,13 +169,7 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
     let of_variances = [(texts::BARTLETT_POSITIONS, &suspects.positions), (texts::BARTLETT_AXES, &suspects.axes)];
     found.extend(of_variances.map(|(name, test)| match test {
         Some(test) => bartlett(name, test),
-        None => Tested {
-            name: languages.label(name),
-            result: said(Outcome::NotAsked, texts::NOT_MADE),
-            statistic: None,
-            freedom: None,
-            probability: None,
-        },
+        None => Tested::without_numbers(languages.label(name), said(Outcome::NotAsked, texts::NOT_MADE)),
     }));
     found.extend(suspects.worse.iter().map(|at| {
         let name = languages.label_with(|language| texts::COCHRAN.filled(language, values! { index: at.index }));
@@ -236,12 +236,10 @@ fn without_findings<'a>(page: &CertificationPage, languages: &'a Languages) -> i
         (texts::ROTATED_RUNS, texts::NO_RUN, runs, bumped.is_empty() && runs >= FEWEST_RUNS),
         (texts::MOVE_OR_DRIFT, texts::NO_MOVE, runs, moved.is_empty() && runs >= FEWEST_RUNS_OF_A_MOVE),
     ];
-    none.into_iter().filter(|(.., is_none)| *is_none).map(move |(name, result, count, _)| Tested {
-        name: languages.label_with(|language| name.filled(language, values! { axes })),
-        result: marked(Outcome::Passed, &languages.inline_with(|language| result.filled(language, values! { count }))),
-        statistic: None,
-        freedom: None,
-        probability: None,
+    none.into_iter().filter(|(.., is_none)| *is_none).map(move |(name, result, count, _)| {
+        let name = languages.label_with(|language| name.filled(language, values! { axes }));
+        let result = languages.inline_with(|language| result.filled(language, values! { count }));
+        Tested::without_numbers(name, marked(Outcome::Passed, &result))
     })
 }
 
