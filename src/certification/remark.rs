@@ -132,7 +132,8 @@ impl Remark {
             Self::RunAxesDiffer(at) => {
                 let text = if at.axis.is_of_the_base() { texts::BASE_AXES_DIFFER } else { texts::PLATFORM_AXES_DIFFER };
                 let [own, others, missing] = [at.deviation_arcsec, at.others_arcsec, at.missing_arcsec].map(arcsec);
-                fill(text, values! { axis: at.axis.word(), own, others, p: Probability(at.probability), missing })
+                let (p, freedom) = (Probability(at.probability), at.degrees_of_freedom);
+                fill(text, values! { axis: at.axis.word(), own, others, p, missing, freedom })
             }
             Self::SharedSetting(at) => {
                 let (angle, u) = (at.setting.symbol(), arcsec(at.deviation_arcsec));

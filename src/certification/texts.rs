@@ -90,18 +90,20 @@ texts! {
     PLATFORM_AXES_DIFFER {
         en: "From run to run the platform rotates by {own}″ about {axis} and by {others}″ about its other two axes \
              (Cochran’s test, {p}). The common part is pooled from all three and is too small about {axis} \
-             unless a component of type B of {missing}″ is stated.",
+             unless a component of type B of {missing}″ is stated, which allows for the {freedom} degrees of freedom \
+             of {own}″.",
         ru: "От серии к серии стандартное отклонение поворота платформы вокруг {axis} равно {own}″, вокруг двух других \
              осей {others}″ (критерий Кохрена, {p}). Общая составляющая, объединённая по трём осям, для {axis} \
-             занижена, если не указана составляющая по типу B {missing}″."
+             занижена, если не указана составляющая по типу B {missing}″ (с учётом числа степеней свободы: {freedom})."
     }
     BASE_AXES_DIFFER {
         en: "From run to run the base rotates by {own}″ about {axis} and by {others}″ about its other two axes \
              (Cochran’s test, {p}). The common part is pooled from all three and is too small about {axis} \
-             unless a component of type B of {missing}″ is stated.",
+             unless a component of type B of {missing}″ is stated, which allows for the {freedom} degrees of freedom \
+             of {own}″.",
         ru: "От серии к серии стандартное отклонение поворота основания вокруг оси «{axis}» равно {own}″, вокруг двух \
              других осей {others}″ (критерий Кохрена, {p}). Общая составляющая, объединённая по трём осям, для оси \
-             «{axis}» занижена, если не указана составляющая по типу B {missing}″."
+             «{axis}» занижена, если не указана составляющая по типу B {missing}″ (с учётом числа степеней свободы: {freedom})."
     }
     SHARED_SETTING {
         en: "In each run the positions with the same {angle} share an error with a standard deviation of {u}″ (F test, \

@@ -15,6 +15,8 @@ pub(crate) struct UnequalAxis {
     pub axis: CommonAxis,
     /// Standard deviation from run to run about that axis, arcsec.
     pub deviation_arcsec: f64,
+    /// Its degrees of freedom.
+    pub degrees_of_freedom: usize,
     /// Standard deviation from run to run about the other two axes, arcsec.
     pub others_arcsec: f64,
     /// Standard uncertainty of type B with which an interval of the normal distribution for the common part, pooled otherwise,
@@ -33,8 +35,8 @@ pub(crate) fn find(
     rotated: &[RotatedRuns],
 ) -> Vec<UnequalAxis> {
     let model = &components.model;
-    let (squares, changes) = left_squares(without(components, outliers), rotated);
-    let changes = changes as f64;
+    let (squares, degrees_of_freedom) = left_squares(without(components, outliers), rotated);
+    let changes = degrees_of_freedom as f64;
     // The variance of a single axis has few degrees of freedom, and those of the common parts are not in the file.
     let widened = student_factor(0.05, changes) / student_factor(0.05, f64::INFINITY);
     // Axes of the base that cannot be distinguished from the platform do not vary, so the others cannot be compared.
@@ -61,6 +63,7 @@ pub(crate) fn find(
         Some(UnequalAxis {
             axis: CommonAxis(axes.start + worst),
             deviation_arcsec: own.sqrt(),
+            degrees_of_freedom,
             others_arcsec: ((3.0 * between - own) / 2.0).max(0.0).sqrt(),
             missing_arcsec: ((own * widened * widened - between).max(0.0) / readings.runs.len() as f64).sqrt(),
             probability: (groups.len() as f64 * cochran_probability(&relative, worst)).min(1.0),

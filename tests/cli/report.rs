@@ -219,7 +219,7 @@ fn it_says_with_what_the_gyro_was_calibrated() {
     let mut keygen = Command::new("ssh-keygen");
     keygen.args(["-l", "-f"]).arg(key);
     let fingerprint = programs::output(keygen).split(' ').nth(1).unwrap().to_owned();
-    for words in [&fingerprint, "examples@dtg-passport.test", "SPS-2/0017/moscow-bmstu/1", "GVK-6", "2026-11-20"] {
+    for words in [&fingerprint, "examples@", "SPS-2/0017/moscow-bmstu/1", "GVK-6", "2026-11-20"] {
         assert!(page.contains(words), "{words}");
     }
     assert!(!page.contains("NOT VERIFIED"));
@@ -235,7 +235,7 @@ fn an_unverified_passport_is_said_to_be_one() {
     let headline = page[first..].split_once("</p>").unwrap().0;
     assert!(headline.contains("Passport NOT VERIFIED") && headline.contains("Паспорт НЕ ПРОВЕРЕН"), "{headline}");
     assert!(page.contains("@top-right { content: \"Passport NOT VERIFIED / Паспорт НЕ ПРОВЕРЕН\""), "on every sheet");
-    assert!(!page.contains("SHA256:") && !page.contains("examples@dtg-passport.test"));
+    assert!(!page.contains("SHA256:") && !page.contains("examples@"));
 }
 
 #[test]

@@ -198,6 +198,7 @@ fn a_remark_says_the_same_in_both_languages() {
         Remark::RunAxesDiffer(UnequalAxis {
             axis: CommonAxis(axis),
             deviation_arcsec,
+            degrees_of_freedom: 7,
             others_arcsec,
             missing_arcsec,
             probability: 1.5e-6,

@@ -382,7 +382,7 @@ class Report:
             # The decision stands beside the name, for telephones.
             near, name = row[0]["text"].split(",")[0].split("\u00a0")
             # A drift at the g of the type has another unit than one at local g.
-            if "·g" in row[0]["text"] and "·g₀" not in row[0]["text"]:
+            if "·g" in row[0]["text"] and "·g0" not in row[0]["text"]:
                 self.wrong.append(f"{part}: the unit of {row[0]['text']} is that of a drift at local g")
             if name != symbol_of(line["parameter"]):
                 self.wrong.append(f"{part}: {name} stands in the row of {line['parameter']}")

@@ -98,6 +98,9 @@ impl CertificationPage<'_> {
         let of_part = |freedom: Option<f64>| {
             freedom.map_or_else(|| html! { "–" }, |freedom| Number::at_most(freedom, 1).markup(languages))
         };
+        // The limits stand in the section of the uncertainty.
+        let number = if self.change.is_some() { 3 } else { 2 };
+        let is_few = [of_platform, of_base].into_iter().flatten().any(|freedom| freedom < evidence::FEW_DEGREES);
         let common = [certificate.common_platform_arcsec, certificate.common_base_arcsec].map(u);
         let on = |name: Text, day| html! { p { (languages.inline(name)) ": " (date(languages, day)) } };
         band(
@@ -123,7 +126,12 @@ impl CertificationPage<'_> {
                     html! { (common[0]) "; " (common[1]) },
                     html! {
                         p { (languages.label(texts::STANDARD)) }
-                        p { (symbol("ν", "")) " = " (of_part(of_platform)) "; " (of_part(of_base)) }
+                        p {
+                            (symbol("ν", "")) " = " (of_part(of_platform)) "; " (of_part(of_base))
+                            @if is_few {
+                                " (" (languages.inline_with(|language| texts::FEW.filled(language, values! { number }))) ")"
+                            }
+                        }
                     },
                 ),
             ],

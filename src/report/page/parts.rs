@@ -31,12 +31,17 @@ fn section_of(languages: &Languages, number: Option<usize>, (id, heading, body):
     html! {
         section id=(id) aria-labelledby=(heading_id) {
             h2 id=(heading_id) {
-                @if let Some(number) = number { span.number { (number) } " " }
+                (number_of(number))
                 (languages.label(*heading))
             }
             (body)
         }
     }
+}
+
+/// Writes the number of a section, if it has one.
+fn number_of(number: Option<usize>) -> Markup {
+    html! { @if let Some(number) = number { span.number { (number) } " " } }
 }
 
 pub(crate) fn heading(languages: &Languages, text: Text) -> Markup {
@@ -252,10 +257,11 @@ pub(crate) fn contents(
     sections: &[Section],
     annex: Text,
 ) -> Markup {
-    let headings = sections.iter().map(|(id, heading, _)| (*id, *heading)).chain([("annex", annex)]);
+    let numbered = (1..).zip(sections).map(|(number, (id, heading, _))| (Some(number), *id, *heading));
+    let headings = numbered.chain([(None, "annex", annex)]);
     html! {
         nav.screen aria-label=(languages.spoken(words::CONTENTS)) {
-            ol { @for (id, heading) in headings { li { a href={ "#" (id) } { (languages.inline(heading)) } } } }
+            ol { @for (number, id, heading) in headings { li { (number_of(number)) a href={ "#" (id) } { (languages.inline(heading)) } } } }
             a.button href=(address) download=(name) { (languages.inline(save)) }
         }
     }

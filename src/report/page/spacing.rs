@@ -14,7 +14,8 @@ const PROGRAM: &str = "dtg-passport";
 const SOLIDI_OF_AN_ID: usize = 3;
 
 /// Writes words so that no line ends at the hyphen of a date, of a designation or of an id, at the minus of a power of ten, where
-/// browsers see a hyphen, after the solidus of a unit, or within the name of the program. An id may end a line after its solidi.
+/// browsers see a hyphen, after the solidus of a unit, or within the name of the program. A line may end after a solidus of an id
+/// and after the @ of an address.
 /// The text that a reader copies is unchanged.
 pub(crate) fn unbroken(words: &str) -> Markup {
     let is_designation = |around: &[u8]| match around {
@@ -25,7 +26,7 @@ pub(crate) fn unbroken(words: &str) -> Markup {
         word.as_bytes().windows(3).any(is_designation)
             || WITH_SOLIDUS.iter().any(|unit| word.contains(unit))
             || word.starts_with(PROGRAM)
-            || word.contains('-') && is_id(word)
+            || word.contains('-') && (is_id(word) || word.contains('@'))
     };
     html! {
         @for word in words.split_inclusive(' ') {
@@ -33,7 +34,7 @@ pub(crate) fn unbroken(words: &str) -> Markup {
             @if whole(shown) {
                 @for (place, part) in parts(shown).enumerate() {
                     @if place > 0 { wbr; }
-                    span.n { (part) }
+                    span.n { (lowered(part)) }
                 }
                 (&word[shown.len()..])
             } @else {
@@ -43,15 +44,25 @@ pub(crate) fn unbroken(words: &str) -> Markup {
     }
 }
 
+/// Writes the index of a unit, °/(h·g₀), in a size that can be read.
+fn lowered(unit: &str) -> Markup {
+    html! {
+        @match unit.split_once('₀') {
+            Some((before, after)) => { (before) sub { "0" } (after) }
+            None => (unit),
+        }
+    }
+}
+
 /// Returns `true` for the id of a passport. In quotes it is part of a file, which stays as it is.
 fn is_id(word: &str) -> bool {
     word.matches('/').count() >= SOLIDI_OF_AN_ID && !word.contains('"')
 }
 
-/// Returns the parts of an id, each with the solidus at its end; of anything else the whole.
+/// Returns the parts of an id, each with the solidus at its end, and those of an address; of anything else the whole.
 fn parts(word: &str) -> impl Iterator<Item = &str> {
     let id = is_id(word);
-    word.split_inclusive(move |c| id && c == '/')
+    word.split_inclusive(move |c| id && c == '/' || c == '@')
 }
 
 #[cfg(test)]
@@ -67,14 +78,14 @@ mod tests {
             "u: [3.2e-05,] [C-18,] g-sensitive",
             "[GVK-6] and [SPS-2] № 0017, [SHA-256]",
             "run [dtg-passport] verify or ssh-keygen",
-            "by name@dtg-passport.test",
+            "by [name@]<wbr>[dtg-passport.test]",
             "passport [SPS-2/]<wbr>[0017/]<wbr>[moscow-bmstu/]<wbr>[1] of",
             "id: \"XYZ/0017/moscow-bmstu/1\"",
             "[a-1-2]",
-            "of [9.8\u{a0}м/с²,] and/or",
+            "of [9.8\u{a0}м/с²,] and/or [°/(h·g<sub>0</sub>)]",
         ] {
-            let written =
-                unbroken(&due.replace(['[', ']'], "").replace("<wbr>", "")).into_string().replace("&quot;", "\"");
+            let plain = due.replace(['[', ']'], "").replace("<wbr>", "").replace("<sub>0</sub>", "₀");
+            let written = unbroken(&plain).into_string().replace("&quot;", "\"");
             assert_eq!(written.replace("<span class=\"n\">", "[").replace("</span>", "]"), due);
         }
     }

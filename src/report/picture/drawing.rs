@@ -231,12 +231,16 @@ fn with_index(letter: &str, index: &str) -> Markup {
 
 /// Writes words with their symbols.
 pub(crate) fn symbols(words: &str) -> Markup {
+    let pieces = pieces(words);
+    let is_index = |piece: &Piece| matches!(piece, Piece::Symbol(_, index) if !index.is_empty());
     html! {
-        @for piece in pieces(words) {
-            @match piece {
-                Piece::Words(words) => (words),
-                Piece::Symbol(letter, index) => (with_index(letter, index)),
-            }
+        @for (place, piece) in pieces.iter().enumerate() {
+            @let written = match piece {
+                Piece::Words(words) => html! { (words) },
+                Piece::Symbol(letter, index) => with_index(letter, index),
+            };
+            // What follows an index returns to the line.
+            @if place > 0 && is_index(&pieces[place - 1]) { tspan dy="-3" { (written) } } @else { (written) }
         }
     }
 }
@@ -483,9 +487,12 @@ mod tests {
     }
 
     #[test]
-    fn an_index_stands_lower() {
+    fn an_index_stands_lower_and_what_follows_does_not() {
         let html = symbol("ω_0x").into_string();
         let index = r#"<tspan class="index" dy="3">0<tspan class="letter">x</tspan></tspan>"#;
+        assert_eq!(html, format!(r#"<tspan class="letter">ω</tspan>{index}"#));
+        let html = symbols("ω_g, °/h").into_string();
+        let index = r#"<tspan class="index" dy="3">g</tspan><tspan dy="-3">, °/h</tspan>"#;
         assert_eq!(html, format!(r#"<tspan class="letter">ω</tspan>{index}"#));
     }
 }

@@ -89,7 +89,7 @@ pub(crate) fn place(labels: &[Label], words: &[Area], obstacles: &[Point], field
         let cost = |area: &Area, distance: f64| {
             let over = |others: &[Area]| others.iter().map(|other| area.overlap(other)).sum::<f64>();
             // Words over other words are unreadable, so any distance costs less than an overlap.
-            let crossed = 1000.0 * (area.outside(field) + over(&taken)) + 10.0 * over(&marks) + 4.0 * over(&lines);
+            let crossed = 1000.0 * (area.outside(field) + over(&taken)) + 10.0 * over(&marks) + 10.0 * over(&lines);
             crossed + MISTAKEN * labels.iter().filter(|other| label.is_mistaken(other, area)).count() as f64 + distance
         };
         let candidates = DISTANCES.iter().flat_map(|distance| (0..16).map(move |turn| (*distance, turn)));

@@ -9,20 +9,22 @@ use crate::report::page::language::{Languages, Text};
 use crate::report::page::texts::{pictures as texts, units};
 use maud::{Markup, html};
 
-const WIDTH: f64 = 132.0;
 const HEIGHT: f64 = 17.0;
-const FIELD: [f64; 2] = [7.0, WIDTH - 7.0];
+const ROOM_FOR_ARROW: f64 = 22.0;
 
 /// The axis of every strip, in tolerances: to both limits and half as far again, so that strips of all reports compare. An
 /// arrow points to what is beyond it.
-const SCALE: Scale = Scale { values: [-1.5, 1.5], places: FIELD };
-const ROOM_FOR_ARROW: f64 = 22.0;
+const AXIS: [f64; 2] = [-1.5, 1.5];
 
-/// Draws the axis of the strips, in percent of the tolerance.
-pub(crate) fn axis(languages: &Languages) -> Markup {
-    let percent = Scale { values: SCALE.values.map(|value| 100.0 * value), ..SCALE };
-    strip_axis(languages, &percent, WIDTH, "")
+/// Strips of a table, by their width.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Strips {
+    width: f64,
 }
+
+/// Strips beside deviations and decisions, and wider ones beside values alone.
+pub(crate) const BESIDE_DECISIONS: Strips = Strips { width: 132.0 };
+pub(crate) const BESIDE_VALUES: Strips = Strips { width: 400.0 };
 
 /// Returns the ends of the interval of a deviation with its expanded uncertainty.
 fn ends(row: &ParameterVerdict) -> [f64; 2] {
@@ -31,42 +33,56 @@ fn ends(row: &ParameterVerdict) -> [f64; 2] {
 
 /// Returns `true` if a deviation is within the axis.
 fn reaches(row: &ParameterVerdict, deviation: f64) -> bool {
-    let [low, high] = SCALE.values;
+    let [low, high] = AXIS;
     (low..=high).contains(&(deviation / row.tolerance))
 }
 
-/// Draws a parameter of a verdict: only the limits if its tolerance is 0.
-pub(crate) fn of_parameter(verdict: &Verdict, row: &ParameterVerdict) -> Markup {
-    let decision = verdict.decision(row);
-    let (y, guarded) = (0.5 * HEIGHT, row.tolerance - row.expanded_uncertainty);
-    let share = |value: f64| SCALE.clamped(value / row.tolerance);
-    // An arrow marks a value beyond the axis, because a mark at its end would be misplaced.
-    let beyond = match row.deviation / row.tolerance {
-        share if share < SCALE.values[0] => Some((FIELD[0], 1.0)),
-        share if share > SCALE.values[1] => Some((FIELD[1], -1.0)),
-        _ => None,
-    };
-    let limits = [-1.0, 1.0].map(|limit| SCALE.place(limit));
-    let drawing = html! {
-        @if row.tolerance > 0.0 {
-            @if guarded > 0.0 { (rectangle([share(-guarded), y - 6.0], [share(guarded), y + 6.0], "limits", None)) }
-            (line([SCALE.place(0.0), 0.0], [SCALE.place(0.0), HEIGHT], "grid"))
-            @if let Some((end, inwards)) = beyond {
-                (arrow([end + inwards * ROOM_FOR_ARROW, y], [end, y], "meridian"))
-                (decided([end + inwards * ROOM_FOR_ARROW, y], decision))
-            } @else {
-                @let ends = ends(row);
-                @let within = ends.map(|end| reaches(row, end));
-                (whisker(ends.map(share), within, y, 4.0))
-                @for end in ends.iter().zip(within).filter(|(_, within)| !within).map(|(end, _)| share(*end)) {
-                    (arrow([share(row.deviation), y], [end, y], "meridian"))
+impl Strips {
+    /// Returns the axis, in units of which the tolerance has `tolerance`.
+    fn scale(self, tolerance: f64) -> Scale {
+        Scale { values: AXIS.map(|value| tolerance * value), places: [7.0, self.width - 7.0] }
+    }
+
+    /// Draws the axis of the strips, in percent of the tolerance.
+    pub(crate) fn axis(self, languages: &Languages) -> Markup {
+        strip_axis(languages, &self.scale(100.0), self.width, "")
+    }
+
+    /// Draws a parameter of a verdict: only the limits if its tolerance is 0.
+    pub(crate) fn of_parameter(self, verdict: &Verdict, row: &ParameterVerdict) -> Markup {
+        let scale = self.scale(1.0);
+        let [left, right] = scale.places;
+        let decision = verdict.decision(row);
+        let (y, guarded) = (0.5 * HEIGHT, row.tolerance - row.expanded_uncertainty);
+        let share = |value: f64| scale.clamped(value / row.tolerance);
+        // An arrow marks a value beyond the axis, because a mark at its end would be misplaced.
+        let beyond = match row.deviation / row.tolerance {
+            share if share < AXIS[0] => Some((left, 1.0)),
+            share if share > AXIS[1] => Some((right, -1.0)),
+            _ => None,
+        };
+        let limits = [-1.0, 1.0].map(|limit| scale.place(limit));
+        let drawing = html! {
+            @if row.tolerance > 0.0 {
+                @if guarded > 0.0 { (rectangle([share(-guarded), y - 6.0], [share(guarded), y + 6.0], "limits", None)) }
+                (line([scale.place(0.0), 0.0], [scale.place(0.0), HEIGHT], "grid"))
+                @if let Some((end, inwards)) = beyond {
+                    (arrow([end + inwards * ROOM_FOR_ARROW, y], [end, y], "meridian"))
+                    (decided([end + inwards * ROOM_FOR_ARROW, y], decision))
+                } @else {
+                    @let ends = ends(row);
+                    @let within = ends.map(|end| reaches(row, end));
+                    (whisker(ends.map(share), within, y, 4.0))
+                    @for end in ends.iter().zip(within).filter(|(_, within)| !within).map(|(end, _)| share(*end)) {
+                        (arrow([share(row.deviation), y], [end, y], "meridian"))
+                    }
+                    (decided([share(row.deviation), y], decision))
                 }
-                (decided([share(row.deviation), y], decision))
             }
-        }
-        @for x in limits { (line([x, 0.0], [x, HEIGHT], "limit")) }
-    };
-    strip([WIDTH, HEIGHT], &drawing)
+            @for x in limits { (line([x, 0.0], [x, HEIGHT], "limit")) }
+        };
+        strip([self.width, HEIGHT], &drawing)
+    }
 }
 
 /// Draws what the parts of the strips of a verdict mean.

@@ -2,8 +2,8 @@
 //! gyro's x-y plane ([the paper](crate::bibliography::Bibliography::Tang17), eq. (5)).
 
 use super::drawing::{
-    Anchor, Panel, Point, Scale, Ticks, arrow, crowding, heading_with, label, legend, line, mark, panels, plain_symbol,
-    power, power_of_ten, rectangle, words,
+    Anchor, Panel, Point, Scale, Ticks, arrow, crowding, heading_with, label, legend_with, line, mark, panels,
+    plain_symbol, power, power_of_ten, rectangle, words,
 };
 use super::label as labels;
 use crate::attitude;
@@ -90,19 +90,26 @@ fn small_multiples(languages: &Languages, subject: &Subject) -> Markup {
     panels(SMALL.columns, SMALL.pixels, &drawings, &html! {})
 }
 
-/// Draws what the marks mean; with a panel for each frame index, its title says what `together` the marks say.
+/// Draws what the marks mean. With a panel for each frame index, its title says what the marks of positions `together` say.
 fn key(languages: &Languages, together: Option<&Content>) -> Markup {
-    let difference = (arrow([2.0, 7.0], [26.0, 7.0], "real"), texts::VECTOR_DIFFERENCE);
-    let Some(content) = together else {
-        return legend(languages, &[difference, (mark([14.0, 7.0], 1, "mark"), texts::VECTOR_LABEL)]);
-    };
-    // The marks that the drawing has, of four in all.
-    let frames: BTreeSet<u32> = content.positions.iter().map(|at| (at.i.max(1) - 1) % 4 + 1).collect();
-    let apart = 28.0 / frames.len() as f64;
-    let marks =
-        frames.iter().enumerate().map(|(place, frame)| mark([(place as f64 + 0.5) * apart, 7.0], *frame, "mark"));
-    let marks = html! { @for mark in marks { (mark) } };
-    legend(languages, &[difference, (marks, texts::VECTOR_MARKS)])
+    let sample = |frame: u32| mark([14.0, 7.0], frame, "mark");
+    let mut entries = vec![
+        (arrow([2.0, 7.0], [26.0, 7.0], "real"), languages.label(texts::VECTOR_DIFFERENCE)),
+        (sample(1), languages.label(texts::VECTOR_LABEL)),
+    ];
+    if let Some(content) = together {
+        let frames: BTreeSet<u32> = content.positions.iter().map(|at| at.i).collect();
+        entries.truncate(1);
+        // There are four marks: the frame indices 1 and 5 share one.
+        entries.extend((0..4).filter_map(|kind| {
+            let same: Vec<u32> = frames.iter().copied().filter(|frame| frame % 4 == (kind + 1) % 4).collect();
+            let list = same.iter().map(|frame| format!("({frame}, j)")).collect::<Vec<_>>().join(", ");
+            let words =
+                languages.label_with(|language| texts::VECTOR_MARK.filled(language, values! { positions: list }));
+            Some((sample(*same.first()?), words))
+        }));
+    }
+    legend_with(entries.iter().map(|(sample, words)| (sample, words.clone())))
 }
 
 fn subjects(content: &Content) -> [Subject; 2] {

@@ -14,7 +14,7 @@ use crate::report::page::spacing::BLANK;
 use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::accuracy::unit;
-use crate::report::picture::tolerances::{self, decision, key, printed, unit_at_type, unit_of};
+use crate::report::picture::tolerances::{BESIDE_DECISIONS, decision, key, printed, unit_at_type, unit_of};
 use crate::report::style::Outcome;
 use crate::report::tolerance::{coverage_factor, gravity_contributes};
 use crate::wording::date_text;
@@ -162,7 +162,7 @@ fn table(
         // A telephone shows the first column and few others: the decision is there too.
         html! {
             span.narrow-only { (mark(Outcome::of(verdict.decision(row)))) (BLANK) }
-            (parameter(row)) ", " (languages.spoken(unit_at_type(row.parameter)))
+            (parameter(row)) ", " (italic(languages.spoken(unit_at_type(row.parameter))))
         }
     };
     // Of parameters that are not valid, a risk has no meaning.
@@ -171,7 +171,7 @@ fn table(
         false => Cell::probability(row.specific_risk),
     };
     let risks = column(languages, rows.iter().map(risk));
-    let tolerance = |row: &ParameterVerdict| (Number::exact(row.tolerance), html! { (languages.spoken(unit_of(row))) });
+    let tolerance = |row: &ParameterVerdict| (Number::exact(row.tolerance), italic(languages.spoken(unit_of(row))));
     let tolerances = column_with_units(languages, rows.iter().map(tolerance));
     let mut columns = vec![
         numbers(texts::FOUND, &|row| Number::measured(row.value, expanded(row))),
@@ -181,8 +181,8 @@ fn table(
         numbers(texts::PLUS_MINUS, &|row| printed(row).1),
         Column::named(languages, texts::TOLERANCE, tolerances),
         Column {
-            foot: tolerances::axis(languages),
-            ..each(texts::IN_TOLERANCE, &|row| tolerances::of_parameter(verdict, row))
+            foot: BESIDE_DECISIONS.axis(languages),
+            ..each(texts::IN_TOLERANCE, &|row| BESIDE_DECISIONS.of_parameter(verdict, row))
         },
         each(texts::GUARDED, &|row| decided(languages, verdict.decision(row))),
         Column::named(languages, texts::RISK, risks),

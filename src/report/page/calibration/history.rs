@@ -8,9 +8,10 @@ use crate::gyro::GyroType;
 use crate::report::page::language::{Languages, values};
 use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{Column, Table, date, heading, starts};
+use crate::report::page::symbols::italic;
 use crate::report::page::texts::calibration as texts;
 use crate::report::picture::accuracy::unit;
-use crate::report::picture::tolerances::{self, unit_at_type};
+use crate::report::picture::tolerances::{BESIDE_VALUES, unit_at_type};
 use jiff::civil::Date;
 use maud::{Markup, html};
 
@@ -61,7 +62,7 @@ fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
     let starts = starts(each.iter().map(|(parameter, ..)| *parameter));
     let names = each.iter().enumerate().map(|(place, (parameter, number, past, ..))| {
         // The name is shown once for its calibrations; screen readers say it in each row.
-        let name = html! { (name_of(parameter.symbol())) ", " (languages.spoken(unit_of(*parameter))) };
+        let name = html! { (name_of(parameter.symbol())) ", " (italic(languages.spoken(unit_of(*parameter)))) };
         let first = place == 0 || starts.contains(&place);
         let day = past
             .date
@@ -72,13 +73,13 @@ fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
     let drawn = each.iter().map(|(parameter, _, past, ..)| {
         let Some(verdict) = &past.verdict else { return Markup::default() };
         let row = verdict.parameter(*parameter);
-        row.map_or_else(Markup::default, |row| tolerances::of_parameter(verdict, row))
+        row.map_or_else(Markup::default, |row| BESIDE_VALUES.of_parameter(verdict, row))
     });
     let mut columns =
         vec![Column::named(languages, texts::FOUND, values), Column::named(languages, texts::PLUS_MINUS, us)];
     if page.gyro.is_some() {
         let drawn = Column::named(languages, texts::IN_TOLERANCE, drawn.collect());
-        columns.push(Column { foot: tolerances::axis(languages), ..drawn });
+        columns.push(Column { foot: BESIDE_VALUES.axis(languages), ..drawn });
     }
     let headings = [texts::PARAMETER, texts::CALIBRATED].map(|text| languages.label(text));
     let table = Table::of(headings.into(), names, &columns);

@@ -18,7 +18,7 @@ use crate::wording::compass;
 use maud::{Markup, html};
 
 /// Degrees of freedom at which a standard deviation has a relative standard uncertainty of 35 %: 1/√(2ν), JCGM 100, E.4.3.
-const FEW_DEGREES: f64 = 4.0;
+pub(super) const FEW_DEGREES: f64 = 4.0;
 
 pub(super) fn readings(page: &CertificationPage, languages: &Languages) -> Markup {
     let certification = page.certification;

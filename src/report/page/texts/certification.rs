@@ -41,6 +41,7 @@ texts! {
     READING_OF { en: "position {index}, run {run}", ru: "положение {index}, серия {run}" }
     OF_A_VISIT { en: "standard deviation of a visit, pooled", ru: "стандартное отклонение установки, общее" }
     COMMON_PARTS { en: "Common parts, per axis: platform; base", ru: "Общие составляющие (по осям): платформа; основание" }
+    FEW { en: "few: see section {number}", ru: "мало: см. раздел {number}" }
     STANDARD { en: "standard uncertainty (k = 1)", ru: "стандартная неопределённость (k = 1)" }
 
     UNCERTAINTY { en: "Uncertainty", ru: "Неопределённость" }

@@ -61,10 +61,7 @@ texts! {
     VECTORS_DESCRIPTION { en: "In {unit}: {list}.", ru: "В {unit}: {list}." }
     VECTOR_DIFFERENCE { en: "actual minus ideal stand", ru: "отличие от идеального стенда" }
     VECTOR_LABEL { en: "label: position (i, j)", ru: "подпись: положение (i, j)" }
-    VECTOR_MARKS {
-        en: "one symbol for each frame index i; labels are (i, j)",
-        ru: "для каждого индекса рамки i свой знак; подписи — (i, j)"
-    }
+    VECTOR_MARK { en: "position {positions}", ru: "положение {positions}" }
 
     PLACE_TITLE { en: "Area of validity of the passport", ru: "Область применимости паспорта" }
     PLACE_CIRCLE {
