@@ -197,10 +197,14 @@ impl SignerLine {
     }
 }
 
+/// Returns the beginning of a word as code, or `nothing` for an empty one.
+fn code(word: &str) -> String {
+    if word.is_empty() { "nothing".to_owned() } else { format!("`{}`", shortened(word)) }
+}
+
 fn unknown(line: &Line, at: usize, option: &str) -> Problem {
-    let found = if option.is_empty() { "nothing".to_owned() } else { format!("`{}`", shortened(option)) };
     let expected = "namespaces=\"…\", valid-after=\"…\", valid-before=\"…\" or a key such as ssh-ed25519 AAAA…";
-    line.problem(at, "", found, expected, "write the line as: principals, options separated by commas, key")
+    line.problem(at, "", code(option), expected, "write the line as: principals, options separated by commas, key")
 }
 
 /// Returns the value of an option without its quotes; `\"` is a quote.
@@ -209,10 +213,7 @@ fn unquoted(line: &Line, at: usize, field: &str, value: &str) -> Result<String, 
         value.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).map(|inner| inner.replace("\\\"", "\u{0}"));
     match inner {
         Some(inner) if !inner.contains('"') => Ok(inner.replace('\u{0}', "\"")),
-        _ => {
-            let found = if value.is_empty() { "nothing".to_owned() } else { format!("`{}`", shortened(value)) };
-            Err(line.problem(at, field, found, "a value in double quotes", "write it as \"dtg-passport\""))
-        }
+        _ => Err(line.problem(at, field, code(value), "a value in double quotes", "write it as \"dtg-passport\"")),
     }
 }
 

@@ -150,17 +150,9 @@ impl Signature {
 
 /// Parses a block that is byte for byte as OpenSSH writes it; returns `None` for any other.
 fn as_openssh_writes_it(armor: &str) -> Option<SshSig> {
-    let body = armor.strip_prefix(FIRST_LINE)?.strip_prefix('\n')?;
-    let body = body.strip_suffix('\n')?.strip_suffix(LAST_LINE)?.strip_suffix('\n')?;
-    let mut lines = body.split('\n').peekable();
-    let mut base64 = String::with_capacity(body.len());
-    while let Some(line) = lines.next() {
-        let full = line.len() == LINE_LENGTH;
-        let last = lines.peek().is_none() && (1..LINE_LENGTH).contains(&line.len());
-        if !full && !last {
-            return None;
-        }
-        base64.push_str(line);
+    let base64 = base64_of(armor);
+    if wrapped(&base64, LINE_LENGTH) != armor {
+        return None;
     }
     // Unused bits must be 0, so that no two texts encode the same bytes.
     let bytes = Base64::decode_vec(&base64).ok()?;
@@ -174,15 +166,16 @@ fn as_openssh_writes_it(armor: &str) -> Option<SshSig> {
 fn why_refused(armor: &str) -> SignatureError {
     match SshSig::from_pem(armor) {
         Ok(_) => SignatureError::NotCanonical,
-        Err(_) if SshSig::from_pem(rewrapped(armor)).is_ok() => SignatureError::NotCanonical,
+        // A block that was wrapped anew is not damaged.
+        Err(_) if SshSig::from_pem(wrapped(&base64_of(armor), LINE_LENGTH)).is_ok() => SignatureError::NotCanonical,
         Err(error) => refusal(error),
     }
 }
 
-/// Returns the block as OpenSSH would wrap it, which distinguishes a rewrapped block from a damaged one.
-fn rewrapped(armor: &str) -> String {
+/// Returns the base64 between the first and the last line of a block, without white space.
+fn base64_of(armor: &str) -> String {
     let body = armor.trim().trim_start_matches(FIRST_LINE).trim_end_matches(LAST_LINE);
-    wrapped(&body.split_ascii_whitespace().collect::<String>(), LINE_LENGTH)
+    body.split_ascii_whitespace().collect()
 }
 
 /// Returns a block whose lines of base64 have this length.
