@@ -113,11 +113,8 @@ impl Differences {
             explains.then_some((rest, ChangedSetting { setting, angle_deg, turn_arcsec: found[columns] }))
         };
         let each = Setting::ALL.into_iter().flat_map(|setting| {
-            let mut values: Vec<f64> = positions.iter().map(|at| setting.of(at)).collect();
-            values.sort_by(f64::total_cmp);
-            values.dedup();
             // Of two values either may have changed: the smaller is the reference.
-            values.into_iter().skip(1).map(move |angle_deg| (setting, angle_deg))
+            setting.values(positions).into_iter().skip(1).map(move |angle_deg| (setting, angle_deg))
         });
         let found = each.filter_map(|(setting, angle_deg)| of_value(setting, angle_deg));
         found.min_by(|(one, _), (other, _)| one.total_cmp(other)).map(|(_, changed)| changed)

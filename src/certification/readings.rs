@@ -119,29 +119,18 @@ impl AngleReadings {
                 rows.push(((index, run), Vector3::new(x, y, z), row));
             }
         }
-        if problems.is_empty() {
-            problems = torn(&table, &rows);
-        }
-        if problems.is_empty() {
-            problems = not_there(&rows, excluded);
-            rows.retain(|(place, ..)| !is_out(*place));
-        }
-        if problems.is_empty() {
-            problems = incomplete(positions, &rows, excluded);
-        }
-        if problems.is_empty() {
-            let others = other_runs(&rows);
-            problems = whole_runs::problems(&table, &rows, &others);
-            if problems.is_empty() {
-                problems = slips(&table, &rows, &others);
-            }
-        }
-        if problems.is_empty() {
-            let (sha256, excluded) = (Some(sha256_hex(bytes)), excluded.to_vec());
-            Ok(Self { sha256, remark: table.remark(), excluded, ..Self::averaged(positions, &rows) })
-        } else {
-            Err(table.refuse(problems))
-        }
+        let refuse_any =
+            |problems: Vec<Problem>| if problems.is_empty() { Ok(()) } else { Err(table.refuse(problems)) };
+        refuse_any(problems)?;
+        refuse_any(torn(&table, &rows))?;
+        refuse_any(not_there(&rows, excluded))?;
+        rows.retain(|(place, ..)| !is_out(*place));
+        refuse_any(incomplete(positions, &rows, excluded))?;
+        let others = other_runs(&rows);
+        refuse_any(whole_runs::problems(&table, &rows, &others))?;
+        refuse_any(slips(&table, &rows, &others))?;
+        let (sha256, excluded) = (Some(sha256_hex(bytes)), excluded.to_vec());
+        Ok(Self { sha256, remark: table.remark(), excluded, ..Self::averaged(positions, &rows) })
     }
 
     fn averaged(positions: &[NominalPosition], rows: &[Reading]) -> Self {

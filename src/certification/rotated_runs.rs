@@ -31,9 +31,6 @@ pub(crate) const FEWEST_RUNS: usize = 3;
 /// Smallest number of runs that shows a move: two before it and two after it, because one is a bumped run.
 pub(crate) const FEWEST_RUNS_OF_A_MOVE: usize = 4;
 
-/// Names of the axes of the base.
-const COMPASS: [&str; 3] = ["east", "north", "up"];
-
 /// Axis of a rotation common to all positions: 0, 1, 2 for x, y, z of the platform, 3, 4, 5 for east, north, up of the base.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct CommonAxis(pub usize);
@@ -50,7 +47,7 @@ impl CommonAxis {
 
     /// Returns the name of the axis, without platform or base.
     pub(crate) fn name(self) -> &'static str {
-        [AXES, COMPASS].as_flattened()[self.0]
+        self.word().en
     }
 
     /// Returns the names of the three axes of the part, with its name.

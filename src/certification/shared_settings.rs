@@ -34,6 +34,14 @@ impl Setting {
         if self == Self::Theta { at.theta_deg } else { at.phi_deg }
     }
 
+    /// Returns the nominal values of the angle in the positions, ascending, degrees.
+    pub(super) fn values(self, positions: &[NominalPosition]) -> Vec<f64> {
+        let mut values: Vec<f64> = positions.iter().map(|at| self.of(at)).collect();
+        values.sort_by(f64::total_cmp);
+        values.dedup();
+        values
+    }
+
     /// Returns the axis of the angle, along the axes of the case.
     pub(super) fn axis(self, turn: &Turn) -> Vector3<f64> {
         match self {
@@ -62,9 +70,7 @@ pub(crate) fn find(header: &Header, components: &Components) -> Vec<SharedSettin
 fn of(setting: Setting, header: &Header, components: &Components) -> Option<SharedSetting> {
     let turns = &components.model.turns;
     let angle = |at: &NominalPosition| setting.of(at);
-    let mut values: Vec<f64> = header.positions.iter().map(angle).collect();
-    values.sort_by(f64::total_cmp);
-    values.dedup();
+    let mut values = setting.values(&header.positions);
     let count = |value: f64| header.positions.iter().filter(|at| angle(at) == value).count();
     values.retain(|value| count(*value) > 1);
     if values.is_empty() {

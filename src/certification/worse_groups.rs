@@ -6,6 +6,7 @@
 
 use super::Header;
 use super::components::{Components, RunModel, Variance};
+use super::shared_settings::Setting;
 use super::suspects::{OUTLIER, Outlier, STRAGGLER};
 use crate::statistics::student::f_beyond;
 use nalgebra::DVector;
@@ -37,9 +38,7 @@ impl WorseGroup {
 /// already, do not count.
 pub(super) fn find(header: &Header, components: &Components, outliers: &[Outlier]) -> Option<WorseGroup> {
     let all = &header.positions;
-    let mut angles: Vec<f64> = all.iter().map(|at| at.theta_deg).collect();
-    angles.sort_by(f64::total_cmp);
-    angles.dedup();
+    let angles = Setting::Theta.values(all);
     let number = angles.len() as f64;
     let is_good = |place: &usize| outliers.iter().all(|out| out.place != *place);
     let each = angles.into_iter().filter_map(|theta_deg| {
