@@ -2,8 +2,8 @@
 
 use super::Certification;
 use crate::stand::{ActsOn, Stand};
-use crate::text::record::File;
-use crate::text::{Unreadable, canonical};
+use crate::text::Unreadable;
+use crate::text::yaml::write_document;
 
 impl Certification {
     /// Returns the stand file (`dtg-stand/1`), which is read back and compared first; `name` is its name in messages.
@@ -12,12 +12,7 @@ impl Certification {
     /// Returns [`Unreadable`] if its reader refuses the file, for instance because a mean is outside the certifiable
     /// range.
     pub fn to_yaml(&self, name: &str) -> Result<String, Unreadable> {
-        let text = canonical::write(&File(self.stand.clone()), &|path| self.comments(path));
-        let read = Stand::from_yaml(name, text.as_bytes())?;
-        if read != self.stand {
-            return Err(Unreadable::whole(name, None, "other content than was written", "the same", "report this"));
-        }
-        Ok(text)
+        write_document(name, &self.stand, &|path| self.comments(path), Stand::from_yaml)
     }
 
     fn comments(&self, path: &str) -> Vec<String> {

@@ -3,15 +3,15 @@
 use super::content::Content;
 use crate::site::Site;
 use crate::stand::Stand;
-use crate::text::record::File;
-use crate::text::{Document, Unreadable, canonical};
+use crate::text::Unreadable;
+use crate::text::yaml::write_document;
 
 /// Returns the stand file (`dtg-stand/1`) of a passport. It is read back and compared first.
 ///
 /// Every passport of one certificate gives the same text.
 pub(crate) fn stand_file(content: &Content) -> Result<String, Unreadable> {
     let comment = "Stand exported from a verified passport, number for number. Standard uncertainties (k = 1).";
-    file("the exported stand file", comment, content.to_stand(), Stand::from_yaml)
+    write_document("the exported stand file", &content.to_stand(), &at_the_head(comment), Stand::from_yaml)
 }
 
 /// Returns the site file (`dtg-site/1`) of a passport. It is read back and compared first.
@@ -21,20 +21,9 @@ pub(crate) fn stand_file(content: &Content) -> Result<String, Unreadable> {
 /// for new site files.
 pub(crate) fn site_file(content: &Content) -> Result<String, Unreadable> {
     let comment = "Site exported from a verified passport, number for number.";
-    file("the exported site file", comment, content.site.clone(), Site::from_yaml)
+    write_document("the exported site file", &content.site, &at_the_head(comment), Site::from_yaml)
 }
 
-fn file<T: Document + PartialEq>(
-    name: &str,
-    comment: &str,
-    document: T,
-    read: fn(&str, &[u8]) -> Result<T, Unreadable>,
-) -> Result<String, Unreadable> {
-    let file = File(document);
-    let above = |path: &str| if path == "format" { vec![comment.to_owned()] } else { Vec::new() };
-    let text = canonical::write(&file, &above);
-    if read(name, text.as_bytes())? == file.0 {
-        return Ok(text);
-    }
-    Err(Unreadable::whole(name, None, "other content than was written", "the same", "report this"))
+fn at_the_head(comment: &str) -> impl Fn(&str) -> Vec<String> {
+    move |path| if path == "format" { vec![comment.to_owned()] } else { Vec::new() }
 }

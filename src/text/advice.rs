@@ -24,17 +24,11 @@ pub(super) fn on_yaml(node: &Node, at: &Path) -> &'static str {
             "it has two points; write degrees, minutes and seconds as decimal degrees, with one point"
         }
         Node::Text(text) if has_two_points(text) => "it has two points; use one decimal point",
-        Node::Text(text) if unquoted(text).parse::<f64>().is_ok_and(f64::is_finite) && unquoted(text) != text => {
-            if typographic_quote(text).is_some() {
-                STRAIGHT_QUOTES
-            } else {
-                "write the number without quotes"
-            }
-        }
+        Node::Text(text) if is_number(unquoted(text)) && typographic_quote(text).is_some() => STRAIGHT_QUOTES,
+        Node::Text(text) if is_number(unquoted(text)) => "write the number without quotes",
         Node::Text(text) if text.contains(',') && text.chars().all(|c| c.is_ascii_digit() || "+-,. ".contains(c)) => {
             "use a decimal point"
         }
-        Node::Text(text) if text.parse::<f64>().is_ok_and(f64::is_finite) => "write the number without quotes",
         Node::Text(text) if key.ends_with("_deg") && is_in_minutes(text) => {
             "write decimal degrees, such as 55.7658; south and west are negative"
         }
@@ -49,7 +43,6 @@ pub(super) fn on_yaml(node: &Node, at: &Path) -> &'static str {
 
 /// Returns how to write the number that a cell of CSV in a column of this name seems to mean, or `None` if it means none.
 pub(super) fn on_cell(text: &str, column: &str) -> Option<&'static str> {
-    let is_number = |text: &str| text.parse::<f64>().is_ok_and(f64::is_finite);
     if text.contains(';') {
         Some("separate columns by commas")
     } else if column.ends_with("_arcsec") && is_in_parts(text) {
@@ -77,14 +70,21 @@ pub(super) fn on_cell(text: &str, column: &str) -> Option<&'static str> {
 
 /// Returns `true` for an angle with a sign of degrees, in several numbers, or with the letter of a hemisphere.
 fn is_in_minutes(text: &str) -> bool {
-    let numbers = text.split(|c: char| !c.is_ascii_digit() && c != '.').filter(|part| !part.is_empty()).count();
+    let numbers = numbers_in(text);
     numbers > 1 && !text.contains(',') || numbers > 0 && text.contains(|c| "°′″NSEW".contains(c))
 }
 
 /// Returns `true` for an angle in several numbers with colons or the signs of degrees, minutes and seconds between them.
 fn is_in_parts(text: &str) -> bool {
-    let numbers = text.split(|c: char| !c.is_ascii_digit() && c != '.').filter(|part| !part.is_empty()).count();
-    numbers > 1 && text.contains(|c| ":°′'".contains(c))
+    numbers_in(text) > 1 && text.contains(|c| ":°′'".contains(c))
+}
+
+fn numbers_in(text: &str) -> usize {
+    text.split(|c: char| !c.is_ascii_digit() && c != '.').filter(|part| !part.is_empty()).count()
+}
+
+fn is_number(text: &str) -> bool {
+    text.parse::<f64>().is_ok_and(f64::is_finite)
 }
 
 fn has_unit(text: &str) -> bool {

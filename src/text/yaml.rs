@@ -1,10 +1,11 @@
-//! Conversion of hand-written YAML to a tree with `serde_yaml`, with the line and column of every error.
+//! Conversion of hand-written YAML to a tree with `serde_yaml`, with the line and column of every error, and files that
+//! are read back once written.
 
 use super::kind::mistaken;
 use super::node::{Builder, MOST_BRACKETS, REPEATED, hand_written_text, location_of};
 use super::problem::Step;
 use super::record::File;
-use super::{Document, Field, Kind, Location, Node, Path, Problems, Unreadable};
+use super::{Document, Field, Kind, Location, Node, Path, Problems, Unreadable, canonical};
 use serde::de::{self, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use std::cell::Cell;
 use std::fmt;
@@ -217,4 +218,19 @@ fn parse<T: Document>(name: &str, bytes: &[u8], check: impl FnOnce(&T, &mut Prob
         check(value, &mut problems);
     }
     value.filter(|_| problems.is_empty()).ok_or_else(|| problems.refuse(name, &text))
+}
+
+/// Writes the file of a document with `comments` above its keys, and reads it back with `read` as a check; `name` is its
+/// name in messages.
+pub(crate) fn write_document<T: Document + PartialEq>(
+    name: &str,
+    document: &T,
+    comments: &dyn Fn(&str) -> Vec<String>,
+    read: fn(&str, &[u8]) -> Result<T, Unreadable>,
+) -> Result<String, Unreadable> {
+    let text = canonical::write(&File(document.clone()), comments);
+    if read(name, text.as_bytes())? == *document {
+        return Ok(text);
+    }
+    Err(Unreadable::whole(name, None, "other content than was written", "the same", "report this"))
 }
