@@ -142,7 +142,7 @@ impl Recertification<'_> {
     pub(crate) fn run(&self, seal: Option<Seal>) -> Result<Recertified, NotRecertified> {
         self.check()?;
         let bytes = files::read(self.passport, LARGEST_DOCUMENT_BYTES)?;
-        let old = self.content(self.passport, &bytes, &self.trust, &self.question)?;
+        let old = content(self.passport, &bytes, &self.trust, &self.question)?;
         let old_stand = old.to_stand();
         let header = self.header(&old_stand)?;
         let (certification, comparison) = self.measured(&old_stand, &header)?;
@@ -209,23 +209,6 @@ impl Recertification<'_> {
             ))),
             None => Ok(()),
         }
-    }
-
-    /// Returns the content of a passport that passes every check of `question`, or did before it expired.
-    fn content(
-        &self,
-        path: &Path,
-        bytes: &[u8],
-        trust: &Trust,
-        question: &Question,
-    ) -> Result<Content, NotRecertified> {
-        let verification = before_expiry(path, bytes, trust, question);
-        if let Some(passport) = verification.passport() {
-            return Ok(passport.content().clone());
-        }
-        let failed = verification.checks().iter().find(|check| check.passed() == Some(false));
-        let why = failed.map_or_else(String::new, |check| format!(" ({}: {})", check.name.as_str(), check.detail));
-        Err(refused(format!("{}: the passport failed verification{why}", shown(path))))
     }
 
     fn header(&self, old: &Stand) -> Result<Header, NotRecertified> {
@@ -332,7 +315,7 @@ impl Recertification<'_> {
             let asked = self.sites.iter().find(|asked| asked.id() == site);
             let path = PathBuf::from(&line.file);
             let bytes = files::read(&path, LARGEST_DOCUMENT_BYTES)?;
-            let content = self.content(&path, &bytes, trust, &Question::at(self.question.time))?;
+            let content = content(&path, &bytes, trust, &Question::at(self.question.time))?;
             if found.is_of_a_fork(&line.sha256) {
                 return Err(refused(format!("{}: {FORKED}", shown(&path))));
             }
@@ -403,6 +386,17 @@ impl Recertification<'_> {
         next.rival = Superseding::default().of(folder_of(&path), next.old_sha256(), &path, trust, &asked);
         folder.next_successor(&next).map_err(|why| NotRecertified::Folder(old.content.passport.id.clone(), why))
     }
+}
+
+/// Returns the content of a passport that passes every check of `question`, or did before it expired.
+fn content(path: &Path, bytes: &[u8], trust: &Trust, question: &Question) -> Result<Content, NotRecertified> {
+    let verification = before_expiry(path, bytes, trust, question);
+    if let Some(passport) = verification.passport() {
+        return Ok(passport.content().clone());
+    }
+    let failed = verification.checks().iter().find(|check| check.passed() == Some(false));
+    let why = failed.map_or_else(String::new, |check| format!(" ({}: {})", check.name.as_str(), check.detail));
+    Err(refused(format!("{}: the passport failed verification{why}", shown(path))))
 }
 
 /// Verifies a passport, as of its last day if it has expired since: many stands return to the factory only then.

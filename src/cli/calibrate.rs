@@ -159,8 +159,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         previous: previous(options)?,
         administrative: AdministrativeFile::read(options.administrative.as_deref())?,
     };
-    bench.check_date()?;
-    bench.warn_of_the_previous();
+    bench.check()?;
     match one {
         Some(currents) => bench.one(currents),
         None => bench.several(),
@@ -224,16 +223,13 @@ impl Bench<'_> {
         }
     }
 
-    /// Refuses readings of a day that has not come, and warns of those from before the stand was measured.
-    fn check_date(&self) -> Result<(), Failure> {
+    /// Refuses readings of a day that has not come, and warns of those from before the stand was measured and of previous
+    /// results of another gyro type.
+    fn check(&self) -> Result<(), Failure> {
         let early = self.subject().check_date(&self.passport.content.certificate).map_err(Failure::unusable)?;
-        early.iter().for_each(|words| output::warn(words));
+        let another = another_type(&self.previous, self.gyro_type.as_ref());
+        early.iter().chain(&another).for_each(|words| output::warn(words));
         Ok(())
-    }
-
-    fn warn_of_the_previous(&self) {
-        let words = another_type(&self.previous, self.gyro_type.as_ref());
-        words.iter().for_each(|words| output::warn(words));
     }
 
     /// Calibrates the gyro whose currents are at `path`.

@@ -3,7 +3,7 @@
 use super::{Access, Durability, FileError, check_replaceable, folder_of, make_folder, sync_folder, temporary};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
-use tempfile::{NamedTempFile, PersistError};
+use tempfile::PersistError;
 
 /// Writes several files as [`super::write_replaceable`] does: all of them or none.
 pub(crate) fn write_replaceable_together<B: AsRef<[u8]>>(files: &[(PathBuf, B)], force: bool) -> Result<(), FileError> {
@@ -34,11 +34,19 @@ pub(crate) fn write_together<B: AsRef<[u8]>>(new: &[(PathBuf, B)], last: &[(Path
     let staged = new.iter().map(stage).collect::<Result<Vec<_>, _>>()?;
     let staged_last = last.iter().map(stage).collect::<Result<Vec<_>, _>>()?;
     let mut written = Vec::new();
-    let mut replacing = last.iter().zip(staged_last);
-    let replace = |((path, _), temporary): (&(PathBuf, B), NamedTempFile)| {
-        temporary.persist(path).map(drop).map_err(|error| failed(path)(error.error))
-    };
-    let published = publish(new, staged, &mut written).and_then(|()| replacing.try_for_each(replace));
+    let named = new.iter().zip(staged).try_for_each(|((path, _), temporary)| {
+        temporary.persist_noclobber(path).map_err(|PersistError { error, .. }| match error.kind() {
+            io::ErrorKind::AlreadyExists => FileError::Exists { path: path.clone(), replaceable: false },
+            _ => FileError::Write(path.clone(), error),
+        })?;
+        written.push(path);
+        Ok(())
+    });
+    let published = named.and_then(|()| {
+        last.iter().zip(staged_last).try_for_each(|((path, _), temporary)| {
+            temporary.persist(path).map(drop).map_err(|error| failed(path)(error.error))
+        })
+    });
     if let Err(error) = published {
         // Nobody has seen these files, which were written a moment ago.
         for path in &written {
@@ -48,22 +56,6 @@ pub(crate) fn write_together<B: AsRef<[u8]>>(new: &[(PathBuf, B)], last: &[(Path
     }
     for (path, _) in new.iter().chain(last) {
         sync_folder(folder_of(path)).map_err(failed(path))?;
-    }
-    Ok(())
-}
-
-/// Gives temporary files the names of `new`, none of which may be used, and adds each to `written`.
-fn publish<'a, B>(
-    new: &'a [(PathBuf, B)],
-    staged: Vec<NamedTempFile>,
-    written: &mut Vec<&'a Path>,
-) -> Result<(), FileError> {
-    for ((path, _), temporary) in new.iter().zip(staged) {
-        temporary.persist_noclobber(path).map_err(|PersistError { error, .. }| match error.kind() {
-            io::ErrorKind::AlreadyExists => FileError::Exists { path: path.clone(), replaceable: false },
-            _ => FileError::Write(path.clone(), error),
-        })?;
-        written.push(path);
     }
     Ok(())
 }

@@ -51,6 +51,13 @@ pub(crate) fn find(root: &Path) -> Result<Found, FileError> {
 }
 
 impl Found {
+    /// Finds what is under those of the folders that exist.
+    fn under(folders: &[PathBuf]) -> Self {
+        let mut found = Self::default();
+        folders.iter().filter(|folder| folder.exists()).for_each(|folder| found.add(folder));
+        found
+    }
+
     /// Adds what is under a folder; an error of the folder itself is one more.
     fn add(&mut self, folder: &Path) {
         for entry in Walk::deep(folder, is_lasting) {
@@ -351,8 +358,7 @@ pub(crate) fn lists(folder: &Path, passports: &Path, trust: &Trust, time: Timest
         }
         together = vec![folder.to_owned()];
     }
-    let mut found = Found::default();
-    together.iter().filter(|folder| folder.exists()).for_each(|folder| found.add(folder));
+    let found = Found::under(&together);
     if let Some(error) = found.unreadable.into_iter().next() {
         return Err(error.into());
     }
@@ -374,11 +380,9 @@ pub(crate) fn lists(folder: &Path, passports: &Path, trust: &Trust, time: Timest
 
 /// Returns a file in the folders that claims to be a list, or `None` if there is none.
 fn any_list(folders: &[PathBuf]) -> Option<PathBuf> {
-    let mut found = Found::default();
-    folders.iter().filter(|folder| folder.exists()).for_each(|folder| found.add(folder));
     let is_list =
         |path: &PathBuf| files::read_first(path, BEGINNING_BYTES).is_ok_and(|bytes| claims_to_be_a_list(&bytes));
-    found.files.into_iter().find(is_list)
+    Found::under(folders).files.into_iter().find(is_list)
 }
 
 fn unreadable(root: &Path, error: &FileError) -> Alarm {

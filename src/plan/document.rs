@@ -2,19 +2,14 @@
 
 use super::sensitivity::{CommonError, Effect};
 use super::{Evaluation, MOST_READINGS, Plan};
-use crate::calibration::{NotStated, Parameter};
+use crate::calibration::NotStated;
 use crate::coefficients::PositionIndex;
 use crate::gyro::{GyroParameters, Parameters};
 use crate::stand::MOST_POSITIONS;
 use crate::text::{Kind, Unreadable};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Serialize, Serializer};
-
-#[derive(Debug, Clone, PartialEq, Serialize)]
-struct WorseDocument {
-    parameter: Parameter,
-    ratio: f64,
-}
+use serde_json::json;
 
 /// Effect of an error that all positions share.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -109,7 +104,7 @@ impl Planned {
 impl Serialize for Plan {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let angles = |place: &usize| [self.readings[*place].theta_deg, self.readings[*place].phi_deg];
-        let worse = self.worse().into_iter().map(|(parameter, ratio)| WorseDocument { parameter, ratio });
+        let worse = self.worse().into_iter().map(|(parameter, ratio)| json!({"parameter": parameter, "ratio": ratio}));
         let mut keys = serializer.serialize_map(None)?;
         keys.serialize_entry("criterion", self.criterion.key())?;
         keys.serialize_entry("value", &self.evaluation.value)?;

@@ -9,6 +9,8 @@ use crate::calibration::estimates::Estimates;
 use crate::calibration::sensitivity::VectorChange;
 use crate::calibration::{Input, Setup};
 use crate::coefficients::{Matrices, PositionIndex, pair_differences};
+use crate::passport::MatrixRows;
+use crate::text::record::Record;
 use nalgebra::{DMatrix, Matrix2};
 
 /// Number of a passport, identified by its keys.
@@ -55,7 +57,7 @@ impl EntryUncertainty {
             entries.extend([0, 1].map(|place| of("omega_deg_per_h", Some(place))));
         }
         if setup.coefficients().matrices.is_some() {
-            for key in MATRIX_KEYS {
+            for &key in MatrixRows::KEYS {
                 entries.extend([(0, 0), (0, 1), (1, 0), (1, 1)].map(|(row, column)| Entry::Matrix(key, row, column)));
             }
         }
@@ -78,17 +80,13 @@ impl EntryUncertainty {
     }
 }
 
-/// Keys of a passport's matrices, in the order of the entries.
-const MATRIX_KEYS: [&str; 8] =
-    ["delta", "b_deg_per_h", "c_deg_per_h_per_g", "n1", "n2", "n2_inverse", "omega1_deg_per_h", "omega2_deg_per_h"];
-
 /// Returns the changes in the order of the entries of a position.
 fn entries_of(change: &VectorChange) -> [f64; 5] {
     let VectorChange { earth_rate_deg_per_h: earth, vertical } = change;
     [vertical.x, vertical.y, vertical.z, earth.x, earth.y]
 }
 
-/// Returns the changes of the matrices, in the order of [`MATRIX_KEYS`], row by row, for those of the eight positions.
+/// Returns the changes of the matrices, in the order of [`MatrixRows`], row by row, for those of the eight positions.
 fn of_matrices(m: &Matrices, changes: &[VectorChange; 8]) -> Vec<f64> {
     let (n1, n2) = pair_differences(|position| changes[position].vertical.xy());
     let (omega1, omega2) = pair_differences(|position| changes[position].earth_rate_deg_per_h.xy());
