@@ -7,7 +7,6 @@ use crate::text::Kind;
 use base64ct::{Base64, Encoding};
 use ed25519_dalek::Signer as _;
 use ssh_key::private::{Ed25519Keypair, KeypairData};
-use ssh_key::public::KeyData;
 use ssh_key::rand_core::{OsRng, RngCore as _};
 use ssh_key::{Algorithm, Cipher, HashAlg, Kdf, LineEnding, PrivateKey, SshSig};
 use std::fmt::{self, Debug, Formatter};
@@ -116,9 +115,8 @@ impl SigningKey {
 
     pub(crate) fn sign_message(&self, message: &Message) -> Result<Signature, KeyError> {
         let bytes = self.key.sign(message.signed.as_deref().ok_or(KeyError::Namespace)?).to_bytes();
-        let key: KeyData = ssh_key::public::Ed25519PublicKey(self.key.verifying_key().to_bytes()).into();
         let block = ssh_key::Signature::new(Algorithm::Ed25519, bytes)
-            .and_then(|signature| SshSig::new(key, message.namespace, HashAlg::Sha512, signature))
+            .and_then(|signature| SshSig::new(self.public_key().data, message.namespace, HashAlg::Sha512, signature))
             .map_err(damaged)?;
         Signature::of(block).map_err(|error: SignatureError| KeyError::DamagedPrivateKey(error.to_string()))
     }
