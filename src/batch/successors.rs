@@ -9,8 +9,8 @@ use super::{Batch, Event, Failure, Listener, Outcome, Purpose, fail, parallel, s
 use crate::document::sha256_hex;
 use crate::files::walk::Visited;
 use crate::files::{self, FileError, folder_of};
-use crate::folder::verifier::Verifier;
 use crate::folder::{Folder, Issued, Superseding, search};
+use crate::interface::Enquiry;
 use crate::passport::issue::PreparedStand;
 use crate::passport::place::distant_correction;
 use crate::passport::reissue::{Order, ReissueRefused, Successor, successor};
@@ -41,7 +41,7 @@ pub(crate) struct Change<'a> {
     pub question: Question,
     /// Register of a folder that shows which of the given files are superseded or withdrawn. These are re-issued with a
     /// warning, because the successor may be what corrects them; in a given folder they are skipped.
-    pub workspace: Option<Verifier>,
+    pub workspace: Option<Enquiry>,
     /// Folder of the successors; `None` for the root that the path of each predecessor shows.
     pub folder: Option<Arc<Folder>>,
 }
@@ -281,7 +281,7 @@ impl Run<'_> {
     /// Returns why a given file is not for use, if it is superseded or withdrawn.
     fn warnings(&self, name: &str, bytes: &[u8]) -> Vec<String> {
         let Some(workspace) = &self.change.workspace else { return Vec::new() };
-        let verification = workspace.verify(name, bytes);
+        let verification = workspace.verification(name, bytes);
         let of_the_past = |check: &&Check| check.passed() == Some(false) && check.name != CheckName::InForce;
         let failed = verification.checks().iter().filter(of_the_past).map(|check| check.detail.clone());
         let uncertain = || workspace.register.as_ref().and_then(Register::uncertain).map(Alarm::reason);

@@ -3,7 +3,7 @@
 use super::inputs::{self, AdministrativeFile};
 use super::render::languages;
 use super::show::{Read, Reader, Whom};
-use super::trust_options::{Verifier, date};
+use super::trust_options::{Enquiry, date};
 use super::{Code, Failure, Format, REFUSED, defaults, exclusion, output, uncertainty};
 use crate::batch::once::Once;
 use crate::batch::{Purpose, paths};
@@ -208,7 +208,7 @@ struct Line {
 impl Bench<'_> {
     /// Returns the time for which the passport was verified, or `None` if it was not.
     fn verified_as_of(&self) -> Option<Timestamp> {
-        self.reader.0.as_ref().map(|verifier| verifier.question.time)
+        self.reader.0.as_ref().map(|enquiry| enquiry.question.time)
     }
 
     /// Returns what is calibrated and under which conditions, without the digest of the currents.
@@ -408,9 +408,9 @@ impl Options {
 }
 
 /// Returns the passport in the form that the report takes.
-fn used<'a>(passport: &'a Read, verifier: Option<&'a Verifier>) -> Result<UsedPassport<'a>, Failure> {
+fn used<'a>(passport: &'a Read, enquiry: Option<&'a Enquiry>) -> Result<UsedPassport<'a>, Failure> {
     let Read { content, bytes, verification } = passport;
-    let Some((verification, Verifier { trust, question, .. })) = verification.as_ref().zip(verifier) else {
+    let Some((verification, Enquiry { trust, question, .. })) = verification.as_ref().zip(enquiry) else {
         return Ok(UsedPassport::NotVerified { content, sha256: sha256_hex(bytes) });
     };
     let page = PassportPage::of(bytes, trust, question, verification.clone());

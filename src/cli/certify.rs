@@ -221,7 +221,7 @@ fn certified(path: &Path, trust: &OptionalTrust) -> Result<Stand, Failure> {
         return inputs::stand(path);
     }
     match trust.load()? {
-        Some(verifier) => Ok(past(path, &verifier)?.content.to_stand()),
+        Some(enquiry) => Ok(past(path, &enquiry)?.content.to_stand()),
         None => Err(Failure::unusable(format!("{}: is a passport; specify --trust to verify it", shown(path)))),
     }
 }

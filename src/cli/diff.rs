@@ -1,6 +1,6 @@
 //! Verb `diff`: two passports, number by number.
 
-use super::trust_options::{TrustAmong, Verifier};
+use super::trust_options::{Enquiry, TrustAmong};
 use super::{Code, Failure, Format, defaults, inputs, output};
 use crate::document::sha256_hex;
 use crate::passport::difference::Differences;
@@ -26,9 +26,9 @@ pub(super) struct Options {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let verifier = options.trust.load()?;
-    let a = past(&options.a, &verifier)?;
-    let b = past(&options.b, &verifier)?;
+    let enquiry = options.trust.load()?;
+    let a = past(&options.a, &enquiry)?;
+    let b = past(&options.b, &enquiry)?;
     let found = Differences::of(&a.content, &b.content);
     options.format.write(|| difference::to_json(&a, &b, &found), || difference::text(&a, &b, &found))?;
     Ok(0)
@@ -36,10 +36,10 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
 
 /// Reads and verifies a passport to compare it, not to use it: it may have expired, or been superseded or withdrawn,
 /// which is reported.
-pub(super) fn past(path: &Path, verifier: &Verifier) -> Result<Side, Failure> {
+pub(super) fn past(path: &Path, enquiry: &Enquiry) -> Result<Side, Failure> {
     let bytes = inputs::bytes(path, Kind::Passport.words())?;
     let file = name_of(path);
-    let verification = verifier.verify(&file, &bytes);
+    let verification = enquiry.verification(&file, &bytes);
     let Some(content) = verification.content_even_if_past().cloned() else {
         return Err(Failure::verdict("", &file, &verification));
     };

@@ -2,7 +2,7 @@
 
 use super::inputs::{self, AdministrativeFile, Each};
 use super::render::languages;
-use super::trust_options::{TrustAmong, Verifier};
+use super::trust_options::{Enquiry, TrustAmong};
 use super::{Code, Failure, Format, REFUSED, UNUSABLE, defaults, output};
 use crate::batch::{Purpose, paths};
 use crate::dcc;
@@ -72,10 +72,10 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if !options.to.contains(&Form::Dcc) && (options.administrative.is_some() || !options.lang.is_empty()) {
         return Err(Failure::usage("--administrative and --lang are for a DCC; add --to dcc, or omit them"));
     }
-    let verifier = options.trust.load()?;
+    let enquiry = options.trust.load()?;
     let administrative = AdministrativeFile::read(options.administrative.as_deref())?;
     let written = HashMap::new();
-    let mut run = Run { options, verifier, administrative, written, code: 0, next: Vec::new() };
+    let mut run = Run { options, enquiry, administrative, written, code: 0, next: Vec::new() };
     let mut list = std::io::stdin().lock();
     for found in paths::files(&options.passports, &mut list, Purpose::Passports) {
         match found {
@@ -104,7 +104,7 @@ struct Exported {
 
 struct Run<'a> {
     options: &'a Options,
-    verifier: Verifier,
+    enquiry: Enquiry,
     administrative: AdministrativeFile,
     /// SHA-256 of the files written so far, and the passports that they come from.
     written: HashMap<PathBuf, (String, PathBuf)>,
@@ -145,10 +145,10 @@ impl Run<'_> {
         let name = name_of(path);
         let (bytes, verification, unread) = match files::read_first(path, LARGEST_DOCUMENT_BYTES + 1) {
             Ok(bytes) => {
-                let verification = self.verifier.verify(&name, &bytes);
+                let verification = self.enquiry.verification(&name, &bytes);
                 (bytes, verification, false)
             }
-            Err(error) => (Vec::new(), unreadable(&error.to_string(), &self.verifier.question), true),
+            Err(error) => (Vec::new(), unreadable(&error.to_string(), &self.enquiry.question), true),
         };
         let to = |form: Form| self.options.to.contains(&form);
         let json = || {

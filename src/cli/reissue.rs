@@ -1,7 +1,7 @@
 //! Verb `reissue`: successors of existing passports.
 
 use super::batch::BatchOptions;
-use super::trust_options::{self, TrustOptions, verifier};
+use super::trust_options::{self, TrustOptions, among};
 use super::{Code, Failure, defaults, inputs};
 use crate::batch::successors::Change;
 use crate::passport::issue::time_of_issue;
@@ -79,7 +79,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     // The register of a folder is its own.
     let all_folders = options.passports.iter().all(|path| path.is_dir());
     let workspace = workspace.filter(|folder| folder.is_dir() && !all_folders);
-    let workspace = workspace.map(|folder| verifier(trust.clone(), question.clone(), Some(folder))).transpose()?;
+    let workspace = workspace.map(|folder| among(trust.clone(), question.clone(), Some(folder))).transpose()?;
     let folder = options.out.as_deref().map(|out| Arc::new(options.batch.folder(out)));
     let change = Change { order, stands: &options.stands, sites: &options.sites, trust, question, workspace, folder };
     options.batch.run(signer.as_deref(), None, |batch, tell| {

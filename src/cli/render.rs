@@ -1,6 +1,6 @@
 //! Verb `render`: the printed form of a verified passport.
 
-use super::trust_options::{TrustAmong, Verifier};
+use super::trust_options::{Enquiry, TrustAmong};
 use super::{Code, Failure, Format, defaults, inputs, output};
 use crate::batch::Purpose;
 use crate::folder::Folder;
@@ -53,7 +53,7 @@ pub(super) fn languages(written: &[Language]) -> Languages {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let Verifier { trust, question, register } = options.trust.load()?;
+    let Enquiry { trust, question, register, .. } = options.trust.load()?;
     let write = |passport: &Path, output: Option<&Path>| {
         let bytes = inputs::bytes(passport, Kind::Passport.words())?;
         let name = name_of(passport);

@@ -1,7 +1,7 @@
 //! Verb `show`: passports as tables, or in full as JSON.
 
 use super::inputs::{self, Each};
-use super::trust_options::{OptionalTrust, Verifier};
+use super::trust_options::{Enquiry, OptionalTrust};
 use super::{Code, Failure, Format, defaults, output};
 use crate::batch::{Purpose, paths};
 use crate::document::sha256_hex;
@@ -39,8 +39,8 @@ pub(super) struct Whom {
     no_verify: bool,
 }
 
-/// Reader of passports that are used: their verifier, or `None` if passports are not verified.
-pub(super) struct Reader(pub Option<Verifier>);
+/// Reader of passports that are used: their enquiry, or `None` if passports are not verified.
+pub(super) struct Reader(pub Option<Enquiry>);
 
 /// A passport that was read, and the result of its verification.
 pub(super) struct Read {
@@ -67,11 +67,11 @@ impl Reader {
     pub(super) fn read(&self, path: &Path) -> Result<Read, Failure> {
         let bytes = inputs::bytes(path, Kind::Passport.words())?;
         let name = name_of(path);
-        let Some(verifier) = &self.0 else {
+        let Some(enquiry) = &self.0 else {
             let content = content_from_anyone(&name, &bytes)?;
             return Ok(Read { content, bytes, verification: None });
         };
-        let verification = verifier.verify(&name, &bytes);
+        let verification = enquiry.verification(&name, &bytes);
         match verification.passport() {
             Some(passport) => {
                 let content = passport.content().clone();

@@ -4,7 +4,7 @@
 use super::{Failure, output};
 use crate::earth::Place;
 use crate::files;
-pub(super) use crate::folder::verifier::Verifier;
+pub(super) use crate::interface::Enquiry;
 use crate::interface::enquiry;
 pub(super) use crate::interface::enquiry::{date, time};
 use crate::passport::{Question, Trust};
@@ -76,19 +76,19 @@ pub(super) struct OptionalTrust {
 }
 
 impl OptionalTrust {
-    /// Returns the verifier, or `None` if no `--trust` is given.
-    pub(super) fn load(&self) -> Result<Option<Verifier>, Failure> {
+    /// Returns the enquiry, or `None` if no `--trust` is given.
+    pub(super) fn load(&self) -> Result<Option<Enquiry>, Failure> {
         let question = self.asked.question();
         let Some(signers) = &self.trust else { return Ok(None) };
         let trust = load(signers, &self.revoked, question.time)?;
-        verifier(trust, question, self.among.register.as_deref()).map(Some)
+        among(trust, question, self.among.register.as_deref()).map(Some)
     }
 }
 
 impl TrustAmong {
-    pub(super) fn load(&self) -> Result<Verifier, Failure> {
+    pub(super) fn load(&self) -> Result<Enquiry, Failure> {
         let (trust, question) = self.trust.load()?;
-        verifier(trust, question, self.among.register.as_deref())
+        among(trust, question, self.among.register.as_deref())
     }
 }
 
@@ -111,11 +111,12 @@ impl Asked {
 }
 
 /// Reads the register of `folder`, if there is one, and reports its alarms.
-pub(super) fn verifier(trust: Trust, question: Question, folder: Option<&Path>) -> Result<Verifier, Failure> {
-    let verifier = Verifier::new(trust, question, folder)?;
-    let alarms = verifier.register.iter().flat_map(|register| &register.alarms);
-    alarms.for_each(|alarm| output::complain(&alarm.to_string()));
-    Ok(verifier)
+pub(super) fn among(trust: Trust, question: Question, folder: Option<&Path>) -> Result<Enquiry, Failure> {
+    let alone = Enquiry::of(trust, question);
+    let Some(folder) = folder else { return Ok(alone) };
+    let enquiry = alone.with_register(folder)?;
+    enquiry.remarks.iter().for_each(|alarm| output::complain(alarm));
+    Ok(enquiry)
 }
 
 /// Reads the trust files. Lists of withdrawn passports are verified at `time`; the newest list applies.

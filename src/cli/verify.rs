@@ -23,7 +23,7 @@ pub(super) struct Options {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let verifier = options.trust.load()?;
+    let enquiry = options.trust.load()?;
     let mut code = 0;
     let (mut verdicts, mut text) = (Vec::new(), String::new());
     for path in &options.passports {
@@ -32,7 +32,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         // verdict.
         match files::read_first(path, LARGEST_DOCUMENT_BYTES + 1) {
             Ok(bytes) => {
-                let verification = verifier.verify(&name, &bytes);
+                let verification = enquiry.verification(&name, &bytes);
                 code = code.max(if verification.valid() { 0 } else { REFUSED });
                 let verdict = verdict::Verdict::of(&name, &verification);
                 text += &verdict::text(&verdict);
@@ -46,7 +46,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
                 };
                 output::complain(&words);
                 code = code.max(UNUSABLE);
-                let refused = verdict::Verdict::of(&name, &unreadable(&words, &verifier.question));
+                let refused = verdict::Verdict::of(&name, &unreadable(&words, &enquiry.question));
                 text += &verdict::not_read(&refused);
                 verdicts.push(refused);
             }

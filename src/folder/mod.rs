@@ -2,7 +2,6 @@
 //! never replace another file.
 //!
 //! * `search`: the files in a folder, their register, and the history of one stand.
-//! * `verifier`: verification of passports against the register of a folder.
 //! * `archive`: stand files that a new certificate supersedes.
 //! * `refused`: reasons why a passport is not written.
 
@@ -12,7 +11,6 @@ mod names;
 mod refused;
 pub(crate) mod search;
 mod superseding;
-pub(crate) mod verifier;
 
 pub use crate::files::{Durability, FileError};
 pub use refused::FolderRefused;

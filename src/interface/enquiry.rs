@@ -6,9 +6,11 @@ use crate::earth::Place;
 #[cfg(feature = "factory")]
 use crate::files::{self, FileError};
 #[cfg(feature = "factory")]
-use crate::folder::verifier::Verifier;
+use crate::folder::search;
+#[cfg(feature = "factory")]
+use crate::parallel;
 use crate::passport::{Question, Trust, Verification, verify};
-use crate::register::Register;
+use crate::register;
 use crate::revocation::{RevocationList, Series, claims_to_be_a_list};
 use crate::site::beyond_180;
 use crate::text::scalar::{day, impossible_date};
@@ -28,7 +30,7 @@ pub struct Enquiry {
     pub question: Question,
     /// Remarks for the user on the revocation lists and the register, one sentence each.
     pub remarks: Vec<String>,
-    register: Option<Register>,
+    pub(crate) register: Option<register::Register>,
 }
 
 /// Answer on one passport.
@@ -97,35 +99,45 @@ impl Enquiry {
         Ok(Self { trust, question, register: None, remarks })
     }
 
+    /// Creates an enquiry without remarks.
+    #[cfg(feature = "factory")]
+    pub(crate) fn of(trust: Trust, question: Question) -> Self {
+        Self { trust, question, remarks: Vec::new(), register: None }
+    }
+
     /// Adds the register of the passports in `folder`: superseded passports are refused, and the lists of withdrawn
     /// passports found there count.
     ///
     /// # Errors
     /// Returns an error if the folder cannot be read.
     #[cfg(feature = "factory")]
-    pub fn with_register(self, folder: &FilePath) -> Result<Self, FileError> {
-        let Verifier { trust, question, register } = Verifier::new(self.trust, self.question, Some(folder))?;
-        let mut remarks = self.remarks;
-        remarks.extend(register.iter().flat_map(|register| &register.alarms).map(ToString::to_string));
-        Ok(Self { trust, question, remarks, register })
+    pub fn with_register(mut self, folder: &FilePath) -> Result<Self, FileError> {
+        let asked = register::Asked::at(self.question.time);
+        let (register, trust) = search::register(folder, self.trust, &asked, parallel::processors())?;
+        self.remarks.extend(register.alarms.iter().map(ToString::to_string));
+        Ok(Self { trust, register: Some(register), ..self })
     }
 
     /// Verifies the bytes of a passport; `file` is the file name in messages.
     pub fn verify(&self, file: &str, bytes: &[u8]) -> Answer {
-        let mut verification = verify(file, bytes, &self.trust, &self.question);
-        if let Some(register) = &self.register {
-            verification = register.asked(verification, bytes);
+        let (verification, sha256) = (self.verification(file, bytes), sha256_hex(bytes));
+        Answer { file: file.to_owned(), verification, sha256, time: self.question.time, remarks: self.remarks.clone() }
+    }
+
+    pub(crate) fn verification(&self, file: &str, bytes: &[u8]) -> Verification {
+        let verification = verify(file, bytes, &self.trust, &self.question);
+        match &self.register {
+            Some(register) => register.asked(verification, bytes),
+            None => verification,
         }
-        let (time, remarks) = (self.question.time, self.remarks.clone());
-        Answer { file: file.to_owned(), verification, sha256: sha256_hex(bytes), time, remarks }
     }
 
     /// Verifies files on up to `threads` threads (0: one for each processor); the answers are in the order of the
     /// paths.
     #[cfg(feature = "factory")]
     pub fn verify_files(&self, paths: &[PathBuf], threads: usize) -> Vec<Result<Answer, FileError>> {
-        let threads = if threads == 0 { crate::parallel::processors() } else { threads };
-        crate::parallel::map(paths, threads, |path| {
+        let threads = if threads == 0 { parallel::processors() } else { threads };
+        parallel::map(paths, threads, |path| {
             // One byte above the size limit is enough to show that the file is not a passport.
             let bytes = files::read_first(path, LARGEST_DOCUMENT_BYTES + 1)?;
             Ok(self.verify(&name_of(path), &bytes))
