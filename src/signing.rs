@@ -17,7 +17,6 @@ use zeroize::Zeroizing;
 /// Environment variable with the passphrase, for use without a terminal. Programs started here do not inherit it.
 pub(crate) const PASSPHRASE_VARIABLE: &str = "DTG_PASSPORT_PASSPHRASE";
 
-/// Largest size of a key file that is read, in bytes.
 const LARGEST_KEY_FILE_BYTES: usize = 1 << 16;
 
 /// Reason why a key cannot be used.

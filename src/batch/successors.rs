@@ -289,7 +289,6 @@ impl Run<'_> {
         if failed.is_empty() { Vec::from_iter(uncertain()) } else { failed }
     }
 
-    /// Returns the folder for the successor of the passport at `path`.
     fn folder_for(&self, path: &Path, next: &Successor) -> Result<Arc<Folder>, Failure> {
         if let Some(folder) = &self.change.folder {
             return Ok(Arc::clone(folder));

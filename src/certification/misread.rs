@@ -76,7 +76,6 @@ impl Misread {
         }
     }
 
-    /// Returns what to do.
     pub(super) fn advice(&self) -> String {
         match self {
             Self::Smaller(_, unit) | Self::SmallerUnit(_, unit) => format!("Convert them from {unit} to arcseconds."),

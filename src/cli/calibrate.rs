@@ -177,7 +177,6 @@ struct Bench<'a> {
     administrative: AdministrativeFile,
 }
 
-/// Calibrated gyro.
 struct Found {
     /// Name of the file of currents, and the SHA-256 of its content.
     currents: (String, String),
@@ -343,7 +342,6 @@ impl Bench<'_> {
         self.gyro_type.as_ref().map(|gyro_type| gyro_type.r#type.as_str())
     }
 
-    /// Returns the report for paper.
     fn page(&self, found: &Found) -> Result<String, Failure> {
         let done = &found.done;
         let (name, sha256) = &found.currents;

@@ -18,7 +18,6 @@ use serde::Serialize;
 use std::ops::RangeBounds;
 use std::path::{Path, PathBuf};
 
-/// A header of a certification, in words.
 pub(super) const HEADER: &str = "a header (dtg-stand/1)";
 
 /// Reads the bytes of a document; `expected` says what it should be, for the message about a folder.

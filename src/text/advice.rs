@@ -6,6 +6,10 @@ use super::{Node, Path};
 
 const NOT_FINITE: &str = "use a finite number, because NaN and infinity are not measured values";
 
+const WITHOUT_QUOTES: &str = "write the number without quotes";
+
+const ASCII: &str = "use ASCII digits, a decimal point and an ASCII minus";
+
 /// Advice for a tolerance that is written as two limits, or with ±.
 const TOLERANCE: &str = "a tolerance is one number for both directions and both axes: state half the width of the interval, and \
                          its middle as the nominal value";
@@ -25,7 +29,7 @@ pub(super) fn on_yaml(node: &Node, at: &Path) -> &'static str {
         }
         Node::Text(text) if has_two_points(text) => "it has two points; use one decimal point",
         Node::Text(text) if is_number(unquoted(text)) && typographic_quote(text).is_some() => STRAIGHT_QUOTES,
-        Node::Text(text) if is_number(unquoted(text)) => "write the number without quotes",
+        Node::Text(text) if is_number(unquoted(text)) => WITHOUT_QUOTES,
         Node::Text(text) if text.contains(',') && text.chars().all(|c| c.is_ascii_digit() || "+-,. ".contains(c)) => {
             "use a decimal point"
         }
@@ -34,7 +38,7 @@ pub(super) fn on_yaml(node: &Node, at: &Path) -> &'static str {
         }
         Node::Text(text) if key.ends_with("_arcsec") && is_in_parts(text) => ARCSECONDS,
         Node::Text(text) if has_unit(text) => "write the number alone, in the unit that the key states",
-        Node::Text(text) if !text.is_ascii() => "use ASCII digits, a decimal point and an ASCII minus",
+        Node::Text(text) if !text.is_ascii() => ASCII,
         Node::Text(text) if text.parse::<f64>().is_ok() => NOT_FINITE,
         Node::Number(_) => NOT_FINITE,
         _ => "",
@@ -52,7 +56,7 @@ pub(super) fn on_cell(text: &str, column: &str) -> Option<&'static str> {
     } else if has_two_points(text) {
         Some("it has two points; use one decimal point")
     } else if unquoted(text) != text && is_number(unquoted(text)) {
-        Some("write the number without quotes")
+        Some(WITHOUT_QUOTES)
     } else if text.strip_prefix('(').and_then(|text| text.strip_suffix(')')).is_some_and(is_number) {
         Some("write a negative number with a minus, without parentheses")
     } else if is_number(&text.replace([',', ' ', '\u{A0}', '\u{202F}'], "")) {
@@ -62,7 +66,7 @@ pub(super) fn on_cell(text: &str, column: &str) -> Option<&'static str> {
     } else if has_unit(text) {
         Some("write the number alone, in the unit that the column name states")
     } else if text.chars().any(|c| c.is_ascii_digit()) && !text.is_ascii() {
-        Some("use ASCII digits, a decimal point and an ASCII minus")
+        Some(ASCII)
     } else {
         None
     }
@@ -169,10 +173,8 @@ mod tests {
     /// Expected: the one remedy for what a person wrote.
     #[test]
     fn the_advice_on_a_number_fits_what_was_written() {
-        const WITHOUT_QUOTES: &str = "write the number without quotes";
         const DECIMAL_DEGREES: &str = "write decimal degrees, such as 55.7658; south and west are negative";
         const WITHOUT_UNIT: &str = "write the number alone, in the unit that the key states";
-        const ASCII: &str = "use ASCII digits, a decimal point and an ASCII minus";
         for (written, key, due) in [
             ("55.45.56", "alpha_arcsec", "it has two points; use one decimal point"),
             ("\u{201C}1.5\u{201D}", "alpha_arcsec", STRAIGHT_QUOTES),
@@ -224,7 +226,6 @@ mod tests {
     /// Expected: the one remedy for what a person or a program wrote into a cell.
     #[test]
     fn the_advice_on_a_cell_fits_what_was_written() {
-        const ASCII: &str = "use ASCII digits, a decimal point and an ASCII minus";
         const WITHOUT_UNIT: &str = "write the number alone, in the unit that the column name states";
         const NO_THOUSANDS: &str = "use a decimal point, and no separators of thousands";
         for (written, column, due) in [
@@ -240,7 +241,7 @@ mod tests {
             ("1;2", "separate columns by commas"),
             ("1.2.3", "it has two points; use one decimal point"),
             ("(0.2)", "write a negative number with a minus, without parentheses"),
-            ("'1.5'", "write the number without quotes"),
+            ("'1.5'", WITHOUT_QUOTES),
             ("1,234.5", NO_THOUSANDS),
             ("-1\u{A0}234.5", NO_THOUSANDS),
             ("-0,2003", NO_THOUSANDS),
