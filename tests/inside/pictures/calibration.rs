@@ -5,7 +5,8 @@ use dtg_passport::calibration::Parameter;
 use dtg_passport::calibration::document::{CalibrationDocument, ResultDocument};
 use dtg_passport::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use dtg_passport::report::page::texts::units;
-use dtg_passport::report::picture::{convergence, residuals, tolerances};
+use dtg_passport::report::picture::tolerances::BESIDE_DECISIONS;
+use dtg_passport::report::picture::{convergence, residuals};
 use roxmltree::Document;
 
 /// A result as a file holds it, its numbers made up: two positions, and three steps that fall by 1000 and by 100.
@@ -74,8 +75,8 @@ fn row(
 /// The strips of a verdict, each as a document, and the axis below them.
 fn strips(parameters: Vec<ParameterVerdict>) -> (Vec<String>, String) {
     let verdict = Verdict { overall: Decision::Fail, gravity_m_per_s2: 9.8, parameters, withheld: false };
-    let each = verdict.parameters.iter().map(|row| whole(&[tolerances::of_parameter(&verdict, row)])).collect();
-    (each, whole(&[tolerances::axis(&english())]))
+    let each = verdict.parameters.iter().map(|row| whole(&[BESIDE_DECISIONS.of_parameter(&verdict, row)])).collect();
+    (each, whole(&[BESIDE_DECISIONS.axis(&english())]))
 }
 
 /// An interval of 128 tolerances to both sides, where the axis ends at one and a half: it has no ends there.
