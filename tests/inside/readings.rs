@@ -276,6 +276,21 @@ fn visits_and_cycles_that_cannot_be() {
     let rows: String = good(&setup).lines().skip(1).zip(0..).map(|(row, t)| format!("{row},{}\n", 100 - t)).collect();
     let error = read(&setup, &format!("i,j,jx_ma,jy_ma,time_s\n{rows}")).unwrap_err();
     assert!(error.contains("c.csv:3:") && error.contains("not before that of the row above, 100 s"), "{error}");
+    // Seconds of the day across midnight, and a clock set back by an hour: sorting the rows would turn a drift around.
+    let times = |time: fn(u32) -> u32| {
+        let rows =
+            good(&setup).lines().skip(1).zip(0..).map(|(row, at)| format!("{row},{}\n", time(at))).collect::<String>();
+        read(&setup, &format!("i,j,jx_ma,jy_ma,time_s\n{rows}")).unwrap_err()
+    };
+    let error = times(|at| (86_000 + 120 * at) % 86_400);
+    assert!(error.contains("c.csv:6:") && error.contains("at midnight: add 86400 s"), "{error}");
+    let error = times(|at| 10_000 + 120 * at - if at > 4 { 3600 } else { 0 });
+    assert!(error.contains("c.csv:7:") && error.contains("set back by an hour: add 3600 s"), "{error}");
+    let error = timed("1,1,0.1,0.2,1,2,86300\n1,1,0.1,0.2,1,3,40\n").unwrap_err();
+    assert!(
+        error.contains("c.csv:11:17") && error.contains("not before that of visit 2, 86300 s; the times seem"),
+        "{error}"
+    );
 
     let (first, other) = (PositionIndex { i: 1, j: 1 }, PositionIndex { i: 1, j: 2 });
     let exclusion =

@@ -48,6 +48,9 @@ impl Readings {
         range_ma: f64,
     ) -> Result<Self, Unreadable> {
         let table = Table::read(name, bytes, &COLUMNS, &OPTIONAL_COLUMNS)?;
+        if let Some(problem) = table.thousands(&["jx_ma", "jy_ma"]) {
+            return Err(table.refuse(vec![problem]));
+        }
         let [cycle, visit, time, ..] = OPTIONAL_COLUMNS.map(|column| table.place(column));
         let mut problems = Vec::new();
         let mut readings = Vec::new();
@@ -241,11 +244,38 @@ fn impossible_times(table: &Table, readings: &[Reading]) -> Vec<Problem> {
         }
         if reading.visit.is_none() && time_s < before {
             let expected = format!("a time not before that of the row above, {before} s");
-            return refuse(&expected, "sort the rows by time, or number the visits in the column visit");
+            return refuse(&expected, on_fall(before, time_s));
         }
         before = time_s;
     }
+    // Where visits are numbered, the rows may stand in any order.
+    let numbered =
+        |(reading, row): (&Reading, _)| Some(((reading.cycle, reading.index, reading.visit?), reading.time_s?, row));
+    let mut visits: Vec<_> = readings.iter().zip(&table.rows).filter_map(numbered).collect();
+    visits.sort_by_key(|(visit, ..)| *visit);
+    for pair in visits.windows(2) {
+        let [((cycle, index, one), before, _), ((of, at, other), time_s, row)] = pair else { continue };
+        if (cycle, index) == (of, at) && one < other && time_s < before {
+            let found = format!("{time_s} s for visit {other} of position {index}");
+            let expected = format!("a time not before that of visit {one}, {before} s");
+            return vec![table.problem(&row[column], column, found, &expected, on_fall(*before, *time_s))];
+        }
+    }
     Vec::new()
+}
+
+/// Returns the advice on a time, s, that is before an earlier one.
+fn on_fall(before_s: f64, time_s: f64) -> &'static str {
+    const DAY_S: f64 = 24.0 * SECONDS_PER_HOUR;
+    match before_s - time_s {
+        fall if before_s <= DAY_S && fall > 0.5 * DAY_S => {
+            "the times seem to begin anew at midnight: add 86400 s to them from there on"
+        }
+        fall if (0.5 * SECONDS_PER_HOUR..=SECONDS_PER_HOUR).contains(&fall) => {
+            "the clock seems to have been set back by an hour: add 3600 s to the times from there on"
+        }
+        _ => "sort the rows by time, or number the visits in the column visit",
+    }
 }
 
 /// Returns a problem if the times leave less than a second for each move to another position: spreadsheets count days, and
