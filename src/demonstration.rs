@@ -13,6 +13,7 @@ use crate::passport::reissue::{Order, successor};
 use crate::passport::{CheckName, Question, Trust, Verification, verify};
 use crate::report::columns::decimals;
 use crate::report::style::marked;
+use crate::report::verdict::counts;
 use crate::report::{Language, Languages, PassportPage};
 use crate::signing::allowed_signers_line;
 use crate::simulation::draw::CurrentError;
@@ -226,7 +227,7 @@ impl Stage<'_> {
             "8. The currents and the passport give its scale factors and drifts, with U (k = 2); the true ones are 95, \
              9.5, 20 and 10:",
         )?;
-        for parameters in Parameter::EIGHT.chunk_by(|a, b| a.unit() == b.unit()) {
+        for parameters in Parameter::AS_IN_THE_PAPER.chunk_by(|a, b| a.unit() == b.unit()) {
             let value = |p: &Parameter| {
                 let (value, expanded) = (found.value(*p)?, 2.0 * found.standard_uncertainty(*p)?);
                 let decimals = decimals(expanded);
@@ -256,9 +257,7 @@ impl Stage<'_> {
         let failed = answer.checks().iter().find(|check| check.passed() == Some(false));
         self.as_expected &= failed.map(|check| check.name) == expected;
         match failed {
-            None => {
-                self.line(&format!("   {}: all {} checks passed", marked(Some(true), "VALID"), answer.checks().len()))
-            }
+            None => self.line(&format!("   {}: {}", marked(Some(true), "VALID"), counts(answer.checks()))),
             Some(check) => {
                 self.line(&format!("   {}: {}: {}", marked(Some(false), "REFUSED"), check.name.as_str(), check.detail))
             }

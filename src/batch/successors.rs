@@ -67,7 +67,7 @@ enum Examined {
 }
 
 /// Remark on a predecessor for another site that is not superseded.
-const STAYS_IN_FORCE: &str = "stays in force beside the new passport; if the stand has left its site, use --moved, or \
+const STAYS_IN_FORCE: &str = "stays in force next to the new passport; if the stand has left its site, use --moved, or \
                               withdraw it with `revoke`";
 
 /// Successor of a passport, to be issued.

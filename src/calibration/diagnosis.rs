@@ -114,22 +114,27 @@ impl Hint {
 
 impl fmt::Display for Hint {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self.explanations.as_slice() {
-            [] => write!(
-                f,
-                "the readings do not fit, and no single position, no exchange or other numbering of positions and no \
-                 other azimuth of the frame's axis explains this; the passport may be that of another stand (all \
-                 positions differ by about {}″), or the gyro may have drifted, or the stand may have moved, during the run, \
-                 or the uncertainties of the meter in the laboratory file are too small",
+        let and = if self.explanations.is_empty() { ", and" } else { ";" };
+        write!(f, "the readings do not fit{and} {}", self.causes())
+    }
+}
+
+impl Hint {
+    /// Returns the possible causes as a sentence without a full stop.
+    pub(crate) fn causes(&self) -> String {
+        if self.explanations.is_empty() {
+            return format!(
+                "no single position, no exchange or other numbering of positions and no other azimuth of the frame's axis \
+                 explains this; the passport may be that of another stand (all positions differ by about {}″), or the gyro \
+                 may have drifted, or the stand may have moved, during the run, or the uncertainties of the meter in the \
+                 laboratory file are too small",
                 two_digits(self.size_arcsec)
-            ),
-            some => {
-                let mut causes: Vec<String> = some.iter().map(ToString::to_string).collect();
-                causes.extend(self.may_be_another_stand().then(|| "the passport is that of another stand".to_owned()));
-                let plural = if causes.len() > 1 { "s" } else { "" };
-                write!(f, "the readings do not fit; possible cause{plural}: {}", causes.join(", or "))
-            }
+            );
         }
+        let mut causes: Vec<String> = self.explanations.iter().map(ToString::to_string).collect();
+        causes.extend(self.may_be_another_stand().then(|| "the passport is that of another stand".to_owned()));
+        let plural = if causes.len() > 1 { "s" } else { "" };
+        format!("possible cause{plural}: {}", causes.join(", or "))
     }
 }
 

@@ -25,10 +25,16 @@ pub(crate) fn exact_currents_ma(setup: &Setup, gyro: &GyroParameters) -> Option<
 }
 
 /// Returns the parameter whose standard uncertainty suffers most from the positions that `readings` left out, with its
-/// ratio to that with all positions, each visited once.
+/// ratio to that with all positions, each visited once; `others` is the standard uncertainty that a parameter has
+/// besides, in any case.
 ///
 /// Returns `None` if none was left out, or the rest does not determine the parameters.
-pub(crate) fn cost_of_missing(setup: &Setup, readings: &Readings, gyro: &GyroParameters) -> Option<(Parameter, f64)> {
+pub(crate) fn cost_of_missing(
+    setup: &Setup,
+    readings: &Readings,
+    gyro: &GyroParameters,
+    others: impl Fn(Parameter) -> f64,
+) -> Option<(Parameter, f64)> {
     let rest = setup.of_readings(readings);
     if readings.left_out.is_empty() {
         return None;
@@ -36,7 +42,8 @@ pub(crate) fn cost_of_missing(setup: &Setup, readings: &Readings, gyro: &GyroPar
     let [all, rest] = [setup, &rest].map(|setup| predicted(setup, gyro, Method::LeastSquares));
     let (all, rest) = (all?, rest?);
     let ratio = |parameter: Parameter| {
-        Some((parameter, rest.standard_uncertainty(parameter)? / all.standard_uncertainty(parameter)?))
+        let [rest, all] = [&rest, &all].map(|result| result.standard_uncertainty(parameter));
+        Some((parameter, libm::hypot(rest?, others(parameter)) / libm::hypot(all?, others(parameter))))
     };
     Parameter::EIGHT.into_iter().filter_map(ratio).max_by(|(_, one), (_, other)| one.total_cmp(other))
 }

@@ -10,6 +10,7 @@ use super::least_squares::Fit;
 use super::offsets::{Differences, Offsets};
 use super::propagation::{Propagation, covariance, product, standard_deviations};
 use super::result::{Cycle, Drift, DriftTest, GMatrix, ModelTest};
+use super::scatter;
 use super::suspect;
 use super::unknowns::Unknowns;
 use super::{
@@ -67,6 +68,7 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
         digits,
         scatter: seen.visits,
         row_scatter: seen.rows,
+        row_correlation: scatter::row_correlation(readings),
         turn_on_scatter: seen.turn_ons,
         suspects,
         visit_noise: data.repeats.visit,

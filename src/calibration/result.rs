@@ -45,6 +45,8 @@ pub struct Calibration {
     pub scatter: Option<Scatter>,
     /// Scatter of the rows of each visit; `None` if every visit has one row.
     pub row_scatter: Option<RowScatter>,
+    /// Correlation of successive rows of a visit; `None` if chance explains it.
+    pub(crate) row_correlation: Option<f64>,
     /// Comparison of the turn-ons with what the gyro type states; `None` if there is one, or nothing is stated.
     pub turn_on_scatter: Option<Scatter>,
     /// Readings that differ from the others by more than chance explains: a row, a visit, or none.

@@ -127,7 +127,10 @@ fn of_common(certificate: &Certificate, on: ActsOn, common_arcsec: Option<f64>) 
 /// Temperature in the laboratory outside the range for which the deviations are certified, °C. Displayed, it is an
 /// English sentence without a full stop; `report` has the words of other languages.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error("the temperature in the laboratory is {here_c} °C; the deviations are certified from {low_c} to {high_c} °C")]
+#[error(
+    "the temperature in the laboratory is {here_c} °C; the deviations are certified from {low_c} to {high_c} °C, and no \
+     uncertainty includes the effect of this"
+)]
 pub(crate) struct TemperatureOutside {
     pub here_c: f64,
     pub low_c: f64,

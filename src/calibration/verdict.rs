@@ -96,6 +96,12 @@ impl ParameterVerdict {
         self.guarded == Decision::Undecided && within(least) && !within(most)
     }
 
+    /// Returns the ratio of the uncertainty to the present one if all of it that does not come from the local g had this ratio.
+    pub(crate) fn ratio_with_gravity(&self, ratio: f64) -> f64 {
+        let of_gravity = self.expanded_uncertainty_from_gravity.unwrap_or(0.0) / self.expanded_uncertainty;
+        libm::sqrt(ratio * ratio * (1.0 - of_gravity * of_gravity) + of_gravity * of_gravity)
+    }
+
     /// Returns `true` if more than half of the variance comes from the local g.
     pub(crate) fn is_mostly_from_gravity(&self) -> bool {
         let of_gravity = self.expanded_uncertainty_from_gravity.unwrap_or(0.0);
@@ -162,7 +168,7 @@ impl Found {
 
     /// Returns the standard uncertainty that the local g adds to a parameter on conversion to another g; 0 if it has no
     /// effect.
-    fn u_from_gravity(&self, parameter: Parameter) -> f64 {
+    pub(crate) fn u_from_gravity(&self, parameter: Parameter) -> f64 {
         let value = if PER_G.contains(&parameter) { self.parameters.to_vector()[parameter.place()] } else { 0.0 };
         value.abs() * self.gravity_u_m_per_s2 / self.gravity_m_per_s2
     }
@@ -231,10 +237,9 @@ pub(crate) fn change_in_uncertainties(found: &Found, earlier: &Found) -> [f64; 8
 
 impl Verdict {
     /// Returns the parameter whose uncertainty takes most of its tolerance.
-    pub(crate) fn least_certain(&self) -> Option<Parameter> {
+    pub(crate) fn least_certain(&self) -> Option<&ParameterVerdict> {
         let share = |line: &&ParameterVerdict| line.expanded_uncertainty / line.tolerance;
-        let worst = self.parameters.iter().max_by(|one, other| share(one).total_cmp(&share(other)));
-        worst.map(|row| row.parameter)
+        self.parameters.iter().max_by(|one, other| share(one).total_cmp(&share(other)))
     }
 
     /// Returns the parameters with a tolerance that were not found, because the general model does not have them.
@@ -247,6 +252,15 @@ impl Verdict {
     pub(crate) fn too_uncertain(&self) -> Vec<Parameter> {
         let is_too_uncertain = |row: &&ParameterVerdict| row.expanded_uncertainty > row.tolerance;
         self.parameters.iter().filter(is_too_uncertain).map(|row| row.parameter).collect()
+    }
+
+    /// Returns the parameters that fail and would pass with the other sign: the type may count them in the other direction.
+    pub(crate) fn opposite(&self) -> Vec<Parameter> {
+        let is_opposite = |row: &&ParameterVerdict| {
+            let (difference, sum) = (row.value - row.reference_value, row.value + row.reference_value);
+            row.guarded == Decision::Fail && (row.deviation * sum / difference).abs() <= row.tolerance
+        };
+        self.parameters.iter().filter(is_opposite).map(|row| row.parameter).collect()
     }
 
     /// Returns the worse of the decisions of this verdict and on a change since an earlier result.

@@ -43,8 +43,8 @@ pub(crate) enum Finding {
     RotatedSlightly,
     RotatedRuns(RotatedRuns),
     SplitRun(SplitRun),
-    /// Outlier among the readings of the check, and its part in the mean of the position, arcsec.
-    Outlier(Outlier, f64),
+    /// Outlier among the readings of the check, its part in the mean of the position, and the uncertainty of the change, arcsec.
+    Outlier(Outlier, f64, f64),
     NotTested(Untested),
     /// Angles without uncertainty in the certificate.
     TreatedAsExact,
@@ -106,8 +106,8 @@ impl Finding {
                 fill(text, values! { run, after, axes: at.axis.names(), x, y, z, of_x, of_y, of_z })
             }
             Self::SplitRun(at) => at.filled(texts::CHECK_SPLIT, language),
-            Self::Outlier(out, mean) => {
-                let [residual, mean] = [out.residual_arcsec, *mean].map(arcsec);
+            Self::Outlier(out, mean, u) => {
+                let (residual, mean) = (arcsec(out.residual_arcsec), Number::measured(*mean, *u));
                 let (index, run, axis) = (&out.index, &out.run, AXES[out.axis]);
                 fill(texts::CHECK_OUTLIER, values! { index, run, residual, axis, mean })
             }
@@ -138,7 +138,7 @@ impl Finding {
         let advice = match self {
             Self::RotatedRuns(RotatedRuns { pattern: Pattern::One(run), .. }) => return Some(without(*run)),
             Self::SplitRun(at) => return Some(without(at.run)),
-            Self::Outlier(Outlier { index, run, .. }, _) => {
+            Self::Outlier(Outlier { index, run, .. }, ..) => {
                 let of_reading = format!("{},{},{run}", index.i, index.j);
                 let words = "Measure the run again, or exclude the reading with --exclude";
                 return Some(format!("{words} {of_reading} and --why."));
@@ -201,7 +201,7 @@ impl Finding {
         if let Self::Exchanged(pair) = self {
             return pair.contains(&at.index);
         }
-        let Self::Outlier(out, mean) = self else { return false };
+        let Self::Outlier(out, mean, _) = self else { return false };
         let part = |axis: usize| if axis == out.axis { *mean } else { 0.0 };
         out.index == at.index && (0..3).all(|axis| (at.turn_arcsec[axis] - part(axis)).abs() <= 3.0 * at.u_arcsec[axis])
     }
@@ -228,7 +228,7 @@ pub(super) fn findings(
     } else if findings.is_empty() && all.probability < STRAGGLER {
         findings.push(Finding::Slightly);
     }
-    let suspect: Vec<Finding> = again.map_or_else(Vec::new, suspect);
+    let suspect: Vec<Finding> = again.map_or_else(Vec::new, |again| suspect(again, positions));
     let explained = |at: &ComparedPosition| suspect.iter().chain(&misplaced).any(|found| found.explains(at));
     findings.retain(|found| !matches!(found, Finding::Changed(at) if explained(at)));
     // A run that changed within itself changes all positions of the check.
@@ -251,10 +251,11 @@ pub(super) fn findings(
 }
 
 /// Returns what is suspect in the readings of a check itself.
-fn suspect(check: &Certification) -> Vec<Finding> {
+fn suspect(check: &Certification, positions: &[ComparedPosition]) -> Vec<Finding> {
     let runs = check.runs.len() as f64;
     let outliers = check.suspects.outliers.iter().filter(|out| out.probability < OUTLIER);
-    let outliers = outliers.map(|out| Finding::Outlier(*out, out.residual_arcsec / runs));
+    let u = |out: &Outlier| positions.iter().find(|at| at.index == out.index).map_or(0.0, |at| at.u_arcsec[out.axis]);
+    let outliers = outliers.map(|out| Finding::Outlier(*out, out.residual_arcsec / runs, u(out)));
     let split = check.suspects.split.into_iter().map(Finding::SplitRun);
     split.chain(check.rotated_runs.iter().copied().map(Finding::RotatedRuns)).chain(outliers).collect()
 }

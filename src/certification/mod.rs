@@ -185,7 +185,11 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     let mut rotated_runs = rotated_runs::bumped(readings, &components, &suspects.outliers);
     // A run that changed within itself is also rotated on average.
     rotated_runs.retain(|at| suspects.split.is_none_or(|split| at.run() != Some(split.run)));
-    let unequal_axes = unequal_axes::find(readings, &components, &suspects.outliers, &rotated_runs);
+    // A suspect reading enlarges the scatter that would have to be subtracted from the variation of the runs.
+    let unequal_axes = match suspects.outliers.is_empty() {
+        true => unequal_axes::find(readings, &components, &rotated_runs),
+        false => Vec::new(),
+    };
     let mut remarks: Vec<Remark> = rotated_runs.iter().copied().map(Remark::RotatedRuns).collect();
     // A shared setting may be the cause of what follows.
     remarks.extend(shared_settings.iter().copied().map(Remark::SharedSetting));

@@ -169,7 +169,7 @@ pub(super) fn left_squares(mut turns: Vec<Turn>, rotated: &[RotatedRuns]) -> ([f
     (std::array::from_fn(|axis| rest(axis).max(0.0)), turns.len() - 1 - fits.len())
 }
 
-fn turns(components: &Components) -> Vec<Turn> {
+pub(super) fn turns(components: &Components) -> Vec<Turn> {
     let six = |turn: &RunTurn| {
         let ([x, y, z], [east, north, up]) = (turn.platform_arcsec, turn.base_arcsec);
         (turn.run, [x, y, z, east, north, up])

@@ -2,8 +2,8 @@
 
 use super::AngleReadings;
 use super::components::Components;
-use super::rotated_runs::{CommonAxis, RotatedRuns, left_squares, without};
-use super::suspects::{OUTLIER, Outlier};
+use super::rotated_runs::{CommonAxis, RotatedRuns, left_squares, turns};
+use super::suspects::OUTLIER;
 use crate::calibration::recorded::rounding_of;
 use crate::statistics::outlier::cochran_probability;
 use crate::statistics::student::student_factor;
@@ -28,14 +28,9 @@ pub(crate) struct UnequalAxis {
 
 /// Returns the axes about which the runs, without what is named in `rotated`, rotate more than about the other two: the
 /// common parts are pooled from three axes, and too small about such an axis (Cochran's test).
-pub(crate) fn find(
-    readings: &AngleReadings,
-    components: &Components,
-    outliers: &[Outlier],
-    rotated: &[RotatedRuns],
-) -> Vec<UnequalAxis> {
+pub(crate) fn find(readings: &AngleReadings, components: &Components, rotated: &[RotatedRuns]) -> Vec<UnequalAxis> {
     let model = &components.model;
-    let (squares, degrees_of_freedom) = left_squares(without(components, outliers), rotated);
+    let (squares, degrees_of_freedom) = left_squares(turns(components), rotated);
     let changes = degrees_of_freedom as f64;
     // The variance of a single axis has few degrees of freedom, and those of the common parts are not in the file.
     let widened = student_factor(0.05, changes) / student_factor(0.05, f64::INFINITY);

@@ -14,7 +14,7 @@ use crate::report::issued::{Form, Report, Reports, Told, failure};
 use crate::text::{LARGEST_DOCUMENT_BYTES, shown};
 use crate::trust::{AllowedSigners, NotAuthorised, PublicKey};
 use clap::Args;
-use indicatif::ProgressBar;
+use indicatif::{ProgressBar, ProgressDrawTarget};
 use jiff::Timestamp;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -134,14 +134,20 @@ struct Reporter {
 
 impl Reporter {
     fn new(form: Form, cancel: Arc<AtomicBool>) -> Result<Self, Failure> {
-        let bar = long_run::bar(0, "{wide_bar} {human_pos} of {human_len} passports, {per_sec}, {eta} left")?;
+        let bar = long_run::bar(0, "passports")?;
+        bar.set_draw_target(ProgressDrawTarget::hidden());
         let out = if form == Form::Text { output::text } else { output::result };
         Ok(Self { reports: Reports::new(form), told: Told::default(), bar, code: 0, cancel, unwritten: None, out })
     }
 
     fn hear(&mut self, event: Event) {
         match event {
-            Event::Planned(more) => self.bar.inc_length(more),
+            Event::Planned(more) => {
+                if self.bar.is_hidden() {
+                    self.bar.set_draw_target(ProgressDrawTarget::stderr());
+                }
+                self.bar.inc_length(more);
+            }
             Event::Lost(less) => self.bar.dec_length(less),
             Event::Remark { file, words } => self.told.add(&file, words),
             Event::Done(outcome) => {

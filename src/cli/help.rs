@@ -9,7 +9,7 @@ use std::sync::LazyLock;
 
 const EXIT_CODES: &str = "\
 Exit codes:
-  0  done, or the document is good
+  0  done, or the document is valid
   1  a document or a result is refused
   2  wrong usage, or a file that cannot be read as what it should be";
 

@@ -2,7 +2,8 @@
 
 use super::{Failure, output};
 use crate::interface::Failed;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
+use std::fmt::Write;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -14,10 +15,17 @@ pub(super) fn cancelled_by_ctrl_c() -> Result<Arc<AtomicBool>, Failure> {
     Ok(cancel)
 }
 
-/// Returns a bar on standard error; it is drawn only on a terminal.
-pub(super) fn bar(length: u64, template: &str) -> Result<ProgressBar, Failure> {
+/// Returns a bar on standard error for a number of `what`; it is drawn only on a terminal.
+pub(super) fn bar(length: u64, what: &str) -> Result<ProgressBar, Failure> {
     let bar = ProgressBar::new(length);
-    bar.set_style(ProgressStyle::with_template(template).map_err(Failure::unusable)?);
+    let style = ProgressStyle::with_template(&format!("{{wide_bar}} {{human_pos}} of {{human_len}} {what}{{left}}"));
+    // Before the first is done, nothing is known of the time.
+    let left = |state: &ProgressState, out: &mut dyn Write| {
+        if state.pos() > 0 {
+            let _ = write!(out, ", {:#} left", HumanDuration(state.eta()));
+        }
+    };
+    bar.set_style(style.map_err(Failure::unusable)?.with_key("left", left));
     Ok(bar)
 }
 
@@ -27,7 +35,7 @@ pub(super) fn trials<T>(
     run: impl FnOnce(&AtomicBool, &ProgressBar) -> Result<T, Failed>,
 ) -> Result<T, Failure> {
     let cancel = cancelled_by_ctrl_c()?;
-    let bar = bar(length, "{wide_bar} {human_pos} of {human_len} trials, {eta} left")?;
+    let bar = bar(length, "trials")?;
     let found = run(&cancel, &bar);
     bar.finish_and_clear();
     let found = found?;

@@ -7,6 +7,7 @@ use crate::files::{self, Access};
 use crate::folder::Folder;
 use crate::folder::search::{self, NoNewestList};
 use crate::passport::verify;
+use crate::report::style;
 use crate::text::scalar::latin;
 use crate::text::{Kind, Printable, name_of, shown};
 use clap::Args;
@@ -64,7 +65,10 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     files::write_new(&path, text.as_bytes(), Access::Shared)?;
     options.format.write(
         || json!({ "file": name_of(&path), "sequence": list.sequence, "revoked": ids, "passports": count }),
-        || format!("revoked    passports in all: {count}  {}\n", shown(&path)),
+        || {
+            let withdrawn = style::marked(Some(true), "withdrawn");
+            format!("{withdrawn}  {}  {} (passports in all: {count})\n", ids.join(", "), shown(&path))
+        },
     )?;
     Ok(0)
 }

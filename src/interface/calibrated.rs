@@ -238,10 +238,15 @@ impl<'a> Prepared<'a> {
         document.verdict = gyro_type.and_then(|gyro_type| document.judged(gyro_type));
         document.change = last.zip(gyro_type).and_then(|(earlier, gyro_type)| document.changed(earlier, gyro_type));
         let earlier = last.and_then(|earlier| Some((earlier.answer()?, document.no_change(earlier))));
-        let cost_of_missing = cost_of_missing(&setup, &readings, &found.parameters);
-        let further = document.verdict.as_ref().and_then(Verdict::least_certain).and_then(|parameter| {
+        // With a type, the drifts are stated at its g: the local g is in their uncertainties.
+        let of_gravity = |parameter| if document.verdict.is_some() { found.u_from_gravity(parameter) } else { 0.0 };
+        let cost_of_missing = cost_of_missing(&setup, &readings, &found.parameters, of_gravity);
+        let least_certain =
+            document.verdict.as_ref().filter(|verdict| !verdict.withheld).and_then(Verdict::least_certain);
+        let further = least_certain.and_then(|row| {
             let result = (&calibration, &found.parameters);
-            Some((parameter, best_further_visit(&setup, &readings, result, (parameter, options))?))
+            let visit = best_further_visit(&setup, &readings, result, (row.parameter, options))?;
+            Some((row.parameter, FurtherVisit { ratio: row.ratio_with_gravity(visit.ratio), ..visit }))
         });
         let without_height = content.site.is_gravity_without_height();
         Ok(Done {

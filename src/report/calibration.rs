@@ -1,6 +1,6 @@
 //! Result of a calibration as text: the decision, the parameters and the fit come first, the evidence below.
 
-use super::scatter::{Weight, scatter};
+use super::scatter::{Weight, correlated, scatter};
 use super::tolerance::{coverage_factor, decided, from_gravity, headline, verdict_table};
 use super::uncertainty::not_linear;
 use crate::calibration::diagnosis::INCONSISTENT;
@@ -12,8 +12,9 @@ use crate::calibration::verdict::{BEYOND, change_in_uncertainties};
 use crate::calibration::{Calibration, MethodResult, Mistake, NotStated, Parameter, Readings, Verdict};
 use crate::interface::calibrated::Done;
 use crate::report::page::calibration::why_no_change;
-use crate::report::page::language::{Language, values};
+use crate::report::page::language::{Language, capital, values};
 use crate::report::page::texts::calibration as texts;
+use crate::report::picture::tolerances::unit_at_type;
 use crate::report::{columns, mistake, recorded};
 use crate::text::printable;
 use crate::uncertainty::MonteCarlo;
@@ -54,15 +55,12 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
         verdict.map(|(_, verdict)| verdict.gravity_m_per_s2).filter(|of_type| *of_type != document.gravity_m_per_s2);
     let refer_to = of_type.map_or_else(
         || format!("local g, {gravity}"),
-        |of_type| format!("the g of the type, {of_type} m/s²; local g: {gravity}"),
+        |of_type| format!("the g of the type, g₀ = {of_type} m/s²; local g: {gravity}"),
     );
     let words = format!("g-sensitive drifts refer to {refer_to}. u: standard uncertainty (k = 1).");
     columns::paragraph(&mut out, "", &words);
     left_out(&mut out, readings, done.cost_of_missing);
     parameters(&mut out, calibration, verdict.map(|(_, verdict)| verdict));
-    if let Some(answer) = calibration.answer() {
-        beyond_the_paper(&mut out, answer);
-    }
     fit(&mut out, calibration, &done.missing);
     if meter_assumed {
         columns::paragraph(&mut out, "", texts::METER_ASSUMED.of(Language::English));
@@ -72,7 +70,7 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
     if let Some((name, verdict)) = verdict {
         let words = format!(
             "Comparison with gyro type {name}; deviation and U in the unit of the tolerance; U = k u, k = {}; coverage \
-             probability {:.2} %; g-sensitive drifts refer to the g of the type, {} m/s²:",
+             probability {:.2} %; g-sensitive drifts refer to the g of the type, g₀ = {} m/s²:",
             coverage_factor(verdict.parameters.iter().map(|row| row.coverage_factor), Language::English),
             100.0 * (1.0 - BEYOND),
             verdict.gravity_m_per_s2
@@ -88,19 +86,19 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
         gravity.iter().chain(&turn_ons).for_each(|words| columns::paragraph(&mut out, "  ", words));
     }
     if let Some((parameter, FurtherVisit { index, ratio })) = done.further {
-        let (symbol, percent) = (parameter.symbol(), 100.0 * (1.0 - ratio));
+        let percent = 100.0 * (1.0 - ratio);
         let effect = match percent < LEAST_EFFECT_PERCENT {
             true => format!("No single further visit would reduce it by {LEAST_EFFECT_PERCENT} %."),
             false => format!("A further visit to position {index} would reduce it most, by {percent:.0} %."),
         };
-        let share = verdict
-            .and_then(|(_, verdict)| verdict.parameter(parameter))
-            .map(|row| 100.0 * row.expanded_uncertainty / row.tolerance);
-        let of_tolerance =
-            share.map_or_else(String::new, |share| format!(": U is {} % of it", columns::two_digits(share)));
-        let words =
-            format!("Of all parameters {symbol} is the least certain for its tolerance{of_tolerance}. {effect}");
-        columns::paragraph(&mut out, "  ", &words);
+        let row = verdict.and_then(|(_, verdict)| verdict.parameter(parameter));
+        let share = row.map_or(f64::NAN, |row| 100.0 * row.expanded_uncertainty / row.tolerance);
+        let (symbol, share) = (parameter.symbol(), columns::two_digits(share));
+        columns::paragraph(
+            &mut out,
+            "  ",
+            &format!("Largest U relative to its tolerance: {symbol}, {share} %. {effect}"),
+        );
     }
     change(&mut out, done);
     let _ = writeln!(out);
@@ -126,8 +124,9 @@ pub(crate) fn warnings(Done { calibration, document, .. }: &Done, trials: Option
 
 /// Returns what makes the parameters unusable: readings that do not fit, or those of another gyro.
 fn unusable(calibration: &Calibration, mistake: Option<&Mistake>) -> impl Iterator<Item = String> {
-    let inconsistent = calibration.hint.iter().map(|hint| format!("{INCONSISTENT}: {hint}."));
-    inconsistent.chain(mistake.map(|mistake| mistake::words(mistake, Language::English)))
+    let inconsistent = calibration.hint.iter().map(|hint| format!("{INCONSISTENT}. {}.", capital(&hint.causes())));
+    let correlated = calibration.hint.as_ref().and_then(|_| correlated(calibration));
+    inconsistent.chain(correlated).chain(mistake.map(|mistake| mistake::words(mistake, Language::English)))
 }
 
 /// Returns what a program should show with the parameters, a sentence each: what makes them unusable, what the readings
@@ -198,12 +197,14 @@ fn parameters(out: &mut String, calibration: &Calibration, verdict: Option<&Verd
     names.extend(verdict.map(|_| "decision"));
     let rows = in_paper_order(answer).into_iter().filter_map(|parameter| {
         let judged = verdict.and_then(|verdict| Some((verdict, verdict.parameter(parameter)?)));
-        let (value, u) = match judged {
-            Some((_, at)) => (at.value, at.standard_uncertainty),
-            None => (answer.value(parameter)?, answer.standard_uncertainty(parameter)?),
+        let (value, u, unit) = match judged {
+            Some((_, at)) => {
+                (at.value, at.standard_uncertainty, unit_at_type(parameter).of(Language::English).to_owned())
+            }
+            None => (answer.value(parameter)?, answer.standard_uncertainty(parameter)?, printed(parameter.unit())),
         };
         let digits = columns::decimals(u);
-        let mut row = vec![parameter.symbol().to_owned(), printed(parameter.unit())];
+        let mut row = vec![parameter.symbol().to_owned(), unit];
         row.extend([format!("{value:.digits$}"), format!("{u:.digits$}")]);
         row.extend(judged.map(|(verdict, at)| decided(verdict.decision(at))));
         Some(row)
@@ -314,6 +315,10 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
         let _ = writeln!(out);
         columns::paragraph(out, "", UNTESTED);
     }
+    if is_too_small(calibration) {
+        columns::paragraph(out, "  ", texts::TOO_SMALL.of(Language::English));
+    }
+    beyond_the_paper(out, answer);
     for words in calibration.digits.iter().flat_map(|digits| recorded::words(digits, Language::English)) {
         columns::paragraph(out, "  ", &words);
     }
@@ -328,6 +333,11 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
         let words = format!("Not stated, or stated as 0, and not included in any u: {}.", missing.join("; "));
         columns::paragraph(out, "", &words);
     }
+}
+
+/// Returns `true` if the readings agree more closely than the uncertainties explain, and their digits do not explain it.
+pub(crate) fn is_too_small(calibration: &Calibration) -> bool {
+    calibration.digits.is_none() && calibration.answer().is_some_and(|answer| answer.chi_square.is_too_small())
 }
 
 fn chi_square(out: &mut String, answer: &MethodResult) {

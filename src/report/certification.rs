@@ -253,11 +253,17 @@ fn word(outcome: Outcome) -> &'static str {
     }
 }
 
+/// Returns the result of a comparison with the last certificate, in a word.
+pub(super) fn answer(found: &Comparison) -> (Outcome, &'static str) {
+    let outcome = outcome_of(found, found.same_stand);
+    (outcome, word(outcome))
+}
+
 /// Returns a check run as text.
 pub(crate) fn comparison(found: &Comparison) -> String {
     let mut out = String::new();
-    let outcome = outcome_of(found, found.same_stand);
-    let answer = style::marked(outcome, &word(outcome).to_uppercase());
+    let (outcome, answer) = answer(found);
+    let answer = style::marked(outcome, &answer.to_uppercase());
     let runs = if found.runs == 1 { "run" } else { "runs" };
     let _ = writeln!(out, "{answer}  check against certificate {}, {} {runs}", found.certificate, found.runs);
     for words in &found.findings {
@@ -302,7 +308,7 @@ pub(crate) fn comparison(found: &Comparison) -> String {
     let judged = found.common.test.as_ref().map_or_else(|| "not tested".to_owned(), line);
     let turns = |of| plain(&together(of).map(|turn| turn.text(Language::English) + "″").join(", "));
     let words = format!(
-        "Common rotation: platform {} about x, y, z, base {} about east, north, up; {judged}",
+        "Common rotation of the platform about x, y, z: {}; of the base about east, north, up: {}; {judged}",
         turns(found.common.platform_arcsec),
         turns(found.common.base_arcsec)
     );

@@ -61,7 +61,7 @@ pub(crate) fn fitted(text: &str, columns: usize) -> String {
         if indent + shown <= columns || words.starts_with(COMMAND) {
             out.push_str(line);
             out.push('\n');
-        } else if HANG + shown <= columns && at == indent {
+        } else if HANG + shown <= columns && at == indent && !words.contains(' ') {
             let _ = writeln!(out, "{:HANG$}{words}", "");
         } else {
             out.push_str(&line[..at]);
@@ -125,14 +125,23 @@ fn wrapped(out: &mut String, mut column: usize, indent: usize, words: &str, colu
     out.push('\n');
 }
 
-/// Splits a text into words; a unit belongs to the word of its number, and a sign of equality to both its sides.
+/// Splits a text into words; a unit belongs to the word of its number, signs of equality and of uncertainty to both their
+/// sides, a symbol to its number, and a mark to what it marks.
 fn unbroken(text: &str) -> Vec<String> {
     const UNITS: [&str; 9] = ["%", "arcsec", "deg", "°/h", "mA", "µA", "m", "m/s2", "m/s²"];
     let mut words: Vec<String> = Vec::new();
     for word in text.split(' ') {
         let is_unit = UNITS.contains(&word.trim_end_matches([',', ';', '.', ':', ')'])) || word.starts_with("°/(");
-        let belongs =
-            |last: &str| word == "=" || last.ends_with('=') || is_unit && last.ends_with(|c: char| c.is_numeric());
+        let is_number = word.starts_with(|c: char| c.is_ascii_digit() || "+-".contains(c));
+        let belongs = |last: &str| {
+            let plain = style::plain(last);
+            let before = plain.rsplit([' ', '(']).next().unwrap_or_default();
+            let is_symbol = before == "u" || before.starts_with("K_") || before.starts_with("ω_");
+            matches!(word, "=" | "±")
+                || before.ends_with(['=', '±', '●', '◐', '✕', '○'])
+                || is_unit && before.ends_with(|c: char| c.is_numeric())
+                || is_symbol && is_number
+        };
         match words.last_mut().filter(|last| belongs(last)) {
             Some(last) => *last += &format!(" {word}"),
             None => words.push(word.to_owned()),

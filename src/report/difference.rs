@@ -96,7 +96,7 @@ pub(crate) fn numbers(out: &mut String, numbers: &[NumberDifference]) {
             plain(at.b),
             signed(difference),
             at.standard_uncertainty.map_or_else(String::new, |u| format!("{u:.decimals$}")),
-            at.ratio().map_or_else(String::new, |ratio| format!("{ratio:+.1}")),
+            at.ratio().map_or_else(String::new, |ratio| columns::signed(ratio, 1)),
         ]
     });
     columns::table(out, &["", "A", "B", "B - A", "u", "(B-A)/u"], rows);

@@ -5,6 +5,7 @@ use crate::calibration::document::finite;
 use crate::history::drift::{DRIFTS, Drift, Jump, SUSPECTED, Series};
 use crate::history::{History, PastCertificate, PastPassport};
 use crate::report::page::language::capital;
+use crate::report::style::Outcome;
 use crate::report::{columns, style};
 use crate::text::printable;
 use serde_json::{Value, json};
@@ -114,7 +115,7 @@ fn relative(drift: &Drift, angles: [&str; 3], series: &Series) -> String {
 fn jumped(drift: &Drift, angles: [&str; 3], series: &Series, jump: &Jump) -> String {
     let [from, to] = &jump.certificates;
     format!(
-        "the stand has jumped: {} of {} deviations are not on a straight line and have no rate of drift; most significant \
+        "the stand has jumped: {} of {} deviations are not on a straight line and have no rate of drift; the most significant \
          is {} of position {}, {} between certificates {from} and {to}, chi-square of the line {:.1} with {} degrees of \
          freedom, probability {}, corrected for {} tests",
         drift.jumps().count(),
@@ -146,15 +147,15 @@ fn of_lines(drift: &Drift, angles: [&str; 3]) -> String {
     if let Some((change, u)) = between_two.filter(|_| probability < DRIFTS) {
         let change = measured(change, "″", u);
         format!(
-            "the stand has changed: {drifting} of {tested} deviations; most significant is {name}, {change}, {by}; two \
+            "the stand has changed: {drifting} of {tested} deviations; the most significant is {name}, {change}, {by}; two \
              certificates do not show whether this is a drift or a jump"
         )
     } else if probability < DRIFTS {
-        format!("the stand drifts: {drifting} of {tested} deviations; most significant is {name}, {slope}, {by}")
+        format!("the stand drifts: {drifting} of {tested} deviations; the most significant is {name}, {slope}, {by}")
     } else if probability < SUSPECTED {
         format!("a drift is suspected: {name}, {slope}, {by}; certify the stand again earlier than planned")
     } else {
-        format!("no drift was found: most significant is {name}, {slope}, {by}")
+        format!("no drift was found: the most significant is {name}, {slope}, {by}")
     }
 }
 
@@ -168,7 +169,9 @@ pub(crate) fn text(history: &History) -> String {
         (history.withdrawals.len(), "withdrawal"),
     ];
     let counts = counts.map(|(count, what)| format!("{count} {what}{}", if count == 1 { "" } else { "s" }));
-    let _ = writeln!(out, "{}: {}\n", style::heading(&history.stand), counts.join(", "));
+    let answer = answer(&history.drift);
+    let _ = writeln!(out, "{answer}  {}: {}", style::heading(&history.stand), counts.join(", "));
+    columns::paragraph(&mut out, "  ", &format!("{}.\n", capital(&sentence(&history.drift, ANGLE_SYMBOLS))));
     for (when, what, words) in time_line(history) {
         columns::named(&mut out, &format!("{when}  {what}"), 25, &printable(words));
     }
@@ -183,6 +186,18 @@ pub(crate) fn text(history: &History) -> String {
         columns::paragraph(&mut out, "", &printable(format!("Remark: {remark}.")));
     }
     out
+}
+
+/// Returns the result of the test for drift in a word.
+fn answer(drift: &Drift) -> String {
+    let least = drift.most_significant().and_then(|worst| worst.corrected_probability);
+    let (outcome, word) = match drift.drifts() {
+        None => (Outcome::NotAsked, "NOT TESTED"),
+        Some(true) => (Outcome::Failed, "CHANGED"),
+        Some(false) if least.is_some_and(|p| p < SUSPECTED) => (Outcome::Undecided, "SUSPECTED"),
+        Some(false) => (Outcome::Passed, "NO DRIFT"),
+    };
+    style::marked(outcome, word)
 }
 
 /// Returns the date of an instant, in UTC.
@@ -236,8 +251,8 @@ fn issued_words(passport: &PastPassport) -> String {
 
 /// Returns the row of a tested deviation, or `None` if it was not tested. One that has jumped has no rate.
 fn row(series: &Series) -> Option<Vec<String>> {
-    let (u, rest) = match (&series.jump, &series.line) {
-        (Some(jump), _) => (jump.u_arcsec, ["-", "-", "-", "-", "JUMP"].map(str::to_owned)),
+    let rest = match (&series.jump, &series.line) {
+        (Some(_), _) => ["-", "-", "-", "-", "JUMP"].map(str::to_owned),
         (None, Some(line)) => {
             let decimals = columns::decimals(line.u_slope);
             let p = series.corrected_probability?;
@@ -248,24 +263,23 @@ fn row(series: &Series) -> Option<Vec<String>> {
             } else {
                 ""
             };
-            let rest = [
+            [
                 columns::signed(line.slope, decimals),
                 format!("{:.decimals$}", line.u_slope),
                 columns::probability(line.probability()),
                 columns::probability(p),
                 mark.to_owned(),
-            ];
-            (line.u_slope, rest)
+            ]
         }
         (None, None) => return None,
     };
-    let change = series.tested_values().next_back()?.arcsec - series.tested_values().next()?.arcsec;
+    let (change, u_of_change) = series.change()?;
     let mut row = vec![
         series.index.i.to_string(),
         series.index.j.to_string(),
         ANGLE_SYMBOLS[series.angle].to_owned(),
         series.tested_values().count().to_string(),
-        columns::signed(change, columns::decimals(u)),
+        columns::signed(change, columns::decimals(u_of_change)),
     ];
     row.extend(rest);
     Some(row)
@@ -278,7 +292,4 @@ fn drift(out: &mut String, drift: &Drift) {
         let names = ["i", "j", "angle", "values", "change, ″", "″/year", "u", "probability", "corrected", ""];
         columns::table(out, &names, rows);
     }
-    let sentence = sentence(drift, ANGLE_SYMBOLS);
-    let _ = writeln!(out);
-    columns::paragraph(out, "", &format!("{}.", capital(&sentence)));
 }

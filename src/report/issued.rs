@@ -183,6 +183,7 @@ impl Totals {
 
     fn summary(self) -> String {
         let Self { orders: [issued, unchanged, planned, skipped, refused], inputs } = self;
+        let mark = Some(refused == 0).filter(|passed| !passed || issued + unchanged > 0);
         let mut words = match planned {
             0 => format!("issued {}, unchanged {}", grouped(issued), grouped(unchanged)),
             planned => format!("planned {}, unchanged {}", grouped(planned), grouped(unchanged)),
@@ -194,7 +195,7 @@ impl Totals {
         if inputs > 0 {
             let _ = write!(words, " (inputs that cannot be used: {})", grouped(inputs));
         }
-        words + "\n"
+        style::marked(mark, &words) + "\n"
     }
 }
 
@@ -342,7 +343,7 @@ mod tests {
         }
         text += &reports.end();
         let due = "✕ refused    7  nothing was written\n✕ refused    1007  nothing was written\n\
-                   issued 1,998, unchanged 0, refused 2\n";
+                   ✕ issued 1,998, unchanged 0, refused 2\n";
         assert_eq!(style::plain(&text), due);
     }
 

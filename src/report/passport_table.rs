@@ -25,7 +25,7 @@ pub(crate) fn text(content: &Content, verification: Option<&Verification>) -> St
     }
     line(&mut out, "issued", format!("{} by {}", header.issued_at, header.issuer));
     option(&mut out, "program", header.issued_with.as_ref());
-    option(&mut out, "valid until", header.valid_until.as_ref());
+    option(&mut out, "valid until (inclusive)", header.valid_until.as_ref());
     if let Some(old) = &header.reissued_from {
         line(&mut out, "re-issued from", format!("{}, sha256 {}", old.id, old.sha256));
         line(&mut out, "reason", &old.reason);
@@ -73,16 +73,16 @@ fn stand(out: &mut String, content: &Content) {
     option(out, "accreditation", certificate.accreditation.as_ref());
     option(out, "received", certificate.received.as_ref());
     option(out, "performed", certificate.performed.as_ref());
-    option(out, "valid until", certificate.valid_until.as_ref());
+    option(out, "valid until (inclusive)", certificate.valid_until.as_ref());
     option(out, "basis of validity", certificate.valid_until_basis.as_ref());
     option(out, "method", certificate.method.as_ref());
     option(out, "traceability", certificate.traceability.as_ref());
     option(out, "temperature, °C", certificate.temperature_c);
-    option(out, "from, to, °C", certificate.temperature_range_c.map(|[low, high]| format!("{low}, {high}")));
+    option(out, "temperature range, °C", certificate.temperature_range_c.map(|[low, high]| format!("{low} to {high}")));
     option(out, "repeatability, ″", certificate.repeatability_arcsec);
-    option(out, "degrees of freedom", certificate.repeatability_degrees_of_freedom);
-    option(out, "common platform, ″", certificate.common_platform_arcsec);
-    option(out, "common base, ″", certificate.common_base_arcsec);
+    option(out, "its degrees of freedom", certificate.repeatability_degrees_of_freedom);
+    option(out, "common part, platform, ″", certificate.common_platform_arcsec);
+    option(out, "common part, base, ″", certificate.common_base_arcsec);
     for TypeB { source, acts_on, u_arcsec, degrees_of_freedom } in certificate.type_b.iter().flatten() {
         let known = degrees_of_freedom.map_or_else(String::new, |known| format!(" ({known} degrees of freedom)"));
         line(out, &format!("type B, {}, ″", acts_on.word()), format!("{u_arcsec}{known}: {source}"));
@@ -238,9 +238,9 @@ fn accuracy(out: &mut String, content: &Content) {
         let (u, unit, limit) = (us[parameter.place()], printed(parameter.unit()), gyro.tolerance.of(parameter));
         let percent = 100.0 * u / nominal[parameter.place()].abs();
         let in_percent = parameter.is_scale_factor() && percent.is_finite();
-        let percent = if in_percent { format!("{percent:.4}") } else { String::new() };
+        let percent = if in_percent { columns::two_digits(percent) } else { String::new() };
         let limit = format!("{limit} {}", if gyro.tolerance.is_in_percent(parameter) { "%" } else { &unit });
-        vec![parameter.symbol().to_owned(), format!("{u:.6} {unit}"), percent, limit]
+        vec![parameter.symbol().to_owned(), format!("{} {unit}", columns::two_digits(u)), percent, limit]
     });
     columns::table(out, &["", "u", "u, %", "tolerance"], rows);
 }

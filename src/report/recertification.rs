@@ -37,9 +37,22 @@ pub(crate) fn to_json(found: &Recertified, dry_run: bool) -> Value {
 
 /// Returns the result as text: the new certificate, the check against the old one, what has changed, and the passports.
 pub(crate) fn text(found: &Recertified, dry_run: bool) -> String {
-    let mut out = certification::certification(&found.certification);
+    let mut out = String::new();
+    let stand = &found.certification.stand;
+    let number = &stand.certificate.number;
+    let (outcome, answer) = certification::answer(&found.comparison);
+    let work = if dry_run { "PLANNED" } else { "RECERTIFIED" };
+    let _ = writeln!(
+        out,
+        "{}  {} {}: certificate {number}; check against certificate {}: {answer}; passports: {}\n",
+        style::marked(outcome, work),
+        stand.stand.model,
+        stand.stand.serial,
+        found.old_number,
+        reports(found).count()
+    );
+    out += &certification::certification(&found.certification);
     let _ = write!(out, "\n{}", certification::comparison(&found.comparison));
-    let number = &found.certification.stand.certificate.number;
     let heading = format!("Change of the deviations from certificate {} (A) to {number} (B), ″", found.old_number);
     let _ = writeln!(out, "\n{}", style::heading(&heading));
     difference::numbers(&mut out, &found.changes);

@@ -1,7 +1,8 @@
 //! Sentences on the scatter of the readings: rows of a visit, visits, turn-ons, and the noise and drift of the gyro.
 
 use super::columns;
-use super::page::language::Language;
+use super::page::Number;
+use super::page::language::{Language, values};
 use super::page::texts::calibration as texts;
 use crate::calibration::{Agreement, Calibration, NoiseSource, Scatter, Suspect};
 
@@ -34,6 +35,10 @@ pub(super) fn scatter(calibration: &Calibration) -> Vec<(Weight, String)> {
                 say(words, Weight::Usual);
             }
         }
+    }
+    // Of readings that do not fit it is said first.
+    if let Some(words) = correlated(calibration).filter(|_| calibration.hint.is_none()) {
+        say(words, Weight::Warning);
     }
     let of_visits =
         "if these readings were taken without leaving the position, give them the same number in the column visit";
@@ -85,6 +90,12 @@ pub(super) fn scatter(calibration: &Calibration) -> Vec<(Weight, String)> {
         say(words, Weight::Warning);
     }
     said
+}
+
+/// Returns the sentence on readings of a visit that are correlated; it may be why they do not fit.
+pub(super) fn correlated(calibration: &Calibration) -> Option<String> {
+    let r = Number::fixed(calibration.row_correlation?, 2);
+    Some(texts::ROWS_CORRELATED.filled(Language::English, values! { r }))
 }
 
 /// Returns the sentence on a reading that differs from the others.

@@ -3,12 +3,13 @@
 use super::page::Number;
 use super::page::language::{Language, Text, values};
 use super::page::texts::calibration as texts;
+use super::picture::tolerances::unit_of;
 use super::style::Outcome;
 use super::{columns, style};
 use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::calibration::{CalibrationDocument, Decision, Parameter, ParameterVerdict, Verdict};
 use crate::text::printable;
-use crate::units::{printed, quantity};
+use crate::units::quantity;
 use std::fmt::Write;
 
 /// Returns the outcome of a calibration in one word, padded to `width` and with its mark, and the reasons: which
@@ -26,26 +27,26 @@ pub(super) fn headline(document: &CalibrationDocument, gyro_type: Option<&str>, 
         }
         Some((name, verdict)) => {
             let worst = verdict.with_change(change);
-            let words = format!("gyro type {}: {}", printable(name), counted(verdict));
+            let words = format!("gyro type {}: {}", printable(name), counted(verdict, texts::PASSED));
             (worst.into(), word(Some(worst)).to_uppercase(), words)
         }
     };
     if let Some((name, _)) = judged.filter(|(_, verdict)| verdict.withheld) {
         words = format!("{words}. {}", texts::NO_STATEMENT.filled(Language::English, &[("type", &printable(name))]));
     } else if let Some(change) = change {
-        words = format!("{words}. {} {}", because(texts::CHANGE_COUNTED), counted(change));
+        words = format!("{words}. {}", counted(change, texts::CHANGE_PASSED));
     }
     [style::marked(outcome, &format!("{word:<width$}")), words]
 }
 
-/// Returns how many parameters pass by guarded acceptance, and which are undecided or fail.
-fn counted(verdict: &Verdict) -> String {
+/// Returns how many parameters pass by guarded acceptance, in the words of `passed`, and which are undecided or fail.
+fn counted(verdict: &Verdict, passed: Text) -> String {
     let of = |decision: Decision| -> Vec<&str> {
         let rows = verdict.parameters.iter().filter(|row| row.guarded == decision);
         rows.map(|row| row.parameter.symbol()).collect()
     };
-    let (passed, all) = (of(Decision::Pass).len(), Parameter::EIGHT.len());
-    let mut words = format!("{passed} of {all} parameters pass");
+    let counts = values! { passed: of(Decision::Pass).len(), all: Parameter::EIGHT.len() };
+    let mut words = passed.filled(Language::English, counts);
     for (what, which) in [("fail", of(Decision::Fail)), ("undecided", of(Decision::Undecided))] {
         if !which.is_empty() {
             let _ = write!(words, "; {what}: {}", which.join(", "));
@@ -105,7 +106,7 @@ pub(super) fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str
             format!("{:.places$}", row.value),
             columns::signed(row.deviation, digits),
             format!("{:.digits$}", row.expanded_uncertainty),
-            format!("{} {}", row.tolerance, printed(row.unit)),
+            format!("{} {}", row.tolerance, unit_of(row).of(Language::English)),
             simple,
             risk,
             decided(verdict.decision(row)),
@@ -124,6 +125,11 @@ pub(super) fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str
         let words = texts::TOO_UNCERTAIN.filled(Language::English, &[("names", &too_uncertain.join(", "))]);
         columns::paragraph(out, "  ", &words);
     }
+    let opposite: Vec<&str> = verdict.opposite().into_iter().map(Parameter::symbol).collect();
+    if !opposite.is_empty() && !verdict.withheld {
+        let words = texts::OPPOSITE.filled(Language::English, &[("names", &opposite.join(", "))]);
+        columns::paragraph(out, "  ", &words);
+    }
     if let Some(not_found) = not_found(verdict) {
         columns::paragraph(out, "  ", &format!("{not_found}."));
     }
@@ -133,7 +139,7 @@ pub(super) fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str
 pub(super) fn from_gravity(verdict: &Verdict, u_m_per_s2: f64, without_height: bool) -> Option<String> {
     let parts = verdict.parameters.iter().filter(|row| row.is_mostly_from_gravity()).map(|row| {
         let gravity = columns::two_digits(row.expanded_uncertainty_from_gravity.unwrap_or(0.0));
-        let gravity = quantity(&gravity, row.unit);
+        let gravity = format!("{gravity} {}", unit_of(row).of(Language::English));
         texts::FROM_GRAVITY_PART.filled(Language::English, values! { gravity, parameter: row.parameter.symbol() })
     });
     let parts: Vec<String> = parts.collect();

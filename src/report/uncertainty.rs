@@ -22,7 +22,7 @@ const SHARE_SHOWN: f64 = 5e-4;
 /// Returns `sentence` and the budget of every parameter, the largest contribution first.
 pub(crate) fn budget(budget: &Budget, sentence: Option<&str>) -> String {
     let mut out = String::new();
-    let _ = writeln!(out, "\nUncertainty budget ({}), linear approximation", budget.method.key());
+    let _ = writeln!(out, "\nUncertainty budget ({}), linear approximation, drifts at local g", budget.method.key());
     if let Some(sentence) = sentence {
         columns::paragraph(&mut out, "", &columns::powers(&format!("{sentence}.")));
     }
@@ -41,10 +41,12 @@ fn parameter(out: &mut String, line: &ParameterBudget) {
     };
     let _ = writeln!(
         out,
-        "\n{} = {:.digits$} {}, u = {u:.digits$}; degrees of freedom: {freedom}",
+        "\n{} = {:.digits$} {}, u = {u:.digits$}; degrees of freedom: {freedom}; k = {:.2} ({:.0} %)",
         line.parameter.symbol(),
         line.value,
         printed(line.parameter.unit()),
+        line.coverage_factor,
+        100.0 * COVERAGE,
     );
     let large = line.contributions.iter().filter(|part| part.share >= SHARE_SHOWN).count();
     // A single small contribution is printed as it is.
@@ -65,7 +67,7 @@ fn parameter(out: &mut String, line: &ParameterBudget) {
 
 fn contribution(part: &Contribution, digits: usize) -> Vec<String> {
     let [low, high] = part.standard_uncertainty.map(|u| part.cause.shown(u));
-    let size = if part.has_several_sizes() { format!("{low:.2}–{high:.2}") } else { short(high) };
+    let size = if part.has_several_sizes() { format!("{}–{}", short(low), short(high)) } else { short(high) };
     vec![
         part.cause.kind(),
         match part.cause.unit() {
@@ -143,7 +145,7 @@ pub(crate) fn monte_carlo(found: &MonteCarlo) -> String {
     let mut out = String::new();
     let _ = writeln!(
         out,
-        "\nMonte Carlo ({}), {} trials, seed {}; {:.0} % coverage intervals",
+        "\nMonte Carlo ({}), {} trials, seed {}; {:.0} % coverage intervals, drifts at local g",
         found.method.key(),
         found.trials,
         found.seed,

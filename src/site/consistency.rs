@@ -5,8 +5,9 @@
 
 use super::Site;
 use crate::earth::{self, Place};
+use crate::text::number::two_digits;
 use crate::text::{Path, Problems};
-use crate::units::radians_from_degrees;
+use crate::units::{arcseconds_from_radians, radians_from_degrees};
 
 /// Largest distance of the pillar from the site, m.
 const FARTHEST_PILLAR_M: f64 = 5_000.0;
@@ -145,14 +146,22 @@ impl Site {
         odd
     }
 
-    /// Returns a sentence if mark and pillar were written with fewer digits than their uncertainty needs.
+    /// Returns a sentence if the uncertainty of mark and pillar is not stated, or they were written with fewer digits than it
+    /// needs.
     fn few_digits_of_mark(&self) -> Option<String> {
         let mark = self.azimuth_mark.as_ref()?;
-        let stated_m = mark.position_u_m?;
         let coordinates = [mark.latitude_deg, mark.longitude_deg, mark.pillar_latitude_deg, mark.pillar_longitude_deg];
         let step_deg = coordinates.map(last_digit_deg).into_iter().fold(1.0, f64::min);
         // GUM, F.2.2.1.
         let rounding_m = radians_from_degrees(step_deg) * earth::MEAN_RADIUS_M / 12_f64.sqrt();
+        let Some(stated_m) = mark.position_u_m else {
+            let across_rad = rounding_m * std::f64::consts::SQRT_2 / earth::distance_m(mark.pillar(), mark.mark());
+            return Some(format!(
+                "azimuth_mark: position_u_m is not stated, so the azimuth of the mark counts as exact; mark and pillar are rounded \
+                 to {step_deg} degrees, which alone gives the azimuth u = {}″; state position_u_m",
+                two_digits(arcseconds_from_radians(across_rad))
+            ));
+        };
         (stated_m < rounding_m).then(|| {
             format!(
                 "azimuth_mark: mark and pillar are rounded to {step_deg} degrees, which alone gives u = {rounding_m:.2} m, but \

@@ -26,7 +26,7 @@ pub(crate) fn stand(positions: &Positions) -> String {
         "# Certified stand (dtg-stand/1). `certify` writes such a file from readings; write one by hand only if the\n\
          # deviations were found otherwise. Replace every CHANGE and every 0.0; delete the lines that do not apply.\n\
          {STAND}  \
-         # repeatability_arcsec: 1.5        # standard deviation of one return to a position, per axis\n  \
+         # repeatability_arcsec: 1.5        # standard deviation of one visit to a position, per axis\n  \
          # common_platform_arcsec: 0.8      # uncertainty shared by all positions, per axis of the platform\n  \
          # common_base_arcsec: 0.8          # the same, per axis of the base\n\
          {TYPE_B_AND_DATUM}\

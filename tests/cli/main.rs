@@ -7,6 +7,7 @@ mod fixtures;
 #[path = "../shared/programs.rs"]
 mod programs;
 
+mod calibrate;
 mod certify;
 mod dcc;
 mod export;

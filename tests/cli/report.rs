@@ -188,7 +188,7 @@ fn earlier_results_stand_in_the_order_of_their_dates() {
     assert!(of_earlier.contains("2026-05-12") && !of_earlier.contains("Serial numbers"), "{of_earlier}");
     let now = result["results"][2]["k_deg_per_h_per_ma"][0][0].to_string();
     assert_eq!(result["change"]["parameters"][0]["reference_value"].to_string(), k_x["2026-05-12"]);
-    let table = page.split_once("All calibrations of this gyro").unwrap().1.split_once("</table>").unwrap().0;
+    let table = page.split_once("Calibrations compared").unwrap().1.split_once("</table>").unwrap().0;
     let places: Vec<usize> = k_x.values().chain([&now]).map(|value| table.find(value.as_str()).unwrap()).collect();
     assert!(places.is_sorted(), "{places:?}");
     for date in k_x.keys().chain([&"2026-11-20"]) {
@@ -197,7 +197,7 @@ fn earlier_results_stand_in_the_order_of_their_dates() {
     assert_eq!(table.matches("class=\"picture strip\"").count(), 8 * 4 + 1);
     // Without a type there are no strips.
     let (page, _) = folder.page(CURRENTS, &[VERIFIED, LABORATORY, &previous]);
-    let table = page.split_once("All calibrations of this gyro").unwrap().1.split_once("</table>").unwrap().0;
+    let table = page.split_once("Calibrations compared").unwrap().1.split_once("</table>").unwrap().0;
     assert!(!table.contains("strip") && table.contains("2024-11-03"));
 }
 
@@ -249,7 +249,7 @@ fn readings_that_do_not_fit_are_said_not_to() {
     let bad = folder.write("bad.csv", &bad);
     let (page, _) = folder.page(&bad, &[VERIFIED, LABORATORY, &["--lang", "ru,en"]]);
     assert!(page.contains("The readings are not consistent with this stand"));
-    assert!(page.contains("Position (1, 3) may not have repeated"), "and which position it may be");
+    assert!(page.contains("Position (1, 3) may not have been reproduced"), "and which position it may be");
     assert!(page.contains("Возможно, положение (1, 3) не воспроизведено"));
 }
 
@@ -297,7 +297,9 @@ fn parameters_that_no_gyro_can_pass_are_named_with_the_reason() {
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(text.contains("No gyro can pass by guarded acceptance: U exceeds the tolerance of ω_g, ω_k."), "{text}");
     assert!(
-        text.contains("the height is not stated, so g is that at 0 m with an uncertainty of 0.0071 m/s²"),
+        text.contains(
+            "the height is not stated, so g is that at 0 m; its standard uncertainty, 0.0071 m/s², is the r.m.s. error"
+        ),
         "{text}"
     );
     let page = page.replace('\u{a0}', " ");

@@ -98,6 +98,35 @@ fn rows_in_place_make_neither_the_specification_nor_the_return_smaller() {
     assert!(alarms <= 1, "{alarms}");
 }
 
+/// Expected by hand: of rows −2, −1, 0, 1, 2 about their mean the products of successive ones have the sum 4, and the squares
+/// 10. The errors of a logger that reads faster than its filter settles; independent errors are not named.
+#[test]
+fn correlated_rows_are_named() {
+    let setup = bench(0.0);
+    let ramp = rows(&setup, 3, 5, |_, _, row| Vector2::repeat(1e-6 * (f64::from(row) - 2.0)));
+    let found = solved(&setup, &ramp);
+    assert!((found.row_correlation.unwrap() - 0.4).abs() < 1e-9, "{:?}", found.row_correlation);
+    let text = text_of(&setup, &ramp, found);
+    assert!(text.contains("Successive readings of a visit are correlated (0.40)"), "{text}");
+
+    let mut stream = Stream::new(77);
+    let independent = (0..300).filter(|_| {
+        solved(&setup, &rows(&setup, 1, 8, |_, _, _| Vector2::from_fn(|_, _| 1e-6 * stream.normal())))
+            .row_correlation
+            .is_some()
+    });
+    // Nominal: 0.01.
+    assert_eq!(independent.count(), 0);
+    let mut filtered = Vector2::zeros();
+    let slow = rows(&setup, 1, 60, |_, _, _| {
+        filtered = 0.9 * filtered + Vector2::from_fn(|_, _| 1e-7 * stream.normal());
+        filtered
+    });
+    // Expected: 0.9, less what the mean of a visit takes away.
+    let found = solved(&setup, &slow).row_correlation.unwrap();
+    assert!((0.75..0.9).contains(&found), "{found}");
+}
+
 /// Expected: C_p = K [diag((ρ J)² + f²) + ν²/(m k)] K′ + R/m with returns R, and u² = diag (Σ F_p′ C_p⁻¹ F_p)⁻¹ with the
 /// rows (J, 1, n) of a position: by dense matrices, nothing of the library's but the vectors of the positions and R,
 /// which follows from u of one visit without noise.

@@ -381,6 +381,7 @@ fn a_temperature_outside_the_certified_range_is_told() {
     }
     assert_eq!(
         of(Some(17.5), Some([18.0, 22.0])).unwrap().to_string(),
-        "the temperature in the laboratory is 17.5 °C; the deviations are certified from 18 to 22 °C"
+        "the temperature in the laboratory is 17.5 °C; the deviations are certified from 18 to 22 °C, and no uncertainty includes \
+         the effect of this"
     );
 }

@@ -27,7 +27,7 @@ DAY = re.compile(r"\d{4}-\d\d-\d\d|\d\d\.\d\d\.\d{4}")
 # What is no number of the result: clauses of standards, coverage, the sum's name, ids, times of day, the limit of risks,
 # the greatest of the heights that are as probable if none is stated.
 NAMES = re.compile(
-    r"JCGM[\u00a0 ]\d+, [\d.]+|k[\u00a0 ]=[\u00a0 ]1\b|^[\u00a0 ]=[\u00a0 ]1[.,]96\b|95(?:[.,]45)?[\u00a0 ]?%|SHA-256|[A-Z]+-\d+(?:/\w+/[\w-]+/\d+)?|\d\d:\d\d:\d\d|< 1\u202f[·×]\u202f10⁻⁶|4000\u00a0[mм]\b"
+    r"JCGM[\u00a0 ]\d+, [\d.]+|k[\u00a0 ]=[\u00a0 ]1\b|^[\u00a0 ]=[\u00a0 ]1[.,]96\b|95(?:[.,]45)?[\u00a0 ]?%|SHA-256|[A-Z]+-\d+(?:/\w+/[\w-]+/\d+)?|\d\d:\d\d:\d\d|< 1\u202f[·×]\u202f10⁻⁶|4000\u00a0[mм]\b|> 1000"
 )
 # The eight of every table of parameters, by their symbols.
 PLACES = {
@@ -205,7 +205,9 @@ class Report:
         due = [uncertainty(self.result, path) if path else None for path in paths]
         alone = adopted(self.result)
         due += [u for symbol, u in self.alone.items() if at(alone, PLACES[symbol]) == float(value)]
-        if all(u and place_of(u) != place for u in due):
+        # Contributions have one digit more, so that their squares add up.
+        more = [int("contribution" in path) for path in paths] + [0] * len(due)
+        if all(u and place_of(u) - digit != place for u, digit in zip(due, more)):
             self.wrong.append(f"{shown} has not the digits of its uncertainty {due[0]}: {paths[0]}")
 
     def sentence(self, words):
@@ -323,7 +325,7 @@ class Report:
             shown = {float(value) for row in table["rows"] for value in row[column]["values"]}
             u = lines[symbol]["standard_uncertainty"]
             for part in lines[symbol]["contributions"]:
-                due = part["share"] >= 1e-3 and rounded(part["contribution"], place_of(u))
+                due = part["share"] >= 1e-3 and rounded(part["contribution"], place_of(u) - 1)
                 if due and part["contribution"] not in shown:
                     self.wrong.append(f"{symbol}: the contribution {part} is not on the page")
 
@@ -425,7 +427,7 @@ class Report:
         missing = len(self.result.get("not_stated", []))
         if missing and (self.stated() or "verdict" not in self.result):
             said = " ".join(self.said["verdicts"]).replace("\u00a0", " ")
-            due = {"en": f"which U omits: {missing} (", "ru": f"указанной u: {missing} ("}
+            due = {"en": f"stated as 0): {missing} (", "ru": f"не указана или 0): {missing} ("}
             if due[self.said["lang"]] not in said:
                 self.wrong.append(f"{missing} inputs are not in U, and the verdict says {said!r}")
 

@@ -7,6 +7,9 @@ pub(crate) use crate::wording::spacing::BLANK;
 /// Units in which browsers see a place for a line to end, after the solidus.
 const WITH_SOLIDUS: [&str; 3] = ["m/s²", "м/с²", "°/"];
 
+/// Sign of equality before a value: no line ends after it, as one may before the element of the value.
+const EQUALS: &str = "\u{a0}=\u{a0}";
+
 /// The name of the program.
 const PROGRAM: &str = "dtg-passport";
 
@@ -30,7 +33,9 @@ pub(crate) fn unbroken(words: &str) -> Markup {
     };
     html! {
         @for word in words.split_inclusive(' ') {
+            @let (equals, word) = word.split_at(word.rfind(EQUALS).map_or(0, |at| at + EQUALS.len()));
             @let shown = word.trim_end();
+            (equals)
             @if whole(shown) {
                 @for (place, part) in parts(shown).enumerate() {
                     @if place > 0 { wbr; }
@@ -59,10 +64,16 @@ fn is_id(word: &str) -> bool {
     word.matches('/').count() >= SOLIDI_OF_AN_ID && !word.contains('"')
 }
 
-/// Returns the parts of an id, each with the solidus at its end, and those of an address; of anything else the whole.
+/// Returns the parts of an id, each with the solidus at its end, and those of an address; of anything else the whole. The
+/// revision does not leave the part before it.
 fn parts(word: &str) -> impl Iterator<Item = &str> {
-    let id = is_id(word);
-    word.split_inclusive(move |c| id && c == '/' || c == '@')
+    let last = word.rfind('/').filter(|_| is_id(word)).unwrap_or(0);
+    let mut at = 0;
+    word.split_inclusive(move |c: char| {
+        let is_end = c == '@' || c == '/' && at < last;
+        at += c.len_utf8();
+        is_end
+    })
 }
 
 #[cfg(test)]
@@ -79,7 +90,7 @@ mod tests {
             "[GVK-6] and [SPS-2] № 0017, [SHA-256]",
             "run [dtg-passport] verify or ssh-keygen",
             "by [name@]<wbr>[dtg-passport.test]",
-            "passport [SPS-2/]<wbr>[0017/]<wbr>[moscow-bmstu/]<wbr>[1] of",
+            "passport [SPS-2/]<wbr>[0017/]<wbr>[moscow-bmstu/1] of",
             "id: \"XYZ/0017/moscow-bmstu/1\"",
             "[a-1-2]",
             "of [9.8\u{a0}м/с²,] and/or [°/(h·g<sub>0</sub>)]",

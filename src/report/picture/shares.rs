@@ -12,6 +12,9 @@ const BAR_HALF: f64 = 8.0;
 /// Least lengths of a part with room for its letter, and for letter and percentage.
 const ROOM: [f64; 2] = [14.0, 34.0];
 
+/// Share below which a part is one of the others: its outline would be all that is seen.
+const LEAST: f64 = 0.01;
+
 /// Names of the parts: not A and B, which are types of evaluation. What remains of a variance has none.
 pub(crate) const LETTERS: [&str; 5] = ["P", "Q", "R", "S", "T"];
 
@@ -21,7 +24,8 @@ const PERCENT: Scale = Scale { values: [0.0, 100.0], places: BARS };
 /// Draws the shares of one variance in the order of `LETTERS`; they are at most 1 together.
 pub(crate) fn shares(shares: &[f64]) -> Markup {
     let mut end = 0.0;
-    let parts = shares.iter().enumerate().map(|(place, share)| {
+    let large = shares.iter().enumerate().filter(|(_, share)| **share >= LEAST);
+    let parts = large.map(|(place, share)| {
         let from = end;
         end += share;
         part(place, [from, end].map(|at| PERCENT.clamped(100.0 * at)), 100.0 * share)
@@ -45,7 +49,7 @@ fn part(place: usize, [from, to]: [f64; 2], percent: f64) -> Markup {
         _ => Some(format!("{letter}\u{a0}{percent:.0}")),
     };
     html! {
-        @if to > from { (rectangle([from, y - BAR_HALF], [to, y + BAR_HALF], &class(Some(place)), None)) }
+        (rectangle([from, y - BAR_HALF], [to, y + BAR_HALF], &class(Some(place)), None))
         @if let Some(name) = name { (words([0.5 * (from + to), y + 4.0], Anchor::Middle, "small", &name)) }
     }
 }

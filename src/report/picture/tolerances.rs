@@ -10,7 +10,8 @@ use crate::report::page::texts::{pictures as texts, units};
 use maud::{Markup, html};
 
 const HEIGHT: f64 = 17.0;
-const ROOM_FOR_ARROW: f64 = 22.0;
+/// Between the mark of a value beyond the axis, which stands outside the tolerance, and the end of the axis.
+const ROOM_FOR_ARROW: f64 = 12.0;
 
 /// The axis of every strip, in tolerances: to both limits and half as far again, so that strips of all reports compare. An
 /// arrow points to what is beyond it.

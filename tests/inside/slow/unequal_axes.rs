@@ -48,6 +48,12 @@ fn an_unequal_axis_by_hand() {
     let mut each = quiet.measured(&mut Stream::new(1), 5).each_arcsec;
     let rotations = [[0.0, 0.0, 0.0], [1.0, 10.0, -1.0], [-1.0, 5.0, 1.0], [-1.0, 3.0, 1.0], [1.0, 2.0, -1.0]];
     each.iter_mut().for_each(|runs| runs.iter_mut().zip(rotations).for_each(|(at, turn)| *at += Vector3::from(turn)));
+    // With a suspect reading, nothing is said of the axes.
+    let mut suspect = each.clone();
+    suspect[2][3].y += 60.0;
+    let with_suspect = found(&AngleReadings::new(vec![1, 2, 3, 4, 5], suspect).unwrap());
+    assert!(!with_suspect.suspects.outliers.is_empty() && with_suspect.unequal_axes.is_empty());
+
     let found = found(&AngleReadings::new(vec![1, 2, 3, 4, 5], each).unwrap());
     let [at] = found.unequal_axes[..] else { panic!("{:?}", found.unequal_axes) };
     assert_eq!(at.axis.0, 1);

@@ -60,7 +60,7 @@ fn compared(page: &CalibrationPage, gyro: &GyroType, verdict: &Verdict, language
 /// Writes which calibration is the previous one, and whether it is known to be that of this gyro.
 fn previous(page: &CalibrationPage, earlier: &CalibrationDocument, language: Language) -> Markup {
     let day = earlier.date().map_or_else(|| texts::NO_DAY.words(language), |day| date_text(language, day));
-    let beginning = |sha256: &str| html! { code { (sha256.chars().take(8).collect::<String>()) "…" } };
+    let beginning = |sha256: &str| html! { code { (sha256.chars().take(8).collect::<String>()) } };
     let sha256 = earlier.currents_sha256().map_or_else(|| html! { "–" }, beginning);
     let values = [("day", html! { (day) }), ("passport", given(&earlier.passport_id)), ("sha256", sha256)];
     let is_same = earlier.gyro_serial().is_some() && earlier.gyro_serial() == page.document.gyro_serial();
@@ -70,11 +70,11 @@ fn previous(page: &CalibrationPage, earlier: &CalibrationDocument, language: Lan
     }
 }
 
-/// Writes how many parameters pass by guarded acceptance, and which are undecided or fail; `of_what` says of which
-/// comparison if it is the second, and `then` what follows.
+/// Writes how many parameters pass by guarded acceptance, in the words of `passed`, and which are undecided or fail; `then`
+/// is what follows.
 pub(super) fn counted(
     verdict: &Verdict,
-    of_what: Option<Text>,
+    passed: Text,
     then: impl Fn(Language) -> Markup,
     languages: &Languages,
 ) -> Markup {
@@ -82,8 +82,7 @@ pub(super) fn counted(
     let not_found_names = listed(not_found.iter().map(|one| name_of(one.symbol())));
     languages.paragraph_with(|language| {
         html! {
-            @if let Some(what) = of_what { (what.words(language)) " " }
-            (counts(verdict, |row| row.guarded, texts::PASSED, language))
+            (counts(verdict, |row| row.guarded, passed, language))
             @if !not_found.is_empty() {
                 "; " (texts::NOT_IN_THE_MODEL.marked_up(language, &[("names", not_found_names.clone())]))
             }
@@ -92,15 +91,19 @@ pub(super) fn counted(
     })
 }
 
-/// Writes the outcome of simple acceptance, a note on the risks in the table, and which parameters no gyro could pass.
+/// Writes the outcome of simple acceptance, a note on the risks in the table, which parameters no gyro could pass, and which
+/// would pass with the other sign.
 fn simple(verdict: &Verdict, note: Option<Text>, languages: &Languages) -> Markup {
     let too_uncertain = verdict.too_uncertain();
     let names = listed(too_uncertain.iter().map(|one| name_of(one.symbol())));
+    let opposite = verdict.opposite();
+    let of_opposite = listed(opposite.iter().map(|one| name_of(one.symbol())));
     languages.paragraph_with(|language| {
         html! {
             (counts(verdict, |row| row.simple, texts::PASSED_BY_SIMPLE, language)) "."
             @if let Some(note) = note { " " (italic(&note.words(language))) }
             @if !too_uncertain.is_empty() { " " (texts::TOO_UNCERTAIN.marked_up(language, &[("names", names.clone())])) }
+            @if !opposite.is_empty() { " " (texts::OPPOSITE.marked_up(language, &[("names", of_opposite.clone())])) }
         }
     })
 }

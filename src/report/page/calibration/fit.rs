@@ -8,6 +8,7 @@ use crate::calibration::noise::NoiseSource;
 use crate::calibration::scatter::{Agreement, Scatter};
 use crate::calibration::stated::NotStated;
 use crate::calibration::suspect::Suspect;
+use crate::report::calibration::is_too_small;
 use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::{Number, column, probability};
 use crate::report::page::parts::{Column, Table, field, fields, quantity, starts, symbol, symbol_and_unit};
@@ -25,6 +26,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
                 (scatter(page, languages))
             } @else {
                 (chi_square(result, languages))
+                @if is_too_small(page.calibration) { (languages.paragraph(texts::TOO_SMALL)) }
                 (scatter(page, languages))
                 (table(result, languages))
                 (key(languages))
@@ -80,6 +82,9 @@ fn scatter(page: &CalibrationPage, languages: &Languages) -> Markup {
                     field(languages, texts::FREEDOM, Some(whole(rows.degrees_of_freedom))),
                 ]))
             }
+        }
+        @if let Some(r) = calibration.row_correlation {
+            (languages.paragraph_with(|language| texts::ROWS_CORRELATED.with_numbers(language, &[("r", Number::fixed(r, 2))])))
         }
         @if let Some(visits) = &calibration.scatter {
             (agreement(visits, texts::SCATTER, languages))

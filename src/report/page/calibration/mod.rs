@@ -255,9 +255,9 @@ impl CalibrationPage<'_> {
         let worst = verdict.with_change(change);
         let name = |language: Language| text.filled(language, values! { type: gyro.r#type });
         let words = html! {
-            (conformity::counted(verdict, None, |language| self.not_in_u(language), languages))
+            (conformity::counted(verdict, texts::PASSED, |language| self.not_in_u(language), languages))
             @if let Some(change) = change {
-                (conformity::counted(change, Some(texts::CHANGE_COUNTED), |_| html! {}, languages))
+                (conformity::counted(change, texts::CHANGE_PASSED, |_| html! {}, languages))
             }
             (self.not_linear(languages))
             (languages.paragraph(texts::RULE))

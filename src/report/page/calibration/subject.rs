@@ -45,11 +45,18 @@ pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
     };
     let stand = html! { (given(content.stand.model.as_str())) " №\u{a0}" (given(content.stand.serial.as_str())) };
     let site = content.site.name.as_deref().unwrap_or(content.site.id.as_str());
-    let verified = match &page.passport {
-        UsedPassport::Verified(_) => html! { (languages.label(texts::TIME)) " " (time(languages, page.time)) },
-        UsedPassport::NotVerified { .. } => html! { span.failed { (languages.inline(texts::NOT_VERIFIED)) } },
+    let id = || given(&content.passport.id);
+    let certificate = match &page.passport {
+        UsedPassport::Verified(_) => html! {
+            @for (index, language) in languages.iter().enumerate() {
+                @let values = [("id", id()), ("time", time(&language.into(), page.time))];
+                p lang=(language.tag()) class=[(index > 0).then_some("second")] {
+                    (texts::VERIFIED_AS_OF.marked_up(language, &values))
+                }
+            }
+        },
+        UsedPassport::NotVerified { .. } => html! { p { (id()) } p.failed { (languages.inline(texts::NOT_VERIFIED)) } },
     };
-    let certificate = html! { p { (given(&content.passport.id)) } p { (verified) } };
     parts::band(
         languages,
         [
@@ -63,11 +70,12 @@ pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
 
 fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
     let content = page.content();
-    let stand = format!("{} {}", content.stand.model, content.stand.serial);
+    let stand = format!("{} №\u{a0}{}", content.stand.model, content.stand.serial);
     let result = page.document;
     let subject = result.subject.as_ref();
     let celsius = |value: f64| quantity(languages, &Number::exact(value), units::CELSIUS);
-    let temperature = subject.and_then(|subject| subject.temperature_c).map(celsius);
+    let of_laboratory = page.laboratory.and_then(|laboratory| laboratory.temperature_c);
+    let temperature = subject.and_then(|subject| subject.temperature_c).or(of_laboratory).map(celsius);
     let site = content.site.name.as_deref().unwrap_or(content.site.id.as_str());
     // What the band leaves blank has its only blank there.
     let serial = page.serial().map(given);
@@ -137,19 +145,17 @@ fn passport(page: &CalibrationPage, languages: &Languages) -> Markup {
 
 fn laboratory(page: &CalibrationPage, languages: &Languages) -> Markup {
     let laboratory = page.laboratory.cloned().unwrap_or_else(Laboratory::paper);
-    let celsius = |value: f64| quantity(languages, &Number::exact(value), units::CELSIUS);
     let (g, u) = (page.document.gravity_m_per_s2, page.document.gravity_u_m_per_s2);
-    // The temperature during the readings has a field of its own; a second blank would ask for it again.
-    let temperature = laboratory.temperature_c.map(|value| field(languages, texts::TEMPERATURE, Some(celsius(value))));
+    // Section 3 names those that are not stated.
+    let angles = accuracy::angles(&laboratory, languages).into_iter();
+    let angles = angles.filter_map(|(name, value)| Some(field(languages, name, Some(value?))));
     html! {
         (fields([
             laboratory.name.as_deref().map(|name| field(languages, passport_texts::NAME, Some(given(name)))).unwrap_or_default(),
             field(languages, passport_texts::ADDRESS, None),
             field(languages, texts::PROCEDURE, None),
-            temperature.unwrap_or_default(),
             field(languages, texts::GRAVITY, Some(characteristics::gravity(g, u, languages))),
-            wide_field(languages, passport_texts::METER, Some(accuracy::meter(&laboratory, languages))),
-        ]))
+        ].into_iter().chain(angles).chain([wide_field(languages, passport_texts::METER, Some(accuracy::meter(&laboratory, languages)))])))
         @if page.laboratory.is_none() { div.statement { (languages.paragraph(texts::METER_ASSUMED)) } }
     }
 }

@@ -121,7 +121,8 @@ fn budget_table(budget: &Budget, languages: &Languages) -> Markup {
         .map(|kind| {
             let contribution = |line: &ParameterBudget| {
                 let part = line.contributions.iter().find(|part| part.cause.kind() == kind.cause.kind());
-                let place = Number::place_of(line.standard_uncertainty);
+                // One digit more than u has, so that their squares add up to its square.
+                let place = Number::place_of(line.standard_uncertainty) - 1;
                 let number = part.map(|part| Number::to_place(part.contribution, place));
                 number.filter(|number| !number.is_printed_as_zero()).into()
             };
@@ -136,6 +137,8 @@ fn budget_table(budget: &Budget, languages: &Languages) -> Markup {
         languages.label(texts::EFFECTIVE_FREEDOM),
         each(&|line| match line.effective_degrees_of_freedom {
             known if known > MANY => Cell::Words(html! { "∞" }),
+            // Aligned with contributions of many decimals, its column would be too wide.
+            known if known >= 1000.0 => Cell::Words(html! { "> 1000" }),
             // Rounding to tens would print a number that differs from the one in the result.
             known => Cell::Number(Number::whole_or_two_digits(known)),
         }),

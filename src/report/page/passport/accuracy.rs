@@ -36,22 +36,30 @@ pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
 fn stated_for(accuracy: &Accuracy, languages: &Languages) -> Markup {
     let (gyro, laboratory) = (&accuracy.gyro, &accuracy.laboratory);
     let gravity = gyro.gravity_m_per_s2.map(|g| quantity(languages, &Number::exact(g), units::M_PER_S2));
+    let temperature = laboratory.temperature_c.map(|t| quantity(languages, &Number::exact(t), units::CELSIUS));
+    let each = [
+        (texts::GYRO_TYPE, Some(given(&gyro.r#type))),
+        (texts::GYRO_GRAVITY, gravity),
+        (texts::CALIBRATING_LABORATORY, laboratory.name.as_deref().map(given)),
+        (texts::LABORATORY_TEMPERATURE, temperature),
+    ];
+    let each = each.into_iter().chain(angles(laboratory, languages));
+    let meter = wide_stated(languages, texts::METER, Some(meter(laboratory, languages)));
+    fields(each.map(|(name, value)| stated(languages, name, value)).chain([meter]))
+}
+
+/// Returns the standard uncertainties of the angles of gyro and base in a laboratory, as far as they are stated.
+pub(crate) fn angles(laboratory: &Laboratory, languages: &Languages) -> [(Text, Option<Markup>); 3] {
     let arcsec = |u: f64| quantity(languages, &Number::uncertainty(u), units::ARCSEC);
     let seat = laboratory.seating_arcsec.as_ref();
     let seat =
         seat.map(|seat| html! { (arcsec(seat.about_x)) ", " (arcsec(seat.about_y)) ", " (arcsec(seat.about_z)) });
     let base = laboratory.base.as_ref();
-    let temperature = laboratory.temperature_c.map(|t| quantity(languages, &Number::exact(t), units::CELSIUS));
-    fields([
-        stated(languages, texts::GYRO_TYPE, Some(given(&gyro.r#type))),
-        stated(languages, texts::GYRO_GRAVITY, gravity),
-        stated(languages, texts::CALIBRATING_LABORATORY, laboratory.name.as_deref().map(given)),
-        stated(languages, texts::LABORATORY_TEMPERATURE, temperature),
-        stated(languages, texts::SEATING, seat),
-        stated(languages, texts::BASE_AZIMUTH_U, base.and_then(|base| base.azimuth_arcsec).map(arcsec)),
-        stated(languages, texts::BASE_LEVEL_U, base.and_then(|base| base.level_arcsec).map(arcsec)),
-        wide_stated(languages, texts::METER, Some(meter(laboratory, languages))),
-    ])
+    [
+        (texts::SEATING, seat),
+        (texts::BASE_AZIMUTH_U, base.and_then(|base| base.azimuth_arcsec).map(arcsec)),
+        (texts::BASE_LEVEL_U, base.and_then(|base| base.level_arcsec).map(arcsec)),
+    ]
 }
 
 /// Writes one sentence about the current meter.

@@ -8,6 +8,7 @@ use crate::report::page::parts::{
     Column, Table, coordinate, fields, figure, given, heading, in_hemisphere, not_stated, quantity, starts, stated,
     symbol, symbol_and_unit, wide_stated,
 };
+use crate::report::page::spacing::BLANK;
 use crate::report::page::texts::{passport as texts, units};
 use crate::report::picture::deviations::Bars;
 use crate::report::picture::{place as map, positions as picture};
@@ -147,7 +148,7 @@ fn place(site: &Site, languages: &Languages) -> Markup {
     let deflection = site.deflection_arcsec.as_ref().map(|deflection| match deflection.u {
         Some(known) => html! {
             (symbol("ξ", "")) " " (measured(deflection.xi, known)) ", " (symbol("η", "")) " "
-            (measured(deflection.eta, known)) ", " (symbol("u", "")) " " (u(known))
+            (measured(deflection.eta, known)) ", " (symbol("u", "")) (BLANK) (u(known))
         },
         None => html! {
             (symbol("ξ", "")) " " (arcsec(deflection.xi)) ", " (symbol("η", "")) " " (arcsec(deflection.eta))
@@ -236,17 +237,17 @@ fn the_earth(site: &Site, earth: &Earth, languages: &Languages) -> Markup {
     let azimuth = earth.azimuth_deg.map(|azimuth| match earth.azimuth_u_arcsec {
         Some(u) => html! {
             (quantity(languages, &Number::measured(azimuth, u / ARCSECONDS_PER_DEGREE), units::DEGREES)) ", "
-            (symbol("u", "")) " " (quantity(languages, &Number::uncertainty(u), units::ARCSEC))
+            (symbol("u", "")) (BLANK) (quantity(languages, &Number::uncertainty(u), units::ARCSEC))
         },
         None => html! {
-            (quantity(languages, &angle(azimuth, 0.0), units::DEGREES)) ", " (symbol("u", "")) " " (not_stated(languages))
+            (quantity(languages, &angle(azimuth, 0.0), units::DEGREES)) ", " (symbol("u", "")) (BLANK) (not_stated(languages))
         },
     });
     let latitude_u = site.astronomic_latitude_u_arcsec();
     let latitude = html! {
         (in_hemisphere(languages, angle(earth.latitude_deg, latitude_u), LATITUDES))
         @if latitude_u > 0.0 {
-            ", " (symbol("u", "")) " " (quantity(languages, &Number::uncertainty(latitude_u), units::ARCSEC))
+            ", " (symbol("u", "")) (BLANK) (quantity(languages, &Number::uncertainty(latitude_u), units::ARCSEC))
         }
     };
     let [horizontal_u, vertical_u] = earth.rate_u_deg_per_h(site);

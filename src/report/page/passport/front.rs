@@ -51,18 +51,20 @@ fn answers(page: &PassportPage, languages: &Languages) -> Markup {
     let content = &page.content;
     let (site, certificate) = (&content.site, &content.certificate);
     let valid = page.verification.valid();
-    let status = if valid { check_texts::IN_FORCE } else { check_texts::NOT_TO_BE_USED };
-    let status = marked(Some(valid), &languages.label(status));
-    let status = html! { @if valid { p.headline { (status) } } @else { span.failed { (status) } } };
+    // The second language follows as a sentence of its own.
+    let status = match valid {
+        true => html! { p.headline { (marked(Some(true), &html! { (languages.spoken(check_texts::IN_FORCE)) })) } },
+        false => html! { span.failed { (marked(Some(false), &languages.label(check_texts::NOT_TO_BE_USED))) } },
+    };
     let unchecked = valid && checks::withdrawal_not_checked(page);
     let until = match content.last_day() {
         Some((day, _)) if valid => {
             let words = if unchecked { texts::INCLUSIVE_NOT_CHECKED } else { texts::INCLUSIVE };
-            // The large words are in one language; the second says the day itself.
             let rest = |language| match language == languages.first() {
                 true => words.words(language),
                 false => {
-                    format!("{} {} {}", texts::UNTIL.words(language), date_text(language, day), words.words(language))
+                    let [in_force, until] = [check_texts::IN_FORCE, texts::UNTIL].map(|text| text.words(language));
+                    format!("{in_force} {until} {} {}", date_text(language, day), words.words(language))
                 }
             };
             html! {

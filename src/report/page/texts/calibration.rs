@@ -53,8 +53,8 @@ texts! {
              8.3). Вероятность охвата 95,45 %."
     }
     NOT_IN_U {
-        en: "Inputs without a stated uncertainty, which U omits: {count} (section 3).",
-        ru: "В U не учтены величины без указанной u: {count} (раздел\u{a0}3)."
+        en: "Inputs not in U (u not stated, or stated as 0): {count} (section\u{a0}3).",
+        ru: "Величин, не учтённых в U (u не указана или 0): {count} (раздел\u{a0}3)."
     }
     NO_TYPE { en: "Parameters determined", ru: "Параметры определены" }
     NO_TYPE_WORDS {
@@ -164,7 +164,7 @@ texts! {
     PROCEDURE { en: "Procedure and deviations from it", ru: "Методика и отступления от неё" }
     STAND { en: "Stand", ru: "Стенд" }
     SITE { en: "Site", ru: "Место установки" }
-    TIME { en: "Verified as of", ru: "Проверен по состоянию на" }
+    VERIFIED_AS_OF { en: "Passport {id}, verified as of {time}", ru: "Паспорт {id}, проверен по состоянию на\u{a0}{time}" }
     CURRENTS { en: "File of currents", ru: "Файл токов" }
     OPERATOR { en: "Readings taken by", ru: "Показания снял" }
     MEASURED_TEMPERATURE { en: "Temperature during the readings", ru: "Температура при снятии показаний" }
@@ -179,7 +179,6 @@ texts! {
         ru: "Измеритель тока лаборатории не указан: принята погрешность ±0,015 % показания, распределённая \
              равномерно; другие составляющие неопределённости лаборатории не учтены."
     }
-    TEMPERATURE { en: "Temperature", ru: "Температура" }
     READINGS_ARE_OLDER {
         en: "The readings are older than the measurement of the stand",
         ru: "Показания сняты до измерения углов стенда"
@@ -211,7 +210,10 @@ texts! {
              ω_g и ω_k отнесены к местному g"
     }
     PASSED { en: "{passed} of {all} parameters pass", ru: "Соответствуют допускам {passed} из {all} параметров" }
-    CHANGE_COUNTED { en: "Change since the previous calibration:", ru: "Изменение после предыдущей калибровки:" }
+    CHANGE_PASSED {
+        en: "Change since the previous calibration: {passed} of {all} parameters pass",
+        ru: "Изменение после предыдущей калибровки: соответствуют допускам {passed} из {all} параметров"
+    }
     ARE_UNDECIDED { en: "; undecided: {names}", ru: "; не определено: {names}" }
     FAIL { en: "; fail: {names}", ru: "; не соответствуют: {names}" }
     NOT_IN_THE_MODEL {
@@ -241,7 +243,7 @@ texts! {
     ANISOELASTICITY { en: "Anisoelastic coefficient", ru: "Коэффициент неравножёсткости" }
     SPECTRAL_RADIUS { en: "Spectral radius", ru: "Спектральный радиус" }
     STEPS { en: "Number of steps", ru: "Число шагов" }
-    STEPS_PREDICTED { en: "Predicted number of steps", ru: "Предсказанное число шагов" }
+    STEPS_PREDICTED { en: "Predicted number of steps", ru: "Расчётное число шагов" }
     STEPS_OVER { en: "more than {most}", ru: "более {most}" }
     REMAINDER_K { en: "Remaining error of K, at most", ru: "Остаточная погрешность K, не более" }
     REMAINDER_OMEGA {
@@ -279,18 +281,18 @@ texts! {
     }
     STUDENT { en: "{k} (Student’s t)", ru: "{k} (коэффициент Стьюдента)" }
     CHANGE { en: "Change since the previous calibration", ru: "Изменение после предыдущей калибровки" }
-    HISTORY { en: "All calibrations of this gyro", ru: "Все калибровки этого гироскопа" }
+    HISTORY { en: "Calibrations compared", ru: "Сопоставляемые калибровки" }
     HISTORY_CAPTION {
-        en: "Parameters from the earliest calibration to this one, with expanded uncertainty U\u{a0}=\u{a0}2u \
+        en: "Parameters of the earlier calibrations, in the order of their dates where stated, and of this one; expanded uncertainty U\u{a0}=\u{a0}2u \
              (coverage factor k = 2; for the marks, U of coverage probability 95.45 %); ω_g and ω_k refer to {of}\u{a0}{g} m/s²",
-        ru: "Параметры от первой калибровки до этой, с расширенной неопределённостью U\u{a0}=\u{a0}2u \
+        ru: "Параметры прежних калибровок (по датам, если они указаны) и этой; расширенная неопределённость U\u{a0}=\u{a0}2u \
              (коэффициент охвата k = 2; для отметок — U для вероятности охвата 95,45 %); ω_g и ω_k отнесены к {of}\u{a0}{g} м/с²"
     }
     OF_TYPE { en: "the g of the type, g_0\u{a0}=", ru: "g типа, g_0\u{a0}=" }
     OF_PLACE { en: "local g,", ru: "местному g," }
     CALIBRATED { en: "Calibration", ru: "Калибровка" }
     CHANGE_CAPTION {
-        en: "Change; the tolerance also limits the instability; expanded uncertainty U (coverage factor k = {k}; coverage \
+        en: "Change since the previous calibration, to which the tolerance applies as well; expanded uncertainty U (coverage factor k = {k}; coverage \
              probability 95.45 %); ω_g and ω_k refer to the g of the type, g_0\u{a0}=\u{a0}{g} m/s²",
         ru: "Изменение (допуск относится и к нестабильности); расширенная неопределённость U (коэффициент охвата k = {k}; \
              вероятность охвата 95,45 %); ω_g и ω_k отнесены к g типа, g_0\u{a0}=\u{a0}{g} м/с²"
@@ -298,8 +300,10 @@ texts! {
     PARAMETER { en: "Parameter", ru: "Параметр" }
     NOMINAL { en: "Nominal", ru: "Номин. значение" }
     PREVIOUS {
-        en: "Previous calibration: {day}, passport {passport}, SHA-256 of the currents {sha256}.",
-        ru: "Предыдущая калибровка: {day}, паспорт {passport}, SHA-256 токов {sha256}."
+        en: "Previous calibration: {day}, passport {passport}, currents {sha256}. Errors common \
+             to both, as of the stand, are not in the change: U is an upper estimate.",
+        ru: "Предыдущая калибровка: {day}, паспорт {passport}, токи {sha256}. Общие погрешности (стенда) \
+             в изменение не входят: U завышена."
     }
     NO_DAY { en: "date not stated", ru: "дата не указана" }
     SAME_GYRO_NOT_SHOWN {
@@ -309,17 +313,16 @@ texts! {
     EARLIER { en: "Previous", ru: "Прежнее значение" }
     FOUND { en: "Value", ru: "Значение" }
     FROM_GRAVITY {
-        en: "Local gravity, with an uncertainty of {u}, contributes {parts}. To reduce this, measure gravity.",
-        ru: "Местное g, неопределённость которого {u}, вносит {parts}. Для уменьшения этого вклада следует измерить \
-             ускорение свободного падения."
+        en: "Local g, with a standard uncertainty of {u}, contributes {parts}. To reduce this, measure g.",
+        ru: "Вклад местного g, стандартная неопределённость которого {u}, в U: {parts}. Для уменьшения следует измерить g."
     }
     FROM_UNKNOWN_HEIGHT {
-        en: "Local g contributes {parts}: the height is not stated, so g is that at 0 m with an uncertainty of {u}, all \
-             heights up to 4000 m being equally probable. To reduce this, state the height or measure g.",
-        ru: "Местное g вносит {parts}: высота не указана, g вычислено для 0 м с неопределённостью {u} (высоты до 4000 м \
-             равновероятны). Для уменьшения следует указать высоту или измерить g."
+        en: "Local g contributes {parts}: the height is not stated, so g is that at 0 m; its standard uncertainty, {u}, is the \
+             r.m.s. error of this for heights from 0 to 4000 m. To reduce it, state the height or measure g.",
+        ru: "Вклад местного g в U: {parts}. Высота не указана, g вычислено для 0 м; {u} — среднеквадратическая погрешность \
+             этого при высотах от 0 до 4000 м. Для уменьшения следует указать высоту или измерить g."
     }
-    FROM_GRAVITY_PART { en: "{gravity} to U of {parameter}", ru: "{gravity} в U параметра {parameter}" }
+    FROM_GRAVITY_PART { en: "{gravity} to the U of {parameter}", ru: "{gravity} для {parameter}" }
     FROM_TURN_ONS {
         en: "The scatter of the turn-ons, {u}, is most of the standard uncertainty of ω_0x and ω_0y. To reduce it, take more \
              turn-ons.",
@@ -341,6 +344,10 @@ texts! {
         en: "No gyro can pass by guarded acceptance: U exceeds the tolerance of {names}.",
         ru: "Приёмка с защитной полосой невозможна: U больше допуска для {names}."
     }
+    OPPOSITE {
+        en: "With the other sign these would be within the tolerance: {names}. Check the sign convention of the gyro type.",
+        ru: "С противоположным знаком в допуске были бы: {names}. Следует проверить правило знаков типа гироскопа."
+    }
     RISK_NOTE {
         en: "Risk (specific risk): probability that this decision on the parameter is wrong.",
         ru: "Риск: вероятность того, что это решение по параметру ошибочно."
@@ -354,6 +361,11 @@ texts! {
         en: "The fit cannot be tested: there are as many unknowns as readings, so any readings would fit.",
         ru: "Согласие проверить нельзя: число неизвестных равно числу показаний, и модели соответствуют любые \
              показания."
+    }
+    TOO_SMALL {
+        en: "Chi-square is much smaller than expected: the stated uncertainties are too large for these readings, or the \
+             readings were computed.",
+        ru: "Хи-квадрат значительно меньше ожидаемого: указанные неопределённости завышены либо показания получены расчётом."
     }
     OF_UNCERTAINTIES {
         en: "Degrees of freedom of the input uncertainties (taken into account)",
@@ -370,6 +382,12 @@ texts! {
     ROW_DEVIATION {
         en: "Standard deviation of a reading within a visit",
         ru: "Стандартное отклонение показания в одной установке"
+    }
+    ROWS_CORRELATED {
+        en: "Successive readings of a visit are correlated ({r}), so their mean is less certain than their scatter shows, and the \
+             stated uncertainties are too small. Average the readings of each visit to one row.",
+        ru: "Последовательные показания одной установки коррелированы ({r}): их среднее менее точно, чем следует из рассеяния, и \
+             указанные неопределённости занижены. Следует усреднить показания каждой установки до одного."
     }
     TURN_ON_SCATTER {
         en: "Variation between turn-ons, chi-square",
@@ -476,8 +494,8 @@ texts! {
         ru: "Возможно, паспорт относится к другому стенду."
     }
     HINT_DID_NOT_REPEAT {
-        en: "Position {index} may not have repeated: it is off by {angle}″ if the angle changed; if the currents are wrong, they \
-             are off by {jx} µA along x and {jy} µA along y.",
+        en: "Position {index} may not have been reproduced: if its angle has changed, the difference is {angle}″; if the currents \
+             are wrong, their errors are {jx} µA along x and {jy} µA along y.",
         ru: "Возможно, положение {index} не воспроизведено: если изменился угол, отличие равно {angle}″; если неверны токи, \
              их погрешность {jx} мкА по x и {jy} мкА по y."
     }
@@ -519,7 +537,7 @@ texts! {
     NOT_STATED_TURN_ONS { en: "gyro noise from turn-on to turn-on", ru: "шум гироскопа от запуска к запуску" }
     NOT_STATED_GRAVITY { en: "gravity", ru: "ускорение свободного падения" }
     NOT_STATED_LEVEL { en: "level of the base", ru: "горизонтирование основания" }
-    NOT_STATED_SEAT { en: "gyro seat", ru: "установка гироскопа на посадочную поверхность" }
+    NOT_STATED_SEAT { en: "gyro seat", ru: "посадка гироскопа" }
 
     BUDGET { en: "Uncertainty budget", ru: "Бюджет неопределённости" }
     BUDGET_CAPTION {
@@ -529,8 +547,7 @@ texts! {
              местному g, неопределённость которого не включена"
     }
     SHARES_CAPTION {
-        en: "Standard uncertainty u of each parameter, and where its variance u² comes from; ω_g and ω_k refer to \
-             local g",
+        en: "Standard uncertainty u of each parameter, and the shares of its variance u²; ω_g and ω_k refer to local g",
         ru: "Стандартная неопределённость u каждого параметра и составляющие её дисперсии u²; ω_g и ω_k отнесены к местному g"
     }
     SHARES { en: "Share of the variance, %", ru: "Доля дисперсии, %" }
@@ -585,12 +602,12 @@ texts! {
     CAUSE_TURN_ON { en: "gyro, turn-ons about {axis}", ru: "гироскоп, среднее по запускам, ось {axis}" }
     CAUSE_NOISE { en: "meter, noise", ru: "измеритель, шум показаний" }
     CAUSE_PLATFORM { en: "platform about {axis}", ru: "платформа, ось {axis}" }
-    CAUSE_SEAT { en: "gyro seat about {axis}", ru: "посадочная поверхность, ось {axis}" }
-    CAUSE_BASE { en: "base of the stand about {axis}", ru: "поворот основания стенда вокруг {axis}" }
+    CAUSE_SEAT { en: "gyro seat about {axis}", ru: "посадка гироскопа, ось {axis}" }
+    CAUSE_BASE { en: "base of the stand about {axis}", ru: "основание по сертификату, вокруг {axis}" }
     ABOUT_EAST { en: "east", ru: "направления на восток" }
     ABOUT_NORTH { en: "north", ru: "направления на север" }
     ABOUT_UP { en: "up", ru: "вертикали" }
-    CAUSE_LEVEL { en: "level of the base about {axis}", ru: "наклон основания вокруг {axis}" }
+    CAUSE_LEVEL { en: "level of the base about {axis}", ru: "горизонтирование основания вокруг {axis}" }
     CAUSE_AZIMUTH { en: "azimuth of the base", ru: "азимут основания" }
     CAUSE_MARK { en: "azimuth of the mark", ru: "азимут ориентирного пункта" }
     CAUSE_LATITUDE { en: "latitude", ru: "широта" }

@@ -25,8 +25,8 @@ texts! {
     EXCLUSIONS_NOTE {
         en: "An excluded reading is predicted from all others by least squares, so it contributes neither to the means \
              nor to the scatter.",
-        ru: "Исключённое показание заменено прогнозом по остальным методом наименьших квадратов; на средние и на \
-             рассеяние оно не влияет."
+        ru: "Исключённое показание заменено значением, рассчитанным по остальным методом наименьших квадратов; на средние и \
+             оценки рассеяния оно не влияет."
     }
     POSITION { en: "Position", ru: "Положение" }
     RUN { en: "Run", ru: "Серия" }
@@ -93,11 +93,11 @@ texts! {
         ru: "Граббса: серия {run}, основание, ось «{axis}», поворот, ″"
     }
     MOVE_PLATFORM {
-        en: "Student: move after run {run}, platform about {axis}, rotation, ″",
+        en: "Student: shift after run {run}, platform about {axis}, rotation, ″",
         ru: "Стьюдента: смещение после серии {run}, платформа вокруг {axis}, поворот, ″"
     }
     MOVE_BASE {
-        en: "Student: move after run {run}, base about {axis}, rotation, ″",
+        en: "Student: shift after run {run}, base about {axis}, rotation, ″",
         ru: "Стьюдента: смещение после серии {run}, основание, ось «{axis}», поворот, ″"
     }
     DRIFT_PLATFORM {
@@ -115,7 +115,7 @@ texts! {
     NO_ANGLE { en: "none of {count}", ru: "ни одного из {count}" }
     ROTATED_RUNS { en: "Grubbs: rotated runs (5 %), about {axes} axes", ru: "Граббса: повёрнутые серии (5 %), осей: {axes}" }
     NO_RUN { en: "none of {count}", ru: "ни одной из {count}" }
-    MOVE_OR_DRIFT { en: "Student: move or drift of the stand (5 %)", ru: "Стьюдента: смещение или дрейф стенда (5 %)" }
+    MOVE_OR_DRIFT { en: "Student: shift or drift of the stand (5 %)", ru: "Стьюдента: смещение или дрейф стенда (5 %)" }
     NO_MOVE { en: "none in {count} runs", ru: "нет, серий: {count}" }
     EQUAL { en: "no difference", ru: "различий нет" }
     DOUBTFUL { en: "doubtful", ru: "сомнительно" }
@@ -124,12 +124,12 @@ texts! {
     OUTLIER { en: "outlier", ru: "выброс" }
     STRAGGLER { en: "straggler", ru: "квазивыброс" }
     TESTS_NOTE {
-        en: "Value: the quantity at the end of the name of the test. Probability of a result at least as extreme by chance: below 5 % a \
-             value is a straggler and equality is doubtful, below 1 % it is an outlier and the variances are different. The \
-             tests exclude nothing. Bartlett’s needs readings of fine steps and none that is suspect.",
+        en: "Value: the statistic named last in the first column. Probability of a result at least as extreme by chance: below 5 % a \
+             value is a straggler and equality is doubtful, below 1 % it is an outlier and the variances are different. No \
+             reading is excluded because of these tests. Bartlett’s test requires a fine resolution and no suspect reading.",
         ru: "Значение: величина, указанная в конце названия критерия. Вероятность случайно получить столь же большое значение: \
-             менее 5 % — квазивыброс, равенство сомнительно; менее 1 % — выброс, дисперсии различаются. По критериям ничего \
-             не исключается. Критерию Бартлетта нужны показания с малым шагом и без сомнительных."
+             менее 5 % — квазивыброс, равенство сомнительно; менее 1 % — выброс, дисперсии различаются. По результатам \
+             проверок показания не исключаются. Критерий Бартлетта применим при малом шаге отсчёта и без сомнительных показаний."
     }
     WARNINGS_COUNTED {
         en: "Warnings of the program: {count}; see section “{section}”.",
@@ -175,8 +175,8 @@ texts! {
     }
     REPEATS { en: "unchanged", ru: "без изменений" }
     REPEATS_NOT { en: "changed", ru: "изменилось" }
-    OLD { en: "before", ru: "было" }
-    NEW { en: "now", ru: "стало" }
+    OLD { en: "before", ru: "прежнее" }
+    NEW { en: "now", ru: "новое" }
     DIFFERENCE { en: "change", ru: "изменение" }
     DIFFERENCE_IN_U { en: "change/u", ru: "изменение/u" }
     ALL_TOGETHER { en: "All positions, F (ν)", ru: "Все положения, F (ν)" }

@@ -3,7 +3,7 @@
 use super::texts;
 
 texts! {
-    CAPTION { en: "Checks as of {time}", ru: "Проверки на {time}" }
+    CAPTION { en: "Checks of the passport as of {time}", ru: "Проверки паспорта на {time}" }
     CHECK { en: "Check", ru: "Проверка" }
     RESULT { en: "Result", ru: "Результат" }
     FOUND { en: "Finding", ru: "Пояснение" }
@@ -16,7 +16,7 @@ texts! {
         ru: "Проверки на {time}: пройдено\u{a0}{passed}, не\u{a0}запрошено\u{a0}{not_asked}."
     }
     COUNTED_FAILED {
-        en: "Checks as of {time}: {passed} passed, {not_asked} not asked, {failed} failed.",
+        en: "Checks as of {time}: {passed} passed, {not_asked} not asked, {failed}\u{a0}failed.",
         ru: "Проверки на {time}: пройдено\u{a0}{passed}, не\u{a0}запрошено\u{a0}{not_asked}, не\u{a0}пройдено\u{a0}{failed}."
     }
 

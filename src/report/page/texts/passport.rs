@@ -14,7 +14,7 @@ texts! {
         en: "inclusive; withdrawal not checked",
         ru: "включительно; отзыв не\u{a0}проверен"
     }
-    PERIOD { en: "validity period until {day} (inclusive)", ru: "срок действия по {day} включительно" }
+    PERIOD { en: "validity period ends on {day} (inclusive)", ru: "срок действия по {day} включительно" }
     NO_END { en: "no expiry date is stated", ru: "срок действия не указан" }
     NO_END_NOT_CHECKED {
         en: "no expiry date is stated; withdrawal not checked",
@@ -101,7 +101,7 @@ texts! {
     DEVIATIONS_NOTE {
         en: "Position (i, j): frame angle θ about ξ, then platform angle φ about the spin axis. α, β, γ transform \
              coordinates from the nominal to the actual platform, eq. (4). u: standard uncertainty \
-             (k = 1) of the certified mean, own part of the position; ν: degrees of freedom, the fewest of the three u (–: not stated). \
+             (k = 1) of the certified mean, own part of the position; ν: degrees of freedom, the smallest of the three u (–: not stated). \
              Uncertainties have two significant digits; values are rounded to the same decimal place.",
         ru: "Положение (i, j): угол рамки θ вокруг ξ, затем угол платформы φ вокруг оси собственного вращения. α, β, γ \
              преобразуют координаты от номинальной платформы к реальной, формула (4). u — стандартная \
@@ -226,9 +226,9 @@ texts! {
     ACCURACY { en: "Expected calibration uncertainty", ru: "Ожидаемая неопределённость калибровки" }
     ACCURACY_CAPTION {
         en: "Standard uncertainties (k = 1) of one calibration at this site by least squares, and the \
-             tolerances of the gyro type",
+             tolerances of the gyro type; ω_g and ω_k refer to local g, whose own uncertainty is not included",
         ru: "Стандартные неопределённости (k = 1) одной калибровки в этом месте методом наименьших квадратов \
-             и допуски типа гироскопа"
+             и допуски типа гироскопа; ω_g и ω_k отнесены к местному g, неопределённость которого не включена"
     }
     ACCURACY_NONE {
         en: "Not stated: the passport was issued without a gyro type and a current meter.",
@@ -239,7 +239,7 @@ texts! {
         ru: "Неопределённости в сравнении с допусками."
     }
     GYRO_TYPE { en: "Gyro type", ru: "Тип гироскопа" }
-    GYRO_GRAVITY { en: "g to which the type’s drifts refer", ru: "g, к которому отнесён дрейф типа" }
+    GYRO_GRAVITY { en: "g to which the type’s drifts refer", ru: "g, к которому отнесены составляющие дрейфа по типу" }
     CALIBRATING_LABORATORY { en: "Laboratory that calibrates the gyro", ru: "Лаборатория, калибрующая гироскоп" }
     METER { en: "Current meter (k = 1)", ru: "Измеритель тока (k = 1)" }
     METER_READING { en: "reading {n} %", ru: "показание {n} %" }

@@ -36,11 +36,11 @@ texts! {
         en: "nominal, where the difference is visible",
         ru: "номинальные, где отличие заметно"
     }
-    FRAME { en: "frame, rotated by θ about ξ", ru: "рамка, повёрнута на θ вокруг ξ" }
+    FRAME { en: "frame, rotated by θ about ξ", ru: "рамка, поворот на θ вокруг\u{a0}ξ" }
     EXAGGERATED { en: "Deviations are drawn ×{factor}.", ru: "Отклонения изображены в масштабе ×{factor}." }
     PLATFORM {
         en: "platform with the gyro, rotated by φ about z; the pins of its seat lie along x",
-        ru: "платформа с гироскопом, повёрнута на φ вокруг z; штифты посадочной поверхности — вдоль x"
+        ru: "платформа с гироскопом, поворот на φ вокруг\u{a0}z; штифты вдоль\u{a0}x"
     }
 
     DEVIATION_BAR {
