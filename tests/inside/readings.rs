@@ -292,6 +292,12 @@ fn visits_and_cycles_that_cannot_be() {
         "{error}"
     );
 
+    // Three rounds of which every row says visit 1.
+    let rows = good(&setup).lines().skip(1).map(|line| format!("{line},1\n")).collect::<String>();
+    let merged = read(&setup, &format!("i,j,jx_ma,jy_ma,visit\n{}", rows.repeat(3))).unwrap();
+    let said = merged.remarks.join(" ");
+    assert!(said.contains("visit 1 to position (1, 1) are not next to each other"), "{said}");
+
     let (first, other) = (PositionIndex { i: 1, j: 1 }, PositionIndex { i: 1, j: 2 });
     let exclusion =
         |PositionIndex { i, j }, visit, cycle| Exclusion { i, j, visit, cycle, why: "table was knocked".to_owned() };

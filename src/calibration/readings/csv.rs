@@ -94,7 +94,10 @@ impl Readings {
         if !problems.is_empty() {
             return Err(table.refuse(problems));
         }
-        let doubts = doubtful_times(&rows).into_iter().chain(saturated(&rows, recorded.last_digit_ma));
+        let doubts = doubtful_times(&rows)
+            .into_iter()
+            .chain(scattered_visit(&rows))
+            .chain(saturated(&rows, recorded.last_digit_ma));
         let doubt = doubts.map(|doubt| format!("{}: {doubt}", Printable(name)));
         Ok(Self { recorded, remarks: table.remark().into_iter().chain(doubt).collect(), ..readings })
     }
@@ -292,6 +295,25 @@ fn times_in_another_unit(readings: &[Reading]) -> Vec<Problem> {
     }
     let found = format!("time_s: {} visits within {} s", stays.len(), two_digits(span_s));
     vec![Problem::whole(found, "seconds", "convert the times to seconds; dates of a spreadsheet are in days")]
+}
+
+/// Returns a remark if the rows of a visit are not next to each other: they may be returns to the position.
+fn scattered_visit(readings: &[Reading]) -> Option<String> {
+    let mut ended = BTreeSet::new();
+    for pair in readings.windows(2) {
+        let [here, next] = [&pair[0], &pair[1]].map(|reading| (reading.cycle, reading.index, reading.visit));
+        if here == next {
+            continue;
+        }
+        ended.insert(here);
+        if let (true, (_, index, Some(visit))) = (ended.contains(&next), next) {
+            return Some(format!(
+                "rows of visit {visit} to position {index} are not next to each other, and count as readings of one visit; give \
+                 every return to the position a number of its own"
+            ));
+        }
+    }
+    None
 }
 
 /// Average time of a move to another position below which times may be minutes, and above which they may be milliseconds, s.
