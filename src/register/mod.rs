@@ -346,7 +346,7 @@ impl Register {
                 let advice = "neither is in force until all but one have been withdrawn";
                 (Code::Superseded, format!("another file has the same id ({other}); {advice}"))
             } else if let Some(alarm) = self.doubt(&content.stand.id()) {
-                let advice = "get the damaged or missing file from the issuer again; move a file that is no passport out of the folder";
+                let advice = "get the damaged or missing file from the issuer again; move a file that is not a passport out of the folder";
                 (Code::RegisterUnknown, format!("unknown: {}; {advice}", alarm.reason()))
             } else {
                 (Code::Ok, format!("not superseded by any of {} files", self.files))

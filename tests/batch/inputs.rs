@@ -13,7 +13,7 @@ fn of_ten_thousand_sites_one_bad_latitude_costs_one_passport() {
     workshop
         .write("sites/site-04321.yaml", &site("site-04321", 0).replace("latitude_deg: 1.0000", "latitude_deg: 91.5"));
     let said = workshop.run(&format!("issue stands --site sites {SIGN} --no-sync"), 2);
-    assert_eq!(said.results, "issued 9,999, unchanged 0, refused 1 (inputs that cannot be used: 1)\n");
+    assert_eq!(said.results, "✕ issued 9,999, unchanged 0, refused 1 (inputs that cannot be used: 1)\n");
     let words: Vec<&str> = said.words.lines().collect();
     assert!(words[0].starts_with("dtg-passport: sites/site-04321.yaml:3:15: latitude_deg: found 91.5"), "{words:?}");
     let ids = workshop.sound("passports");
@@ -23,7 +23,7 @@ fn of_ten_thousand_sites_one_bad_latitude_costs_one_passport() {
     let before = snapshot(&workshop.path("passports"));
     workshop.write("sites/site-04321.yaml", &site("site-04321", 4321));
     let said = workshop.run(&format!("issue stands --site sites/site-04*.yaml {SIGN} --no-sync"), 0);
-    assert_eq!(said.results, "issued 1, unchanged 999, refused 0\n");
+    assert_eq!(said.results, "● issued 1, unchanged 999, refused 0\n");
     let after = snapshot(&workshop.path("passports"));
     let new: Vec<_> = after.difference(&before).collect();
     assert!(new.len() == 1 && new[0].0.ends_with("SPS-2/0000/site-04321-1.yaml") && before.is_subset(&after));

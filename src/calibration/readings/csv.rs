@@ -272,7 +272,7 @@ fn on_fall(before_s: f64, time_s: f64) -> &'static str {
     const DAY_S: f64 = 24.0 * SECONDS_PER_HOUR;
     match before_s - time_s {
         fall if before_s <= DAY_S && fall > 0.5 * DAY_S => {
-            "the times seem to begin anew at midnight: add 86400 s to them from there on"
+            "the times seem to start again at midnight: add 86400 s to them from there on"
         }
         fall if (0.5 * SECONDS_PER_HOUR..=SECONDS_PER_HOUR).contains(&fall) => {
             "the clock seems to have been set back by an hour: add 3600 s to the times from there on"

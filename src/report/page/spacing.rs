@@ -29,10 +29,11 @@ pub(crate) fn unbroken(words: &str) -> Markup {
         word.as_bytes().windows(3).any(is_designation)
             || WITH_SOLIDUS.iter().any(|unit| word.contains(unit))
             || word.starts_with(PROGRAM)
+            || word.split_once(' ').is_some_and(|(first, _)| is_initial(first))
             || word.contains('-') && (is_id(word) || word.contains('@'))
     };
     html! {
-        @for word in words.split_inclusive(' ') {
+        @for word in with_initials(words) {
             @let (equals, word) = word.split_at(word.rfind(EQUALS).map_or(0, |at| at + EQUALS.len()));
             @let shown = word.trim_end();
             (equals)
@@ -47,6 +48,27 @@ pub(crate) fn unbroken(words: &str) -> Markup {
             }
         }
     }
+}
+
+/// Splits a text after its spaces, but for those between initials and a surname.
+fn with_initials(text: &str) -> Vec<&str> {
+    let mut words: Vec<&str> = Vec::new();
+    let mut end = 0;
+    for word in text.split_inclusive(' ') {
+        end += word.len();
+        let is_name = word.starts_with(char::is_uppercase);
+        let of_name = |last: &str| is_name && last.split_whitespace().next_back().is_some_and(is_initial);
+        match words.last_mut().filter(|last| of_name(last)) {
+            Some(last) => *last = &text[end - word.len() - last.len()..end],
+            None => words.push(word),
+        }
+    }
+    words
+}
+
+/// Returns `true` for an initial: a capital and a full stop.
+fn is_initial(word: &str) -> bool {
+    word.strip_suffix('.').is_some_and(|letter| letter.chars().count() == 1 && letter.chars().all(char::is_uppercase))
 }
 
 /// Writes the index of a unit, °/(h·g₀), in a size that can be read.
@@ -89,6 +111,7 @@ mod tests {
             "u: [3.2e-05,] [C-18,] g-sensitive",
             "[GVK-6] and [SPS-2] № 0017, [SHA-256]",
             "run [dtg-passport] verify or ssh-keygen",
+            "(МГТУ им. [Н. Э. Баумана,] Москва) A. of",
             "by [name@]<wbr>[dtg-passport.test]",
             "passport [SPS-2/]<wbr>[0017/]<wbr>[moscow-bmstu/1] of",
             "id: \"XYZ/0017/moscow-bmstu/1\"",
