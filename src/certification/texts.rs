@@ -260,10 +260,10 @@ texts! {
              относительно положений до {before} включительно (в порядке строк) на {x}″, {y}″, {z}″ вокруг {axes}."
     }
     CHECK_OUTLIER {
-        en: "The reading of position {index} in run {run} of the check differs by {residual}″ about {axis} from its other \
-             runs; the change of the position includes {mean}″ of it.",
-        ru: "Показание положения {index} в контрольной серии {run} отличается от других серий на {residual}″ вокруг {axis}; \
-             в изменение положения вошло {mean}″."
+        en: "The reading of position {index} in run {run} of the check differs by {residual}″ about {axis} from those of the \
+             other runs; this accounts for {mean}″ of the change of the position.",
+        ru: "Показание положения {index} в контрольной серии {run} отличается на {residual}″ вокруг {axis} от показаний \
+             других серий; в изменение положения из них вошло {mean}″."
     }
     NOT_TESTED_VARIATION {
         en: "Rotation of the stand as a whole was not tested: the variation between the runs is unknown.",

@@ -22,10 +22,10 @@ pub(crate) fn to_json(cases: &[Case]) -> Value {
 pub(crate) fn text(cases: &[Case]) -> String {
     let failed = cases.iter().filter(|case| !case.passed()).count();
     let (word, words) = match failed {
-        0 => ("PASSED", format!("All {} cases agree with", cases.len())),
-        failed => ("FAILED", format!("{failed} of {} cases differ from", cases.len())),
+        0 => ("PASSED", format!("All {} values agree with", cases.len())),
+        failed => ("FAILED", format!("{failed} of {} values differ from", cases.len())),
     };
-    let mut out = format!("{}  {words} the published values.\n", style::marked(Some(failed == 0), word));
+    let mut out = format!("{}  {words} their references.\n", style::marked(Some(failed == 0), word));
     for group in cases.chunk_by(|one, other| one.example == other.example) {
         let Some(first) = group.first() else { continue };
         let _ = writeln!(out, "\n{}", first.example);

@@ -21,6 +21,6 @@ fn what_is_off_fails() {
     assert!(good.passed() && !off.passed() && !none.passed());
     let cases = [good, off, none];
     let text = plain(&text(&cases));
-    assert!(text.starts_with("✕ FAILED  2 of 3 cases differ from the published values.\n"), "{text}");
+    assert!(text.starts_with("✕ FAILED  2 of 3 values differ from their references.\n"), "{text}");
     assert_eq!(to_json(&cases)["failed"], 2);
 }

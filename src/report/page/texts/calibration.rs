@@ -301,7 +301,7 @@ texts! {
     NOMINAL { en: "Nominal", ru: "Номин. значение" }
     PREVIOUS {
         en: "Previous calibration: {day}, passport {passport}, currents {sha256}. Errors common \
-             to both, as of the stand, are not in the change: U is an upper estimate.",
+             to both, such as those of the stand, are not in the change: U is an upper estimate.",
         ru: "Предыдущая калибровка: {day}, паспорт {passport}, токи {sha256}. Общие погрешности (стенда) \
              в изменение не входят: U завышена."
     }
@@ -319,8 +319,8 @@ texts! {
     FROM_UNKNOWN_HEIGHT {
         en: "Local g contributes {parts}: the height is not stated, so g is that at 0 m; its standard uncertainty, {u}, is the \
              r.m.s. error of this for heights from 0 to 4000 m. To reduce it, state the height or measure g.",
-        ru: "Вклад местного g в U: {parts}. Высота не указана, g вычислено для 0 м; {u} — среднеквадратическая погрешность \
-             этого при высотах от 0 до 4000 м. Для уменьшения следует указать высоту или измерить g."
+        ru: "Вклад местного g в U: {parts}. Высота не указана, g вычислено для 0 м; {u} — его среднеквадратическая погрешность \
+             при высотах от 0 до 4000 м. Для уменьшения следует указать высоту или измерить g."
     }
     FROM_GRAVITY_PART { en: "{gravity} to the U of {parameter}", ru: "{gravity} для {parameter}" }
     FROM_TURN_ONS {
@@ -520,7 +520,7 @@ texts! {
         ru: "Малые остатки не исключают погрешностей. Не проявляются в остатках, но изменяют результат: паспорт для \
              другого места установки (широта), наклон основания вокруг направления на восток, поворот гироскопа на \
              посадочной поверхности вокруг оси собственного вращения, погрешности коэффициента преобразования и \
-             смещения нуля измерителя, перестановка x и y, ошибка одного знака. Поворот основания по азимуту почти не \
+             смещения нуля измерителя, перестановка x и y, обратный знак одной из величин. Поворот основания по азимуту почти не \
              проявляется в остатках. Для выявления этих погрешностей проверяют номер стенда, место установки по \
              паспорту, технические условия на гироскоп и результаты его предыдущей калибровки."
     }
@@ -548,7 +548,7 @@ texts! {
     }
     SHARES_CAPTION {
         en: "Standard uncertainty u of each parameter, and the shares of its variance u²; ω_g and ω_k refer to local g",
-        ru: "Стандартная неопределённость u каждого параметра и составляющие её дисперсии u²; ω_g и ω_k отнесены к местному g"
+        ru: "Стандартная неопределённость u каждого параметра и доли в её дисперсии u²; ω_g и ω_k отнесены к местному g"
     }
     SHARES { en: "Share of the variance, %", ru: "Доля дисперсии, %" }
     OTHER_INPUTS { en: "other inputs", ru: "прочие входные величины" }

@@ -113,7 +113,7 @@ texts! {
         ru: "Граббса: выбросы и квазивыбросы (5 %) среди показаний углов"
     }
     NO_ANGLE { en: "none of {count}", ru: "ни одного из {count}" }
-    ROTATED_RUNS { en: "Grubbs: rotated runs (5 %), about {axes} axes", ru: "Граббса: повёрнутые серии (5 %), осей: {axes}" }
+    ROTATED_RUNS { en: "Grubbs: rotated runs (5 %), about {axes} axes", ru: "Граббса: повёрнутые серии (5 %), по {axes} осям" }
     NO_RUN { en: "none of {count}", ru: "ни одной из {count}" }
     MOVE_OR_DRIFT { en: "Student: shift or drift of the stand (5 %)", ru: "Стьюдента: смещение или дрейф стенда (5 %)" }
     NO_MOVE { en: "none in {count} runs", ru: "нет, серий: {count}" }
@@ -127,7 +127,7 @@ texts! {
         en: "Value: the statistic named last in the first column. Probability of a result at least as extreme by chance: below 5 % a \
              value is a straggler and equality is doubtful, below 1 % it is an outlier and the variances are different. No \
              reading is excluded because of these tests. Bartlett’s test requires a fine resolution and no suspect reading.",
-        ru: "Значение: величина, указанная в конце названия критерия. Вероятность случайно получить столь же большое значение: \
+        ru: "Значение: величина, указанная в конце названия критерия. Вероятность случайно получить не меньшее значение: \
              менее 5 % — квазивыброс, равенство сомнительно; менее 1 % — выброс, дисперсии различаются. По результатам \
              проверок показания не исключаются. Критерий Бартлетта применим при малом шаге отсчёта и без сомнительных показаний."
     }
@@ -166,12 +166,10 @@ texts! {
         ru: "Поворот каждого положения относительно остальных"
     }
     TWO_CHANGES {
-        en: "The rotation is of the case, relative to the other positions; its u is from one repeatability of all positions, \
-             and it decides. The change below is of the certified angles; its u is from the uncertainties of that angle in \
-             both certificates.",
-        ru: "Поворот корпуса — относительно остальных положений; его u — по единой повторяемости положений; по нему \
-             принимается решение. Изменение (ниже) — аттестованных углов; его u — по неопределённостям этого угла в обоих \
-             сертификатах."
+        en: "The decision rests on the rotation of the case relative to the other positions (u from the repeatability of the \
+             earlier certificate, if stated). Below are the changes of the deviations (u from their uncertainties in both).",
+        ru: "Решение принимается по повороту корпуса относительно остальных положений (u — по повторяемости прежнего \
+             сертификата, если указана). Ниже — изменения отклонений (u — по их неопределённостям в обоих)."
     }
     REPEATS { en: "unchanged", ru: "без изменений" }
     REPEATS_NOT { en: "changed", ru: "изменилось" }

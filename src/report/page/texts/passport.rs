@@ -163,7 +163,7 @@ texts! {
     RADIUS { en: "Validity radius", ru: "Радиус применимости" }
     RADIUS_WITHIN {
         en: "Change of the Earth-rate components at this radius",
-        ru: "Изменение угловых скоростей на границе радиуса применимости"
+        ru: "Изменение угловых скоростей на границе области применимости"
     }
     AZIMUTH { en: "Astronomic azimuth of the mark", ru: "Астрономический азимут пункта" }
 
@@ -202,7 +202,7 @@ texts! {
         ru: "По токам J контрольного примера (все цифры — в приложении) программа лаборатории должна получить:"
     }
     EQUATIONS_NOTE {
-        en: "Numbers of equations: Tang and Podchezertsev (2017), {source}.",
+        en: "Equation numbers: Tang and Podchezertsev (2017), {source}.",
         ru: "Номера формул: Синюань Т., Подчерзцев В. П. (2017), {source}."
     }
     DIGITS_NOTE {
@@ -242,7 +242,7 @@ texts! {
     GYRO_GRAVITY { en: "g to which the type’s drifts refer", ru: "g, к которому отнесены составляющие дрейфа по типу" }
     CALIBRATING_LABORATORY { en: "Laboratory that calibrates the gyro", ru: "Лаборатория, калибрующая гироскоп" }
     METER { en: "Current meter (k = 1)", ru: "Измеритель тока (k = 1)" }
-    METER_READING { en: "reading {n} %", ru: "показание {n} %" }
+    METER_READING { en: "{n} % of reading", ru: "{n} % показания" }
     METER_GAIN { en: "gain {n} %", ru: "коэффициент преобразования {n} %" }
     METER_OFFSET { en: "offset {n} mA", ru: "смещение {n} мА" }
     METER_FLOOR { en: "floor {n} mA", ru: "постоянная часть {n} мА" }

@@ -136,13 +136,13 @@ texts! {
     CONVERGENCE_SHARE { en: "change : limit", ru: "изменение : предел" }
     CONVERGENCE_K {
         en: "main scale factors, the larger change",
-        ru: "основные масштабные коэффициенты, большее изменение"
+        ru: "основные масштабные коэффициенты, большее из изменений"
     }
     CONVERGENCE_G {
         en: "g-sensitive drifts, the larger change",
-        ru: "составляющие дрейфа, зависящие от g, большее изменение"
+        ru: "составляющие дрейфа, зависящие от g, большее из изменений"
     }
-    CONVERGENCE_LIMIT { en: "the iteration stops when both are below", ru: "ниже этого уровня итерации прекращаются" }
+    CONVERGENCE_LIMIT { en: "the iteration stops when both are below", ru: "если оба изменения ниже, итерации прекращаются" }
     CONVERGENCE_IN_WORDS {
         en: "step {step}: {k} % and {g} °/(h·g)",
         ru: "шаг {step}: {k} % и {g} °/(ч·g)"
