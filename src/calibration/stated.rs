@@ -124,6 +124,11 @@ fn of_common(certificate: &Certificate, on: ActsOn, common_arcsec: Option<f64>) 
     effective_degrees_of_freedom(&parts)
 }
 
+/// Returns the temperature during the readings, °C. What was read then comes before what the laboratory states.
+pub(crate) fn temperature_c(subject: &Subject, laboratory: Option<&Laboratory>) -> Option<f64> {
+    subject.temperature_c.or(laboratory.and_then(|laboratory| laboratory.temperature_c))
+}
+
 /// Temperature in the laboratory outside the range for which the deviations are certified, °C. Displayed, it is an
 /// English sentence without a full stop; `report` has the words of other languages.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -138,10 +143,9 @@ pub(crate) struct TemperatureOutside {
 }
 
 impl TemperatureOutside {
-    /// Returns `None` if the temperature is within the range, or if one of them is not stated. What was read during the
-    /// calibration comes before what the laboratory states.
+    /// Returns `None` if the temperature is within the range, or if one of them is not stated.
     pub(crate) fn of(certificate: &Certificate, subject: &Subject, laboratory: Option<&Laboratory>) -> Option<Self> {
-        let here_c = subject.temperature_c.or(laboratory.and_then(|laboratory| laboratory.temperature_c))?;
+        let here_c = temperature_c(subject, laboratory)?;
         let [low_c, high_c] = certificate.temperature_range_c?;
         (!(low_c..=high_c).contains(&here_c)).then_some(Self { here_c, low_c, high_c })
     }

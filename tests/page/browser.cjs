@@ -125,6 +125,11 @@ function unfit() {
     const lower = Math.max(...tops) - Math.min(...tops);
     if (lower >= parseFloat(getComputedStyle(element).fontSize)) found.push(`broken: ${name(element)}`);
   }
+  // A value stands on the line of its symbol.
+  for (const value of document.querySelectorAll("sub + .quantity")) {
+    const [symbol, first] = [value.previousElementSibling, value].map((element) => element.getClientRects()[0]);
+    if (first && Math.abs(symbol.top - first.top) >= parseFloat(getComputedStyle(value).fontSize)) found.push(`torn: ${name(value)}`);
+  }
   // The kind of the document is not broken before its last word.
   const kind = document.createRange();
   kind.selectNodeContents(document.querySelector(".kind > span"));

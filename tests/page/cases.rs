@@ -57,8 +57,8 @@ pub fn all() -> Vec<Case> {
         case("four-ru", &four_positions(), BARE_SITE, &[Russian]),
         case("north-both", fixtures::DEGREES, &pointing(0.0), &[Russian, English]),
         case("many-north-west-en", &many_positions(), &pointing(321.5), &[English]),
-        case("bare-en", BARE_STAND, BARE_SITE, &[English]),
-        case("bare-ru", BARE_STAND, BARE_SITE, &[Russian]),
+        bare("bare-en", &[English]),
+        bare("bare-ru", &[Russian]),
         full("elsewhere-en", &[English]).asking(wrong.clone()),
         full("elsewhere-both", &[Russian, English]).asking(wrong),
         usual("expired-ru", &[Russian]).asking(Question::at(fixtures::at("2028-11-02T00:00:00Z"))),
@@ -72,6 +72,11 @@ pub fn usual(name: &'static str, languages: &[Language]) -> Case {
     let trust = Trust::of(AllowedSigners::parse("allowed_signers", signers).unwrap());
     let question = Question::at(fixtures::at("2026-11-20T12:00:00Z"));
     Case { name, passport, trust, question, languages: of(languages) }
+}
+
+/// Hardly anything stated, and no expiry date.
+pub fn bare(name: &'static str, languages: &[Language]) -> Case {
+    case(name, BARE_STAND, BARE_SITE, languages)
 }
 
 fn of(languages: &[Language]) -> Languages {

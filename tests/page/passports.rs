@@ -131,6 +131,17 @@ fn the_verdict_is_large() {
     }
 }
 
+#[test]
+fn a_second_language_says_the_status_with_its_end() {
+    let both = [Language::English, Language::Russian];
+    for (case, due) in [
+        (cases::usual("usual-both", &both), "Действует по 01.11.2028 включительно"),
+        (cases::bare("bare-both", &both), "Действует; срок действия не указан"),
+    ] {
+        assert!(case.html().replace('\u{a0}', " ").contains(due), "{}: {due}", case.name);
+    }
+}
+
 /// Names of the checks in English and Russian, in the order of contract and command line.
 const CHECKS: [[&str; 2]; 11] = [
     ["Form of the file", "Форма"],

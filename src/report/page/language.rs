@@ -147,6 +147,15 @@ impl Languages {
         }
     }
 
+    /// Writes a paragraph in each language, one below the other; `say` makes it for each language.
+    pub(crate) fn lines_with(&self, say: impl Fn(Language) -> Markup) -> Markup {
+        html! {
+            @for (index, language) in self.iter().enumerate() {
+                p lang=(language.tag()) class=[(index > 0).then_some("second")] { (say(language)) }
+            }
+        }
+    }
+
     /// Returns the language tag of a part, or `None` if the page has only one language.
     fn marked(&self, language: Language) -> Option<&'static str> {
         (!self.single()).then(|| language.tag())

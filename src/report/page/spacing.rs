@@ -7,8 +7,8 @@ pub(crate) use crate::wording::spacing::BLANK;
 /// Units in which browsers see a place for a line to end, after the solidus.
 const WITH_SOLIDUS: [&str; 3] = ["m/s²", "м/с²", "°/"];
 
-/// Sign of equality before a value: no line ends after it, as one may before the element of the value.
-const EQUALS: &str = "\u{a0}=\u{a0}";
+/// Length in bytes below which a word with a unit fits every line.
+const LONGEST_QUANTITY: usize = 40;
 
 /// The name of the program.
 const PROGRAM: &str = "dtg-passport";
@@ -25,22 +25,23 @@ pub(crate) fn unbroken(words: &str) -> Markup {
         [before, b'-', after] => before.is_ascii_alphanumeric() && after.is_ascii_digit(),
         _ => false,
     };
+    let with_solidus = |word: &str| WITH_SOLIDUS.iter().any(|unit| word.contains(unit));
+    // A block of its own would let a line end before a unit, even after a non-breaking space.
+    let class = |word: &str| if with_solidus(word) && word.len() < LONGEST_QUANTITY { "quantity" } else { "n" };
     let whole = |word: &str| {
         word.as_bytes().windows(3).any(is_designation)
-            || WITH_SOLIDUS.iter().any(|unit| word.contains(unit))
             || word.starts_with(PROGRAM)
+            || with_solidus(word)
             || word.split_once(' ').is_some_and(|(first, _)| is_initial(first))
             || word.contains('-') && (is_id(word) || word.contains('@'))
     };
     html! {
         @for word in with_initials(words) {
-            @let (equals, word) = word.split_at(word.rfind(EQUALS).map_or(0, |at| at + EQUALS.len()));
             @let shown = word.trim_end();
-            (equals)
             @if whole(shown) {
                 @for (place, part) in parts(shown).enumerate() {
                     @if place > 0 { wbr; }
-                    span.n { (lowered(part)) }
+                    span class=(class(shown)) { (lowered(part)) }
                 }
                 (&word[shown.len()..])
             } @else {
@@ -102,8 +103,8 @@ fn parts(word: &str) -> impl Iterator<Item = &str> {
 mod tests {
     use super::*;
 
-    /// Between `[` and `]`: a date, a number with an exponent, a unit with a solidus, a designation, the program, an
-    /// id. Hyphens of words and names are no part of a number.
+    /// Between `[` and `]`: a date, a number with an exponent, a designation, the program, an id; between `{` and `}` a unit with a
+    /// solidus. Hyphens of words and names are no part of a number.
     #[test]
     fn no_line_ends_within_a_number_or_a_name() {
         for due in [
@@ -116,11 +117,12 @@ mod tests {
             "passport [SPS-2/]<wbr>[0017/]<wbr>[moscow-bmstu/1] of",
             "id: \"XYZ/0017/moscow-bmstu/1\"",
             "[a-1-2]",
-            "of [9.8\u{a0}м/с²,] and/or [°/(h·g<sub>0</sub>)]",
+            "of {9.8\u{a0}м/с²,} and/or {°/(h·g<sub>0</sub>)}",
         ] {
-            let plain = due.replace(['[', ']'], "").replace("<wbr>", "").replace("<sub>0</sub>", "₀");
+            let plain = due.replace(['[', ']', '{', '}'], "").replace("<wbr>", "").replace("<sub>0</sub>", "₀");
             let written = unbroken(&plain).into_string().replace("&quot;", "\"");
-            assert_eq!(written.replace("<span class=\"n\">", "[").replace("</span>", "]"), due);
+            let due = due.replace('[', "<span class=\"n\">").replace('{', "<span class=\"quantity\">");
+            assert_eq!(written, due.replace([']', '}'], "</span>"));
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{CalibrationPage, UsedPassport};
 use crate::calibration::readings::Exclusion;
-use crate::calibration::stated::TemperatureOutside;
+use crate::calibration::stated::{TemperatureOutside, temperature_c};
 use crate::laboratory::Laboratory;
 use crate::report::page::language::{Languages, values};
 use crate::report::page::number::Number;
@@ -47,14 +47,10 @@ pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
     let site = content.site.name.as_deref().unwrap_or(content.site.id.as_str());
     let id = || given(&content.passport.id);
     let certificate = match &page.passport {
-        UsedPassport::Verified(_) => html! {
-            @for (index, language) in languages.iter().enumerate() {
-                @let values = [("id", id()), ("time", time(&language.into(), page.time))];
-                p lang=(language.tag()) class=[(index > 0).then_some("second")] {
-                    (texts::VERIFIED_AS_OF.marked_up(language, &values))
-                }
-            }
-        },
+        UsedPassport::Verified(_) => languages.lines_with(|language| {
+            let values = [("id", id()), ("time", time(&language.into(), page.time))];
+            texts::VERIFIED_AS_OF.marked_up(language, &values)
+        }),
         UsedPassport::NotVerified { .. } => html! { p { (id()) } p.failed { (languages.inline(texts::NOT_VERIFIED)) } },
     };
     parts::band(
@@ -74,8 +70,7 @@ fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
     let result = page.document;
     let subject = result.subject.as_ref();
     let celsius = |value: f64| quantity(languages, &Number::exact(value), units::CELSIUS);
-    let of_laboratory = page.laboratory.and_then(|laboratory| laboratory.temperature_c);
-    let temperature = subject.and_then(|subject| subject.temperature_c).or(of_laboratory).map(celsius);
+    let temperature = subject.and_then(|subject| temperature_c(subject, page.laboratory)).map(celsius);
     let site = content.site.name.as_deref().unwrap_or(content.site.id.as_str());
     // What the band leaves blank has its only blank there.
     let serial = page.serial().map(given);
@@ -149,13 +144,14 @@ fn laboratory(page: &CalibrationPage, languages: &Languages) -> Markup {
     // Section 3 names those that are not stated.
     let angles = accuracy::angles(&laboratory, languages).into_iter();
     let angles = angles.filter_map(|(name, value)| Some(field(languages, name, Some(value?))));
+    let meter = wide_field(languages, passport_texts::METER, Some(accuracy::meter(&laboratory, languages)));
     html! {
         (fields([
             laboratory.name.as_deref().map(|name| field(languages, passport_texts::NAME, Some(given(name)))).unwrap_or_default(),
             field(languages, passport_texts::ADDRESS, None),
             field(languages, texts::PROCEDURE, None),
             field(languages, texts::GRAVITY, Some(characteristics::gravity(g, u, languages))),
-        ].into_iter().chain(angles).chain([wide_field(languages, passport_texts::METER, Some(accuracy::meter(&laboratory, languages)))])))
+        ].into_iter().chain(angles).chain([meter])))
         @if page.laboratory.is_none() { div.statement { (languages.paragraph(texts::METER_ASSUMED)) } }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{PassportPage, checks};
 use crate::report::page::code;
-use crate::report::page::language::{Language, Languages, values};
+use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::{LATITUDES, LONGITUDES, Number};
 use crate::report::page::parts::{
     band, coordinate, date, fields, figure, given, marked, quantity, signature, stated, time, wide_stated,
@@ -51,32 +51,36 @@ fn answers(page: &PassportPage, languages: &Languages) -> Markup {
     let content = &page.content;
     let (site, certificate) = (&content.site, &content.certificate);
     let valid = page.verification.valid();
-    // The second language follows as a sentence of its own.
     let status = match valid {
         true => html! { p.headline { (marked(Some(true), &html! { (languages.spoken(check_texts::IN_FORCE)) })) } },
         false => html! { span.failed { (marked(Some(false), &languages.label(check_texts::NOT_TO_BE_USED))) } },
     };
+    // A second language begins with the status, which the large words do not say in it.
+    let then = |rest: Text, before: &dyn Fn(Language) -> String| {
+        languages.label_with(|language| match language == languages.first() {
+            true => rest.words(language),
+            false => check_texts::IN_FORCE.words(language) + &before(language) + &rest.words(language),
+        })
+    };
     let unchecked = valid && checks::withdrawal_not_checked(page);
     let until = match content.last_day() {
         Some((day, _)) if valid => {
-            let words = if unchecked { texts::INCLUSIVE_NOT_CHECKED } else { texts::INCLUSIVE };
-            let rest = |language| match language == languages.first() {
-                true => words.words(language),
-                false => {
-                    let [in_force, until] = [check_texts::IN_FORCE, texts::UNTIL].map(|text| text.words(language));
-                    format!("{in_force} {until} {} {}", date_text(language, day), words.words(language))
-                }
-            };
+            let rest = if unchecked { texts::INCLUSIVE_NOT_CHECKED } else { texts::INCLUSIVE };
+            let until = |language| format!(" {} {} ", texts::UNTIL.words(language), date_text(language, day));
             html! {
                 p.large { (languages.spoken(texts::UNTIL)) " " (date(languages, day)) }
-                p { (languages.label_with(rest)) }
+                p { (then(rest, &until)) }
             }
         }
         // Below "Not to be used", "until" would say that it may be used later.
         Some((day, _)) => html! {
             p { (languages.label_with(|language| texts::PERIOD.filled(language, values! { day: date_text(language, day) }))) }
         },
-        None => html! { p { (languages.label(if unchecked { texts::NO_END_NOT_CHECKED } else { texts::NO_END })) } },
+        None if valid => {
+            let rest = if unchecked { texts::NO_END_NOT_CHECKED } else { texts::NO_END };
+            html! { p { (then(rest, &|_| "; ".to_owned())) } }
+        }
+        None => html! { p { (languages.label(texts::NO_END)) } },
     };
     let latitude = site.latitude_deg.or(site.astronomic_latitude_deg).unwrap_or(content.earth.latitude_deg);
     let coordinates = |language: Language| {
@@ -89,9 +93,7 @@ fn answers(page: &PassportPage, languages: &Languages) -> Markup {
         }
     };
     let place = html! {
-        @for (index, language) in languages.iter().enumerate() {
-            p lang=(language.tag()) class=[(index > 0).then_some("second")] { (coordinates(language)) }
-        }
+        (languages.lines_with(coordinates))
         p { (given(site.name.as_deref().unwrap_or(site.id.as_str()))) }
     };
     let word = html! {
