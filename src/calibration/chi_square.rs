@@ -28,11 +28,6 @@ impl ChiSquare {
     pub(crate) fn judges(&self) -> bool {
         self.degrees_of_freedom > 0
     }
-
-    /// Returns `true` if the readings agree so closely as they do in one of a thousand calibrations.
-    pub(crate) fn is_too_small(&self) -> bool {
-        self.judges() && self.probability > 0.999
-    }
 }
 
 /// Returns chi-square of readings at the fit of `propagation`.

@@ -110,16 +110,7 @@ impl Hint {
         };
         self.explanations.iter().any(is_of_all)
     }
-}
 
-impl fmt::Display for Hint {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let and = if self.explanations.is_empty() { ", and" } else { ";" };
-        write!(f, "the readings do not fit{and} {}", self.causes())
-    }
-}
-
-impl Hint {
     /// Returns the possible causes as a sentence without a full stop.
     pub(crate) fn causes(&self) -> String {
         if self.explanations.is_empty() {
@@ -135,6 +126,13 @@ impl Hint {
         causes.extend(self.may_be_another_stand().then(|| "the passport is that of another stand".to_owned()));
         let plural = if causes.len() > 1 { "s" } else { "" };
         format!("possible cause{plural}: {}", causes.join(", or "))
+    }
+}
+
+impl fmt::Display for Hint {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let and = if self.explanations.is_empty() { ", and" } else { ";" };
+        write!(f, "the readings do not fit{and} {}", self.causes())
     }
 }
 

@@ -25,8 +25,8 @@ pub(crate) fn exact_currents_ma(setup: &Setup, gyro: &GyroParameters) -> Option<
 }
 
 /// Returns the parameter whose standard uncertainty suffers most from the positions that `readings` left out, with its
-/// ratio to that with all positions, each visited once; `others` is the standard uncertainty that a parameter has
-/// besides, in any case.
+/// ratio to that with all positions, each visited once; `others` is a further standard uncertainty of each parameter, which
+/// no position reduces.
 ///
 /// Returns `None` if none was left out, or the rest does not determine the parameters.
 pub(crate) fn cost_of_missing(

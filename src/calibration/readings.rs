@@ -2,8 +2,12 @@
 //!
 //! A visit is one arrival at a position with its rows, which are the readings taken there without leaving the position.
 //! Further visits reduce errors that further rows of the same visit do not reduce.
+//!
+//! * `csv`: reading a file of currents.
+//! * `times`: checks of the order and the times of its rows.
 
 pub(crate) mod csv;
+mod times;
 
 use super::recorded::Recorded;
 use crate::coefficients::{Coefficients, PositionIndex};

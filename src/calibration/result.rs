@@ -3,6 +3,7 @@
 use super::diagnosis::ALARM;
 use super::iterative::NoIterativeSolution;
 use super::recorded::Digits;
+use super::scatter::IMPROBABLE;
 use super::{
     ChiSquare, DriftNoise, Hint, Iteration, Model, NoAnalyticSolution, NoLeastSquares, NoiseSource, NotStated,
     Parameter, RowScatter, Scatter, Suspect,
@@ -79,6 +80,12 @@ impl Calibration {
     pub(crate) fn noise_not_stated(&self) -> impl Iterator<Item = NotStated> {
         let each = [(self.visit_noise, NotStated::Visits), (self.turn_on_noise, NotStated::TurnOns)];
         each.into_iter().filter(|(noise, _)| noise.source == NoiseSource::NotStated).map(|(_, what)| what)
+    }
+
+    /// Returns `true` if the readings agree more closely with the fit than chance explains, and their digits do not explain it.
+    pub(crate) fn fits_too_well(&self) -> bool {
+        let is_too_small = |fit: &ChiSquare| fit.judges() && fit.probability > 1.0 - IMPROBABLE;
+        self.digits.is_none() && self.answer().is_some_and(|answer| is_too_small(&answer.chi_square))
     }
 
     /// Returns the standard uncertainty of ω_0 from the scatter of the turn-ons, °/h, if it is most of that of ω_0x or ω_0y.

@@ -59,10 +59,15 @@ pub struct RowScatter {
     pub against_stated: Option<Scatter>,
 }
 
-/// Returns the correlation of successive rows of a visit, pooled over all visits, if it is larger than chance explains in one
-/// of thirty thousand calibrations.
+/// Smallest excess of a correlation over that of independent rows that is named, in its standard deviations: by chance one
+/// calibration in thirty thousand has it.
+const CORRELATED: f64 = 4.0;
+
+/// Returns the correlation of successive rows of a visit, pooled over all visits, or `None` if chance explains it.
 ///
-/// Of n independent rows less their mean it is -1/n, with a standard deviation of 1/√n (Anderson 1942).
+/// Rows are taken relative to the mean of their visit. If n rows are independent, any two of these differences have the
+/// correlation −1/(n − 1). The expected correlation of successive ones, from n − 1 products and n squares, is therefore −1/n,
+/// and its standard deviation is about 1/√n.
 pub(super) fn row_correlation(readings: &Readings) -> Option<f64> {
     let (mut products, mut squares, mut independent, mut count) = (0.0, 0.0, 0.0, 0.0);
     let visits = readings.positions().iter().flat_map(|at| &at.visits).filter(|visit| visit.each_ma.len() > 2);
@@ -75,7 +80,7 @@ pub(super) fn row_correlation(readings: &Readings) -> Option<f64> {
         count += 2.0 * (rows - 1.0);
     }
     let (found, due) = (products / squares, independent / count);
-    (squares > 0.0 && (found - due) * count.sqrt() > 4.0).then_some(found)
+    (squares > 0.0 && (found - due) * count.sqrt() > CORRELATED).then_some(found)
 }
 
 impl Scatter {

@@ -96,7 +96,8 @@ impl ParameterVerdict {
         self.guarded == Decision::Undecided && within(least) && !within(most)
     }
 
-    /// Returns the ratio of the uncertainty to the present one if all of it that does not come from the local g had this ratio.
+    /// Returns the ratio of the new uncertainty to this one if the part that does not come from the local g is multiplied by
+    /// `ratio`.
     pub(crate) fn ratio_with_gravity(&self, ratio: f64) -> f64 {
         let of_gravity = self.expanded_uncertainty_from_gravity.unwrap_or(0.0) / self.expanded_uncertainty;
         libm::sqrt(ratio * ratio * (1.0 - of_gravity * of_gravity) + of_gravity * of_gravity)

@@ -43,8 +43,14 @@ pub(crate) enum Finding {
     RotatedSlightly,
     RotatedRuns(RotatedRuns),
     SplitRun(SplitRun),
-    /// Outlier among the readings of the check, its part in the mean of the position, and the uncertainty of the change, arcsec.
-    Outlier(Outlier, f64, f64),
+    /// Outlier among the readings of the check.
+    Outlier {
+        out: Outlier,
+        /// Part of the outlier in the mean of the position.
+        of_mean_arcsec: f64,
+        /// Standard uncertainty of the change of the position about the axis of the outlier.
+        u_arcsec: f64,
+    },
     NotTested(Untested),
     /// Angles without uncertainty in the certificate.
     TreatedAsExact,
@@ -106,8 +112,8 @@ impl Finding {
                 fill(text, values! { run, after, axes: at.axis.names(), x, y, z, of_x, of_y, of_z })
             }
             Self::SplitRun(at) => at.filled(texts::CHECK_SPLIT, language),
-            Self::Outlier(out, mean, u) => {
-                let (residual, mean) = (arcsec(out.residual_arcsec), Number::measured(*mean, *u));
+            Self::Outlier { out, of_mean_arcsec, u_arcsec } => {
+                let (residual, mean) = (arcsec(out.residual_arcsec), Number::measured(*of_mean_arcsec, *u_arcsec));
                 let (index, run, axis) = (&out.index, &out.run, AXES[out.axis]);
                 fill(texts::CHECK_OUTLIER, values! { index, run, residual, axis, mean })
             }
@@ -138,7 +144,7 @@ impl Finding {
         let advice = match self {
             Self::RotatedRuns(RotatedRuns { pattern: Pattern::One(run), .. }) => return Some(without(*run)),
             Self::SplitRun(at) => return Some(without(at.run)),
-            Self::Outlier(Outlier { index, run, .. }, ..) => {
+            Self::Outlier { out: Outlier { index, run, .. }, .. } => {
                 let of_reading = format!("{},{},{run}", index.i, index.j);
                 let words = "Measure the run again, or exclude the reading with --exclude";
                 return Some(format!("{words} {of_reading} and --why."));
@@ -172,7 +178,7 @@ impl Finding {
 
     /// Returns `true` for an outlier among the readings or the runs of a check, with which nothing is decided.
     pub(crate) fn is_outlier(&self) -> bool {
-        matches!(self, Self::Outlier(..) | Self::SplitRun(_))
+        matches!(self, Self::Outlier { .. } | Self::SplitRun(_))
             || matches!(self, Self::RotatedRuns(run) if run.probability < OUTLIER)
     }
 
@@ -201,8 +207,8 @@ impl Finding {
         if let Self::Exchanged(pair) = self {
             return pair.contains(&at.index);
         }
-        let Self::Outlier(out, mean, _) = self else { return false };
-        let part = |axis: usize| if axis == out.axis { *mean } else { 0.0 };
+        let Self::Outlier { out, of_mean_arcsec, .. } = self else { return false };
+        let part = |axis: usize| if axis == out.axis { *of_mean_arcsec } else { 0.0 };
         out.index == at.index && (0..3).all(|axis| (at.turn_arcsec[axis] - part(axis)).abs() <= 3.0 * at.u_arcsec[axis])
     }
 }
@@ -255,7 +261,11 @@ fn suspect(check: &Certification, positions: &[ComparedPosition]) -> Vec<Finding
     let runs = check.runs.len() as f64;
     let outliers = check.suspects.outliers.iter().filter(|out| out.probability < OUTLIER);
     let u = |out: &Outlier| positions.iter().find(|at| at.index == out.index).map_or(0.0, |at| at.u_arcsec[out.axis]);
-    let outliers = outliers.map(|out| Finding::Outlier(*out, out.residual_arcsec / runs, u(out)));
+    let outliers = outliers.map(|out| Finding::Outlier {
+        out: *out,
+        of_mean_arcsec: out.residual_arcsec / runs,
+        u_arcsec: u(out),
+    });
     let split = check.suspects.split.into_iter().map(Finding::SplitRun);
     split.chain(check.rotated_runs.iter().copied().map(Finding::RotatedRuns)).chain(outliers).collect()
 }

@@ -186,9 +186,10 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     // A run that changed within itself is also rotated on average.
     rotated_runs.retain(|at| suspects.split.is_none_or(|split| at.run() != Some(split.run)));
     // A suspect reading enlarges the scatter that would have to be subtracted from the variation of the runs.
-    let unequal_axes = match suspects.outliers.is_empty() {
-        true => unequal_axes::find(readings, &components, &rotated_runs),
-        false => Vec::new(),
+    let unequal_axes = if suspects.outliers.is_empty() {
+        unequal_axes::find(readings, &components, &rotated_runs)
+    } else {
+        Vec::new()
     };
     let mut remarks: Vec<Remark> = rotated_runs.iter().copied().map(Remark::RotatedRuns).collect();
     // A shared setting may be the cause of what follows.

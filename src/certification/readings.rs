@@ -96,9 +96,7 @@ impl AngleReadings {
         excluded: &[Excluded],
     ) -> Result<Self, Unreadable> {
         let table = Table::read(name, bytes, &COLUMNS, &ANGLE_COLUMNS)?;
-        if let Some(problem) = table.thousands(&COLUMNS[3..]) {
-            return Err(table.refuse(vec![problem]));
-        }
+        table.check_marks(&COLUMNS[3..])?;
         let mut problems = Vec::new();
         let mut rows: Vec<Reading> = Vec::new();
         let is_out = |place| excluded.iter().any(|excluded| is_excluded(excluded, place));

@@ -15,7 +15,7 @@ pub(crate) struct UnequalAxis {
     pub axis: CommonAxis,
     /// Standard deviation from run to run about that axis, arcsec.
     pub deviation_arcsec: f64,
-    /// Its degrees of freedom.
+    /// Degrees of freedom of `deviation_arcsec`.
     pub degrees_of_freedom: usize,
     /// Standard deviation from run to run about the other two axes, arcsec.
     pub others_arcsec: f64,

@@ -315,7 +315,7 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
         let _ = writeln!(out);
         columns::paragraph(out, "", UNTESTED);
     }
-    if is_too_small(calibration) {
+    if calibration.fits_too_well() {
         columns::paragraph(out, "  ", texts::TOO_SMALL.of(Language::English));
     }
     beyond_the_paper(out, answer);
@@ -333,11 +333,6 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
         let words = format!("Not stated, or stated as 0, and not included in any u: {}.", missing.join("; "));
         columns::paragraph(out, "", &words);
     }
-}
-
-/// Returns `true` if the readings agree more closely than the uncertainties explain, and their digits do not explain it.
-pub(crate) fn is_too_small(calibration: &Calibration) -> bool {
-    calibration.digits.is_none() && calibration.answer().is_some_and(|answer| answer.chi_square.is_too_small())
 }
 
 fn chi_square(out: &mut String, answer: &MethodResult) {

@@ -36,7 +36,7 @@ pub(super) fn scatter(calibration: &Calibration) -> Vec<(Weight, String)> {
             }
         }
     }
-    // Of readings that do not fit it is said first.
+    // The result of readings that do not fit begins with it.
     if let Some(words) = correlated(calibration).filter(|_| calibration.hint.is_none()) {
         say(words, Weight::Warning);
     }

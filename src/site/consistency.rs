@@ -142,13 +142,13 @@ impl Site {
         if self.deflection_arcsec.as_ref().is_some_and(|deflection| deflection.u.is_none()) {
             odd.push("deflection_arcsec counts as exact, because no uncertainty is stated; state its u".to_owned());
         }
-        odd.extend(self.few_digits_of_mark());
+        odd.extend(self.doubtful_mark());
         odd
     }
 
     /// Returns a sentence if the uncertainty of mark and pillar is not stated, or they were written with fewer digits than it
     /// needs.
-    fn few_digits_of_mark(&self) -> Option<String> {
+    fn doubtful_mark(&self) -> Option<String> {
         let mark = self.azimuth_mark.as_ref()?;
         let coordinates = [mark.latitude_deg, mark.longitude_deg, mark.pillar_latitude_deg, mark.pillar_longitude_deg];
         let step_deg = coordinates.map(last_digit_deg).into_iter().fold(1.0, f64::min);

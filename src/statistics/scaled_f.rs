@@ -147,8 +147,8 @@ mod tests {
         }
     }
 
-    /// Twenty rounds of eight positions, half of whose variance is the noise of the visits, estimated, and that do not fit at
-    /// all: chi-square exceeds 1e4 for 300 degrees of freedom whatever the noise is.
+    /// Twenty rounds of eight positions that do not fit at all; half of the variance is the estimated noise of the visits.
+    /// Whatever that noise is, chi-square exceeds 6000 with 300 degrees of freedom, whose probability is below 1e-1000.
     #[test]
     fn a_probability_too_small_for_a_number_is_0() {
         let part = Part { degrees_of_freedom: 280.0, trace: 150.0, square: 75.0 };

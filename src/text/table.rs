@@ -151,29 +151,29 @@ impl<'a> Table<'a> {
         Problem::new(Some(cell.location), column_name(&self.columns, column), found, expected, advice)
     }
 
-    /// Returns a problem if the marks in these columns, and only they, seem to be between groups of three digits: 1.064 for 1064.
-    ///
-    /// Expected of decimals: a number below 1, one with another number of them, or no whole number among them.
-    pub(crate) fn thousands(&self, columns: &[&str]) -> Option<Problem> {
+    /// Refuses a table in which the points in `columns` seem to be separators of thousands, as in 1.064 for 1064: each is before
+    /// exactly three digits, no number is below 1, and other numbers are whole.
+    pub(crate) fn check_marks(&self, columns: &[&str]) -> Result<(), Unreadable> {
         let places: Vec<usize> = columns.iter().filter_map(|column| self.place(column)).collect();
         let cells = || self.rows.iter().flat_map(|row| places.iter().map(move |&place| (place, &row[place])));
-        let digits = |cell: &Cell| cell.text.trim_start_matches(['+', '-']).to_owned();
-        let mut grouped = cells().filter(|(_, cell)| cell.text.contains('.')).peekable();
-        let (place, first) = *grouped.peek()?;
-        let is_group = |cell: &Cell| {
-            let text = digits(cell);
-            let (before, after) = text.split_once('.').unwrap_or_default();
-            let all_digits = before.bytes().chain(after.bytes()).all(|digit| digit.is_ascii_digit());
-            all_digits && (1..=3).contains(&before.len()) && !before.starts_with('0') && after.len() == 3
+        let is_grouped = |cell: &Cell| {
+            cell.text.trim_start_matches(['+', '-']).split_once('.').is_some_and(|(before, after)| {
+                let has_digits = |part: &str| part.bytes().all(|digit| digit.is_ascii_digit());
+                let is_group = (1..=3).contains(&before.len()) && !before.starts_with('0') && after.len() == 3;
+                is_group && has_digits(before) && has_digits(after)
+            })
         };
         let is_small_and_whole =
-            |cell: &Cell| digits(cell).parse::<u32>().is_ok_and(|number| (1..1000).contains(&number));
-        let whole = || cells().any(|(_, cell)| is_small_and_whole(cell));
-        (grouped.all(|(_, cell)| is_group(cell)) && whole()).then(|| {
-            let advice = "here every mark is before exactly three digits, and other numbers are whole: save the table again \
-                          without marks between thousands, or, if they are decimals, with all decimals in every number";
-            self.problem(first, place, described(&first.text), "a number that can be read in one way", advice)
-        })
+            |cell: &Cell| cell.text.parse::<i32>().is_ok_and(|number| (1..1000).contains(&number.abs()));
+        let mut with_point = cells().filter(|(_, cell)| cell.text.contains('.'));
+        let Some((place, first)) = with_point.next().filter(|(_, cell)| is_grouped(cell)) else { return Ok(()) };
+        if !with_point.all(|(_, cell)| is_grouped(cell)) || !cells().any(|(_, cell)| is_small_and_whole(cell)) {
+            return Ok(());
+        }
+        let advice = "every point is before exactly three digits, and other numbers are whole: save the table again without \
+                      separators of thousands, or, if the points are decimal, with all decimals in every number";
+        let expected = "a number that can be read in one way";
+        Err(self.refuse(vec![self.problem(first, place, described(&first.text), expected, advice)]))
     }
 
     /// Returns the refusal of this table. If many cells need the same advice, only the first is shown, with the number
@@ -228,7 +228,7 @@ fn with_decimal_points(rows: &mut [Row], columns: &[&str]) -> Result<bool, Probl
             let found = format!("{:?}, with decimal commas from line {} on", cell.text, comma.location.line);
             let expected = "decimal commas or decimal points in the whole file";
             let advice = match cell.text.contains(',') {
-                true => "save the table again without marks between thousands",
+                true => "save the table again without separators of thousands",
                 false => "save the table again with decimal points",
             };
             return Err(Problem::new(Some(cell.location), column_name(columns, place), found, expected, advice));
@@ -448,18 +448,18 @@ fn advice_for_index(text: &str) -> &'static str {
 mod tests {
     use super::*;
 
-    /// As spreadsheets write whole seconds of arc, with marks between thousands: of other countries, and of decimals that look
-    /// alike but for one number.
+    /// Whole arcseconds as spreadsheets of two countries write them are refused. Decimals are read, even if a single number shows
+    /// that they are decimals.
     #[test]
-    fn marks_between_thousands_are_not_decimal_marks() {
-        let problem = |rows: &str| {
+    fn separators_of_thousands_are_not_decimal_marks() {
+        let checked = |rows: &str| {
             let text = format!("i;j;a;b\n{rows}");
             let table = Table::read("t.csv", text.as_bytes(), &["i", "j", "a", "b"], &[]).unwrap();
-            table.thousands(&["a", "b"]).map(|problem| problem.to_string())
+            table.check_marks(&["a", "b"]).map_err(|refused| refused.to_string())
         };
         for rows in ["1;1;-622;-1.064\n1;2;12.345;17", "1;1;2,697;-2,136\n1;2;-459;63"] {
-            let words = problem(rows).expect(rows);
-            assert!(words.contains("without marks between thousands"), "{words}");
+            let words = checked(rows).unwrap_err();
+            assert!(words.contains("without separators of thousands"), "{words}");
         }
         for rows in [
             "1;1;-622.5;-1.064\n1;2;12.345;17",
@@ -468,7 +468,7 @@ mod tests {
             "1;1;-622;1064\n1;2;12345;17",
             "1;1;1234.567;-1.064\n1;2;12.345;17",
         ] {
-            assert_eq!(problem(rows), None, "{rows}");
+            assert_eq!(checked(rows), Ok(()), "{rows}");
         }
     }
 

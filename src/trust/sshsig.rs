@@ -166,7 +166,7 @@ fn as_openssh_writes_it(armor: &str) -> Option<SshSig> {
 fn why_refused(armor: &str) -> SignatureError {
     match SshSig::from_pem(armor) {
         Ok(_) => SignatureError::NotCanonical,
-        // A block that was wrapped anew is not damaged.
+        // A block that was wrapped again is not damaged.
         Err(_) if SshSig::from_pem(wrapped(&base64_of(armor), LINE_LENGTH)).is_ok() => SignatureError::NotCanonical,
         Err(error) => refusal(error),
     }

@@ -286,6 +286,8 @@ fn visits_and_cycles_that_cannot_be() {
     assert!(error.contains("c.csv:6:") && error.contains("at midnight: add 86400 s"), "{error}");
     let error = times(|at| 10_000 + 120 * at - if at > 4 { 3600 } else { 0 });
     assert!(error.contains("c.csv:7:") && error.contains("set back by an hour: add 3600 s"), "{error}");
+    let error = timed("1,1,0.1,0.2,1,3,60\n1,1,0.1,0.2,1,2,90\n").unwrap_err();
+    assert!(error.contains("visit 2, 90 s; number the visits in the order of time"), "{error}");
     let error = timed("1,1,0.1,0.2,1,2,86300\n1,1,0.1,0.2,1,3,40\n").unwrap_err();
     assert!(
         error.contains("c.csv:11:17") && error.contains("not before that of visit 2, 86300 s; the times seem"),

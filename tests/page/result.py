@@ -202,13 +202,12 @@ class Report:
             return
         if digits != rounded(float(value), place) and float(digits) != float(value):
             self.wrong.append(f"{shown} is not {value} rounded")
-        due = [uncertainty(self.result, path) if path else None for path in paths]
+        # Contributions have one digit more than the uncertainty, so that their squares add up.
+        due = [(uncertainty(self.result, path) if path else None, int("contribution" in path)) for path in paths]
         alone = adopted(self.result)
-        due += [u for symbol, u in self.alone.items() if at(alone, PLACES[symbol]) == float(value)]
-        # Contributions have one digit more, so that their squares add up.
-        more = [int("contribution" in path) for path in paths] + [0] * len(due)
-        if all(u and place_of(u) - digit != place for u, digit in zip(due, more)):
-            self.wrong.append(f"{shown} has not the digits of its uncertainty {due[0]}: {paths[0]}")
+        due += [(u, 0) for symbol, u in self.alone.items() if at(alone, PLACES[symbol]) == float(value)]
+        if all(u and place_of(u) - more != place for u, more in due):
+            self.wrong.append(f"{shown} has not the digits of its uncertainty {due[0][0]}: {paths[0]}")
 
     def sentence(self, words):
         """The numbers within a sentence: each one that of the result, rounded, whatever its sign."""
@@ -309,6 +308,9 @@ class Report:
                 if key:
                     u = line["expanded_uncertainty" if key[0] == "expanded_uncertainty" else "standard_uncertainty"]
                     self.cell(f"{row[0]['text']}, {symbol}", cell, at(line, key), u)
+                elif part == "budget" and cell["text"] == "> 1000":
+                    if not 1000 <= line["effective_degrees_of_freedom"] <= 1e4:
+                        self.wrong.append(f"{symbol}: {line['effective_degrees_of_freedom']} degrees of freedom are not > 1000")
                 elif part == "budget" and cell["values"]:
                     known = [one["contribution"] for one in line["contributions"]] + [line.get("effective_degrees_of_freedom")]
                     if float(cell["values"][0]) not in known:

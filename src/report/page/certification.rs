@@ -11,8 +11,8 @@ mod evidence;
 use super::language::{Languages, Text, values};
 use super::number::Number;
 use super::parts::{
-    band, boxed, contents, data_address, date, file_name, given, heading, marked, not_stated, numbered, quantity,
-    section, signatures, symbol, verbatim,
+    Section, band, boxed, contents, data_address, date, file_name, given, heading, marked, not_stated, numbered,
+    quantity, section, signatures, symbol, verbatim,
 };
 use super::passport::{characteristics, general};
 use super::shell::{Margins, document};
@@ -20,6 +20,9 @@ use super::texts::{calibration as calibration_texts, certification as texts, pas
 use crate::certification::{Certification, Comparison};
 use crate::passport::difference::NumberDifference;
 use maud::{Markup, html};
+
+/// Id of the section of the uncertainty.
+const UNCERTAINTY: &str = "uncertainty";
 
 /// Certification with everything that its record states.
 #[derive(Debug, Clone)]
@@ -59,7 +62,7 @@ impl CertificationPage<'_> {
         let mut sections = vec![("result", texts::RESULT, self.result(languages))];
         sections.extend(change::section(self, languages).map(|change| ("change", texts::CHANGE, change)));
         sections.extend([
-            ("uncertainty", texts::UNCERTAINTY, evidence::uncertainty(self, languages)),
+            (UNCERTAINTY, texts::UNCERTAINTY, evidence::uncertainty(self, languages)),
             ("tests", texts::TESTS, evidence::tests(self, languages)),
             ("readings", texts::READINGS, evidence::readings(self, languages)),
             ("subject", texts::SUBJECT, self.subject(languages)),
@@ -75,7 +78,7 @@ impl CertificationPage<'_> {
                     (boxed("verdict refused", languages.label(texts::DRAFT), languages.paragraph(texts::DRAFT_WORDS)))
                 }
                 (change::verdict(self, languages))
-                (self.band(languages))
+                (self.band(languages, &sections))
                 (contents(languages, texts::SAVE, (&address, file_name(self.readings.0)), &sections, texts::ANNEX))
                 (numbered(languages, &sections))
                 @if !self.dry_run {
@@ -88,7 +91,7 @@ impl CertificationPage<'_> {
 
     /// Writes who measured the stand and when, until when the certificate is valid, and the uncertainties that all positions
     /// have in common.
-    fn band(&self, languages: &Languages) -> Markup {
+    fn band(&self, languages: &Languages, sections: &[Section]) -> Markup {
         let certificate = &self.certification.stand.certificate;
         let arcsec = |u| quantity(languages, &Number::uncertainty(u), units::ARCSEC);
         let u = |value: Option<f64>| value.map_or_else(|| not_stated(languages), arcsec);
@@ -99,7 +102,7 @@ impl CertificationPage<'_> {
             freedom.map_or_else(|| html! { "–" }, |freedom| Number::at_most(freedom, 1).markup(languages))
         };
         // The limits stand in the section of the uncertainty.
-        let number = if self.change.is_some() { 3 } else { 2 };
+        let number = 1 + sections.iter().position(|(id, ..)| *id == UNCERTAINTY).unwrap_or_default();
         let is_few = [of_platform, of_base].into_iter().flatten().any(|freedom| freedom < evidence::FEW_DEGREES);
         let common = [certificate.common_platform_arcsec, certificate.common_base_arcsec].map(u);
         let on = |name: Text, day| html! { p { (languages.inline(name)) ": " (date(languages, day)) } };

@@ -93,22 +93,22 @@ fn small_multiples(languages: &Languages, subject: &Subject) -> Markup {
 /// Draws what the marks mean. With a panel for each frame index, its title says what the marks of positions `together` say.
 fn key(languages: &Languages, together: Option<&Content>) -> Markup {
     let sample = |frame: u32| mark([14.0, 7.0], frame, "mark");
-    let mut entries = vec![
-        (arrow([2.0, 7.0], [26.0, 7.0], "real"), languages.label(texts::VECTOR_DIFFERENCE)),
-        (sample(1), languages.label(texts::VECTOR_LABEL)),
-    ];
-    if let Some(content) = together {
-        let frames: BTreeSet<u32> = content.positions.iter().map(|at| at.i).collect();
-        entries.truncate(1);
-        // There are four marks: the frame indices 1 and 5 share one.
-        entries.extend((0..4).filter_map(|kind| {
-            let same: Vec<u32> = frames.iter().copied().filter(|frame| frame % 4 == (kind + 1) % 4).collect();
-            let list = same.iter().map(|frame| format!("({frame}, j)")).collect::<Vec<_>>().join(", ");
-            let words =
-                languages.label_with(|language| texts::VECTOR_MARK.filled(language, values! { positions: list }));
-            Some((sample(*same.first()?), words))
-        }));
-    }
+    let marks = match together {
+        None => vec![(sample(1), languages.label(texts::VECTOR_LABEL))],
+        Some(content) => {
+            let frames: BTreeSet<u32> = content.positions.iter().map(|at| at.i).collect();
+            // There are four marks: the frame indices 1 and 5 share one.
+            let of_kind = |kind: u32| {
+                let same = || frames.iter().filter(|frame| **frame % 4 == kind % 4);
+                let positions = same().map(|frame| format!("({frame}, j)")).collect::<Vec<_>>().join(", ");
+                let words = |language| texts::VECTOR_MARK.filled(language, values! { positions });
+                Some((sample(*same().next()?), languages.label_with(words)))
+            };
+            (1..=4).filter_map(of_kind).collect()
+        }
+    };
+    let difference = (arrow([2.0, 7.0], [26.0, 7.0], "real"), languages.label(texts::VECTOR_DIFFERENCE));
+    let entries = [vec![difference], marks].concat();
     legend_with(entries.iter().map(|(sample, words)| (sample, words.clone())))
 }
 

@@ -8,7 +8,6 @@ use crate::calibration::noise::NoiseSource;
 use crate::calibration::scatter::{Agreement, Scatter};
 use crate::calibration::stated::NotStated;
 use crate::calibration::suspect::Suspect;
-use crate::report::calibration::is_too_small;
 use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::{Number, column, probability};
 use crate::report::page::parts::{Column, Table, field, fields, quantity, starts, symbol, symbol_and_unit};
@@ -26,7 +25,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
                 (scatter(page, languages))
             } @else {
                 (chi_square(result, languages))
-                @if is_too_small(page.calibration) { (languages.paragraph(texts::TOO_SMALL)) }
+                @if page.calibration.fits_too_well() { (languages.paragraph(texts::TOO_SMALL)) }
                 (scatter(page, languages))
                 (table(result, languages))
                 (key(languages))

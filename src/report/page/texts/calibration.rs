@@ -345,8 +345,8 @@ texts! {
         ru: "Приёмка с защитной полосой невозможна: U больше допуска для {names}."
     }
     OPPOSITE {
-        en: "With the other sign these would be within the tolerance: {names}. Check the sign convention of the gyro type.",
-        ru: "С противоположным знаком в допуске были бы: {names}. Следует проверить правило знаков типа гироскопа."
+        en: "With the other sign these would be within the tolerance: {names}. Check the sign convention.",
+        ru: "С противоположным знаком в допуске были бы: {names}. Следует проверить правило знаков."
     }
     RISK_NOTE {
         en: "Risk (specific risk): probability that this decision on the parameter is wrong.",
