@@ -70,22 +70,18 @@ pub(super) fn check_size(name: &str, bytes: &[u8]) -> Result<(), Unreadable> {
     Err(Unreadable::whole(name, None, found, expected, "check that this is the right file"))
 }
 
-/// Returns the lines of a trust file that are neither empty nor comments; line endings are LF or CRLF.
+/// Returns the lines of a trust file that are neither empty nor comments; line endings are LF or CRLF, and a byte order
+/// mark is left out, as in other hand-written files.
 ///
 /// # Errors
-/// Returns [`Unreadable`] if the file is larger than [`LARGEST_TRUST_FILE_BYTES`], is not UTF-8, contains a private
-/// key, or begins with a byte order mark, which OpenSSH would read as part of the first line.
+/// Returns [`Unreadable`] if the file is larger than [`LARGEST_TRUST_FILE_BYTES`], is not UTF-8, or contains a private
+/// key.
 pub(super) fn of<'a>(name: &str, bytes: &'a [u8]) -> Result<Vec<Line<'a>>, Unreadable> {
     check_size(name, bytes)?;
-    let mark = match bytes {
-        [0xEF, 0xBB, 0xBF, ..] => Some("a byte order mark (BOM)"),
-        _ if is_utf16(bytes) => Some("UTF-16"),
-        _ => None,
-    };
-    if let Some(found) = mark {
-        let (start, advice) = (Some(Location { line: 1, column: 1 }), "save the file as UTF-8 without a BOM");
-        return Err(Unreadable::whole(name, start, found, "UTF-8 without a BOM", advice));
+    if is_utf16(bytes) {
+        return Err(Unreadable::whole(name, None, "UTF-16", "UTF-8", "save the file as UTF-8"));
     }
+    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let at = location_of(&bytes[..error.valid_up_to()]);
         let found = format!("byte 0x{:02X}", bytes[error.valid_up_to()]);
@@ -109,15 +105,16 @@ mod tests {
 
     #[test]
     fn comments_and_empty_lines_are_left_out() {
-        let lines = of("f", b"# one\n\n \t\r\n  a b\r\n\t# two\nc").unwrap();
-        let kept: Vec<_> = lines.iter().map(|line| (line.number, line.text)).collect();
-        assert_eq!(kept, [(4, "  a b"), (6, "c")]);
+        for text in ["# one\n\n \t\r\n  a b\r\n\t# two\nc", "\u{FEFF}# one\n\n\n  a b\n\nc", "\u{FEFF}\n\n\n  a b\n\nc"] {
+            let lines = of("f", text.as_bytes()).unwrap();
+            let kept: Vec<_> = lines.iter().map(|line| (line.number, line.text)).collect();
+            assert_eq!(kept, [(4, "  a b"), (6, "c")], "{text:?}");
+        }
     }
 
     #[test]
     fn other_encodings_are_named_with_their_place() {
         let refusal = |bytes: &[u8]| of("f", bytes).unwrap_err().to_string();
-        assert!(refusal(b"\xEF\xBB\xBFa").starts_with("f:1:1: found a byte order mark"));
         assert!(refusal(b"\xFF\xFEa\0").contains("found UTF-16"));
         assert!(refusal(b"a\0\n\0").contains("found UTF-16"));
         assert!(refusal("# жж\nж".as_bytes().split_last().unwrap().1).starts_with("f:2:1: found byte 0xD0"));

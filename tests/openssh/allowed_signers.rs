@@ -1,7 +1,7 @@
 //! Allowed signers: our verdicts next to those of `ssh-keygen -Y verify -Overify-time=…`.
 
 use crate::{Bench, Finished, NAMESPACE, PRINCIPAL};
-use dtg_passport::trust::{AllowedSigners, NotAuthorised, SigningKey};
+use dtg_passport::trust::{AllowedSigners, NotAuthorised, RevokedKeys, SigningKey};
 use jiff::Timestamp;
 
 const PRINCIPALS: [&str; 9] = [
@@ -184,6 +184,23 @@ fn lines_that_ssh_keygen_accepts_and_we_refuse() {
             let refused = AllowedSigners::parse("signers", line.as_bytes()).unwrap_err().to_string();
             assert!(refused.contains(words), "{refused}");
         }
+    });
+}
+
+/// Notepad and spreadsheets of Windows write the mark; OpenSSH takes it for part of the first name.
+#[test]
+fn a_byte_order_mark_does_not_belong_to_the_first_name() {
+    with_case(|case| {
+        let key = case.key.public_key().to_openssh();
+        let now = "20260315120000Z";
+        let first = format!("\u{FEFF}{PRINCIPAL} {key}\r\n");
+        assert_eq!(case.ours(&first, now), Ok(()));
+        assert!(!case.theirs(&first, now).good);
+        case.compare(&format!("\u{FEFF}# signers\n{PRINCIPAL} {key}\n"), now);
+        // A second mark, as of two files joined, is part of a name for both.
+        case.compare(&format!("{PRINCIPAL}2 {key}\n\u{FEFF}{PRINCIPAL} {key}\n"), now);
+        let revoked = RevokedKeys::parse("revoked", format!("\u{FEFF}{key}\n").as_bytes()).unwrap();
+        assert!(revoked.revokes(&case.key.public_key()).is_some());
     });
 }
 
