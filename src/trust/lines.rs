@@ -105,7 +105,8 @@ mod tests {
 
     #[test]
     fn comments_and_empty_lines_are_left_out() {
-        for text in ["# one\n\n \t\r\n  a b\r\n\t# two\nc", "\u{FEFF}# one\n\n\n  a b\n\nc", "\u{FEFF}\n\n\n  a b\n\nc"] {
+        for text in ["# one\n\n \t\r\n  a b\r\n\t# two\nc", "\u{FEFF}# one\n\n\n  a b\n\nc", "\u{FEFF}\n\n\n  a b\n\nc"]
+        {
             let lines = of("f", text.as_bytes()).unwrap();
             let kept: Vec<_> = lines.iter().map(|line| (line.number, line.text)).collect();
             assert_eq!(kept, [(4, "  a b"), (6, "c")], "{text:?}");

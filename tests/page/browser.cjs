@@ -259,7 +259,7 @@ function torn() {
 /** Rows of forms in which no pen has room: lower than 8 mm. */
 function low() {
   const millimetres = (row) => (row.getBoundingClientRect().height / 96) * 25.4;
-  return [...document.querySelectorAll(".form tbody tr")].map(millimetres).filter((height) => height < 7.99).map((height) => `${height.toFixed(1)} mm`);
+  return [...document.querySelectorAll(".form tbody tr, .lines, .proof .fields > div, #signatures .fields > div, .fields > div:has(> dd > .blank)")].map(millimetres).filter((height) => height < 7.99).map((height) => `${height.toFixed(1)} mm`);
 }
 
 /** Marks the beginning of every heading and of every row below one, and says what was marked, in the order of the page. */

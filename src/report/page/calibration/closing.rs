@@ -25,7 +25,7 @@ pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup 
 pub(super) fn json(page: &CalibrationPage) -> String {
     // Every number of a result is finite, and its keys are strings. So this JSON can always be written.
     let mut json = Vec::new();
-    let mut writer = Serializer::with_formatter(&mut json, Lines { depth: 0, in_list: false });
+    let mut writer = Serializer::with_formatter(&mut json, Lines { open: Vec::new(), in_list: false });
     match page.document.serialize(&mut writer) {
         // A space before an object that begins a line; a string contains no line feed.
         Ok(()) => String::from_utf8(json).unwrap_or_default().replace(", \n", ",\n") + "\n",
@@ -40,27 +40,29 @@ fn annex(page: &CalibrationPage, languages: &Languages) -> Markup {
 }
 
 /// A JSON formatter that writes each key of the document and of each result on its own line, and so each object of a list.
-/// Matrices and lists of numbers stay on one line.
+/// Other objects, matrices and lists of numbers stay on one line.
 struct Lines {
-    /// Number of open objects.
-    depth: usize,
+    /// Objects that are open, the innermost last: `true` if each of its keys begins a line.
+    open: Vec<bool>,
     /// `true` if the value that begins is one of a list.
     in_list: bool,
 }
 
 impl Lines {
-    /// Depth of nested objects beyond which an object stays on one line.
-    const DEEPEST: usize = 2;
-
     fn new_line(&self, writer: &mut (impl Write + ?Sized)) -> io::Result<()> {
-        write!(writer, "\n{}", "  ".repeat(self.depth))
+        write!(writer, "\n{}", "  ".repeat(self.open.len()))
+    }
+
+    fn key_per_line(&self) -> bool {
+        self.open.last().is_some_and(|&lines| lines)
     }
 }
 
 impl Formatter for Lines {
     fn begin_object<W: Write + ?Sized>(&mut self, writer: &mut W) -> io::Result<()> {
-        self.depth += 1;
-        if self.in_list && self.depth > Self::DEEPEST {
+        let depth = self.open.len();
+        self.open.push(depth == 0 || depth == 1 && self.in_list);
+        if self.in_list && depth > 1 {
             self.new_line(writer)?;
         }
         self.in_list = false;
@@ -68,9 +70,7 @@ impl Formatter for Lines {
     }
 
     fn end_object<W: Write + ?Sized>(&mut self, writer: &mut W) -> io::Result<()> {
-        let deep = self.depth > Self::DEEPEST;
-        self.depth -= 1;
-        if !deep {
+        if self.open.pop() == Some(true) {
             self.new_line(writer)?;
         }
         writer.write_all(b"}")
@@ -80,10 +80,10 @@ impl Formatter for Lines {
         if !first {
             writer.write_all(b",")?;
         }
-        match (self.depth > Self::DEEPEST, first) {
-            (false, _) => self.new_line(writer),
-            (true, true) => Ok(()),
-            (true, false) => writer.write_all(b" "),
+        match (self.key_per_line(), first) {
+            (true, _) => self.new_line(writer),
+            (false, true) => Ok(()),
+            (false, false) => writer.write_all(b" "),
         }
     }
 

@@ -121,7 +121,7 @@ fn proof(page: &PassportPage, languages: &Languages) -> Markup {
     html! {
         div.proof {
             @if let Some(picture) = code::picture(&page.sha256, languages.spoken(texts::CODE)) { (picture) }
-            (signature(languages, record::RESPONSIBLE))
+            (signature(languages, record::ISSUED_BY))
             div.sum {
                 p.sum-name { (languages.label(texts::SHA256)) }
                 p.sha256 { code { (page.sha256) } }

@@ -52,12 +52,10 @@ texts! {
     SHA256 { en: "SHA-256 of the signed file", ru: "SHA-256 подписанного файла" }
     CODE { en: "Code with the SHA-256 of the signed file", ru: "Код с SHA-256 подписанного файла" }
     PAPER_IS_NOT_SIGNED {
-        en: "This page shows a signed file; the page itself is not signed. Only the file is valid; it is reproduced \
-             verbatim in the annex. Compare its SHA-256 with the value here or in the code. To verify the file, use \
-             dtg-passport verify, or ssh-keygen alone.",
-        ru: "Эта страница воспроизводит подписанный файл и сама не подписана. Силу имеет только файл, дословно \
-             приведённый в приложении. Хеш SHA-256 файла сравнивают с указанным здесь или в коде; файл проверяют командой \
-             dtg-passport verify или средствами ssh-keygen."
+        en: "This page is not signed: only the file is valid, which the annex reproduces verbatim. Its SHA-256 must equal \
+             the value here and in the code. To verify the file, use dtg-passport verify, or ssh-keygen alone.",
+        ru: "Сама страница не подписана: силу имеет только файл, дословно приведённый в приложении. Хеш SHA-256 файла \
+             должен совпадать с указанным здесь и в коде; файл проверяют командой dtg-passport verify или ssh-keygen."
     }
 
     GENERAL { en: "General data", ru: "Основные сведения об изделии" }
@@ -82,7 +80,7 @@ texts! {
     METHOD { en: "Method", ru: "Методика" }
     TRACEABILITY { en: "Traceability", ru: "Прослеживаемость" }
     TEMPERATURE { en: "Temperature during measurement", ru: "Температура при измерениях" }
-    TEMPERATURE_RANGE { en: "Temperature range of validity", ru: "Диапазон температур применимости" }
+    TEMPERATURE_RANGE { en: "Temperature range of validity", ru: "Диапазон температур" }
     FROM_TO { en: "{low} to {high}", ru: "от {low} до {high}" }
     THIS_ITEM_ONLY {
         en: "The results relate only to the stand identified here. This passport shall not be reproduced except in \
@@ -100,8 +98,8 @@ texts! {
     }
     DEVIATIONS_NOTE {
         en: "Position (i, j): frame angle θ about ξ, then platform angle φ about the spin axis. α, β, γ transform \
-             coordinates from the nominal to the actual platform, eq. (4). u: standard uncertainty \
-             (k = 1) of the certified mean, own part of the position; ν: degrees of freedom, the smallest of the three u (–: not stated). \
+             coordinates from the nominal to the actual platform, eq. (4). u: own part of the standard \
+             uncertainty (k = 1) of the certified mean; ν: degrees of freedom, the smallest of the three u (–: not stated). \
              Uncertainties have two significant digits; values are rounded to the same decimal place.",
         ru: "Положение (i, j): угол рамки θ вокруг ξ, затем угол платформы φ вокруг оси собственного вращения. α, β, γ \
              преобразуют координаты от номинальной платформы к реальной, формула (4). u — стандартная \

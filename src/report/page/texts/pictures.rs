@@ -48,8 +48,8 @@ texts! {
         ru: "отклонения α, β, γ по сертификату, вокруг осей x, y, z платформы"
     }
     DEVIATION_WHISKER {
-        en: "±2u, with u the standard uncertainty of the own part of the position",
-        ru: "±2u, где u — стандартная неопределённость собственной составляющей положения"
+        en: "±2u, where u is the own part of the standard uncertainty",
+        ru: "±2u, где u — собственная составляющая стандартной неопределённости"
     }
     DEVIATION_NO_U { en: "the certificate gives no uncertainty", ru: "неопределённость в сертификате не указана" }
 

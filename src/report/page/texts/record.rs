@@ -13,7 +13,7 @@ texts! {
     EXTERNAL { en: "Results from external providers", ru: "Результаты внешних поставщиков" }
     SIGNATURE { en: "Signature", ru: "Подпись" }
     POST_AND_NAME { en: "Position and name", ru: "Должность, фамилия" }
-    RESPONSIBLE { en: "Responsible person: position, name", ru: "Ответственное лицо: должность, фамилия" }
+    ISSUED_BY { en: "Issued by: position, name", ru: "Выдал: должность, фамилия" }
 
     RECORD { en: "Record of the stand", ru: "Учёт изделия" }
     ON_PAPER {
