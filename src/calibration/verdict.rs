@@ -88,6 +88,11 @@ impl ParameterVerdict {
         self.coverage_factor * self.standard_uncertainty
     }
 
+    /// Returns the part of the standard uncertainty that comes from the local g, in the unit of the parameter.
+    pub(crate) fn u_from_gravity(&self) -> Option<f64> {
+        self.expanded_uncertainty_from_gravity.map(|expanded| expanded / self.coverage_factor)
+    }
+
     /// Returns `true` if the parameter is undecided because of its uncertainty, not because the result is not valid.
     pub(crate) fn is_close(&self) -> bool {
         let within = |deviation: f64| deviation <= self.tolerance;

@@ -2,6 +2,7 @@
 
 use crate::calibration::Parameter;
 use crate::calibration::document::finite;
+use crate::calibration::verdict::Verdict;
 use crate::report::columns;
 use crate::report::page::Language;
 use crate::report::page::texts::calibration as texts;
@@ -19,8 +20,9 @@ pub(crate) const MANY: f64 = 1e4;
 /// Share of the variance below which contributions are combined into one line.
 const SHARE_SHOWN: f64 = 5e-4;
 
-/// Returns `sentence` and the budget of every parameter, the largest contribution first.
-pub(crate) fn budget(budget: &Budget, sentence: Option<&str>) -> String {
+/// Returns `sentence` and the budget of every parameter, the largest contribution first; below those of the drifts that
+/// `verdict` refers to another g, what the local g adds.
+pub(crate) fn budget(budget: &Budget, sentence: Option<&str>, verdict: Option<&Verdict>) -> String {
     let mut out = String::new();
     let _ = writeln!(out, "\nUncertainty budget ({}), linear approximation, drifts at local g", budget.method.key());
     if let Some(sentence) = sentence {
@@ -28,6 +30,14 @@ pub(crate) fn budget(budget: &Budget, sentence: Option<&str>) -> String {
     }
     for line in Parameter::in_paper_order(&budget.parameters, |line| line.parameter) {
         parameter(&mut out, line);
+        let judged = verdict.and_then(|verdict| Some((verdict, verdict.parameter(line.parameter)?)));
+        if let Some((verdict, (row, of_g))) = judged.and_then(|(all, row)| Some((all, (row, row.u_from_gravity()?)))) {
+            let (g, u) = (verdict.gravity_m_per_s2, row.standard_uncertainty);
+            let digits = columns::decimals(u);
+            let more = digits + 1;
+            let words = format!("at g₀ = {g} m/s²: contribution of local g {of_g:.more$}; combined u = {u:.digits$}.");
+            columns::paragraph(&mut out, "  ", &words);
+        }
     }
     out
 }

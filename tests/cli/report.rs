@@ -100,7 +100,10 @@ fn every_number_is_the_results_own_rounded_once() {
         numbers(&result, &mut known);
         // The expanded uncertainty of a parameter is U = k u.
         for row in result["verdict"]["parameters"].as_array().unwrap() {
-            known.push(row["coverage_factor"].as_f64().unwrap() * row["standard_uncertainty"].as_f64().unwrap());
+            let factor = row["coverage_factor"].as_f64().unwrap();
+            known.push(factor * row["standard_uncertainty"].as_f64().unwrap());
+            // The budget has the part of the local g in u.
+            known.extend(row["expanded_uncertainty_from_gravity"].as_f64().map(|part| part / factor));
         }
         // What the laboratory's file states of its meter.
         known.extend([0.0087, 0.0, 1.0, 1e-6]);

@@ -184,6 +184,15 @@ class Report:
         for value in files:
             self.known.setdefault(value, []).append(())
         self.derived = list(derived(result.get("budget")))
+        # Of the standard uncertainties at the g of the type: the part of local g, and the whole.
+        self.of_gravity, self.at_type = {}, {}
+        for line in (result.get("verdict") or {}).get("parameters", []):
+            symbol, from_gravity = symbol_of(line["parameter"]), line.get("expanded_uncertainty_from_gravity")
+            self.at_type[symbol] = line["standard_uncertainty"]
+            if from_gravity:
+                self.of_gravity[symbol] = from_gravity / line["coverage_factor"]
+                self.known.setdefault(self.of_gravity[symbol], []).append(())
+                self.derived.append(result["gravity_u_m_per_s2"])
         # What may be wrong stands in the result in words: its numbers, and half of their last places.
         hinted = (printed(number, False) for number in TOKEN.findall(result.get("hint", "").replace("-", "−")))
         self.hinted = [(number, Decimal("0.5").scaleb(place)) for number, place in hinted]
@@ -301,7 +310,12 @@ class Report:
             "верхняя": ("symmetric_interval", 1),
         }
         lines = {symbol_of(line["parameter"]): line for line in self.result[part]["parameters"]}
+        gravity = []
         for row in table["rows"]:
+            name = row[0]["text"].lower().replace("\xa0", " ")
+            if part == "budget" and name.startswith(("local g", "местное g", "combined, u, at", "суммарная, u, при")):
+                gravity.append(self.at_gravity(name, heads, row, lines))
+                continue
             key = next((keys[word] for word in keys if row[0]["text"].lower().replace(",", "").split(" ")[0] == word), None)
             for symbol, cell in zip(heads[1:], row[1:]):
                 line = lines[symbol]
@@ -319,7 +333,24 @@ class Report:
                         self.wrong.append(f"{row[0]['text']}, {symbol}: {cell['text']} is rounding noise")
         if part == "budget":
             self.left_out(heads, table, lines)
+            if gravity != (["part", "whole"] if self.of_gravity else []):
+                self.wrong.append(f"the rows of local g are {gravity}")
         return part
+
+    def at_gravity(self, name, heads, row, lines):
+        """What the local g adds to the decision, and what the uncertainty then is: their squares add up with those above."""
+        kind = "part" if name.startswith(("local", "местное")) else "whole"
+        for symbol, cell in zip(heads[1:], row[1:]):
+            due, whole = (self.of_gravity if kind == "part" else self.at_type).get(symbol), self.at_type[symbol]
+            # A contribution has one digit more than the whole.
+            self.cell(f"{name}, {symbol}", cell, due, whole if kind == "whole" else None)
+            if kind == "part" and due and printed(cell["text"], self.said["lang"] == "ru")[1] != place_of(whole) - 1:
+                self.wrong.append(f"{name}, {symbol}: {cell['text']} has not one digit more than {whole}")
+            # The values of g differ by less than 0.3 %.
+            sum_of_squares = math.hypot(lines[symbol]["standard_uncertainty"], self.of_gravity.get(symbol, 0))
+            if not math.isclose(sum_of_squares, whole, rel_tol=3e-3):
+                self.wrong.append(f"{name}, {symbol}: {sum_of_squares} at local g, and {whole} in the decision")
+        return kind
 
     def left_out(self, heads, table, lines):
         """A dash is a contribution that rounds to zero; one below a thousandth of every variance has no row."""

@@ -39,7 +39,7 @@ pub(super) fn budget(page: &CalibrationPage, budget: &Budget, languages: &Langua
     html! {
         @if let Some(remedy) = Dominant::of(budget, tolerance) { (sentences(&remedy, worst, languages)) }
         (shares(budget, languages))
-        (budget_table(budget, languages))
+        (budget_table(page, budget, languages))
     }
 }
 
@@ -110,8 +110,9 @@ fn line_of(budget: &Budget, parameter: Parameter) -> Option<&ParameterBudget> {
     budget.parameters.iter().find(|line| line.parameter == parameter)
 }
 
-/// Returns one table of all parameters: a row for each kind of input, the largest first, then the totals.
-fn budget_table(budget: &Budget, languages: &Languages) -> Markup {
+/// Returns one table of all parameters: a row for each kind of input, the largest first, then the totals; after them
+/// what the local g adds in the decision.
+fn budget_table(page: &CalibrationPage, budget: &Budget, languages: &Languages) -> Markup {
     let each = |cell: &dyn Fn(&ParameterBudget) -> Cell| {
         Parameter::AS_IN_THE_PAPER.map(|parameter| line_of(budget, parameter).map_or_else(Cell::none, cell))
     };
@@ -143,6 +144,26 @@ fn budget_table(budget: &Budget, languages: &Languages) -> Markup {
             known => Cell::Number(Number::whole_or_two_digits(known)),
         }),
     ));
+    if let Some((_, verdict)) = page.judged()
+        && verdict.parameters.iter().any(|row| row.u_from_gravity().is_some())
+    {
+        let each = |cell: &dyn Fn(&ParameterVerdict) -> Option<Number>| {
+            each(&|line| verdict.parameter(line.parameter).and_then(cell).into())
+        };
+        let name = |language: Language| {
+            let u = Number::uncertainty(page.document.gravity_u_m_per_s2.unwrap_or(0.0)).text(language);
+            let u = format!("{u}{BLANK}{}", units::M_PER_S2.of(language));
+            texts::INPUT.filled(language, values! { input: texts::BUDGET_GRAVITY.of(language), u })
+        };
+        let of_gravity = |row: &ParameterVerdict| {
+            Some(Number::to_place(row.u_from_gravity()?, Number::place_of(row.standard_uncertainty) - 1))
+        };
+        rows.push((languages.label_with(name), each(&of_gravity)));
+        rows.push((
+            html! { strong { (languages.label(texts::COMBINED_AT_G0)) } },
+            each(&|row| Some(Number::uncertainty(row.standard_uncertainty))),
+        ));
+    }
     html! {
         (parameters(languages, rows).captioned(languages, texts::BUDGET_CAPTION))
         (languages.paragraph(texts::BUDGET_DASH))

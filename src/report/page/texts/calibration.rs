@@ -541,10 +541,10 @@ texts! {
 
     BUDGET { en: "Uncertainty budget", ru: "Бюджет неопределённости" }
     BUDGET_CAPTION {
-        en: "Contributions of the inputs, by kind, to the standard uncertainty of each parameter; ω_g and ω_k refer to local \
-             g, whose own uncertainty is not included",
+        en: "Contributions of the inputs, by kind, to the standard uncertainty of each parameter; ω_g and ω_k refer to \
+             local g",
         ru: "Вклады входных величин по видам в стандартную неопределённость каждого параметра; ω_g и ω_k отнесены к \
-             местному g, неопределённость которого не включена"
+             местному g"
     }
     SHARES_CAPTION {
         en: "Standard uncertainty u of each parameter, and the shares of its variance u²; ω_g and ω_k refer to local g",
@@ -590,6 +590,8 @@ texts! {
     }
     BUDGET_LEAVES { en: "Without this source, u would be {rest}.", ru: "Без этого источника u составила бы {rest}." }
     COMBINED { en: "Combined, u", ru: "Суммарная, u" }
+    BUDGET_GRAVITY { en: "Local g, for g_0", ru: "Местное g, для g_0" }
+    COMBINED_AT_G0 { en: "Combined, u, at g_0", ru: "Суммарная, u, при g_0" }
     EFFECTIVE_FREEDOM { en: "Effective degrees of freedom", ru: "Эффективное число степеней свободы" }
     INPUT { en: "{input}: u = {u}", ru: "{input}: u = {u}" }
     INPUTS { en: "{input}: u ≤ {u}", ru: "{input}: u ≤ {u}" }
