@@ -1,10 +1,12 @@
 //! Passport in a terminal: aligned tables, units in the headings.
 
 use crate::calibration::Parameter;
+use crate::passport::annotations::absent;
 use crate::passport::{Content, Rows, Verification};
+use crate::report::page::Language;
+use crate::report::page::passport::accuracy;
 use crate::report::{columns, deviations, style, verdict};
 use crate::stand::{Evidence, TypeB};
-use crate::text::number::decimal;
 use crate::units::printed;
 use std::fmt::{Display, Write};
 
@@ -35,10 +37,11 @@ pub(crate) fn text(content: &Content, verification: Option<&Verification>) -> St
     stand(&mut out, content);
     positions(&mut out, content);
     site(&mut out, content);
+    missing(&mut out, content);
     matrices(&mut out, content);
     vectors(&mut out, content);
     self_check(&mut out, content);
-    accuracy(&mut out, content);
+    expected(&mut out, content);
     out
 }
 
@@ -111,7 +114,7 @@ fn positions(out: &mut String, content: &Content) {
         names.push("deg. of freedom");
     }
     let rows = content.positions.iter().zip(deviations).map(|(at, deviations)| {
-        let mut row = vec![at.i.to_string(), at.j.to_string(), decimal(at.theta_deg), decimal(at.phi_deg)];
+        let mut row = vec![at.i.to_string(), at.j.to_string(), at.theta_deg.to_string(), at.phi_deg.to_string()];
         row.extend(deviations);
         if with_freedom {
             row.push(at.degrees_of_freedom.map_or_else(|| "-".to_owned(), columns::degrees_of_freedom));
@@ -165,7 +168,10 @@ fn site(out: &mut String, content: &Content) {
     }
     option(out, "source", site.source.as_ref());
     heading(out, "Earth at the site");
-    line(out, "astronomic latitude, °", earth.latitude_deg);
+    line(out, "Earth rate, °/h", format!("{:.9}", earth.rate_deg_per_h));
+    let latitude_u = site.astronomic_latitude_u_arcsec();
+    let u = if latitude_u > 0.0 { format!(", u {}″", columns::two_digits(latitude_u)) } else { String::new() };
+    line(out, "astronomic latitude, °", format!("{}{u}", earth.latitude_deg));
     let rates = [("horizontal", earth.horizontal_deg_per_h), ("vertical", earth.vertical_deg_per_h)];
     for ((name, rate), u) in rates.into_iter().zip(earth.rate_u_deg_per_h(site)) {
         line(out, &format!("{name} rate, °/h"), measured(rate, Some(u).filter(|u| *u > 0.0)));
@@ -175,6 +181,16 @@ fn site(out: &mut String, content: &Content) {
     line(out, "validity radius, m", radius);
     option(out, "azimuth of mark, °", earth.azimuth_deg);
     option(out, "u of azimuth, ″", earth.azimuth_u_arcsec);
+}
+
+fn missing(out: &mut String, content: &Content) {
+    let absent = absent(content);
+    if !absent.is_empty() {
+        heading(out, "Missing information");
+    }
+    for absence in absent {
+        columns::paragraph(out, "  ", &accuracy::plain(absence, Language::English));
+    }
 }
 
 fn matrices(out: &mut String, content: &Content) {
@@ -213,7 +229,7 @@ fn vectors(out: &mut String, content: &Content) {
     columns::table(out, &["i", "j", "n_x", "n_y", "n_z", "ω_3x", "ω_3y"], rows);
 }
 
-fn accuracy(out: &mut String, content: &Content) {
+fn expected(out: &mut String, content: &Content) {
     let Some(accuracy) = &content.accuracy else { return };
     let (gyro, laboratory) = (&accuracy.gyro, &accuracy.laboratory);
     heading(
@@ -253,10 +269,14 @@ fn self_check(out: &mut String, content: &Content) {
         .iter()
         .map(|at| vec![at.i.to_string(), at.j.to_string(), format!("{:.9}", at.jx_ma), format!("{:.9}", at.jy_ma)]);
     columns::table(out, &["i", "j", "J_x", "J_y"], rows);
+    out.push('\n');
     let [[kx, kxy], [kyx, ky]] = check.k_deg_per_h_per_ma;
-    line(out, "K, °/(h·mA)", format!("[[{kx}, {kxy}], [{kyx}, {ky}]]"));
     let [x, y] = check.omega0_deg_per_h;
-    line(out, "ω_0, °/h", format!("[{x}, {y}]"));
-    line(out, "ω_g, °/(h·g)", check.omega_g_deg_per_h_per_g);
-    line(out, "ω_k, °/(h·g)", check.omega_k_deg_per_h_per_g);
+    let (g, k) = (check.omega_g_deg_per_h_per_g, check.omega_k_deg_per_h_per_g);
+    let values = [kx, ky, kxy, kyx, x, y, g, k];
+    let rows = Parameter::AS_IN_THE_PAPER
+        .into_iter()
+        .zip(values)
+        .map(|(parameter, value)| vec![parameter.symbol().to_owned(), printed(parameter.unit()), value.to_string()]);
+    columns::table(out, &["", "unit", "value"], rows);
 }

@@ -63,9 +63,9 @@ fn end_gauge() -> Vec<Case> {
     vec![
         case("JCGM 100:2008, H.1.5", "length, nm", 50_000_838.0, 0, length),
         case("JCGM 100:2008, H.1.3.2", "u(difference), nm", 9.7, 1, u_d),
-        case("JCGM 100:2008, H.1.6", "effective degrees of freedom, terms as printed", 16.7, 1, as_printed),
-        case(BY_GTC, "u(length), nm, printed as 32", 31.66388, 5, u),
-        case(BY_GTC, "effective degrees of freedom, unrounded", 16.75186, 5, unrounded),
+        case("JCGM 100:2008, H.1.6", "ν_eff, terms as printed", 16.7, 1, as_printed),
+        case(BY_GTC, "u(length), nm; GUM: 32", 31.66388, 5, u),
+        case(BY_GTC, "ν_eff, unrounded", 16.75186, 5, unrounded),
     ]
 }
 

@@ -6,12 +6,13 @@ use crate::calibration::parameter::Parameter;
 use crate::laboratory::Laboratory;
 use crate::passport::accuracy::Accuracy;
 use crate::passport::annotations::{Absence, absent};
-use crate::report::page::language::{Languages, Text};
+use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::{Cell, Number};
 use crate::report::page::parts::{fields, figure, given, heading, listed, quantity, stated, symbol, wide_stated};
 use crate::report::page::texts::{absences, passport as texts, units};
 use crate::report::picture::accuracy::accuracy as picture;
 use crate::site::{LATITUDE_MARGIN_ARCSEC, UNKNOWN_DEFLECTION_U_ARCSEC};
+use crate::wording::Value;
 use maud::{Markup, html};
 
 /// Decrease of normal gravity per metre of height, in m/s² per metre (free air), as in the signed comments.
@@ -108,11 +109,24 @@ fn not_stated(page: &PassportPage, languages: &Languages) -> Markup {
     if absent.is_empty() {
         return languages.paragraph(texts::ABSENCES_NONE);
     }
-    html! { ul.absences { @for absence in absent { li { (sentence(absence, languages)) } } } }
+    let sentences = absent.into_iter().map(sentence);
+    html! {
+        ul.absences {
+            @for (text, numbers) in sentences { li { (languages.paragraph_with(|language| text.with_numbers(language, &numbers))) } }
+        }
+    }
 }
 
-fn sentence(absence: Absence, languages: &Languages) -> Markup {
-    let (text, values): (Text, Vec<(&str, Number)>) = match absence {
+/// Returns what is missing as a sentence of plain text.
+pub(crate) fn plain(absence: Absence, language: Language) -> String {
+    let (text, numbers) = sentence(absence);
+    let values: Vec<(&str, &dyn Value)> = numbers.iter().map(|(name, number)| (*name, number as &dyn Value)).collect();
+    text.filled(language, &values)
+}
+
+/// Returns the sentence on what is missing, and its numbers.
+fn sentence(absence: Absence) -> (Text, Vec<(&'static str, Number)>) {
+    match absence {
         Absence::Uncertainty => (absences::UNCERTAINTY, vec![]),
         Absence::Repeatability => (absences::REPEATABILITY, vec![]),
         Absence::CommonPart => (absences::COMMON_PART, vec![]),
@@ -132,6 +146,5 @@ fn sentence(absence: Absence, languages: &Languages) -> Markup {
         Absence::Height => (absences::HEIGHT, vec![("slope", Number::exact(GRAVITY_SLOPE_M_PER_S2_PER_M))]),
         Absence::BaseUncertainty => (absences::BASE_UNCERTAINTY, vec![]),
         Absence::AzimuthMark => (absences::AZIMUTH_MARK, vec![]),
-    };
-    languages.paragraph_with(|language| text.with_numbers(language, &values))
+    }
 }

@@ -12,7 +12,7 @@
 //! * `accuracy`: expected calibration uncertainty, inputs that are not stated.
 //! * `record`: the parts to fill in by hand.
 
-pub(super) mod accuracy;
+pub(crate) mod accuracy;
 pub(super) mod characteristics;
 pub(super) mod checks;
 mod front;
