@@ -303,6 +303,14 @@ function orphaned(marks, pdf, printed) {
   const found = [];
   const same = text.length === printed.length && text.every((sheet, page) => plain(sheet) === plain(printed[page]));
   if (!same) found.push("the marks have moved what is on the sheets");
+  // A heading that stands again at the head of a sheet, where its rows go on, has no mark there.
+  const spaced = (words) => words.replace(/\s+/g, " ").trim().slice(0, 40).trim();
+  const headings = new Map(marks.flatMap(({ level, name }, place) => (level === 3 ? [[spaced(name), first.get(place)]] : [])));
+  printed.forEach((sheet, page) => {
+    const lines = sheet.split("\n").map(spaced);
+    const bare = lines.find((line, index) => headings.get(line) < page && headings.has(lines[index + 1]));
+    if (bare) found.push(`sheet ${page + 1}: nothing below ${bare}`);
+  });
   marks.forEach((head, place) => {
     if (!first.has(place)) found.push(`${head.name} is marked and not printed`);
     if (head.level === 0) return;

@@ -22,7 +22,7 @@ type Share = fn(&StepChange, &StopRule) -> f64;
 /// The series: appearance, and values.
 const SERIES: [(Look, Share); 2] = [
     ((1, "series"), |change, rule| change.main_scale_factors_percent / rule.delta1_percent),
-    ((2, "series dashed"), |change, rule| change.g_drifts_deg_per_h_per_g / rule.delta2_deg_per_h),
+    ((2, "series"), |change, rule| change.g_drifts_deg_per_h_per_g / rule.delta2_deg_per_h),
 ];
 
 /// Draws the steps of a result by the iterative method. Returns `None` for other methods, and if a limit is 0, because
@@ -61,10 +61,11 @@ fn field(changes: &[StepChange], rule: &StopRule) -> Field {
     let finite = powers.filter(|power| power.is_finite());
     let (low, high) = finite.fold((-1.0, 1.0), |(low, high), power| (f64::min(low, power), f64::max(high, power)));
     let low = libm::floor(low).max(-f64::from(MOST_DECADES));
-    let last = f64::from(changes.iter().map(|change| change.step).max().unwrap_or(2));
+    let steps = || changes.iter().map(|change| f64::from(change.step));
+    let (first, last) = (steps().fold(2.0, f64::min), steps().fold(2.0, f64::max));
     let [[left, top], [right, bottom]] = FIELD;
     Field {
-        x: Scale { values: [1.0, last + 0.5], places: [left, right] },
+        x: Scale { values: [first - 0.5, last + 0.5], places: [left, right] },
         y: Scale { values: [low, libm::ceil(high)], places: [bottom, top] },
     }
 }
