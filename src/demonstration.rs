@@ -224,8 +224,8 @@ impl Stage<'_> {
         let calibration = calibration::calibrate(&setup, &readings, &Options::default())?;
         let Some(found) = calibration.answer() else { return Err(REFUSED.into()) };
         self.line(
-            "8. The currents and the passport give its scale factors and drifts, with U (k = 2); the true ones are 95, \
-             9.5, 20 and 10:",
+            "8. The currents and the passport give its scale factors and drifts at local g, with U (k = 2); the true \
+             ones are 95, 9.5, 20 and 10:",
         )?;
         for parameters in Parameter::AS_IN_THE_PAPER.chunk_by(|a, b| a.unit() == b.unit()) {
             let value = |p: &Parameter| {

@@ -4,6 +4,7 @@ use crate::attitude::{ANGLE_SYMBOLS, ANGLES};
 use crate::calibration::document::finite;
 use crate::history::drift::{DRIFTS, Drift, Jump, SUSPECTED, Series};
 use crate::history::{History, PastCertificate, PastPassport};
+use crate::register::State;
 use crate::report::page::language::capital;
 use crate::report::style::Outcome;
 use crate::report::{columns, style};
@@ -246,7 +247,11 @@ fn issued_words(passport: &PastPassport) -> String {
         (Some(from), Some(reason)) => format!(", re-issued from {from}: {reason}"),
         _ => String::new(),
     };
-    format!("{}, certificate {certificate} ({}){reason}", id(passport), line.state.words())
+    let until = match (line.valid_until, line.state) {
+        (Some(day), State::InForce | State::Expiring) => format!(" until {day}"),
+        _ => String::new(),
+    };
+    format!("{}, certificate {certificate} ({}{until}){reason}", id(passport), line.state.words())
 }
 
 /// Returns the row of a tested deviation, or `None` if it was not tested. One that has jumped has no rate.

@@ -167,9 +167,11 @@ texts! {
     }
     TWO_CHANGES {
         en: "The decision rests on the rotation of the case relative to the other positions (u from the repeatability of the \
-             earlier certificate, if stated). Below are the changes of the deviations (u from their uncertainties in both).",
+             earlier certificate, if stated). Below are the changes of the deviations, computed before rounding (u from \
+             their uncertainties in both).",
         ru: "Решение принимается по повороту корпуса относительно остальных положений (u — по повторяемости прежнего \
-             сертификата, если указана). Ниже — изменения отклонений (u — по их неопределённостям в обоих)."
+             сертификата, если указана). Ниже — изменения отклонений, вычисленные до округления (u — по их \
+             неопределённостям в обоих)."
     }
     REPEATS { en: "unchanged", ru: "без изменений" }
     REPEATS_NOT { en: "changed", ru: "изменилось" }
