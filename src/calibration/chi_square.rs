@@ -4,6 +4,7 @@ use super::causes::Cause;
 use super::estimates::{Basis, Estimates};
 use super::least_squares::multiply_rows;
 use super::propagation::{self, Propagation, Rest, covariance};
+use crate::statistics::distributions::chi_square_larger;
 use crate::statistics::scaled_f::{self, Part, ScaledF};
 use nalgebra::{DMatrix, DVector, Matrix2};
 
@@ -27,6 +28,12 @@ impl ChiSquare {
     /// Returns `false` if there are as many unknowns as readings; then any readings fit.
     pub(crate) fn judges(&self) -> bool {
         self.degrees_of_freedom > 0
+    }
+
+    /// Returns `true` if the probability is another than that of chi-square, because some of the uncertainties are estimates.
+    pub(crate) fn is_changed_by_estimates(&self) -> bool {
+        let known = chi_square_larger(self.value, self.degrees_of_freedom);
+        (known - self.probability).abs() > 0.005 * known.max(self.probability).max(0.1)
     }
 }
 

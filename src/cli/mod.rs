@@ -56,7 +56,7 @@ use std::time::Instant;
 struct Cli {
     #[command(subcommand)]
     verb: Verb,
-    /// Folder of the workspace, whose dtg-passport.toml states what options do not [env: DTG_PASSPORT_WORKSPACE]
+    /// Folder of the workspace; its dtg-passport.toml supplies missing options [env: DTG_PASSPORT_WORKSPACE]
     #[arg(long, global = true, value_name = "DIR")]
     // It is read before the other arguments are parsed.
     #[allow(dead_code)]

@@ -350,6 +350,9 @@ fn chi_square(out: &mut String, answer: &MethodResult) {
             chi_square.of_uncertainties
         );
         columns::paragraph(out, "  ", &words);
+    } else if chi_square.is_changed_by_estimates() {
+        let words = "Some of the uncertainties are estimates, which the probability takes into account.";
+        columns::paragraph(out, "  ", words);
     }
 }
 

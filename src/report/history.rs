@@ -166,7 +166,7 @@ pub(crate) fn text(history: &History) -> String {
     let counts = [
         (history.certificates.len(), "certificate"),
         (history.passports.len(), "passport"),
-        (history.sites().len(), "place"),
+        (history.sites().len(), "site"),
         (history.withdrawals.len(), "withdrawal"),
     ];
     let counts = counts.map(|(count, what)| format!("{count} {what}{}", if count == 1 { "" } else { "s" }));
@@ -176,10 +176,10 @@ pub(crate) fn text(history: &History) -> String {
     for (when, what, words) in time_line(history) {
         columns::named(&mut out, &format!("{when}  {what}"), 25, &printable(words));
     }
-    let _ = writeln!(out, "\n{}", style::heading("Places"));
+    let _ = writeln!(out, "\n{}", style::heading("Sites with a passport"));
     for stay in &history.places {
         let from = day(stay.from);
-        let time = stay.until.map_or_else(|| format!("since {from}"), |until| format!("{from} to {}", day(until)));
+        let time = stay.until.map_or_else(|| format!("from {from}"), |until| format!("{from} to {}", day(until)));
         columns::named(&mut out, &time, 25, &stay.site);
     }
     drift(&mut out, &history.drift);

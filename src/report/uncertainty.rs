@@ -2,7 +2,7 @@
 
 use crate::calibration::Parameter;
 use crate::calibration::document::finite;
-use crate::calibration::verdict::Verdict;
+use crate::calibration::verdict::{ParameterVerdict, Verdict};
 use crate::report::columns;
 use crate::report::page::Language;
 use crate::report::page::texts::calibration as texts;
@@ -26,7 +26,14 @@ pub(crate) fn budget(budget: &Budget, sentence: Option<&str>, verdict: Option<&V
     let mut out = String::new();
     let _ = writeln!(out, "\nUncertainty budget ({}), linear approximation, drifts at local g", budget.method.key());
     if let Some(sentence) = sentence {
-        columns::paragraph(&mut out, "", &columns::powers(&format!("{sentence}.")));
+        let relative = match verdict {
+            None => "its value",
+            Some(verdict) if verdict.parameters.iter().any(ParameterVerdict::is_mostly_from_gravity) => {
+                "its tolerance, local g aside"
+            }
+            Some(_) => "its tolerance",
+        };
+        columns::paragraph(&mut out, "", &columns::powers(&format!("Largest relative to {relative}: {sentence}.")));
     }
     for line in Parameter::in_paper_order(&budget.parameters, |line| line.parameter) {
         parameter(&mut out, line);
@@ -51,12 +58,10 @@ fn parameter(out: &mut String, line: &ParameterBudget) {
     };
     let _ = writeln!(
         out,
-        "\n{} = {:.digits$} {}, u = {u:.digits$}; degrees of freedom: {freedom}; k = {:.2} ({:.0} %)",
+        "\n{} = {:.digits$} {}, u = {u:.digits$}; degrees of freedom: {freedom}",
         line.parameter.symbol(),
         line.value,
         printed(line.parameter.unit()),
-        line.coverage_factor,
-        100.0 * COVERAGE,
     );
     let large = line.contributions.iter().filter(|part| part.share >= SHARE_SHOWN).count();
     // A single small contribution is printed as it is.

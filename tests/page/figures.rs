@@ -128,7 +128,8 @@ fn verdict_and_change_are_where_their_axes_say() {
     }
 }
 
-/// Every part of a strip is as long as the share of one input, and each strip as long as its variance.
+/// Every part of a strip is as long as the share of one input, and each strip as long as its variance; that of a drift per g is
+/// the variance of the decision, of which local g is a part.
 #[test]
 fn shares_of_a_variance_are_as_long_as_in_the_result() {
     let page = Document::parse(table("shares")[0]).unwrap();
@@ -137,12 +138,22 @@ fn shares_of_a_variance_are_as_long_as_in_the_result() {
     assert_eq!((lines.len(), strips.len()), (8, 9));
     let axis = Axis::along_x(strips[8]);
     let us = page.descendants().filter(|node| node.has_tag_name("data"));
-    let mut parts_drawn = 0;
+    let decided = CALIBRATED.1["verdict"]["parameters"].as_array().unwrap();
+    let (mut parts_drawn, mut with_gravity) = (0, 0);
     for (u, strip) in us.zip(&strips) {
         let u: f64 = u.attribute("value").unwrap().parse().unwrap();
-        let line = lines.iter().find(|line| get(line, "standard_uncertainty") == u).unwrap();
-        let mut shares: Vec<f64> =
-            line["contributions"].as_array().unwrap().iter().map(|part| 100.0 * get(part, "share")).collect();
+        let of_decision = decided.iter().find(|line| get(line, "standard_uncertainty") == u);
+        let from_gravity = of_decision.and_then(|line| line["expanded_uncertainty_from_gravity"].as_f64());
+        let gravity =
+            from_gravity.map_or(0.0, |part| (part / get(of_decision.unwrap(), "expanded_uncertainty")).powi(2));
+        let line = match of_decision.filter(|_| from_gravity.is_some()) {
+            Some(at_type) => lines.iter().find(|line| line["parameter"] == at_type["parameter"]).unwrap(),
+            None => lines.iter().find(|line| get(line, "standard_uncertainty") == u).unwrap(),
+        };
+        with_gravity += usize::from(from_gravity.is_some());
+        let inputs = line["contributions"].as_array().unwrap().iter();
+        let mut shares: Vec<f64> = inputs.map(|part| 100.0 * (1.0 - gravity) * get(part, "share")).collect();
+        shares.push(100.0 * gravity);
         let (mut parts, mut end) = (of_class(*strip, "share"), 0.0);
         let rest = parts.remove(0);
         axis.says(number(parts[0], "x"), 0.0);
@@ -160,7 +171,7 @@ fn shares_of_a_variance_are_as_long_as_in_the_result() {
         axis.says(number(rest, "x"), end);
         axis.says(number(rest, "x") + number(rest, "width"), 100.0);
     }
-    assert!(parts_drawn > 16, "{parts_drawn}");
+    assert!(parts_drawn > 16 && with_gravity == 2, "{parts_drawn}, {with_gravity}");
 }
 
 #[test]

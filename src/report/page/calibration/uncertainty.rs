@@ -38,7 +38,7 @@ pub(super) fn budget(page: &CalibrationPage, budget: &Budget, languages: &Langua
     };
     html! {
         @if let Some(remedy) = Dominant::of(budget, tolerance) { (sentences(&remedy, worst, languages)) }
-        (shares(budget, languages))
+        (shares(page, budget, languages))
         (budget_table(page, budget, languages))
     }
 }
@@ -76,32 +76,47 @@ fn sentences(remedy: &Dominant, worst: Text, languages: &Languages) -> Markup {
     })
 }
 
-/// Writes which kinds of input each variance comes from.
-fn shares(budget: &Budget, languages: &Languages) -> Markup {
-    let kinds = kinds(budget);
-    let named: Vec<&&Contribution> =
-        kinds.iter().filter(|kind| kind.share >= LEAST_NAMED).take(strips::LETTERS.len()).collect();
-    let of = |line: &ParameterBudget, kind: &Contribution| {
-        line.contributions.iter().find(|part| part.cause.kind() == kind.cause.kind()).map_or(0.0, |part| part.share)
-    };
+/// Writes which kinds of input each variance comes from; where a type is given, at its g, to which the decision refers.
+fn shares(page: &CalibrationPage, budget: &Budget, languages: &Languages) -> Markup {
     let lines = Parameter::AS_IN_THE_PAPER.into_iter().filter_map(|parameter| line_of(budget, parameter));
     let lines: Vec<&ParameterBudget> = lines.collect();
-    let us = lines.iter().map(|line| Number::uncertainty(line.standard_uncertainty));
-    let drawn = lines.iter().map(|line| strips::shares(&named.iter().map(|kind| of(line, kind)).collect::<Vec<_>>()));
+    let of_gravity = |line: &ParameterBudget| {
+        let row = page.judged().and_then(|(_, verdict)| verdict.parameter(line.parameter));
+        row.and_then(|row| Some((row.standard_uncertainty, row.u_from_gravity()?)))
+    };
+    let at_type = lines.iter().any(|line| of_gravity(line).is_some());
+    let kinds = kinds(budget);
+    let room = strips::LETTERS.len() - usize::from(at_type);
+    let named: Vec<&&Contribution> = kinds.iter().filter(|kind| kind.share >= LEAST_NAMED).take(room).collect();
+    let parts = |line: &ParameterBudget| {
+        let gravity = of_gravity(line).map_or(0.0, |(u, part)| part * part / (u * u));
+        let of = |kind: &&&Contribution| {
+            line.contributions.iter().find(|part| part.cause.kind() == kind.cause.kind()).map_or(0.0, |part| part.share)
+        };
+        let inputs = named.iter().map(|kind| (1.0 - gravity) * of(kind));
+        at_type.then_some(gravity).into_iter().chain(inputs).collect::<Vec<f64>>()
+    };
+    let us = lines.iter().map(|line| of_gravity(line).map_or(line.standard_uncertainty, |(u, _)| u));
+    let drawn = lines.iter().map(|line| strips::shares(&parts(line)));
     let drawn = Column::named(languages, texts::SHARES, drawn.collect());
-    let columns =
-        [Column::new(symbol("u", ""), column(languages, us)), Column { foot: strips::axis(languages), ..drawn }];
+    let columns = [
+        Column::new(symbol("u", ""), column(languages, us.map(Number::uncertainty))),
+        Column { foot: strips::axis(languages), ..drawn },
+    ];
     let name = |line: &&ParameterBudget| {
         vec![symbol_and_unit(languages, &name_of(line.parameter.symbol()), parameter_unit(line.parameter))]
     };
     let names = lines.iter().map(name).collect();
     let table = Table::of(vec![languages.label(texts::PARAMETER)], names, &columns);
     let table = Table { class: "numbers shares", ..table };
-    let samples: Vec<Markup> = (0..named.len()).map(|place| strips::sample(Some(place))).collect();
     let names = named.iter().map(|kind| languages.label_with(|language| cause(kind.cause, language)));
+    let names: Vec<Markup> =
+        at_type.then(|| languages.label(texts::SHARE_OF_GRAVITY)).into_iter().chain(names).collect();
+    let samples: Vec<Markup> = (0..names.len()).map(|place| strips::sample(Some(place))).collect();
     let rest = (kinds.len() > named.len()).then(|| (strips::sample(None), languages.label(texts::OTHER_INPUTS)));
+    let caption = if at_type { texts::SHARES_CAPTION_AT_TYPE } else { texts::SHARES_CAPTION };
     html! {
-        (table.captioned(languages, texts::SHARES_CAPTION))
+        (table.captioned(languages, caption))
         (legend_with(samples.iter().zip(names).chain(rest.iter().map(|(sample, name)| (sample, name.clone())))))
     }
 }
@@ -170,7 +185,7 @@ fn budget_table(page: &CalibrationPage, budget: &Budget, languages: &Languages) 
         @if !small.is_empty() {
             (languages.paragraph_with(|language| {
                 let names: Vec<String> = small.iter().map(|kind| cause(kind.cause, language)).collect();
-                italic(&texts::BUDGET_NOT_SHOWN.filled(language, values! { names: names.join(", ") }))
+                italic(&texts::BUDGET_NOT_SHOWN.filled(language, values! { names: names.join("; ") }))
             }))
         }
     }

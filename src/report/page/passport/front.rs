@@ -109,7 +109,8 @@ fn answers(page: &PassportPage, languages: &Languages) -> Markup {
         languages,
         [
             (texts::STATUS, status, until),
-            (texts::WHERE, radius, place),
+            // Below "Not to be used", "use within" would contradict.
+            (if valid { texts::WHERE } else { texts::RADIUS }, radius, place),
             (texts::WORD, given(&certificate.number), word),
             (texts::CHECKING, html! { "SHA-256" }, html! { p { (languages.label(texts::CHECKING_HOW)) } }),
         ],

@@ -284,9 +284,9 @@ texts! {
     HISTORY { en: "Calibrations compared", ru: "Сопоставляемые калибровки" }
     HISTORY_CAPTION {
         en: "Parameters of the earlier calibrations, in the order of their dates where stated, and of this one; expanded uncertainty U\u{a0}=\u{a0}2u \
-             (coverage factor k = 2; for the marks, U of coverage probability 95.45 %); ω_g and ω_k refer to {of}\u{a0}{g} m/s²",
+             (coverage factor k = 2; marks as in the comparison with the type); ω_g and ω_k refer to {of}\u{a0}{g} m/s²",
         ru: "Параметры прежних калибровок (по датам, если они указаны) и этой; расширенная неопределённость U\u{a0}=\u{a0}2u \
-             (коэффициент охвата k = 2; для отметок — U для вероятности охвата 95,45 %); ω_g и ω_k отнесены к {of}\u{a0}{g} м/с²"
+             (коэффициент охвата k = 2; отметки — как при сравнении с типом); ω_g и ω_k отнесены к {of}\u{a0}{g} м/с²"
     }
     OF_TYPE { en: "the g of the type, g_0\u{a0}=", ru: "g типа, g_0\u{a0}=" }
     OF_PLACE { en: "local g,", ru: "местному g," }
@@ -371,6 +371,10 @@ texts! {
         en: "Degrees of freedom of the input uncertainties (taken into account)",
         ru: "Число степеней свободы исходных неопределённостей (учтено)"
     }
+    OF_ESTIMATES {
+        en: "Some of the uncertainties are estimates, which the probability takes into account.",
+        ru: "Часть неопределённостей — оценки, что в вероятности учтено."
+    }
     SCATTER {
         en: "Variation between visits to a position, chi-square",
         ru: "Рассеяние между установками в положение, хи-квадрат"
@@ -423,9 +427,9 @@ texts! {
         ru: "Остатки меняются со временем больше, чем можно объяснить случайностью: за\u{a0}время измерений гироскоп дрейфовал. Учтите линейное изменение: {option}."
     }
     DRIFTS_IN_ORDER {
-        en: "In the order of the rows the residuals show a drift of ω_0 from visit to visit, which is not fitted and enlarges u.",
+        en: "In the order of the rows the residuals show a drift of ω_0 from visit to visit, which is not fitted and enlarges u; with times (time_s) and --drift it is fitted.",
         ru: "В порядке строк остатки обнаруживают изменение ω_0 от установки к установке; модель его не содержит, и оно \
-             увеличивает u."
+             увеличивает u; со временем (time_s) и --drift оно оценивается."
     }
     DRIFT_OR_NOISE {
         en: "A drift in time was not tested, because the repeated visits cannot tell it from the noise of the gyro.",
@@ -550,6 +554,11 @@ texts! {
         en: "Standard uncertainty u of each parameter, and the shares of its variance u²; ω_g and ω_k refer to local g",
         ru: "Стандартная неопределённость u каждого параметра и доли в её дисперсии u²; ω_g и ω_k отнесены к местному g"
     }
+    SHARES_CAPTION_AT_TYPE {
+        en: "Standard uncertainty u of each parameter, and the shares of its variance u²; ω_g and ω_k refer to g_0",
+        ru: "Стандартная неопределённость u каждого параметра и доли в её дисперсии u²; ω_g и ω_k отнесены к g_0"
+    }
+    SHARE_OF_GRAVITY { en: "local g", ru: "местное g" }
     SHARES { en: "Share of the variance, %", ru: "Доля дисперсии, %" }
     OTHER_INPUTS { en: "other inputs", ru: "прочие входные величины" }
     BUDGET_DASH {
@@ -599,7 +608,7 @@ texts! {
     CAUSE_RETURN { en: "repeatability of positioning", ru: "повторяемость положений" }
     CAUSE_READING { en: "meter, specification", ru: "измеритель, погрешность показания" }
     CAUSE_FLOOR { en: "meter, floor", ru: "измеритель, постоянная часть" }
-    CAUSE_VISITS { en: "gyro, visits", ru: "гироскоп, среднее по установкам" }
+    CAUSE_VISITS { en: "gyro, mean of the visits", ru: "гироскоп, среднее по установкам" }
     CAUSE_DIFFERENCES { en: "differences between visits", ru: "разности между установками" }
     CAUSE_TURN_ON { en: "gyro, turn-ons about {axis}", ru: "гироскоп, среднее по запускам, ось {axis}" }
     CAUSE_NOISE { en: "meter, noise", ru: "измеритель, шум показаний" }

@@ -50,8 +50,8 @@ texts! {
     COMPONENTS_NOTE {
         en: "A reading differs from the mean of its position by a rotation of the platform and one of the base, both \
              common to the whole run, and by the scatter of the single visit. s: standard deviation; ν: its degrees of \
-             freedom; s/√R: its part in the mean of R runs. The repeatability is their quadratic mean over x, y and z. Upper \
-             limit: one-sided, by chi-square, less the scatter of the visits.",
+             freedom; s/√R: its part in the mean of R runs. The repeatability is the quadratic mean of s over x, y and z. The \
+             upper limit is one-sided, by chi-square, with the scatter of the visits subtracted.",
         ru: "Показание отличается от среднего по положению на поворот платформы и поворот основания, общие для всей \
              серии, и на разброс одной установки. s — стандартное отклонение, ν — число его степеней свободы, \
              s/√R — его часть в среднем по R\u{a0}сериям. Повторяемость — их среднее квадратическое по x, y и z. Верхняя \

@@ -52,10 +52,11 @@ texts! {
     SHA256 { en: "SHA-256 of the signed file", ru: "SHA-256 подписанного файла" }
     CODE { en: "Code with the SHA-256 of the signed file", ru: "Код с SHA-256 подписанного файла" }
     PAPER_IS_NOT_SIGNED {
-        en: "This page is not signed: only the file is valid, which the annex reproduces verbatim. Its SHA-256 must equal \
-             the value here and in the code. To verify the file, use dtg-passport verify, or ssh-keygen alone.",
-        ru: "Сама страница не подписана: силу имеет только файл, дословно приведённый в приложении. Хеш SHA-256 файла \
-             должен совпадать с указанным здесь и в коде; файл проверяют командой dtg-passport verify или ssh-keygen."
+        en: "This page has no digital signature: only the file is valid, which the annex reproduces verbatim. Its SHA-256 \
+             must equal the value here and in the code. dtg-passport verify checks the file, ssh-keygen its signature alone.",
+        ru: "Страница не имеет электронной подписи: силу имеет только файл, дословно приведённый в приложении. Его хеш \
+             SHA-256 должен совпадать с указанным здесь и в коде. Файл проверяют командой dtg-passport verify, одну лишь \
+             подпись — ssh-keygen."
     }
 
     GENERAL { en: "General data", ru: "Основные сведения об изделии" }
@@ -99,7 +100,7 @@ texts! {
     DEVIATIONS_NOTE {
         en: "Position (i, j): frame angle θ about ξ, then platform angle φ about the spin axis. α, β, γ transform \
              coordinates from the nominal to the actual platform, eq. (4). u: own part of the standard \
-             uncertainty (k = 1) of the certified mean; ν: degrees of freedom, the smallest of the three u (–: not stated). \
+             uncertainty (k = 1) of the certified mean; ν: degrees of freedom, the smallest of those of the three u (–: not stated). \
              Uncertainties have two significant digits; values are rounded to the same decimal place.",
         ru: "Положение (i, j): угол рамки θ вокруг ξ, затем угол платформы φ вокруг оси собственного вращения. α, β, γ \
              преобразуют координаты от номинальной платформы к реальной, формула (4). u — стандартная \
