@@ -112,7 +112,9 @@ fn scatter(page: &CalibrationPage, languages: &Languages) -> Markup {
             (languages.paragraph_with(|language| italic(&texts::DRIFTS.filled(language, values! { option: "--drift" }))))
         }
         @if calibration.drift_in_order.is_some_and(|test| test.is_significant()) {
-            (languages.paragraph(texts::DRIFTS_IN_ORDER))
+            (languages.paragraph_with(|language| {
+                italic(&texts::DRIFTS_IN_ORDER.filled(language, values! { column: "time_s", option: "--drift" }))
+            }))
         }
         @if calibration.drift_or_noise { (languages.paragraph(texts::DRIFT_OR_NOISE)) }
     }

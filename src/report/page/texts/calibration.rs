@@ -427,9 +427,9 @@ texts! {
         ru: "Остатки меняются со временем больше, чем можно объяснить случайностью: за\u{a0}время измерений гироскоп дрейфовал. Учтите линейное изменение: {option}."
     }
     DRIFTS_IN_ORDER {
-        en: "In the order of the rows the residuals show a drift of ω_0 from visit to visit, which is not fitted and enlarges u; with times (time_s) and --drift it is fitted.",
+        en: "In the order of the rows the residuals show a drift of ω_0 from visit to visit, which is not fitted and enlarges u; with times ({column}) and {option} it is fitted.",
         ru: "В порядке строк остатки обнаруживают изменение ω_0 от установки к установке; модель его не содержит, и оно \
-             увеличивает u; со временем (time_s) и --drift оно оценивается."
+             увеличивает u; со временем ({column}) и {option} оно оценивается."
     }
     DRIFT_OR_NOISE {
         en: "A drift in time was not tested, because the repeated visits cannot tell it from the noise of the gyro.",
@@ -608,7 +608,7 @@ texts! {
     CAUSE_RETURN { en: "repeatability of positioning", ru: "повторяемость положений" }
     CAUSE_READING { en: "meter, specification", ru: "измеритель, погрешность показания" }
     CAUSE_FLOOR { en: "meter, floor", ru: "измеритель, постоянная часть" }
-    CAUSE_VISITS { en: "gyro, mean of the visits", ru: "гироскоп, среднее по установкам" }
+    CAUSE_VISITS { en: "gyro, visits", ru: "гироскоп, среднее по установкам" }
     CAUSE_DIFFERENCES { en: "differences between visits", ru: "разности между установками" }
     CAUSE_TURN_ON { en: "gyro, turn-ons about {axis}", ru: "гироскоп, среднее по запускам, ось {axis}" }
     CAUSE_NOISE { en: "meter, noise", ru: "измеритель, шум показаний" }
