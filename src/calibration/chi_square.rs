@@ -8,6 +8,9 @@ use crate::statistics::distributions::chi_square_larger;
 use crate::statistics::scaled_f::{self, Part, ScaledF};
 use nalgebra::{DMatrix, DVector, Matrix2};
 
+/// Degrees of freedom of uncertainties below which they are stated beside the probability.
+pub(crate) const FEW_DEGREES: f64 = 1000.0;
+
 /// Chi-square test of a fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChiSquare {
@@ -30,10 +33,11 @@ impl ChiSquare {
         self.degrees_of_freedom > 0
     }
 
-    /// Returns `true` if the probability is another than that of chi-square, because some of the uncertainties are estimates.
+    /// Returns `true` if estimated uncertainties, though with many degrees of freedom, make the probability another than that
+    /// of chi-square by more than a hundredth.
     pub(crate) fn is_changed_by_estimates(&self) -> bool {
         let known = chi_square_larger(self.value, self.degrees_of_freedom);
-        (known - self.probability).abs() > 0.005 * known.max(self.probability).max(0.1)
+        self.of_uncertainties >= FEW_DEGREES && (known - self.probability).abs() > 0.01 * known
     }
 }
 
@@ -232,4 +236,21 @@ fn common_parts(propagation: &Propagation, estimates: &Estimates) -> Vec<DMatrix
         }
     };
     (0..estimates.degrees_of_freedom.len()).map(of_estimate).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// With 8 degrees of freedom the probability of more than 8 is e⁻⁴ (1 + 4 + 4²/2 + 4³/6) = 0.43347.
+    #[test]
+    fn a_probability_changed_by_estimates_is_told_from_that_of_chi_square() {
+        let of = |probability, of_uncertainties| {
+            ChiSquare { value: 8.0, degrees_of_freedom: 8, probability, of_uncertainties }.is_changed_by_estimates()
+        };
+        assert!(!of(0.433_47, f64::INFINITY) && !of(0.4370, 7402.0));
+        assert!(of(0.4400, 7402.0) && of(0.4270, 7402.0));
+        // Few degrees of freedom are stated themselves.
+        assert!(!of(0.4400, 999.0));
+    }
 }

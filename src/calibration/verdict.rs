@@ -101,17 +101,22 @@ impl ParameterVerdict {
         self.guarded == Decision::Undecided && within(least) && !within(most)
     }
 
+    /// Returns the share of the variance that comes from the local g.
+    pub(crate) fn share_of_gravity(&self) -> f64 {
+        let part = self.expanded_uncertainty_from_gravity.unwrap_or(0.0) / self.expanded_uncertainty;
+        part * part
+    }
+
     /// Returns the ratio of the new uncertainty to this one if the part that does not come from the local g is multiplied by
     /// `ratio`.
     pub(crate) fn ratio_with_gravity(&self, ratio: f64) -> f64 {
-        let of_gravity = self.expanded_uncertainty_from_gravity.unwrap_or(0.0) / self.expanded_uncertainty;
-        libm::sqrt(ratio * ratio * (1.0 - of_gravity * of_gravity) + of_gravity * of_gravity)
+        let share = self.share_of_gravity();
+        libm::sqrt(ratio * ratio * (1.0 - share) + share)
     }
 
     /// Returns `true` if more than half of the variance comes from the local g.
     pub(crate) fn is_mostly_from_gravity(&self) -> bool {
-        let of_gravity = self.expanded_uncertainty_from_gravity.unwrap_or(0.0);
-        2.0 * of_gravity * of_gravity > self.expanded_uncertainty * self.expanded_uncertainty
+        self.share_of_gravity() > 0.5
     }
 }
 

@@ -3,6 +3,7 @@
 use super::scatter::{Weight, correlated, scatter};
 use super::tolerance::{coverage_factor, decided, from_gravity, headline, verdict_table};
 use super::uncertainty::not_linear;
+use crate::calibration::chi_square::FEW_DEGREES;
 use crate::calibration::diagnosis::INCONSISTENT;
 use crate::calibration::document::{ResultDocument, Subject};
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
@@ -344,15 +345,14 @@ fn chi_square(out: &mut String, answer: &MethodResult) {
         chi_square.degrees_of_freedom,
         columns::probability(chi_square.probability)
     );
-    if chi_square.of_uncertainties < 1000.0 {
+    if chi_square.of_uncertainties < FEW_DEGREES {
         let words = format!(
             "The input uncertainties have {:.0} degrees of freedom, which the probability takes into account.",
             chi_square.of_uncertainties
         );
         columns::paragraph(out, "  ", &words);
     } else if chi_square.is_changed_by_estimates() {
-        let words = "Some of the uncertainties are estimates, which the probability takes into account.";
-        columns::paragraph(out, "  ", words);
+        columns::paragraph(out, "  ", texts::OF_ESTIMATES.of(Language::English));
     }
 }
 

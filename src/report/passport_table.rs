@@ -5,6 +5,7 @@ use crate::passport::annotations::absent;
 use crate::passport::{Content, Rows, Verification};
 use crate::report::page::Language;
 use crate::report::page::passport::accuracy;
+use crate::report::page::passport::numbers::numbers_of;
 use crate::report::{columns, deviations, style, verdict};
 use crate::stand::{Evidence, TypeB};
 use crate::units::printed;
@@ -270,10 +271,7 @@ fn self_check(out: &mut String, content: &Content) {
         .map(|at| vec![at.i.to_string(), at.j.to_string(), format!("{:.9}", at.jx_ma), format!("{:.9}", at.jy_ma)]);
     columns::table(out, &["i", "j", "J_x", "J_y"], rows);
     out.push('\n');
-    let [[kx, kxy], [kyx, ky]] = check.k_deg_per_h_per_ma;
-    let [x, y] = check.omega0_deg_per_h;
-    let (g, k) = (check.omega_g_deg_per_h_per_g, check.omega_k_deg_per_h_per_g);
-    let values = [kx, ky, kxy, kyx, x, y, g, k];
+    let values = numbers_of(&check.parameters());
     let rows = Parameter::AS_IN_THE_PAPER
         .into_iter()
         .zip(values)

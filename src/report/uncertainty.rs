@@ -37,12 +37,14 @@ pub(crate) fn budget(budget: &Budget, sentence: Option<&str>, verdict: Option<&V
     }
     for line in Parameter::in_paper_order(&budget.parameters, |line| line.parameter) {
         parameter(&mut out, line);
-        let judged = verdict.and_then(|verdict| Some((verdict, verdict.parameter(line.parameter)?)));
-        if let Some((verdict, (row, of_g))) = judged.and_then(|(all, row)| Some((all, (row, row.u_from_gravity()?)))) {
+        if let Some(verdict) = verdict
+            && let Some(row) = verdict.parameter(line.parameter)
+            && let Some(part) = row.u_from_gravity()
+        {
             let (g, u) = (verdict.gravity_m_per_s2, row.standard_uncertainty);
             let digits = columns::decimals(u);
             let more = digits + 1;
-            let words = format!("at g₀ = {g} m/s²: contribution of local g {of_g:.more$}; combined u = {u:.digits$}.");
+            let words = format!("at g₀ = {g} m/s²: contribution of local g {part:.more$}; combined u = {u:.digits$}.");
             columns::paragraph(&mut out, "  ", &words);
         }
     }

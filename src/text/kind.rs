@@ -1,5 +1,6 @@
 //! Kind of a file that was given instead of another, by its content: for messages, never for a decision.
 
+use super::node::without_byte_order_mark;
 use super::{Unreadable, words};
 
 /// Number of first bytes that show the kind of a file.
@@ -57,7 +58,7 @@ impl Kind {
         if let Some((_, kind)) = MAGIC.iter().find(|(magic, _)| bytes.starts_with(magic)) {
             return Some(*kind);
         }
-        let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+        let bytes = without_byte_order_mark(bytes);
         let beginning = String::from_utf8_lossy(&bytes[..bytes.len().min(BEGINNING_BYTES)]);
         let mut lines = beginning.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
         let first = lines.next()?;

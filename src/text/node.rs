@@ -99,10 +99,15 @@ pub(crate) fn plain_text<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unr
     Ok(text)
 }
 
+/// Returns the bytes of a hand-written file after its byte order mark, if it has one.
+pub(crate) fn without_byte_order_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes)
+}
+
 /// Returns the text of a hand-written file, without byte order mark and with LF line ends, as editors of Windows and
 /// spreadsheets write them.
 pub(crate) fn hand_written_text(name: &str, bytes: &[u8]) -> Result<String, Unreadable> {
-    let bytes = bytes.strip_prefix(&[0xEF, 0xBB, 0xBF]).unwrap_or(bytes);
+    let bytes = without_byte_order_mark(bytes);
     if bytes.len() > LARGEST_DOCUMENT_BYTES {
         // It is refused, and no copy is made of it.
         return plain_text(name, bytes).map(str::to_owned);

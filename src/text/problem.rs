@@ -2,6 +2,7 @@
 
 use super::Printable;
 use super::excerpt::{Excerpt, Location};
+use super::node::without_byte_order_mark;
 use super::scalar::is_sha256_hex;
 use std::collections::HashMap;
 use std::fmt::{self, Display, Formatter};
@@ -327,7 +328,7 @@ impl Unreadable {
     /// Lines of a private key are left out, because messages end up in logs.
     pub(crate) fn in_text(mut self, bytes: &[u8]) -> Self {
         // A byte order mark is not part of the first line.
-        let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+        let text = without_byte_order_mark(bytes);
         if memchr::memmem::find(text, b"PRIVATE KEY").is_none() {
             let excerpt = |problem: &Problem| problem.location.and_then(|at| Excerpt::new(text, at));
             self.excerpts = self.problems.iter().take(SHOWN).map(excerpt).collect();

@@ -2,7 +2,7 @@
 
 use super::LARGEST_TRUST_FILE_BYTES;
 use crate::text::Unreadable;
-use crate::text::node::{is_utf16, location_of};
+use crate::text::node::{is_utf16, location_of, without_byte_order_mark};
 use crate::text::problem::{MOST_COUNTED, counted};
 use crate::text::{Location, Problem};
 
@@ -81,7 +81,7 @@ pub(super) fn of<'a>(name: &str, bytes: &'a [u8]) -> Result<Vec<Line<'a>>, Unrea
     if is_utf16(bytes) {
         return Err(Unreadable::whole(name, None, "UTF-16", "UTF-8", "save the file as UTF-8"));
     }
-    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    let bytes = without_byte_order_mark(bytes);
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let at = location_of(&bytes[..error.valid_up_to()]);
         let found = format!("byte 0x{:02X}", bytes[error.valid_up_to()]);
@@ -105,8 +105,8 @@ mod tests {
 
     #[test]
     fn comments_and_empty_lines_are_left_out() {
-        for text in ["# one\n\n \t\r\n  a b\r\n\t# two\nc", "\u{FEFF}# one\n\n\n  a b\n\nc", "\u{FEFF}\n\n\n  a b\n\nc"]
-        {
+        let text = "# one\n\n \t\r\n  a b\r\n\t# two\nc";
+        for text in [text, &format!("\u{FEFF}{text}"), "\u{FEFF}\n\n\n  a b\n\nc"] {
             let lines = of("f", text.as_bytes()).unwrap();
             let kept: Vec<_> = lines.iter().map(|line| (line.number, line.text)).collect();
             assert_eq!(kept, [(4, "  a b"), (6, "c")], "{text:?}");

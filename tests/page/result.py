@@ -346,9 +346,10 @@ class Report:
             self.cell(f"{name}, {symbol}", cell, due, whole if kind == "whole" else None)
             if kind == "part" and due and printed(cell["text"], self.said["lang"] == "ru")[1] != place_of(whole) - 1:
                 self.wrong.append(f"{name}, {symbol}: {cell['text']} has not one digit more than {whole}")
-            # The values of g differ by less than 0.3 %.
-            sum_of_squares = math.hypot(lines[symbol]["standard_uncertainty"], self.of_gravity.get(symbol, 0))
-            if not math.isclose(sum_of_squares, whole, rel_tol=3e-3):
+            part = self.of_gravity.get(symbol, 0)
+            ratio = self.result["verdict"]["gravity_m_per_s2"] / self.result["gravity_m_per_s2"] if part else 1
+            sum_of_squares = math.hypot(ratio * lines[symbol]["standard_uncertainty"], part)
+            if not math.isclose(sum_of_squares, whole, rel_tol=1e-9):
                 self.wrong.append(f"{name}, {symbol}: {sum_of_squares} at local g, and {whole} in the decision")
         return kind
 

@@ -52,10 +52,6 @@ impl Lines {
     fn new_line(&self, writer: &mut (impl Write + ?Sized)) -> io::Result<()> {
         write!(writer, "\n{}", "  ".repeat(self.open.len()))
     }
-
-    fn key_per_line(&self) -> bool {
-        self.open.last().is_some_and(|&lines| lines)
-    }
 }
 
 impl Formatter for Lines {
@@ -80,10 +76,10 @@ impl Formatter for Lines {
         if !first {
             writer.write_all(b",")?;
         }
-        match (self.key_per_line(), first) {
-            (true, _) => self.new_line(writer),
-            (false, true) => Ok(()),
-            (false, false) => writer.write_all(b" "),
+        match self.open.last() {
+            Some(true) => self.new_line(writer),
+            _ if first => Ok(()),
+            _ => writer.write_all(b" "),
         }
     }
 

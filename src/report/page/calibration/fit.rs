@@ -2,6 +2,7 @@
 
 use super::CalibrationPage;
 use crate::calibration::Calibration;
+use crate::calibration::chi_square::FEW_DEGREES;
 use crate::calibration::diagnosis::{Explanation, Hint, with_commas};
 use crate::calibration::document::{ResidualDocument, ResultDocument};
 use crate::calibration::noise::NoiseSource;
@@ -25,7 +26,9 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
                 (scatter(page, languages))
             } @else {
                 (chi_square(result, languages))
-                @if estimates_change(page) { (languages.paragraph(texts::OF_ESTIMATES)) }
+                @if page.calibration.answer().is_some_and(|found| found.chi_square.is_changed_by_estimates()) {
+                    (languages.paragraph(texts::OF_ESTIMATES))
+                }
                 @if page.calibration.fits_too_well() { (languages.paragraph(texts::TOO_SMALL)) }
                 (scatter(page, languages))
                 (table(result, languages))
@@ -52,15 +55,6 @@ fn whole(count: usize) -> Markup {
     html! { data value=(count) { (count) } }
 }
 
-/// Degrees of freedom of the input uncertainties below which they are printed beside the probability.
-const FEW: f64 = 1000.0;
-
-/// Returns `true` if the probability is not that of chi-square, and no degrees of freedom beside it say why.
-fn estimates_change(page: &CalibrationPage) -> bool {
-    let answer = page.calibration.answer();
-    answer.is_some_and(|found| found.chi_square.of_uncertainties >= FEW && found.chi_square.is_changed_by_estimates())
-}
-
 fn chi_square(result: &ResultDocument, languages: &Languages) -> Markup {
     let found = &result.chi_square;
     let value = Number::chi_square(found.value).markup(languages);
@@ -69,7 +63,7 @@ fn chi_square(result: &ResultDocument, languages: &Languages) -> Markup {
         field(languages, texts::FREEDOM, Some(whole(found.degrees_of_freedom))),
         field(languages, texts::PROBABILITY, found.probability.map(|p| probability(languages, p))),
     ];
-    if let Some(of_uncertainties) = found.uncertainty_degrees_of_freedom.filter(|known| *known < FEW) {
+    if let Some(of_uncertainties) = found.uncertainty_degrees_of_freedom.filter(|known| *known < FEW_DEGREES) {
         let value = Number::fixed(of_uncertainties, 0).markup(languages);
         each.push(field(languages, texts::OF_UNCERTAINTIES, Some(value)));
     }

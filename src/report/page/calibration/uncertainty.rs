@@ -80,23 +80,23 @@ fn sentences(remedy: &Dominant, worst: Text, languages: &Languages) -> Markup {
 fn shares(page: &CalibrationPage, budget: &Budget, languages: &Languages) -> Markup {
     let lines = Parameter::AS_IN_THE_PAPER.into_iter().filter_map(|parameter| line_of(budget, parameter));
     let lines: Vec<&ParameterBudget> = lines.collect();
-    let of_gravity = |line: &ParameterBudget| {
+    let converted = |line: &ParameterBudget| {
         let row = page.judged().and_then(|(_, verdict)| verdict.parameter(line.parameter));
-        row.and_then(|row| Some((row.standard_uncertainty, row.u_from_gravity()?)))
+        row.filter(|row| row.share_of_gravity() > 0.0)
     };
-    let at_type = lines.iter().any(|line| of_gravity(line).is_some());
+    let at_type = lines.iter().any(|line| converted(line).is_some());
     let kinds = kinds(budget);
     let room = strips::LETTERS.len() - usize::from(at_type);
     let named: Vec<&&Contribution> = kinds.iter().filter(|kind| kind.share >= LEAST_NAMED).take(room).collect();
     let parts = |line: &ParameterBudget| {
-        let gravity = of_gravity(line).map_or(0.0, |(u, part)| part * part / (u * u));
+        let gravity = converted(line).map_or(0.0, ParameterVerdict::share_of_gravity);
         let of = |kind: &&&Contribution| {
             line.contributions.iter().find(|part| part.cause.kind() == kind.cause.kind()).map_or(0.0, |part| part.share)
         };
         let inputs = named.iter().map(|kind| (1.0 - gravity) * of(kind));
         at_type.then_some(gravity).into_iter().chain(inputs).collect::<Vec<f64>>()
     };
-    let us = lines.iter().map(|line| of_gravity(line).map_or(line.standard_uncertainty, |(u, _)| u));
+    let us = lines.iter().map(|line| converted(line).map_or(line.standard_uncertainty, |row| row.standard_uncertainty));
     let drawn = lines.iter().map(|line| strips::shares(&parts(line)));
     let drawn = Column::named(languages, texts::SHARES, drawn.collect());
     let columns = [

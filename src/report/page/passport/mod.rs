@@ -17,7 +17,7 @@ pub(super) mod characteristics;
 pub(super) mod checks;
 mod front;
 pub(super) mod general;
-pub(super) mod numbers;
+pub(crate) mod numbers;
 mod record;
 
 use super::language::{Languages, values};
