@@ -4,7 +4,7 @@ use super::Cli;
 use crate::report::columns::{self, COMMAND};
 use crate::report::style;
 use crate::text::kind::FORMATS;
-use clap::{Command, CommandFactory};
+use clap::{Arg, Command, CommandFactory};
 use std::sync::LazyLock;
 
 const EXIT_CODES: &str = "\
@@ -25,15 +25,37 @@ Install:
 
 ";
 
-/// Returns the command line with the examples of its verbs.
+/// Sections of a verb's options below its own, by the names of their fields; a verb without the first has none of it.
+const SECTIONS: [(&str, &[&str]); 5] = [
+    ("Uncertainty", &["budget", "budget_svg", "monte_carlo", "trials", "seed"]),
+    ("Report and certificate", &["report", "lang", "dcc", "administrative"]),
+    ("Signing", &["key", "identity"]),
+    ("Verification", &["trust", "revoked", "issuer", "serial", "at", "time", "register", "no_verify"]),
+    ("General options", &["workspace", "quiet", "verbose"]),
+];
+
+/// Returns a command with its options below the headings of their sections.
+fn with_sections(command: Command) -> Command {
+    let names: Vec<_> =
+        command.get_arguments().filter(|arg| !arg.is_positional()).map(|arg| arg.get_id().clone()).collect();
+    let is_of = |options: &[&str], arg: &Arg| {
+        names.iter().any(|name| name == options[0]) && options.contains(&arg.get_id().as_str())
+    };
+    command.mut_args(|arg| match SECTIONS.iter().find(|(_, options)| is_of(options, &arg)) {
+        Some((heading, _)) => arg.help_heading(*heading),
+        None => arg,
+    })
+}
+
+/// Returns the command line with the sections of its options and the examples of its verbs.
 pub(super) fn command() -> Command {
-    let command = Cli::command().version(env!("CARGO_PKG_VERSION")).long_version(long_version());
+    let command = with_sections(Cli::command()).version(env!("CARGO_PKG_VERSION")).long_version(long_version());
     let verbs: Vec<String> = command.get_subcommands().map(|verb| verb.get_name().to_owned()).collect();
     verbs.iter().fold(command.after_long_help(EXIT_CODES), |command, name| {
         let lines: String = examples(name).map(|example| format!("  dtg-passport {example}\n")).collect();
         let more = if name == "completions" { COMPLETIONS } else { "" };
         let text = format!("Examples:\n{lines}\n{more}{EXIT_CODES}");
-        command.mut_subcommand(name, |verb| verb.after_long_help(text))
+        command.mut_subcommand(name, |verb| with_sections(verb).after_long_help(text))
     })
 }
 
@@ -119,6 +141,21 @@ mod tests {
             assert!(help.contains("Examples:\n") && help.contains(EXIT_CODES), "{help}");
             let whole = |example: &&str| help.contains(&format!("\n  dtg-passport {example}\n"));
             assert!(examples.iter().all(whole), "{help}");
+        }
+    }
+
+    #[test]
+    fn every_option_of_a_section_stands_there_in_calibrate_or_issue() {
+        let verbs = [
+            command(),
+            command().find_subcommand("calibrate").unwrap().clone(),
+            command().find_subcommand("issue").unwrap().clone(),
+        ];
+        for (heading, options) in SECTIONS {
+            for name in options {
+                let mut all = verbs.iter().flat_map(Command::get_arguments);
+                assert!(all.any(|arg| arg.get_id() == *name && arg.get_help_heading() == Some(heading)), "{name}");
+            }
         }
     }
 
