@@ -186,13 +186,17 @@ fn uncertainties(content: &Content) -> HashMap<String, f64> {
     let arcsec = |u: f64| u / ARCSECONDS_PER_DEGREE;
     let latitude = site.uncertainty.as_ref().and_then(|base| base.latitude_arcsec).map(arcsec);
     let deflection = site.deflection_arcsec.as_ref().and_then(|deflection| deflection.u);
+    let known = |u: f64| Some(u).filter(|u| *u > 0.0);
+    let [horizontal, vertical] = content.earth.rate_u_deg_per_h(site).map(known);
     let single = [
         ("site.latitude_deg", latitude),
         ("site.astronomic_latitude_deg", latitude),
         ("site.deflection_arcsec.xi", deflection),
         ("site.deflection_arcsec.eta", deflection),
         ("site.gravity_m_per_s2", site.gravity_u_m_per_s2),
-        ("earth.latitude_deg", latitude),
+        ("earth.latitude_deg", known(arcsec(site.astronomic_latitude_u_arcsec()))),
+        ("earth.horizontal_deg_per_h", horizontal),
+        ("earth.vertical_deg_per_h", vertical),
         ("earth.gravity_m_per_s2", site.gravity_u_m_per_s2()),
         ("earth.azimuth_deg", content.earth.azimuth_u_arcsec.map(arcsec)),
     ];
@@ -237,6 +241,24 @@ mod tests {
         assert!((difference("site.longitude_deg", 179.5, -179.75) - 0.75).abs() < 1e-12);
         assert!((difference("site.longitude_deg", -100.0, 79.0) - 179.0).abs() < 1e-12);
         assert!((difference("site.height_m", 900.0, 100.0) + 800.0).abs() < 1e-12);
+    }
+
+    /// Expected: by hand; the deflection of both sites is unknown, so the latitude of each has u = 10″, and the derivative
+    /// of Ω cos Φ is −Ω sin Φ.
+    #[test]
+    fn places_differ_with_the_uncertainty_of_their_latitudes() {
+        let found =
+            Differences::of(&passport("SPS-2/0017/moscow-bmstu-1.yaml"), &passport("SPS-2/0017/beijing-nim-1.yaml"));
+        let u =
+            |key: &str| found.numbers.iter().find(|number| number.key == key).unwrap().standard_uncertainty.unwrap();
+        let due = [
+            ("earth.latitude_deg", std::f64::consts::SQRT_2 * 10.0 / 3600.0),
+            ("earth.horizontal_deg_per_h", 4.848_137e-5 * 12.435_125_599_9_f64.hypot(9.717_457_3)),
+            ("earth.vertical_deg_per_h", 4.848_137e-5 * 8.461_757_742_8_f64.hypot(11.480_623_5)),
+        ];
+        for (key, due) in due {
+            assert!((u(key) / due - 1.0).abs() < 1e-5, "{key}: {}, {due}", u(key));
+        }
     }
 
     /// Expected: by hand from the changes made; u = √(u_α² + c_p² + c_b²) of either certificate for a small deviation.
