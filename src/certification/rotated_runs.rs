@@ -136,7 +136,7 @@ pub(crate) fn bumped(readings: &AngleReadings, components: &Components, outliers
         let is_found = |worst: &RotatedRuns| {
             worst.probability < STRAGGLER && steps(worst) > STEPS_OF_ROUNDING * readings.step_arcsec
         };
-        let Some(worst) = worst(&left, components.base_axes).filter(is_found) else { break };
+        let Some(worst) = least_probable(all(&left, components.base_axes)).filter(is_found) else { break };
         found.push(RotatedRuns { runs, ..worst });
         let Some(bumped) = worst.run() else { break };
         left.retain(|(run, _)| *run != bumped);
@@ -265,8 +265,28 @@ fn fits(turns: &[Turn]) -> Vec<Fit> {
     fits
 }
 
-/// Returns the least probable rotation of some runs, or `None` if no axis varies.
-fn worst(turns: &[Turn], base_axes: usize) -> Option<RotatedRuns> {
+/// Returns what the search found if it named no run, or no move and no drift: the least probable of these.
+pub(crate) fn most_suspect(
+    components: &Components,
+    outliers: &[Outlier],
+    named: &[RotatedRuns],
+    in_order: bool,
+) -> Option<RotatedRuns> {
+    let mut left = without(components, outliers);
+    left.retain(|(run, _)| named.iter().all(|at| at.run() != Some(*run)));
+    least_probable(all(&left, components.base_axes).into_iter().filter(|at| at.pattern.is_in_order() == in_order))
+}
+
+/// Returns the least probable of some rotations.
+fn least_probable(found: impl IntoIterator<Item = RotatedRuns>) -> Option<RotatedRuns> {
+    // A large rotation is improbable about any axis; of equally improbable ones it is the largest.
+    found.into_iter().min_by(|a, b| {
+        a.probability.total_cmp(&b.probability).then(b.turn_arcsec().abs().total_cmp(&a.turn_arcsec().abs()))
+    })
+}
+
+/// Returns the rotation of every pattern about every axis that varies.
+fn all(turns: &[Turn], base_axes: usize) -> Vec<RotatedRuns> {
     let groups: Vec<_> = [(0..3, 3), (3..6, base_axes)].into_iter().filter(|(_, count)| *count > 0).collect();
     let fits = fits(turns);
     let values = groups.iter().map(|(_, count)| count * fits.len()).sum::<usize>();
@@ -294,8 +314,5 @@ fn worst(turns: &[Turn], base_axes: usize) -> Option<RotatedRuns> {
         }
     }
     found.retain(|at| !at.probability.is_nan());
-    // A large rotation is improbable about any axis; of equally improbable ones it is the largest.
-    found.into_iter().min_by(|a, b| {
-        a.probability.total_cmp(&b.probability).then(b.turn_arcsec().abs().total_cmp(&a.turn_arcsec().abs()))
-    })
+    found
 }

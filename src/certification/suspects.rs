@@ -100,10 +100,7 @@ impl Suspects {
         if group.is_none() {
             return found;
         }
-        // Good readings of these positions seem to be out compared with the scatter of all. Those of the others contain the
-        // scatter of the group, through the rotation of the run.
-        let scatter: Vec<f64> = relative.into_iter().map(|scatter| scatter.max(1.0)).collect();
-        let found = Self::relative_to(header, readings, components, &scatter);
+        let found = Self::relative_to(header, readings, components, &of_readings(&relative));
         // A reading that is suspect all the same may be of any position, and all state the pooled scatter.
         if found.outliers.is_empty() { Self { worse: Vec::new(), group, ..found } } else { found }
     }
@@ -134,6 +131,15 @@ impl Suspects {
         }
     }
 
+    /// Returns the difference of the most suspect angle from the other runs, arcsec, and the probability that any angle of the
+    /// series differs this much by chance: what the search for outliers found if it named none.
+    pub(crate) fn most_suspect_angle(&self, components: &Components) -> Option<(f64, f64)> {
+        let alike = || vec![1.0; components.position_squares.len()];
+        let relative = self.group.as_ref().map_or_else(alike, WorseGroup::relative);
+        let first = Deletion::of(components, Vec::new())?.next(components)?;
+        Some((first.shifts_arcsec[0], probability(components, &of_readings(&relative), &first, 0)))
+    }
+
     /// Returns `true` if the outliers explain the readings better than a run that changed within itself, or rounding does.
     fn explains(&self, split: &SplitRun, readings: &AngleReadings, components: &Components) -> bool {
         let angle =
@@ -151,6 +157,13 @@ impl Suspects {
         let worse: Vec<usize> = self.worse.iter().map(|at| at.place).collect();
         components.scatter_of_positions(&worse).filter(|_| !worse.is_empty())
     }
+}
+
+/// Returns the scatter by which readings are compared, from the `relative` variances of the positions. Good readings of
+/// positions that scatter more seem to be out compared with the scatter of all; those of the others contain the scatter of
+/// the group, through the rotation of the run.
+fn of_readings(relative: &[f64]) -> Vec<f64> {
+    relative.iter().map(|scatter| scatter.max(1.0)).collect()
 }
 
 fn groups(variances: &[Variance]) -> Vec<(f64, f64)> {
@@ -190,13 +203,7 @@ fn worse(header: &Header, components: &Components, only: Option<PositionIndex>) 
 /// other).
 fn outliers(header: &Header, readings: &AngleReadings, components: &Components, scatter: &[f64]) -> Vec<Outlier> {
     let runs = &readings.runs;
-    // With two runs, the difference of the first from the second is that of the second from the first, so it counts
-    // once.
-    let values = components.keeps.nrows() * if runs.len() == 2 { 1 } else { runs.len() };
-    let probability = |deletion: &Deletion, n: usize| {
-        let (t, degrees_of_freedom) = deletion.student(n);
-        bonferroni_student(t / scatter[deletion.angles[n].1 / 3].sqrt(), values, degrees_of_freedom)
-    };
+    let probability = |deletion: &Deletion, n: usize| probability(components, scatter, deletion, n);
     let mut suspect = None;
     let mut deletion = Deletion::of(components, Vec::new());
     for n in 0..MOST_OUTLIERS {
@@ -234,6 +241,16 @@ fn outliers(header: &Header, readings: &AngleReadings, components: &Components, 
         a.probability.total_cmp(&b.probability).then(b.residual_arcsec.abs().total_cmp(&a.residual_arcsec.abs()))
     });
     found
+}
+
+/// Returns the probability that any reading of the series differs as much by chance as the n-th of a deletion.
+fn probability(components: &Components, scatter: &[f64], deletion: &Deletion, n: usize) -> f64 {
+    let runs = components.residuals.len();
+    // With two runs, the difference of the first from the second is that of the second from the first, so it counts
+    // once.
+    let values = components.keeps.nrows() * if runs == 2 { 1 } else { runs };
+    let (t, degrees_of_freedom) = deletion.student(n);
+    bonferroni_student(t / scatter[deletion.angles[n].1 / 3].sqrt(), values, degrees_of_freedom)
 }
 
 /// Returns the deletion of only those readings that are still improbable once the others are back in the fit.

@@ -253,8 +253,8 @@ mod tests {
             |key: &str| found.numbers.iter().find(|number| number.key == key).unwrap().standard_uncertainty.unwrap();
         let due = [
             ("earth.latitude_deg", std::f64::consts::SQRT_2 * 10.0 / 3600.0),
-            ("earth.horizontal_deg_per_h", 4.848_137e-5 * 12.435_125_599_9_f64.hypot(9.717_457_3)),
-            ("earth.vertical_deg_per_h", 4.848_137e-5 * 8.461_757_742_8_f64.hypot(11.480_623_5)),
+            ("earth.horizontal_deg_per_h", 4.848_137e-5 * libm::hypot(12.435_125_599_9, 9.717_457_3)),
+            ("earth.vertical_deg_per_h", 4.848_137e-5 * libm::hypot(8.461_757_742_8, 11.480_623_5)),
         ];
         for (key, due) in due {
             assert!((u(key) / due - 1.0).abs() < 1e-5, "{key}: {}, {due}", u(key));

@@ -80,6 +80,22 @@ fn of_120_certificates_with_an_outlier() {
     }
 }
 
+/// An angle is the most suspect one before it is named. Its prediction comes from the other readings, so that moving it by 1″
+/// moves its residual by 1″.
+#[test]
+fn the_most_suspect_angle_is_named_next() {
+    for seed in 0..5 {
+        let good = truth().measured(&mut Stream::new(seed), 5);
+        let found = |off: u32| certified(&with_one_off(&good, (6, 1, 1), f64::from(off)));
+        let first = (1..60).find(|off| !found(*off).suspects.outliers.is_empty()).unwrap();
+        let (named, before) = (found(first), found(first - 1));
+        let (residual_arcsec, probability) = before.suspects.most_suspect_angle(&before.components).unwrap();
+        let named = &named.suspects.outliers[0];
+        assert!((0.05..0.4).contains(&probability) && named.probability < 0.05, "{probability} {named:?}");
+        assert!((named.residual_arcsec - residual_arcsec - 1.0).abs() < 0.01, "{residual_arcsec} {named:?}");
+    }
+}
+
 /// Two that are out hide one another from a test of the worst alone.
 #[test]
 fn two_readings_off_are_both_named() {

@@ -3,7 +3,10 @@
 use super::drawing::{Scale, Ticks, legend, line, rectangle, strip, strip_axis, whisker};
 use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::report::page::number::LARGEST_IN_ARCSEC;
+use crate::report::page::parts::{symbol, symbol_and_unit};
+use crate::report::page::spacing::BLANK;
 use crate::report::page::texts::pictures as texts;
+use crate::report::page::texts::units;
 use crate::report::page::{Language, Languages};
 use crate::stand::CertifiedPosition;
 use crate::units::ARCSECONDS_PER_DEGREE;
@@ -60,12 +63,20 @@ impl Bars {
 
     /// Draws the axis of a column, in degrees if there would be no room for the numbers in arcseconds.
     pub(crate) fn axis(&self, languages: &Languages) -> Markup {
-        let [low, high] = self.scale.values;
-        if high.max(-low) <= LARGEST_IN_ARCSEC {
-            return strip_axis(languages, &self.scale, WIDTH, "″");
-        }
-        let degrees = [low, high].map(|arcsec| arcsec / ARCSECONDS_PER_DEGREE);
-        strip_axis(languages, &Scale { values: degrees, ..self.scale }, WIDTH, "°")
+        let unit_arcsec = if self.is_in_degrees() { ARCSECONDS_PER_DEGREE } else { 1.0 };
+        let values = self.scale.values.map(|arcsec| arcsec / unit_arcsec);
+        strip_axis(languages, &Scale { values, ..self.scale }, WIDTH)
+    }
+
+    /// Returns the heading of a column of bars, with the unit of their axis.
+    pub(crate) fn heading(&self, languages: &Languages, name: &str) -> Markup {
+        let unit = if self.is_in_degrees() { units::DEGREES } else { units::ARCSEC };
+        let drawn = html! { (symbol(name, "")) @if self.stated { (BLANK) "±" (BLANK) "2" (symbol("u", "")) } };
+        symbol_and_unit(languages, &drawn, unit)
+    }
+
+    fn is_in_degrees(&self) -> bool {
+        self.scale.values[1].max(-self.scale.values[0]) > LARGEST_IN_ARCSEC
     }
 
     /// Draws what bars and whiskers mean.

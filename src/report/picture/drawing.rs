@@ -103,12 +103,12 @@ pub(crate) fn strip([width, height]: Point, drawing: &Markup) -> Markup {
     }
 }
 
-/// Draws the axis below the strips of a column: round values with their numbers, each followed by `unit`.
-pub(crate) fn strip_axis(languages: &Languages, scale: &Scale, width: f64, unit: &str) -> Markup {
+/// Draws the axis below the strips of a column: round values with their numbers.
+pub(crate) fn strip_axis(languages: &Languages, scale: &Scale, width: f64) -> Markup {
     const HALF_LETTER: f64 = 3.2;
     let drawing = html! {
         @for (value, text) in Ticks::along(scale, languages.first()).marks(languages.first()) {
-            @let (x, text) = (scale.place(value), text + unit);
+            @let x = scale.place(value);
             @let half = HALF_LETTER * text.chars().count() as f64;
             // A long number at the end would be cut off.
             @if x > half && x < width - half {
@@ -398,12 +398,14 @@ impl Ticks {
     /// Creates as many values as have room for their numbers along `scale`, at least one beside 0.
     pub(crate) fn along(scale: &Scale, language: Language) -> Self {
         const LETTER: f64 = 6.0;
-        const GAP: f64 = 10.0;
+        const GAP: f64 = 6.0;
         let [low, high] = scale.values;
         let length = (scale.places[1] - scale.places[0]).abs();
         let fits = |ticks: &Self| {
-            let widest = ticks.marks(language).iter().map(|(_, text)| text.chars().count()).max().unwrap_or(0);
-            ticks.values.len() > 1 && LETTER * widest as f64 + GAP <= ticks.step / (high - low) * length
+            let widths: Vec<f64> =
+                ticks.marks(language).iter().map(|(_, text)| LETTER * text.chars().count() as f64).collect();
+            let room = ticks.step / (high - low) * length - GAP;
+            widths.len() > 1 && widths.windows(2).all(|next| 0.5 * (next[0] + next[1]) <= room)
         };
         let fewer = (2..=8).rev().map(|most| Self::between(low, high, most));
         let largest = round_below(high.max(-low));

@@ -1,6 +1,7 @@
 //! Shares of the inputs in the variance of each parameter, as strips in their table, all as long as the whole variance.
 
 use super::drawing::{Anchor, Scale, rectangle, strip, strip_axis, words};
+use super::label::width;
 use crate::report::page::Languages;
 use maud::{Markup, html};
 
@@ -9,8 +10,8 @@ const HEIGHT: f64 = 19.0;
 const BARS: [f64; 2] = [8.0, 548.0];
 const BAR_HALF: f64 = 8.0;
 
-/// Least lengths of a part with room for its letter, and for letter and percentage.
-const ROOM: [f64; 2] = [14.0, 34.0];
+/// Length of a part that its name leaves free.
+const MARGIN: f64 = 4.0;
 
 /// Share below which a part is one of the others: its outline would be all that is seen.
 const LEAST: f64 = 0.01;
@@ -43,11 +44,8 @@ pub(crate) fn shares(shares: &[f64]) -> Markup {
 fn part(place: usize, [from, to]: [f64; 2], percent: f64) -> Markup {
     let y = 0.5 * HEIGHT;
     let letter = LETTERS.get(place).copied().unwrap_or_default();
-    let name = match to - from {
-        length if length < ROOM[0] => None,
-        length if length < ROOM[1] => Some(letter.to_owned()),
-        _ => Some(format!("{letter}\u{a0}{percent:.0}")),
-    };
+    let names = [format!("{letter}\u{a0}{percent:.0}"), letter.to_owned()];
+    let name = names.into_iter().find(|name| width(name) + MARGIN <= to - from);
     html! {
         (rectangle([from, y - BAR_HALF], [to, y + BAR_HALF], &class(Some(place)), None))
         @if let Some(name) = name { (words([0.5 * (from + to), y + 4.0], Anchor::Middle, "small", &name)) }
@@ -56,7 +54,7 @@ fn part(place: usize, [from, to]: [f64; 2], percent: f64) -> Markup {
 
 /// Draws the axis of the strips, in percent of the variance.
 pub(crate) fn axis(languages: &Languages) -> Markup {
-    strip_axis(languages, &PERCENT, WIDTH, "")
+    strip_axis(languages, &PERCENT, WIDTH)
 }
 
 /// Draws the sample of a part for a legend; `None` for the remainder.

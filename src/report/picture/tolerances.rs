@@ -46,7 +46,7 @@ impl Strips {
 
     /// Draws the axis of the strips, in percent of the tolerance.
     pub(crate) fn axis(self, languages: &Languages) -> Markup {
-        strip_axis(languages, &self.scale(100.0), self.width, "")
+        strip_axis(languages, &self.scale(100.0), self.width)
     }
 
     /// Draws a parameter of a verdict: only the limits if its tolerance is 0.
@@ -86,15 +86,15 @@ impl Strips {
     }
 }
 
-/// Draws what the parts of the strips of a verdict mean.
-pub(crate) fn key(languages: &Languages, verdict: &Verdict) -> Markup {
+/// Draws what the parts of the strips of verdicts mean.
+pub(crate) fn key(languages: &Languages, verdicts: &[&Verdict]) -> Markup {
     let entry = |found: Option<Decision>| (decided([21.0, 7.0], found), decision(found));
-    let decisions = match verdict.withheld {
+    let decisions = match verdicts.iter().all(|verdict| verdict.withheld) {
         true => vec![entry(None)],
         false => [Decision::Pass, Decision::Undecided, Decision::Fail].map(|found| entry(Some(found))).to_vec(),
     };
     let is_cut = |row: &ParameterVerdict| row.tolerance > 0.0 && !ends(row).iter().all(|end| reaches(row, *end));
-    let beyond = verdict.parameters.iter().any(is_cut);
+    let beyond = verdicts.iter().flat_map(|verdict| &verdict.parameters).any(is_cut);
     let arrow = beyond.then(|| (arrow([2.0, 7.0], [26.0, 7.0], "meridian"), texts::TOLERANCES_BEYOND));
     let parts = [
         (whisker([2.0, 26.0], [true; 2], 7.0, 4.0), texts::TOLERANCES_WHISKER),

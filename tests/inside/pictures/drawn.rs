@@ -32,16 +32,19 @@ fn deviations_are_where_their_axes_say() {
         let axis_text = whole(&[bars.axis(&english())]);
         let axis_page = Document::parse(&axis_text).unwrap();
         let axis = Axis::along_x(axis_page.root_element());
+        let in_degrees = bars.heading(&english(), "α").into_string().contains('°');
+        let unit_arcsec = if in_degrees { 3600.0 } else { 1.0 };
+        let says = |place: f64, arcsec: f64| axis.says(place, arcsec / unit_arcsec);
         let deviations = content.positions.iter().flat_map(|at| at.angles_arcsec().into_iter().zip(at.u_arcsec()));
         for (value, u) in deviations {
             let text = whole(&[bars.bar((value, u))]);
             let page = Document::parse(&text).unwrap();
-            axis.says(number(of_class(page.root(), "zero")[0], "x1"), 0.0);
-            axis.says(end(of_class(page.root(), "bar")[0], value), value);
+            says(number(of_class(page.root(), "zero")[0], "x1"), 0.0);
+            says(end(of_class(page.root(), "bar")[0], value), value);
             if let Some(u) = u {
                 let [from, to] = reach(of_class(page.root(), "whisker")[0]);
-                axis.says(from, value - 2.0 * u);
-                axis.says(to, value + 2.0 * u);
+                says(from, value - 2.0 * u);
+                says(to, value + 2.0 * u);
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::inside::simulated_stands::{Truth, header, normal};
 use dtg_passport::certification::comparison::{Comparison, compare};
-use dtg_passport::certification::rotated_runs::{Pattern, RotatedRuns};
+use dtg_passport::certification::rotated_runs::{Pattern, RotatedRuns, most_suspect};
 use dtg_passport::certification::{AngleReadings, Certification, certify};
 use dtg_passport::coefficients::EIGHT_POSITIONS;
 use dtg_passport::stand::{Evidence, Stand};
@@ -85,6 +85,20 @@ fn one_run_by_hand() {
             && words.contains("--exclude 5"),
         "{words}"
     );
+}
+
+/// Expected by hand: rotations about x of 0, 2, 1, 3, 6. The last is 4.5 from the mean of the others, t = 4.5/√(5/3 · 5/4) =
+/// 3.1177 with 3 degrees of freedom, P(|t| > 3.1177) = 0.052566, times 16 as above.
+#[test]
+fn the_most_suspect_run_by_hand() {
+    let quiet = Truth { angles_arcsec: [Vector3::zeros(); 8], ..Truth::new([1e-4; 3], 0.0, 0.0) };
+    let mut each = quiet.measured(&mut Stream::new(1), 5).each_arcsec;
+    each.iter_mut().for_each(|runs| runs.iter_mut().zip([0.0, 2.0, 1.0, 3.0, 6.0]).for_each(|(at, x)| at.x += x));
+    let found = found(&AngleReadings::new(vec![1, 2, 3, 4, 5], each).unwrap());
+    assert_eq!(found.rotated_runs, []);
+    let at = most_suspect(&found.components, &[], &[], false).unwrap();
+    assert_eq!((at.run(), at.axis.0), (Some(5), 0));
+    assert!((at.turn_arcsec() - 4.5).abs() < 1e-3 && (at.probability / 0.84105 - 1.0).abs() < 0.01, "{at:?}");
 }
 
 /// All α of one run of five wrong by 300″; the level of the base by 120″; one run of three.

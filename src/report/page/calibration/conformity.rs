@@ -45,7 +45,7 @@ fn compared(page: &CalibrationPage, gyro: &GyroType, verdict: &Verdict, language
     html! {
         h3 { (languages.label_with(|language| texts::CONFORMITY.filled(language, values! { type: gyro.r#type }))) }
         (table(languages, verdict, texts::VERDICT_CAPTION, [texts::NOMINAL, texts::DEVIATION], true))
-        (key(languages, verdict))
+        (key(languages, &[verdict]))
         @if !verdict.withheld { (simple(verdict, Some(texts::RISK_NOTE), languages)) }
         (from_gravity(page, verdict, languages))
         @if let Some(u) = page.calibration.mostly_from_turn_ons() {

@@ -169,10 +169,12 @@ fn table(result: &ResultDocument, languages: &Languages) -> Markup {
         let u = |at: &ResidualDocument| of(at).1.map(Number::uncertainty);
         let heading = |symbol: Markup| symbol_and_unit(languages, &symbol, units::DEG_PER_H);
         let cells = residuals.iter().map(|at| bars.bar(of(at))).collect();
+        let has_limits = residuals.iter().any(|at| of(at).1.is_some());
+        let drawn = html! { (symbol(axis, "")) @if has_limits { ", ±2" (symbol("u", axis)) } };
         [
             Column::new(heading(symbol(axis, "")), column(languages, residuals.iter().map(value))),
             Column::new(heading(symbol("u", axis)), column(languages, residuals.iter().map(u))),
-            Column { heading: html! {}, cells, foot: bars.axis(languages, units::DEG_PER_H) },
+            Column { heading: drawn, cells, foot: bars.axis(languages, units::DEG_PER_H) },
         ]
     });
     let names = residuals.iter().map(|at| vec![html! { (at.i) }, html! { (at.j) }]).collect();

@@ -11,7 +11,7 @@ use crate::report::page::parts::{Column, Table, date, heading, starts};
 use crate::report::page::symbols::italic;
 use crate::report::page::texts::calibration as texts;
 use crate::report::picture::accuracy::unit;
-use crate::report::picture::tolerances::{BESIDE_VALUES, unit_at_type};
+use crate::report::picture::tolerances::{BESIDE_VALUES, key, unit_at_type};
 use jiff::civil::Date;
 use maud::{Markup, html};
 
@@ -91,5 +91,6 @@ fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
         texts::HISTORY_CAPTION.filled(language, values! { of, g })
     });
     let table = Table { caption: Some(caption), starts, class: "numbers result past", ..table };
-    table.markup(languages.spoken(texts::HISTORY))
+    let verdicts: Vec<&Verdict> = all.iter().filter_map(|past| past.verdict.as_ref()).collect();
+    html! { (table.markup(languages.spoken(texts::HISTORY))) @if !verdicts.is_empty() { (key(languages, &verdicts)) } }
 }

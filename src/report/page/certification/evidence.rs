@@ -2,7 +2,7 @@
 
 use super::CertificationPage;
 use crate::certification::components::{Common, Variance};
-use crate::certification::rotated_runs::{FEWEST_RUNS, FEWEST_RUNS_OF_A_MOVE, Pattern, RotatedRuns};
+use crate::certification::rotated_runs::{self, FEWEST_RUNS, FEWEST_RUNS_OF_A_MOVE, Pattern, RotatedRuns};
 use crate::certification::suspects::{AXES, OUTLIER, STRAGGLER};
 use crate::report::page::language::{Languages, Text, values};
 use crate::report::page::number::{Cell, Number, column};
@@ -134,12 +134,6 @@ struct Tested {
     probability: Option<f64>,
 }
 
-impl Tested {
-    fn without_numbers(name: Markup, result: Markup) -> Self {
-        Self { name, result, statistic: None, freedom: None, probability: None }
-    }
-}
-
 pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
     let suspects = &page.certification.suspects;
     let mut found: Vec<Tested> = Vec::new();
@@ -169,7 +163,13 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
     let of_variances = [(texts::BARTLETT_POSITIONS, &suspects.positions), (texts::BARTLETT_AXES, &suspects.axes)];
     found.extend(of_variances.map(|(name, test)| match test {
         Some(test) => bartlett(name, test),
-        None => Tested::without_numbers(languages.label(name), said(Outcome::NotAsked, texts::NOT_MADE)),
+        None => Tested {
+            name: languages.label(name),
+            result: said(Outcome::NotAsked, texts::NOT_MADE),
+            statistic: None,
+            freedom: None,
+            probability: None,
+        },
     }));
     found.extend(suspects.worse.iter().map(|at| {
         let name = languages.label_with(|language| texts::COCHRAN.filled(language, values! { index: at.index }));
@@ -231,15 +231,30 @@ fn without_findings<'a>(page: &CertificationPage, languages: &'a Languages) -> i
     let excluded = evidence.and_then(|evidence| evidence.excluded.as_deref()).unwrap_or_default();
     let is_left_out = |at: &&Excluded| at.index().is_some() && page.certification.runs.contains(&at.run);
     let angles = runs * components.keeps.nrows() - 3 * excluded.iter().filter(is_left_out).count();
+    let rotated = |in_order: bool| {
+        let named = &page.certification.rotated_runs;
+        let at = rotated_runs::most_suspect(components, &suspects.outliers, named, in_order)?;
+        Some((at.turn_arcsec(), at.probability))
+    };
     let none = [
-        (texts::OUTLYING_ANGLES, texts::NO_ANGLE, angles, suspects.outliers.is_empty() && suspects.split.is_none()),
-        (texts::ROTATED_RUNS, texts::NO_RUN, runs, bumped.is_empty() && runs >= FEWEST_RUNS),
-        (texts::MOVE_OR_DRIFT, texts::NO_MOVE, runs, moved.is_empty() && runs >= FEWEST_RUNS_OF_A_MOVE),
+        (
+            texts::OUTLYING_ANGLES,
+            angles,
+            (suspects.outliers.is_empty() && suspects.split.is_none()).then(|| suspects.most_suspect_angle(components)),
+        ),
+        (texts::ROTATED_RUNS, runs, (bumped.is_empty() && runs >= FEWEST_RUNS).then(|| rotated(false))),
+        (texts::MOVE_OR_DRIFT, runs, (moved.is_empty() && runs >= FEWEST_RUNS_OF_A_MOVE).then(|| rotated(true))),
     ];
-    none.into_iter().filter(|(.., is_none)| *is_none).map(move |(name, result, count, _)| {
-        let name = languages.label_with(|language| name.filled(language, values! { axes }));
-        let result = languages.inline_with(|language| result.filled(language, values! { count }));
-        Tested::without_numbers(name, marked(Outcome::Passed, &result))
+    none.into_iter().filter_map(move |(name, count, found)| {
+        // What would be suspect but for the resolution of the readings is not.
+        let found = found?.filter(|(_, probability)| graded(*probability) == Outcome::Passed);
+        Some(Tested {
+            name: languages.label_with(|language| name.filled(language, values! { axes, count })),
+            result: marked(Outcome::Passed, &languages.inline(texts::NOT_SUSPECT)),
+            statistic: found.map(|(value, _)| Number::fixed(value, 2)),
+            freedom: None,
+            probability: found.map(|(_, probability)| probability),
+        })
     })
 }
 

@@ -70,7 +70,11 @@ pub(crate) fn positions(positions: &[CertifiedPosition], languages: &Languages) 
         let u_heading = with(html! { i { "u" } "(" i { (name) } ")" }, units::ARCSEC);
         let us = numbers(u_heading, &|at| of(at).1.map(Number::uncertainty));
         let cells = positions.iter().map(|at| bars.bar(of(at))).collect();
-        columns.extend([angles, us, Column { heading: html! {}, cells, foot: bars.axis(languages) }]);
+        columns.extend([
+            angles,
+            us,
+            Column { heading: bars.heading(languages, name), cells, foot: bars.axis(languages) },
+        ]);
     }
     columns.push(numbers(symbol("ν", ""), &|at| at.degrees_of_freedom.map(Number::exact)));
     let names = positions.iter().map(|at| vec![html! { (at.i) }, html! { (at.j) }]).collect();

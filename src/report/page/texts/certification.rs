@@ -109,14 +109,18 @@ texts! {
         ru: "Стьюдента: дрейф, основание, ось «{axis}», поворот от серии к серии, ″"
     }
     OUTLYING_ANGLES {
-        en: "Grubbs: outliers and stragglers (5 %) among the angles",
-        ru: "Граббса: выбросы и квазивыбросы (5 %) среди показаний углов"
+        en: "Grubbs: most suspect angle of {count}, residual, ″",
+        ru: "Граббса: самый сомнительный угол из {count}, остаток, ″"
     }
-    NO_ANGLE { en: "none of {count}", ru: "ни одного из {count}" }
-    ROTATED_RUNS { en: "Grubbs: rotated runs (5 %), about {axes} axes", ru: "Граббса: повёрнутые серии (5 %), по {axes} осям" }
-    NO_RUN { en: "none of {count}", ru: "ни одной из {count}" }
-    MOVE_OR_DRIFT { en: "Student: shift or drift of the stand (5 %)", ru: "Стьюдента: смещение или дрейф стенда (5 %)" }
-    NO_MOVE { en: "none in {count} runs", ru: "нет, серий: {count}" }
+    ROTATED_RUNS {
+        en: "Grubbs: most suspect run of {count}, {axes} axes, rotation, ″",
+        ru: "Граббса: самая сомнительная серия из {count}, осей {axes}, ″"
+    }
+    MOVE_OR_DRIFT {
+        en: "Student: most suspect shift or drift, {count} runs, ″",
+        ru: "Стьюдента: самое сомнительное смещение или дрейф, ″"
+    }
+    NOT_SUSPECT { en: "not suspect", ru: "не выделяется" }
     EQUAL { en: "no difference", ru: "различий нет" }
     DOUBTFUL { en: "doubtful", ru: "сомнительно" }
     UNEQUAL { en: "different", ru: "различаются" }
