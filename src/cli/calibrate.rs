@@ -276,7 +276,7 @@ impl Bench<'_> {
             }
             Format::Text => {
                 let text = report::text(done, trials, self.gyro_name(), options.laboratory.is_none());
-                output::text(&(text + &found.uncertainty.text(done.document.verdict.as_ref())))?;
+                output::text(&(text + &found.uncertainty.text(&done.document)))?;
             }
         }
         Ok(found.code())

@@ -1,9 +1,7 @@
 //! Options of `calibrate` for the uncertainty budget and the Monte Carlo method.
 
 use super::{Failure, long_run, output};
-use crate::calibration::{
-    Calibration, CalibrationDocument, Method, Options as CalibrationOptions, Readings, Setup, Verdict,
-};
+use crate::calibration::{Calibration, CalibrationDocument, Method, Options as CalibrationOptions, Readings, Setup};
 use crate::gyro::Tolerance;
 use crate::interface::calibrated::distributions;
 use crate::report::{picture, uncertainty as report};
@@ -69,8 +67,8 @@ pub(super) struct Found {
 
 impl Found {
     /// Returns the results as text; empty if none was requested.
-    pub(super) fn text(&self, verdict: Option<&Verdict>) -> String {
-        let budget = self.budget.as_ref().map(|(budget, words)| report::budget(budget, words.as_deref(), verdict));
+    pub(super) fn text(&self, document: &CalibrationDocument) -> String {
+        let budget = self.budget.as_ref().map(|(budget, words)| report::budget(budget, words.as_deref(), document));
         let trials = self.monte_carlo.as_ref().map(report::monte_carlo);
         budget.unwrap_or_default() + &trials.unwrap_or_default()
     }

@@ -2,9 +2,11 @@
 
 use super::columns;
 use super::page::Number;
-use super::page::language::{Language, values};
+use super::page::language::{Language, Text, values};
 use super::page::texts::calibration as texts;
+use crate::calibration::result::DriftTest;
 use crate::calibration::{Agreement, Calibration, NoiseSource, Scatter, Suspect};
+use crate::wording::number::Probability;
 
 /// Weight of a sentence. Programs show remarks and warnings with the parameters.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -69,25 +71,10 @@ pub(super) fn scatter(calibration: &Calibration) -> Vec<(Weight, String)> {
         say(format!("{untested} {advice}"), Weight::Remark);
     }
     if let Some(test) = calibration.drift_test.filter(|test| test.is_significant()) {
-        let words = format!(
-            "the residuals show a drift of ω_0 in time, ({}, {}) °/h per hour, which is not fitted \
-             (probability of a larger one: {}). Fit it with --drift.",
-            with_sign(test.drift_deg_per_h_per_h.x),
-            with_sign(test.drift_deg_per_h_per_h.y),
-            columns::probability(test.probability)
-        );
-        say(words, Weight::Warning);
+        say(drift(texts::DRIFTS, &test, Language::English), Weight::Warning);
     }
     if let Some(test) = calibration.drift_in_order.filter(|test| test.is_significant()) {
-        let words = format!(
-            "{} It is ({}, {}) °/h from one visit to the next (probability of a larger one: {}). If the rows are in the order \
-             of time, add their times as time_s, and fit the drift with --drift.",
-            texts::DRIFTS_IN_ORDER.of(Language::English),
-            with_sign(test.drift_deg_per_h_per_h.x),
-            with_sign(test.drift_deg_per_h_per_h.y),
-            columns::probability(test.probability)
-        );
-        say(words, Weight::Warning);
+        say(drift(texts::DRIFTS_IN_ORDER, &test, Language::English), Weight::Warning);
     }
     said
 }
@@ -119,6 +106,13 @@ fn suspicion(suspect: &Suspect) -> String {
 /// Formats a value with two significant digits and its sign.
 fn with_sign(value: f64) -> String {
     if value > 0.0 { format!("+{}", columns::two_digits(value)) } else { columns::two_digits(value) }
+}
+
+/// Returns the sentence on a drift that the residuals show.
+pub(super) fn drift(text: Text, test: &DriftTest, language: Language) -> String {
+    let [x, y] = [test.drift_deg_per_h_per_h.x, test.drift_deg_per_h_per_h.y].map(|drift| Number::scientific(drift, 2));
+    let p = Probability(test.probability);
+    text.filled(language, values! { x, y, p, column: "time_s", option: "--drift" })
 }
 
 /// Returns a sentence that compares an observed scatter with the stated uncertainty; `less` is the advice if the

@@ -1,8 +1,9 @@
 //! Uncertainty budget as text and as JSON, and result of a Monte Carlo run as text.
 
+use crate::calibration::CalibrationDocument;
 use crate::calibration::Parameter;
 use crate::calibration::document::finite;
-use crate::calibration::verdict::{ParameterVerdict, Verdict};
+use crate::calibration::verdict::ParameterVerdict;
 use crate::report::columns;
 use crate::report::page::Language;
 use crate::report::page::texts::calibration as texts;
@@ -21,8 +22,9 @@ pub(crate) const MANY: f64 = 1e4;
 const SHARE_SHOWN: f64 = 5e-4;
 
 /// Returns `sentence` and the budget of every parameter, the largest contribution first; below those of the drifts that
-/// `verdict` refers to another g, what the local g adds.
-pub(crate) fn budget(budget: &Budget, sentence: Option<&str>, verdict: Option<&Verdict>) -> String {
+/// the verdict of `document` refers to another g, what the local g adds.
+pub(crate) fn budget(budget: &Budget, sentence: Option<&str>, document: &CalibrationDocument) -> String {
+    let verdict = document.verdict.as_ref();
     let mut out = String::new();
     let _ = writeln!(out, "\nUncertainty budget ({}), linear approximation, drifts at local g", budget.method.key());
     if let Some(sentence) = sentence {
@@ -34,6 +36,9 @@ pub(crate) fn budget(budget: &Budget, sentence: Option<&str>, verdict: Option<&V
             Some(_) => "its tolerance",
         };
         columns::paragraph(&mut out, "", &columns::powers(&format!("Largest relative to {relative}: {sentence}.")));
+    }
+    if document.scatter.is_some() {
+        columns::paragraph(&mut out, "", texts::BUDGET_MEANS.of(Language::English));
     }
     for line in Parameter::in_paper_order(&budget.parameters, |line| line.parameter) {
         parameter(&mut out, line);

@@ -139,7 +139,7 @@ pub(crate) fn legend_with<'a>(entries: impl Iterator<Item = (&'a Markup, Markup)
         ul.legend {
             @for (sample, words) in entries {
                 li {
-                    @if !sample.0.is_empty() { svg.sample viewBox="0 0 28 14" aria-hidden="true" { (sample) } }
+                    @if !sample.0.is_empty() { svg.sample viewBox="0 0 28 14" preserveAspectRatio="xMaxYMid slice" aria-hidden="true" { (sample) } }
                     span { (words) }
                 }
             }

@@ -16,6 +16,7 @@ use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::residuals::{AXES, Bars, key};
 use crate::report::recorded;
+use crate::report::scatter::drift;
 use maud::{Markup, html};
 
 pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
@@ -102,13 +103,10 @@ fn scatter(page: &CalibrationPage, languages: &Languages) -> Markup {
             (suspicion(suspect, languages))
         }
         (noise(calibration, languages))
-        @if calibration.drift_test.is_some_and(|test| test.is_significant()) {
-            (languages.paragraph_with(|language| italic(&texts::DRIFTS.filled(language, values! { option: "--drift" }))))
-        }
-        @if calibration.drift_in_order.is_some_and(|test| test.is_significant()) {
-            (languages.paragraph_with(|language| {
-                italic(&texts::DRIFTS_IN_ORDER.filled(language, values! { column: "time_s", option: "--drift" }))
-            }))
+        @for (text, test) in [(texts::DRIFTS, calibration.drift_test), (texts::DRIFTS_IN_ORDER, calibration.drift_in_order)] {
+            @if let Some(test) = test.filter(|test| test.is_significant()) {
+                (languages.paragraph_with(|language| italic(&drift(text, &test, language))))
+            }
         }
         @if calibration.drift_or_noise { (languages.paragraph(texts::DRIFT_OR_NOISE)) }
     }

@@ -182,6 +182,7 @@ fn budget_table(page: &CalibrationPage, budget: &Budget, languages: &Languages) 
     html! {
         (parameters(languages, rows).captioned(languages, texts::BUDGET_CAPTION))
         (languages.paragraph(texts::BUDGET_DASH))
+        @if page.document.scatter.is_some() { (languages.paragraph(texts::BUDGET_MEANS)) }
         @if !small.is_empty() {
             (languages.paragraph_with(|language| {
                 let names: Vec<String> = small.iter().map(|kind| cause(kind.cause, language)).collect();

@@ -126,7 +126,7 @@ fn type_b(line: &TypeB, languages: &Languages) -> Markup {
     };
     let freedom = line.degrees_of_freedom.map(|number| Number::exact(number).markup(languages));
     let value = html! {
-        (quantity(languages, &Number::exact(line.u_arcsec), units::ARCSEC))
+        (quantity(languages, &Number::uncertainty(line.u_arcsec), units::ARCSEC))
         @if let Some(freedom) = freedom { ", " (symbol("ν", "")) " " (freedom) }
         ": " (given(&line.source))
     };

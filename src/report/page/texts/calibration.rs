@@ -423,13 +423,15 @@ texts! {
         ru: "Их всего два, поэтому ошибочно может быть и другое."
     }
     DRIFTS {
-        en: "The residuals change with time more than chance explains: the gyro drifted during the run. Fit a linear drift with {option}.",
-        ru: "Остатки меняются со временем больше, чем можно объяснить случайностью: за\u{a0}время измерений гироскоп дрейфовал. Учтите линейное изменение: {option}."
+        en: "The residuals show a drift of ω_0 in time, ({x}, {y}) °/h per hour ({p}), which is not fitted. Fit it with {option}.",
+        ru: "Остатки обнаруживают изменение ω_0 во времени: ({x}, {y}) °/ч за час ({p}); модель его не содержит. Учтите его: \
+             {option}."
     }
     DRIFTS_IN_ORDER {
-        en: "In the order of the rows the residuals show a drift of ω_0 from visit to visit, which is not fitted and enlarges u; with times ({column}) and {option} it is fitted.",
-        ru: "В порядке строк остатки обнаруживают изменение ω_0 от установки к установке; модель его не содержит, и оно \
-             увеличивает u; со временем ({column}) и {option} оно оценивается."
+        en: "In the order of the rows the residuals show a drift of ω_0, ({x}, {y}) °/h from one visit to the next ({p}), \
+             which is not fitted and enlarges u; with times ({column}) and {option} it is fitted.",
+        ru: "В порядке строк остатки обнаруживают изменение ω_0: ({x}, {y}) °/ч от установки к установке ({p}); модель его не \
+             содержит, и оно увеличивает u; со временем ({column}) и {option} оно оценивается."
     }
     DRIFT_OR_NOISE {
         en: "A drift in time was not tested, because the repeated visits cannot tell it from the noise of the gyro.",
@@ -564,6 +566,10 @@ texts! {
     BUDGET_DASH {
         en: "–: no contribution, or one that rounds to zero.",
         ru: "–: вклад отсутствует или при округлении равен нулю."
+    }
+    BUDGET_MEANS {
+        en: "The u of repeatability, noise and visits is that of the mean of all visits to a position.",
+        ru: "Для повторяемости, шума и установок u относится к среднему по всем установкам в положение."
     }
     BUDGET_NOT_SHOWN {
         en: "Not shown, below a thousandth of every variance: {names}.",

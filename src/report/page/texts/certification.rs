@@ -118,7 +118,7 @@ texts! {
     }
     MOVE_OR_DRIFT {
         en: "Student: most suspect shift or drift, {count} runs, ″",
-        ru: "Стьюдента: самое сомнительное смещение или дрейф, ″"
+        ru: "Стьюдента: наибольшее смещение или дрейф, серий {count}, ″"
     }
     NOT_SUSPECT { en: "not suspect", ru: "не выделяется" }
     EQUAL { en: "no difference", ru: "различий нет" }
