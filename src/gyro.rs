@@ -5,6 +5,8 @@
 use crate::coefficients::PositionCoefficients;
 use crate::earth::STANDARD_GRAVITY_M_PER_S2;
 use crate::text::{Document, Path, Problems, record};
+use crate::wording::number::Number;
+use crate::wording::{Language, implausible, plain, values};
 use nalgebra::{Matrix2, Vector2};
 
 /// Parameters of a dynamically tuned gyro in rate mode.
@@ -172,15 +174,14 @@ impl GyroType {
 
     /// Returns the tolerances that no gyro fails, a sentence each without a full stop: they are possible, but usually
     /// stated in another unit, such as parts per million instead of percent.
-    pub(crate) fn remarks(&self) -> Vec<String> {
+    pub(crate) fn remarks(&self, language: Language) -> Vec<String> {
         let Tolerance { k_main_percent, k_cross_percent, .. } = self.tolerance;
         let each = [
-            ("k_main_percent", k_main_percent, LARGEST_MAIN_PERCENT),
-            ("k_cross_percent", k_cross_percent.unwrap_or_default(), LARGEST_CROSS_PERCENT),
+            ("tolerance.k_main_percent", k_main_percent, LARGEST_MAIN_PERCENT),
+            ("tolerance.k_cross_percent", k_cross_percent.unwrap_or_default(), LARGEST_CROSS_PERCENT),
         ];
         let words = each.into_iter().filter(|(_, value, largest)| value > largest).map(|(key, value, _)| {
-            format!("tolerance.{key} of the gyro type is {value} percent of the scale factor; check the unit, because such a \
-                     tolerance decides nothing")
+            plain(&implausible::OF_TYPE.filled(language, values! { key, value: Number::exact(value) }))
         });
         words.collect()
     }

@@ -1,7 +1,8 @@
 //! The laboratory file (`dtg-laboratory/1`): current meter, gyro seat and base.
 
-use crate::text::number::two_digits;
 use crate::text::{Document, Path, Problems, record};
+use crate::wording::number::Number;
+use crate::wording::{Language, implausible, plain, values};
 
 /// Lowest and highest temperature of a laboratory, °C.
 pub(crate) const TEMPERATURES_C: [f64; 2] = [-90.0, 100.0];
@@ -105,7 +106,7 @@ impl Laboratory {
 
     /// Returns the stated uncertainties that are too large for any laboratory, a sentence each without a full stop: they are
     /// possible, but usually stated in another unit, such as parts per million instead of percent.
-    pub(crate) fn remarks(&self) -> Vec<String> {
+    pub(crate) fn remarks(&self, language: Language) -> Vec<String> {
         let Meter { range_ma, reading_percent, gain_percent, offset_ma, floor_ma, noise_ma } = self.meter;
         let of_range = LARGEST_PERCENT / 100.0 * range_ma;
         let seat = self.seating_arcsec.as_ref().map_or([0.0; 3], |seat| [seat.about_x, seat.about_y, seat.about_z]);
@@ -113,26 +114,23 @@ impl Laboratory {
             .base
             .as_ref()
             .map_or([0.0; 2], |base| [base.azimuth_arcsec, base.level_arcsec].map(Option::unwrap_or_default));
-        let [x, y, z] = seat.map(|arcsec| (arcsec, LARGEST_TURN_ARCSEC, "arcseconds"));
+        let [x, y, z] = seat.map(|arcsec| (arcsec, LARGEST_TURN_ARCSEC, implausible::ARCSECONDS));
         let each = [
-            ("meter.reading_percent", (reading_percent, LARGEST_PERCENT, "percent")),
-            ("meter.gain_percent", (gain_percent, LARGEST_PERCENT, "percent")),
-            ("meter.offset_ma", (offset_ma, of_range, "milliamperes")),
-            ("meter.floor_ma", (floor_ma, of_range, "milliamperes")),
-            ("meter.noise_ma", (noise_ma.unwrap_or_default(), of_range, "milliamperes")),
+            ("meter.reading_percent", (reading_percent, LARGEST_PERCENT, implausible::PERCENT)),
+            ("meter.gain_percent", (gain_percent, LARGEST_PERCENT, implausible::PERCENT)),
+            ("meter.offset_ma", (offset_ma, of_range, implausible::MILLIAMPERES)),
+            ("meter.floor_ma", (floor_ma, of_range, implausible::MILLIAMPERES)),
+            ("meter.noise_ma", (noise_ma.unwrap_or_default(), of_range, implausible::MILLIAMPERES)),
             ("seating_arcsec.about_x", x),
             ("seating_arcsec.about_y", y),
             ("seating_arcsec.about_z", z),
-            ("base.azimuth_arcsec", (azimuth, LARGEST_TURN_ARCSEC, "arcseconds")),
-            ("base.level_arcsec", (level, LARGEST_TURN_ARCSEC, "arcseconds")),
+            ("base.azimuth_arcsec", (azimuth, LARGEST_TURN_ARCSEC, implausible::ARCSECONDS)),
+            ("base.level_arcsec", (level, LARGEST_TURN_ARCSEC, implausible::ARCSECONDS)),
         ];
         let odd = each.into_iter().filter(|(_, (value, largest, _))| value > largest);
         let words = odd.map(|(key, (value, largest, unit))| {
-            let largest = two_digits(largest);
-            format!(
-                "{key} of the laboratory is {value}, more than {largest} {unit}; check the unit, because no decision is \
-                 possible with such an uncertainty"
-            )
+            let [value, largest] = [value, largest].map(Number::exact);
+            plain(&implausible::OF_LABORATORY.filled(language, values! { key, value, largest, unit }))
         });
         words.collect()
     }
@@ -202,14 +200,18 @@ temperature_c: 21.0
     /// Expected: a remark on the key alone that is a thousand times too large, as of a unit a thousand times smaller.
     #[test]
     fn an_uncertainty_in_another_unit_has_a_remark() {
-        assert_eq!(Laboratory::from_yaml("l", FILE.as_bytes()).unwrap().remarks(), Vec::<String>::new());
+        assert_eq!(
+            Laboratory::from_yaml("l", FILE.as_bytes()).unwrap().remarks(Language::English),
+            Vec::<String>::new()
+        );
         for (from, to, key) in [
             ("reading_percent: 0.0087", "reading_percent: 8.7", "meter.reading_percent of the laboratory is 8.7,"),
             ("floor_ma: 1.0e-06", "floor_ma: 0.5", "meter.floor_ma of the laboratory is 0.5,"),
             ("about_z: 10.0", "about_z: 10000.0", "seating_arcsec.about_z of the laboratory is 10000,"),
             ("level_arcsec: 3.0", "level_arcsec: 3600.5", "base.level_arcsec of the laboratory is 3600.5,"),
         ] {
-            let remarks = Laboratory::from_yaml("l", FILE.replace(from, to).as_bytes()).unwrap().remarks();
+            let remarks =
+                Laboratory::from_yaml("l", FILE.replace(from, to).as_bytes()).unwrap().remarks(Language::English);
             assert!(remarks.len() == 1 && remarks[0].starts_with(key), "{remarks:?}");
         }
     }

@@ -11,8 +11,8 @@ use crate::attitude::ANGLE_SYMBOLS;
 use crate::calibration::recorded::rounding_of;
 use crate::stand::remarks::Odd;
 use crate::text::number::decimals;
-use crate::wording::number::{Number, Probability, THIN_BLANK};
-use crate::wording::spacing::BLANK;
+use crate::wording::number::{Number, Probability};
+use crate::wording::plain;
 use crate::wording::{Language, Text, Values, date_text, values};
 use jiff::civil::Date;
 use std::fmt::{Display, Formatter};
@@ -201,11 +201,6 @@ impl Remark {
 pub(super) fn advised(words: &str, advice: Option<String>) -> String {
     let said = plain(words) + &advice.map_or_else(String::new, |advice| format!(" {advice}"));
     said.trim_end_matches('.').to_owned()
-}
-
-/// Returns words of a page with the spaces and the minus of terminals and of signed files.
-pub(crate) fn plain(words: &str) -> String {
-    words.replace(BLANK, " ").replace(THIN_BLANK, "").replace('\u{2212}', "-")
 }
 
 fn without_run(run: u32) -> String {

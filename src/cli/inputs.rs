@@ -14,6 +14,7 @@ use crate::site::Site;
 use crate::stand::Stand;
 use crate::text::placeholder::filled_in;
 use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, Printable, Problems, Unreadable, name_of, printable, shown};
+use crate::wording::Language;
 use serde::Serialize;
 use std::ops::RangeBounds;
 use std::path::{Path, PathBuf};
@@ -62,7 +63,7 @@ fn site_by(path: &Path, reader: impl FnOnce(&str, &[u8]) -> Result<Site, Unreada
 /// Reads a gyro type, or returns `None` without a path.
 pub(super) fn gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
     let gyro_type = path.map(|path| document(path, Kind::Gyro.words(), GyroType::from_yaml)).transpose()?;
-    gyro_type.iter().flat_map(GyroType::remarks).for_each(|words| output::warn(&words));
+    gyro_type.iter().flat_map(|gyro| gyro.remarks(Language::English)).for_each(|words| output::warn(&words));
     Ok(gyro_type)
 }
 
@@ -70,7 +71,7 @@ pub(super) fn gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
 pub(super) fn laboratory(path: Option<&Path>) -> Result<Laboratory, Failure> {
     let Some(path) = path else { return Ok(Laboratory::paper()) };
     let laboratory = document(path, Kind::Laboratory.words(), Laboratory::from_yaml)?;
-    laboratory.remarks().iter().for_each(|words| output::warn(words));
+    laboratory.remarks(Language::English).iter().for_each(|words| output::warn(words));
     Ok(laboratory)
 }
 

@@ -1,7 +1,7 @@
 //! Result of a certification, and of a check run, as text and as JSON.
 
 use crate::certification::components::{Common, Variance};
-use crate::certification::remark::{plain, together};
+use crate::certification::remark::together;
 use crate::certification::rotated_runs::{FEWEST_RUNS, FEWEST_RUNS_OF_A_MOVE, Pattern, RotatedRuns};
 use crate::certification::suspects::{AXES, OUTLIER};
 use crate::certification::{Certification, Comparison, NotCertified, Test};
@@ -11,6 +11,7 @@ use crate::stand::ActsOn;
 use crate::text::record::File;
 use crate::text::{Field, Node, Printable};
 use crate::wording::Language;
+use crate::wording::plain;
 use serde_json::{Value, json};
 use std::fmt::Write;
 

@@ -1,9 +1,10 @@
 //! Certified deviations: their numbers as on pages, and a chart in block characters, with sign and size of α, β, γ at each
 //! position on a common scale.
 
-use super::page::number::{LARGEST_IN_ARCSEC, Number, THIN_BLANK};
+use super::page::number::{LARGEST_IN_ARCSEC, Number};
 use super::{Language, columns, style};
 use crate::stand::CertifiedPosition;
+use crate::wording::plain;
 use std::fmt::Write;
 
 /// Largest number of characters of a bar on each side of the axis; each character is two halves.
@@ -33,8 +34,7 @@ pub(crate) fn columns(positions: &[CertifiedPosition]) -> ([&'static str; 6], Ve
 /// Formats an angle as pages do, to the digits of its uncertainty and above 600″ with degrees and minutes, but in the
 /// characters of a terminal's numbers.
 fn angle(arcsec: f64, u: Option<f64>) -> String {
-    let number = Number::angle(arcsec, u.unwrap_or(0.0));
-    number.text(Language::English).replace('\u{2212}', "-").replace(THIN_BLANK, "")
+    plain(&Number::angle(arcsec, u.unwrap_or(0.0)).text(Language::English))
 }
 
 /// Appends a line for every position with a bar for each of α, β, γ, all to one scale; nothing if the terminal has no

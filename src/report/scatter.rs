@@ -7,6 +7,7 @@ use super::page::texts::calibration as texts;
 use crate::calibration::result::DriftTest;
 use crate::calibration::{Agreement, Calibration, NoiseSource, Scatter, Suspect};
 use crate::wording::number::Probability;
+use crate::wording::plain;
 
 /// Weight of a sentence. Programs show remarks and warnings with the parameters.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -71,10 +72,11 @@ pub(super) fn scatter(calibration: &Calibration) -> Vec<(Weight, String)> {
         say(format!("{untested} {advice}"), Weight::Remark);
     }
     if let Some(test) = calibration.drift_test.filter(|test| test.is_significant()) {
-        say(drift(texts::DRIFTS, &test, Language::English), Weight::Warning);
+        say(plain(&drift(texts::DRIFTS, &test, Language::English)), Weight::Warning);
     }
     if let Some(test) = calibration.drift_in_order.filter(|test| test.is_significant()) {
-        say(drift(texts::DRIFTS_IN_ORDER, &test, Language::English), Weight::Warning);
+        let words = plain(&drift(texts::DRIFTS_IN_ORDER, &test, Language::English));
+        say(format!("{words} State them as time_s, and use --drift."), Weight::Warning);
     }
     said
 }
@@ -112,7 +114,7 @@ fn with_sign(value: f64) -> String {
 pub(super) fn drift(text: Text, test: &DriftTest, language: Language) -> String {
     let [x, y] = [test.drift_deg_per_h_per_h.x, test.drift_deg_per_h_per_h.y].map(|drift| Number::scientific(drift, 2));
     let p = Probability(test.probability);
-    text.filled(language, values! { x, y, p, column: "time_s", option: "--drift" })
+    text.filled(language, values! { x, y, p, option: "--drift" })
 }
 
 /// Returns a sentence that compares an observed scatter with the stated uncertainty; `less` is the advice if the

@@ -104,6 +104,11 @@ pub(crate) fn capital(words: &str) -> String {
     letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
 }
 
+/// Returns words of a page with the spaces and the minus of terminals and of signed files.
+pub(crate) fn plain(words: &str) -> String {
+    words.replace(spacing::BLANK, " ").replace(number::THIN_BLANK, "").replace('\u{2212}', "-")
+}
+
 /// A part of a text.
 pub(crate) enum Piece<'a> {
     Words(&'a str),
@@ -146,6 +151,27 @@ pub(crate) mod compass {
         EAST { en: "east", ru: "восток" }
         WEST { en: "west", ru: "запад" }
         UP { en: "up", ru: "верх" }
+    }
+}
+
+/// Stated values that are possible, but usually in another unit, such as parts per million instead of percent.
+pub(crate) mod implausible {
+    super::texts! {
+        OF_LABORATORY {
+            en: "{key} of the laboratory is {value}, more than {largest} {unit}; check the unit, because no decision is \
+                 possible with such an uncertainty",
+            ru: "Значение {key} лаборатории — {value}, больше {largest} {unit}; проверьте единицу: при такой неопределённости \
+                 решение невозможно"
+        }
+        OF_TYPE {
+            en: "{key} of the gyro type is {value} percent of the scale factor; check the unit, because such a \
+                 tolerance decides nothing",
+            ru: "Значение {key} типа гироскопа — {value} % масштабного коэффициента; проверьте единицу: такой допуск \
+                 ничего не решает"
+        }
+        PERCENT { en: "percent", ru: "процента" }
+        MILLIAMPERES { en: "milliamperes", ru: "мА" }
+        ARCSECONDS { en: "arcseconds", ru: "угловых секунд" }
     }
 }
 

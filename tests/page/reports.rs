@@ -92,7 +92,8 @@ pub static REPORTED: LazyLock<Reported> = LazyLock::new(|| {
     let found = browsed(&folder, REPORTS.iter().map(|report| report.name));
     let languages = |report: &Report| Languages::new(report.languages[0], report.languages[1..].iter().copied());
     let sums: Vec<String> = REPORTS.iter().map(|report| report.sum_of_currents(&folder)).collect();
-    let own_words = format!("SPS-2/0017/moscow-bmstu/1 GVK-6 examples@dtg-passport.test {}", sums.join(" "));
+    let own_words =
+        format!("SPS-2/0017/moscow-bmstu/1 GVK-6 examples@dtg-passport.test meter.reading_percent {}", sums.join(" "));
     Reported { languages: REPORTS.iter().map(languages).collect(), own_words, folder, found }
 });
 
@@ -218,6 +219,32 @@ fn the_headline_is_the_verdict() {
         let said = REPORTED.said(name);
         assert_eq!(said["headline"].as_str().unwrap(), words, "{name}");
         assert_eq!(said["refused"].as_bool().unwrap(), refused, "{name}");
+    }
+}
+
+/// Expected: what the program says as JSON about coarse.yaml and warm.yaml, the withdrawal that nobody asked for, and the
+/// SHA-256 of the earlier currents as JSON; each letter of a legend stands in a strip.
+#[test]
+fn a_front_says_what_its_result_depends_on() {
+    let page = |name: &str| fs::read_to_string(REPORTED.folder.join(format!("{name}.html"))).unwrap();
+    let json = |name: &str| fs::read_to_string(REPORTED.folder.join(format!("{name}.json"))).unwrap();
+    let unit = "meter.reading_percent of the laboratory is 3, more than 1";
+    assert!(json("coarse-both").contains(unit));
+    let said =
+        |name: &str, words: &str| strings(&REPORTED.said(name)["blocks"]).iter().any(|block| block.contains(words));
+    assert!(said("coarse-both", unit));
+    assert!(said("coarse-both", "Значение meter.reading_percent лаборатории"));
+    assert!(page("repeated-en").contains(", and the temperature."));
+    assert!(page("calibrated-en").contains("; withdrawal not checked"));
+    let earlier: Value = serde_json::from_str(&json("history-en")).unwrap();
+    let sha256 = earlier["subject"]["currents_sha256"].as_str().unwrap();
+    assert!(page("history-en").contains("2026-11-18") && page("history-en").contains(&sha256[..8]));
+    for name in ["whole-ru", "repeated-en", "changed-both", "unverified-many-en"] {
+        let page = page(name);
+        for part in (1..=5).map(|number| format!("share part-{number}\"")) {
+            // Once in the legend, and then at least once in a strip.
+            assert_ne!(page.matches(&part).count(), 1, "{name}: {part}");
+        }
     }
 }
 

@@ -209,8 +209,9 @@ pub(crate) fn symbol_and_unit(languages: &Languages, symbol: &Markup, unit: Text
 /// Writes a picture with its caption, which the style sheet numbers; `id` is its name there. The picture contains its own description for
 /// screen readers.
 pub(crate) fn figure(languages: &Languages, id: &str, drawing: &Markup, caption: Text) -> Markup {
+    let second = languages.iter().nth(1).map(|language| format!("--second:\"{}\"", words::FIGURE.of(language)));
     html! {
-        figure id={ "figure-" (id) } {
+        figure id={ "figure-" (id) } style=[second] {
             (drawing)
             figcaption data-word=(languages.spoken(words::FIGURE)) { (languages.label(caption)) }
         }

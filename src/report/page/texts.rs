@@ -32,6 +32,7 @@ pub(crate) const TABLES: &[(&str, &[(&str, Text)])] = &[
     #[cfg(feature = "factory")]
     ("remarks", crate::certification::texts::ALL),
     ("compass", crate::wording::compass::ALL),
+    ("implausible", crate::wording::implausible::ALL),
     ("absences", absences::ALL),
     ("calibration", calibration::ALL),
     ("certification", certification::ALL),

@@ -4,7 +4,7 @@
 use super::drawing::{Anchor, Scale, Ticks, crowding, legend, line, power, power_of_ten, rectangle, strip, words};
 use crate::calibration::document::{ResidualDocument, ResultDocument};
 use crate::report::page::language::{Languages, Text};
-use crate::report::page::texts::{pictures as texts, units};
+use crate::report::page::texts::pictures as texts;
 use maud::{Markup, html};
 
 const WIDTH: f64 = 170.0;
@@ -51,24 +51,23 @@ impl Bars {
         strip([WIDTH, HEIGHT], &drawing)
     }
 
-    /// Draws the axis of a column, with its unit and the factor of the unit; arcseconds have a mark at each number instead.
+    /// Draws the axis of a column, with its unit and the factor of the unit.
     pub(crate) fn axis(&self, languages: &Languages, unit: Text) -> Markup {
         let Self(scale) = self;
         let exponent = crowding(scale.values[1]);
         let factor = power_of_ten(exponent);
         let shown = Scale { values: scale.values.map(|value| value / factor), ..*scale };
         let language = languages.first();
-        let mark = if exponent == 0 && unit == units::ARCSEC { unit.of(language) } else { "" };
         let unit = match exponent {
             0 => unit.of(language).to_owned(),
             exponent => format!("{}\u{a0}{}", power(exponent, language), unit.of(language)),
         };
         let drawing = html! {
-            @if mark.is_empty() { (words([WIDTH, 14.0], Anchor::End, "small", &unit)) }
+            (words([WIDTH, 14.0], Anchor::End, "small", &unit))
             @for (value, text) in Ticks::along(&shown, language).marks(language) {
                 @let x = shown.place(value);
                 (line([x, 0.0], [x, 4.0], "grid"))
-                (words([x, 14.0], Anchor::Middle, "small", &(text + mark)))
+                (words([x, 14.0], Anchor::Middle, "small", &text))
             }
         };
         strip([WIDTH, 17.0], &drawing)

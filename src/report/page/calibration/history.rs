@@ -1,7 +1,8 @@
 //! The gyro over several calibrations: every parameter from the earliest to the latest, within the tolerance of the type.
 
-use super::CalibrationPage;
 use super::parameters::name_of;
+use super::{CalibrationPage, NAMED_DIGITS};
+use crate::calibration::CalibrationDocument;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{COVERAGE_FACTOR, Found, Verdict};
 use crate::gyro::GyroType;
@@ -12,12 +13,11 @@ use crate::report::page::symbols::italic;
 use crate::report::page::texts::calibration as texts;
 use crate::report::picture::accuracy::unit;
 use crate::report::picture::tolerances::{BESIDE_VALUES, key, unit_at_type};
-use jiff::civil::Date;
 use maud::{Markup, html};
 
-/// One calibration: the day of its readings, its result, and the comparison with the type.
-struct Past {
-    date: Option<Date>,
+/// One calibration, its result, and the comparison with the type.
+struct Past<'a> {
+    document: &'a CalibrationDocument,
     found: Found,
     verdict: Option<Verdict>,
 }
@@ -29,10 +29,10 @@ pub(super) fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
     }
     let results = page.previous.iter().chain([page.document]);
     let all: Vec<Past> = results
-        .filter_map(|result| {
-            let found = result.answer()?;
-            let verdict = page.gyro.and_then(|gyro| result.judged(gyro));
-            Some(Past { date: result.date(), found, verdict })
+        .filter_map(|document| {
+            let found = document.answer()?;
+            let verdict = page.gyro.and_then(|gyro| document.judged(gyro));
+            Some(Past { document, found, verdict })
         })
         .collect();
     html! {
@@ -64,9 +64,9 @@ fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
         // The name is shown once for its calibrations; screen readers say it in each row.
         let name = html! { (name_of(parameter.symbol())) ", " (italic(languages.spoken(unit_of(*parameter)))) };
         let first = place == 0 || starts.contains(&place);
-        let day = past
-            .date
-            .map_or_else(|| html! { (number) " (" (languages.inline(texts::NO_DAY)) ")" }, |day| date(languages, day));
+        let sha256 = past.document.currents_sha256().unwrap_or("–").chars().take(NAMED_DIGITS).collect::<String>();
+        let without_day = |language| texts::NO_DAY_BUT_CURRENTS.filled(language, values! { number, sha256 });
+        let day = past.document.date().map_or_else(|| languages.inline_with(without_day), |day| date(languages, day));
         vec![html! { @if first { (name) } @else { span.unseen { (name) } } }, day]
     });
     let names = names.collect();

@@ -232,17 +232,31 @@ impl CalibrationPage<'_> {
         }
     }
 
+    /// Writes which stated values are usually a mistake in the unit.
+    fn implausible(&self, languages: &Languages) -> Markup {
+        let remarks = |language: Language| {
+            let of_laboratory = self.laboratory.into_iter().flat_map(move |laboratory| laboratory.remarks(language));
+            of_laboratory.chain(self.gyro.into_iter().flat_map(move |gyro| gyro.remarks(language))).collect::<Vec<_>>()
+        };
+        let words =
+            |language: Language| remarks(language).into_iter().map(|words| words + ".").collect::<Vec<_>>().join(" ");
+        html! {
+            @if !remarks(languages.first()).is_empty() { (languages.paragraph_with(|language| italic(&words(language)))) }
+        }
+    }
+
     fn verdict(&self, languages: &Languages) -> Markup {
         let Some((gyro, verdict)) = self.judged() else {
             let words = html! {
                 (languages.paragraph_with(|language| html! { (texts::NO_TYPE_WORDS.words(language)) (self.not_in_u(language)) }))
                 (self.not_linear(languages))
+                (self.implausible(languages))
             };
             return outcome_box(Outcome::NotAsked, &languages.label(texts::NO_TYPE), words);
         };
         if verdict.withheld {
             let name = |language: Language| texts::NO_STATEMENT.filled(language, values! { type: gyro.r#type });
-            return boxed("verdict neutral", languages.label_with(name), html! {});
+            return boxed("verdict neutral", languages.label_with(name), self.implausible(languages));
         }
         let change = self.document.stated_change();
         let text = match (verdict.overall, change.map(|change| change.overall)) {
@@ -260,6 +274,7 @@ impl CalibrationPage<'_> {
                 (conformity::counted(change, texts::CHANGE_PASSED, |_| html! {}, languages))
             }
             (self.not_linear(languages))
+            (self.implausible(languages))
             (languages.paragraph(texts::RULE))
         };
         outcome_box(worst, &languages.label_with(name), words)
@@ -268,7 +283,8 @@ impl CalibrationPage<'_> {
     /// Writes how many inputs U does not include, after a sentence; nothing if there are none.
     fn not_in_u(&self, language: Language) -> Markup {
         let count = self.missing.len();
-        html! { @if count > 0 { " " (italic(&texts::NOT_IN_U.filled(language, values! { count }))) } }
+        let more = subject::outside(self).map(|_| texts::AND_TEMPERATURE.words(language)).unwrap_or_default();
+        html! { @if count > 0 { " " (italic(&texts::NOT_IN_U.filled(language, values! { count, more }))) } }
     }
 
     /// Writes the parameters for which a Monte Carlo run shows that the linear approximation is not valid.

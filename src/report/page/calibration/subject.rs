@@ -9,6 +9,7 @@ use crate::report::page::number::Number;
 use crate::report::page::parts::{
     self, blank, date, field, fields, file_name, given, heading, not_stated, outcome_box, quantity, time, wide_field,
 };
+use crate::report::page::passport::checks::withdrawal_not_checked;
 use crate::report::page::passport::{accuracy, characteristics, checks};
 use crate::report::page::texts::{calibration as texts, passport as passport_texts, record, units};
 use crate::report::style::Outcome;
@@ -34,22 +35,26 @@ pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
     };
     let laboratory = page.laboratory.and_then(|laboratory| laboratory.name.as_deref()).map(given);
     let day = page.document.date().map(|day| date(languages, day));
+    let number = html! { div.pen { (languages.label(texts::REPORT_NUMBER)) (blank(languages)) } };
     // The title names the serial number if it was stated. Without it a report is of no gyro.
     let gyro = match page.serial() {
-        Some(_) => (texts::MEASURED, or_not(day), html! {}),
+        Some(_) => (texts::MEASURED, or_not(day), number),
         None => (
             texts::SERIAL,
             or_not(None),
-            html! { @if let Some(day) = day { p { (languages.label(texts::MEASURED)) " " (day) } } },
+            html! { @if let Some(day) = day { p { (languages.label(texts::MEASURED)) " " (day) } } (number) },
         ),
     };
     let stand = html! { (given(content.stand.model.as_str())) " №\u{a0}" (given(content.stand.serial.as_str())) };
     let site = content.site.name.as_deref().unwrap_or(content.site.id.as_str());
     let id = || given(&content.passport.id);
     let certificate = match &page.passport {
-        UsedPassport::Verified(_) => languages.lines_with(|language| {
+        UsedPassport::Verified(passport) => languages.lines_with(|language| {
             let values = [("id", id()), ("time", time(&language.into(), page.time))];
-            texts::VERIFIED_AS_OF.marked_up(language, &values)
+            match withdrawal_not_checked(passport) {
+                true => texts::VERIFIED_NOT_WITHDRAWAL.marked_up(language, &values),
+                false => texts::VERIFIED_AS_OF.marked_up(language, &values),
+            }
         }),
         UsedPassport::NotVerified { .. } => html! { p { (id()) } p.failed { (languages.inline(texts::NOT_VERIFIED)) } },
     };
@@ -80,7 +85,6 @@ fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
         field(languages, texts::TYPE, page.gyro.map(|gyro| given(&gyro.r#type))),
         serial.map(|serial| field(languages, texts::SERIAL, Some(serial))).unwrap_or_default(),
         field(languages, texts::CONDITION, None),
-        field(languages, texts::REPORT_NUMBER, None),
         field(languages, passport_texts::CUSTOMER, None),
         field(languages, record::CUSTOMER_CONTACT, None),
         field(languages, texts::RECEIVED, None),
@@ -169,12 +173,14 @@ pub(super) fn date_of_readings(page: &CalibrationPage, languages: &Languages) ->
     outcome_box(Outcome::Undecided, &languages.label(texts::READINGS_ARE_OLDER), words)
 }
 
+/// Returns the temperature if it is outside the range for which the deviations are certified.
+pub(super) fn outside(page: &CalibrationPage) -> Option<TemperatureOutside> {
+    TemperatureOutside::of(&page.content().certificate, page.document.subject.as_ref()?, page.laboratory)
+}
+
 /// Writes a warning if the deviations are certified for other temperatures.
 pub(super) fn temperature(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let certificate = &page.content().certificate;
-    let subject = page.document.subject.as_ref();
-    let outside = subject.and_then(|subject| TemperatureOutside::of(certificate, subject, page.laboratory));
-    let Some(TemperatureOutside { here_c, low_c, high_c }) = outside else { return html! {} };
+    let Some(TemperatureOutside { here_c, low_c, high_c }) = outside(page) else { return html! {} };
     let values = [("here", here_c), ("low", low_c), ("high", high_c)]
         .map(|(name, c)| (name, Number::exact(c).markup(languages)));
     let words = languages.paragraph_with(|language| texts::TEMPERATURE_OUTSIDE.marked_up(language, &values));

@@ -15,6 +15,7 @@ use crate::report::page::texts::{calibration as texts, units, words};
 use crate::report::picture::accuracy::unit as parameter_unit;
 use crate::report::picture::drawing::legend_with;
 use crate::report::picture::shares as strips;
+use crate::report::picture::tolerances::unit_at_type;
 use crate::report::style::Outcome;
 use crate::report::uncertainty::MANY;
 use crate::uncertainty::budget::{Contribution, ParameterBudget};
@@ -86,15 +87,18 @@ fn shares(page: &CalibrationPage, budget: &Budget, languages: &Languages) -> Mar
     };
     let at_type = lines.iter().any(|line| converted(line).is_some());
     let kinds = kinds(budget);
-    let room = strips::LETTERS.len() - usize::from(at_type);
-    let named: Vec<&&Contribution> = kinds.iter().filter(|kind| kind.share >= LEAST_NAMED).take(room).collect();
+    let of_gravity = |line: &ParameterBudget| converted(line).map_or(0.0, ParameterVerdict::share_of_gravity);
+    let share = |line: &ParameterBudget, kind: &Contribution| {
+        let part = line.contributions.iter().find(|part| part.cause.kind() == kind.cause.kind());
+        part.map_or(0.0, |part| (1.0 - of_gravity(line)) * part.share)
+    };
+    let largest = |kind: &Contribution| lines.iter().map(|line| share(line, kind)).fold(0.0, f64::max);
+    let mut named: Vec<&Contribution> = kinds.iter().copied().filter(|kind| largest(kind) >= LEAST_NAMED).collect();
+    named.sort_by(|one, other| largest(other).total_cmp(&largest(one)));
+    named.truncate(strips::LETTERS.len() - usize::from(at_type));
     let parts = |line: &ParameterBudget| {
-        let gravity = converted(line).map_or(0.0, ParameterVerdict::share_of_gravity);
-        let of = |kind: &&&Contribution| {
-            line.contributions.iter().find(|part| part.cause.kind() == kind.cause.kind()).map_or(0.0, |part| part.share)
-        };
-        let inputs = named.iter().map(|kind| (1.0 - gravity) * of(kind));
-        at_type.then_some(gravity).into_iter().chain(inputs).collect::<Vec<f64>>()
+        let inputs = named.iter().map(|kind| share(line, kind));
+        at_type.then(|| of_gravity(line)).into_iter().chain(inputs).collect::<Vec<f64>>()
     };
     let us = lines.iter().map(|line| converted(line).map_or(line.standard_uncertainty, |row| row.standard_uncertainty));
     let drawn = lines.iter().map(|line| strips::shares(&parts(line)));
@@ -104,7 +108,8 @@ fn shares(page: &CalibrationPage, budget: &Budget, languages: &Languages) -> Mar
         Column { foot: strips::axis(languages), ..drawn },
     ];
     let name = |line: &&ParameterBudget| {
-        vec![symbol_and_unit(languages, &name_of(line.parameter.symbol()), parameter_unit(line.parameter))]
+        let unit = if at_type { unit_at_type(line.parameter) } else { parameter_unit(line.parameter) };
+        vec![symbol_and_unit(languages, &name_of(line.parameter.symbol()), unit)]
     };
     let names = lines.iter().map(name).collect();
     let table = Table::of(vec![languages.label(texts::PARAMETER)], names, &columns);
@@ -181,14 +186,14 @@ fn budget_table(page: &CalibrationPage, budget: &Budget, languages: &Languages) 
     }
     html! {
         (parameters(languages, rows).captioned(languages, texts::BUDGET_CAPTION))
-        (languages.paragraph(texts::BUDGET_DASH))
-        @if page.document.scatter.is_some() { (languages.paragraph(texts::BUDGET_MEANS)) }
-        @if !small.is_empty() {
-            (languages.paragraph_with(|language| {
-                let names: Vec<String> = small.iter().map(|kind| cause(kind.cause, language)).collect();
-                italic(&texts::BUDGET_NOT_SHOWN.filled(language, values! { names: names.join("; ") }))
-            }))
-        }
+        (languages.paragraph_with(|language| {
+            let means = page.document.scatter.map(|_| texts::BUDGET_MEANS.words(language));
+            let names: Vec<String> = small.iter().map(|kind| cause(kind.cause, language)).collect();
+            let not_shown = texts::BUDGET_NOT_SHOWN.filled(language, values! { names: names.join("; ") });
+            let not_shown = (!small.is_empty()).then_some(not_shown);
+            let said = std::iter::once(texts::BUDGET_DASH.words(language)).chain(means).chain(not_shown);
+            italic(&said.collect::<Vec<_>>().join(" "))
+        }))
     }
 }
 

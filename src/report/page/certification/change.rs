@@ -133,13 +133,14 @@ fn table(changes: &[NumberDifference], caption: Markup, languages: &Languages) -
     let change = |at: &NumberDifference| Some((at.difference()?, at.standard_uncertainty));
     let bars = Bars::over(changes.iter().filter_map(change));
     let drawn = changes.iter().map(|at| change(at).map_or_else(|| html! { "–" }, |change| bars.bar(change)));
+    let drawn_within = html! { (languages.label(texts::DIFFERENCE)) ", ±2" (symbol("u", "")) };
     let columns = [
         of(texts::OLD, |at| at.a),
         of(texts::NEW, |at| at.b),
         of(texts::DIFFERENCE, NumberDifference::difference),
-        Column::new(symbol("u", ""), column(languages, us)),
+        Column::new(symbol_and_unit(languages, &symbol("u", ""), units::ARCSEC), column(languages, us)),
         Column::named(languages, texts::DIFFERENCE_IN_U, column(languages, ratios)),
-        Column { heading: html! {}, cells: drawn.collect(), foot: bars.axis(languages, units::ARCSEC) },
+        Column { heading: drawn_within, cells: drawn.collect(), foot: bars.axis(languages, units::ARCSEC) },
     ];
     let names = changes.iter().map(|at| {
         let (index, angle) = of_key(&at.key);
@@ -148,7 +149,7 @@ fn table(changes: &[NumberDifference], caption: Markup, languages: &Languages) -
     let table = Table {
         caption: Some(caption),
         starts: starts(changes.iter().map(|at| of_key(&at.key).0)),
-        class: "numbers residuals",
+        class: "numbers residuals changes",
         ..Table::of(vec![languages.label(texts::POSITION), html! {}], names.collect(), &columns)
     };
     html! {

@@ -51,7 +51,7 @@ fn stated_for(accuracy: &Accuracy, languages: &Languages) -> Markup {
 
 /// Returns the standard uncertainties of the angles of gyro and base in a laboratory, as far as they are stated.
 pub(crate) fn angles(laboratory: &Laboratory, languages: &Languages) -> [(Text, Option<Markup>); 3] {
-    let arcsec = |u: f64| quantity(languages, &Number::uncertainty(u), units::ARCSEC);
+    let arcsec = |u: f64| quantity(languages, &Number::exact(u), units::ARCSEC);
     let seat = laboratory.seating_arcsec.as_ref();
     let seat =
         seat.map(|seat| html! { (arcsec(seat.about_x)) ", " (arcsec(seat.about_y)) ", " (arcsec(seat.about_z)) });

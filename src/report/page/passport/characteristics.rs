@@ -126,7 +126,7 @@ fn type_b(line: &TypeB, languages: &Languages) -> Markup {
     };
     let freedom = line.degrees_of_freedom.map(|number| Number::exact(number).markup(languages));
     let value = html! {
-        (quantity(languages, &Number::uncertainty(line.u_arcsec), units::ARCSEC))
+        (quantity(languages, &Number::exact(line.u_arcsec), units::ARCSEC))
         @if let Some(freedom) = freedom { ", " (symbol("ν", "")) " " (freedom) }
         ": " (given(&line.source))
     };
@@ -144,7 +144,7 @@ pub(crate) fn datum(datum: Option<&Datum>, languages: &Languages) -> Markup {
 
 fn place(site: &Site, languages: &Languages) -> Markup {
     let arcsec = |value: f64| quantity(languages, &Number::exact(value), units::ARCSEC);
-    let u = |u: f64| quantity(languages, &Number::uncertainty(u), units::ARCSEC);
+    let u = |u: f64| quantity(languages, &Number::exact(u), units::ARCSEC);
     let base = site.uncertainty.as_ref();
     let latitude_u = base.and_then(|base| base.latitude_arcsec);
     let measured_gravity = site.gravity_m_per_s2.map(|value| gravity(value, site.gravity_u_m_per_s2, languages));
@@ -205,10 +205,16 @@ pub(crate) fn gravity(value: f64, u: Option<f64>, languages: &Languages) -> Mark
 
 /// Writes a value and its standard uncertainty.
 fn with_u(value: f64, u: f64, unit: Text, languages: &Languages) -> Markup {
-    html! {
-        (quantity(languages, &Number::measured(value, u), unit)) ", " (symbol("u", "")) " "
-        (quantity(languages, &Number::uncertainty(u), unit))
-    }
+    html! { (quantity(languages, &Number::measured(value, u), unit)) (its_u(languages, Some((u, unit)))) }
+}
+
+/// Writes the standard uncertainty of what stands before it.
+fn its_u(languages: &Languages, u: Option<(f64, Text)>) -> Markup {
+    let u = match u {
+        Some((u, unit)) => quantity(languages, &Number::uncertainty(u), unit),
+        None => not_stated(languages),
+    };
+    html! { ", " span.quantity { (symbol("u", "")) (BLANK) (u) } }
 }
 
 fn mark(site: &Site, languages: &Languages) -> Markup {
@@ -221,7 +227,7 @@ fn mark(site: &Site, languages: &Languages) -> Markup {
             [Number::measured(latitude, u_deg), Number::measured(longitude, u_deg / cosine.max(f64::MIN_POSITIVE))];
         html! { (in_hemisphere(languages, latitude, LATITUDES)) ", " (in_hemisphere(languages, longitude, LONGITUDES)) }
     };
-    let metres = |u: f64| quantity(languages, &Number::uncertainty(u), units::METRES);
+    let metres = |u: f64| quantity(languages, &Number::exact(u), units::METRES);
     fields([
         stated(languages, texts::MARK, mark.name.as_deref().map(given)),
         stated(languages, texts::MARK_POSITION, Some(pair(mark.latitude_deg, mark.longitude_deg))),
@@ -233,30 +239,28 @@ fn mark(site: &Site, languages: &Languages) -> Markup {
 fn the_earth(site: &Site, earth: &Earth, languages: &Languages) -> Markup {
     let rate = |value: f64, u: f64| match u > 0.0 {
         true => with_u(value, u, units::DEG_PER_H, languages),
-        false => quantity(languages, &Number::fixed(value, 9), units::DEG_PER_H),
+        false => html! { (quantity(languages, &Number::fixed(value, 9), units::DEG_PER_H)) (its_u(languages, None)) },
     };
     let u = site.gravity_u_m_per_s2();
     let radius = quantity(languages, &Number::fixed(earth.valid_radius_m, 0), units::METRES);
     let within = quantity(languages, &Number::exact(earth.valid_within_deg_per_h), units::DEG_PER_H);
-    let azimuth = earth.azimuth_deg.map(|azimuth| match earth.azimuth_u_arcsec {
-        Some(u) => html! {
-            (quantity(languages, &Number::measured(azimuth, u / ARCSECONDS_PER_DEGREE), units::DEGREES)) ", "
-            (symbol("u", "")) (BLANK) (quantity(languages, &Number::uncertainty(u), units::ARCSEC))
-        },
-        None => html! {
-            (quantity(languages, &angle(azimuth, 0.0), units::DEGREES)) ", " (symbol("u", "")) (BLANK) (not_stated(languages))
-        },
+    let in_arcsec = |u: Option<f64>| its_u(languages, u.map(|u| (u, units::ARCSEC)));
+    let azimuth = earth.azimuth_deg.map(|azimuth| {
+        let u = earth.azimuth_u_arcsec;
+        html! { (quantity(languages, &angle(azimuth, u.unwrap_or(0.0)), units::DEGREES)) (in_arcsec(u)) }
     });
     let latitude_u = site.astronomic_latitude_u_arcsec();
     let latitude = html! {
         (in_hemisphere(languages, angle(earth.latitude_deg, latitude_u), LATITUDES))
-        @if latitude_u > 0.0 {
-            ", " (symbol("u", "")) (BLANK) (quantity(languages, &Number::uncertainty(latitude_u), units::ARCSEC))
-        }
+        (in_arcsec(Some(latitude_u).filter(|u| *u > 0.0)))
     };
     let [horizontal_u, vertical_u] = earth.rate_u_deg_per_h(site);
     fields([
-        stated(languages, texts::EARTH_RATE, Some(rate(earth.rate_deg_per_h, 0.0))),
+        stated(
+            languages,
+            texts::EARTH_RATE,
+            Some(quantity(languages, &Number::fixed(earth.rate_deg_per_h, 9), units::DEG_PER_H)),
+        ),
         stated(languages, texts::EARTH_LATITUDE, Some(latitude)),
         stated(languages, texts::HORIZONTAL, Some(rate(earth.horizontal_deg_per_h, horizontal_u))),
         stated(languages, texts::VERTICAL, Some(rate(earth.vertical_deg_per_h, vertical_u))),

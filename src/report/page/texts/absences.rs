@@ -39,10 +39,10 @@ texts! {
         ru: "В сертификате не все восемь положений: матриц нет, применим только метод наименьших квадратов."
     }
     DEFLECTION {
-        en: "The deflection of the vertical is unknown; it is taken as 0 with u = {u}″, which contributes at most \
-             {cost} °/h to the Earth-rate components.",
-        ru: "Уклонение отвесной линии неизвестно: принято равным 0 с u = {u}″, что даёт до {cost} °/ч в \
-             составляющих угловой скорости Земли."
+        en: "The deflection of the vertical is unknown; it is taken as 0 with u = {u}″, which contributes \
+             u = {cost} °/h at most to a component of the Earth rate.",
+        ru: "Уклонение отвесной линии неизвестно: принято равным 0 с u = {u}″, что даёт u до {cost} °/ч для \
+             составляющей угловой скорости Земли."
     }
     LONGITUDE {
         en: "The longitude is unknown; only the latitude of a place can be checked.",

@@ -47,15 +47,16 @@ texts! {
     }
     UNDECIDED { en: "Conformity with gyro type {type} is undecided", ru: "Соответствие типу {type} не определено" }
     RULE {
-        en: "Decision rule: guarded acceptance with a guard band equal to the expanded uncertainty U (JCGM 106, 8.3). \
-             Coverage probability 95.45 %.",
-        ru: "Правило принятия решения: приёмка с защитной полосой, равной расширенной неопределённости U (JCGM 106, \
-             8.3). Вероятность охвата 95,45 %."
+        en: "Decision rule (JCGM 106, 8.3): pass if |deviation| + U ≤ tolerance, fail if |deviation| − U > tolerance, otherwise \
+             undecided.",
+        ru: "Правило принятия решения (JCGM 106, 8.3): соответствует при |отклонение| + U ≤ допуск, не соответствует при \
+             |отклонение| − U > допуск, иначе не определено."
     }
     NOT_IN_U {
-        en: "Inputs not in U (u not stated, or stated as 0): {count} (section\u{a0}3).",
-        ru: "Величин, не учтённых в U (u не указана или 0): {count} (раздел\u{a0}3)."
+        en: "Inputs not in U (u not stated, or stated as 0): {count} (section\u{a0}3){more}.",
+        ru: "Величин, не учтённых в U (u не указана или 0): {count} (раздел\u{a0}3){more}."
     }
+    AND_TEMPERATURE { en: ", and the temperature", ru: ", а также температура" }
     NO_TYPE { en: "Parameters determined", ru: "Параметры определены" }
     NO_TYPE_WORDS {
         en: "No gyro type was specified; this report makes no statement of conformity.",
@@ -164,6 +165,10 @@ texts! {
     PROCEDURE { en: "Procedure and deviations from it", ru: "Методика и отступления от неё" }
     STAND { en: "Stand", ru: "Стенд" }
     SITE { en: "Site", ru: "Место установки" }
+    VERIFIED_NOT_WITHDRAWAL {
+        en: "Passport {id}, verified as of {time}; withdrawal not checked",
+        ru: "Паспорт {id}, проверен по состоянию на\u{a0}{time}; отзыв не\u{a0}проверен"
+    }
     VERIFIED_AS_OF { en: "Passport {id}, verified as of {time}", ru: "Паспорт {id}, проверен по состоянию на\u{a0}{time}" }
     CURRENTS { en: "File of currents", ru: "Файл токов" }
     OPERATOR { en: "Readings taken by", ru: "Показания снял" }
@@ -305,6 +310,7 @@ texts! {
         ru: "Предыдущая калибровка: {day}, паспорт {passport}, токи {sha256}. Общие погрешности (стенда) \
              в изменение не входят: U завышена."
     }
+    NO_DAY_BUT_CURRENTS { en: "{number}, currents {sha256}", ru: "{number}, токи {sha256}" }
     NO_DAY { en: "date not stated", ru: "дата не указана" }
     SAME_GYRO_NOT_SHOWN {
         en: "Serial numbers do not show that it was the same gyro.",
@@ -429,9 +435,9 @@ texts! {
     }
     DRIFTS_IN_ORDER {
         en: "In the order of the rows the residuals show a drift of ω_0, ({x}, {y}) °/h from one visit to the next ({p}), \
-             which is not fitted and enlarges u; with times ({column}) and {option} it is fitted.",
+             which is not fitted and enlarges u; with the times of the readings it could be fitted.",
         ru: "В порядке строк остатки обнаруживают изменение ω_0: ({x}, {y}) °/ч от установки к установке ({p}); модель его не \
-             содержит, и оно увеличивает u; со временем ({column}) и {option} оно оценивается."
+             содержит, и оно увеличивает u; если указать время показаний, его можно оценить."
     }
     DRIFT_OR_NOISE {
         en: "A drift in time was not tested, because the repeated visits cannot tell it from the noise of the gyro.",

@@ -50,11 +50,11 @@ texts! {
     COMPONENTS_NOTE {
         en: "A reading differs from the mean of its position by a rotation of the platform and one of the base, both \
              common to the whole run, and by the scatter of the single visit. s: standard deviation; ν: its degrees of \
-             freedom; s/√R: its part in the mean of R runs. The repeatability is the quadratic mean of s over x, y and z. The \
+             freedom; s/√R: its part in the mean of R runs. The repeatability is the quadratic mean of s over x, y and z, weighted by ν. The \
              upper limit is one-sided, by chi-square, with the scatter of the visits subtracted.",
         ru: "Показание отличается от среднего по положению на поворот платформы и поворот основания, общие для всей \
              серии, и на разброс одной установки. s — стандартное отклонение, ν — число его степеней свободы, \
-             s/√R — его часть в среднем по R\u{a0}сериям. Повторяемость — их среднее квадратическое по x, y и z. Верхняя \
+             s/√R — его часть в среднем по R\u{a0}сериям. Повторяемость — их среднее квадратическое по x, y и z с весами ν. Верхняя \
              граница — односторонняя, по хи-квадрат, за вычетом разброса установок."
     }
     FEW_DEGREES {
@@ -81,8 +81,8 @@ texts! {
     BARTLETT_AXES { en: "Bartlett: equal variances about x, y and z, chi-square", ru: "Бартлетта: равенство дисперсий вокруг x, y и z, хи-квадрат" }
     COCHRAN { en: "Cochran: position {index} scatters more, ratio", ru: "Кохрена: наибольший разброс в положении {index}, отношение" }
     GRUBBS {
-        en: "Grubbs: position {index}, run {run}, about {axis}, residual, ″",
-        ru: "Граббса: положение {index}, серия {run}, вокруг {axis}, остаток, ″"
+        en: "Grubbs: position {index}, run {run}, about {axis}, difference, ″",
+        ru: "Граббса: положение {index}, серия {run}, вокруг {axis}, отличие, ″"
     }
     GRUBBS_PLATFORM {
         en: "Grubbs: run {run}, platform about {axis}, rotation, ″",
@@ -109,8 +109,8 @@ texts! {
         ru: "Стьюдента: дрейф, основание, ось «{axis}», поворот от серии к серии, ″"
     }
     OUTLYING_ANGLES {
-        en: "Grubbs: most suspect angle of {count}, residual, ″",
-        ru: "Граббса: самый сомнительный угол из {count}, остаток, ″"
+        en: "Grubbs: most suspect angle of {count}, difference, ″",
+        ru: "Граббса: самый сомнительный угол из {count}, отличие, ″"
     }
     ROTATED_RUNS {
         en: "Grubbs: most suspect run of {count}, {axes} axes, rotation, ″",
@@ -128,10 +128,12 @@ texts! {
     OUTLIER { en: "outlier", ru: "выброс" }
     STRAGGLER { en: "straggler", ru: "квазивыброс" }
     TESTS_NOTE {
-        en: "Value: the statistic named last in the first column. Probability of a result at least as extreme by chance: below 5 % a \
+        en: "Value: the statistic named last in the first column; differences and rotations are from the other readings or \
+             runs. Probability of a result at least as extreme by chance: below 5 % a \
              value is a straggler and equality is doubtful, below 1 % it is an outlier and the variances are different. No \
              reading is excluded because of these tests. Bartlett’s test requires a fine resolution and no suspect reading.",
-        ru: "Значение: величина, указанная в конце названия критерия. Вероятность случайно получить не меньшее значение: \
+        ru: "Значение: величина, указанная в конце названия критерия; отличия и повороты — от остальных показаний или \
+             серий. Вероятность случайно получить не меньшее значение: \
              менее 5 % — квазивыброс, равенство сомнительно; менее 1 % — выброс, дисперсии различаются. По результатам \
              проверок показания не исключаются. Критерий Бартлетта применим при малом шаге отсчёта и без сомнительных показаний."
     }

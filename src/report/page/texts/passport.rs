@@ -28,8 +28,8 @@ texts! {
     PASSPORT_ISSUER { en: "Issuer of the passport", ru: "Выдавшая организация" }
     CHECKING { en: "How to check", ru: "Как проверить" }
     CHECKING_HOW {
-        en: "of the file: scan the code and compare, or run dtg-passport verify",
-        ru: "файла: считать код и сравнить или выполнить dtg-passport verify"
+        en: "of the file: must equal that in the code; dtg-passport verify checks all",
+        ru: "файла: должна совпадать с суммой в коде; dtg-passport verify проверяет всё"
     }
     FIGURE_STAND {
         en: "The stand: its axes and angles, for θ = 40° and φ = 35°, the frame’s axis ξ as at this site.",
@@ -197,8 +197,8 @@ texts! {
     SELF_CHECK { en: "Self-check", ru: "Контрольный пример" }
     SELF_CHECK_NOTE {
         en: "From the currents J of the self-check (use all digits given in the annex), laboratory software should \
-             obtain these parameters:",
-        ru: "По токам J контрольного примера (все цифры — в приложении) программа лаборатории должна получить:"
+             obtain these parameters with a relative error of at most 10⁻⁹:",
+        ru: "По токам J (все цифры — в приложении) программа лаборатории должна получить с относительной погрешностью до 10⁻⁹:"
     }
     EQUATIONS_NOTE {
         en: "Equation numbers: Tang and Podchezertsev (2017), {source}.",
