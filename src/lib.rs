@@ -146,7 +146,6 @@ pub mod uncertainty;
 pub(crate) mod units;
 // `report` makes its languages public.
 #[cfg_attr(not(feature = "report"), allow(unreachable_pub))]
-#[cfg(any(feature = "factory", feature = "report"))]
 pub(crate) mod wording;
 #[cfg(feature = "cli")]
 pub(crate) mod workspace;
