@@ -98,6 +98,29 @@ fn expected(namespace: &str) -> &'static str {
     if namespace == "dtg-passport" { "a passport, which `issue` makes and signs" } else { "a signed document" }
 }
 
+/// Form of the signature in a document.
+const BLOCK: &str = "a signature block of OpenSSH, indented by two spaces, and nothing after it";
+
+/// Returns noun phrases for what was found instead of a signature, and for what was expected.
+fn found_and_expected(error: SignatureError) -> (String, &'static str) {
+    match error {
+        SignatureError::Damaged(why) => (format!("a damaged signature block ({why})"), BLOCK),
+        SignatureError::NotCanonical => {
+            ("a signature block whose lines or padding are not as OpenSSH writes them".to_owned(), BLOCK)
+        }
+        SignatureError::Version(version) => (format!("a signature block of format version {version}"), "version 1"),
+        SignatureError::Reserved(bytes) => (format!("a signature block with {bytes} reserved bytes"), "none"),
+        SignatureError::HashAlgorithm(name) => (format!("a signed text hashed with {name}"), "sha512"),
+        SignatureError::KeyType(found) => {
+            (format!("a text signed with {found}"), "one with a key of type ssh-ed25519 or sk-ssh-ed25519@openssh.com")
+        }
+        SignatureError::Algorithm { key, signature } => {
+            (format!("a signature of type {signature} with a key of type {key}"), "the same type twice")
+        }
+        other => (format!("a signature block that is refused ({other})"), BLOCK),
+    }
+}
+
 impl<'a> SignedText<'a> {
     /// Checks the text rule, splits the file and checks the form of the signature, in this order.
     pub(crate) fn split(name: &str, bytes: &'a [u8], namespace: &str) -> Result<Self, Malformed> {
@@ -122,15 +145,17 @@ impl<'a> SignedText<'a> {
             return Err(malformed(Unreadable::whole(name, location, "no signature", "`signature: |`", advice)));
         };
         let at = || Location { line: payload.lines().count() + 2, column: 1 };
-        let refuse = |found: String| {
-            let expected = "an armored SSH signature indented by two spaces, and nothing after it";
+        let refuse = |found: String, expected: &str| {
             let advice = "the signature or the text after it has changed; get the file from the issuer again";
-            Unreadable::whole(name, Some(at()), found, expected, advice)
+            malformed(Unreadable::whole(name, Some(at()), found, expected, advice))
         };
         let tail = &bytes[payload_end + SIGNATURE_LINE.len()..];
         let armor = std::str::from_utf8(tail).ok().and_then(unindented);
-        let armor = armor.ok_or_else(|| malformed(refuse("lines that are not indented armor".to_owned())))?;
-        let signature = Signature::from_armor(&armor).map_err(|error| malformed(refuse(error.to_string())))?;
+        let armor = armor.ok_or_else(|| refuse("a line that is not indented like the signature".to_owned(), BLOCK))?;
+        let signature = Signature::from_armor(&armor).map_err(|error| {
+            let (found, expected) = found_and_expected(error);
+            refuse(found, expected)
+        })?;
         if signature.namespace() != namespace {
             let other = signature.namespace().to_owned();
             let found = format!("a signature for {other:?}");

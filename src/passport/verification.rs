@@ -306,7 +306,11 @@ impl Run {
             NotAuthorised::NotYetValid { .. } => Code::KeyNotYetValid,
             NotAuthorised::Expired { .. } => Code::KeyExpired,
         };
-        let detail = format!("{miss} (key {}, issuer {issuer}, issued {at})", key.fingerprint());
+        let remedy = match code {
+            Code::UnknownKey => "; ask the factory for its key, and compare the fingerprint by another channel",
+            _ => "",
+        };
+        let detail = format!("{miss} (key {}, issuer {issuer}, issued {at}){remedy}", key.fingerprint());
         self.note(CheckName::Signer, code, detail);
         false
     }
@@ -356,7 +360,10 @@ impl Run {
             let found = &content.passport.issuer;
             let (code, detail) = match found == issuer {
                 true => (Code::Ok, format!("issued by {found}")),
-                false => (Code::WrongIssuer, format!("issued by {found}, not by {issuer}")),
+                false => {
+                    let remedy = "check --issuer, or get the passport from that issuer";
+                    (Code::WrongIssuer, format!("issued by {found}, not by {issuer}; {remedy}"))
+                }
             };
             self.note(CheckName::Issuer, code, detail);
         }

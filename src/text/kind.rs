@@ -107,7 +107,13 @@ impl Kind {
             Self::Measurement => "export the table as CSV",
             Self::Workbook => "unpack it, or export the table as CSV",
             Self::Html | Self::Pdf => "give the file from which it was made",
-            _ => "check the order of the arguments",
+            Self::Stand => "`issue` takes it, other commands with --stand",
+            Self::Site => "give it with --site",
+            Self::Passport => "commands that take a passport take it as the first argument",
+            Self::Angles => "`certify` takes it, and `recertify` after the passport",
+            Self::Currents => "`calibrate` takes it, after the passport",
+            Self::Result => "`calibrate` takes it with --previous",
+            Self::PublicKey => "give the file that has this key with its owner, as `keygen` prints the line",
         }
     }
 }

@@ -59,8 +59,17 @@ impl Node {
 /// Maximum number of opening brackets, including those in strings; a passport of the largest size has about 18,000.
 pub(super) const MOST_BRACKETS: usize = 25_000;
 
-/// Returns the bytes as text if they are UTF-8 without a byte order mark and have LF line endings only.
+/// Returns the bytes of a signed document as text if they are UTF-8 without a byte order mark and have LF line endings
+/// only.
 pub(crate) fn plain_text<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable> {
+    let advice = "get the file from the issuer again, because saving it in another form changes what was signed";
+    text_of(name, bytes, Some(advice))
+}
+
+/// Returns the bytes as text, as [`plain_text`] does. `signed` is the advice on a document in another encoding, or `None` if
+/// its author can save it again.
+fn text_of<'a>(name: &str, bytes: &'a [u8], signed: Option<&str>) -> Result<&'a str, Unreadable> {
+    let resaved = signed.unwrap_or("save the file as UTF-8");
     let refuse = |location, found: &str, expected: &str, advice: &str| {
         Err(Unreadable::whole(name, location, found, expected, advice))
     };
@@ -72,18 +81,17 @@ pub(crate) fn plain_text<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unr
         return refuse(None, &found, "a file of dtg-passport", "check that this is the right file");
     }
     if is_utf16(bytes) {
-        return refuse(None, "UTF-16", "UTF-8", "save the file as UTF-8");
+        return refuse(None, "UTF-16", "UTF-8", resaved);
     }
     if bytes.starts_with(&[0xEF, 0xBB, 0xBF]) {
-        let advice = "save the file as UTF-8 without a byte order mark";
-        return refuse(Some(Location { line: 1, column: 1 }), "a byte order mark (BOM)", "plain UTF-8", advice);
+        return refuse(Some(Location { line: 1, column: 1 }), "a byte order mark (BOM)", "plain UTF-8", resaved);
     }
     let text = match std::str::from_utf8(bytes) {
         Ok(text) => text,
         Err(error) => {
             let at = location_of(&bytes[..error.valid_up_to()]);
             let found = format!("byte 0x{:02X}, which is not valid UTF-8", bytes[error.valid_up_to()]);
-            return refuse(Some(at), &found, "UTF-8", "save the file as UTF-8");
+            return refuse(Some(at), &found, "UTF-8", resaved);
         }
     };
     if let Some(index) = memchr::memchr(b'\r', bytes) {
@@ -93,7 +101,8 @@ pub(crate) fn plain_text<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unr
                           file with LF line ends";
             refuse(at, "CR LF line ends", "LF line ends", advice)
         } else {
-            refuse(at, "a carriage return (CR)", "LF line ends", "save the file with LF line ends")
+            let advice = signed.unwrap_or("save the file with LF line ends");
+            refuse(at, "a carriage return (CR)", "LF line ends", advice)
         };
     }
     Ok(text)
@@ -110,7 +119,7 @@ pub(crate) fn hand_written_text(name: &str, bytes: &[u8]) -> Result<String, Unre
     let bytes = without_byte_order_mark(bytes);
     if bytes.len() > LARGEST_DOCUMENT_BYTES {
         // It is refused, and no copy is made of it.
-        return plain_text(name, bytes).map(str::to_owned);
+        return text_of(name, bytes, None).map(str::to_owned);
     }
     let mut plain = Vec::with_capacity(bytes.len());
     for (index, &byte) in bytes.iter().enumerate() {
@@ -118,7 +127,7 @@ pub(crate) fn hand_written_text(name: &str, bytes: &[u8]) -> Result<String, Unre
             plain.push(byte);
         }
     }
-    plain_text(name, &plain).map(str::to_owned)
+    text_of(name, &plain, None).map(str::to_owned)
 }
 
 /// Returns `true` if the bytes are UTF-16, with or without a byte order mark: other text does not have NUL as exactly

@@ -8,7 +8,7 @@
 
 use super::advice::{self, unquoted};
 use super::kind::mistaken;
-use super::node::hand_written_text;
+use super::node::{hand_written_text, without_byte_order_mark};
 use super::problem::{MOST_COUNTED, MOST_PROBLEMS, counted};
 use super::{Kind, Location, Problem, Unreadable};
 
@@ -55,6 +55,11 @@ impl<'a> Table<'a> {
     }
 
     fn parse(name: &'a str, bytes: &'a [u8], required: &[&'a str], optional: &[&'a str]) -> Result<Self, Unreadable> {
+        let header = || format!("a table with the header {}", required.join(","));
+        if without_byte_order_mark(bytes).is_empty() {
+            let advice = "the file may be truncated; copy it again";
+            return Err(Unreadable::whole(name, None, "an empty file", header(), advice));
+        }
         let text = hand_written_text(name, bytes)?;
         let mut lines = text.lines().enumerate().map(|(index, line)| (index + 1, line)).filter(|(_, line)| {
             let line = line.trim();
@@ -66,8 +71,7 @@ impl<'a> Table<'a> {
             first = lines.next();
         }
         let Some((line, header)) = first else {
-            let expected = format!("the header {}", required.join(","));
-            return Err(Unreadable::whole(name, None, "only spaces and comments", expected, ""));
+            return Err(Unreadable::whole(name, None, "only spaces and comments", header(), ""));
         };
         let separator = declared
             .or_else(|| SEPARATORS.into_iter().map(|(separator, _)| separator).find(|it| header.contains(*it)))

@@ -7,10 +7,9 @@ use crate::text::{Printable, rule};
 /// Identity that a list of allowed signers would not read as one principal, or that a signed text cannot contain.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "the identity \"{}\" is empty or too long, begins with a key type, or contains a space, a quote, one of , * ? ! # or \
-     a character that no signed text may contain: choose another one, such as factory@example.org, because \
-     allowed_signers would not read this as one name",
-    Printable(.0)
+    "the identity \"{}\" {}; choose a name such as factory@example.org, which allowed_signers reads as one name",
+    Printable(.0),
+    broken_rule(.0).unwrap_or_default()
 )]
 pub struct BadIdentity(String);
 
@@ -20,12 +19,27 @@ pub struct BadIdentity(String);
 /// # Errors
 /// Returns [`BadIdentity`] if a list of allowed signers would not read it as exactly one principal.
 pub(crate) fn check_identity(identity: &str) -> Result<(), BadIdentity> {
-    let plain = |c: char| rule::allowed_in_string(c) && !c.is_whitespace() && !"\"',*?!#".contains(c);
-    let good = !identity.is_empty()
-        && identity.len() <= LONGEST_PATTERN
-        && !AnyKey::is_type(identity)
-        && identity.chars().all(plain);
-    if good { Ok(()) } else { Err(BadIdentity(identity.to_owned())) }
+    broken_rule(identity).map_or(Ok(()), |_| Err(BadIdentity(identity.to_owned())))
+}
+
+/// Returns the rule that an identity breaks, after its name, or `None` if it is good.
+fn broken_rule(identity: &str) -> Option<String> {
+    if identity.is_empty() {
+        return Some("is empty".to_owned());
+    }
+    if identity.len() > LONGEST_PATTERN {
+        return Some(format!("is longer than {LONGEST_PATTERN} bytes"));
+    }
+    if AnyKey::is_type(identity) {
+        return Some("begins as the type of a key does".to_owned());
+    }
+    let bad = |c: &char| !rule::allowed_in_string(*c) || c.is_whitespace() || "\"',*?!#".contains(*c);
+    identity.chars().find(bad).map(|c| match c {
+        ' ' => "contains a space".to_owned(),
+        '"' | '\'' => "contains a quote".to_owned(),
+        ',' | '*' | '?' | '!' | '#' => format!("contains `{c}`, which has a meaning in a list of names"),
+        _ => format!("contains {}, which no identity may contain", c.escape_unicode()),
+    })
 }
 
 #[cfg(all(test, feature = "factory"))]

@@ -181,7 +181,7 @@ fn check_kind(pem: &str) -> Result<(), KeyError> {
         None if pem.is_empty() => ("an empty file", "give the file that `keygen` wrote"),
         None if pem.split_ascii_whitespace().next().is_some_and(AnyKey::is_type) => ("a public key", PRIVATE_HALF),
         None => {
-            let found = Kind::of(pem.as_bytes()).map_or("something else", Kind::words);
+            let found = Kind::of(pem.as_bytes()).map_or("no private key", Kind::words);
             (found, "give the file that `keygen` or `ssh-keygen -t ed25519` wrote")
         }
     };
@@ -278,7 +278,7 @@ mod tests {
             ("---- BEGIN SSH2 PUBLIC KEY ----", "found a public key, expected a private key file"),
             (public.as_str(), "give the private key, the file without .pub"),
             ("PuTTY-User-Key-File-3: ssh-ed25519", "puttygen"),
-            ("hello", "something else"),
+            ("hello", "found no private key, expected"),
             ("-----BEGIN OPENSSH PRIVATE KEY-----\nAAAA", "does not end with"),
         ] {
             let refused = refused(text).to_string();

@@ -168,7 +168,21 @@ fn why_refused(armor: &str) -> SignatureError {
         Ok(_) => SignatureError::NotCanonical,
         // A block that was wrapped again is not damaged.
         Err(_) if SshSig::from_pem(wrapped(&base64_of(armor), LINE_LENGTH)).is_ok() => SignatureError::NotCanonical,
-        Err(error) => refusal(error),
+        Err(error) => match refusal(error) {
+            SignatureError::Damaged(_) => SignatureError::Damaged(damage(armor).to_owned()),
+            known => known,
+        },
+    }
+}
+
+/// Returns what is damaged in a block that cannot be read.
+fn damage(armor: &str) -> &'static str {
+    let armor = armor.trim();
+    match () {
+        () if !armor.starts_with(FIRST_LINE) => "its first line has changed",
+        () if !armor.ends_with(LAST_LINE) => "its last line is missing or has changed",
+        () if Base64::decode_vec(&base64_of(armor)).is_err() => "its base64 is truncated or has changed",
+        () => "its content is truncated or has changed",
     }
 }
 
