@@ -21,7 +21,7 @@ use crate::document::{SignedText, Signer, sha256_hex};
 use crate::files::walk::{Visited, Walk};
 use crate::files::{self, Access, or_here};
 use crate::passport::issue::{Draft, Issue, PreparedStand, Remarks};
-use crate::passport::reissue::{Successor, changes};
+use crate::passport::reissue::{NO_CHANGES, Successor, changes};
 use crate::passport::{Content, NAMESPACE, Question, Trust, content, verify};
 use crate::register::{Asked, Line, State};
 use crate::site::Site;
@@ -418,15 +418,20 @@ impl Existing {
     /// Returns the differences of `new` from the existing passport, in words.
     fn differences(&self, stand: &Stand, site: &Site, new: &Content) -> String {
         let there = &self.content.passport;
-        let mut words = changes(&self.content, stand, site, &new.passport.issuer);
-        if let Some(predecessor) = &there.reissued_from {
-            words = format!("re-issued from {}; {words}", predecessor.id);
-        }
+        let mut words = Vec::new();
         if there.valid_until != new.passport.valid_until {
             let day = |day: Option<Date>| day.map_or_else(|| "none".to_owned(), |day| day.to_string());
-            words = format!("valid until {} -> {}; {words}", day(there.valid_until), day(new.passport.valid_until));
+            words.push(format!("valid until {} -> {}", day(there.valid_until), day(new.passport.valid_until)));
         }
-        words
+        if self.content.accuracy != new.accuracy {
+            words.push("issued with other --accuracy, --gyro or --laboratory".to_owned());
+        }
+        words.extend(there.reissued_from.as_ref().map(|predecessor| format!("re-issued from {}", predecessor.id)));
+        let changed = changes(&self.content, stand, site, &new.passport.issuer);
+        if changed != NO_CHANGES || words.is_empty() {
+            words.push(changed);
+        }
+        words.join("; ")
     }
 }
 

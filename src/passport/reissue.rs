@@ -230,6 +230,10 @@ impl Successor {
     }
 }
 
+/// Words of [`changes`] if there are none.
+pub(crate) const NO_CHANGES: &str = "no changes in stand, site or issuer";
+
+/// Returns the changes of stand, site and issuer, in words.
 pub(crate) fn changes(old: &Content, stand: &Stand, site: &Site, issuer: &str) -> String {
     const MOST: usize = 12;
     let mut changes = Vec::new();
@@ -259,7 +263,7 @@ pub(crate) fn changes(old: &Content, stand: &Stand, site: &Site, issuer: &str) -
     if more > 0 {
         changes.push(format!("and {more} more"));
     }
-    if changes.is_empty() { "no changes in stand, site or issuer".to_owned() } else { changes.join("; ") }
+    if changes.is_empty() { NO_CHANGES.to_owned() } else { changes.join("; ") }
 }
 
 fn compare(path: &str, old: Option<Node>, new: Option<Node>, changes: &mut Vec<String>) {
