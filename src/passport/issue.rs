@@ -1,7 +1,7 @@
 //! Issue of a signed passport from a certified stand and a site.
 
 use super::accuracy::NoAccuracy;
-use super::annotations::{self, absences};
+use super::annotations::{self, Absence, absences, absent};
 use super::content::{Dated, PASSPORT_FORMAT, REFERENCE_GYRO, derive_from, passport_id};
 use super::{Content, Header, NAMESPACE, Predecessor, SelfCheck, Stated, content};
 use crate::attitude::Deviation;
@@ -360,7 +360,13 @@ impl Draft {
         let mut odd: Vec<String> = odd.iter().map(ToString::to_string).collect();
         odd.extend(content.site.odd());
         odd.extend(content.accuracy.as_ref().and_then(|accuracy| accuracy.beyond_range(content)));
-        Remarks { noise, uncertainty_growth: content.site.uncertainty_growth(), odd, absences: absences(content) }
+        Remarks {
+            noise,
+            uncertainty_growth: content.site.uncertainty_growth(),
+            odd,
+            absences: absences(content),
+            missing: absent(content),
+        }
     }
 }
 
@@ -381,11 +387,18 @@ pub struct Remarks {
     pub odd: Vec<String>,
     /// Missing statements and their effects, one sentence each.
     pub absences: Vec<String>,
+    /// The same statements, for words with symbols.
+    pub(crate) missing: Vec<Absence>,
 }
 
 impl Remarks {
     /// Returns warnings for the factory, and the inputs that the passport does not state, one sentence each.
     pub(crate) fn words(&self) -> Vec<String> {
+        [self.warnings(), self.absences.clone()].concat()
+    }
+
+    /// Returns warnings for the factory, one sentence each.
+    pub(crate) fn warnings(&self) -> Vec<String> {
         let mut words = Vec::new();
         match &self.noise {
             None => words.push(
@@ -405,7 +418,6 @@ impl Remarks {
             ));
         }
         words.extend(self.odd.iter().map(|odd| format!("WARNING: {odd}")));
-        words.extend(self.absences.iter().cloned());
         words
     }
 }

@@ -104,6 +104,11 @@ fn shown_columns(text: &str) -> usize {
     columns_of(&style::plain(text))
 }
 
+/// Returns words of a page without its non-breaking spaces; a terminal groups no digits.
+pub(crate) fn with_plain_spaces(words: &str) -> String {
+    words.replace('\u{A0}', " ").replace(THIN_BLANK, "")
+}
+
 /// Appends words from `column` on, broken at spaces before `columns`, but not between a number and its unit. Further lines
 /// begin at `indent`, or further left if a word needs the room.
 fn wrapped(out: &mut String, mut column: usize, indent: usize, words: &str, columns: usize) {
@@ -118,8 +123,8 @@ fn wrapped(out: &mut String, mut column: usize, indent: usize, words: &str, colu
             out.push(' ');
             column += 1;
         }
-        // The non-breaking spaces of pages have done their work in `unbroken`; a terminal groups no digits.
-        out.push_str(&word.replace('\u{A0}', " ").replace(THIN_BLANK, ""));
+        // The non-breaking spaces have done their work in `unbroken`.
+        out.push_str(&with_plain_spaces(word));
         column += width;
     }
     out.push('\n');
@@ -270,6 +275,20 @@ fn neutral(cell: &str) -> String {
     if cell.starts_with(';') { format!("'{neutral}") } else { neutral }
 }
 
+/// Formats a number with commas between groups of three digits.
+pub(crate) fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let groups: Vec<&str> = digits.as_bytes().rchunks(3).rev().filter_map(|group| str::from_utf8(group).ok()).collect();
+    groups.join(",")
+}
+
+/// Formats a number with so many decimals; a zero that was rounded has no sign.
+pub(crate) fn fixed(value: f64, decimals: usize) -> String {
+    let printed = format!("{value:.decimals$}");
+    let is_zero = |digits: &&str| digits.bytes().all(|byte| matches!(byte, b'0' | b'.'));
+    printed.strip_prefix('-').filter(is_zero).map_or_else(|| printed.clone(), str::to_owned)
+}
+
 /// Formats degrees of freedom with one decimal, or none if it is 0.
 pub(crate) fn degrees_of_freedom(value: f64) -> String {
     let printed = format!("{value:.1}");
@@ -335,6 +354,15 @@ pub(crate) fn powers(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// By hand.
+    #[test]
+    fn a_rounded_zero_has_no_sign() {
+        for (value, due) in [(-0.00004, "0.0000"), (-0.0, "0.0000"), (-0.00006, "-0.0001"), (-10.0, "-10.0000")] {
+            assert_eq!(fixed(value, 4), due);
+        }
+        assert_eq!((fixed(-0.4, 0), fixed(-0.6, 0)), ("0".to_owned(), "-1".to_owned()));
+    }
 
     /// By hand.
     #[test]

@@ -61,7 +61,7 @@ pub(crate) fn text(a: &Side, b: &Side, found: &Differences) -> String {
         return out;
     }
     let (differ, all) = (found.numbers.len(), found.compared);
-    let _ = writeln!(out, "\n{differ} of {all} numbers differ. u: standard uncertainty (k = 1) of B - A.");
+    let _ = writeln!(out, "\n{differ} of {all} numbers differ. u: standard uncertainty (k = 1) of B − A.");
     if !found.numbers.is_empty() {
         numbers(&mut out, &found.numbers);
     }
@@ -99,7 +99,7 @@ pub(crate) fn numbers(out: &mut String, numbers: &[NumberDifference]) {
             at.ratio().map_or_else(String::new, |ratio| columns::signed(ratio, 1)),
         ]
     });
-    columns::table(out, &["", "A", "B", "B - A", "u", "(B-A)/u"], rows);
+    columns::table(out, &["", "A", "B", "B − A", "u", "(B − A)/u"], rows);
 }
 
 /// Formats a number as it is in the file if it is short, as those are that people write, and else with `decimals`.

@@ -3,11 +3,14 @@
 //! Reports are written one after the other, so that not all are held in memory. For a few orders the text is complete;
 //! for many it contains only the failures and a summary.
 
-use super::columns::csv_row;
+use super::columns::{csv_row, grouped, with_plain_spaces};
+use super::page::language::Language;
+use super::page::passport::accuracy;
 use super::style;
 use crate::batch::{Failure, Outcome};
 use crate::calibration::prediction::NoiseGrowth;
 use crate::folder::Issued;
+use crate::passport::annotations::Absence;
 use crate::passport::issue::Remarks;
 use crate::text::printable::json;
 use crate::text::words;
@@ -161,13 +164,6 @@ pub(crate) fn refused_line(file: &str) -> String {
     format!("{}  {}\n", marked(Some(false), State::Refused.key()), Printable(file))
 }
 
-/// Formats a number with commas between groups of three digits.
-fn grouped(number: u64) -> String {
-    let digits = number.to_string();
-    let groups: Vec<&str> = digits.as_bytes().rchunks(3).rev().filter_map(|group| str::from_utf8(group).ok()).collect();
-    groups.join(",")
-}
-
 /// Number of orders for each outcome, in the order of [`State::ALL`], and of inputs that cannot be used.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct Totals {
@@ -292,7 +288,9 @@ impl Told {
 
     /// Adds the remarks on a new passport.
     pub(crate) fn add_all(&mut self, id: &str, remarks: &Remarks) {
-        remarks.words().into_iter().for_each(|words| self.add(id, words));
+        let words = |absence: &Absence| with_plain_spaces(&accuracy::plain(*absence, Language::English));
+        let missing = remarks.missing.iter().map(words);
+        remarks.warnings().into_iter().chain(missing).for_each(|words| self.add(id, words));
     }
 
     /// Returns the remarks, one line each.

@@ -202,7 +202,7 @@ fn matrices(out: &mut String, content: &Content) {
     heading(out, "Matrices at the site, by rows; eq. (9) to (15)");
     let row = |name: &str, unit: &str, [[a, b], [c, d]]: &Rows| {
         let mut row = vec![name.to_owned(), unit.to_owned()];
-        row.extend([a, b, c, d].map(|value| format!("{value:.9}")));
+        row.extend([a, b, c, d].map(|value| columns::fixed(*value, 9)));
         row
     };
     let rows = [
@@ -224,7 +224,7 @@ fn vectors(out: &mut String, content: &Content) {
         let [nx, ny] = at.specific_force_g;
         let [wx, wy] = at.omega_deg_per_h;
         let mut row = vec![at.i.to_string(), at.j.to_string()];
-        row.extend([nx, ny, at.specific_force_z_g, wx, wy].map(|value| format!("{value:.9}")));
+        row.extend([nx, ny, at.specific_force_z_g, wx, wy].map(|value| columns::fixed(value, 9)));
         row
     });
     columns::table(out, &["i", "j", "n_x", "n_y", "n_z", "ω_3x", "ω_3y"], rows);

@@ -1,5 +1,6 @@
 //! Tables of simulations, with the paper's figures next to ours.
 
+use super::columns::grouped;
 use super::style::Outcome;
 use super::{columns, style};
 use crate::simulation::{Accuracy, Convergence, ConvergenceRow, PAPER_LATITUDE_DEG};
@@ -13,7 +14,7 @@ pub(crate) fn accuracy(found: &Accuracy) -> String {
         Some(limit) => format!("all deviations uniform within {limit}°"),
         None => "the specified stand".to_owned(),
     };
-    let (trials, seed, latitude) = (found.trials, found.seed, found.latitude_deg);
+    let (trials, seed, latitude) = (grouped(found.trials), found.seed, found.latitude_deg);
     let mut out = format!("{trials} trials, seed {seed}, {stands}, latitude {latitude:.4}°\n");
     let rows = found.rows.iter().map(|row| {
         // NaN if no trial gave a result.
@@ -25,7 +26,7 @@ pub(crate) fn accuracy(found: &Accuracy) -> String {
             true => style::marked(Outcome::Passed, "within"),
             false => style::marked(Outcome::Failed, "BEYOND"),
         });
-        let without = (row.not_solved > 0).then(|| format!("{} trials gave no result", row.not_solved));
+        let without = (row.not_solved > 0).then(|| format!("{} trials gave no result", grouped(row.not_solved)));
         vec![
             row.method.to_string(),
             row.parameter.symbol().to_owned(),
@@ -42,7 +43,7 @@ pub(crate) fn accuracy(found: &Accuracy) -> String {
 
 /// Returns the paper's Fig. 4 as numbers.
 pub(crate) fn convergence(found: &Convergence) -> String {
-    let (trials, seed) = (found.trials, found.seed);
+    let (trials, seed) = (grouped(found.trials), found.seed);
     let mut out = format!(
         "Steps of the iterative method, {trials} stands at each limit, seed {seed}, latitude {PAPER_LATITUDE_DEG:.4}°\n"
     );
@@ -55,7 +56,7 @@ pub(crate) fn convergence(found: &Convergence) -> String {
             or_dash(row.percentile_95.map(|steps| steps.to_string())),
             or_dash(row.most.map(|steps| steps.to_string())),
             not_converged(row),
-            if row.stands < found.trials { format!("{} stands", row.stands) } else { String::new() },
+            if row.stands < found.trials { format!("{} stands", grouped(row.stands)) } else { String::new() },
         ]
     });
     columns::table(&mut out, &["limit, °", "angles", "mean", "95th perc.", "most", "not converged, %", ""], rows);

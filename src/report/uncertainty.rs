@@ -4,7 +4,7 @@ use crate::calibration::CalibrationDocument;
 use crate::calibration::Parameter;
 use crate::calibration::document::finite;
 use crate::calibration::verdict::ParameterVerdict;
-use crate::report::columns;
+use crate::report::columns::{self, grouped};
 use crate::report::page::Language;
 use crate::report::page::texts::calibration as texts;
 use crate::report::style::{self, Outcome};
@@ -169,7 +169,7 @@ pub(crate) fn monte_carlo(found: &MonteCarlo) -> String {
         out,
         "\nMonte Carlo ({}), {} trials, seed {}; {:.0} % coverage intervals, drifts at local g",
         found.method.key(),
-        found.trials,
+        grouped(found.trials),
         found.seed,
         100.0 * COVERAGE
     );
@@ -184,7 +184,7 @@ pub(crate) fn monte_carlo(found: &MonteCarlo) -> String {
         columns::paragraph(&mut out, "  ", &format!("WARNING: {}", texts::NOT_STABLE.of(Language::English)));
     }
     if found.failed > 0 {
-        let words = format!("WARNING: {} trials gave no finite parameters and were excluded.", found.failed);
+        let words = format!("WARNING: {} trials gave no finite parameters and were excluded.", grouped(found.failed));
         columns::paragraph(&mut out, "  ", &words);
     }
     out
