@@ -202,7 +202,8 @@ fn in_force(content: Option<&Content>, time: Timestamp, within_days: Option<u32>
     let days = today.until(last).map_or(i32::MAX, |span| span.get_days());
     match within_days {
         Some(within) if i64::from(days) <= i64::from(within) => {
-            (State::Expiring, format!("valid until {last} (inclusive), {days} days from now"))
+            let plural = if days == 1 { "" } else { "s" };
+            (State::Expiring, format!("valid until {last} (inclusive), {days} day{plural} left"))
         }
         _ => (State::InForce, format!("valid until {last} (inclusive)")),
     }

@@ -63,6 +63,9 @@ struct SiteLine {
 struct Passports {
     counts: BTreeMap<&'static str, usize>,
     expiring: Vec<Line>,
+    /// Passports that have expired, for the text.
+    #[serde(skip)]
+    expired: Vec<Line>,
     alarms: Vec<String>,
 }
 
@@ -161,8 +164,8 @@ fn read_each<T, L>(
 fn passports(register: Register) -> Passports {
     let counts = register.counts().into_iter().map(|(state, count)| (state.key(), count)).collect();
     let alarms = register.alarms.iter().map(ToString::to_string).collect();
-    let expiring = register.passports.into_iter().filter(|line| line.state == State::Expiring).collect();
-    Passports { counts, expiring, alarms }
+    let of = |state| register.passports.iter().filter(|line| line.state == state).cloned().collect();
+    Passports { counts, expiring: of(State::Expiring), expired: of(State::Expired), alarms }
 }
 
 fn keys(trust: &Trust, time: Timestamp) -> Vec<KeyLine> {
@@ -222,11 +225,15 @@ impl Status {
                 passports.counts.iter().map(|(state, count)| format!("{count} {}", state.replace('_', " "))).collect();
             let counts = if counts.is_empty() { "none".to_owned() } else { counts.join(", ") };
             let _ = writeln!(out, "Passports  {counts}");
-            let expiring = passports.expiring.iter().map(|line| {
-                let until = line.valid_until.map_or_else(String::new, |day| day.to_string());
-                format!("{}  valid until {until}", line.id.as_deref().unwrap_or_default())
-            });
-            indented(&mut out, expiring.collect());
+            let dated = |lines: &[Line], words: &str| {
+                let line = |line: &Line| {
+                    let until = line.valid_until.map_or_else(String::new, |day| day.to_string());
+                    format!("{}  {words} {until}", line.id.as_deref().unwrap_or_default())
+                };
+                lines.iter().map(line).collect::<Vec<_>>()
+            };
+            indented(&mut out, dated(&passports.expiring, "valid until"));
+            indented(&mut out, dated(&passports.expired, "EXPIRED, was valid until"));
             let _ = writeln!(out, "Alarms     {}", passports.alarms.len());
             indented(&mut out, passports.alarms.clone());
         }
