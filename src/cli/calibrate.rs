@@ -49,7 +49,14 @@ pub(super) struct Options {
     whom: Whom,
     /// Folder for the results of several gyros: <name of the currents>.json, as --format json writes it, and .html, the
     /// report
-    #[arg(short, long, visible_alias = "output", value_name = "DIR", conflicts_with_all = ["report", "dcc"])]
+    #[arg(
+        short,
+        long,
+        visible_alias = "output",
+        value_name = "DIR",
+        value_parser = output::folder("; for one report use --report FILE.html, for one result --format json"),
+        conflicts_with_all = ["report", "dcc"]
+    )]
     out: Option<PathBuf>,
     /// Calibration methods; least squares gives the adopted result
     #[arg(long, value_enum, value_delimiter = ',', default_value = "analytic,iterative,least-squares")]

@@ -46,7 +46,7 @@ pub(super) struct Options {
     )]
     output: Option<PathBuf>,
     /// Folder for the stand files of several stands: <model>/<serial>/stand.yaml
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["against", "report", "exclude"])]
+    #[arg(long, value_name = "DIR", value_parser = output::folder("; for one stand use -o stand.yaml"), conflicts_with_all = ["against", "report", "exclude"])]
     out: Option<PathBuf>,
     /// Replace an existing stand file
     #[arg(long)]

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 #[derive(Args)]
 pub(super) struct Options {
     /// Folder for the files, empty or not existing [default: dtg-passport-demo, numbered if it exists]
-    #[arg(short, long, visible_alias = "output", value_name = "DIR")]
+    #[arg(short, long, visible_alias = "output", value_name = "DIR", value_parser = output::folder(""))]
     out: Option<PathBuf>,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]

@@ -40,7 +40,7 @@ pub(super) struct Options {
     #[command(flatten)]
     trust: TrustAmong,
     /// Folder to write to [default: the current folder; JSON goes to standard output, one line for each passport]
-    #[arg(short, long, visible_alias = "output", value_name = "DIR")]
+    #[arg(short, long, visible_alias = "output", value_name = "DIR", value_parser = output::folder("; the program names the files in it"))]
     out: Option<PathBuf>,
     /// Administrative data of the DCC that no passport states (dtg-dcc/1); `new dcc` writes a template
     #[arg(long, value_name = "FILE")]

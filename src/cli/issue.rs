@@ -2,7 +2,7 @@
 
 use super::batch::BatchOptions;
 use super::key_options::refuse_distrusted;
-use super::{Code, Failure, defaults, inputs, trust_options};
+use super::{Code, Failure, defaults, inputs, output, trust_options};
 use crate::batch::issue::Job;
 use crate::gyro::GyroType;
 use crate::passport::Stated;
@@ -26,7 +26,7 @@ pub(super) struct Options {
     #[arg(long = "site", required = true, value_name = "SITE", value_parser = defaults::site())]
     sites: Vec<PathBuf>,
     /// Folder of passports
-    #[arg(short, long, visible_aliases = ["passports", "output"], value_name = "DIR", default_value = "passports")]
+    #[arg(short, long, visible_aliases = ["passports", "output"], value_name = "DIR", value_parser = output::folder_of_passports(), default_value = "passports")]
     out: PathBuf,
     #[command(flatten)]
     batch: BatchOptions,

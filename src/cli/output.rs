@@ -3,7 +3,7 @@
 use super::Failure;
 use crate::files;
 use crate::report::{columns, style};
-use crate::text::{printable, shown};
+use crate::text::{excerpt, printable, shown};
 use clap::ValueEnum;
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use serde::Serialize;
@@ -49,6 +49,23 @@ pub(super) fn path_of(format: &'static str) -> impl TypedValueParser<Value = Pat
             }
         }
     })
+}
+
+/// Extensions of files that this program reads or writes: no folder is to be made with such a name.
+const FILES: [&str; 6] = ["json", "html", "csv", "yaml", "xml", "svg"];
+
+/// Parser of the path of a folder to write to; the name of a file is refused, with `advice` on how to write one file.
+pub(super) fn folder(advice: &'static str) -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().try_map(move |path| {
+        let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+        let is_file = extension.is_some_and(|named| FILES.contains(&named.as_str())) && !path.is_dir();
+        if is_file { Err(format!("expected the name of a folder, not of a file{advice}")) } else { Ok(path) }
+    })
+}
+
+/// Parser of the path of a folder of passports.
+pub(super) fn folder_of_passports() -> impl TypedValueParser<Value = PathBuf> {
+    folder("; the passports in it are <model>/<serial>/<site>-<revision>.yaml")
 }
 
 /// Returns the columns of a terminal or, where there is none, those that the user sets in `COLUMNS`.
@@ -146,9 +163,13 @@ pub(super) fn warn(words: &str) {
 
 /// Writes a message about a failure. Errors are ignored, because there is nowhere left to report them.
 pub(super) fn complain(words: &str) {
-    let lines: Vec<String> = words.trim_end().split('\n').map(printable).collect();
+    let mut lines: Vec<String> = words.trim_end().split('\n').map(printable).collect();
+    let columns = columns_of(terminal_size_of(io::stderr()));
+    if let Some(columns) = columns {
+        excerpt::cut(&mut lines, columns.saturating_sub(NAME.len()));
+    }
     let text = format!("{NAME}{}\n", lines.join(&format!("\n{:1$}", "", NAME.len())));
-    let text = match columns_of(terminal_size_of(io::stderr())) {
+    let text = match columns {
         Some(columns) => columns::hanging(&text, NAME.len(), columns),
         None => text,
     };

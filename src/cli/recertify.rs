@@ -66,7 +66,7 @@ pub(super) struct Options {
     #[arg(long, value_name = "TIME", value_parser = trust_options::time)]
     issued_at: Option<Timestamp>,
     /// Folder of passports [default: the parent of <model>/<serial> in the path of the passport]
-    #[arg(short, long, visible_aliases = ["passports", "output"], value_name = "DIR")]
+    #[arg(short, long, visible_aliases = ["passports", "output"], value_name = "DIR", value_parser = output::folder_of_passports())]
     out: Option<PathBuf>,
     #[command(flatten)]
     exclusions: ExclusionOptions,

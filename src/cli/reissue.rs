@@ -2,7 +2,7 @@
 
 use super::batch::BatchOptions;
 use super::trust_options::{self, TrustOptions, among};
-use super::{Code, Failure, defaults, inputs};
+use super::{Code, Failure, defaults, inputs, output};
 use crate::batch::successors::Change;
 use crate::passport::issue::time_of_issue;
 use crate::passport::reissue::Order;
@@ -39,7 +39,7 @@ pub(super) struct Options {
     #[arg(long, value_name = "TEXT")]
     reason: String,
     /// Folder of passports [default: the parent of <model>/<serial> in the path of each predecessor]
-    #[arg(short, long, visible_aliases = ["passports", "output"], value_name = "DIR")]
+    #[arg(short, long, visible_aliases = ["passports", "output"], value_name = "DIR", value_parser = output::folder_of_passports())]
     out: Option<PathBuf>,
     #[command(flatten)]
     batch: BatchOptions,

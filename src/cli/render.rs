@@ -22,7 +22,7 @@ pub(super) struct Options {
     #[arg(short, long, value_name = "FILE.html", value_parser = output::path_of("html"), required_unless_present = "out", conflicts_with = "out")]
     output: Option<PathBuf>,
     /// Folder for the pages of several passports: <model>/<serial>/<site>-<revision>.html
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = output::folder("; for one page use -o FILE.html"))]
     out: Option<PathBuf>,
     #[command(flatten)]
     trust: TrustAmong,

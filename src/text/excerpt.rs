@@ -62,6 +62,48 @@ impl Display for Excerpt {
     }
 }
 
+/// Cuts the excerpts in the lines of a message to `columns`, around the marks below them; other lines stay as they are.
+pub(crate) fn cut(lines: &mut [String], columns: usize) {
+    for place in 1..lines.len() {
+        let Some((margin, mark)) = margin_and_mark(&lines[place]) else { continue };
+        let Some((number, source)) = lines[place - 1].split_at_checked(margin) else { continue };
+        let room = columns.saturating_sub(margin);
+        if !number.ends_with(" | ") || columns_of(source) <= room || room < LEAST {
+            continue;
+        }
+        // What precedes the mark has the share of the line that it has in an excerpt.
+        let start = mark.saturating_sub(room * BEFORE / MOST);
+        let (mut column, mut before, mut shown) = (0, 0, String::new());
+        for character in source.chars() {
+            let width = columns_of(character.encode_utf8(&mut [0; 4]));
+            let cut = usize::from(start > 0);
+            if column < start + cut {
+                before = column + width - cut;
+            } else if column + width > before + room - 1 {
+                break;
+            } else {
+                shown.push(character);
+            }
+            column += width;
+        }
+        let left = if start > 0 { CUT } else { "" };
+        let right = if column < columns_of(source) { CUT } else { "" };
+        lines[place - 1] = format!("{number}{left}{shown}{right}");
+        lines[place] = format!("{}{:2$}^", &lines[place][..margin], "", mark - before);
+    }
+}
+
+/// Fewest columns to which a source is cut.
+const LEAST: usize = 16;
+
+/// Returns the length of the margin of a line with a mark, and the columns between both; `None` for any other line.
+fn margin_and_mark(line: &str) -> Option<(usize, usize)> {
+    let (margin, rest) = line.split_once("| ")?;
+    let blanks = rest.strip_suffix('^')?;
+    let is_blank = |text: &str| text.bytes().all(|byte| byte == b' ');
+    (is_blank(margin) && is_blank(blanks)).then_some((margin.len() + 2, blanks.len()))
+}
+
 /// Returns the columns that a text takes in a terminal: two for an East Asian character that [`Printable`] shows unescaped.
 pub(crate) fn columns_of(text: &str) -> usize {
     let wide = ['\u{3001}'..='\u{30FF}', '\u{4E00}'..='\u{9FFF}', '\u{AC00}'..='\u{D7A3}', '\u{FF01}'..='\u{FF5E}'];
@@ -109,6 +151,38 @@ mod tests {
         assert_eq!(shown(&text, 1, (1 << 19) + 1), due);
         let hostile = "\u{1b}".repeat(1 << 20);
         assert!(shown(&hostile, 1, 1 << 19).len() < 1000);
+    }
+
+    fn cut_to(columns: usize, text: &str, column: usize) -> [String; 2] {
+        let mut lines: Vec<String> = shown(text, 12, column).lines().map(str::to_owned).collect();
+        cut(&mut lines, columns);
+        lines.try_into().unwrap()
+    }
+
+    /// Expected: by hand; the mark stays under the letter `x`, and no line is wider than the columns.
+    #[test]
+    fn an_excerpt_is_cut_to_the_width_of_the_terminal() {
+        let text = format!("{}{}x{}", "\n".repeat(11), "a".repeat(40), "b".repeat(40));
+        let [source, mark] = cut_to(30, &text, 41);
+        assert_eq!(source, format!("12 | …{}x{}…", "a".repeat(14), "b".repeat(8)));
+        assert_eq!(mark, format!("   | {:15}^", ""));
+        // The beginning and the end of a line are not cut without need.
+        let [source, mark] = cut_to(30, &text, 3);
+        assert_eq!((source, mark), (format!("12 | {}…", "a".repeat(24)), "   |   ^".to_owned()));
+        let [source, mark] = cut_to(30, &text, 81);
+        assert_eq!((source, mark), (format!("12 | …{}b", "b".repeat(14)), format!("   | {:15}^", "")));
+        let [source, mark] = cut_to(100, &text, 41);
+        assert_eq!(mark.find('^').map(|at| &source[at..=at]), Some("x"));
+        // A wide character takes two columns.
+        let wide = format!("{}{}x{}", "\n".repeat(11), "東".repeat(30), "b".repeat(40));
+        let [source, mark] = cut_to(31, &wide, 31);
+        let at = columns_of(&source[..source.find('x').unwrap()]);
+        assert_eq!((at, columns_of(&mark) - 1), (at, at));
+        assert!(columns_of(&source) <= 31, "{source}");
+        // Other lines stay.
+        let mut others = ["a | b ^".to_owned(), "c".repeat(90)];
+        cut(&mut others, 30);
+        assert_eq!(others[1].len(), 90);
     }
 
     fn problem(line: usize) -> Problem {
