@@ -57,12 +57,7 @@ pub enum Explanation {
     #[error("positions {0} and {1} are exchanged")]
     Exchanged(PositionIndex, PositionIndex),
     /// Positions that are numbered in another way than in the certificate.
-    #[error(
-        "the positions are numbered in another way: i = 1, 2 of the readings is i = {} of the passport, and j = 1, 2, \
-         3, 4 is j = {}",
-        with_commas(i),
-        with_commas(j)
-    )]
+    #[error("the positions are numbered in another way: {}", numbering(i, j))]
     Renumbered {
         /// Certified i of the readings with i = 1, 2.
         i: [u32; 2],
@@ -88,6 +83,16 @@ pub enum Explanation {
         /// Errors of J_x and J_y that explain the readings, µA.
         current_ua: Vector2<f64>,
     },
+}
+
+/// Returns the certified numbers of the readings, without those that are the same.
+fn numbering(i: &[u32], j: &[u32]) -> String {
+    let other = [("i", i), ("j", j)].into_iter().filter_map(|(name, certified)| {
+        let read: Vec<u32> = (1..).zip(certified).map(|(number, _)| number).collect();
+        let [read, certified] = [read.as_slice(), certified].map(with_commas);
+        (read != certified).then(|| format!("{name} = {read} of the readings is {name} = {certified} of the passport"))
+    });
+    other.collect::<Vec<_>>().join(", and ")
 }
 
 /// Returns the change of the angle or the errors of the currents that explain a reading, in words.
@@ -122,10 +127,16 @@ impl Hint {
                 two_digits(self.size_arcsec)
             );
         }
-        let mut causes: Vec<String> = self.explanations.iter().map(ToString::to_string).collect();
-        causes.extend(self.may_be_another_stand().then(|| "the passport is that of another stand".to_owned()));
+        let causes = self.each_cause();
         let plural = if causes.len() > 1 { "s" } else { "" };
         format!("possible cause{plural}: {}", causes.join(", or "))
+    }
+
+    /// Returns each possible cause in words; none if no known error explains the readings.
+    pub(crate) fn each_cause(&self) -> Vec<String> {
+        let mut causes: Vec<String> = self.explanations.iter().map(ToString::to_string).collect();
+        causes.extend(self.may_be_another_stand().then(|| "the passport is that of another stand".to_owned()));
+        causes
     }
 }
 
@@ -297,4 +308,20 @@ fn size_arcsec(setup: &Setup, fit: &Fit, chi_square: &ChiSquare) -> f64 {
     let rows = 2 * fit.whitening.len();
     let excess = (chi_square.value / chi_square.degrees_of_freedom as f64 - 1.0).max(0.0);
     arcseconds_from_radians((excess * rows as f64 / per_radian).sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_that_are_the_same_are_left_out() {
+        let words = |i, j| Explanation::Renumbered { i, j }.to_string();
+        let (of_i, of_j) = ("i = 1, 2 of the readings is i = 2, 1", "j = 1, 2, 3, 4 of the readings is j = 2, 3, 4, 1");
+        let due = format!("the positions are numbered in another way: {of_j} of the passport");
+        assert_eq!(words([1, 2], [2, 3, 4, 1]), due);
+        assert!(words([2, 1], [1, 2, 3, 4]).ends_with(&format!(": {of_i} of the passport")));
+        let both = words([2, 1], [2, 3, 4, 1]);
+        assert!(both.ends_with(&format!(": {of_i} of the passport, and {of_j} of the passport")), "{both}");
+    }
 }

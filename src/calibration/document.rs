@@ -197,6 +197,17 @@ impl Subject {
         known.find(|serial| *serial != first).map(|other| [first, other])
     }
 
+    /// Returns a warning if a serial number is known of these readings or of the `earlier` results, but not of all.
+    pub(crate) fn unknown_gyro(&self, earlier: &[CalibrationDocument]) -> Option<String> {
+        let stated = |is_stated| earlier.iter().any(|result| result.gyro_serial().is_some() == is_stated);
+        let which = match self.gyro_serial {
+            Some(_) if stated(false) => "the previous result states no serial number",
+            None if stated(true) => "the previous result states a serial number, but these readings have none",
+            _ => return None,
+        };
+        Some(format!("{which}, so it may be that of another gyro"))
+    }
+
     /// Returns the days of an earlier result and of these readings if the result is from later readings, or `None` if
     /// none is, or if no days are stated.
     pub(crate) fn later_result(&self, earlier: &[CalibrationDocument]) -> Option<[Date; 2]> {

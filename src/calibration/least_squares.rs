@@ -12,6 +12,7 @@ use super::{MeterUncertainty, Model, Parameter};
 use crate::coefficients::{Coefficients, PositionCoefficients};
 use crate::gyro::GyroParameters;
 use crate::statistics::least_squares::{Condition, Factorised, condition};
+use crate::text::number::exponent_as_printed;
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 /// Condition number above which positions do not determine all parameters; noise would grow by this factor.
@@ -395,24 +396,39 @@ impl NoLeastSquares {
     }
 }
 
+/// Condition number from which only this limit is printed.
+const LARGEST_PRINTED: f64 = 1e6;
+
 fn in_words(groups: &[Vec<Parameter>], condition: f64) -> String {
-    let words = groups.iter().map(|group| {
-        let symbols: Vec<&str> = group.iter().map(|parameter| parameter.symbol()).collect();
-        match symbols.as_slice() {
-            [] => "determine the parameters".to_owned(),
-            [one] => format!("determine {one}"),
-            [one, rest @ ..] => format!("separate {one} from {}", rest.join(" and ")),
-        }
+    let symbols = |group: &[Parameter]| group.iter().map(|parameter| parameter.symbol()).collect::<Vec<_>>();
+    let (alone, mixed): (Vec<_>, Vec<_>) = groups.iter().partition(|group| group.len() < 2);
+    let alone: Vec<&str> = alone.into_iter().flat_map(|group| symbols(group)).collect();
+    let separate = mixed.iter().map(|group| match symbols(group).as_slice() {
+        [one, rest @ ..] => format!("separate {one} from {}", rest.join(" and ")),
+        [] => String::new(),
     });
-    let words: Vec<String> = words.collect();
-    let words = words.join(", nor ");
+    let determine = match alone.as_slice() {
+        [] if groups.iter().any(|group| group.len() > 1) => None,
+        [] => Some("determine the parameters".to_owned()),
+        [one] => Some(format!("determine {one}")),
+        [first @ .., last] => Some(format!("determine {} and {last}", first.join(", "))),
+    };
+    let words = separate.chain(determine).collect::<Vec<_>>().join(", or ");
     let is_extra = |parameter: &Parameter| matches!(parameter, Parameter::Anisoelasticity | Parameter::G(..));
     let advice = match groups.iter().flatten().any(is_extra) {
         true => "; fit the paper's model, or read further positions",
         false => "",
     };
+    let condition = match exponent_as_printed(condition, 1) {
+        exponent if condition < LARGEST_PRINTED => {
+            let unit = libm::pow(10.0, exponent.into());
+            format!("{:.0}", (condition / unit).round() * unit)
+        }
+        _ => "over 10⁶".to_owned(),
+    };
     format!(
-        "readings of these positions cannot {words} (condition number {condition:.0e}, at most {LARGEST_CONDITION}){advice}"
+        "readings of these positions cannot {words} (condition number {condition}, expected at most \
+         {LARGEST_CONDITION}){advice}"
     )
 }
 

@@ -229,12 +229,13 @@ impl Bench<'_> {
         }
     }
 
-    /// Refuses readings of a day that has not come, and warns of those from before the stand was measured and of previous
-    /// results of another gyro type.
+    /// Refuses readings of a day that has not come, and warns of those from before the stand was measured, and of previous
+    /// results of another gyro type or without a serial number.
     fn check(&self) -> Result<(), Failure> {
         let early = self.subject().check_date(&self.passport.content.certificate).map_err(Failure::unusable)?;
         let another = another_type(&self.previous, self.gyro_type.as_ref());
-        early.iter().chain(&another).for_each(|words| output::warn(words));
+        let unknown = self.subject().unknown_gyro(&self.previous);
+        early.iter().chain(&another).chain(&unknown).for_each(|words| output::warn(words));
         Ok(())
     }
 
@@ -298,6 +299,8 @@ impl Bench<'_> {
         }
         let mut written = HashMap::new();
         let mut calibrated = Once::new();
+        let mut outcomes = HashMap::<String, usize>::new();
+        let mut all = 0;
         let calibrate = |path: &Path| {
             let found = self.calibrate(path)?;
             calibrated
@@ -309,9 +312,21 @@ impl Bench<'_> {
             let trials = found.uncertainty.monte_carlo.as_ref();
             let text = report::line(&found.currents.0, &found.done, trials, self.gyro_name());
             let result = serde_json::to_value(found.whole()).map_err(Failure::unusable)?;
+            *outcomes.entry(report::outcome(&found.done, self.gyro_name())).or_default() += 1;
             Ok(((Line { file: found.currents.0.clone(), result }, text), found.code()))
         };
-        inputs::each(&options.currents, Purpose::Tables, calibrate, |done| inputs::print(&done, options.format))
+        let code = inputs::each(&options.currents, Purpose::Tables, calibrate, |done| {
+            all += 1;
+            inputs::print(&done, options.format)
+        })?;
+        outcomes.insert("refused".to_owned(), all - outcomes.values().sum::<usize>());
+        if all > 1 {
+            let counted = report::OUTCOMES.iter().filter_map(|outcome| Some((outcomes.get(*outcome)?, outcome)));
+            let counts: Vec<String> =
+                counted.filter(|(count, _)| **count > 0).map(|(count, outcome)| format!("{count} {outcome}")).collect();
+            output::say(&format!("{all} gyros: {}", counts.join(", ")));
+        }
+        Ok(code)
     }
 
     /// Writes the result and the report of one of several gyros, whose names must differ.
@@ -392,7 +407,7 @@ impl Options {
         let Some((option, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };
         let advice = match option {
             "--report" => "; --out DIR writes the reports of several",
-            _ => "; calibrate this gyro by itself",
+            _ => "; calibrate this file alone",
         };
         Err(Failure::usage(format!("{option} is for one file of currents, but several are given{advice}")))
     }

@@ -9,8 +9,8 @@ use crate::calibration::prediction::{FurtherVisit, best_further_visit, cost_of_m
 use crate::calibration::stated::TemperatureOutside;
 use crate::calibration::verdict::without_nominal;
 use crate::calibration::{
-    self, Calibration, CalibrationDocument, Found, Method, Mistake, NotStated, Options, Parameter, Readings, Setup,
-    Verdict,
+    self, Calibration, CalibrationDocument, Found, Method, Mistake, Model, NoLeastSquares, NotStated, Options,
+    Parameter, Readings, Setup, Verdict,
 };
 use crate::document::sha256_hex;
 use crate::gyro::GyroType;
@@ -129,6 +129,8 @@ pub(crate) struct Prepared<'a> {
     gyro_type: Option<&'a GyroType>,
     setup: Setup,
     missing: Vec<NotStated>,
+    /// Name of the file of currents.
+    name: String,
     currents_sha256: String,
     /// Readings, from which visits may still be excluded.
     pub readings: Readings,
@@ -145,6 +147,8 @@ pub(crate) struct Done {
     pub document: CalibrationDocument,
     /// Earlier result with which this one was compared, and the reason why the difference is no change.
     pub earlier: Option<(Found, Option<NoChange>)>,
+    /// Warning that the earlier result may be that of another gyro, because a serial number is missing.
+    pub unknown_gyro: Option<String>,
     /// Parameter that suffers most from positions without a reading, and the ratio of its uncertainty.
     pub cost_of_missing: Option<(Parameter, f64)>,
     /// Parameter whose uncertainty takes most of its tolerance, and the single visit that would reduce it most.
@@ -177,7 +181,8 @@ impl<'a> Prepared<'a> {
         let range_ma = laboratory.meter.range_ma;
         let readings = Readings::from_csv_at(&angles, name, currents, setup.coefficients(), range_ma)?;
         let currents_sha256 = sha256_hex(currents);
-        Ok(Self { content, laboratory, gyro_type, setup, missing, currents_sha256, readings })
+        let name = name.to_owned();
+        Ok(Self { content, laboratory, gyro_type, setup, missing, name, currents_sha256, readings })
     }
 
     /// Calibrates the gyro. `subject` says which one and under which conditions; its SHA-256 is filled in here. The result
@@ -188,7 +193,7 @@ impl<'a> Prepared<'a> {
         subject: Subject,
         previous: &[CalibrationDocument],
     ) -> Result<Done, Failed> {
-        let Self { content, laboratory, gyro_type, setup, mut missing, currents_sha256, readings } = self;
+        let Self { content, laboratory, gyro_type, setup, mut missing, name, currents_sha256, readings } = self;
         let early = subject.check_date(&content.certificate).map_err(Failed::unusable)?;
         let warning = TemperatureOutside::of(&content.certificate, &subject, Some(laboratory));
         let gyro = gyro_type.map(|gyro_type| gyro_type.r#type.clone());
@@ -202,11 +207,21 @@ impl<'a> Prepared<'a> {
                 format!("the previous result is of {later}, after these readings of {now}; check which is earlier");
             return Err(Failed::refused(words));
         }
+        let unknown_gyro = subject.unknown_gyro(previous);
         let calibration = calibration::calibrate(&setup, &readings, options);
-        let calibration = calibration.map_err(Failed::refused)?;
+        let name = printable::printable(&name);
+        let calibration = calibration.map_err(|error| {
+            let remedy = match &error {
+                NoLeastSquares::Inseparable { .. } if options.model == Model::Paper => {
+                    "; read more positions (`plan` finds them)"
+                }
+                _ => "",
+            };
+            Failed::refused(format!("{name}: {error}{remedy}"))
+        })?;
         missing.extend(calibration.noise_not_stated());
         if let Some(words) = calibration.meaningless() {
-            return Err(Failed::refused(words));
+            return Err(Failed::refused(format!("{name}: {words}")));
         }
         let gravity = (content.earth.gravity_m_per_s2, content.site.gravity_u_m_per_s2());
         let verified = subject.passport_verified_as_of.is_some();
@@ -235,7 +250,7 @@ impl<'a> Prepared<'a> {
         let of_conditions =
             warning.map(|warning| warning.to_string()).into_iter().chain(laboratory.remarks(Language::English));
         let of_conditions = of_conditions.chain(gyro_type.into_iter().flat_map(|gyro| gyro.remarks(Language::English)));
-        let of_others = of_conditions.chain(early).chain(another_type(previous, gyro_type));
+        let of_others = of_conditions.chain(early).chain(another_type(previous, gyro_type)).chain(unknown_gyro.clone());
         document.remarks.extend(readings.remarks.iter().cloned().chain(of_others));
         document.verdict = gyro_type.and_then(|gyro_type| document.judged(gyro_type));
         document.change = last.zip(gyro_type).and_then(|(earlier, gyro_type)| document.changed(earlier, gyro_type));
@@ -258,6 +273,7 @@ impl<'a> Prepared<'a> {
             missing,
             document,
             earlier,
+            unknown_gyro,
             cost_of_missing,
             further,
             warning,

@@ -10,13 +10,13 @@ use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::prediction::FurtherVisit;
 use crate::calibration::readings::Exclusion;
 use crate::calibration::verdict::{BEYOND, change_in_uncertainties};
-use crate::calibration::{Calibration, MethodResult, Mistake, NotStated, Parameter, Readings, Verdict};
+use crate::calibration::{Calibration, Hint, MethodResult, Mistake, NotStated, Parameter, Readings, Verdict};
 use crate::interface::calibrated::Done;
 use crate::report::page::calibration::why_no_change;
 use crate::report::page::language::{Language, capital, values};
 use crate::report::page::texts::calibration as texts;
 use crate::report::picture::tolerances::unit_at_type;
-use crate::report::{columns, mistake, recorded};
+use crate::report::{columns, mistake, recorded, style};
 use crate::text::printable;
 use crate::uncertainty::MonteCarlo;
 use crate::units::{printed, quantity};
@@ -39,7 +39,10 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
     let [outcome, reasons] = headline(document, gyro_type, 0);
     let _ = writeln!(out, "{outcome}  {reasons}");
     for warning in warnings(done, trials) {
-        columns::paragraph(&mut out, "", &warning);
+        for line in warning.lines() {
+            let words = line.trim_start_matches(' ');
+            columns::paragraph(&mut out, &line[..line.len() - words.len()], words);
+        }
     }
     let subject = document.subject.as_ref();
     if let Some(gyro) = subject.and_then(gyro) {
@@ -119,8 +122,14 @@ fn gyro(Subject { gyro_serial, date, .. }: &Subject) -> Option<String> {
 
 /// Returns what makes the parameters or their uncertainties unusable, a sentence each.
 pub(crate) fn warnings(Done { calibration, document, .. }: &Done, trials: Option<&MonteCarlo>) -> Vec<String> {
-    let warnings = unusable(calibration, document.mistake.as_ref()).chain(trials.and_then(not_linear));
-    warnings.map(|words| format!("WARNING: {words}")).collect()
+    let causes = calibration.hint.as_ref().map(Hint::each_cause).unwrap_or_default();
+    let each = || causes.iter().map(|cause| format!("\n  - {}", capital(cause))).collect::<String>();
+    let unusable = unusable(calibration, document.mistake.as_ref()).enumerate().map(|(place, words)| match place {
+        // Several causes are a line each.
+        0 if causes.len() > 1 => format!("{INCONSISTENT}. Possible causes:{}", each()),
+        _ => words,
+    });
+    unusable.chain(trials.and_then(not_linear)).map(|words| format!("WARNING: {}", capital(&words))).collect()
 }
 
 /// Returns what makes the parameters unusable: readings that do not fit, or those of another gyro.
@@ -151,7 +160,7 @@ pub(crate) fn line(file: &str, done: &Done, trials: Option<&MonteCarlo>, gyro_ty
     let file = printable(file);
     let [outcome, mut reasons] = headline(document, gyro_type, 9);
     if document.hint.is_some() {
-        reasons += "; calibrate it by itself";
+        reasons += "; for the cause, calibrate this file alone";
     } else if gyro_type.is_none() && document.is_valid() {
         let fit = calibration.answer().map(|answer| columns::probability(answer.chi_square.probability));
         reasons = fit.map_or_else(String::new, |p| format!("probability of a larger chi-square {p}"));
@@ -164,6 +173,15 @@ pub(crate) fn line(file: &str, done: &Done, trials: Option<&MonteCarlo>, gyro_ty
     }
     out.push('\n');
     out
+}
+
+/// Outcomes for one of several gyros, in the order in which they are counted; no result is `refused`.
+pub(crate) const OUTCOMES: [&str; 6] = ["pass", "undecided", "fail", "calibrated", "invalid", "refused"];
+
+/// Returns the outcome for one of several gyros, one of [`OUTCOMES`].
+pub(crate) fn outcome(done: &Done, gyro_type: Option<&str>) -> String {
+    let [outcome, _] = headline(&done.document, gyro_type, 0);
+    style::plain(&outcome).trim_start_matches(|c: char| !c.is_alphabetic()).to_lowercase()
 }
 
 /// Writes which visits and positions were left out, and what that cost.
@@ -206,7 +224,7 @@ fn parameters(out: &mut String, calibration: &Calibration, verdict: Option<&Verd
         };
         let digits = columns::decimals(u);
         let mut row = vec![parameter.symbol().to_owned(), unit];
-        row.extend([format!("{value:.digits$}"), format!("{u:.digits$}")]);
+        row.extend([columns::fixed(value, digits), format!("{u:.digits$}")]);
         row.extend(judged.map(|(verdict, at)| decided(verdict.decision(at))));
         Some(row)
     });
@@ -221,9 +239,9 @@ fn comparison(out: &mut String, answer: &MethodResult, others: &[&MethodResult])
     let row = |parameter: Parameter| {
         let (value, u) = (answer.value(parameter)?, answer.standard_uncertainty(parameter)?);
         let digits = columns::decimals(u);
-        let mut row = vec![parameter.symbol().to_owned(), format!("{value:.digits$}")];
+        let mut row = vec![parameter.symbol().to_owned(), columns::fixed(value, digits)];
         for other in others {
-            row.push(other.value(parameter).map_or_else(String::new, |value| format!("{value:.digits$}")));
+            row.push(other.value(parameter).map_or_else(String::new, |value| columns::fixed(value, digits)));
             let off = other.from_least_squares.and_then(|all| all.get(parameter.place()).copied());
             row.push(off.map_or_else(String::new, |off| columns::signed(off, 1)));
         }
@@ -239,8 +257,8 @@ fn beyond_the_paper(out: &mut String, answer: &MethodResult) {
     for at in &answer.cycles {
         let u = answer.standard_uncertainty(Parameter::Omega0x).unwrap_or(0.0);
         let digits = columns::decimals(u);
-        let ([x, y], cycle) = (at.omega0_deg_per_h, at.cycle);
-        let _ = writeln!(out, "  turn-on {cycle}: ω_0 = ({x:.digits$}, {y:.digits$}) °/h");
+        let ([x, y], cycle) = (at.omega0_deg_per_h.map(|value| columns::fixed(value, digits)), at.cycle);
+        let _ = writeln!(out, "  turn-on {cycle}: ω_0 = ({x}, {y}) °/h");
     }
     if !answer.cycles.is_empty() {
         columns::paragraph(out, "  ", "ω_0 is the mean of the turn-ons; u is that of the long-term mean.");
@@ -249,7 +267,8 @@ fn beyond_the_paper(out: &mut String, answer: &MethodResult) {
         for (axis, name) in ["x", "y"].into_iter().enumerate() {
             let (value, u) = (drift.deg_per_h_per_h[axis], drift.standard_uncertainty_deg_per_h_per_h[axis]);
             let digits = columns::decimals(u);
-            let _ = writeln!(out, "  drift in time about {name}: {value:.digits$} °/h², u = {u:.digits$}");
+            let value = columns::fixed(value, digits);
+            let _ = writeln!(out, "  drift in time about {name}: {value} °/h², u = {u:.digits$}");
         }
         columns::paragraph(out, "  ", "ω_0 is that at the mean time of the readings.");
     }
@@ -325,7 +344,7 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
     }
     for (weight, words) in scatter(calibration) {
         match weight {
-            Weight::Warning => columns::paragraph(out, "", &format!("WARNING: {words}")),
+            Weight::Warning => columns::paragraph(out, "", &format!("WARNING: {}", capital(&words))),
             Weight::Usual | Weight::Remark => columns::paragraph(out, "  ", &words),
         }
     }
@@ -372,7 +391,7 @@ fn residuals(out: &mut String, calibration: &Calibration) {
 }
 
 /// Writes the change since the earlier result, and the verdict on it, if there is one.
-fn change(out: &mut String, Done { document, earlier, .. }: &Done) {
+fn change(out: &mut String, Done { document, earlier, unknown_gyro, .. }: &Done) {
     let Some(((earlier, no_change), found)) = earlier.as_ref().zip(document.answer()) else { return };
     let change = change_in_uncertainties(&found, earlier);
     let each = Parameter::in_paper_order(Parameter::EIGHT.into_iter().zip(change), |(parameter, _)| *parameter);
@@ -386,6 +405,9 @@ fn change(out: &mut String, Done { document, earlier, .. }: &Done) {
         "\nChange since the previous result, in units of its standard uncertainty (drifts at the same g):"
     );
     columns::paragraph(out, "  ", &(words.join(", ") + "."));
+    if let Some(words) = unknown_gyro {
+        columns::paragraph(out, "  ", &format!("WARNING: {}.", capital(words)));
+    }
     if let Some(why) = no_change {
         columns::paragraph(out, "  ", &format!("WARNING: {}", why_no_change(*why).of(Language::English)));
     }

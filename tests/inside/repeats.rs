@@ -55,6 +55,7 @@ fn done(setup: &Setup, readings: Readings, calibration: Calibration) -> Done {
         document: CalibrationDocument::new("SPS-2/0017/here/1", true, (9.8, None), &calibration, &[]),
         calibration,
         earlier: None,
+        unknown_gyro: None,
         cost_of_missing: None,
         further: None,
         warning: None,
