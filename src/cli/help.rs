@@ -19,9 +19,9 @@ const EXAMPLES: &str = include_str!("examples.txt");
 /// How to install completions, where shells look for them.
 const COMPLETIONS: &str = "\
 Install:
-  bash  dtg-passport completions bash > ~/.local/share/bash-completion/completions/dtg-passport
-  zsh   dtg-passport completions zsh > \"${fpath[1]}/_dtg-passport\"
-  fish  dtg-passport completions fish > ~/.config/fish/completions/dtg-passport.fish
+  dtg-passport completions bash > ~/.local/share/bash-completion/completions/dtg-passport
+  dtg-passport completions zsh > \"${fpath[1]}/_dtg-passport\"
+  dtg-passport completions fish > ~/.config/fish/completions/dtg-passport.fish
 
 ";
 
@@ -52,15 +52,27 @@ pub(super) fn command() -> Command {
     let command = with_sections(Cli::command()).version(env!("CARGO_PKG_VERSION")).long_version(long_version());
     let verbs: Vec<String> = command.get_subcommands().map(|verb| verb.get_name().to_owned()).collect();
     verbs.iter().fold(command.after_long_help(EXIT_CODES), |command, name| {
-        let lines: String = examples(name).map(|example| format!("  dtg-passport {example}\n")).collect();
-        let more = if name == "completions" { COMPLETIONS } else { "" };
-        let text = format!("Examples:\n{lines}\n{more}{EXIT_CODES}");
-        command.mut_subcommand(name, |verb| with_sections(verb).after_long_help(text))
+        command.mut_subcommand(name, |verb| {
+            let parts: Vec<String> = verb.get_subcommands().map(|part| part.get_name().to_owned()).collect();
+            let verb = parts.iter().fold(with_sections(verb), |verb, part| {
+                verb.mut_subcommand(part, |command| command.after_long_help(after_help(&format!("{name} {part}"))))
+            });
+            verb.after_long_help(after_help(name))
+        })
     })
 }
 
+/// Returns what the help of a verb, or of a part of it, has below the options.
+fn after_help(verb: &str) -> String {
+    let lines: String = examples(verb).map(|example| format!("  dtg-passport {example}\n")).collect();
+    let more = if verb == "completions" { COMPLETIONS } else { "" };
+    format!("Examples:\n{lines}\n{more}{EXIT_CODES}")
+}
+
 fn examples(verb: &str) -> impl Iterator<Item = &'static str> {
-    EXAMPLES.lines().filter(move |example| example.split(' ').next() == Some(verb))
+    EXAMPLES
+        .lines()
+        .filter(move |example| example.strip_prefix(verb).is_some_and(|rest| rest.is_empty() || rest.starts_with(' ')))
 }
 
 /// Width of a terminal in which every line of the help fits.
@@ -74,16 +86,17 @@ pub(super) fn fitted(words: &str) -> String {
         let is_wide = plain.starts_with("Usage: ") && plain.trim_end().chars().count() > COLUMNS;
         if is_wide { columns::fitted(&unbroken(line), COLUMNS) } else { line.to_owned() }
     };
-    whole_examples(words).split_inclusive('\n').map(line).collect()
+    let whole = whole_commands(&whole_commands(words, "Examples:\n"), "Install:\n");
+    whole.split_inclusive('\n').map(line).collect()
 }
 
-/// Joins the lines of each example again, which clap breaks.
-fn whole_examples(words: &str) -> String {
-    let Some(start) = words.find("Examples:\n") else { return words.to_owned() };
+/// Joins the lines of each command again, which clap breaks.
+fn whole_commands(words: &str, heading: &str) -> String {
+    let Some(start) = words.find(heading) else { return words.to_owned() };
     let (before, rest) = words.split_at(start);
-    let (examples, after) = rest.split_at(rest.find("\n\n").unwrap_or(rest.len()));
-    let examples = examples.replace("\n  ", " ").replace(&format!(" {COMMAND}"), &format!("\n  {COMMAND}"));
-    format!("{before}{examples}{after}")
+    let (commands, after) = rest.split_at(rest.find("\n\n").unwrap_or(rest.len()));
+    let commands = commands.replace("\n  ", " ").replace(&format!(" {COMMAND}"), &format!("\n  {COMMAND}"));
+    format!("{before}{commands}{after}")
 }
 
 /// Returns a usage with non-breaking spaces between each option and its value.
@@ -141,7 +154,17 @@ mod tests {
             assert!(help.contains("Examples:\n") && help.contains(EXIT_CODES), "{help}");
             let whole = |example: &&str| help.contains(&format!("\n  dtg-passport {example}\n"));
             assert!(examples.iter().all(whole), "{help}");
+            for part in verb.get_subcommands() {
+                let help = fitted(&part.clone().term_width(COLUMNS).render_long_help().to_string());
+                let own = format!("Examples:\n  dtg-passport {name} {} ", part.get_name());
+                assert!(help.contains(&own) && help.contains(EXIT_CODES), "{help}");
+            }
         }
+        let completions = command.find_subcommand("completions").unwrap().clone().term_width(COLUMNS);
+        let help = fitted(&completions.clone().render_long_help().to_string());
+        let commands = COMPLETIONS.lines().filter(|line| line.contains(COMMAND));
+        assert!(commands.clone().count() == 3, "{COMPLETIONS}");
+        assert!(commands.into_iter().all(|line| help.contains(&format!("\n{line}\n"))), "{help}");
     }
 
     #[test]

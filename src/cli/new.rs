@@ -22,7 +22,7 @@ pub(super) struct Options {
     #[arg(value_name = "FILE")]
     file: Option<PathBuf>,
     /// Number of positions of a stand, header, readings or currents: the paper's 8, four of them, or 16 more [default: 8]
-    #[arg(long, value_name = "POSITIONS", value_parser = ["4", "8", "24"])]
+    #[arg(long, value_name = "N", value_parser = ["4", "8", "24"])]
     positions: Option<String>,
     /// Plan whose positions a stand, header, readings or currents get, in its order (from `plan --format json`)
     #[arg(long, value_name = "PLAN.json", conflicts_with = "positions")]

@@ -32,10 +32,11 @@ pub(super) struct Options {
     #[arg(long, value_name = "quadrants|DEG", default_value = "quadrants", value_parser = angles)]
     angles: Angles,
     /// Azimuths of the frame's axis to choose from [default: that of the site]
-    #[arg(long, value_enum, value_delimiter = ',')]
+    #[arg(long, value_enum, value_name = "AXIS,...", value_delimiter = ',')]
     frame_axis: Vec<FrameAxis>,
-    /// Criterion by which plans are compared
-    #[arg(long, value_enum, default_value = "a")]
+    /// Criterion by which plans are compared: the sum of (u/tolerance)² (a), the determinant of the covariance (d), or the
+    /// largest u/tolerance (worst)
+    #[arg(long, value_enum, value_name = "WHICH", default_value = "a")]
     criterion: Criterion,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]

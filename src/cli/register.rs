@@ -38,7 +38,7 @@ pub(super) struct Options {
     #[arg(long, value_name = "DATE", value_parser = date)]
     expiring_before: Option<Date>,
     /// Sort order
-    #[arg(long, value_enum, default_value = "stand")]
+    #[arg(long, value_enum, value_name = "WHAT", default_value = "stand")]
     by: By,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]

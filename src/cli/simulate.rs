@@ -6,8 +6,10 @@ use crate::coefficients::EarthRate;
 use crate::gyro::GyroType;
 use crate::report::picture::simulation as picture;
 use crate::report::simulation as table;
+#[cfg(test)]
+use crate::simulation::LIMITS_DEG;
 use crate::simulation::draw::{CurrentError, Deviations};
-use crate::simulation::{AccuracyOptions, LIMITS_DEG, PAPER_LATITUDE_DEG, Stands, accuracy, convergence};
+use crate::simulation::{AccuracyOptions, PAPER_LATITUDE_DEG, Stands, accuracy, convergence};
 use crate::stand::{CertifiedPosition, LARGEST_DEVIATION_DEG};
 use crate::statistics::random::Run;
 use clap::{Args, Subcommand};
@@ -28,9 +30,6 @@ enum What {
 
 #[derive(Args)]
 struct RunArguments {
-    /// Number of random stands
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
-    trials: Option<u64>,
     /// Seed of the random numbers; results do not depend on the number of threads
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
@@ -63,12 +62,15 @@ struct AccuracyArguments {
     /// Half-width of the uniform distribution of the current errors, percent
     #[arg(long, value_name = "P", default_value_t = 0.015, value_parser = percent)]
     current_percent: f64,
-    /// Readings that share an error
-    #[arg(long, value_enum, default_value = "independent")]
+    /// Readings that share an error: none (independent), those of x and those of y (channel), or all (common)
+    #[arg(long, value_enum, value_name = "WHICH", default_value = "independent")]
     current_error: CurrentError,
     /// Calibration methods
     #[arg(long, value_enum, value_delimiter = ',', default_value = "analytic,least-squares")]
     method: Vec<Method>,
+    /// Number of random stands
+    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u64).range(1..))]
+    trials: u64,
     #[command(flatten)]
     run: RunArguments,
 }
@@ -77,8 +79,11 @@ struct AccuracyArguments {
 #[derive(Args)]
 struct ConvergenceArguments {
     /// Limits of the deviations, degrees
-    #[arg(long, value_name = "D,...", value_delimiter = ',', value_parser = limit)]
+    #[arg(long, value_name = "D,...", value_delimiter = ',', value_parser = limit, default_value = PAPER_LIMITS)]
     limits_deg: Vec<f64>,
+    /// Number of random stands at each limit
+    #[arg(long, value_name = "N", default_value_t = 1_000, value_parser = clap::value_parser!(u64).range(1..))]
+    trials: u64,
     #[command(flatten)]
     run: RunArguments,
     /// Figure to write
@@ -88,6 +93,9 @@ struct ConvergenceArguments {
     #[arg(long)]
     force: bool,
 }
+
+/// [`LIMITS_DEG`], as an option has them.
+const PAPER_LIMITS: &str = "0.1,1,3,5,7.5,10,12.5,15,17.5,20,25,30";
 
 fn limit(text: &str) -> Result<f64, String> {
     inputs::number(text, 0.0..=LARGEST_DEVIATION_DEG, format!("a number from 0 to {LARGEST_DEVIATION_DEG}"))
@@ -125,17 +133,15 @@ fn run_accuracy(arguments: &AccuracyArguments) -> Result<Code, Failure> {
         current_error: arguments.current_error,
         methods: arguments.method.clone(),
     };
-    const TRIALS: u64 = 10_000;
-    let found = watched(&arguments.run, TRIALS, 1, |run| accuracy(&options, run))?;
+    let found = watched(&arguments.run, arguments.trials, 1, |run| accuracy(&options, run))?;
     arguments.run.format.write(|| &found, || table::accuracy(&found))?;
     Ok(0)
 }
 
 fn run_convergence(arguments: &ConvergenceArguments) -> Result<Code, Failure> {
-    let limits_deg = if arguments.limits_deg.is_empty() { LIMITS_DEG.as_slice() } else { &arguments.limits_deg };
+    let limits_deg = arguments.limits_deg.as_slice();
     let rows = (limits_deg.len() * Deviations::ALL.len()) as u64;
-    const TRIALS: u64 = 1_000;
-    let found = watched(&arguments.run, TRIALS, rows, |run| convergence(limits_deg, run))?;
+    let found = watched(&arguments.run, arguments.trials, rows, |run| convergence(limits_deg, run))?;
     if let Some(path) = &arguments.output {
         let svg = picture::convergence(&found);
         let svg = svg.ok_or_else(|| Failure::unusable("the picture could not be drawn: no rows"))?;
@@ -148,11 +154,10 @@ fn run_convergence(arguments: &ConvergenceArguments) -> Result<Code, Failure> {
 /// Runs a simulation of `rows` times the trials.
 fn watched<T>(
     arguments: &RunArguments,
-    default_trials: u64,
+    trials: u64,
     rows: u64,
     simulate: impl FnOnce(&Run) -> T,
 ) -> Result<T, Failure> {
-    let trials = arguments.trials.unwrap_or(default_trials);
     long_run::trials(trials.saturating_mul(rows), |cancel, bar| {
         let progress = |done: u64| bar.set_position(done);
         let mut run = Run { cancel: Some(cancel), progress: Some(&progress), ..Run::new(trials, arguments.seed) };
@@ -161,4 +166,14 @@ fn watched<T>(
         }
         Ok(simulate(&run))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_default_limits_are_those_of_the_figure() {
+        assert_eq!(PAPER_LIMITS.split(',').map(|limit| limit.parse().unwrap()).collect::<Vec<f64>>(), LIMITS_DEG);
+    }
 }
