@@ -57,7 +57,7 @@ pub enum Explanation {
     #[error("positions {0} and {1} are exchanged")]
     Exchanged(PositionIndex, PositionIndex),
     /// Positions that are numbered in another way than in the certificate.
-    #[error("the positions are numbered in another way: {}", numbering(i, j))]
+    #[error("the positions are numbered in another way (readings → passport): {}", numbering(i, j))]
     Renumbered {
         /// Certified i of the readings with i = 1, 2.
         i: [u32; 2],
@@ -85,14 +85,13 @@ pub enum Explanation {
     },
 }
 
-/// Returns the certified numbers of the readings, without those that are the same.
-fn numbering(i: &[u32], j: &[u32]) -> String {
+/// Returns the numbers of the readings and those of the passport, without those that are the same.
+pub(crate) fn numbering(i: &[u32], j: &[u32]) -> String {
     let other = [("i", i), ("j", j)].into_iter().filter_map(|(name, certified)| {
         let read: Vec<u32> = (1..).zip(certified).map(|(number, _)| number).collect();
-        let [read, certified] = [read.as_slice(), certified].map(with_commas);
-        (read != certified).then(|| format!("{name} = {read} of the readings is {name} = {certified} of the passport"))
+        (read != certified).then(|| format!("{name} = {} → {}", with_commas(&read), with_commas(certified)))
     });
-    other.collect::<Vec<_>>().join(", and ")
+    other.collect::<Vec<_>>().join("; ")
 }
 
 /// Returns the change of the angle or the errors of the currents that explain a reading, in words.
@@ -147,7 +146,7 @@ impl fmt::Display for Hint {
     }
 }
 
-pub(crate) fn with_commas(indices: &[u32]) -> String {
+fn with_commas(indices: &[u32]) -> String {
     indices.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
 
@@ -316,12 +315,9 @@ mod tests {
 
     #[test]
     fn numbers_that_are_the_same_are_left_out() {
-        let words = |i, j| Explanation::Renumbered { i, j }.to_string();
-        let (of_i, of_j) = ("i = 1, 2 of the readings is i = 2, 1", "j = 1, 2, 3, 4 of the readings is j = 2, 3, 4, 1");
-        let due = format!("the positions are numbered in another way: {of_j} of the passport");
-        assert_eq!(words([1, 2], [2, 3, 4, 1]), due);
-        assert!(words([2, 1], [1, 2, 3, 4]).ends_with(&format!(": {of_i} of the passport")));
-        let both = words([2, 1], [2, 3, 4, 1]);
-        assert!(both.ends_with(&format!(": {of_i} of the passport, and {of_j} of the passport")), "{both}");
+        let words = |i: [u32; 2], j: [u32; 4]| numbering(&i, &j);
+        assert_eq!(words([1, 2], [2, 3, 4, 1]), "j = 1, 2, 3, 4 → 2, 3, 4, 1");
+        assert_eq!(words([2, 1], [1, 2, 3, 4]), "i = 1, 2 → 2, 1");
+        assert_eq!(words([2, 1], [2, 3, 4, 1]), "i = 1, 2 → 2, 1; j = 1, 2, 3, 4 → 2, 3, 4, 1");
     }
 }

@@ -5,8 +5,9 @@ use super::page::language::{Language, Text, values};
 use super::page::number::LATITUDES;
 use super::page::spacing::BLANK;
 use super::page::texts::calibration as texts;
-use crate::calibration::diagnosis::with_commas;
+use crate::calibration::diagnosis::numbering;
 use crate::calibration::{CurrentsMistaken, Mistake};
+use crate::wording::spacing::spaced;
 
 /// Power of ten by which microamperes exceed milliamperes.
 const MICROAMPERES: i32 = 3;
@@ -37,7 +38,7 @@ pub(crate) fn words(mistake: &Mistake, language: Language) -> String {
             text.filled(language, values! { factor: factor_of(*factor) })
         }
         Mistake::Renumbered { i, j } => {
-            texts::MISTAKE_RENUMBERED.filled(language, values! { i: with_commas(i), j: with_commas(j) })
+            texts::MISTAKE_RENUMBERED.filled(language, values! { numbers: spaced(&numbering(i, j)) })
         }
         Mistake::OtherAxis { frame_axis_azimuth_deg } => {
             texts::MISTAKE_OTHER_AXIS.filled(language, &[("azimuth", frame_axis_azimuth_deg)])

@@ -3,7 +3,7 @@
 use super::CalibrationPage;
 use crate::calibration::Calibration;
 use crate::calibration::chi_square::FEW_DEGREES;
-use crate::calibration::diagnosis::{Explanation, Hint, with_commas};
+use crate::calibration::diagnosis::{Explanation, Hint, numbering};
 use crate::calibration::document::{ResidualDocument, ResultDocument};
 use crate::calibration::noise::NoiseSource;
 use crate::calibration::scatter::{Agreement, Scatter};
@@ -17,6 +17,7 @@ use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::residuals::{AXES, Bars, key};
 use crate::report::recorded;
 use crate::report::scatter::drift;
+use crate::wording::spacing::spaced;
 use maud::{Markup, html};
 
 pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
@@ -203,7 +204,7 @@ fn explained(explanation: &Explanation, language: Language) -> String {
     match explanation {
         Explanation::Exchanged(one, other) => texts::HINT_EXCHANGED.filled(language, values! { one, other }),
         Explanation::Renumbered { i, j } => {
-            texts::HINT_RENUMBERED.filled(language, values! { i: with_commas(i), j: with_commas(j) })
+            texts::HINT_RENUMBERED.filled(language, values! { numbers: spaced(&numbering(i, j)) })
         }
         Explanation::OtherAxis { frame_axis_azimuth_deg } => {
             texts::HINT_OTHER_AXIS.filled(language, &[("azimuth", frame_axis_azimuth_deg)])

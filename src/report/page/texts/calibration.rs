@@ -118,10 +118,9 @@ texts! {
     }
     MISTAKE_RENUMBERED {
         en: "The readings fit, but the parameters do not match this gyro. One error explains this: the positions are \
-             numbered in another way, and i = 1, 2 of the readings is i = {i} of the passport, and j = 1, 2, 3, 4 is \
-             j = {j}. Check the numbering and the direction of φ; then calibrate again.",
+             numbered in another way (readings → passport): {numbers}. Check the numbering and the direction of φ; then calibrate again.",
         ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: \
-             положения пронумерованы иначе, i = 1, 2 показаний — это i = {i} паспорта, j = 1, 2, 3, 4 — это j = {j}. \
+             положения пронумерованы иначе (показания → паспорт): {numbers}. \
              Следует проверить нумерацию и направление отсчёта φ и повторить калибровку."
     }
     MISTAKE_AND { en: "and", ru: "и" }
@@ -492,10 +491,8 @@ texts! {
         ru: "Возможно, показания в положениях {one} и {other} переставлены."
     }
     HINT_RENUMBERED {
-        en: "The positions may be numbered in another way: i = 1, 2 of the readings is i = {i} of the passport, and \
-             j = 1, 2, 3, 4 is j = {j}.",
-        ru: "Возможно, положения пронумерованы иначе: i = 1, 2 показаний — это i = {i} паспорта, j = 1, 2, 3, 4 — это \
-             j = {j}."
+        en: "The positions may be numbered in another way (readings → passport): {numbers}.",
+        ru: "Возможно, положения пронумерованы иначе (показания → паспорт): {numbers}."
     }
     HINT_OTHER_AXIS {
         en: "The frame’s axis of the stand may point to an azimuth of about {azimuth}°, and not to that of the passport.",
