@@ -35,7 +35,7 @@ pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
     };
     let laboratory = page.laboratory.and_then(|laboratory| laboratory.name.as_deref()).map(given);
     let day = page.document.date().map(|day| date(languages, day));
-    let number = html! { div.pen { (languages.label(texts::REPORT_NUMBER)) (blank(languages)) } };
+    let number = html! { p.pen.name { (languages.label(texts::REPORT_NUMBER)) (blank(languages)) } };
     // The title names the serial number if it was stated. Without it a report is of no gyro.
     let gyro = match page.serial() {
         Some(_) => (texts::MEASURED, or_not(day), number),
