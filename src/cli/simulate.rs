@@ -6,8 +6,6 @@ use crate::coefficients::EarthRate;
 use crate::gyro::GyroType;
 use crate::report::picture::simulation as picture;
 use crate::report::simulation as table;
-#[cfg(test)]
-use crate::simulation::LIMITS_DEG;
 use crate::simulation::draw::{CurrentError, Deviations};
 use crate::simulation::{AccuracyOptions, PAPER_LATITUDE_DEG, Stands, accuracy, convergence};
 use crate::stand::{CertifiedPosition, LARGEST_DEVIATION_DEG};
@@ -171,6 +169,7 @@ fn watched<T>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::simulation::LIMITS_DEG;
 
     #[test]
     fn the_default_limits_are_those_of_the_figure() {

@@ -387,7 +387,7 @@ pub struct Remarks {
     pub odd: Vec<String>,
     /// Missing statements and their effects, one sentence each.
     pub absences: Vec<String>,
-    /// The same statements, for words with symbols.
+    /// Missing statements, from which a page or a terminal makes sentences with symbols of units.
     pub(crate) missing: Vec<Absence>,
 }
 

@@ -15,7 +15,7 @@ use crate::report::picture::accuracy::unit;
 use crate::report::picture::tolerances::{BESIDE_VALUES, key, unit_at_type};
 use maud::{Markup, html};
 
-/// One calibration, its result, and the comparison with the type.
+/// A calibration of the gyro, with its result at the g of the report and its comparison with the gyro type.
 struct Past<'a> {
     document: &'a CalibrationDocument,
     found: Found,
