@@ -15,7 +15,7 @@ use super::{AngleReadings, Certification, Header, NominalPosition};
 use crate::calibration::recorded::rounding_of;
 use crate::coefficients::PositionIndex;
 use crate::stand::Stand;
-use crate::statistics::student::{f_beyond, f_larger};
+use crate::statistics::student::{detectable, f_beyond, f_larger};
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -98,6 +98,16 @@ pub struct CommonTurn {
     pub base_arcsec: [f64; 3],
     /// Test of the common rotation against the variation between runs; `None` if that is unknown.
     pub test: Option<Test>,
+    /// Largest standard uncertainty of `platform_arcsec` in that test, arcsec; 0 without it.
+    #[serde(skip)]
+    pub(crate) u_platform_arcsec: f64,
+}
+
+impl CommonTurn {
+    /// Returns the smallest rotation of the platform about an axis of the case that the test finds with a probability of 95 %.
+    fn detectable_arcsec(&self) -> Option<f64> {
+        self.test.map(|test| self.u_platform_arcsec * detectable(OUTLIER, test.degrees_of_freedom, test.of_u))
+    }
 }
 
 /// Comparison of a check run with a certificate.
@@ -200,9 +210,22 @@ pub fn compare(
     }
     let same_stand =
         same_stand && !findings.iter().any(|found| found.is_of_the_certificate() || found.is_large_scatter());
+    if same_stand && !findings.contains(&Finding::TreatedAsExact) {
+        let position_arcsec = detectable_position_arcsec(&positions);
+        findings.push(Finding::Detects { position_arcsec, platform_arcsec: common.detectable_arcsec() });
+    }
     let words = findings.iter().map(ToString::to_string).collect();
     let certificate = certificate.certificate.number.clone();
     Ok(Comparison { certificate, runs, all, positions, common, same_stand, findings, words })
+}
+
+/// Returns the rotation about any axis of the case that is found with a probability of 95 % in each of the `positions`.
+fn detectable_position_arcsec(positions: &[ComparedPosition]) -> f64 {
+    let of = |at: &ComparedPosition| {
+        let largest = at.u_arcsec.into_iter().fold(0.0, f64::max);
+        largest * detectable(OUTLIER / positions.len() as f64, at.test.degrees_of_freedom, at.test.of_u)
+    };
+    positions.iter().map(of).fold(0.0, f64::max)
 }
 
 /// Returns the findings on readings of which the angles stand in other places or in another unit.

@@ -189,19 +189,20 @@ impl Differences {
         let (shared, r_inverse, _) = self.shared(if repeating.is_empty() { &every } else { repeating })?;
         let [platform_arcsec, base_arcsec] = self.model.rotations(&shared);
         let certificate = &certificate.certificate;
-        let test = between.and_then(|between| self.common_test(&shared, &r_inverse, certificate, between));
-        Some(CommonTurn { platform_arcsec, base_arcsec, test })
+        let tested = between.and_then(|between| self.common_test(&shared, &r_inverse, certificate, between));
+        let (test, u_platform_arcsec) = tested.map_or((None, 0.0), |(test, u)| (Some(test), u));
+        Some(CommonTurn { platform_arcsec, base_arcsec, test, u_platform_arcsec })
     }
 
-    /// Tests the common rotation against the variation between whole runs; returns `None` if the certificate does not
-    /// state its common parts.
+    /// Tests the common rotation against the variation between whole runs, and returns the largest standard uncertainty of the
+    /// platform's rotation too, arcsec; `None` if the certificate does not state its common parts.
     fn common_test(
         &self,
         shared: &DVector<f64>,
         r_inverse: &DMatrix<f64>,
         certificate: &Certificate,
         between: &Between,
-    ) -> Option<Test> {
+    ) -> Option<(Test, f64)> {
         let platform = square(certificate.common_platform_arcsec?) + between.platform_arcsec2 / between.runs;
         let base = match shared.len() {
             3 => 0.0,
@@ -212,8 +213,10 @@ impl Differences {
         for at in 0..shared.len() {
             covariance[(at, at)] += if at < 3 { platform } else { base };
         }
+        let u_platform_arcsec = covariance.diagonal().rows(0, 3).max().sqrt();
         let chi_square = shared.dot(&covariance.cholesky()?.solve(shared));
-        Some(Test::new(chi_square, shared.len(), between.degrees_of_freedom.min(self.degrees_of_freedom)))
+        let freedom = between.degrees_of_freedom.min(self.degrees_of_freedom);
+        Some((Test::new(chi_square, shared.len(), freedom), u_platform_arcsec))
     }
 }
 

@@ -52,6 +52,12 @@ pub(crate) enum Finding {
         u_arcsec: f64,
     },
     NotTested(Untested),
+    /// Smallest rotations about an axis of the case that the check finds with a probability of 95 %: of one position and,
+    /// if it was tested, of the platform, arcsec.
+    Detects {
+        position_arcsec: f64,
+        platform_arcsec: Option<f64>,
+    },
     /// Angles without uncertainty in the certificate.
     TreatedAsExact,
     SameReadings,
@@ -132,6 +138,13 @@ impl Finding {
             Self::NotTested(Untested::Variation) => texts::NOT_TESTED_VARIATION.words(language),
             Self::NotTested(Untested::NumberOfRuns) => texts::NOT_TESTED_RUNS.words(language),
             Self::NotTested(Untested::CommonParts) => texts::NOT_TESTED_COMMON_PARTS.words(language),
+            Self::Detects { position_arcsec, platform_arcsec } => {
+                let position = Number::significant(*position_arcsec, 2);
+                match platform_arcsec.map(|turn| Number::significant(turn, 2)) {
+                    Some(platform) => fill(texts::DETECTS, values! { position, platform }),
+                    None => fill(texts::DETECTS_OF_POSITION, values! { position }),
+                }
+            }
             Self::TreatedAsExact => texts::TREATED_AS_EXACT.words(language),
             Self::SameReadings => texts::SAME_READINGS.words(language),
             Self::TooClose => texts::TOO_CLOSE.words(language),

@@ -261,9 +261,9 @@ texts! {
     }
     CHECK_OUTLIER {
         en: "The reading of position {index} in run {run} of the check differs by {residual}″ about {axis} from those of the \
-             other runs; this accounts for {mean}″ of the change of the position.",
+             other runs; this shifts the mean of the position by {mean}″.",
         ru: "Показание положения {index} в контрольной серии {run} отличается на {residual}″ вокруг {axis} от показаний \
-             других серий; в изменение положения из них вошло {mean}″."
+             других серий; среднее для положения смещено этим на {mean}″."
     }
     NOT_TESTED_VARIATION {
         en: "Rotation of the stand as a whole was not tested: the variation between the runs is unknown.",
@@ -279,6 +279,16 @@ texts! {
         en: "Rotation of the stand as a whole was not tested: the certificate does not state the common parts of the \
              uncertainty.",
         ru: "Общий поворот стенда не проверен: общие составляющие неопределённости в сертификате не указаны."
+    }
+    DETECTS {
+        en: "With a probability of 95 % the check finds a rotation of one position by {position}″, or of the platform by \
+             {platform}″, about an axis of the case.",
+        ru: "С вероятностью 95 % проверка обнаруживает поворот одного положения на {position}″ или всей платформы на \
+             {platform}″ вокруг оси корпуса."
+    }
+    DETECTS_OF_POSITION {
+        en: "With a probability of 95 % the check finds a rotation of one position by {position}″ about an axis of the case.",
+        ru: "С вероятностью 95 % проверка обнаруживает поворот одного положения на {position}″ вокруг оси корпуса."
     }
     TREATED_AS_EXACT {
         en: "The certificate does not state the uncertainty of all angles; these were treated as exact, so differences \

@@ -7,7 +7,7 @@ use crate::coefficients::PositionIndex;
 use crate::passport::difference::u_of_deviations_arcsec;
 use crate::stand::{ActsOn, Certificate, CertifiedPosition, Stand};
 use crate::statistics::straight_line::{Point, StraightLine, holm};
-use crate::statistics::student::{effective_degrees_of_freedom, f_larger};
+use crate::statistics::student::{detectable, effective_degrees_of_freedom, f_larger};
 use jiff::civil::Date;
 use nalgebra::{DMatrix, DVector, Matrix3};
 use serde::Serialize;
@@ -136,6 +136,13 @@ impl Drift {
     pub(crate) fn most_significant(&self) -> Option<&Series> {
         let tested = self.series.iter().filter_map(|series| Some((series.line?.probability(), series)));
         tested.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, series)| series)
+    }
+
+    /// Returns the smallest drift that is found in any deviation with a probability of 95 %, ″/year; `None` if none was tested.
+    pub(crate) fn detectable_arcsec_per_year(&self) -> Option<f64> {
+        let level = DRIFTS / self.tested() as f64;
+        let of = |line: StraightLine| line.u_slope * detectable(level, 1, line.slope_degrees_of_freedom);
+        self.series.iter().filter_map(|series| series.line.map(of)).reduce(f64::max)
     }
 
     /// Returns the deviation that has changed most relative to the others, steadily or in a jump, or `None` if no such

@@ -46,6 +46,7 @@ fn drift_json(drift: &Drift) -> Value {
         "drifts": drift.drifts(),
         "tested": drift.tested(),
         "probability": worst.and_then(|series| series.corrected_probability),
+        "detectable_arcsec_per_year": drift.detectable_arcsec_per_year(),
         "sentence": sentence(drift, ANGLES),
         "relative": drift.hidden_change().map(series_json),
         "deviations": drift.series.iter().map(series_json).collect::<Vec<_>>(),
@@ -156,7 +157,11 @@ fn of_lines(drift: &Drift, angles: [&str; 3]) -> String {
     } else if probability < SUSPECTED {
         format!("a drift is suspected: {name}, {slope}, {by}; certify the stand again earlier than planned")
     } else {
-        format!("no drift was found: the most significant is {name}, {slope}, {by}")
+        let smallest = columns::two_digits(drift.detectable_arcsec_per_year().unwrap_or_default());
+        format!(
+            "no drift was found: the most significant is {name}, {slope}, {by}; with a probability of 95 % a drift of any \
+             deviation by {smallest}″ per year is found"
+        )
     }
 }
 

@@ -24,7 +24,7 @@ pub(crate) fn text(content: &Content, verification: Option<&Verification>) -> St
     };
     let _ = writeln!(out, "{answer}  {}", style::heading(&header.id));
     if let Some(verification) = verification {
-        let _ = writeln!(out, "  {}", verdict::counts(verification.checks()));
+        let _ = writeln!(out, "  {}", verdict::counts_with_names(verification.checks()));
     }
     line(&mut out, "issued", format!("{} by {}", header.issued_at, header.issuer));
     option(&mut out, "program", header.issued_with.as_ref());

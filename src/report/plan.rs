@@ -1,6 +1,7 @@
 //! A plan as text.
 
-use super::columns;
+use super::style::Outcome;
+use super::{columns, style};
 use crate::calibration::Parameter;
 use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::plan::criterion::Criterion;
@@ -32,7 +33,22 @@ pub(crate) fn text(plan: &Plan, site: &str, site_azimuth_deg: f64) -> String {
         plan.candidates,
         azimuth(plan.frame_axis_azimuth_deg)
     );
-    let _ = writeln!(out, "Criterion {}; {how}\n", of_criterion(plan.criterion));
+    if let Some(sentence) = no_gyro_can_pass(plan) {
+        columns::paragraph(&mut out, "", &style::marked(Outcome::Failed, &sentence));
+    }
+    let value = plan.evaluation.value;
+    let mut words = format!("Criterion {}: {}, {how}.", of_criterion(plan.criterion), significant(value));
+    if let Some(paper) = &plan.paper {
+        let ratio = plan.criterion.ratio(value, paper.value);
+        let paper = significant(paper.value);
+        let _ = write!(
+            words,
+            " The paper's eight positions with the axis east: {paper}. As one uncertainty, the plan's is {ratio:.3} times \
+             theirs."
+        );
+    }
+    columns::paragraph(&mut out, "", &words);
+    out.push('\n');
     positions(&mut out, plan);
     uncertainties(&mut out, plan);
     common_errors(&mut out, plan);
@@ -56,9 +72,9 @@ fn azimuth(azimuth_deg: f64) -> String {
 
 fn of_criterion(criterion: Criterion) -> &'static str {
     match criterion {
-        Criterion::A => "a: sum of (u/tolerance)²",
-        Criterion::D => "d: ln det of the covariance in units of the tolerances",
-        Criterion::Worst => "worst: largest u/tolerance",
+        Criterion::A => "a, sum of (u/tolerance)²",
+        Criterion::D => "d, ln det of the covariance in units of the tolerances",
+        Criterion::Worst => "worst, largest u/tolerance",
     }
 }
 
@@ -118,18 +134,6 @@ fn uncertainties(out: &mut String, plan: &Plan) {
         "u: standard uncertainty (k = 1) from errors of single readings, drifts at local g; `calibrate` adds the errors below, \
          as far as they are stated.",
     );
-    let value = plan.evaluation.value;
-    let mut words = format!("Value: {}.", significant(value));
-    if let Some(paper) = &plan.paper {
-        let ratio = plan.criterion.ratio(value, paper.value);
-        let paper = significant(paper.value);
-        let _ = write!(
-            words,
-            " The paper's eight positions with the axis east: {paper}. As one uncertainty, the plan's is {ratio:.3} times \
-             theirs."
-        );
-    }
-    columns::paragraph(out, "", &words);
 }
 
 /// Formats a value with four significant digits.
@@ -186,22 +190,26 @@ pub(crate) fn percent(share: f64) -> String {
 /// Which effects a sentence names.
 type Named = fn(&Effect) -> bool;
 
-/// Returns what a user of the plan must know besides the numbers.
-fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<String> {
-    let mut remarks = Vec::new();
+/// Returns the parameters of which no value can be found within the tolerance, in a sentence, if there are any.
+fn no_gyro_can_pass(plan: &Plan) -> Option<String> {
     let of_tolerance = |parameter: &Parameter| {
         plan.evaluation.standard_uncertainty[parameter.place()] / plan.tolerance[parameter.place()]
     };
     let beyond =
         Parameter::AS_IN_THE_PAPER.into_iter().filter(|parameter| COVERAGE_FACTOR * of_tolerance(parameter) > 1.0);
     let beyond: Vec<&str> = beyond.map(Parameter::symbol).collect();
-    if !beyond.is_empty() {
-        let no_other = if plan.exhaustive { "; no other choice of as many readings is better" } else { "" };
-        remarks.push(format!(
+    let no_other = if plan.exhaustive { "; no other choice of as many readings is better" } else { "" };
+    (!beyond.is_empty()).then(|| {
+        format!(
             "No gyro can pass with these readings, because 2 u is larger than the tolerance of {}{no_other}.",
             beyond.join(", ")
-        ));
-    }
+        )
+    })
+}
+
+/// Returns what a user of the plan must know besides the numbers.
+fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<String> {
+    let mut remarks = Vec::new();
     if plan.gravity_over_tolerance > LARGE_GRAVITY_SHARE {
         let so = if COVERAGE_FACTOR * plan.gravity_over_tolerance > 1.0 { ", so that no gyro can pass" } else { "" };
         remarks.push(format!(

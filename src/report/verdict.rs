@@ -13,17 +13,24 @@ pub(crate) fn text(verdict: &Verdict) -> String {
         let _ = writeln!(text, "  {}", check.detail);
         return text;
     }
-    let _ = writeln!(text, "  {}", counts(&verdict.checks));
-    for check in &verdict.checks {
-        let (passed, word) = match check.passed() {
-            Some(true) if !check.was_asked() => (None, "not asked"),
-            Some(true) => (Some(true), "passed"),
-            Some(false) => (Some(false), "FAILED"),
-            None => (None, "not run"),
-        };
+    let checks = &verdict.checks;
+    let _ = writeln!(text, "  {}", counts(checks));
+    let mut row = |passed, word: &str, name: &str, words: &str| {
         let result = style::marked(passed, &format!("{word:<9}"));
-        let detail = check.detail.replace('\n', "\n                           ");
-        let _ = writeln!(text, "  {result}  {:<10}  {detail}", check.name.as_str());
+        let words = words.replace('\n', "\n                           ");
+        let _ = writeln!(text, "{}", format!("  {result}  {name:<10}  {words}").trim_end());
+    };
+    let run = checks.iter().filter(|check| check.was_asked());
+    for (check, passed) in run.filter_map(|check| Some((check, check.passed()?))) {
+        row(Some(passed), if passed { "passed" } else { "FAILED" }, check.name.as_str(), &check.detail);
+    }
+    if let not_run @ [_, ..] = &*not_run(checks) {
+        row(None, "not run", &format!("{}: an earlier check failed", not_run.join(", ")), "");
+    }
+    let with_option = |name: CheckName| Some(format!("{} ({})", name.as_str(), option(name)?));
+    let not_asked: Vec<String> = not_asked(checks).filter_map(with_option).collect();
+    if !not_asked.is_empty() {
+        row(None, "not asked", &not_asked.join(", "), "");
     }
     text
 }
@@ -43,25 +50,43 @@ pub(crate) fn answer(valid: bool) -> String {
     style::marked(Some(valid), if valid { "VALID" } else { "REFUSED" })
 }
 
-/// Returns how many checks were made, how many were not run, and which were not asked for.
-pub(crate) fn counts(checks: &[Check]) -> String {
+/// Returns the names of the checks that an earlier failure prevented.
+fn not_run(checks: &[Check]) -> Vec<&'static str> {
+    checks.iter().filter(|check| check.passed().is_none()).map(|check| check.name.as_str()).collect()
+}
+
+/// Returns the checks for which there was no question: those on request are absent.
+fn not_asked(checks: &[Check]) -> impl Iterator<Item = CheckName> {
+    let asked = |name: &CheckName| checks.iter().any(|check| check.name == *name && check.was_asked());
+    CheckName::ALL.into_iter().filter(move |name| !asked(name))
+}
+
+/// Returns the option that asks for a check, or `None` for one that is always made.
+fn option(name: CheckName) -> Option<&'static str> {
+    Some(match name {
+        CheckName::Revocation => "--revoked",
+        CheckName::Issuer => "--issuer",
+        CheckName::Stand => "--serial",
+        CheckName::Place => "--at",
+        CheckName::Register => "--register",
+        _ => return None,
+    })
+}
+
+/// Returns which checks failed, and how many were made, were not run, or were not asked for.
+fn counts(checks: &[Check]) -> String {
+    let failed: Vec<&str> =
+        checks.iter().filter(|check| check.passed() == Some(false)).map(|check| check.name.as_str()).collect();
+    let failed = if failed.is_empty() { String::new() } else { format!("failed: {}; ", failed.join(", ")) };
     let checked = checks.iter().filter(|check| check.was_asked() && check.passed().is_some()).count();
-    let not_run = checks.iter().filter(|check| check.passed().is_none()).count();
-    let idle = checks.iter().filter(|check| !check.was_asked()).map(|check| check.name);
-    // Only those that are made on request.
-    let absent = CheckName::ALL.into_iter().filter(|name| checks.iter().all(|check| check.name != *name));
-    let not_asked: Vec<&str> = idle.chain(absent).map(CheckName::as_str).collect();
-    let failed = checks.iter().filter(|check| check.passed() == Some(false)).map(|check| check.name.as_str());
-    let failed: Vec<&str> = failed.collect();
-    let mut words = format!("{checked} checked");
-    if !failed.is_empty() {
-        words = format!("failed: {}; {words}", failed.join(", "));
-    }
-    if not_run > 0 {
-        let _ = write!(words, ", {not_run} not run");
-    }
-    if !not_asked.is_empty() {
-        let _ = write!(words, ", {} not asked: {}", not_asked.len(), not_asked.join(", "));
-    }
-    words
+    let others = [(not_run(checks).len(), "not run"), (not_asked(checks).count(), "not asked")];
+    let others = others.into_iter().filter(|(count, _)| *count > 0).map(|(count, word)| format!(", {count} {word}"));
+    format!("{failed}{checked} checked{}", others.collect::<String>())
+}
+
+/// Returns the counts of the checks, with the names of those that were not asked for.
+pub(crate) fn counts_with_names(checks: &[Check]) -> String {
+    let names: Vec<&str> = not_asked(checks).map(CheckName::as_str).collect();
+    let names = if names.is_empty() { String::new() } else { format!(": {}", names.join(", ")) };
+    counts(checks) + &names
 }

@@ -103,6 +103,34 @@ pub(crate) fn f_larger(value: f64, numerator: usize, denominator: f64) -> f64 {
     f_beyond(value, n, denominator)
 }
 
+/// Returns the probability that F with `numerator` and `denominator` degrees of freedom is larger than `value` if the
+/// numerator has the `non_centrality` λ: the mean of central probabilities with Poisson's weights of mean λ/2.
+fn non_central_f_larger(value: f64, numerator: usize, denominator: f64, non_centrality: f64) -> f64 {
+    /// Standard deviations of the distribution of Poisson beyond which its weights do not count.
+    const REACH: f64 = 9.0;
+    let mean = non_centrality / 2.0;
+    let reach = REACH * (mean.sqrt() + 1.0);
+    let terms = (mean - reach).max(0.0) as usize..=(mean + reach) as usize;
+    let weight =
+        |j: f64| if j > 0.0 { libm::exp(j * libm::log(mean) - mean - libm::lgamma(j + 1.0)) } else { libm::exp(-mean) };
+    terms
+        .map(|j| {
+            let n = numerator + 2 * j;
+            weight(j as f64) * f_larger(value * numerator as f64 / n as f64, n, denominator)
+        })
+        .sum()
+}
+
+/// Returns √λ that the test of F with the given degrees of freedom finds with a probability of 95 %, where it takes an F for
+/// a change that is larger by chance with the probability `level` only: for one degree of freedom of the numerator, the
+/// change in units of its standard uncertainty.
+pub(crate) fn detectable(level: f64, numerator: usize, denominator: f64) -> f64 {
+    const MISSED: f64 = 0.05;
+    let critical = falling_root(|value| f_larger(value, numerator, denominator), level);
+    let missed = |root: f64| 1.0 - non_central_f_larger(critical, numerator, denominator, root * root);
+    falling_root(missed, MISSED)
+}
+
 /// Returns the value that chi-square with `degrees_of_freedom` exceeds with `probability`, or NaN if `probability` is
 /// not between 0 and 1.
 pub(crate) fn chi_square_point(probability: f64, degrees_of_freedom: usize) -> f64 {
@@ -162,6 +190,23 @@ mod tests {
             degrees_of_freedom *= if degrees_of_freedom < 1e20 { 1.37 } else { 1e7 };
         }
         assert!((last - 1.959_963_984_540_054).abs() < 1e-14, "{last}");
+    }
+
+    /// Expected: SciPy 1.17, `brentq(lambda l: ncf.sf(f.isf(level, n, nu), n, nu, l) - 0.95, 0, 1e4)`, with `ncx2` and `chi2`
+    /// for infinite ν; for n = 1 and infinite ν by hand, z(1 − level/2) + z(0.95), the other tail being below 1e-9.
+    #[test]
+    fn the_change_that_is_found_with_95_percent() {
+        for (level, numerator, denominator, non_centrality) in [
+            (0.01 / 8.0, 3, 40.0, 35.815_769_036_844_5),
+            (0.01, 6, 12.0, 54.342_648_900_308),
+            (0.01, 3, 8.0, 49.856_178_937_092),
+            (0.01 / 24.0, 3, 14.6, 64.783_134_991_623),
+            (0.01, 1, f64::INFINITY, (2.575_829_303_548_9_f64 + 1.644_853_626_951_5).powi(2)),
+            (0.01 / 8.0, 3, f64::INFINITY, 29.183_423_902_110),
+        ] {
+            let found = detectable(level, numerator, denominator);
+            assert!((found * found / non_centrality - 1.0).abs() < 1e-9, "{level} {numerator} {denominator}: {found}");
+        }
     }
 
     /// Expected: by definition.

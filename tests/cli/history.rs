@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 /// Reads the passports with PyYAML, and fits and tests every deviation with SciPy; prints the largest relative difference
 /// from the JSON of the program, and the number of fits.
 const COMPARE: &str = r#"
-import json, sys, datetime, yaml, scipy.stats
+import json, sys, datetime, yaml, scipy.stats, scipy.optimize
 found = json.load(open(sys.argv[1]))
 series = {}
 for path in sys.argv[2:]:
@@ -48,9 +48,14 @@ worst = 0
 for at in found["drift"]["deviations"]:
     mine = [at["slope_arcsec_per_year"], at["u_slope_arcsec_per_year"], at["degrees_of_freedom"], at["probability"],
             at["chi_square"]["value"], at["corrected_probability"]]
-    due = fits.pop((at["i"], at["j"], at["angle"]))
+    due = fits[at["i"], at["j"], at["angle"]]
     worst = max(worst, *(abs(a / b - 1) for a, b in zip(mine, due)))
-print(worst, len(order), len(fits), found["drift"]["drifts"], order[0])
+def detectable(slope, u, freedom, *_):
+    critical = scipy.stats.f.isf(0.01 / len(order), 1, freedom)
+    missed = lambda c: 0.95 - scipy.stats.ncf.sf(critical, 1, freedom, c * c)
+    return u * scipy.optimize.brentq(missed, 1, 12, xtol=1e-12)
+worst = max(worst, abs(found["drift"]["detectable_arcsec_per_year"] / max(detectable(*fits[key]) for key in order) - 1))
+print(worst, len(order), len(fits) - len(found["drift"]["deviations"]), found["drift"]["drifts"], order[0])
 "#;
 
 fn run(folder: &Path, arguments: &str) -> String {

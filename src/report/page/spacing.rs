@@ -18,7 +18,7 @@ const SOLIDI_OF_AN_ID: usize = 3;
 
 /// Writes words so that no line ends at the hyphen of a date, of a designation or of an id, at the minus of a power of ten, where
 /// browsers see a hyphen, after the solidus of a unit, or within the name of the program. A line may end after a solidus of an id
-/// and after the @ of an address.
+/// and after the @ of an address, none after the bars of an absolute value.
 /// The text that a reader copies is unchanged.
 pub(crate) fn unbroken(words: &str) -> Markup {
     let is_designation = |around: &[u8]| match around {
@@ -27,11 +27,14 @@ pub(crate) fn unbroken(words: &str) -> Markup {
     };
     let with_solidus = |word: &str| WITH_SOLIDUS.iter().any(|unit| word.contains(unit));
     // A block of its own would let a line end before a unit, even after a non-breaking space.
-    let class = |word: &str| if with_solidus(word) && word.len() < LONGEST_QUANTITY { "quantity" } else { "n" };
+    let class = |word: &str| {
+        if (with_solidus(word) || word.contains('|')) && word.len() < LONGEST_QUANTITY { "quantity" } else { "n" }
+    };
     let whole = |word: &str| {
         word.as_bytes().windows(3).any(is_designation)
             || word.starts_with(PROGRAM)
             || with_solidus(word)
+            || word.contains('|')
             || word.split_once(' ').is_some_and(|(first, _)| is_initial(first))
             || word.contains('-') && (is_id(word) || word.contains('@'))
     };

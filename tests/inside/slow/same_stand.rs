@@ -2,6 +2,7 @@
 
 use crate::inside::simulated_stands::{HEADER, Truth, certified, header, normal};
 use dtg_passport::certification::comparison::{Comparison, compare};
+use dtg_passport::certification::finding::Finding;
 use dtg_passport::certification::{AngleReadings, Header, certify};
 use dtg_passport::coefficients::EIGHT_POSITIONS;
 use dtg_passport::stand::{Evidence, Stand};
@@ -111,6 +112,44 @@ fn a_larger_scatter_is_told_from_a_change() {
     );
     // In 1 % a reading is named as an outlier instead, in 1 % each all positions or the worst of them as changed.
     assert!(worse_named >= 194 && undecided >= 190 && named <= 4, "{worse_named} {undecided} {named}");
+}
+
+/// The rotations that a check of an unchanged stand says it would find, arcsec: of a position and of the platform.
+fn detected(comparison: &Comparison) -> Option<[f64; 2]> {
+    comparison.findings.iter().find_map(|found| match found {
+        Finding::Detects { position_arcsec, platform_arcsec } => Some([*position_arcsec, (*platform_arcsec)?]),
+        _ => None,
+    })
+}
+
+/// A check of an unchanged stand says what it would have found: a stand that has changed by so much is named in 95 % of the
+/// checks, and one that has changed by half as much in far fewer.
+#[test]
+fn an_unchanged_stand_has_not_changed_by_what_is_said() {
+    let mut stream = Stream::new(12);
+    for runs in [1, 3] {
+        let mut said = (0..50).filter_map(|_| {
+            let certificate = certificate(&quiet(), &mut stream, 5);
+            detected(&against(&certificate, &quiet().measured(&mut stream, runs)))
+        });
+        let said: Vec<[f64; 2]> = said.by_ref().collect();
+        assert!(said.len() >= 40, "{}", said.len());
+        for (of, places) in [(0, 4..5), (1, 0..8)] {
+            let mean = said.iter().map(|at| at[of]).sum::<f64>() / said.len() as f64;
+            let mut named = |turn_arcsec: f64| {
+                let mut changed = quiet();
+                places.clone().for_each(|place| changed.angles_arcsec[place].z += turn_arcsec);
+                let of_trial = |_: &u32| {
+                    let certificate = certificate(&quiet(), &mut stream, 5);
+                    !against(&certificate, &changed.measured(&mut stream, runs)).same_stand
+                };
+                (0..100).filter(of_trial).count()
+            };
+            let (whole, half) = (named(mean), named(mean / 2.0));
+            println!("{runs} runs, {places:?} turned by {mean:.1}″: named {whole} of 100; by half of it: {half}");
+            assert!(whole >= 88 && half <= 75, "{runs} {places:?}: {whole} {half}");
+        }
+    }
 }
 
 /// Scatter of the runs by hand: about one axis the mean of three, 0, 1 and 2, differs by 60 from the certificate; their variance

@@ -205,13 +205,22 @@ fn table(
     let table = Table {
         caption: Some(languages.label_with(|language| {
             let k = coverage_factor(rows.iter().map(|row| row.coverage_factor), language);
-            caption.filled(language, values! { k, g: Number::exact(verdict.gravity_m_per_s2) })
+            let words = caption.filled(language, values! { k, g: Number::exact(verdict.gravity_m_per_s2) });
+            // The rows have no room for the units of a second language.
+            if language == languages.first() { words } else { words + &units_of(rows, language) }
         })),
         groups,
         class: "numbers result",
         ..Table::of(vec![languages.label(texts::PARAMETER)], names, &columns)
     };
     table.markup(languages.spoken(texts::RESULT))
+}
+
+/// Returns the units of the rows in words that go on a caption.
+fn units_of(rows: &[ParameterVerdict], language: Language) -> String {
+    let mut units: Vec<&str> = rows.iter().map(|row| unit_at_type(row.parameter).of(language)).collect();
+    units.dedup();
+    texts::UNITS.filled(language, values! { units: units.join(", ") })
 }
 
 /// Writes the caption of a table whose drifts refer to this g.

@@ -10,7 +10,7 @@ use crate::calibration::scatter::{Agreement, Scatter};
 use crate::calibration::stated::NotStated;
 use crate::calibration::suspect::Suspect;
 use crate::report::page::language::{Language, Languages, Text, values};
-use crate::report::page::number::{Number, column, probability};
+use crate::report::page::number::{LARGEST_IN_ARCSEC, Number, column, probability};
 use crate::report::page::parts::{Column, Table, field, fields, quantity, starts, symbol, symbol_and_unit};
 use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
@@ -19,6 +19,9 @@ use crate::report::recorded;
 use crate::report::scatter::drift;
 use crate::wording::spacing::spaced;
 use maud::{Markup, html};
+
+/// Uncertainty with which an angle is printed in whole arcseconds.
+const WHOLE_ARCSECONDS: f64 = 10.0;
 
 pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
     html! {
@@ -210,7 +213,12 @@ fn explained(explanation: &Explanation, language: Language) -> String {
             texts::HINT_OTHER_AXIS.filled(language, &[("azimuth", frame_axis_azimuth_deg)])
         }
         Explanation::DidNotRepeat { index, angle_arcsec, current_ua } => {
-            let (angle, place) = (Number::significant(*angle_arcsec, 2), Number::place_of(current_ua.amax()));
+            let angle = if *angle_arcsec > LARGEST_IN_ARCSEC {
+                Number::angle(*angle_arcsec, WHOLE_ARCSECONDS)
+            } else {
+                Number::significant(*angle_arcsec, 2)
+            };
+            let place = Number::place_of(current_ua.amax());
             let [jx, jy] = [current_ua.x, current_ua.y].map(|error| Number::to_place(error, place));
             texts::HINT_DID_NOT_REPEAT.filled(language, values! { index, angle, jx, jy })
         }

@@ -8,8 +8,7 @@ use crate::calibration::verdict::{COVERAGE_FACTOR, Found, Verdict};
 use crate::gyro::GyroType;
 use crate::report::page::language::{Languages, values};
 use crate::report::page::number::{Number, column};
-use crate::report::page::parts::{Column, Table, date, heading, starts};
-use crate::report::page::symbols::italic;
+use crate::report::page::parts::{Column, Table, date, heading, starts, symbol_and_unit};
 use crate::report::page::texts::calibration as texts;
 use crate::report::picture::accuracy::unit;
 use crate::report::picture::tolerances::{BESIDE_VALUES, key, unit_at_type};
@@ -62,7 +61,7 @@ fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
     let starts = starts(each.iter().map(|(parameter, ..)| *parameter));
     let names = each.iter().enumerate().map(|(place, (parameter, number, past, ..))| {
         // The name is shown once for its calibrations; screen readers say it in each row.
-        let name = html! { (name_of(parameter.symbol())) ", " (italic(languages.spoken(unit_of(*parameter)))) };
+        let name = symbol_and_unit(languages, &name_of(parameter.symbol()), unit_of(*parameter));
         let first = place == 0 || starts.contains(&place);
         let sha256 = past.document.currents_sha256().unwrap_or("–").chars().take(NAMED_DIGITS).collect::<String>();
         let without_day = |language| texts::NO_DAY_BUT_CURRENTS.filled(language, values! { number, sha256 });

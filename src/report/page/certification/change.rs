@@ -133,7 +133,7 @@ fn table(changes: &[NumberDifference], caption: Markup, languages: &Languages) -
     let change = |at: &NumberDifference| Some((at.difference()?, at.standard_uncertainty));
     let bars = Bars::over(changes.iter().filter_map(change));
     let drawn = changes.iter().map(|at| change(at).map_or_else(|| html! { "–" }, |change| bars.bar(change)));
-    let drawn_within = html! { (languages.label(texts::DIFFERENCE)) ", ±2" (symbol("u", "")) };
+    let drawn_within = languages.label_with(|language| format!("{}, ±2u", texts::DIFFERENCE.words(language)));
     let columns = [
         of(texts::OLD, |at| at.a),
         of(texts::NEW, |at| at.b),

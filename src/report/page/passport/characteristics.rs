@@ -9,6 +9,7 @@ use crate::report::page::parts::{
     symbol, symbol_and_unit, wide_stated,
 };
 use crate::report::page::spacing::BLANK;
+use crate::report::page::symbols::italic;
 use crate::report::page::texts::{passport as texts, units};
 use crate::report::picture::deviations::Bars;
 use crate::report::picture::{place as map, positions as picture};
@@ -22,11 +23,15 @@ const METRES_PER_DEGREE: f64 = 111e3;
 
 pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let content = &page.content;
+    let is_stated = content.positions.iter().flat_map(CertifiedPosition::u_arcsec).any(|u| u.is_some());
     let stand = picture::positions(languages, &content.positions, content.site.frame_axis_azimuth_deg());
     html! {
         (heading(languages, texts::DEVIATIONS))
         (positions(&content.positions, languages))
-        (languages.paragraph(texts::DEVIATIONS_NOTE))
+        (languages.paragraph_with(|language| html! {
+            (italic(&texts::DEVIATIONS_NOTE.words(language)))
+            @if is_stated { " " (italic(&texts::DEVIATIONS_U_NOTE.words(language))) }
+        }))
         (figure(languages, "positions", &stand, texts::FIGURE_POSITIONS))
         (heading(languages, texts::COMMON))
         (common(&content.certificate, languages))

@@ -23,6 +23,7 @@ mod record;
 use super::language::{Languages, values};
 use super::parts::{contents, data_address, numbered, section, verbatim};
 use super::shell::{Margins, document};
+use super::symbols::italic;
 use super::texts::{passport as texts, record as record_texts};
 use crate::document::sha256_hex;
 use crate::passport::{Content, Question, Trust, Verification, verify};
@@ -139,7 +140,7 @@ impl<'a> PassportPage<'a> {
         let end = languages.label_with(|language| texts::END.filled(language, values! { id }));
         let body = html! {
             (checks::table(self, languages))
-            (languages.paragraph_with(|language| html! { (texts::ANNEX_NOTE.filled(language, values! { name })) }))
+            (languages.paragraph_with(|language| italic(&texts::ANNEX_NOTE.filled(language, values! { name }))))
             (verbatim("en", self.text, &end))
         };
         section(languages, "annex", texts::ANNEX, body)

@@ -8,6 +8,7 @@ use crate::passport::content::{MatrixRows, Rows, SelfCheck};
 use crate::report::page::language::{Languages, Text, values};
 use crate::report::page::number::{Cell, Number, column};
 use crate::report::page::parts::{Column, Table, figure, heading, starts, symbol, symbol_and_unit};
+use crate::report::page::symbols::italic;
 use crate::report::page::texts::{passport as texts, units};
 use crate::report::picture::vectors::vectors as picture;
 use maud::{Markup, html};
@@ -22,7 +23,8 @@ pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let content = &page.content;
     html! {
         (languages.paragraph_with(|language| {
-            html! { (texts::DIGITS_NOTE.words(language)) " " (texts::EQUATIONS_NOTE.filled(language, values! { source: PAPER })) }
+            let equations = texts::EQUATIONS_NOTE.filled(language, values! { source: PAPER });
+            italic(&format!("{} {equations}", texts::DIGITS_NOTE.words(language)))
         }))
         @match &content.matrices {
             Some(m) => {

@@ -41,16 +41,17 @@ texts! {
         en: "Within the tolerances of gyro type {type}; the change since the previous calibration is undecided",
         ru: "Соответствует допускам типа {type}; изменение после предыдущей калибровки не определено"
     }
+    UNITS { en: "; units {units}", ru: "; единицы {units}" }
     NO_STATEMENT {
         en: "No statement of conformity with gyro type {type}",
         ru: "Заключение о соответствии типу {type} не приводится"
     }
     UNDECIDED { en: "Conformity with gyro type {type} is undecided", ru: "Соответствие типу {type} не определено" }
     RULE {
-        en: "Decision rule (JCGM 106, 8.3): pass if |deviation| + U ≤ tolerance, fail if |deviation| − U > tolerance, otherwise \
+        en: "Decision rule (JCGM 106, 8.3): pass if |deviation|\u{a0}+\u{a0}U ≤ tolerance, fail if |deviation|\u{a0}−\u{a0}U > tolerance, otherwise \
              undecided.",
-        ru: "Правило принятия решения (JCGM 106, 8.3): соответствует при |отклонение| + U ≤ допуск, не соответствует при \
-             |отклонение| − U > допуск, иначе не определено."
+        ru: "Правило принятия решения (JCGM 106, 8.3): соответствует при |отклонение|\u{a0}+\u{a0}U ≤ допуск, не соответствует при \
+             |отклонение|\u{a0}−\u{a0}U > допуск, иначе не определено."
     }
     NOT_IN_U {
         en: "Inputs not in U (u not stated, or stated as 0): {count} (section\u{a0}3){more}.",

@@ -29,7 +29,7 @@ texts! {
     CHECKING { en: "How to check", ru: "Как проверить" }
     CHECKING_HOW {
         en: "of the file: must equal that in the code; dtg-passport verify checks all",
-        ru: "файла: должна совпадать с суммой в коде; dtg-passport verify проверяет всё"
+        ru: "файла: должен совпадать с хешем в коде; dtg-passport verify проверяет всё"
     }
     FIGURE_STAND {
         en: "The stand: its axes and angles, for θ = 40° and φ = 35°, the frame’s axis ξ as at this site.",
@@ -99,13 +99,17 @@ texts! {
     }
     DEVIATIONS_NOTE {
         en: "Position (i, j): frame angle θ about ξ, then platform angle φ about the spin axis. α, β, γ transform \
-             coordinates from the nominal to the actual platform, eq. (4). u: own part of the standard \
-             uncertainty (k = 1) of the certified mean; ν: degrees of freedom, the smallest of those of the three u (–: not stated). \
-             Uncertainties have two significant digits; values are rounded to the same decimal place.",
+             coordinates from the nominal to the actual platform, eq. (4).",
         ru: "Положение (i, j): угол рамки θ вокруг ξ, затем угол платформы φ вокруг оси собственного вращения. α, β, γ \
-             преобразуют координаты от номинальной платформы к реальной, формула (4). u — стандартная \
-             неопределённость (k = 1) среднего по сертификату, собственная составляющая положения; ν — \
-             число степеней свободы, наименьшее у трёх u (прочерк — не указано). В неопределённостях две значащие цифры, значения — до того же разряда."
+             преобразуют координаты от номинальной платформы к реальной, формула (4)."
+    }
+    DEVIATIONS_U_NOTE {
+        en: "u: own part of the standard uncertainty (k = 1) of the certified mean; ν: degrees of freedom, the smallest of those \
+             of the three u (–: not stated). Uncertainties have two significant digits; values are rounded to the same decimal \
+             place.",
+        ru: "u — стандартная неопределённость (k = 1) среднего по сертификату, собственная составляющая положения; ν — \
+             число степеней свободы, наименьшее у трёх u (прочерк — не указано). В неопределённостях две значащие цифры, \
+             значения — до того же разряда."
     }
     FIGURE_POSITIONS {
         en: "The stand in its positions (i, j), viewed as in Figure 1.",
