@@ -72,7 +72,7 @@ texts! {
     NOT_COMPARED {
         en: "Because a reading is suspect, the scatter of single positions was not tested; all positions state the \
              pooled standard deviation.",
-        ru: "Из-за сомнительного показания разброс в отдельных положениях не проверялся; для всех указано объединённое \
+        ru: "Из-за сомнительного показания рассеяние в отдельных положениях не проверялось; для всех указано объединённое \
              стандартное отклонение."
     }
     TWINS {

@@ -101,7 +101,7 @@ function said() {
 }
 
 /** What does not fit: elements beyond the page's edge, text wider than its box, words of a picture outside it, decisions that are
- * seen only after scrolling sideways. */
+ * seen only after scrolling sideways, names of rows that scroll away. */
 function unfit() {
   const found = [];
   const name = (element) => `${element.tagName.toLowerCase()}.${element.getAttribute("class") || ""} ${element.textContent.slice(0, 60)}`;
@@ -141,6 +141,22 @@ function unfit() {
       return box.width > 0 && box.left >= 0 && box.right <= width;
     });
     if (!seen) found.push(`a decision out of sight: ${name(row)}`);
+  }
+  // A table that has been scrolled to its end still shows the names of its rows, one after the other.
+  for (const table of document.querySelectorAll(".scroll:has(tbody th)")) {
+    if (table.scrollWidth <= table.clientWidth || getComputedStyle(table).overflowX === "visible") continue;
+    table.scrollLeft = table.scrollWidth;
+    const left = table.getBoundingClientRect().left;
+    for (const row of table.querySelectorAll("tbody tr")) {
+      const boxes = [...row.querySelectorAll("th")].map((cell) => {
+        const range = document.createRange();
+        range.selectNodeContents(cell);
+        return range.getBoundingClientRect();
+      });
+      const stays = boxes.every((box, place) => box.left >= (place === 0 ? left - 1 : boxes[place - 1].right));
+      if (!stays) found.push(`names scrolled away: ${name(row)}`);
+    }
+    table.scrollLeft = 0;
   }
   for (const element of document.querySelectorAll("body *")) {
     if (element.closest(".unseen, .pad, thead") && getComputedStyle(element.closest(".unseen, .pad, thead")).position === "absolute") continue;

@@ -19,9 +19,9 @@ import yaml
 
 from signed_file import leaves, printed
 
-# A number as pages write it.
+# A number as pages write it, angles with degrees and minutes too.
 TOKEN = re.compile(
-    r"(?<![\w.,−-])[−-]?\d(?:[\d\u202f]*\d)?(?:[.,]\d(?:[\d\u202f]*\d)?)?(?:\u202f?[·×]\u202f?10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?(?!\w)"
+    r"(?<![\w.,−-])[−-]?(?:(?:\d+°)?\d\d?′)?\d(?:[\d\u202f]*\d)?(?:[.,]\d(?:[\d\u202f]*\d)?)?(?:\u202f?[·×]\u202f?10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?(?!\w)"
 )
 DAY = re.compile(r"\d{4}-\d\d-\d\d|\d\d\.\d\d\.\d{4}")
 # What is no number of the result: clauses of standards, coverage, the sum's name, ids, times of day, the limit of risks,
@@ -41,7 +41,7 @@ PLACES = {
     "ωk": ("omega_k_deg_per_h_per_g",),
 }
 METHODS = {
-    "least-squares": ("least squares", "метод наименьших квадратов"),
+    "least-squares": ("weighted least squares", "метод наименьших квадратов"),
     "analytic": ("analytic", "аналитический"),
     "iterative": ("iterative", "итерационный"),
 }

@@ -40,7 +40,13 @@ pub(crate) fn document(languages: &Languages, title: &str, margins: &Margins, bo
             body { (body) }
         }
     };
-    printable::page(&page.into_string()) + "\n"
+    printable::page(&short_shapes(page.into_string())) + "\n"
+}
+
+/// Returns a page with the shapes of its pictures as empty elements, which makes it shorter by a fiftieth.
+fn short_shapes(page: String) -> String {
+    let shapes = ["></polygon>", "></line>", "></path>", "></rect>", "></ellipse>", "></circle>"];
+    shapes.into_iter().fold(page, |page, ends| page.replace(ends, "/>"))
 }
 
 impl Margins {

@@ -12,10 +12,10 @@ use maud::{Markup, html};
 const PANEL_PIXELS: u32 = 330;
 const WIDTH: f64 = 460.0;
 const BARS: [f64; 2] = [44.0, 450.0];
-const TOP: f64 = 12.0;
+const TOP: f64 = 5.0;
 const ROW: f64 = 17.0;
 const BAR_HALF: f64 = 5.0;
-const AXIS_HEIGHT: f64 = 36.0;
+const AXIS_HEIGHT: f64 = 34.0;
 
 /// Largest share of the tolerance on the axis. Larger values are drawn at its end.
 const LARGEST_SHARE: f64 = 20.0;

@@ -58,7 +58,7 @@ impl Area {
     }
 }
 
-/// Groups points that appear as one and gives each group one label: "1,1…1,4" or "1,1 2,3".
+/// Groups points that appear as one and gives each group one label: "(1, 1)…(1, 4)" or "(1, 1), (2, 3)".
 pub(crate) fn together(points: &[(Point, String)]) -> Vec<Label> {
     let mut groups: Vec<(Point, Vec<&str>)> = Vec::new();
     for (at, words) in points {
@@ -71,7 +71,7 @@ pub(crate) fn together(points: &[(Point, String)]) -> Vec<Label> {
     let label = |(at, members): (Point, Vec<&str>)| {
         let words = match members.as_slice() {
             [first, .., last] if members.len() > 2 => format!("{first}…{last}"),
-            some => some.join(" "),
+            some => some.join(", "),
         };
         Label { at, words }
     };
@@ -148,8 +148,8 @@ mod tests {
     #[test]
     fn points_that_coincide_share_a_label() {
         let at = |x: f64, words: &str| ([x, 0.0], words.to_owned());
-        let labels = together(&[at(0.0, "1,1"), at(50.0, "2,1"), at(1.0, "1,2"), at(2.0, "1,3"), at(51.0, "2,2")]);
+        let labels = together(&[at(0.0, "(1)"), at(50.0, "(4)"), at(1.0, "(2)"), at(2.0, "(3)"), at(51.0, "(5)")]);
         let words: Vec<&str> = labels.iter().map(|label| label.words.as_str()).collect();
-        assert_eq!(words, ["1,1…1,3", "2,1 2,2"]);
+        assert_eq!(words, ["(1)…(3)", "(4), (5)"]);
     }
 }

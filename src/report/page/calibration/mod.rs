@@ -256,7 +256,7 @@ impl CalibrationPage<'_> {
         };
         if verdict.withheld {
             let name = |language: Language| texts::NO_STATEMENT.filled(language, values! { type: gyro.r#type });
-            return boxed("verdict neutral", languages.label_with(name), self.implausible(languages));
+            return outcome_box(Outcome::NotAsked, &languages.label_with(name), self.implausible(languages));
         }
         let change = self.document.stated_change();
         let text = match (verdict.overall, change.map(|change| change.overall)) {

@@ -7,7 +7,8 @@ use crate::laboratory::Laboratory;
 use crate::report::page::language::{Languages, values};
 use crate::report::page::number::Number;
 use crate::report::page::parts::{
-    self, blank, date, field, fields, file_name, given, heading, not_stated, outcome_box, quantity, time, wide_field,
+    self, blank, boxed, date, field, fields, file_name, given, heading, marked, not_stated, outcome_box, quantity,
+    time, wide_field,
 };
 use crate::report::page::passport::checks::withdrawal_not_checked;
 use crate::report::page::passport::{accuracy, characteristics, checks};
@@ -184,5 +185,5 @@ pub(super) fn temperature(page: &CalibrationPage, languages: &Languages) -> Mark
     let values = [("here", here_c), ("low", low_c), ("high", high_c)]
         .map(|(name, c)| (name, Number::exact(c).markup(languages)));
     let words = languages.paragraph_with(|language| texts::TEMPERATURE_OUTSIDE.marked_up(language, &values));
-    outcome_box(Outcome::Undecided, &languages.label(texts::TEMPERATURE_IS_OUTSIDE), words)
+    boxed("verdict neutral", marked(Outcome::Failed, &languages.label(texts::TEMPERATURE_IS_OUTSIDE)), words)
 }

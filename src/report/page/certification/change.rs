@@ -22,7 +22,8 @@ pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup
     let Some((comparison, _)) = &page.change else {
         let (positions, runs) = (page.certification.stand.positions.len(), page.certification.runs.len());
         let headline = languages.label_with(|language| texts::CERTIFIED.filled(language, values! { positions, runs }));
-        let words = html! { (languages.paragraph(texts::NOT_COMPARED)) (warnings(page, languages)) };
+        let not_compared = |language| html! { (mark(Outcome::NotAsked)) " " (texts::NOT_COMPARED.words(language)) };
+        let words = html! { (languages.paragraph_with(not_compared)) (warnings(page, languages)) };
         let is_clear = page.certification.remarks.is_empty();
         return outcome_box(if is_clear { Outcome::Passed } else { Outcome::Undecided }, &headline, words);
     };

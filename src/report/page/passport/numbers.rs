@@ -80,13 +80,13 @@ fn formulas(languages: &Languages) -> Markup {
     let inverse = html! { sup { "−1" } };
     html! {
         ul.formulas {
-            li { (j1) " = (" (j("11")) " − " (j("13")) ", " (j("12")) " − " (j("14")) ")" span.equation { "(11)" } }
-            li { (j2) " = (" (j("21")) " − " (j("23")) ", " (j("22")) " − " (j("24")) ")" span.equation { "(11)" } }
-            li { (k) " = " (b) " (" (j1) " − " (j2) " " (delta) ")" (inverse) span.equation { "(13)" } }
-            li { (wn) " = " (symbol("C", "")) " − " (k) " " (j2) " " (symbol("n", "2")) (inverse) span.equation { "(15)" } }
-            li { (symbol("ω", "g")) " = ½ (" (symbol("ω", "n11")) " + " (symbol("ω", "n22")) "), "
-                (symbol("ω", "k")) " = ½ (" (symbol("ω", "n21")) " − " (symbol("ω", "n12")) ")" span.equation { "(16)" } }
-            li { (symbol("ω", "0")) " = " (languages.inline(texts::MEAN)) " " (symbol("ω", "3ij")) " − " (k) " "
+            li { (j1) "\u{a0}=\u{a0}(" (j("11")) " − " (j("13")) ", " (j("12")) " − " (j("14")) ")" span.equation { "(11)" } }
+            li { (j2) "\u{a0}=\u{a0}(" (j("21")) " − " (j("23")) ", " (j("22")) " − " (j("24")) ")" span.equation { "(11)" } }
+            li { (k) "\u{a0}=\u{a0}" (b) " (" (j1) " − " (j2) " " (delta) ")" (inverse) span.equation { "(13)" } }
+            li { (wn) "\u{a0}=\u{a0}" (symbol("C", "")) " − " (k) " " (j2) " " (symbol("n", "2")) (inverse) span.equation { "(15)" } }
+            li { (symbol("ω", "g")) "\u{a0}=\u{a0}½ (" (symbol("ω", "n11")) " + " (symbol("ω", "n22")) "), "
+                (symbol("ω", "k")) "\u{a0}=\u{a0}½ (" (symbol("ω", "n21")) " − " (symbol("ω", "n12")) ")" span.equation { "(16)" } }
+            li { (symbol("ω", "0")) "\u{a0}=\u{a0}" (languages.inline(texts::MEAN)) " " (symbol("ω", "3ij")) " − " (k) " "
                 (j("ij")) " − " (wn) " " (symbol("n", "ij")) span.equation { "(8)" } }
         }
     }

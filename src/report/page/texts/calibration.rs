@@ -35,7 +35,7 @@ texts! {
     CONFORMS_NOT { en: "NOT within the tolerances of gyro type {type}", ru: "НЕ соответствует допускам типа {type}" }
     CHANGED_TOO_MUCH {
         en: "NOT stable within the tolerances of gyro type {type}",
-        ru: "Нестабильность НЕ соответствует допускам типа {type}"
+        ru: "Изменение НЕ соответствует допускам типа {type}"
     }
     CHANGE_UNDECIDED {
         en: "Within the tolerances of gyro type {type}; the change since the previous calibration is undecided",
@@ -146,13 +146,13 @@ texts! {
     SAME_READINGS {
         en: "The previous result is from these same readings, so it does not show a change. Compare with the result of \
              an earlier calibration.",
-        ru: "Прежний результат получен по этим же показаниям и изменения не показывает. Следует сравнить с \
+        ru: "Предыдущий результат получен по этим же показаниям и изменения не показывает. Следует сравнить с \
              результатом более ранней калибровки."
     }
     EARLIER_NOT_VALID {
         en: "The previous result is not valid: its readings did not fit the stand, or contained an error. Compare with a \
              valid result.",
-        ru: "Прежний результат недействителен: его показания не согласуются со стендом или содержат ошибку. Следует \
+        ru: "Предыдущий результат недействителен: его показания не согласуются со стендом или содержат ошибку. Следует \
              сравнить с действительным результатом."
     }
     SUBJECT { en: "Object, place and equipment of the calibration", ru: "Объект, место и средства калибровки" }
@@ -235,7 +235,7 @@ texts! {
              местному g, {g} м/с²"
     }
     ADOPTED { en: "{method} (adopted result)", ru: "{method} (принятый результат)" }
-    LEAST_SQUARES_NAME { en: "Least squares", ru: "Метод наименьших квадратов" }
+    LEAST_SQUARES_NAME { en: "Weighted least squares", ru: "Метод наименьших квадратов" }
     ANALYTIC { en: "Analytic method", ru: "Аналитический метод" }
     ITERATIVE { en: "Iterative method", ru: "Итерационный метод" }
     OFF_BY { en: "Difference from least squares, over its u", ru: "Отличие от МНК, делённое на его\u{a0}u" }
@@ -290,7 +290,7 @@ texts! {
     HISTORY_CAPTION {
         en: "Parameters of the earlier calibrations, in the order of their dates where stated, and of this one; expanded uncertainty U\u{a0}=\u{a0}2u \
              (coverage factor k = 2; marks as in the comparison with the type); ω_g and ω_k refer to {of}\u{a0}{g} m/s²",
-        ru: "Параметры прежних калибровок (по датам, если они указаны) и этой; расширенная неопределённость U\u{a0}=\u{a0}2u \
+        ru: "Параметры предыдущих калибровок (по датам, если они указаны) и этой; расширенная неопределённость U\u{a0}=\u{a0}2u \
              (коэффициент охвата k = 2; отметки — как при сравнении с типом); ω_g и ω_k отнесены к {of}\u{a0}{g} м/с²"
     }
     OF_TYPE { en: "the g of the type, g_0\u{a0}=", ru: "g типа, g_0\u{a0}=" }
@@ -316,7 +316,7 @@ texts! {
         en: "Serial numbers do not show that it was the same gyro.",
         ru: "Не подтверждено, что это тот же гироскоп."
     }
-    EARLIER { en: "Previous", ru: "Прежнее значение" }
+    EARLIER { en: "Previous", ru: "Предыдущее" }
     FOUND { en: "Value", ru: "Значение" }
     FROM_GRAVITY {
         en: "Local g, with a standard uncertainty of {u}, contributes {parts}. To reduce this, measure g.",
@@ -330,10 +330,10 @@ texts! {
     }
     FROM_GRAVITY_PART { en: "{gravity} to the U of {parameter}", ru: "{gravity} для {parameter}" }
     FROM_TURN_ONS {
-        en: "The scatter of the turn-ons, {u}, is most of the standard uncertainty of ω_0x and ω_0y. To reduce it, take more \
-             turn-ons.",
-        ru: "Шум гироскопа от запуска к запуску, {u}, составляет большую часть стандартной неопределённости ω_0x и \
-             ω_0y. Для его уменьшения следует увеличить число запусков."
+        en: "The turn-on noise contributes {u} to the standard uncertainty of ω_0x and ω_0y, most of it. To reduce this, take \
+             more turn-ons.",
+        ru: "Вклад шума от запуска к запуску, {u}, составляет большую часть стандартной неопределённости ω_0x и ω_0y. Для \
+             его уменьшения следует увеличить число запусков."
     }
     DEVIATION { en: "Deviation", ru: "Отклонение" }
     CHANGED_BY { en: "Change", ru: "Изменение" }
@@ -546,7 +546,7 @@ texts! {
     NOT_STATED_VISITS { en: "gyro noise from visit to visit", ru: "шум гироскопа от установки к установке" }
     NOT_STATED_TURN_ONS { en: "gyro noise from turn-on to turn-on", ru: "шум гироскопа от запуска к запуску" }
     NOT_STATED_GRAVITY { en: "gravity", ru: "ускорение свободного падения" }
-    NOT_STATED_LEVEL { en: "level of the base", ru: "горизонтирование основания" }
+    NOT_STATED_LEVEL { en: "level of the base", ru: "наклон основания" }
     NOT_STATED_SEAT { en: "gyro seat", ru: "посадка гироскопа" }
 
     BUDGET { en: "Uncertainty budget", ru: "Бюджет неопределённости" }
@@ -628,7 +628,7 @@ texts! {
     ABOUT_EAST { en: "east", ru: "направления на восток" }
     ABOUT_NORTH { en: "north", ru: "направления на север" }
     ABOUT_UP { en: "up", ru: "вертикали" }
-    CAUSE_LEVEL { en: "level of the base about {axis}", ru: "горизонтирование основания вокруг {axis}" }
+    CAUSE_LEVEL { en: "level of the base about {axis}", ru: "наклон основания вокруг {axis}" }
     CAUSE_AZIMUTH { en: "azimuth of the base", ru: "азимут основания" }
     CAUSE_MARK { en: "azimuth of the mark", ru: "азимут ориентирного пункта" }
     CAUSE_LATITUDE { en: "latitude", ru: "широта" }

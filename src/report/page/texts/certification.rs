@@ -53,9 +53,9 @@ texts! {
              freedom; s/√R: its part in the mean of R runs. The repeatability is the quadratic mean of s over x, y and z, weighted by ν. The \
              upper limit is one-sided, by chi-square, with the scatter of the visits subtracted.",
         ru: "Показание отличается от среднего по положению на поворот платформы и поворот основания, общие для всей \
-             серии, и на разброс одной установки. s — стандартное отклонение, ν — число его степеней свободы, \
+             серии, и на рассеяние одной установки. s — стандартное отклонение, ν — число его степеней свободы, \
              s/√R — его часть в среднем по R\u{a0}сериям. Повторяемость — их среднее квадратическое по x, y и z с весами ν. Верхняя \
-             граница — односторонняя, по хи-квадрат, за вычетом разброса установок."
+             граница — односторонняя, по хи-квадрат, за вычетом рассеяния установок."
     }
     FEW_DEGREES {
         en: "Below ν = 4 the uncertainty of s itself exceeds 35 % (JCGM 100, E.4.3): see its upper limit.",
@@ -79,7 +79,7 @@ texts! {
     PROBABILITY { en: "Probability", ru: "Вероятность" }
     BARTLETT_POSITIONS { en: "Bartlett: equal variances of all positions, chi-square", ru: "Бартлетта: равенство дисперсий всех положений, хи-квадрат" }
     BARTLETT_AXES { en: "Bartlett: equal variances about x, y and z, chi-square", ru: "Бартлетта: равенство дисперсий вокруг x, y и z, хи-квадрат" }
-    COCHRAN { en: "Cochran: position {index} scatters more, ratio", ru: "Кохрена: наибольший разброс в положении {index}, отношение" }
+    COCHRAN { en: "Cochran: position {index} scatters more, ratio", ru: "Кохрена: наибольшее рассеяние в положении {index}, отношение" }
     GRUBBS {
         en: "Grubbs: position {index}, run {run}, about {axis}, difference, ″",
         ru: "Граббса: положение {index}, серия {run}, вокруг {axis}, отличие, ″"
@@ -113,12 +113,12 @@ texts! {
         ru: "Граббса: самый сомнительный угол из {count}, отличие, ″"
     }
     ROTATED_RUNS {
-        en: "Grubbs: most suspect run of {count}, {axes} axes, rotation, ″",
-        ru: "Граббса: самая сомнительная серия из {count}, осей {axes}, ″"
+        en: "Grubbs: most suspect run of {count} ({axes} axes), rotation, ″",
+        ru: "Граббса: самая сомнительная серия из {count} (осей {axes}), поворот, ″"
     }
     MOVE_OR_DRIFT {
-        en: "Student: most suspect shift or drift, {count} runs, ″",
-        ru: "Стьюдента: наибольшее смещение или дрейф, серий {count}, ″"
+        en: "Student: most suspect shift or drift of {count} runs, rotation, ″",
+        ru: "Стьюдента: наибольшее смещение или дрейф (серий {count}), поворот, ″"
     }
     NOT_SUSPECT { en: "not suspect", ru: "не выделяется" }
     EQUAL { en: "no difference", ru: "различий нет" }
@@ -134,8 +134,8 @@ texts! {
              reading is excluded because of these tests. Bartlett’s test requires a fine resolution and no suspect reading.",
         ru: "Значение: величина, указанная в конце названия критерия; отличия и повороты — от остальных показаний или \
              серий. Вероятность случайно получить не меньшее значение: \
-             менее 5 % — квазивыброс, равенство сомнительно; менее 1 % — выброс, дисперсии различаются. По результатам \
-             проверок показания не исключаются. Критерий Бартлетта применим при малом шаге отсчёта и без сомнительных показаний."
+             менее 5 % — квазивыброс, равенство сомнительно; менее 1 % — выброс, дисперсии различаются. По этим \
+             критериям показания не исключаются. Критерий Бартлетта применим при малом шаге отсчёта и без сомнительных показаний."
     }
     WARNINGS_COUNTED {
         en: "Warnings of the program: {count}; see section “{section}”.",
@@ -155,7 +155,7 @@ texts! {
     }
     NOT_COMPARED {
         en: "The readings were not compared with an earlier certificate.",
-        ru: "Показания не сравнивались с прежним сертификатом."
+        ru: "Показания не сравнивались с предыдущим сертификатом."
     }
     SAME { en: "The stand is unchanged since certificate {number}", ru: "Стенд не изменился после сертификата {number}" }
     CHANGED { en: "The stand has changed since certificate {number}", ru: "Стенд изменился после сертификата {number}" }
@@ -175,13 +175,13 @@ texts! {
         en: "The decision rests on the rotation of the case relative to the other positions (u from the repeatability of the \
              earlier certificate, if stated). Below are the changes of the deviations, computed before rounding (u from \
              their uncertainties in both).",
-        ru: "Решение принимается по повороту корпуса относительно остальных положений (u — по повторяемости прежнего \
+        ru: "Решение принимается по повороту корпуса относительно остальных положений (u — по повторяемости предыдущего \
              сертификата, если указана). Ниже — изменения отклонений, вычисленные до округления (u — по их \
              неопределённостям в обоих)."
     }
     REPEATS { en: "unchanged", ru: "без изменений" }
     REPEATS_NOT { en: "changed", ru: "изменилось" }
-    OLD { en: "before", ru: "прежнее" }
+    OLD { en: "before", ru: "предыдущее" }
     NEW { en: "now", ru: "новое" }
     DIFFERENCE { en: "change", ru: "изменение" }
     DIFFERENCE_IN_U { en: "change/u", ru: "изменение/u" }

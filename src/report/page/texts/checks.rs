@@ -26,7 +26,7 @@ texts! {
     EXPIRED { en: "expired", ru: "срок действия истёк" }
     NOT_YET { en: "not yet in force", ru: "ещё не вступил в силу" }
     ANOTHER_STAND { en: "issued for another stand", ru: "относится к другому стенду" }
-    ANOTHER_PLACE { en: "issued for another site", ru: "выдан для другого места" }
+    ANOTHER_PLACE { en: "issued for another site", ru: "выдан для другого места установки" }
     SUPERSEDED { en: "superseded", ru: "заменён другим паспортом" }
     WITHDRAWN { en: "withdrawn by its issuer", ru: "отозван выдавшей организацией" }
     REFUSED { en: "rejected", ru: "отклонён" }
