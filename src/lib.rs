@@ -40,7 +40,7 @@
 //! A module uses only those above it. A feature of Cargo is a floor of the house: without any, bytes, keys and a time come in,
 //! and an answer goes out, without files, processes or a clock. Every feature alone builds and passes its tests.
 //!
-//! | module | what it holds | feature |
+//! | module | content | feature |
 //! |---|---|---|
 //! | [`bibliography`] | the papers and standards that formulas link to | |
 //! | `units` | angles and rates: the one place that converts | |
@@ -72,7 +72,7 @@
 //! | `dcc` | Digital Calibration Certificates of PTB, of a stand and of a gyro | `cli` |
 //! | `schema` | JSON Schemas of the formats | `cli` |
 //! | `template` | commented files to begin with | `cli` |
-//! | `workspace` | a folder that states key, trust and folders; what it holds | `cli` |
+//! | `workspace` | a folder that states key, trust and folders; what it contains | `cli` |
 //! | `demonstration` | the whole story on a built-in example | `cli` |
 //! | [`cli`] | the command line: read, call, write | `cli` |
 //!

@@ -242,7 +242,7 @@ pub(crate) fn other_numberings(setup: &Setup, readings: &Readings, model: Model,
     possible.collect()
 }
 
-/// Returns every quarter by which the frame's axis may be turned so that the readings fit, and the small angle with which
+/// Returns every quarter by which the frame's axis may be rotated so that the readings fit, and the small angle with which
 /// they fit best, with their scores.
 fn other_axes(setup: &Setup, data: &Data, model: Model) -> Vec<(f64, Explanation)> {
     let of = |by_deg: f64| chi_square(&setup.turned(by_deg), data, model).map_or(f64::INFINITY, |found| found.value);

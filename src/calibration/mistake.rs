@@ -1,10 +1,10 @@
 //! Errors that do not show in the fit but change the result, recognised by comparison with the expected gyro.
 //!
 //! Let K, ω_0, ω_n be the actual values and K′, ω_0′, ω_n′ those found. Currents J′ = 10^p P J instead of J, where P is
-//! a signed permutation of x and y, give K′ = K P⁻¹ 10^−p and leave the drifts unchanged. A passport of another place,
+//! a signed permutation of x and y, give K′ = K P⁻¹ 10^−p and leave the drifts unchanged. A passport of another site,
 //! with ω_Γ′ and ω_B′ instead of the acting ω_Γ and ω_B, gives K′ = sK, ω_0′ = sω_0, ω_n′ = sω_n + (ω_B′ − sω_B)·1 with
-//! s = ω_Γ′/ω_Γ. A gyro turned by δ about its spin axis gives K′ = R⁻¹K, ω_0′ = R⁻¹ω_0, ω_n′ = ω_n, where R is Rz(δ) of the
-//! x and y axes. A base turned by δ clockwise gives K′ = RK, ω_0′ = Rω_0, W′ − ω_n′ = R(W − ω_n), where W is ω_B·1 − ω_Γ sin(90° −
+//! s = ω_Γ′/ω_Γ. A gyro rotated by δ about its spin axis gives K′ = R⁻¹K, ω_0′ = R⁻¹ω_0, ω_n′ = ω_n, where R is Rz(δ) of the
+//! x and y axes. A base rotated by δ clockwise gives K′ = RK, ω_0′ = Rω_0, W′ − ω_n′ = R(W − ω_n), where W is ω_B·1 − ω_Γ sin(90° −
 //! ψ − δ)·R(−90°), and W′ is W for δ = 0: exactly for 180°, for quarter turns on a stand of the paper's eight positions
 //! without deviations. Each of these errors can be undone.
 
@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 /// undone, is this many times farther from the gyro type.
 const CLEARLY: f64 = 3.0;
 
-/// Ratio of distances for a passport of another place. It is larger because some latitude always comes near. A place
+/// Ratio of distances for a passport of another site. It is larger because some latitude always comes near. A site
 /// less than about 30 km farther north or south is not recognised.
 const CLEARLY_ELSEWHERE: f64 = 10.0;
 
@@ -34,7 +34,7 @@ const FAR_OUT: f64 = 100.0;
 /// Factor of all scale factors together that no gyro changes by.
 const LARGEST_CHANGE_OF_SCALE: f64 = 2.0;
 
-/// Largest angle by which a gyro or a base is rotated without being turned by a quarter.
+/// Largest angle by which a gyro or a base is rotated, besides quarters.
 pub(super) const LARGEST_ROTATION_DEG: f64 = 10.0;
 
 /// Largest latitude at which a place is searched; nearer to a pole K cannot be determined.
@@ -47,12 +47,12 @@ const MOST_DEG: f64 = 89.9;
 pub enum Mistake {
     /// Columns of currents that are exchanged, reversed or in another unit.
     Currents(CurrentsMistaken),
-    /// A passport of another place.
+    /// A passport of another site.
     OtherPlace {
-        /// Astronomic latitude of the place that would explain the result, degrees; the longitude has no effect.
+        /// Astronomic latitude of the site that would explain the result, degrees; the longitude has no effect.
         latitude_deg: f64,
     },
-    /// A gyro turned in its seat about the spin axis.
+    /// A gyro rotated in its seat about the spin axis.
     GyroTurned {
         /// Angle from the seat to the gyro, counterclockwise about z: 90, 180 or 270 degrees.
         by_deg: u16,
@@ -214,7 +214,7 @@ fn by_type(found: &Found, used: &EarthRate, gyro_type: &GyroType) -> Option<Mist
     let of_currents = candidates.iter().map(|(distance, _)| *distance).fold(f64::INFINITY, f64::min);
     candidates.extend(other_place(found, used, &nominal, distance));
     candidates.extend(rotated(found, used, distance));
-    // A gyro with small drifts that is turned has the currents of exchanged or reversed columns, whose words name the seat.
+    // A gyro with small drifts that is rotated has the currents of exchanged or reversed columns, whose words name the seat.
     let turned = turned(found, used).map(|(undone, mistake)| (distance(&undone), mistake));
     candidates.extend(turned.filter(|(near, _)| *near < CLEARLY && of_currents >= CLEARLY * near.max(1.0)));
     candidates.sort_by(|(one, _), (other, _)| one.total_cmp(other));

@@ -2,7 +2,7 @@
 //! keys and the folders of all commands.
 //!
 //! * `layout`: a new workspace.
-//! * `status`: what a workspace holds.
+//! * `status`: what a workspace contains.
 
 mod layout;
 mod status;

@@ -194,7 +194,7 @@ fn a_workspace_saves_what_the_page_says() {
     let jobs: [(&str, Job); 4] = [
         ("first passport from nothing", Way::first_passport),
         ("a second site", Way::second_site),
-        ("recertification with five places in force", Way::recertification),
+        ("recertification with five sites in force", Way::recertification),
         ("withdrawal", Way::withdrawal),
     ];
     let page = fs::read_to_string(programs::project("docs/figures.md")).unwrap();
