@@ -33,7 +33,7 @@ record! {
     pub struct Contact {
         /// Name; omit it if the passport states it.
         pub name: Option<String>,
-        /// Town; required for the customer, and for the laboratory unless the passport states its address.
+        /// City; required for the customer, and for the laboratory unless the passport states its address.
         pub city: Option<String>,
         /// Street.
         pub street: Option<String>,

@@ -210,7 +210,7 @@ impl Collector {
         let name = self.need(&at, "name", name, "the name", &format!("{element}/name"));
         let city = file.and_then(|file| file.city.as_deref());
         if needs_city {
-            self.need(&at, "city", city, "the town", &format!("{element}/location/city"))?;
+            self.need(&at, "city", city, "the city", &format!("{element}/location/city"))?;
         }
         Some(Contact {
             name: Some(name?.to_owned()),

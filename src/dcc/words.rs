@@ -59,7 +59,7 @@ texts! {
         ru: "Паспорт {id}, байт в байт; SHA-256 {sha256}. Сам этот сертификат не подписан, подписан вложенный паспорт: \
              его следует сохранить и проверить."
     }
-    STAND { en: "Test stand with certified deviations", ru: "Испытательный стенд с отклонениями по сертификату" }
+    STAND { en: "Test stand with certified deviations", ru: "Поворотный стенд с отклонениями по сертификату" }
     GYRO { en: "Dynamically tuned gyro", ru: "Динамически настраиваемый гироскоп" }
     GRAVITY { en: "Local gravity", ru: "Местное ускорение свободного падения" }
     MODEL {
@@ -95,6 +95,6 @@ texts! {
     }
     NOT_SIGNED {
         en: "This DCC is not signed. The passport of the stand is signed; its SHA-256 is given with the equipment.",
-        ru: "Этот сертификат не подписан. Подписан паспорт стенда, его SHA-256 указана при средствах калибровки."
+        ru: "Этот сертификат не подписан. Подписан паспорт стенда, его хеш SHA-256 указан при средствах калибровки."
     }
 }
