@@ -120,7 +120,7 @@ impl Stage<'_> {
         files::write_new(&self.path("factory.key"), key.to_openssh(IDENTITY, None)?.as_bytes(), Access::Private)?;
         files::write_new(&self.path("allowed_signers"), signers.as_bytes(), Access::Shared)?;
         self.line("THE FACTORY")?;
-        self.line("1. creates a signing key and sends its public half to every laboratory, once:")?;
+        self.line("1. The factory creates a signing key and sends its public half to every laboratory, once:")?;
         self.line(&format!("   {}", shown(&self.path("allowed_signers"))))?;
         Ok((key, Trust::of(AllowedSigners::parse("allowed_signers", signers.as_bytes())?)))
     }
@@ -132,9 +132,9 @@ impl Stage<'_> {
         let angles = stand.positions.iter().flat_map(CertifiedPosition::angles_arcsec);
         let largest = angles.fold(0.0, |largest: f64, angle| largest.max(angle.abs())) / 3600.0;
         self.line(&format!(
-            "2. measures the deviations of a low-cost stand from its eight positions: up to {largest:.1} degrees."
+            "2. It measures the deviations of a low-cost stand from its eight positions: up to {largest:.1} degrees."
         ))?;
-        self.line("3. computes the calibration data for the site and signs them:")?;
+        self.line("3. It computes the calibration data for the site and signs them:")?;
         let order = Issue::first(IDENTITY, self.now);
         let issued = self.passports().issue(
             &PreparedStand::new(stand.clone()),
@@ -159,7 +159,7 @@ impl Stage<'_> {
 
     fn laboratory(&mut self, here: &Issued, moscow: &Site, beijing: &Site, trust: &Trust) -> Result<()> {
         self.heading("THE LABORATORY")?;
-        self.line("4. in Moscow checks that the passport is valid for stand 0203, here and now:")?;
+        self.line("4. The laboratory in Moscow checks that the passport is valid for stand 0203, here and now:")?;
         let bytes = files::read(&here.path, LARGEST_DOCUMENT_BYTES)?;
         let ask = |site: &Site| Question {
             serial: Some("0203".to_owned()),
@@ -169,7 +169,7 @@ impl Stage<'_> {
         let (in_moscow, in_beijing) = (ask(moscow), ask(beijing));
         let answer = verify(&here.id, &bytes, trust, &in_moscow);
         self.answer(&answer, None)?;
-        self.line("5. in Beijing makes the same check of the same passport:")?;
+        self.line("5. The laboratory in Beijing makes the same check of the same passport:")?;
         let answer = verify(&here.id, &bytes, trust, &in_beijing);
         self.answer(&answer, Some(CheckName::Place))
     }
@@ -208,7 +208,7 @@ impl Stage<'_> {
     fn calibrated(&mut self, there: &Issued, trust: &Trust) -> Result<()> {
         self.heading("A GYRO")?;
         self.line(
-            "7. is mounted on the stand in Beijing, and its currents are read in the eight positions (simulated here):",
+            "7. A gyro is mounted on the stand in Beijing, and its currents are read in the eight positions (simulated here):",
         )?;
         let bytes = files::read(&there.path, LARGEST_DOCUMENT_BYTES)?;
         let answer = verify(&there.id, &bytes, trust, &Question::at(self.now));
@@ -244,7 +244,7 @@ impl Stage<'_> {
 
     fn altered(&mut self, there: &Issued, trust: &Trust) -> Result<()> {
         self.heading("A FORGER")?;
-        self.line("9. changes one digit of the passport:")?;
+        self.line("9. A forger changes one digit of the passport:")?;
         let text = String::from_utf8_lossy(&files::read(&there.path, LARGEST_DOCUMENT_BYTES)?).into_owned();
         let forged = text.replacen("alpha_arcsec: 4310.0", "alpha_arcsec: 4311.0", 1);
         files::write_new(&self.path("forged.yaml"), forged.as_bytes(), Access::Shared)?;

@@ -10,6 +10,7 @@ use crate::certification::{AngleReadings, Certification, Comparison, Header, cer
 use crate::files::{self, FileError, folder_of, leftovers};
 use crate::folder::archive::Superseded;
 use crate::folder::{Folder, FolderRefused, Next, Seal, Sealed, Superseding, search};
+use crate::passport::checks::for_the_issuer;
 use crate::passport::difference::{NumberDifference, of_deviations};
 use crate::passport::issue::PreparedStand;
 use crate::passport::reissue::{Order, successor};
@@ -335,8 +336,12 @@ impl Recertification<'_> {
             }
         }
         if let Some(line) = given.filter(|given| !counts(given) && chosen.done.is_empty()) {
-            let words =
-                format!("{}: the passport is not in force: {} {}", shown(self.passport), line.state.key(), line.why);
+            let words = format!(
+                "{}: the passport is not in force: {} {}",
+                shown(self.passport),
+                line.state.key(),
+                for_the_issuer(&line.why)
+            );
             return Err(refused(words));
         }
         self.check_sites(&chosen, &lines)?;
@@ -395,7 +400,8 @@ fn content(path: &Path, bytes: &[u8], trust: &Trust, question: &Question) -> Res
         return Ok(passport.content().clone());
     }
     let failed = verification.checks().iter().find(|check| check.passed() == Some(false));
-    let why = failed.map_or_else(String::new, |check| format!(" ({}: {})", check.name.as_str(), check.detail));
+    let why = failed
+        .map_or_else(String::new, |check| format!(" ({}: {})", check.name.as_str(), for_the_issuer(&check.detail)));
     Err(refused(format!("{}: the passport failed verification{why}", shown(path))))
 }
 

@@ -11,10 +11,11 @@ use crate::files::walk::Visited;
 use crate::files::{self, FileError, folder_of};
 use crate::folder::{Folder, Issued, Superseding, search};
 use crate::interface::Enquiry;
+use crate::passport::checks::for_the_issuer;
 use crate::passport::issue::PreparedStand;
 use crate::passport::place::distant_correction;
 use crate::passport::reissue::{Order, ReissueRefused, Successor, successor};
-use crate::passport::{Check, CheckName, Question, Trust, verify};
+use crate::passport::{CheckName, Question, Trust, verify};
 use crate::register::{Alarm, AlarmKind, Asked, Line, Register, State};
 use crate::site::Site;
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
@@ -271,22 +272,16 @@ impl Run<'_> {
         }
         let folder = self.folder_for(path, &next)?;
         next.rival = self.rival(path, &folder, &next, trust);
-        let mut warnings = if candidate.found.is_none() { self.warnings(&name, &bytes) } else { Vec::new() };
+        let workspace = self.change.workspace.as_ref().filter(|_| candidate.found.is_none());
+        let mut warnings = workspace.map_or_else(Vec::new, |workspace| past(workspace, &name, &bytes));
+        let stays_in_force = !next.supersedes() && verification.passport().is_some() && warnings.is_empty();
+        if warnings.is_empty() {
+            let uncertain = workspace.and_then(|workspace| workspace.register.as_ref()?.uncertain());
+            warnings.extend(uncertain.map(Alarm::reason));
+        }
         warnings.extend(verification.content_from_anyone().and_then(|old| distant_correction(old, &next.site)));
         let warnings = warnings.into_iter().map(|words| format!("WARNING: {words}")).collect();
-        let stays_in_force = !next.supersedes() && verification.passport().is_some();
         Ok(Examined::Next(Box::new(Following { name, successor: next, folder, warnings, stays_in_force })))
-    }
-
-    /// Returns why a given file is not for use, if it is superseded or withdrawn.
-    fn warnings(&self, name: &str, bytes: &[u8]) -> Vec<String> {
-        let Some(workspace) = &self.change.workspace else { return Vec::new() };
-        let verification = workspace.verification(name, bytes);
-        let of_the_past = |check: &&Check| check.passed() == Some(false) && check.name != CheckName::InForce;
-        let failed = verification.checks().iter().filter(of_the_past).map(|check| check.detail.clone());
-        let uncertain = || workspace.register.as_ref().and_then(Register::uncertain).map(Alarm::reason);
-        let failed: Vec<String> = failed.collect();
-        if failed.is_empty() { Vec::from_iter(uncertain()) } else { failed }
     }
 
     fn folder_for(&self, path: &Path, next: &Successor) -> Result<Arc<Folder>, Failure> {
@@ -335,7 +330,7 @@ impl Run<'_> {
             return refused(format!("it is unknown whether the passport is superseded: {}", alarm.reason()));
         }
         match line.state {
-            State::Revoked => return skipped(format!("revoked: {}", line.why)),
+            State::Revoked => return skipped(format!("revoked: {}", for_the_issuer(&line.why))),
             State::Superseded | State::Moved if register.has_several(line) => {
                 return refused(format!("several files have its id, {}", line.why));
             }
@@ -380,6 +375,14 @@ impl Run<'_> {
         }
         Ok(order)
     }
+}
+
+/// Returns why a given file is not for use, if it is superseded or withdrawn.
+fn past(workspace: &Enquiry, name: &str, bytes: &[u8]) -> Vec<String> {
+    let verification = workspace.verification(name, bytes);
+    let failed = verification.checks().iter().filter(|check| check.passed() == Some(false));
+    let of_the_past = failed.filter(|check| check.name != CheckName::InForce);
+    of_the_past.map(|check| for_the_issuer(&check.detail).to_owned()).collect()
 }
 
 /// Returns the failure for a file that the register could not examine, or `None` for an alarm about examined passports.

@@ -170,8 +170,8 @@ impl InputUncertainty {
             ("the noise of the meter", self.meter.noise_ma),
             ("the gain of the meter", self.meter.gain),
             ("the offset of the meter", self.meter.offset_ma),
-            ("the gyro from visit to visit", self.visit_deg_per_h.unwrap_or(0.0)),
-            ("the gyro from turn-on to turn-on", self.turn_on_deg_per_h.unwrap_or(0.0)),
+            ("the noise of the gyro from visit to visit", self.visit_deg_per_h.unwrap_or(0.0)),
+            ("the noise of the gyro from turn-on to turn-on", self.turn_on_deg_per_h.unwrap_or(0.0)),
         ];
         let is_none = |(_, u): &(&str, f64)| !(u.is_finite() && *u >= 0.0);
         if let Some((what, u)) = angles.chain(seat).chain(rest).find(is_none) {
@@ -259,7 +259,7 @@ impl Setup {
         Self { coefficients, turns: at_places(turns, places), earth: *earth, uncertainty }
     }
 
-    /// Returns a copy with the frame's axis turned clockwise by this many degrees, and without Δ, B, C.
+    /// Returns a copy with the frame's axis rotated clockwise by this many degrees, and without Δ, B, C.
     pub(crate) fn turned(&self, by_deg: f64) -> Self {
         let mut turned = self.clone();
         let (base, rate) = (attitude::base(90.0 + by_deg), self.earth_rate_east_north_up());

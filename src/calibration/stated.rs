@@ -40,9 +40,9 @@ words! {
         /// Offset of the meter.
         Offset = "offset of the meter (meter.offset_ma)",
         /// Noise of the gyro from visit to visit.
-        Visits = "gyro from visit to visit (noise.visit_deg_per_h, or repeated visits)",
+        Visits = "gyro noise from visit to visit (noise.visit_deg_per_h, or repeated visits)",
         /// Noise of the gyro from turn-on to turn-on.
-        TurnOns = "gyro from turn-on to turn-on (noise.turn_on_deg_per_h, or repeated cycles)",
+        TurnOns = "gyro noise from turn-on to turn-on (noise.turn_on_deg_per_h, or repeated cycles)",
         /// Gravity, required for a comparison with a gyro type.
         Gravity = "gravity (gravity_u_m_per_s2)",
     }

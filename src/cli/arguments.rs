@@ -70,19 +70,19 @@ const MISSING: [(&str, &str); 4] = [
     (
         "--trust",
         "--trust lists the keys that you trust: the allowed_signers file that the factory gave you, or that `keygen` \
-         printed a line for. Give the file, set DTG_PASSPORT_TRUST, or name a workspace.",
+         printed a line for. Give the file, set DTG_PASSPORT_TRUST, or specify a workspace.",
     ),
     (
         "--key",
         "--key is the private key that signs: `dtg-passport keygen KEY` creates one. Give the file, set \
-         DTG_PASSPORT_KEY, or name a workspace.",
+         DTG_PASSPORT_KEY, or specify a workspace.",
     ),
     (
         "--identity",
         "--identity is the issuer: the name before your key in allowed_signers. Give it, set DTG_PASSPORT_IDENTITY, or \
-         name a workspace.",
+         specify a workspace.",
     ),
-    ("--site", "--site describes the place of use: `dtg-passport new site FILE` writes a template."),
+    ("--site", "--site describes the site: `dtg-passport new site FILE` writes a template."),
 ];
 
 /// Returns, for missing options, what they are; otherwise an empty text.
@@ -95,11 +95,11 @@ fn advice(error: &clap::Error) -> String {
         let mut words = missing.iter().flat_map(|argument| argument.split(|c: char| " <>|".contains(c)));
         words.any(|word| word == option)
     };
-    // Where a workspace is named, it lacks the value.
+    // Where a workspace is specified, it lacks the value.
     let here = |option: &str, words: &str| match defaults::workspace() {
         Some(workspace) => {
             let file = shown(&workspace.root.join(WORKSPACE_FILE)).to_string();
-            words.replace("name a workspace", &format!("state `{}` in {file}", option.trim_start_matches('-')))
+            words.replace("specify a workspace", &format!("state `{}` in {file}", option.trim_start_matches('-')))
         }
         None => words.to_owned(),
     };

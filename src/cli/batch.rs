@@ -143,7 +143,7 @@ impl Reporter {
     fn hear(&mut self, event: Event) {
         match event {
             Event::Planned(more) => {
-                if self.bar.is_hidden() {
+                if more > 0 && self.bar.is_hidden() {
                     self.bar.set_draw_target(ProgressDrawTarget::stderr());
                 }
                 self.bar.inc_length(more);
@@ -151,10 +151,12 @@ impl Reporter {
             Event::Lost(less) => self.bar.dec_length(less),
             Event::Remark { file, words } => self.told.add(&file, words),
             Event::Done(outcome) => {
+                // An input that cannot be used is not one of the passports.
+                let is_input = matches!(&outcome, Some(Outcome::Failed(failure)) if failure.passports.is_some());
                 if let Some(outcome) = outcome {
                     self.outcome(&outcome);
                 }
-                self.bar.inc(1);
+                self.bar.inc(u64::from(!is_input));
             }
         }
     }

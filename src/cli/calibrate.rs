@@ -21,6 +21,7 @@ use crate::files;
 use crate::gyro::GyroType;
 use crate::interface::calibrated::{Done, Prepared};
 use crate::laboratory::{Laboratory, TEMPERATURES_C};
+use crate::passport::{Check, CheckName, Verification};
 use crate::report::calibration as report;
 use crate::report::{CalibrationPage, Language, PassportPage, UsedPassport};
 use crate::text::{Kind, Printable, name_of, printable, shown};
@@ -129,7 +130,7 @@ fn excluded(text: &str) -> Result<(PositionIndex, u32, Option<u32>), String> {
     match numbers.as_deref() {
         Some(&[i, j, visit]) => Ok((PositionIndex { i, j }, visit, None)),
         Some(&[i, j, visit, cycle]) => Ok((PositionIndex { i, j }, visit, Some(cycle))),
-        _ => Err("three or four whole numbers: i,j,visit or i,j,visit,cycle".to_owned()),
+        _ => Err("expected three or four whole numbers: i,j,visit or i,j,visit,cycle".to_owned()),
     }
 }
 
@@ -143,7 +144,7 @@ enum ModelName {
 fn temperature(text: &str) -> Result<f64, String> {
     let [low, high] = TEMPERATURES_C;
     let celsius = text.parse().ok().filter(|celsius| (low..=high).contains(celsius));
-    celsius.ok_or_else(|| format!("degrees Celsius from {low} to {high}, with a decimal point, such as 21.5"))
+    celsius.ok_or_else(|| format!("expected degrees Celsius from {low} to {high}, with a decimal point, such as 21.5"))
 }
 
 /// Parses a stop limit: the largest change in the last step of the iteration.
@@ -217,6 +218,12 @@ impl Bench<'_> {
         self.reader.0.as_ref().map(|enquiry| enquiry.question.time)
     }
 
+    /// Returns `true` if a list shows whether the passport was withdrawn.
+    fn withdrawal_checked(&self) -> bool {
+        let checks = self.passport.verification.iter().flat_map(Verification::checks);
+        checks.filter(|check| check.name == CheckName::Revocation).all(Check::was_asked)
+    }
+
     /// Returns what is calibrated and under which conditions, without the digest of the currents.
     fn subject(&self) -> Subject {
         Subject {
@@ -274,7 +281,7 @@ impl Bench<'_> {
             self.write_dcc(path, &calibrated.map_err(Failure::refused)?)?;
         }
         if let Some(path) = &options.report {
-            output::saved(path, &self.page(&found)?, options.uncertainty.force)?;
+            output::saved_too(path, &self.page(&found)?, options.uncertainty.force)?;
         }
         let trials = found.uncertainty.monte_carlo.as_ref();
         match options.format {
@@ -283,7 +290,13 @@ impl Bench<'_> {
                 output::json(&found.whole())?;
             }
             Format::Text => {
-                let text = report::text(done, trials, self.gyro_name(), options.laboratory.is_none());
+                let text = report::text(
+                    done,
+                    trials,
+                    self.gyro_name(),
+                    options.laboratory.is_none(),
+                    self.withdrawal_checked(),
+                );
                 output::text(&(text + &found.uncertainty.text(&done.document)))?;
             }
         }
@@ -345,7 +358,7 @@ impl Bench<'_> {
         let json = named(".json");
         if let Some(other) = written.get(&json) {
             let words = format!(
-                "nothing was written: {} is the result of {}; name each file of currents once, or rename one",
+                "nothing was written: {} is the result of {}; specify each file of currents once, or rename one",
                 shown(&json),
                 Printable(other)
             );
@@ -387,8 +400,8 @@ impl Bench<'_> {
         let dcc = dcc::of_gyro(calibrated, self.administrative.content(), Some(&languages(&self.options.lang)));
         let refused = |problems| Failure::from(self.administrative.refuse(problems));
         let dcc = dcc.map_err(|problems| Failure { code: REFUSED, ..refused(problems) })?;
-        output::saved(path, &dcc.xml, self.options.uncertainty.force)?;
-        output::say("the DCC is not signed; the passport of the stand is, and its SHA-256 is in the DCC");
+        output::saved_too(path, &dcc.xml, self.options.uncertainty.force)?;
+        output::say_after("the DCC is not signed; the passport of the stand is, and its SHA-256 is in the DCC");
         Ok(())
     }
 }

@@ -94,7 +94,7 @@ struct Line {
 fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
     let headers = options.stand.as_deref().ok_or_else(|| Failure::usage("missing --stand"))?;
     if !headers.is_dir() {
-        let words = "is not a folder; with --out, --stand is the folder of the headers, NAME.yaml for NAME.csv";
+        let words = "expected a folder; with --out, --stand is the folder of the headers, NAME.yaml for NAME.csv";
         return Err(Failure::usage(format!("--stand {}: {words}", shown(headers))));
     }
     let (mut measured, mut numbered) = (Once::new(), Once::new());
@@ -151,7 +151,7 @@ fn write(path: &Path, certified: &Certification, known: &[&Stand], force: bool) 
     let superseded = Superseded::of(path, text.as_bytes())?.filter(|_| force);
     if let Some(superseded) = &superseded {
         superseded.keep()?;
-        output::say(&format!("kept the superseded stand file as {}", shown(&superseded.path)));
+        output::say_after(&format!("kept the superseded stand file as {}", shown(&superseded.path)));
     }
     output::file(path, &text, force)
 }
@@ -197,10 +197,10 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
             return Err(Failure::unusable(words));
         }
         write(path, certified, &against.iter().collect::<Vec<_>>(), options.force)?;
-        output::say(&format!("wrote {}", shown(path)));
+        output::say_after(&format!("wrote {}", shown(path)));
     }
     if let Some((path, page)) = &page {
-        output::saved(path, page, options.force)?;
+        output::saved_too(path, page, options.force)?;
     }
     let as_text = || {
         let shown = certified.as_ref().filter(|_| options.output.is_some()).map(report::certification);
@@ -222,6 +222,6 @@ fn certified(path: &Path, trust: &OptionalTrust) -> Result<Stand, Failure> {
     }
     match trust.load()? {
         Some(enquiry) => Ok(past(path, &enquiry)?.content.to_stand()),
-        None => Err(Failure::unusable(format!("{}: is a passport; specify --trust to verify it", shown(path)))),
+        None => Err(Failure::unusable(format!("{}: found a passport; specify --trust to verify it", shown(path)))),
     }
 }

@@ -76,7 +76,7 @@ fn no_workspace(folder: &Path, error: NoWorkspace) -> Failure {
             let is_its_file = folder.file_name().is_some_and(|name| name == WORKSPACE_FILE);
             let meant = is_its_file.then(|| format!("; did you mean {}?", shown(files::folder_of(folder))));
             let meant = meant.unwrap_or_else(|| "; `init` makes a workspace".to_owned());
-            Failure::unusable(format!("{}: is a file, expected the folder of a workspace{meant}", shown(folder)))
+            Failure::unusable(format!("{}: found a file, expected the folder of a workspace{meant}", shown(folder)))
         }
         NoWorkspace::File(error) if error.is_missing() => Failure::unusable(format!(
             "{}: is not a workspace, because it has no dtg-passport.toml; check --workspace or {WORKSPACE_VARIABLE}, \

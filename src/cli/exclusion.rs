@@ -22,7 +22,7 @@ fn exclusion(text: &str) -> Result<Excluded, String> {
     match numbers[..] {
         [run] => Ok(Excluded { i: None, j: None, run, why: String::new() }),
         [i, j, run] => Ok(Excluded { i: Some(i), j: Some(j), run, why: String::new() }),
-        _ => Err("i,j,run for a reading, such as 2,3,4, or the number of a run, such as 4".to_owned()),
+        _ => Err("expected i,j,run for a reading, such as 2,3,4, or the number of a run, such as 4".to_owned()),
     }
 }
 

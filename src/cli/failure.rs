@@ -14,7 +14,7 @@ use std::process::ExitCode;
 const USAGE: &str = "usage";
 
 const IN_A_WORKSPACE: &str =
-    "identifiers of passports have a meaning only in a workspace; name it with --workspace, or give the file";
+    "identifiers of passports have a meaning only in a workspace; specify it with --workspace, or give the file";
 
 /// A failure that ends a verb at once, and its exit code.
 #[derive(Debug)]
@@ -83,7 +83,7 @@ impl Failure {
 
     /// Creates the failure for a folder in place of the file that `expected` describes.
     pub(super) fn folder(path: &Path, expected: &str) -> Self {
-        let message = format!("{}: is a folder, expected {expected}; name a file in it", shown(path));
+        let message = format!("{}: found a folder, expected {expected}; specify a file in it", shown(path));
         let problems = vec![Place::file(name_of(path), message.clone())];
         Failed::new(interface::UNREADABLE, message, problems).into()
     }

@@ -12,7 +12,7 @@ use clap::Args;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-/// Show one stand over the years: certificates, passports, places, withdrawals, and whether it drifts
+/// Show one stand over the years: certificates, passports, sites, withdrawals, and whether it drifts
 #[derive(Args)]
 pub(super) struct Options {
     /// Stand
@@ -37,7 +37,7 @@ pub(super) struct Options {
 fn stand(text: &str) -> Result<String, String> {
     let parts =
         text.split_once('/').filter(|(model, serial)| [model, serial].iter().all(|name| Identifier::new(name).is_ok()));
-    parts.map(|_| text.to_owned()).ok_or_else(|| "model and serial number, such as SPS-2/0017".to_owned())
+    parts.map(|_| text.to_owned()).ok_or_else(|| "expected model and serial number, such as SPS-2/0017".to_owned())
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
@@ -58,7 +58,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         )));
     };
     if let Some(path) = &options.output {
-        output::saved(path, &picture::history(&history, question.time), options.force)?;
+        output::saved_too(path, &picture::history(&history, question.time), options.force)?;
     }
     options.format.write(|| report::to_json(&history), || report::text(&history))?;
     Ok(code(register.is_incomplete(), false))

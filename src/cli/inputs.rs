@@ -77,7 +77,10 @@ pub(super) fn laboratory(path: Option<&Path>) -> Result<Laboratory, Failure> {
 
 /// Parses a number within limits; `expected` describes it.
 pub(super) fn number(text: &str, limits: impl RangeBounds<f64>, expected: String) -> Result<f64, String> {
-    text.parse().ok().filter(|value| limits.contains(value)).ok_or(expected + ", with a decimal point")
+    text.parse()
+        .ok()
+        .filter(|value| limits.contains(value))
+        .ok_or_else(|| format!("expected {expected}, with a decimal point"))
 }
 
 /// Administrative file that was read, or none.
@@ -145,20 +148,24 @@ pub(super) fn each<T>(
             Ok((_, code)) => *code,
             Err((_, failure)) => failure.code,
         });
-        hear(done.map_or_else(refused, |(result, _)| Each::Done(result)))?;
+        // The result comes before the message about it.
+        match done {
+            Ok((result, _)) => hear(Each::Done(result))?,
+            Err((file, failure)) => {
+                let words = words(&file, &failure);
+                let heard = hear(Each::Refused { file, refusal: failure.failed });
+                output::complain(&words);
+                heard?;
+            }
+        }
     }
     Ok(code)
 }
 
-/// Reports the failure of an input, whose name the message states.
-fn refused<T>((file, failure): (String, Failure)) -> Each<T> {
-    let name = Printable(&file).to_string();
-    if failure.failed.message.contains(&name) {
-        output::complain(&failure.failed.message);
-    } else {
-        output::complain(&format!("{name}: {}", failure.failed.message));
-    }
-    Each::Refused { file, refusal: failure.failed }
+/// Returns the message about the failure of an input, which states its name.
+fn words(file: &str, failure: &Failure) -> String {
+    let (name, message) = (Printable(file).to_string(), &failure.failed.message);
+    if message.contains(&name) { message.clone() } else { format!("{name}: {message}") }
 }
 
 pub(super) fn json_line(value: &impl Serialize) -> Result<(), Failure> {

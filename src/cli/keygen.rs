@@ -87,7 +87,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
 
 fn refuse_existing(path: &Path) -> Result<(), Failure> {
     if path.is_dir() {
-        return Err(Failure::usage(format!("{}: is a folder, expected the name of a new file in it", shown(path))));
+        return Err(Failure::usage(format!("{}: found a folder, expected the name of a new file in it", shown(path))));
     }
     if path.symlink_metadata().is_ok() {
         let exists = files::FileError::Exists { path: path.to_owned(), replaceable: false };

@@ -10,6 +10,7 @@ use serde::Serialize;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use terminal_size::{Height, Width, terminal_size_of};
 
 /// The form of a result.
@@ -45,7 +46,7 @@ pub(super) fn path_of(format: &'static str) -> impl TypedValueParser<Value = Pat
         match extension.filter(|named| named != format && OTHER_FORMATS.contains(&named.as_str())) {
             None => Ok(path),
             Some(_) => {
-                Err(format!("written as {format}; give it a name such as {}", shown(&path.with_extension(format))))
+                Err(format!("expected a name ending in .{format}, such as {}", shown(&path.with_extension(format))))
             }
         }
     })
@@ -133,6 +134,30 @@ pub(super) fn saved(path: &Path, text: &str, force: bool) -> Result<(), Failure>
     Ok(())
 }
 
+/// Writes a file in addition to the result of a verb as [`file`] does, and says so after the result.
+pub(super) fn saved_too(path: &Path, text: &str, force: bool) -> Result<(), Failure> {
+    file(path, text, force)?;
+    say_after(&format!("wrote {}", shown(path)));
+    Ok(())
+}
+
+/// Messages that follow the result.
+static AFTER: Mutex<Vec<String>> = Mutex::new(Vec::new());
+
+/// Writes a message as [`say`] does, but after the result of the verb, whose verdict comes first.
+pub(super) fn say_after(words: &str) {
+    after().push(words.to_owned());
+}
+
+/// Writes the messages that follow the result.
+pub(super) fn say_rest() {
+    std::mem::take(&mut *after()).iter().for_each(|words| say(words));
+}
+
+fn after() -> MutexGuard<'static, Vec<String>> {
+    AFTER.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// Whether only failures are reported.
 static QUIET: AtomicBool = AtomicBool::new(false);
 
@@ -153,6 +178,10 @@ const NAME: &str = "dtg-passport: ";
 
 /// Writes clap's message about arguments. Errors are ignored, because there is nowhere left to report them.
 pub(super) fn usage(words: &str) {
+    let words = match columns_of(terminal_size_of(io::stderr())) {
+        Some(columns) => &columns::sentences(words, columns),
+        None => words,
+    };
     let _ = anstream::stderr().lock().write_all(words.as_bytes());
 }
 

@@ -66,7 +66,7 @@ fn angles(text: &str) -> Result<Angles, String> {
         return Ok(Angles::QUADRANTS);
     }
     let step = text.parse().ok().and_then(Angles::every);
-    step.ok_or_else(|| format!("quadrants, or {}", Angles::EXPECTED))
+    step.ok_or_else(|| format!("expected quadrants, or {}", Angles::EXPECTED))
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
@@ -90,7 +90,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     };
     let found = plan(&question).map_err(Failure::refused)?;
     if let Some(path) = &options.output {
-        output::saved(path, &picture::plan(&found, site.id.as_str()), options.force)?;
+        output::saved_too(path, &picture::plan(&found, site.id.as_str()), options.force)?;
     }
     let of_site = site.frame_axis_azimuth_deg();
     options.format.write(|| &found, || report::text(&found, site.id.as_str(), of_site))?;

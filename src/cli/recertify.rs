@@ -22,7 +22,7 @@ use jiff::Timestamp;
 use jiff::civil::Date;
 use std::path::{Path, PathBuf};
 
-/// Recertify a stand: check it against its certificate, certify it again, and re-issue its passports in force
+/// Recertify a stand: check it against its certificate, issue a new one, and re-issue its passports in force
 ///
 /// Everything is computed, signed and verified first; then all files are written, or none. The superseded stand file is
 /// kept as stand-<certificate number>.superseded.yaml.
@@ -40,8 +40,8 @@ pub(super) struct Options {
     /// Date of issue of the new certificate
     #[arg(long, value_name = "DATE", value_parser = trust_options::date)]
     issued: Date,
-    /// Place that gets a new passport: a site file, or the id of a site (repeatable) [default: every place in force in
-    /// the folder of the passport]
+    /// Site that gets a new passport: a site file, or the id of a site (repeatable) [default: every site with a passport
+    /// in force in the folder of the passport]
     #[arg(long = "site", value_name = "SITE")]
     sites: Vec<PathBuf>,
     /// Reason for the re-issue, recorded in the passports
@@ -136,7 +136,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         let change = Some((&found.comparison, found.changes.clone()));
         let page =
             CertificationPage { certification: &found.certification, readings: (&name, &bytes), change, dry_run };
-        output::saved(path, &page.html(&languages(&options.lang)), options.force)?;
+        output::saved_too(path, &page.html(&languages(&options.lang)), options.force)?;
     }
     options.format.write(|| report::to_json(&found, dry_run), || report::text(&found, dry_run))?;
     let mut told = Told::default();
@@ -160,7 +160,7 @@ fn stands(options: &Options) -> Option<PathBuf> {
     workspace.stands.clone()
 }
 
-/// Returns the place of `--site`: the site file of that name, or else the id of a site.
+/// Returns the site of `--site`: the site file of that name, or else the id of a site.
 fn at_site(path: &Path) -> Result<AtSite, Failure> {
     let id = path.to_str().filter(|id| !path.is_file() && Identifier::new(id).is_ok());
     match id {

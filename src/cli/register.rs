@@ -83,7 +83,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
 pub(super) fn refuse_file(folder: &Path) -> Result<(), Failure> {
     if folder.is_file() {
         let folder = shown(folder);
-        let words = "is a file, expected a folder; check one passport with `verify`";
+        let words = "found a file, expected a folder; check one passport with `verify`";
         return Err(Failure::usage(format!("{folder}: {words}")));
     }
     Ok(())

@@ -32,7 +32,7 @@ pub(super) struct Options {
     /// that of the predecessor]
     #[arg(long = "stand", value_name = "STAND")]
     stands: Vec<PathBuf>,
-    /// The stand has left the old site; supersede the predecessor
+    /// The stand has left the previous site; supersede the predecessor
     #[arg(long)]
     moved: bool,
     /// Reason for the re-issue, recorded in the passport

@@ -88,7 +88,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         return Err(Failure::usage("-o FILE.html is for one passport; give --out DIR for several"));
     };
     if passport.is_dir() {
-        let words = "is a folder, and -o FILE.html is for one passport; give --out DIR for those in it";
+        let words = "found a folder, but -o FILE.html is for one passport; give --out DIR for those in it";
         return Err(Failure::usage(format!("{}: {words}", shown(passport))));
     }
     let rendered = write(passport, Some(output))?;

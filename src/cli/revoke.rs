@@ -6,6 +6,7 @@ use super::{Code, Failure, Format, inputs};
 use crate::files::{self, Access};
 use crate::folder::Folder;
 use crate::folder::search::{self, NoNewestList};
+use crate::passport::checks::for_the_issuer;
 use crate::passport::verify;
 use crate::report::style;
 use crate::text::scalar::latin;
@@ -51,7 +52,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         let bytes = inputs::bytes(&path, Kind::Passport.words())?;
         let verification = verify(&name_of(&path), &bytes, &trust, &question);
         entries.push(verification.withdrawal(&bytes, now(), &options.reason).map_err(|failed| {
-            let words = failed.map_or("", |check| &check.detail);
+            let words = failed.map_or("", |check| for_the_issuer(&check.detail));
             Failure::refused(format!("{}: cannot be withdrawn: {words}", shown(&path)))
         })?);
     }

@@ -14,8 +14,8 @@ use std::path::{Path, PathBuf};
 
 /// Show passports as tables, or in full as JSON for tools without YAML
 ///
-/// PASSPORT is a file, a quoted pattern, or a folder; a - reads a list of paths from standard input. Of several, JSON is
-/// one line for each.
+/// PASSPORT is a file, a quoted pattern, or a folder; a - reads a list of paths from standard input. For several
+/// passports, JSON has one line each.
 #[derive(Args)]
 pub(super) struct Options {
     /// Passport files; in a workspace also their identifiers

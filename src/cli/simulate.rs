@@ -143,7 +143,7 @@ fn run_convergence(arguments: &ConvergenceArguments) -> Result<Code, Failure> {
     if let Some(path) = &arguments.output {
         let svg = picture::convergence(&found);
         let svg = svg.ok_or_else(|| Failure::unusable("the picture could not be drawn: no rows"))?;
-        output::saved(path, &svg, arguments.force)?;
+        output::saved_too(path, &svg, arguments.force)?;
     }
     arguments.run.format.write(|| &found, || table::convergence(&found))?;
     Ok(0)

@@ -1,4 +1,4 @@
-//! Verb `status`: what a workspace holds.
+//! Verb `status`: what a workspace contains.
 
 use super::trust_options::{self, time};
 use super::{Code, Failure, Format, code, defaults};
@@ -7,7 +7,7 @@ use clap::Args;
 use jiff::Timestamp;
 use std::path::PathBuf;
 
-/// Show what a workspace holds: stands, sites, passports in force, expiring within 90 days, alarms, keys
+/// Show what a workspace contains: stands, sites, passports in force, expiring within 90 days, alarms, keys
 #[derive(Args)]
 pub(super) struct Options {
     /// Trusted signing keys: an OpenSSH allowed_signers file
@@ -27,7 +27,7 @@ pub(super) struct Options {
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let Some(workspace) = defaults::workspace() else {
         return Err(Failure::usage(
-            "no workspace was named; give --workspace DIR or set DTG_PASSPORT_WORKSPACE (`dtg-passport init DIR` makes \
+            "no workspace was specified; give --workspace DIR or set DTG_PASSPORT_WORKSPACE (`dtg-passport init DIR` makes \
              one)",
         ));
     };

@@ -137,9 +137,9 @@ pub(super) fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Resu
 }
 
 pub(super) fn place(text: &str) -> Result<Place, String> {
-    const FORM: &str = "two numbers with decimal points, such as 55.7658,37.6856";
+    const FORM: &str = "expected two numbers with decimal points, such as 55.7658,37.6856";
     // Without its letter, a southern latitude would be one of the north.
-    const SIGNS: &str = "decimal degrees, such as -33.8688,151.2093; south and west are negative";
+    const SIGNS: &str = "expected decimal degrees, such as -33.8688,151.2093; south and west are negative";
     let in_letters = text.contains(|c: char| c.is_alphabetic() || ":°′″'\"".contains(c));
     let form = if in_letters { SIGNS } else { FORM };
     let (latitude, longitude) = text.split_once(',').ok_or(form)?;

@@ -55,7 +55,7 @@ fn trials(text: &str) -> Result<u64, String> {
     const MOST: f64 = 1e12;
     let whole = |value: &f64| value.fract() == 0.0 && (1.0..=MOST).contains(value);
     let value = text.parse().ok().filter(whole);
-    value.map(|value| value as u64).ok_or_else(|| "a whole number from 1 to 1e12".to_owned())
+    value.map(|value| value as u64).ok_or_else(|| "expected a whole number from 1 to 1e12".to_owned())
 }
 
 /// The requested budget and Monte Carlo result.
@@ -114,7 +114,7 @@ impl UncertaintyOptions {
             let svg = picture::budget::budget(&budget);
             let svg =
                 svg.ok_or_else(|| Failure::unusable("the picture could not be drawn: no input has an uncertainty"))?;
-            output::saved(path, &svg, self.force)?;
+            output::saved_too(path, &svg, self.force)?;
         }
         let trials = self.monte_carlo.then(|| self.trials(setup, readings, (&budget, options))).transpose()?;
         let sentence = Dominant::of(&budget, tolerance).map(|remedy| remedy.sentence());

@@ -25,7 +25,7 @@ pub(super) struct Options {
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let enquiry = options.trust.load()?;
     let mut code = 0;
-    let (mut verdicts, mut text) = (Vec::new(), String::new());
+    let (mut verdicts, mut text, mut unread) = (Vec::new(), String::new(), Vec::new());
     for path in &options.passports {
         let name = name_of(path);
         // One byte above the size limit is enough to show that the file is not a passport; the result is a normal
@@ -44,14 +44,15 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
                     FileError::Folder(_) => format!("{error}; {advice}"),
                     error => Failure::from(error).failed.message,
                 };
-                output::complain(&words);
                 code = code.max(UNUSABLE);
                 let refused = verdict::Verdict::of(&name, &unreadable(&words, &enquiry.question));
                 text += &verdict::not_read(&refused);
                 verdicts.push(refused);
+                unread.push(words);
             }
         }
     }
-    options.format.write(|| &verdicts, || text)?;
-    Ok(code)
+    let written = options.format.write(|| &verdicts, || text);
+    unread.iter().for_each(|words| output::complain(words));
+    written.map(|()| code)
 }

@@ -27,7 +27,7 @@ pub enum FileError {
     #[error("{}: cannot be read: {}", shown(.0), Printable(reason_at(.0, .1)))]
     Read(PathBuf, io::Error),
     /// Folder in place of a file.
-    #[error("{}: is a folder, expected a file", shown(.0))]
+    #[error("{}: found a folder, expected a file", shown(.0))]
     Folder(PathBuf),
     /// Pipe, device or socket, which its reader might wait for indefinitely.
     #[error("{}: found a pipe, a device or a socket, expected a file; save its output to a file first", shown(.0))]
@@ -44,7 +44,7 @@ pub enum FileError {
         replaceable: bool,
     },
     /// Path that two options name for different files to be written.
-    #[error("{}: is named for two of the files to be written; give each its own name", shown(.0))]
+    #[error("{}: is specified for two of the files to be written; give each its own name", shown(.0))]
     Twice(PathBuf),
     /// File that cannot be written.
     #[error("{}: cannot be written: {}; no file was left", shown(.0), Printable(reason_at(.0, .1)))]
@@ -55,7 +55,7 @@ impl FileError {
     /// Returns the message with what to do: the nearest existing path if there is no such file.
     pub(crate) fn with_nearest(&self) -> String {
         if let Self::Folder(_) = self {
-            return format!("{self}; name a file in it");
+            return format!("{self}; specify a file in it");
         }
         let nearest = if self.is_missing() { nearest(self.path()) } else { None };
         nearest.map_or_else(|| self.to_string(), |near| format!("{self}; did you mean {}?", shown(&near)))

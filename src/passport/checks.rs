@@ -99,6 +99,19 @@ pub struct Check {
 /// Detail of the check of revocations if there is no list to check.
 pub(super) const NO_LIST: &str = "no revocation list was given (--revoked)";
 
+/// Request at the end of the detail of a passport that was withdrawn.
+pub(crate) const ASK_THE_ISSUER: &str = "ask the issuer for a new passport";
+
+/// Request at the end of the detail of a passport that has expired.
+pub(super) const REQUEST_FROM_THE_ISSUER: &str = "request a new passport from the issuer";
+
+/// Returns the detail of a check for the issuer: without the request to ask the issuer.
+pub(crate) fn for_the_issuer(detail: &str) -> &str {
+    let requests = [ASK_THE_ISSUER, REQUEST_FROM_THE_ISSUER];
+    let without = |request| detail.strip_suffix(request)?.strip_suffix("; ");
+    requests.into_iter().find_map(without).unwrap_or(detail)
+}
+
 impl Check {
     /// Creates the result of a check, with `detail` as a single printable line.
     pub(crate) fn new(name: CheckName, code: Code, detail: impl Display) -> Self {

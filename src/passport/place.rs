@@ -85,7 +85,7 @@ pub(crate) fn distant_correction(content: &Content, site: &Site) -> Option<Strin
     let place = Place { latitude_deg: site.geodetic_deg(), longitude_deg };
     let Nearness { distance_m, .. } = Nearness::of(content, place);
     (site.id == old.id && distance_m > LARGEST_CORRECTION_M).then(|| {
-        let another = "for another place, give the site another id";
+        let another = "for another site, use another id";
         format!(
             "the coordinates of {} are {} from those in the predecessor; {}",
             site.id,

@@ -1,5 +1,6 @@
 //! Re-issue of a passport: for another site, a corrected stand, a corrected site or another key.
 
+use super::checks::for_the_issuer;
 use super::difference::keys;
 use super::issue::{Draft, Issue, IssueRefused, PreparedStand, Reissued};
 use super::{CheckName, Code, Content, Predecessor, Stated, Verification};
@@ -190,7 +191,7 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
 fn limit(verification: &Verification) -> Result<Option<(&'static str, String)>, ReissueRefused> {
     let mut limit = None;
     for check in verification.checks() {
-        let (name, detail) = (check.name.as_str(), check.detail.clone());
+        let (name, detail) = (check.name.as_str(), for_the_issuer(&check.detail).to_owned());
         match (check.name, check.code) {
             // A predecessor whose signer is no longer trusted is not recomputed, but it can still be referenced.
             (_, Code::Ok) | (CheckName::Recomputed | CheckName::InForce, Code::NotRun) => {}

@@ -4,7 +4,7 @@
 //! anywhere. It parses no content before the signature is verified, and computes nothing before the signer is trusted,
 //! because anyone can sign a file that is expensive to compute.
 
-use super::checks::{Check, CheckName, Code, NO_LIST};
+use super::checks::{ASK_THE_ISSUER, Check, CheckName, Code, NO_LIST, REQUEST_FROM_THE_ISSUER};
 use super::content::{Content, Dated, PASSPORT_FORMAT};
 use super::{NAMESPACE, content, place, recomputed};
 use crate::coefficients::Coefficients;
@@ -279,7 +279,7 @@ impl Run {
             return false;
         }
         if let Some(entry) = trust.withdrawn.entry(&sha256_hex(bytes)) {
-            let detail = format!("{entry}; ask the issuer for a new passport");
+            let detail = format!("{entry}; {ASK_THE_ISSUER}");
             self.note(CheckName::Revocation, Code::PassportRevoked, detail);
             return true;
         }
@@ -339,7 +339,7 @@ impl Run {
             Some((last, which)) if time.as_second() > day(last).1.as_second() => {
                 let remedy = match which {
                     Dated::Certificate => "have the stand recertified",
-                    Dated::Passport => "request a new passport from the issuer",
+                    Dated::Passport => REQUEST_FROM_THE_ISSUER,
                 };
                 let which = which.word();
                 let until = format!("the {which} was valid until {last} (inclusive), verified as of {time}");

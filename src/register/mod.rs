@@ -9,6 +9,7 @@ mod successors;
 pub use alarm::{Alarm, AlarmKind, Concern};
 
 use crate::document::sha256_hex;
+use crate::passport::checks::ASK_THE_ISSUER;
 use crate::passport::{Check, CheckName, Code, Content, Question, Trust, Verification, verify};
 use crate::revocation::Series;
 use crate::text::words;
@@ -336,7 +337,7 @@ impl Register {
             let (series, revision) = series_of(id);
             if let Some(by) = self.successors.last(&sha256, series, revision) {
                 let advice = if by.withdrawn {
-                    ", which was withdrawn later; neither is in force; ask the issuer for a new passport"
+                    &format!(", which was withdrawn later; neither is in force; {ASK_THE_ISSUER}")
                 } else if by.series != series {
                     "; the stand has left this site, and that passport is for the new one"
                 } else {

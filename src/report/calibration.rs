@@ -20,6 +20,7 @@ use crate::report::{columns, mistake, recorded, style};
 use crate::text::printable;
 use crate::uncertainty::MonteCarlo;
 use crate::units::{printed, quantity};
+use crate::wording::plain;
 use std::fmt::Write;
 
 /// Sentence on a fit without degrees of freedom.
@@ -31,8 +32,14 @@ const LEAST_EFFECT_PERCENT: f64 = 1.0;
 
 /// Returns the whole result: decision, parameters, fit; then methods, residuals, comparisons, and errors that the
 /// residuals do not show. `gyro_type` is the name of the type that the verdict is for; without a laboratory the meter of
-/// the paper was assumed.
-pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&str>, meter_assumed: bool) -> String {
+/// the paper was assumed. `withdrawal_checked` says whether a list of withdrawn passports was given.
+pub(crate) fn text(
+    done: &Done,
+    trials: Option<&MonteCarlo>,
+    gyro_type: Option<&str>,
+    meter_assumed: bool,
+    withdrawal_checked: bool,
+) -> String {
     let Done { calibration, document, readings, .. } = done;
     let verdict = gyro_type.zip(document.verdict.as_ref());
     let mut out = String::new();
@@ -49,8 +56,10 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
         columns::paragraph(&mut out, "", &gyro);
     }
     let verified_as_of = subject.and_then(|subject| subject.passport_verified_as_of);
-    let state = verified_as_of.map_or_else(|| "NOT VERIFIED".to_owned(), |time| format!("verified as of {time}"));
-    columns::paragraph(&mut out, "", &format!("Calibrated with passport {} ({state})", document.passport_id));
+    let unchecked = if withdrawal_checked { "" } else { "; withdrawal not checked" };
+    let state =
+        verified_as_of.map_or_else(|| "NOT VERIFIED".to_owned(), |time| format!("verified as of {time}{unchecked}"));
+    columns::paragraph(&mut out, "", &format!("Passport {}, {state}", document.passport_id));
     let gravity = match (document.gravity_m_per_s2, document.gravity_u_m_per_s2) {
         (gravity, Some(u)) => format!("{gravity:.0$} m/s² (u {u:.0$})", columns::decimals(u)),
         (gravity, None) => format!("{gravity} m/s²"),
@@ -75,7 +84,7 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
         let words = format!(
             "Comparison with gyro type {name}; deviation and U in the unit of the tolerance; U = k u, k = {}; coverage \
              probability {:.2} %; g-sensitive drifts refer to the g of the type, g₀ = {} m/s²:",
-            coverage_factor(verdict.parameters.iter().map(|row| row.coverage_factor), Language::English),
+            plain(&coverage_factor(verdict.parameters.iter().map(|row| row.coverage_factor), Language::English)),
             100.0 * (1.0 - BEYOND),
             verdict.gravity_m_per_s2
         );
@@ -92,7 +101,7 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&
     if let Some((parameter, FurtherVisit { index, ratio })) = done.further {
         let percent = 100.0 * (1.0 - ratio);
         let effect = match percent < LEAST_EFFECT_PERCENT {
-            true => format!("No single further visit would reduce it by {LEAST_EFFECT_PERCENT} %."),
+            true => format!("No single further visit would reduce it by {LEAST_EFFECT_PERCENT} % or more."),
             false => format!("A further visit to position {index} would reduce it most, by {percent:.0} %."),
         };
         let row = verdict.and_then(|(_, verdict)| verdict.parameter(parameter));
@@ -136,7 +145,7 @@ pub(crate) fn warnings(Done { calibration, document, .. }: &Done, trials: Option
 fn unusable(calibration: &Calibration, mistake: Option<&Mistake>) -> impl Iterator<Item = String> {
     let inconsistent = calibration.hint.iter().map(|hint| format!("{INCONSISTENT}. {}.", capital(&hint.causes())));
     let correlated = calibration.hint.as_ref().and_then(|_| correlated(calibration));
-    inconsistent.chain(correlated).chain(mistake.map(|mistake| mistake::words(mistake, Language::English)))
+    inconsistent.chain(correlated).chain(mistake.map(|mistake| plain(&mistake::words(mistake, Language::English))))
 }
 
 /// Returns what a program should show with the parameters, a sentence each: what makes them unusable, what the readings
@@ -166,7 +175,7 @@ pub(crate) fn line(file: &str, done: &Done, trials: Option<&MonteCarlo>, gyro_ty
         reasons = fit.map_or_else(String::new, |p| format!("probability of a larger chi-square {p}"));
     }
     let mut out = format!("{outcome}  {file}  {reasons}");
-    let mistake = document.mistake.iter().map(|mistake| mistake::words(mistake, Language::English));
+    let mistake = document.mistake.iter().map(|mistake| plain(&mistake::words(mistake, Language::English)));
     let of_scatter = scatter(calibration).into_iter().filter(|(weight, _)| *weight == Weight::Warning);
     for words in mistake.chain(of_scatter.map(|(_, words)| words)).chain(trials.and_then(not_linear)) {
         let _ = write!(out, "; WARNING: {words}");
@@ -340,7 +349,7 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
     }
     beyond_the_paper(out, answer);
     for words in calibration.digits.iter().flat_map(|digits| recorded::words(digits, Language::English)) {
-        columns::paragraph(out, "  ", &words);
+        columns::paragraph(out, "  ", &plain(&words));
     }
     for (weight, words) in scatter(calibration) {
         match weight {
@@ -402,7 +411,7 @@ fn change(out: &mut String, Done { document, earlier, unknown_gyro, .. }: &Done)
         .collect();
     let _ = writeln!(
         out,
-        "\nChange since the previous result, in units of its standard uncertainty (drifts at the same g):"
+        "\nChange since the previous calibration, in units of its standard uncertainty (drifts at the same g):"
     );
     columns::paragraph(out, "  ", &(words.join(", ") + "."));
     if let Some(words) = unknown_gyro {

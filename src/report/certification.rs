@@ -224,7 +224,7 @@ fn tests(out: &mut String, found: &Certification) {
             let none = "none (below 5 %)".to_owned();
             let named =
                 moved.first().map_or(none, |at| format!("probability {}", columns::probability(at.probability)));
-            let _ = writeln!(out, "Student’s test of {runs} runs for a move or a drift of the stand: {named}");
+            let _ = writeln!(out, "Student's test of {runs} runs for a shift or a drift of the stand: {named}");
         }
     }
 }

@@ -73,6 +73,11 @@ pub(crate) fn fitted(text: &str, columns: usize) -> String {
     out
 }
 
+/// Returns the text as [`fitted`] does, with no line wider than a sentence.
+pub(crate) fn sentences(text: &str, columns: usize) -> String {
+    fitted(text, columns.min(TEXT_COLUMNS))
+}
+
 /// Returns a message with every line broken that is wider than `columns` or a sentence; lines continue below their last
 /// column, at least `indent` characters from the left.
 pub(crate) fn hanging(text: &str, indent: usize, columns: usize) -> String {
@@ -188,7 +193,7 @@ pub(crate) fn table(out: &mut String, names: &[&str], rows: impl IntoIterator<It
             if line >= lines {
                 let _ = writeln!(out, "{words}");
             } else if !words.is_empty() {
-                let _ = writeln!(out, "{}", style::faint(&words));
+                let _ = writeln!(out, "{}", style::faint(&with_plain_spaces(&words)));
             }
         }
         next = end;

@@ -61,7 +61,7 @@ pub(crate) fn text(a: &Side, b: &Side, found: &Differences) -> String {
         return out;
     }
     let (differ, all) = (found.numbers.len(), found.compared);
-    let _ = writeln!(out, "\n{differ} of {all} numbers differ. u: standard uncertainty (k = 1) of B − A.");
+    let _ = writeln!(out, "\n{differ} of {all} numbers differ. u: standard uncertainty (k = 1) of B - A.");
     if !found.numbers.is_empty() {
         numbers(&mut out, &found.numbers);
     }
@@ -78,15 +78,18 @@ pub(crate) fn text(a: &Side, b: &Side, found: &Differences) -> String {
 pub(crate) fn numbers(out: &mut String, numbers: &[NumberDifference]) {
     let rows = numbers.iter().map(|at| {
         let difference = at.difference();
-        let decimals = match (at.standard_uncertainty, at.a.zip(at.b)) {
-            (Some(u), _) => columns::decimals(u),
+        let on_the_page = decimals_on_the_page(&at.key);
+        let decimals = match (at.standard_uncertainty.map(columns::decimals).or(on_the_page), at.a.zip(at.b)) {
+            (Some(decimals), _) => decimals,
             // The difference of two numbers as people write them is exact.
             (None, Some((a, b))) if is_short(a) && is_short(b) => decimals_of(a).max(decimals_of(b)),
             (None, _) => difference.map_or(6, decimals_of_a_difference),
         };
         let plain = |value: Option<f64>| match value {
             None => "-".to_owned(),
-            Some(value) if at.standard_uncertainty.is_some() => format!("{value:.decimals$}"),
+            Some(value) if at.standard_uncertainty.is_some() || on_the_page.is_some() => {
+                columns::fixed(value, decimals)
+            }
             Some(value) => stated(value, decimals),
         };
         let signed = |value: Option<f64>| value.map_or_else(String::new, |value| columns::signed(value, decimals));
@@ -99,7 +102,21 @@ pub(crate) fn numbers(out: &mut String, numbers: &[NumberDifference]) {
             at.ratio().map_or_else(String::new, |ratio| columns::signed(ratio, 1)),
         ]
     });
-    columns::table(out, &["", "A", "B", "B − A", "u", "(B − A)/u"], rows);
+    // Non-breaking spaces keep each heading on one line.
+    columns::table(out, &["", "A", "B", "B\u{A0}-\u{A0}A", "u", "(B\u{A0}-\u{A0}A)/u"], rows);
+}
+
+/// Decimals of computed numbers without an uncertainty, as on the page.
+const DECIMALS: usize = 9;
+
+/// Returns the decimals with which a page prints a computed number without an uncertainty, by its key, or `None` for a
+/// number that people write.
+fn decimals_on_the_page(key: &str) -> Option<usize> {
+    let is_used_as_exact = ["matrices.", "vectors[", "self_check.currents["].iter().any(|part| key.starts_with(part));
+    match key {
+        "earth.valid_radius_m" => Some(0),
+        _ => is_used_as_exact.then_some(DECIMALS),
+    }
 }
 
 /// Formats a number as it is in the file if it is short, as those are that people write, and else with `decimals`.

@@ -155,7 +155,7 @@ fn of_lines(drift: &Drift, angles: [&str; 3]) -> String {
     } else if probability < DRIFTS {
         format!("the stand drifts: {drifting} of {tested} deviations; the most significant is {name}, {slope}, {by}")
     } else if probability < SUSPECTED {
-        format!("a drift is suspected: {name}, {slope}, {by}; certify the stand again earlier than planned")
+        format!("a drift is suspected: {name}, {slope}, {by}; recertify the stand earlier than planned")
     } else {
         let smallest = columns::two_digits(drift.detectable_arcsec_per_year().unwrap_or_default());
         format!(
@@ -262,23 +262,23 @@ fn issued_words(passport: &PastPassport) -> String {
 /// Returns the row of a tested deviation, or `None` if it was not tested. One that has jumped has no rate.
 fn row(series: &Series) -> Option<Vec<String>> {
     let rest = match (&series.jump, &series.line) {
-        (Some(_), _) => ["-", "-", "-", "-", "JUMP"].map(str::to_owned),
+        (Some(_), _) => ["-", "-", "-", "-", &style::marked(Outcome::Failed, "JUMP")].map(str::to_owned),
         (None, Some(line)) => {
             let decimals = columns::decimals(line.u_slope);
             let p = series.corrected_probability?;
             let mark = if p < DRIFTS {
-                "DRIFTS"
+                style::marked(Outcome::Failed, "DRIFTS")
             } else if p < SUSPECTED {
-                "suspected"
+                style::marked(Outcome::Undecided, "suspected")
             } else {
-                ""
+                String::new()
             };
             [
                 columns::signed(line.slope, decimals),
                 format!("{:.decimals$}", line.u_slope),
                 columns::probability(line.probability()),
                 columns::probability(p),
-                mark.to_owned(),
+                mark,
             ]
         }
         (None, None) => return None,

@@ -175,7 +175,7 @@ fn site(out: &mut String, content: &Content) {
     line(out, "astronomic latitude, °", format!("{}{u}", earth.latitude_deg));
     let rates = [("horizontal", earth.horizontal_deg_per_h), ("vertical", earth.vertical_deg_per_h)];
     for ((name, rate), u) in rates.into_iter().zip(earth.rate_u_deg_per_h(site)) {
-        line(out, &format!("{name} rate, °/h"), measured(rate, Some(u).filter(|u| *u > 0.0)));
+        line(out, &format!("{name} component, °/h"), measured(rate, Some(u).filter(|u| *u > 0.0)));
     }
     line(out, "gravity, m/s²", measured(earth.gravity_m_per_s2, site.gravity_u_m_per_s2()));
     let radius = format!("{:.0} (Earth rate within {} °/h)", earth.valid_radius_m, earth.valid_within_deg_per_h);

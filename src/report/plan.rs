@@ -43,8 +43,8 @@ pub(crate) fn text(plan: &Plan, site: &str, site_azimuth_deg: f64) -> String {
         let paper = significant(paper.value);
         let _ = write!(
             words,
-            " The paper's eight positions with the axis east: {paper}. As one uncertainty, the plan's is {ratio:.3} times \
-             theirs."
+            " The paper's eight positions with the axis east: {paper}. The overall uncertainty of the plan is {ratio:.3} times \
+             that of the paper's eight."
         );
     }
     columns::paragraph(&mut out, "", &words);
@@ -144,7 +144,7 @@ fn significant(value: f64) -> String {
 
 fn common_errors(out: &mut String, plan: &Plan) {
     out.push_str(
-        "\nErrors that all positions share: largest change of a parameter in % of its tolerance, largest residual\n",
+        "\nErrors common to all positions: largest change of a parameter in % of its tolerance, largest residual\n",
     );
     let mut names = vec!["error", "size", "change, %", "residual, °/h"];
     if plan.paper.is_some() {
@@ -226,7 +226,7 @@ fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<String> {
         remarks.push(format!("{positions} left out: the gyro needs more current there than meter.range_ma."));
     }
     let kinds: [(&str, Named); 3] = [
-        ("This plan cannot see the following errors, because the residuals do not show them", |effect| {
+        ("The residuals of this plan do not show the following errors", |effect| {
             effect.matters() && effect.is_hidden()
         }),
         ("The residuals show errors of this size", |effect| effect.matters() && !effect.is_hidden()),

@@ -104,9 +104,9 @@ pub(crate) fn capital(words: &str) -> String {
     letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
 }
 
-/// Returns words of a page with the spaces and the minus of terminals and of signed files.
+/// Returns words of a page with the spaces, the minus and the apostrophe of terminals and of signed files.
 pub(crate) fn plain(words: &str) -> String {
-    words.replace(spacing::BLANK, " ").replace(number::THIN_BLANK, "").replace('\u{2212}', "-")
+    words.replace(spacing::BLANK, " ").replace(number::THIN_BLANK, "").replace('\u{2212}', "-").replace('’', "'")
 }
 
 /// A part of a text.

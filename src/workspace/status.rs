@@ -1,4 +1,4 @@
-//! What a workspace holds: stands, sites, passports in force, passports that expire soon, alarms, keys.
+//! What a workspace contains: stands, sites, passports in force, passports that expire soon, alarms, keys.
 
 use super::{WORKSPACE_FILE, Workspace};
 use crate::batch::paths::{is_stand, is_yaml};
@@ -8,7 +8,7 @@ use crate::folder::search;
 use crate::parallel;
 use crate::passport::Trust;
 use crate::register::{Asked, Line, Register, State};
-use crate::report::style;
+use crate::report::style::{self, Outcome};
 use crate::signing::{self, KeyFileError};
 use crate::site::Site;
 use crate::stand::Stand;
@@ -233,7 +233,8 @@ impl Status {
                 lines.iter().map(line).collect::<Vec<_>>()
             };
             indented(&mut out, dated(&passports.expiring, "valid until"));
-            indented(&mut out, dated(&passports.expired, "EXPIRED, was valid until"));
+            let expired = format!("{}, was valid until", style::marked(Outcome::Failed, "EXPIRED"));
+            indented(&mut out, dated(&passports.expired, &expired));
             let _ = writeln!(out, "Alarms     {}", passports.alarms.len());
             indented(&mut out, passports.alarms.clone());
         }
@@ -250,15 +251,19 @@ impl Status {
         let line = |key: &KeyLine| {
             let from = key.valid_after.map_or_else(String::new, |from| format!(", from {from}"));
             let until = key.valid_before.map_or_else(String::new, |until| format!(", until {until}"));
-            let now = if key.valid { "" } else { "  NOT VALID NOW" };
+            let now = if key.valid {
+                String::new()
+            } else {
+                format!("  {}", style::marked(Outcome::Failed, "NOT VALID NOW"))
+            };
             format!("{}  {}{from}{until}{now}", Printable(&key.principals), key.fingerprint)
         };
         indented(out, self.keys.iter().map(line).collect());
         if let Some(key) = &self.signing_key {
             let trusted = match (key.trusted, &key.why) {
-                (Some(true), _) => "trusted".to_owned(),
-                (_, Some(why)) => format!("NOT USABLE: {why}"),
-                _ => "not checked: identity or trust is not stated".to_owned(),
+                (Some(true), _) => style::marked(Outcome::Passed, "trusted"),
+                (_, Some(why)) => format!("{}: {why}", style::marked(Outcome::Failed, "NOT USABLE")),
+                _ => style::marked(Outcome::NotAsked, "not checked: identity or trust is not stated"),
             };
             let identity = key.identity.as_deref().unwrap_or("(no identity)");
             let _ = writeln!(out, "Signs with {}  {}  {trusted}", Printable(&key.file), Printable(identity));

@@ -258,6 +258,11 @@ fn progress_is_shown_on_a_terminal_and_nowhere_else() {
     let seen = Said::of(command.unwrap(), 0).results;
     assert!(seen.contains("of 300 passports, "), "{seen:?}");
     assert!(seen.contains("left") && seen.contains("issued 300, unchanged 0, refused 0"), "{seen:?}");
+    // Nothing is to be done, so there is no bar.
+    let issue = issue.replace("--site sites", "--site nowhere");
+    let command = workshop.shell(&format!("script -qec \"$DTG {issue}\" /dev/null")).env("TERM", "xterm").output();
+    let seen = Said::of(command.unwrap(), 2).results;
+    assert!(seen.contains("nowhere: cannot be read") && !seen.contains(" of 0 passports"), "{seen:?}");
 }
 
 #[test]
@@ -324,7 +329,7 @@ fn a_pipe_or_a_device_is_refused_at_once_wherever_a_file_is_named() {
             }
             let said = Said::of(child.wait_with_output().unwrap(), 2);
             let expected =
-                if file == "sites" { "is a folder" } else { "found a pipe, a device or a socket, expected a file" };
+                if file == "sites" { "found a folder" } else { "found a pipe, a device or a socket, expected a file" };
             assert!(said.words.contains(expected), "{arguments}: {}", said.words);
         }
     }

@@ -327,7 +327,7 @@ fn a_passport_is_enough_for_a_check() {
     let (_, stdout, _) = factory.run("certify new.csv --against passports/SPS-2/0017/stand.yaml");
     assert_eq!(of_passport, stdout, "the passport and the stand file say the same");
     let (code, stdout, said) = factory.run(&format!("certify new.csv --against {HERE}"));
-    assert!(code == 2 && stdout.is_empty() && said.contains("is a passport; specify --trust"), "{said}");
+    assert!(code == 2 && stdout.is_empty() && said.contains("found a passport; specify --trust"), "{said}");
     let altered = fs::read_to_string(factory.path(HERE)).unwrap().replacen("gamma_arcsec: ", "gamma_arcsec: 1", 1);
     fs::write(factory.path("altered.yaml"), altered).unwrap();
     let (code, stdout, said) = factory.run(&format!("certify new.csv --against altered.yaml {TRUST}"));
