@@ -89,7 +89,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 #![cfg_attr(not(test), warn(unreachable_pub))]
-// What only a higher feature calls is no dead code; with all of them nothing may be unused.
+// What only a higher feature calls is not dead code; with all of them nothing may be unused.
 #![cfg_attr(not(feature = "cli"), allow(dead_code, unused_imports))]
 
 // Their types are part of the interface: the same versions must be used.

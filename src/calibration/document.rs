@@ -123,7 +123,7 @@ result! {
     }
 }
 
-/// Reason why a difference from an earlier result is no change of the gyro.
+/// Reason why a difference from an earlier result is not a change of the gyro.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum NoChange {
     /// Both results are from the same readings.
@@ -308,13 +308,13 @@ impl CalibrationDocument {
     }
 
     /// Returns the comparison of the adopted result with that of `earlier`, within the tolerance of a gyro type, as
-    /// `judged` does. Nothing is decided if the results are no two measurements of the gyro.
+    /// `judged` does. Nothing is decided if the results are not two measurements of the gyro.
     pub(crate) fn changed(&self, earlier: &Self, gyro_type: &GyroType) -> Option<Verdict> {
         let change = against_earlier(&self.answer()?, &earlier.answer()?, gyro_type);
         Some(if self.no_change(earlier).is_some() { change.undecided() } else { self.withheld(change) })
     }
 
-    /// Returns the reason why a difference from `earlier` is no change of the gyro, if there is one.
+    /// Returns the reason why a difference from `earlier` is not a change of the gyro, if there is one.
     pub(crate) fn no_change(&self, earlier: &Self) -> Option<NoChange> {
         let file = self.currents_sha256().filter(|sha256| !sha256.is_empty());
         let same_file = file.is_some() && file == earlier.currents_sha256();

@@ -2,7 +2,7 @@
 //!
 //! A step is K_λ = B J_1⁻¹ + K_{λ−1} T with T = J_2 Δ J_1⁻¹. The iteration therefore converges if and only if the
 //! spectral radius ρ(T) < 1, and its fixed point is the analytic solution (13). After any step the remainder is exactly
-//! (K_λ − K_{λ−1}) T (1 − T)⁻¹. The size of a step is no bound of the remainder, because T is not normal.
+//! (K_λ − K_{λ−1}) T (1 − T)⁻¹. The size of a step is not a bound of the remainder, because T is not normal.
 
 use super::analytic::{AnalyticSolution, g_drifts, mean_misclosure, of_the_eight};
 use crate::coefficients::{Coefficients, Matrices, pair_differences};

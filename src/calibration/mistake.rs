@@ -67,7 +67,7 @@ pub enum Mistake {
         /// Azimuth of the frame's axis that would explain the result, degrees clockwise from north.
         frame_axis_azimuth_deg: f64,
     },
-    /// Currents that are all too large by a factor that is no power of ten, such as the voltage across a shunt.
+    /// Currents that are all too large by a factor that is not a power of ten, such as the voltage across a shunt.
     Scaled {
         /// Factor; below 1 if the currents are too small.
         factor: f64,

@@ -43,7 +43,7 @@ pub(crate) struct Digits {
 impl Recorded {
     /// Keeps one of identical rows and one of identical visits, and returns what the digits show.
     ///
-    /// Identical readings show no scatter, whether they are copies or the last digit is too coarse. They are no evidence
+    /// Identical readings show no scatter, whether they are copies or the last digit is too coarse. They are not evidence
     /// of a noise of 0, and do not reduce an uncertainty.
     pub(crate) fn of(positions: &mut [PositionReadings]) -> Self {
         let visits = || positions.iter().flat_map(|at| &at.visits);

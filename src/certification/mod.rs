@@ -109,7 +109,7 @@ pub struct Certification {
     pub(crate) components: Components,
     /// Positions that scatter more than the others, outliers, and runs that agree too well.
     pub(crate) suspects: Suspects,
-    /// Runs rotated as a whole relative to the other runs, the least probable first, and a move or a drift of the stand.
+    /// Runs rotated as a whole relative to the other runs, the least probable first, and a shift or a drift of the stand.
     pub(crate) rotated_runs: Vec<rotated_runs::RotatedRuns>,
     /// Axes about which the runs rotate more than about the others.
     pub(crate) unequal_axes: Vec<unequal_axes::UnequalAxis>,

@@ -244,7 +244,7 @@ fn is_excluded(excluded: &Excluded, (index, run): Place) -> bool {
 }
 
 /// Returns a problem for the first row that continues a run at a position after another position: the platform has moved
-/// away, so it is no repeated reading of the same visit.
+/// away, so it is not a repeated reading of the same visit.
 fn torn(table: &Table, rows: &[Reading]) -> Vec<Problem> {
     let mut ended = BTreeSet::new();
     for pair in rows.windows(2) {

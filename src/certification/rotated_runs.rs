@@ -11,7 +11,7 @@
 //! The variance is that of the other runs about all these axes: a run that is rotated about an oblique axis would else hide
 //! behind its own rotation about the axes that are not tested.
 //!
-//! With four runs or more, the same two tests also look for a stand that moved between two runs or that drifts: a step and a
+//! With four runs or more, the same two tests also look for a stand that shifted between two runs or that drifts: a step and a
 //! straight line are fitted to the rotations in the order of the runs, as the single run is, and compared with what the fit
 //! leaves. Bonferroni's bound counts them with the runs, and only the least probable is named, so a cause has one name. A
 //! move after the first or before the last run is that run's.
@@ -28,7 +28,7 @@ use std::ops::Range;
 /// Smallest number of runs that shows which one is wrong.
 pub(crate) const FEWEST_RUNS: usize = 3;
 
-/// Smallest number of runs that shows a move: two before it and two after it, because one is a bumped run.
+/// Smallest number of runs that shows a shift: two before it and two after it, because one is a bumped run.
 pub(crate) const FEWEST_RUNS_OF_A_MOVE: usize = 4;
 
 /// Axis of a rotation common to all positions: 0, 1, 2 for x, y, z of the platform, 3, 4, 5 for east, north, up of the base.
@@ -67,7 +67,7 @@ impl CommonAxis {
 pub(crate) enum Pattern {
     /// Run, by its number, that differs from all others.
     One(u32),
-    /// Stand that moved between two runs: the numbers of the last run before and the first after it.
+    /// Stand that shifted between two runs: the numbers of the last run before and the first after it.
     Move(u32, u32),
     /// Stand that rotates from run to run by the same amount.
     Drift,
@@ -89,7 +89,7 @@ pub(crate) struct RotatedRuns {
 }
 
 impl RotatedRuns {
-    /// Returns the number of the run that differs, or `None` for a move or a drift.
+    /// Returns the number of the run that differs, or `None` for a shift or a drift.
     pub(crate) fn run(&self) -> Option<u32> {
         if let Pattern::One(run) = self.pattern { Some(run) } else { None }
     }
@@ -109,10 +109,10 @@ impl RotatedRuns {
     }
 }
 
-/// Variances between the rotations of the runs without those that are outliers, a move and a drift, per axis.
+/// Variances between the rotations of the runs without those that are outliers, a shift and a drift, per axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct RunVariance {
-    /// Degrees of freedom per axis: the number of these runs less one, and one fewer for a move or a drift.
+    /// Degrees of freedom per axis: the number of these runs less one, and one fewer for a shift or a drift.
     pub changes: usize,
     /// Variance of the platform, arcsec².
     pub platform_arcsec2: f64,
@@ -123,7 +123,7 @@ pub(crate) struct RunVariance {
 /// Rotation of one run: the number of the run, and the rotations about the six axes.
 type Turn = (u32, [f64; 6]);
 
-/// Returns the bumped runs, the least probable first, and after them a move or a drift of the others. The `outliers`, single
+/// Returns the bumped runs, the least probable first, and after them a shift or a drift of the others. The `outliers`, single
 /// readings that are suspect already, do not count against their run.
 pub(crate) fn bumped(readings: &AngleReadings, components: &Components, outliers: &[Outlier]) -> Vec<RotatedRuns> {
     let mut left = without(components, outliers);

@@ -2,7 +2,7 @@
 //!
 //! An F test compares them with the others: the residuals of each group from rotations of its own, so that the scatter of one
 //! group is not in the residuals of the other. Without any one of the positions the others must scatter more too, below 5 %,
-//! because one position is no group.
+//! because one position is not a group.
 
 use super::Header;
 use super::components::{Components, RunModel, Variance};

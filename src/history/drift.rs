@@ -422,7 +422,7 @@ mod tests {
         }
     }
 
-    /// Expected: positions that only the later certificates contain have one value and no rate; they are no tests for which
+    /// Expected: positions that only the later certificates contain have one value and no rate; they are not tests for which
     /// the others are corrected.
     #[test]
     fn a_position_added_later_is_not_tested() {

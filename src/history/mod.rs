@@ -158,7 +158,7 @@ fn certificates(recorded: &[Recorded], remarks: &mut Vec<String>) -> Vec<PastCer
 
 /// Returns the stands whose deviations are compared: those of certificates that count, one for each file of readings.
 ///
-/// A second certificate from the same readings is no evidence that the stand has not changed, and is left out. Deviations
+/// A second certificate from the same readings is not evidence that the stand has not changed, and is left out. Deviations
 /// that agree in every digit were copied, because no measurement repeats them. A correction has the same date of
 /// measurement as the certificate that it corrects, and replaces it.
 fn independent<'a>(certificates: &'a [PastCertificate], remarks: &mut Vec<String>) -> Vec<&'a Stand> {

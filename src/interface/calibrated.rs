@@ -75,7 +75,7 @@ fn prepared<'a>(content: &'a Content, currents: (&str, &[u8]), order: &'a Order)
 /// better. ω_g and ω_k are NaN in the general model. `result` is the JSON of [`calibrate`].
 ///
 /// # Errors
-/// Returns [`Failed`] if `result` is no such JSON.
+/// Returns [`Failed`] if `result` is not such JSON.
 pub fn parameters(result: &str) -> Result<([f64; 8], [f64; 8], bool), Failed> {
     let document = CalibrationDocument::from_json("result", result.as_bytes())?;
     let found = document.answer().ok_or_else(|| Failed::unusable("result: found no parameters"))?;
@@ -145,7 +145,7 @@ pub(crate) struct Done {
     pub missing: Vec<NotStated>,
     /// Result as `calibrate` writes it, with the verdict and the change.
     pub document: CalibrationDocument,
-    /// Earlier result with which this one was compared, and the reason why the difference is no change.
+    /// Earlier result with which this one was compared, and the reason why the difference is not a change.
     pub earlier: Option<(Found, Option<NoChange>)>,
     /// Warning that the earlier result may be that of another gyro, because a serial number is missing.
     pub unknown_gyro: Option<String>,

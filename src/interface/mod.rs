@@ -186,7 +186,7 @@ pub fn unverified(file: &str, bytes: &[u8]) -> Result<(Content, String), Failed>
 /// Reads a file of any kind but a passport to be verified, so that no pipe is waited for and no memory is exhausted.
 ///
 /// # Errors
-/// Returns an error if the file cannot be read, is no regular file, or is larger than any kind may be.
+/// Returns an error if the file cannot be read, is not a regular file, or is larger than any kind may be.
 #[cfg(feature = "factory")]
 pub fn read(path: &std::path::Path) -> Result<Vec<u8>, FileError> {
     files::read(path, LARGEST_TRUST_FILE_BYTES)

@@ -102,7 +102,7 @@ fn temperature(node: &Node, at: &Path, problems: &mut Problems) -> Option<f64> {
     Some(celsius)
 }
 
-/// Refuses earlier results that are no list.
+/// Refuses earlier results that are not a list.
 fn list(node: &Node, at: &Path, problems: &mut Problems) -> Option<()> {
     if matches!(node, Node::List(_)) {
         return Some(());

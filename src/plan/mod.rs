@@ -137,7 +137,7 @@ pub(crate) struct Plan {
     /// Standard uncertainty that the local g adds to ω_g or ω_k at the g of the type, the larger in units of its tolerance.
     pub gravity_over_tolerance: f64,
     pub candidates: usize,
-    /// Number of positions that are no candidates, because the meter cannot read the currents of the gyro in them.
+    /// Number of positions that are not candidates, because the meter cannot read the currents of the gyro in them.
     pub beyond_range: usize,
     /// `true` if every choice was compared; `false` if the plan was found by exchange.
     pub exhaustive: bool,

@@ -244,7 +244,7 @@ fn parameters(out: &mut String, calibration: &Calibration, verdict: Option<&Verd
 /// Writes the values of the other methods next to the adopted ones.
 fn comparison(out: &mut String, answer: &MethodResult, others: &[&MethodResult]) {
     let mut names = vec!["", answer.method.key()];
-    names.extend(others.iter().flat_map(|other| [other.method.key(), "diff. / u"]));
+    names.extend(others.iter().flat_map(|other| [other.method.key(), columns::OFF]));
     let row = |parameter: Parameter| {
         let (value, u) = (answer.value(parameter)?, answer.standard_uncertainty(parameter)?);
         let digits = columns::decimals(u);

@@ -203,6 +203,9 @@ pub(crate) fn table(out: &mut String, names: &[&str], rows: impl IntoIterator<It
     }
 }
 
+/// Heading of a difference in units of its uncertainty; it stays on one line.
+pub(crate) const OFF: &str = "diff.\u{A0}/\u{A0}u";
+
 /// Returns the end of the columns from `next` on that fit beside the first `heads`; at least one does. A column `u` is
 /// never parted from its value.
 fn end_of_part(names: &[&str], columns: &[Vec<String>], heads: usize, next: usize) -> usize {
@@ -213,7 +216,7 @@ fn end_of_part(names: &[&str], columns: &[Vec<String>], heads: usize, next: usiz
         free = free.saturating_sub(needed);
         end += 1;
     }
-    let belongs = |name: &&str| matches!(*name, "u" | "U" | "diff. / u");
+    let belongs = |name: &&str| matches!(*name, "u" | "U" | OFF);
     if names.get(end).is_some_and(belongs) && end > next + 1 { end - 1 } else { end }
 }
 

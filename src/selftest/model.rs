@@ -130,7 +130,7 @@ fn parameter_error(found: &Coefficients, reference: &Value) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// A result that is no number is no agreement, wherever it stands.
+    /// A result that is not a number does not agree, in any place of the list.
     #[test]
     fn what_is_not_a_number_is_the_largest_error() {
         for errors in [[f64::NAN, 1.0], [1.0, f64::NAN]] {

@@ -52,7 +52,7 @@ pub(crate) enum Odd {
     LongValidity { valid_until: Date, issued: Date },
 }
 
-/// Returns what a temperature would be if it is in kelvin; empty if that is no temperature of a room.
+/// Returns what a temperature would be if it is in kelvin; empty if that is not a temperature of a room.
 fn in_kelvin(celsius: f64) -> String {
     let from_kelvin = celsius - ZERO_CELSIUS_K;
     let is_room = ROOM_C.contains(&from_kelvin);

@@ -160,7 +160,7 @@ mod tests {
         (0..quantities).map(|_| (0..runs).map(|_| reading(stream)).collect()).collect()
     }
 
-    /// Independent readings are no copies, with fine and with coarse steps. The bound on the probability is far from reached,
+    /// Independent readings are not copies, with fine and with coarse steps. The bound on the probability is far from reached,
     /// so that none of 6,000 sets may be.
     #[test]
     fn independent_readings_are_no_copies() {

@@ -238,7 +238,7 @@ fn with_decimal_points(rows: &mut [Row], columns: &[&str]) -> Result<bool, Probl
             return Err(Problem::new(Some(cell.location), column_name(columns, place), found, expected, advice));
         }
     }
-    // What is no number is quoted as it was written.
+    // What is not a number is quoted as it was written.
     for cell in rows.iter_mut().flatten() {
         let number = cell.text.replacen(',', ".", 1);
         if number.parse::<f64>().is_ok() {
