@@ -55,19 +55,13 @@ mod recorded;
 mod register_attacks;
 #[cfg(feature = "factory")]
 mod reissue;
-#[cfg(feature = "report")]
-mod repeats;
 #[cfg(feature = "monte-carlo")]
 mod robustness;
-#[cfg(feature = "monte-carlo")]
-mod runs;
 #[cfg(feature = "report")]
 mod selftest;
 #[cfg(feature = "factory")]
 mod site;
 mod slow;
-#[cfg(feature = "monte-carlo")]
-mod stated_uncertainty;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod suspects;
 #[cfg(feature = "cli")]

@@ -14,8 +14,12 @@ mod hostile_input;
 mod hostile_memory;
 #[cfg(feature = "factory")]
 mod noise;
+#[cfg(feature = "report")]
+mod repeats;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod rotated_runs;
+#[cfg(feature = "monte-carlo")]
+mod runs;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod same_stand;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
@@ -24,6 +28,8 @@ mod shared_settings;
 mod simulation;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod split_run;
+#[cfg(feature = "monte-carlo")]
+mod stated_uncertainty;
 #[cfg(feature = "factory")]
 mod tampering;
 #[cfg(all(feature = "factory", feature = "report"))]

@@ -643,8 +643,8 @@ fn figures_of_coverage() {
 fn a_visit_that_numpy_finds() {
     let meter = InputUncertainty::of_meter(paper_meter());
     let setup = Setup::new(&ideal(), EarthRate::at_astronomic_latitude(LATITUDE_DEG), meter).unwrap();
-    let moved = include_str!("../../docs/run.csv").replace("2,4,-0.22799247,", "2,4,-0.22749247,");
-    assert_ne!(moved, include_str!("../../docs/run.csv"));
+    let moved = include_str!("../../../docs/run.csv").replace("2,4,-0.22799247,", "2,4,-0.22749247,");
+    assert_ne!(moved, include_str!("../../../docs/run.csv"));
     let readings = Readings::from_csv("run.csv", moved.as_bytes(), setup.coefficients(), 1.0).unwrap();
     let k = Matrix2::new(95.0, 9.5, 9.5, 95.0);
     let unlike = |place: usize, visit: usize| {
@@ -666,7 +666,7 @@ fn a_visit_that_numpy_finds() {
         }
         assert!(!found.one_of_two && found.row.is_none());
         let good =
-            Readings::from_csv("run.csv", include_bytes!("../../docs/run.csv"), setup.coefficients(), 1.0).unwrap();
+            Readings::from_csv("run.csv", include_bytes!("../../../docs/run.csv"), setup.coefficients(), 1.0).unwrap();
         assert_eq!(suspect::of_visits(&good, &differences_of(&good, drift), &k, covariance, |_, _| 0.0), None);
     }
 }
