@@ -102,7 +102,7 @@ fn either(angle_arcsec: f64, current_ua: &Vector2<f64>) -> String {
     let rounded = |error: f64| format!("{:.decimals$}", (error * scale).round() / scale + 0.0);
     let [x, y] = [current_ua.x, current_ua.y].map(rounded);
     let angle = two_digits(angle_arcsec);
-    format!("by {angle}″ if the angle changed, or by {x} µA in J_x and {y} µA in J_y if the currents are wrong")
+    format!("its angle changed by {angle}″, or its currents are wrong by {x} µA in J_x and {y} µA in J_y")
 }
 
 impl Hint {

@@ -159,8 +159,8 @@ texts! {
         ru: "Углы стенда измерены {performed}, более чем за год до выдачи сертификата {issued}."
     }
     LONG_VALIDITY {
-        en: "The certificate of {issued} is valid until {until}, for more than ten years.",
-        ru: "Сертификат от {issued} действителен до {until}, более десяти лет."
+        en: "The certificate of {issued} is valid until {until} (inclusive), for more than ten years.",
+        ru: "Сертификат от {issued} действителен по {until} включительно, более десяти лет."
     }
     OUTSIDE_RANGE {
         en: "The temperature of {value} °C is outside the certified range of {low} °C to {high} °C.",
@@ -209,7 +209,7 @@ texts! {
         en: "The visits of the check scatter by {found}″, the certificate states {certified}″ (F test, {p}). Either the \
              stand repeats worse, so that uncertainties from its certificate are too small, or the instrument of the \
              check reads worse.",
-        ru: "Стандартное отклонение одной установки при проверке {found}″, по сертификату {certified}″ (F-критерий, {p}). \
+        ru: "Стандартное отклонение одной установки при проверке {found}″, по сертификату {certified}″ (критерий Фишера, {p}). \
              Либо повторяемость стенда ухудшилась и неопределённости по его сертификату занижены, либо больше погрешность \
              прибора, которым выполнена проверка."
     }
@@ -266,13 +266,13 @@ texts! {
              других серий; среднее для положения смещено этим на {mean}″."
     }
     NOT_TESTED_VARIATION {
-        en: "Rotation of the stand as a whole was not tested: the variation between the runs is unknown.",
-        ru: "Общий поворот стенда не проверен: изменчивость от серии к серии неизвестна."
+        en: "Rotation of the stand as a whole was not tested: the scatter from run to run is unknown.",
+        ru: "Общий поворот стенда не проверен: рассеяние от серии к серии неизвестно."
     }
     NOT_TESTED_RUNS {
-        en: "Rotation of the stand as a whole was not tested: one run does not show the variation between set-ups, and the \
+        en: "Rotation of the stand as a whole was not tested: one run does not show the scatter between set-ups, and the \
              certificate does not state its number of runs.",
-        ru: "Общий поворот стенда не проверен: одна серия не показывает изменчивости между установками стенда, а число \
+        ru: "Общий поворот стенда не проверен: одна серия не показывает рассеяния между установками стенда, а число \
              серий в сертификате не указано."
     }
     NOT_TESTED_COMMON_PARTS {

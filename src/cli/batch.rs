@@ -86,7 +86,8 @@ impl BatchOptions {
     ) {
         if let Err(miss) = signers.authorise(public, &self.identity, NAMESPACE, issued_at) {
             output::say(&format!(
-                "--identity {}: {miss} (by {source}); laboratories with that list will refuse the new passports",
+                "--identity {}: {miss} (according to {source}); laboratories with that list will refuse the new passports; use the \
+                 identity of this key, or another key",
                 self.identity
             ));
         }

@@ -87,7 +87,7 @@ pub(super) struct Options {
     /// Serial number of the gyro; --previous then refuses the result of another one
     #[arg(long, value_name = "SERIAL")]
     gyro_serial: Option<String>,
-    /// Who took the readings
+    /// Person who took the readings
     #[arg(long, value_name = "NAME")]
     operator: Option<String>,
     /// Day of the readings

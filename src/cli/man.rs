@@ -42,7 +42,8 @@ fn render(command: &Command, pages: &mut Vec<(String, String)>) -> Result<(), Fa
     let below = command.get_after_long_help().map(ToString::to_string).unwrap_or_default();
     let man = clap_mangen::Man::new(command.clone());
     man.render(&mut page).map_err(Failure::unusable)?;
-    let page = String::from_utf8_lossy(&page);
+    // A word that is broken cannot be searched for.
+    let page = format!(".nh\n{}", String::from_utf8_lossy(&page));
     // clap fills the text below the options, so that commands in it could not be copied.
     let mut extra = Vec::new();
     man.render_extra_section(&mut extra).map_err(Failure::unusable)?;

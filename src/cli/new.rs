@@ -91,7 +91,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     };
     if let Some(path) = &options.file {
         output::file(path, &text, options.force)?;
-        output::say(&format!("wrote {}; replace the values that its comments specify", shown(path)));
+        output::say(&format!("wrote {}; replace the values that its comments describe", shown(path)));
     }
     match (options.format, &options.file) {
         (Format::Json, Some(file)) => output::json(&json!({ "file": name_of(file) }))?,

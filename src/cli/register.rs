@@ -20,7 +20,7 @@ pub(super) struct Options {
     /// Folder of passports; revocation lists in it, in `revocations` next to it, and up to two levels above are used too
     #[arg(value_name = "DIR", required_unless_present = "passports")]
     folder: Option<PathBuf>,
-    /// The same folder, under the name that it has in other commands
+    /// Folder of passports, as DIR
     #[arg(long, value_name = "DIR", conflicts_with = "folder")]
     passports: Option<PathBuf>,
     #[command(flatten)]

@@ -61,7 +61,7 @@ texts! {
     }
     STAND { en: "Test stand with certified deviations", ru: "Поворотный стенд с отклонениями по сертификату" }
     GYRO { en: "Dynamically tuned gyro", ru: "Динамически настраиваемый гироскоп" }
-    GRAVITY { en: "Local gravity", ru: "Местное ускорение свободного падения" }
+    GRAVITY { en: "Local gravity", ru: "Местное ускорение g" }
     MODEL {
         en: "Drift model of a dynamically tuned gyro, fitted to its torquer currents in the positions of the stand, \
              with the certified deviations and the Earth-rate vectors of the stand’s passport.",
@@ -80,7 +80,7 @@ texts! {
     CONFORMITY { en: "Conformity with gyro type {type}", ru: "Соответствие типу {type}" }
     RULE {
         en: "Guarded acceptance with a guard band equal to the expanded uncertainty U, with k = 2 or that of \
-             Student's t for few degrees of freedom, coverage probability 95.45 % (JCGM 106, 8.3): pass or fail. Where \
+             Student’s t for few degrees of freedom, coverage probability 95.45 % (JCGM 106, 8.3): pass or fail. Where \
              the uncertainty does not permit this decision, the decision by simple acceptance is conditional.",
         ru: "Приёмка с защитной полосой, равной расширенной неопределённости U, k = 2 или по Стьюденту при малом числе \
              степеней свободы, вероятность охвата 95,45 % (JCGM 106, 8.3). Если неопределённость не позволяет принять \

@@ -286,7 +286,7 @@ fn beyond_the_paper(out: &mut String, answer: &MethodResult) {
         let verdict = if test.is_significant() {
             "the paper's model is not enough for this gyro"
         } else {
-            "the readings do not show that the paper's model is not enough"
+            "the readings are consistent with the paper's model"
         };
         let words = format!(
             "Test of the further parameters: F = {:.2} with {further} and {rest} degrees of freedom (probability of a \
@@ -323,7 +323,11 @@ fn methods(out: &mut String, calibration: &Calibration, results: &[ResultDocumen
                         |most| format!("at most {} {unit}", columns::two_digits(most)),
                     )
                 };
-                format!("in K {}, in ω_n {}", words(errors[0], "°/(h·mA)"), words(errors[1], "°/(h·g)"))
+                format!(
+                    "in K {}, in the g-sensitive drifts {}",
+                    words(errors[0], "°/(h·mA)"),
+                    words(errors[1], "°/(h·g)")
+                )
             }
         };
         let words = format!(

@@ -48,7 +48,11 @@ pub(crate) fn numbers_json(numbers: &[NumberDifference]) -> Value {
 
 /// Returns the differences as text: a table of the numbers, then the other values in words.
 pub(crate) fn text(a: &Side, b: &Side, found: &Differences) -> String {
-    let mut out = String::new();
+    let (differ, all) = (found.numbers.len(), found.compared);
+    let mut out = match differ {
+        0 if found.others.is_empty() => format!("The contents are equal: {all} numbers and all texts.\n\n"),
+        _ => format!("{differ} of {all} numbers differ.\n\n"),
+    };
     for (name, side) in [("A", a), ("B", b)] {
         let (header, certificate) = (&side.content.passport, &side.content.certificate);
         let _ = writeln!(out, "{name}  {}  {}", style::heading(&header.id), Printable(&side.file));
@@ -56,13 +60,8 @@ pub(crate) fn text(a: &Side, b: &Side, found: &Differences) -> String {
             format!("issued {}, certificate {} of {}", header.issued_at, certificate.number, certificate.issued);
         columns::paragraph(&mut out, "   ", &issued);
     }
-    if found.numbers.is_empty() && found.others.is_empty() {
-        let _ = writeln!(out, "\nThe contents are equal: {} numbers and all texts.", found.compared);
-        return out;
-    }
-    let (differ, all) = (found.numbers.len(), found.compared);
-    let _ = writeln!(out, "\n{differ} of {all} numbers differ. u: standard uncertainty (k = 1) of B - A.");
     if !found.numbers.is_empty() {
+        let _ = writeln!(out, "\nu: standard uncertainty (k = 1) of B - A");
         numbers(&mut out, &found.numbers);
     }
     if !found.others.is_empty() {

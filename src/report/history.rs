@@ -253,7 +253,7 @@ fn issued_words(passport: &PastPassport) -> String {
         _ => String::new(),
     };
     let until = match (line.valid_until, line.state) {
-        (Some(day), State::InForce | State::Expiring) => format!(" until {day}"),
+        (Some(day), State::InForce | State::Expiring) => format!(", valid until {day}, inclusive"),
         _ => String::new(),
     };
     format!("{}, certificate {certificate} ({}{until}){reason}", id(passport), line.state.words())

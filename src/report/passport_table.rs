@@ -264,7 +264,7 @@ fn expected(out: &mut String, content: &Content) {
 
 fn self_check(out: &mut String, content: &Content) {
     let Some(check) = &content.self_check else { return };
-    heading(out, "Self-check: from these currents (mA) laboratory software should obtain the following to 1×10⁻⁹");
+    heading(out, "Self-check: from these currents, mA, with all digits of the file, software should find, to 10⁻⁹:");
     let rows = check
         .currents
         .iter()

@@ -213,8 +213,8 @@ fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<String> {
     if plan.gravity_over_tolerance > LARGE_GRAVITY_SHARE {
         let so = if COVERAGE_FACTOR * plan.gravity_over_tolerance > 1.0 { ", so that no gyro can pass" } else { "" };
         remarks.push(format!(
-            "The uncertainty of the local g adds {} % of the tolerance to u of ω_g or ω_k at the g of the type{so}; the height of \
-             the site, if it is not stated, or its measured gravity reduces this.",
+            "The uncertainty of the local g adds {} % of the tolerance to u of ω_g or ω_k at the g of the type{so}; to \
+             reduce it, state the height of the site, or measure g.",
             percent(plan.gravity_over_tolerance)
         ));
     }

@@ -2,6 +2,7 @@
 
 use crate::batch::recertification::Recertified;
 use crate::report::issued::{self, Report, State};
+use crate::report::style::Outcome;
 use crate::report::{certification, columns, difference, style};
 use crate::text::{name_of, shown};
 use serde_json::{Value, json};
@@ -41,7 +42,7 @@ pub(crate) fn text(found: &Recertified, dry_run: bool) -> String {
     let stand = &found.certification.stand;
     let number = &stand.certificate.number;
     let (outcome, answer) = certification::answer(&found.comparison);
-    let work = if dry_run { "PLANNED" } else { "RECERTIFIED" };
+    let (outcome, work) = if dry_run { (Outcome::NotAsked, "PLANNED") } else { (outcome, "RECERTIFIED") };
     let _ = writeln!(
         out,
         "{}  {} {}: certificate {number}; check against certificate {}: {answer}; passports: {}\n",

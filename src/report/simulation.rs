@@ -18,9 +18,11 @@ pub(crate) fn accuracy(found: &Accuracy) -> String {
     let mut out = format!("{trials} trials, seed {seed}, {stands}, latitude {latitude:.4}°\n");
     let rows = found.rows.iter().map(|row| {
         // NaN if no trial gave a result.
-        let three_digits = |value: f64| match value.is_nan() {
-            true => "-".to_owned(),
-            false => format!("{value:.*}", columns::decimals(value) + 1),
+        let three_digits = |value: f64| match value {
+            value if value.is_nan() => "-".to_owned(),
+            // Rounding alone.
+            value if value < 1e-11 => "0".to_owned(),
+            value => format!("{value:.*}", columns::decimals(value) + 1),
         };
         let judged = row.paper_bound.map(|bound| match row.worst < bound {
             true => style::marked(Outcome::Passed, "within"),
@@ -52,7 +54,7 @@ pub(crate) fn convergence(found: &Convergence) -> String {
         vec![
             row.limit_deg.to_string(),
             row.deviations.to_owned(),
-            or_dash(row.mean.map(|mean| format!("{mean:.2}"))),
+            or_dash(row.mean.map(|mean| format!("{mean:.*}", columns::decimals(row.mean_u.unwrap_or(1.0))))),
             or_dash(row.percentile_95.map(|steps| steps.to_string())),
             or_dash(row.most.map(|steps| steps.to_string())),
             not_converged(row),
@@ -91,11 +93,12 @@ mod tests {
         for (not_converged_percent, not_converged_u_percent, due) in
             [(8.5, 1.97, "8.5 ± 2.0"), (0.0, 0.0, "< 1.5"), (100.0, 0.0, "> 98.5")]
         {
-            let (mean, percentile_95, most) = (None, None, None);
+            let (mean, mean_u, percentile_95, most) = (None, None, None, None);
             let row = ConvergenceRow {
                 limit_deg: 15.0,
                 deviations: "corners",
                 mean,
+                mean_u,
                 percentile_95,
                 most,
                 not_converged_percent,

@@ -314,7 +314,9 @@ impl Unreadable {
     pub(crate) fn json(name: &str, bytes: &[u8], error: &serde_json::Error, expected: &str, advice: &str) -> Self {
         let location = (error.line() > 0).then(|| Location { line: error.line(), column: error.column().max(1) });
         let mut found = error.to_string();
-        found.truncate(found.find(" at line ").unwrap_or(found.len()));
+        // Names of all keys, or a place, which is given apart.
+        let end = [", expected one of ", " at line "].into_iter().filter_map(|rest| found.find(rest)).min();
+        found.truncate(end.unwrap_or(found.len()));
         Self::whole(name, location, format!("unsuitable JSON ({found})"), expected, advice).in_text(bytes)
     }
 

@@ -27,7 +27,7 @@ pub enum NotAuthorised {
     #[error("the signing key is not in the list of allowed signers")]
     UnknownKey,
     /// The key belongs to other signers, with these patterns of principals.
-    #[error("the signing key belongs to {}, not to the issuer given in the document", Printable(.0.join(" or ")))]
+    #[error("the signing key belongs to {}, not to this issuer", Printable(.0.join(" or ")))]
     WrongPrincipal(Vec<String>),
     /// The key is trusted for other namespaces, with these patterns.
     #[error("the signing key is trusted only for {}, not for this kind of document", Printable(.0))]

@@ -215,7 +215,7 @@ impl Status {
         let expired = self.stands.iter().filter(|stand| stand.expired).count();
         let _ = writeln!(out, "Stands     {}{}", self.stands.len(), count(expired, "with an expired certificate"));
         let expired = self.stands.iter().filter(|stand| stand.expired).map(|stand| {
-            let until = stand.valid_until.map_or_else(String::new, |day| format!(", valid until {day}"));
+            let until = stand.valid_until.map_or_else(String::new, |day| format!(", valid until {day} (inclusive)"));
             format!("{}  certificate {}{until}", stand.id, Printable(&stand.certificate))
         });
         indented(&mut out, expired.collect());
@@ -227,7 +227,7 @@ impl Status {
             let _ = writeln!(out, "Passports  {counts}");
             let dated = |lines: &[Line], words: &str| {
                 let line = |line: &Line| {
-                    let until = line.valid_until.map_or_else(String::new, |day| day.to_string());
+                    let until = line.valid_until.map_or_else(String::new, |day| format!("{day} (inclusive)"));
                     format!("{}  {words} {until}", line.id.as_deref().unwrap_or_default())
                 };
                 lines.iter().map(line).collect::<Vec<_>>()

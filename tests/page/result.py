@@ -41,7 +41,7 @@ PLACES = {
     "ωk": ("omega_k_deg_per_h_per_g",),
 }
 METHODS = {
-    "least-squares": ("weighted least squares", "метод наименьших квадратов"),
+    "least-squares": ("weighted least squares", "взвешенный мнк"),
     "analytic": ("analytic", "аналитический"),
     "iterative": ("iterative", "итерационный"),
 }

@@ -122,7 +122,7 @@ impl CertificationPage<'_> {
                 (
                     passport_texts::REPEATABILITY,
                     u(certificate.repeatability_arcsec),
-                    html! { p { (languages.label(texts::OF_A_VISIT)) } @if let Some(freedom) = freedom { p { (symbol("ν", "")) " = " (freedom) } } },
+                    html! { p { (languages.label(texts::OF_A_VISIT)) } @if let Some(freedom) = freedom { p { (symbol("ν", "")) "\u{a0}=\u{a0}" (freedom) } } },
                 ),
                 (
                     texts::COMMON_PARTS,
@@ -130,7 +130,7 @@ impl CertificationPage<'_> {
                     html! {
                         p { (languages.label(texts::STANDARD)) }
                         p {
-                            (symbol("ν", "")) " = " (of_part(of_platform)) "; " (of_part(of_base))
+                            (symbol("ν", "")) "\u{a0}=\u{a0}" (of_part(of_platform)) "; " (of_part(of_base))
                             @if is_few {
                                 " (" (languages.inline_with(|language| texts::FEW.filled(language, values! { number }))) ")"
                             }

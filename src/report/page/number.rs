@@ -135,7 +135,7 @@ pub(crate) fn column(languages: &Languages, cells: impl IntoIterator<Item = impl
         Cell::Number(number) => number.aligned(languages, &longest),
         Cell::Below(limit) => limit.below(languages, &longest),
         Cell::WithUnit(number, unit) => {
-            html! { (number.markup(languages)) " " span.unit { (unit) } (number.pad(languages, &longest)) }
+            html! { (number.markup(languages)) span.unit { (BLANK) (unit) } (number.pad(languages, &longest)) }
         }
         Cell::Words(words) => words,
     });

@@ -15,6 +15,9 @@ const SAME: f64 = 6.0;
 /// Distances from the point at which a label is tried.
 const DISTANCES: [f64; 6] = [8.0, 16.0, 26.0, 38.0, 52.0, 68.0];
 
+/// Width of the rim of words, and of the frame around them.
+const RIM: f64 = 3.0;
+
 /// Cost of a label that could be taken for that of another point, and how much nearer its own point should be.
 const MISTAKEN: f64 = 60.0;
 const NEARER: f64 = 5.0;
@@ -81,6 +84,8 @@ pub(crate) fn together(points: &[(Point, String)]) -> Vec<Label> {
 /// Draws the labels within `field`. If possible, they stay clear of `words` already drawn and of `obstacles` (points on
 /// lines).
 pub(crate) fn place(labels: &[Label], words: &[Area], obstacles: &[Point], field: &Area) -> Markup {
+    // Words have a rim of the colour of the paper, which would break the frame of the field.
+    let field = &Area { low: field.low.map(|at| at + RIM), high: field.high.map(|at| at - RIM) };
     let marks: Vec<Area> = labels.iter().map(|label| Area::about(label.at, 5.0)).collect();
     let lines: Vec<Area> = obstacles.iter().map(|at| Area::about(*at, 1.0)).collect();
     let mut taken = words.to_vec();

@@ -116,7 +116,7 @@ fn mark(content: &Content) -> Markup {
 fn radius(languages: &Languages, content: &Content) -> Markup {
     let metres = content.earth.valid_radius_m;
     let printed =
-        format!("{}\u{a0}{}", Number::fixed(metres, 0).text(languages.first()), languages.plain(units::METRES));
+        format!("{}\u{a0}{}", Number::fixed(metres, 0).text(languages.first()), units::METRES.of(languages.first()));
     let band = content.site.longitude_deg.is_none();
     let mark_is_east = content.earth.azimuth_deg.is_some_and(|azimuth_deg| azimuth_deg < 180.0);
     let side = if mark_is_east { -1.0 } else { 1.0 };

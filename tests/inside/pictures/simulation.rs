@@ -11,6 +11,7 @@ fn made_up(farthest: f64) -> Convergence {
         limit_deg,
         deviations,
         mean: steps.map(|(mean, ..)| mean),
+        mean_u: steps.map(|_| 0.05),
         percentile_95: steps.map(|(_, percentile, _)| percentile),
         most: steps.map(|(.., most)| most),
         not_converged_percent,

@@ -90,7 +90,7 @@ fn uncertainties(accuracy: &Accuracy, languages: &Languages) -> Markup {
     let limits = Parameter::AS_IN_THE_PAPER.map(|parameter| {
         let limit = Number::exact(tolerance.of(parameter));
         match tolerance.is_in_percent(parameter) {
-            true => Cell::Words(quantity(languages, &limit, units::PERCENT)),
+            true => Cell::WithUnit(limit, languages.inline(units::PERCENT)),
             false => Cell::Number(limit),
         }
     });

@@ -80,6 +80,15 @@ pub(crate) fn headline(page: &PassportPage, language: Language) -> String {
     format!("{}: {}", texts::NOT_TO_BE_USED.words(language), failed.join(", "))
 }
 
+/// Returns the warning for the head of every sheet, empty for a valid passport; in two languages it has no room for reasons.
+pub(crate) fn warning(page: &PassportPage, languages: &Languages) -> String {
+    match (page.verification.valid(), languages.single()) {
+        (true, _) => String::new(),
+        (false, true) => headline(page, languages.first()),
+        (false, false) => languages.plain(texts::NOT_TO_BE_USED),
+    }
+}
+
 fn failed<'a>(page: &'a PassportPage) -> impl Iterator<Item = &'a Check> {
     page.verification.checks().iter().filter(|check| check.code != Code::Ok)
 }

@@ -2,7 +2,7 @@
 //! 7.8.2.1 and 7.8.4.1).
 
 use super::PassportPage;
-use crate::report::page::language::Languages;
+use crate::report::page::language::{Language, Languages};
 use crate::report::page::number::Number;
 use crate::report::page::parts::{date, field, fields, given, heading, quantity, stated, wide_stated};
 use crate::report::page::texts::{passport as texts, record, units};
@@ -38,8 +38,17 @@ pub(crate) fn certificate(certificate: &Certificate, languages: &Languages) -> M
     let day = |day| date(languages, day);
     let celsius = |value| quantity(languages, &Number::exact(value), units::CELSIUS);
     let range = certificate.temperature_range_c.map(|[low, high]| {
-        let values = [("low", Number::exact(low).markup(languages)), ("high", celsius(high))];
-        texts::FROM_TO.marked_up(languages.first(), &values)
+        let from_to = |language: Language| {
+            let alone = language.into();
+            let high = quantity(&alone, &Number::exact(high), units::CELSIUS);
+            texts::FROM_TO.marked_up(language, &[("low", Number::exact(low).markup(&alone)), ("high", high)])
+        };
+        html! {
+            @for (index, language) in languages.iter().enumerate() {
+                @if index > 0 { " / " }
+                span lang=(language.tag()) { (from_to(language)) }
+            }
+        }
     });
     let fields = fields([
         stated(languages, texts::CERTIFICATE_NUMBER, Some(given(&certificate.number))),

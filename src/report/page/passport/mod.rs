@@ -91,11 +91,7 @@ impl<'a> PassportPage<'a> {
         let header = &self.content.passport;
         let margins = Margins {
             top_left: self.margin(languages),
-            top_right: if self.verification.valid() {
-                String::new()
-            } else {
-                checks::headline(self, languages.first())
-            },
+            top_right: checks::warning(self, languages),
             bottom_left: texts::MARGIN_SHA256.filled(languages.first(), values! { sha256: self.sha256 }),
         };
         let title = format!("{} {}", languages.spoken(texts::TITLE), header.id);

@@ -60,7 +60,7 @@ texts! {
     }
     BASE_UNCERTAINTY {
         en: "The uncertainties of the latitude, azimuth and level of the base are not stated for this site.",
-        ru: "Неопределённости широты, азимута и горизонтирования основания для этого места установки не указаны."
+        ru: "Неопределённости широты, азимута и наклона основания для этого места установки не указаны."
     }
     AZIMUTH_MARK {
         en: "No azimuth mark is given; the north direction must be determined in another way.",

@@ -66,7 +66,7 @@ texts! {
     MISTAKE { en: "These are not the parameters of this gyro", ru: "Параметры не относятся к данному гироскопу" }
     MISTAKE_CURRENTS {
         en: "The readings fit, but the parameters do not match this gyro. One error explains this: {causes}. Check the \
-             torquer cables, the signs and unit of the currents, and how the gyro is seated; then calibrate again.",
+             torquer cables, the signs and unit of the currents, and the gyro seat; then calibrate again.",
         ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: \
              {causes}. Следует проверить кабели датчиков момента, знаки и единицу токов, установку гироскопа и повторить \
              калибровку."
@@ -80,8 +80,8 @@ texts! {
              проверить место установки стенда и повторить калибровку по паспорту для этого места."
     }
     MISTAKE_GYRO_TURNED {
-        en: "The readings fit, but the parameters do not match this gyro. One error explains this: the gyro is turned by \
-             {angle}° about its spin axis, or φ is counted from another position. Check how the gyro is seated; then \
+        en: "The readings fit, but the parameters do not match this gyro. One error explains this: the gyro is rotated by \
+             {angle}° about its spin axis, or φ is counted from another position. Check the gyro seat; then \
              calibrate again.",
         ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: \
              гироскоп повёрнут вокруг оси собственного вращения на {angle}°, или угол φ отсчитан от другого \
@@ -89,10 +89,10 @@ texts! {
     }
     MISTAKE_ROTATED {
         en: "The readings fit, but the parameters do not match this gyro. One error explains this: the gyro is rotated in \
-             its seat about the spin axis, or the base about the vertical, by about {angle}°. Check how the gyro is seated \
+             its seat about the spin axis, or the base about the vertical, by about {angle}°. Check the gyro seat \
              and the azimuth of the base; then calibrate again.",
         ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: \
-             гироскоп повёрнут в посадочном месте вокруг оси собственного вращения или основание — вокруг вертикали \
+             гироскоп повёрнут на посадочной поверхности вокруг оси собственного вращения или основание — вокруг вертикали \
              примерно на {angle}°. Следует проверить установку гироскопа и азимут основания и повторить калибровку."
     }
     MISTAKE_OTHER_AXIS {
@@ -222,7 +222,7 @@ texts! {
     ARE_UNDECIDED { en: "; undecided: {names}", ru: "; не определено: {names}" }
     FAIL { en: "; fail: {names}", ru: "; не соответствуют: {names}" }
     NOT_IN_THE_MODEL {
-        en: "not decided, because the general model does not contain them: {names}",
+        en: "not assessed, because the general model does not contain them: {names}",
         ru: "не оценивались, так как их нет в общей модели: {names}"
     }
     PLUS_MINUS { en: "± U", ru: "± U" }
@@ -235,7 +235,7 @@ texts! {
              местному g, {g} м/с²"
     }
     ADOPTED { en: "{method} (adopted result)", ru: "{method} (принятый результат)" }
-    LEAST_SQUARES_NAME { en: "Weighted least squares", ru: "Метод наименьших квадратов" }
+    LEAST_SQUARES_NAME { en: "Weighted least squares", ru: "Взвешенный МНК" }
     ANALYTIC { en: "Analytic method", ru: "Аналитический метод" }
     ITERATIVE { en: "Iterative method", ru: "Итерационный метод" }
     OFF_BY { en: "Difference from least squares, over its u", ru: "Отличие от МНК, делённое на его\u{a0}u" }
@@ -382,11 +382,11 @@ texts! {
         ru: "Часть неопределённостей — оценки, что в вероятности учтено."
     }
     SCATTER {
-        en: "Variation between visits to a position, chi-square",
+        en: "Scatter of the visits to a position, chi-square",
         ru: "Рассеяние между установками в положение, хи-квадрат"
     }
     ROW_SCATTER {
-        en: "Variation between readings of a visit, chi-square",
+        en: "Scatter of the readings of a visit, chi-square",
         ru: "Рассеяние показаний одной установки, хи-квадрат"
     }
     ROW_DEVIATION {
@@ -400,7 +400,7 @@ texts! {
              указанные неопределённости занижены. Следует усреднить показания каждой установки до одного."
     }
     TURN_ON_SCATTER {
-        en: "Variation between turn-ons, chi-square",
+        en: "Scatter of the turn-ons, chi-square",
         ru: "Рассеяние между запусками, хи-квадрат"
     }
     VISIT_NOISE { en: "Gyro noise from visit to visit", ru: "Шум гироскопа от установки к установке" }
@@ -428,9 +428,13 @@ texts! {
         en: "There are only two, so the other one may be wrong instead.",
         ru: "Их всего два, поэтому ошибочно может быть и другое."
     }
+    EITHER_OF_TWO_VISITS {
+        en: "There are only two, so the other one may be wrong instead.",
+        ru: "Их всего две, поэтому ошибочной может быть и другая."
+    }
     DRIFTS {
         en: "The residuals show a drift of ω_0 in time, ({x}, {y}) °/h per hour ({p}), which is not fitted. Fit it with {option}.",
-        ru: "Остатки обнаруживают изменение ω_0 во времени: ({x}, {y}) °/ч за час ({p}); модель его не содержит. Учтите его: \
+        ru: "Остатки обнаруживают изменение ω_0 во времени: ({x}, {y}) °/ч за час ({p}); модель его не содержит. Следует учесть его: \
              {option}."
     }
     DRIFTS_IN_ORDER {
@@ -454,7 +458,7 @@ texts! {
     DRIFT_Y { en: "Drift in time about y", ru: "Изменение дрейфа во времени, ось y" }
     ENLARGED { en: "Factor applied to the variance", ru: "Коэффициент увеличения дисперсии" }
     NOISE_ADDED {
-        en: "The variation between visits is larger than the stated uncertainties explain. The noise of the gyro was \
+        en: "The scatter of the visits is larger than the stated uncertainties explain. The noise of the gyro was \
              estimated from it and is included in all uncertainties.",
         ru: "Рассеяние между установками больше, чем объясняют указанные неопределённости. По нему оценён шум \
              гироскопа, который учтён во всех неопределённостях."
@@ -545,9 +549,9 @@ texts! {
     NOT_STATED_OFFSET { en: "offset of the meter", ru: "смещение нуля измерителя" }
     NOT_STATED_VISITS { en: "gyro noise from visit to visit", ru: "шум гироскопа от установки к установке" }
     NOT_STATED_TURN_ONS { en: "gyro noise from turn-on to turn-on", ru: "шум гироскопа от запуска к запуску" }
-    NOT_STATED_GRAVITY { en: "gravity", ru: "ускорение свободного падения" }
+    NOT_STATED_GRAVITY { en: "gravity", ru: "местное ускорение g" }
     NOT_STATED_LEVEL { en: "level of the base", ru: "наклон основания" }
-    NOT_STATED_SEAT { en: "gyro seat", ru: "посадка гироскопа" }
+    NOT_STATED_SEAT { en: "gyro seat", ru: "посадочная поверхность гироскопа" }
 
     BUDGET { en: "Uncertainty budget", ru: "Бюджет неопределённости" }
     BUDGET_CAPTION {
@@ -623,7 +627,7 @@ texts! {
     CAUSE_TURN_ON { en: "gyro, turn-ons about {axis}", ru: "гироскоп, среднее по запускам, ось {axis}" }
     CAUSE_NOISE { en: "meter, noise", ru: "измеритель, шум показаний" }
     CAUSE_PLATFORM { en: "platform about {axis}", ru: "платформа, ось {axis}" }
-    CAUSE_SEAT { en: "gyro seat about {axis}", ru: "посадка гироскопа, ось {axis}" }
+    CAUSE_SEAT { en: "gyro seat about {axis}", ru: "посадочная поверхность, ось {axis}" }
     CAUSE_BASE { en: "base of the stand about {axis}", ru: "основание по сертификату, вокруг {axis}" }
     ABOUT_EAST { en: "east", ru: "направления на восток" }
     ABOUT_NORTH { en: "north", ru: "направления на север" }

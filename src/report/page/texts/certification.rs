@@ -35,11 +35,11 @@ texts! {
 
     RESULT { en: "Certified deviations", ru: "Отклонения положений" }
     WITH_OUTLIERS {
-        en: "The means include readings that a test names as outliers or stragglers: {readings}; see section “{section}”.",
+        en: "The means include readings that a test identified as outliers or stragglers: {readings}; see section “{section}”.",
         ru: "В средние вошли показания, отмеченные критерием как выбросы или квазивыбросы: {readings}; см. раздел «{section}»."
     }
     READING_OF { en: "position {index}, run {run}", ru: "положение {index}, серия {run}" }
-    OF_A_VISIT { en: "standard deviation of a visit, pooled", ru: "стандартное отклонение установки, общее" }
+    OF_A_VISIT { en: "standard deviation of a visit, pooled", ru: "стандартное отклонение установки, объединённое" }
     COMMON_PARTS { en: "Common parts, per axis: platform; base", ru: "Общие составляющие (по осям): платформа; основание" }
     FEW { en: "few: see section {number}", ru: "мало: см. раздел {number}" }
     STANDARD { en: "standard uncertainty (k = 1)", ru: "стандартная неопределённость (k = 1)" }
@@ -54,7 +54,7 @@ texts! {
              upper limit is one-sided, by chi-square, with the scatter of the visits subtracted.",
         ru: "Показание отличается от среднего по положению на поворот платформы и поворот основания, общие для всей \
              серии, и на рассеяние одной установки. s — стандартное отклонение, ν — число его степеней свободы, \
-             s/√R — его часть в среднем по R\u{a0}сериям. Повторяемость — их среднее квадратическое по x, y и z с весами ν. Верхняя \
+             s/√R — его часть в среднем по R\u{a0}сериям. Повторяемость — среднее квадратическое s по x, y и z с весами ν. Верхняя \
              граница — односторонняя, по хи-квадрат, за вычетом рассеяния установок."
     }
     FEW_DEGREES {
@@ -128,7 +128,7 @@ texts! {
     OUTLIER { en: "outlier", ru: "выброс" }
     STRAGGLER { en: "straggler", ru: "квазивыброс" }
     TESTS_NOTE {
-        en: "Value: the statistic named last in the first column; differences and rotations are from the other readings or \
+        en: "Value: the statistic given last in the first column; differences and rotations are from the other readings or \
              runs. Probability of a result at least as extreme by chance: below 5 % a \
              value is a straggler and equality is doubtful, below 1 % it is an outlier and the variances are different. No \
              reading is excluded because of these tests. Bartlett’s test requires a fine resolution and no suspect reading.",

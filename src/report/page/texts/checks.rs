@@ -60,7 +60,7 @@ texts! {
     }
     REVOCATION_WITHDRAWN {
         en: "withdrawn at {time}; stated reason: {reason}; ask the issuer for a new passport",
-        ru: "отозван {time}; указанная причина: {reason}; запросите новый паспорт"
+        ru: "отозван {time}; указанная причина: {reason}; следует запросить новый паспорт"
     }
     RECOMPUTED { en: "Numbers", ru: "Числа" }
     RECOMPUTED_OK {

@@ -155,7 +155,7 @@ texts! {
     FRAME_AXIS { en: "Azimuth of the frame’s axis ξ", ru: "Азимут оси рамки ξ" }
     LATITUDE_U { en: "u of the latitude", ru: "u широты" }
     AZIMUTH_U { en: "u of the azimuth of the base", ru: "u азимута основания" }
-    LEVEL_U { en: "u of the level of the base", ru: "u горизонтирования основания" }
+    LEVEL_U { en: "u of the level of the base", ru: "u наклона основания" }
     SOURCE { en: "Source of the data", ru: "Источник этих данных" }
     EARTH { en: "Earth parameters at the site", ru: "Параметры Земли в месте установки" }
     EARTH_RATE { en: "Earth rate Ω", ru: "Угловая скорость Земли Ω" }
@@ -247,13 +247,13 @@ texts! {
     METER { en: "Current meter (k = 1)", ru: "Измеритель тока (k = 1)" }
     METER_READING { en: "{n} % of reading", ru: "{n} % показания" }
     METER_GAIN { en: "gain {n} %", ru: "коэффициент преобразования {n} %" }
-    METER_OFFSET { en: "offset {n} mA", ru: "смещение {n} мА" }
+    METER_OFFSET { en: "offset {n} mA", ru: "смещение нуля {n} мА" }
     METER_FLOOR { en: "floor {n} mA", ru: "постоянная часть {n} мА" }
     METER_NOISE { en: "noise of a reading {n} mA", ru: "шум показания {n} мА" }
     METER_RANGE { en: "range {n} mA", ru: "диапазон {n} мА" }
-    SEATING { en: "u of the gyro seat about x, y, z", ru: "u посадки вокруг x, y, z" }
+    SEATING { en: "u of the gyro seat about x, y, z", ru: "u посадочной поверхности вокруг x, y, z" }
     BASE_AZIMUTH_U { en: "u of the azimuth, in this laboratory", ru: "u азимута в лаборатории" }
-    BASE_LEVEL_U { en: "u of the level, in this laboratory", ru: "u горизонтирования в лаборатории" }
+    BASE_LEVEL_U { en: "u of the level, in this laboratory", ru: "u наклона в лаборатории" }
     LABORATORY_TEMPERATURE { en: "Temperature in the laboratory", ru: "Температура в лаборатории" }
     NOMINAL { en: "Nominal value", ru: "Номинальное значение" }
     TOLERANCE { en: "Tolerance (%: of nominal)", ru: "Допуск (% — от номинального)" }

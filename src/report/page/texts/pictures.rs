@@ -53,13 +53,13 @@ texts! {
     }
     DEVIATION_NO_U { en: "the certificate gives no uncertainty", ru: "неопределённость в сертификате не указана" }
 
-    EARTH_RATE_DIFFERENCE { en: "ω_3: actual minus ideal", ru: "ω_3: отличие от идеальной" }
-    SPECIFIC_FORCE_DIFFERENCE { en: "n: actual minus ideal", ru: "n: отличие от идеальной" }
+    EARTH_RATE_DIFFERENCE { en: "ω_3: actual minus nominal", ru: "ω_3: реальная минус номинальная" }
+    SPECIFIC_FORCE_DIFFERENCE { en: "n: actual minus nominal", ru: "n: реальная минус номинальная" }
     EARTH_RATE_OF_FRAME { en: "ω_3, frame index i = {i}", ru: "ω_3, индекс рамки i = {i}" }
     SPECIFIC_FORCE_OF_FRAME { en: "n, frame index i = {i}", ru: "n, индекс рамки i = {i}" }
     VECTOR_IN_WORDS { en: "position {index}: x {x}, y {y}", ru: "положение {index}: x {x}, y {y}" }
     VECTORS_DESCRIPTION { en: "In {unit}: {list}.", ru: "В {unit}: {list}." }
-    VECTOR_DIFFERENCE { en: "actual minus ideal stand", ru: "отличие от идеального стенда" }
+    VECTOR_DIFFERENCE { en: "from nominal to actual orientation", ru: "от номинальной к реальной ориентации" }
     VECTOR_LABEL { en: "label: position (i, j)", ru: "подпись: положение (i, j)" }
     VECTOR_MARK { en: "position {positions}", ru: "положение {positions}" }
 

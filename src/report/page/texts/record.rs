@@ -45,7 +45,7 @@ texts! {
 
     PACKING { en: "Packing certificate", ru: "Свидетельство об упаковывании" }
     PACKING_WORDS {
-        en: "Stand {model} № {serial} has been packed by the organisation named below in accordance with the \
+        en: "Stand {model} № {serial} has been packed by the organisation specified below in accordance with the \
              technical documentation in force.",
         ru: "Стенд {model} № {serial} упакован указанной ниже организацией согласно требованиям действующей \
              технической документации."
