@@ -7,11 +7,12 @@ use crate::gyro::GyroType;
 use crate::report::picture::simulation as picture;
 use crate::report::simulation as table;
 use crate::simulation::draw::{CurrentError, Deviations};
-use crate::simulation::{AccuracyOptions, PAPER_LATITUDE_DEG, Stands, accuracy, convergence};
+use crate::simulation::{AccuracyOptions, LIMITS_DEG, PAPER_LATITUDE_DEG, Stands, accuracy, convergence};
 use crate::stand::{CertifiedPosition, LARGEST_DEVIATION_DEG};
 use crate::statistics::random::Run;
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
+use std::sync::LazyLock;
 
 /// Simulate calibrations: the paper's table and its Fig. 4
 #[derive(Args)]
@@ -77,7 +78,7 @@ struct AccuracyArguments {
 #[derive(Args)]
 struct ConvergenceArguments {
     /// Limits of the deviations, degrees
-    #[arg(long, value_name = "D,...", value_delimiter = ',', value_parser = limit, default_value = PAPER_LIMITS)]
+    #[arg(long, value_name = "D,...", value_delimiter = ',', value_parser = limit, default_value = PAPER_LIMITS.as_str())]
     limits_deg: Vec<f64>,
     /// Number of random stands at each limit
     #[arg(long, value_name = "N", default_value_t = 1_000, value_parser = clap::value_parser!(u64).range(1..))]
@@ -93,7 +94,7 @@ struct ConvergenceArguments {
 }
 
 /// [`LIMITS_DEG`], as an option has them.
-const PAPER_LIMITS: &str = "0.1,1,3,5,7.5,10,12.5,15,17.5,20,25,30";
+static PAPER_LIMITS: LazyLock<String> = LazyLock::new(|| LIMITS_DEG.map(|limit| limit.to_string()).join(","));
 
 fn limit(text: &str) -> Result<f64, String> {
     inputs::number(text, 0.0..=LARGEST_DEVIATION_DEG, format!("a number from 0 to {LARGEST_DEVIATION_DEG}"))
@@ -158,21 +159,8 @@ fn watched<T>(
 ) -> Result<T, Failure> {
     long_run::trials(trials.saturating_mul(rows), |cancel, bar| {
         let progress = |done: u64| bar.set_position(done);
-        let mut run = Run { cancel: Some(cancel), progress: Some(&progress), ..Run::new(trials, arguments.seed) };
-        if let Some(threads) = arguments.threads {
-            run.threads = threads as usize;
-        }
-        Ok(simulate(&run))
+        let usual = Run::new(trials, arguments.seed);
+        let threads = arguments.threads.map_or(usual.threads, |threads| threads as usize);
+        Ok(simulate(&Run { cancel: Some(cancel), progress: Some(&progress), threads, ..usual }))
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::simulation::LIMITS_DEG;
-
-    #[test]
-    fn the_default_limits_are_those_of_the_figure() {
-        assert_eq!(PAPER_LIMITS.split(',').map(|limit| limit.parse().unwrap()).collect::<Vec<f64>>(), LIMITS_DEG);
-    }
 }

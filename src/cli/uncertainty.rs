@@ -138,11 +138,10 @@ impl UncertaintyOptions {
                     output::say(&format!("{due} trials will take about {}", HumanDuration(whole)));
                 }
             };
-            let watched = Trials { cancel: Some(cancel), progress: Some(&progress), ..Trials::adaptive(self.seed) };
-            let mut run = Trials { trials: self.trials, ..watched };
-            if let Some(threads) = self.threads {
-                run.threads = threads as usize;
-            }
+            let usual = Trials::adaptive(self.seed);
+            let threads = self.threads.map_or(usual.threads, |threads| threads as usize);
+            let (cancel, progress) = (Some(cancel), Some(&progress as &_));
+            let run = Trials { trials: self.trials, cancel, progress, threads, ..usual };
             distributions(setup, readings, of, &run)
         })
     }
