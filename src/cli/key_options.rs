@@ -1,5 +1,5 @@
-//! Options KEY and WHO: the signing key and the issuer. The passphrase of an encrypted key comes from a terminal or
-//! from the environment.
+//! Values of the options `--key` and `--identity`: the signing key and the issuer. The passphrase of an encrypted key comes
+//! from a terminal or from the environment.
 
 use super::Failure;
 use crate::document::Signer;
@@ -8,21 +8,10 @@ pub(super) use crate::signing::PASSPHRASE_VARIABLE;
 use crate::signing::{self, KeyFileError};
 use crate::text::shown;
 use crate::trust::{BadIdentity, PublicKey, check_identity};
-use clap::Args;
 use jiff::Timestamp;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use zeroize::Zeroizing;
-
-#[derive(Args)]
-pub(super) struct KeyOptions {
-    /// Private key file, or a .pub file whose private half is in ssh-agent or a FIDO token
-    #[arg(long, value_name = "KEY")]
-    pub key: PathBuf,
-    /// Issuer: the principal of the key in allowed_signers
-    #[arg(long, value_name = "WHO", value_parser = identity)]
-    pub identity: String,
-}
 
 /// Returns the path of the public half of a key.
 pub(super) fn with_pub(path: &Path) -> PathBuf {

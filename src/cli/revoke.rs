@@ -1,6 +1,6 @@
 //! Verb `revoke`: withdrawal of passports.
 
-use super::key_options::{KeyOptions, signer_of};
+use super::key_options::{self, signer_of};
 use super::trust_options::{TrustOptions, now};
 use super::{Code, Failure, Format, inputs};
 use crate::files::{self, Access};
@@ -30,8 +30,12 @@ pub(super) struct Options {
     /// Folder of passports
     #[arg(long, value_name = "DIR", default_value = "passports")]
     passports: PathBuf,
-    #[command(flatten)]
-    key: KeyOptions,
+    /// Private key file, or a .pub file whose private half is in ssh-agent or a FIDO token
+    #[arg(long, value_name = "KEY")]
+    key: PathBuf,
+    /// Issuer: the principal of the key in allowed_signers
+    #[arg(long, value_name = "WHO", value_parser = key_options::identity)]
+    identity: String,
     #[command(flatten)]
     trust: TrustOptions,
     /// Output format
@@ -58,8 +62,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     }
     let count = lists.count() + entries.len();
     let ids: Vec<String> = entries.iter().map(|entry| entry.id.clone()).collect();
-    let list = lists.following(&options.key.identity, now(), entries).map_err(Failure::refused)?;
-    let signer = signer_of(&options.key.key)?;
+    let list = lists.following(&options.identity, now(), entries).map_err(Failure::refused)?;
+    let signer = signer_of(&options.key)?;
     let path = options.list.join(list.file_name());
     let text = list.sign_for(&name_of(&path), signer.as_ref(), &trust.signers, &trust.revoked);
     let text = text.map_err(Failure::refused)?;
