@@ -2,7 +2,7 @@
 
 use super::inputs::{self, AdministrativeFile};
 use super::render::languages;
-use super::show::{Read, Reader, Whom};
+use super::show::{Read, Whom};
 use super::trust_options::{Enquiry, date};
 use super::{Code, Failure, Format, REFUSED, defaults, exclusion, output, uncertainty};
 use crate::batch::once::Once;
@@ -157,11 +157,11 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if one.is_none() {
         options.check_for_several()?;
     }
-    let reader = options.whom.reader()?;
+    let enquiry = options.whom.load()?;
     let bench = Bench {
         options,
-        passport: reader.read(&options.passport)?,
-        reader,
+        passport: Read::of(&options.passport, enquiry.as_ref())?,
+        enquiry,
         laboratory: inputs::laboratory(options.laboratory.as_deref())?,
         gyro_type: inputs::gyro(options.gyro.as_deref())?,
         previous: previous(options)?,
@@ -177,7 +177,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
 /// Everything but the currents.
 struct Bench<'a> {
     options: &'a Options,
-    reader: Reader,
+    /// `None` if the passport is not verified.
+    enquiry: Option<Enquiry>,
     passport: Read,
     laboratory: Laboratory,
     gyro_type: Option<GyroType>,
@@ -215,7 +216,7 @@ struct Line {
 impl Bench<'_> {
     /// Returns the time for which the passport was verified, or `None` if it was not.
     fn verified_as_of(&self) -> Option<Timestamp> {
-        self.reader.0.as_ref().map(|enquiry| enquiry.question.time)
+        self.enquiry.as_ref().map(|enquiry| enquiry.question.time)
     }
 
     /// Returns `true` if a list shows whether the passport was withdrawn.
@@ -367,7 +368,7 @@ impl Bench<'_> {
         let page = (named(".html"), self.page(found)?);
         let text = printable::json(&found.whole()).map_err(Failure::unusable)? + "\n";
         let pages = [(json.clone(), text), page];
-        output::together(&pages, self.options.uncertainty.force)?;
+        files::together::write_replaceable_together(&pages, self.options.uncertainty.force)?;
         output::say(&format!("wrote {} and .html", shown(&json)));
         written.insert(json, found.currents.0.clone());
         Ok(())
@@ -381,7 +382,7 @@ impl Bench<'_> {
         let done = &found.done;
         let (name, sha256) = &found.currents;
         let page = CalibrationPage {
-            passport: used(&self.passport, self.reader.0.as_ref())?,
+            passport: used(&self.passport, self.enquiry.as_ref())?,
             time: self.verified_as_of().unwrap_or_else(Timestamp::now),
             currents: (name, sha256.clone()),
             gyro: self.gyro_type.as_ref(),
@@ -397,7 +398,7 @@ impl Bench<'_> {
     }
 
     fn write_dcc(&self, path: &Path, calibrated: &Calibrated) -> Result<(), Failure> {
-        let dcc = dcc::of_gyro(calibrated, self.administrative.content(), Some(&languages(&self.options.lang)));
+        let dcc = dcc::of_gyro(calibrated, self.administrative.content.as_ref(), Some(&languages(&self.options.lang)));
         let refused = |problems| Failure::from(self.administrative.refuse(problems));
         let dcc = dcc.map_err(|problems| Failure { code: REFUSED, ..refused(problems) })?;
         output::saved_too(path, &dcc.xml, self.options.uncertainty.force)?;

@@ -7,6 +7,7 @@ use super::{Code, Failure, Format, REFUSED, UNUSABLE, defaults, output};
 use crate::batch::{Purpose, paths};
 use crate::dcc;
 use crate::document::sha256_hex;
+use crate::files::together::write_replaceable_together;
 use crate::files::{self, FileError};
 use crate::interface::Failed;
 use crate::parallel;
@@ -180,7 +181,7 @@ impl Run<'_> {
         }
         if self.options.to.contains(&Form::Dcc) {
             let lang = (!self.options.lang.is_empty()).then(|| languages(&self.options.lang));
-            let dcc = dcc::of_stand(content, bytes, self.administrative.content(), lang.as_ref());
+            let dcc = dcc::of_stand(content, bytes, self.administrative.content.as_ref(), lang.as_ref());
             let dcc = dcc.map_err(|problems| self.administrative.refuse(problems))?;
             files.push((root.join(dcc.file_name()), dcc.xml));
         }
@@ -200,7 +201,7 @@ impl Run<'_> {
             Ok(new) => new,
             Err(failure) => return self.failed(name, failure, false),
         };
-        output::together(&new, self.options.force)?;
+        write_replaceable_together(&new, self.options.force)?;
         let written: Vec<String> = new.iter().map(|(target, _)| name_of(target)).collect();
         for (target, text) in new {
             output::say(&format!("wrote {}", shown(&target)));

@@ -87,7 +87,7 @@ pub(super) fn number(text: &str, limits: impl RangeBounds<f64>, expected: String
 pub(super) struct AdministrativeFile {
     name: String,
     text: String,
-    content: Option<Administrative>,
+    pub content: Option<Administrative>,
 }
 
 impl AdministrativeFile {
@@ -102,10 +102,6 @@ impl AdministrativeFile {
         let text = String::from_utf8_lossy(&bytes);
         let text = text.strip_prefix('\u{FEFF}').unwrap_or(&text).to_owned();
         Ok(Self { name, text, content: Some(content) })
-    }
-
-    pub(super) fn content(&self) -> Option<&Administrative> {
-        self.content.as_ref()
     }
 
     /// Returns the refusal of a DCC, with the lines of the file.

@@ -1,6 +1,7 @@
 //! Verb `man`: manual pages.
 
 use super::{Code, Failure, Format, help, output};
+use crate::files::together::write_replaceable_together;
 use crate::text::{name_of, shown};
 use clap::{Args, Command};
 use serde_json::json;
@@ -28,7 +29,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let file = |(name, page): (String, String)| (options.folder.join(format!("{name}.1")), page);
     let pages: Vec<(PathBuf, String)> = pages.into_iter().map(file).collect();
     // All or none: the page of an older version would contradict the others.
-    output::together(&pages, options.force)?;
+    write_replaceable_together(&pages, options.force)?;
     output::say(&format!("wrote {} pages into {}", pages.len(), shown(&options.folder)));
     if options.format == Format::Json {
         output::json(&json!({ "pages": pages.iter().map(|(path, _)| name_of(path)).collect::<Vec<_>>() }))?;

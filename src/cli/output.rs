@@ -122,18 +122,6 @@ pub(super) fn file(path: &Path, text: &str, force: bool) -> Result<(), Failure> 
     files::write_replaceable(path, text.as_bytes(), force).map_err(Failure::from)
 }
 
-/// Writes the results that belong together as [`file`] does, all of them or none.
-pub(super) fn together(results: &[(PathBuf, String)], force: bool) -> Result<(), Failure> {
-    files::together::write_replaceable_together(results, force).map_err(Failure::from)
-}
-
-/// Writes a result to a file as [`file`] does, and says so.
-pub(super) fn saved(path: &Path, text: &str, force: bool) -> Result<(), Failure> {
-    file(path, text, force)?;
-    say(&format!("wrote {}", shown(path)));
-    Ok(())
-}
-
 /// Writes a file in addition to the result of a verb as [`file`] does, and says so after the result.
 pub(super) fn saved_too(path: &Path, text: &str, force: bool) -> Result<(), Failure> {
     file(path, text, force)?;

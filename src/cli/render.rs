@@ -66,7 +66,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         };
         let output = output.map(Path::to_owned).or_else(in_folder);
         let output = output.ok_or_else(|| Failure::usage("missing -o FILE.html or --out DIR"))?;
-        output::saved(&output, &page.html(&languages(&options.lang)), options.force)?;
+        output::file(&output, &page.html(&languages(&options.lang)), options.force)?;
+        output::say(&format!("wrote {}", shown(&output)));
         if options.format == Format::Text && !verdict.valid {
             output::say(&style::plain(&verdict::text(&verdict)));
         }

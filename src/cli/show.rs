@@ -39,9 +39,6 @@ pub(super) struct Whom {
     no_verify: bool,
 }
 
-/// Reader of passports that are used: their enquiry, or `None` if passports are not verified.
-pub(super) struct Reader(pub Option<Enquiry>);
-
 /// A passport that was read, and the result of its verification.
 pub(super) struct Read {
     pub content: Content,
@@ -51,38 +48,36 @@ pub(super) struct Read {
 }
 
 impl Whom {
-    /// Loads the trust, or warns that nothing is verified.
-    pub(super) fn reader(&self) -> Result<Reader, Failure> {
+    /// Loads the trust, or warns that passports are not verified, and returns `None`.
+    pub(super) fn load(&self) -> Result<Option<Enquiry>, Failure> {
         let verified = self.trust.load()?;
         if verified.is_none() {
             output::complain("NOT VERIFIED (--no-verify): the origin of these numbers is unknown");
         }
-        Ok(Reader(verified))
+        Ok(verified)
     }
 }
 
-impl Reader {
-    /// Reads a passport and verifies it, unless `--no-verify` is given. A passport that fails a check is refused with
-    /// its verdict.
-    pub(super) fn read(&self, path: &Path) -> Result<Read, Failure> {
+impl Read {
+    /// Reads a passport and verifies it, unless there is no `enquiry`. A passport that fails a check is refused with its
+    /// verdict.
+    pub(super) fn of(path: &Path, enquiry: Option<&Enquiry>) -> Result<Self, Failure> {
         let bytes = inputs::bytes(path, Kind::Passport.words())?;
         let name = name_of(path);
-        let Some(enquiry) = &self.0 else {
+        let Some(enquiry) = enquiry else {
             let content = content_from_anyone(&name, &bytes)?;
-            return Ok(Read { content, bytes, verification: None });
+            return Ok(Self { content, bytes, verification: None });
         };
         let verification = enquiry.verification(&name, &bytes);
         match verification.passport() {
             Some(passport) => {
                 let content = passport.content().clone();
-                Ok(Read { content, bytes, verification: Some(verification) })
+                Ok(Self { content, bytes, verification: Some(verification) })
             }
             None => Err(Failure::verdict("", &name, &verification)),
         }
     }
-}
 
-impl Read {
     /// Returns the passport and the result of its verification, for programs.
     fn for_programs(&self) -> impl Serialize + use<> {
         exported::shown(&self.content, sha256_hex(&self.bytes), self.verification.as_ref())
@@ -90,14 +85,15 @@ impl Read {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let reader = options.whom.reader()?;
+    let enquiry = options.whom.load()?;
+    let read = |path: &Path| Read::of(path, enquiry.as_ref());
     let table = |read: &Read| passport_table::text(&read.content, read.verification.as_ref());
     if let Some(path) = paths::one_file(&options.passports) {
-        let read = reader.read(path)?;
+        let read = read(path)?;
         return options.format.write(|| read.for_programs(), || table(&read)).map(|()| 0);
     }
     let mut before = "";
-    let show = |path: &Path| reader.read(path).map(|read| (read, 0));
+    let show = |path: &Path| read(path).map(|read| (read, 0));
     inputs::each(&options.passports, Purpose::Passports, show, |shown| {
         let shown = match shown {
             Each::Done(read) => Each::Done((read.for_programs(), format!("{before}{}", table(&read)))),
