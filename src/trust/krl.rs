@@ -7,6 +7,7 @@
 
 use super::public_key::{check_blob, shortened};
 use super::wire::{Truncated, Wire};
+use crate::text::problem::Problem;
 use std::collections::BTreeSet;
 
 /// First bytes of a key revocation list.
@@ -20,21 +21,14 @@ pub(super) struct Revoked {
     pub(super) sha256: BTreeSet<Vec<u8>>,
 }
 
-/// Found content and expected content.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Refusal {
-    pub(super) found: String,
-    pub(super) expected: String,
-}
-
-impl From<Truncated> for Refusal {
+impl From<Truncated> for Problem {
     fn from(truncated: Truncated) -> Self {
         refusal(truncated.to_string(), "a whole list")
     }
 }
 
-fn refusal(found: impl Into<String>, expected: impl Into<String>) -> Refusal {
-    Refusal { found: found.into(), expected: expected.into() }
+fn refusal(found: impl Into<String>, expected: &str) -> Problem {
+    Problem::whole(found, expected, "transfer the list again, or create it again with `ssh-keygen -k`")
 }
 
 /// Section types (PROTOCOL.krl, section 1).
@@ -59,7 +53,7 @@ mod certificates {
 const LARGEST_BITMAP_BYTES: usize = 2048;
 
 /// Reads a list without skipping any byte.
-pub(super) fn read(bytes: &[u8]) -> Result<Revoked, Refusal> {
+pub(super) fn read(bytes: &[u8]) -> Result<Revoked, Problem> {
     let mut wire = Wire::new(bytes);
     if wire.take(MAGIC.len())? != MAGIC {
         return Err(refusal("other bytes at the beginning", "the beginning of a key revocation list"));
@@ -90,18 +84,18 @@ pub(super) fn read(bytes: &[u8]) -> Result<Revoked, Refusal> {
     Ok(revoked)
 }
 
-fn unknown_section(kind: u8, at: usize) -> Refusal {
+fn unknown_section(kind: u8, at: usize) -> Problem {
     refusal(format!("a section of type {kind} at byte {at}"), "a section type that OpenSSH reads")
 }
 
 /// Collects the strings of a section, each with the given length if any.
-fn collect(mut body: Wire, length: Option<usize>, into: &mut BTreeSet<Vec<u8>>) -> Result<(), Refusal> {
+fn collect(mut body: Wire, length: Option<usize>, into: &mut BTreeSet<Vec<u8>>) -> Result<(), Problem> {
     while !body.rest.is_empty() {
         let at = body.offset;
         let item = body.string()?;
         if let Some(length) = length.filter(|length| *length != item.len()) {
             let found = format!("a fingerprint of {} bytes at byte {at}", item.len());
-            return Err(refusal(found, format!("{length} bytes")));
+            return Err(refusal(found, &format!("{length} bytes")));
         }
         into.insert(item.to_vec());
     }
@@ -109,7 +103,7 @@ fn collect(mut body: Wire, length: Option<usize>, into: &mut BTreeSet<Vec<u8>>) 
 }
 
 /// Checks a section of certificates of one or any authority; it revokes no plain key.
-fn certificates(mut body: Wire) -> Result<(), Refusal> {
+fn certificates(mut body: Wire) -> Result<(), Problem> {
     let at = body.offset;
     let authority = body.string()?;
     if !authority.is_empty() {
@@ -151,16 +145,16 @@ fn certificates(mut body: Wire) -> Result<(), Refusal> {
 }
 
 /// Checks the serial numbers `first` to `first + more`: zero is not allowed, and the last one must fit in 64 bits.
-fn serials(first: u64, more: u64, at: usize) -> Result<(), Refusal> {
+fn serials(first: u64, more: u64, at: usize) -> Result<(), Problem> {
     if first == 0 || first.checked_add(more).is_none() { Err(bad_serials(at)) } else { Ok(()) }
 }
 
-fn bad_serials(at: usize) -> Refusal {
+fn bad_serials(at: usize) -> Problem {
     refusal(format!("invalid serial numbers at byte {at}"), "numbers from 1 to 2^64 - 1, in order")
 }
 
 /// Checks a bitmap of serial numbers: an mpint (RFC 4251, section 5) in which bit N means the first number plus N.
-fn bitmap(part: &mut Wire, at: usize) -> Result<(), Refusal> {
+fn bitmap(part: &mut Wire, at: usize) -> Result<(), Problem> {
     let (first, bits) = (part.u64()?, part.string()?);
     let negative = bits.first().is_some_and(|byte| byte & 0x80 != 0);
     let significant = &bits[bits.iter().take_while(|byte| **byte == 0).count()..];
@@ -175,7 +169,7 @@ fn bitmap(part: &mut Wire, at: usize) -> Result<(), Refusal> {
 }
 
 /// Reads a string that OpenSSH treats as a C string: NUL is allowed only at its end.
-fn name<'a>(wire: &mut Wire<'a>) -> Result<&'a [u8], Refusal> {
+fn name<'a>(wire: &mut Wire<'a>) -> Result<&'a [u8], Problem> {
     let at = wire.offset;
     let text = wire.string()?;
     let text = text.strip_suffix(b"\0").unwrap_or(text);
@@ -186,7 +180,7 @@ fn name<'a>(wire: &mut Wire<'a>) -> Result<&'a [u8], Refusal> {
 }
 
 /// Refuses a critical extension, because none is known; skips any other.
-fn extension(mut body: Wire) -> Result<(), Refusal> {
+fn extension(mut body: Wire) -> Result<(), Problem> {
     let at = body.offset;
     let name = String::from_utf8_lossy(name(&mut body)?).into_owned();
     let critical = body.byte()? != 0;

@@ -56,10 +56,7 @@ fn binary(name: &str, bytes: &[u8]) -> Result<Revoked, Unreadable> {
         let advice = "transfer it again as a binary file";
         return Err(Unreadable::whole(name, None, found, "the list as ssh-keygen wrote it", advice));
     }
-    krl::read(bytes).map_err(|refusal| {
-        let advice = "transfer the list again, or create it again with `ssh-keygen -k`";
-        Unreadable::whole(name, None, refusal.found, refusal.expected, advice)
-    })
+    krl::read(bytes).map_err(|problem| Unreadable::of(name, vec![problem]))
 }
 
 fn text(name: &str, bytes: &[u8]) -> Result<Revoked, Unreadable> {

@@ -191,7 +191,12 @@ impl SignerLine {
                               not show";
                 return Err(line.problem(at, "", "cert-authority", "a key that signs directly", advice));
             }
-            _ => return Err(unknown(line, at, option)),
+            _ => {
+                let expected =
+                    "namespaces=\"…\", valid-after=\"…\", valid-before=\"…\" or a key such as ssh-ed25519 AAAA…";
+                let advice = "write the line as: principals, options separated by commas, key";
+                return Err(line.problem(at, "", code(option), expected, advice));
+            }
         }
         Ok(())
     }
@@ -200,11 +205,6 @@ impl SignerLine {
 /// Returns the beginning of a word as code, or `nothing` for an empty one.
 fn code(word: &str) -> String {
     if word.is_empty() { "nothing".to_owned() } else { format!("`{}`", shortened(word)) }
-}
-
-fn unknown(line: &Line, at: usize, option: &str) -> Problem {
-    let expected = "namespaces=\"…\", valid-after=\"…\", valid-before=\"…\" or a key such as ssh-ed25519 AAAA…";
-    line.problem(at, "", code(option), expected, "write the line as: principals, options separated by commas, key")
 }
 
 /// Returns the value of an option without its quotes; `\"` is a quote.
