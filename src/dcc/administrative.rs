@@ -3,7 +3,7 @@
 #![allow(unreachable_pub)]
 
 use crate::report::Language;
-use crate::text::{Document, Path, Problems, Unreadable, record, word_of_a_key, words, yaml};
+use crate::text::{Document, Field, Path, Problems, Unreadable, record, word_of_a_key, words, yaml};
 use jiff::civil::Date;
 
 words! {
@@ -110,21 +110,20 @@ impl Administrative {
         let at = Path::Root;
         check_country(self.country.as_deref(), &at, problems);
         for (key, contact) in [("laboratory", &self.laboratory), ("customer", &self.customer)] {
-            let at = at.key(key);
-            if let Some(contact) = contact {
-                check_country(contact.country.as_deref(), &at, problems);
-                contact.texts().for_each(|(key, text)| check_text(text, &at.key(key), problems));
-            }
+            let country = contact.as_ref().and_then(|contact| contact.country.as_deref());
+            check_country(country, &at.key(key), problems);
         }
-        let responsible = at.key("responsible");
         if self.responsible.as_ref().is_some_and(Vec::is_empty) {
-            problems.at(&responsible, "an empty list", "at least one name", "omit the key if there is none");
+            let advice = "omit the key if there is none";
+            problems.at(&at.key("responsible"), "an empty list", "at least one name", advice);
         }
-        for (index, name) in self.responsible.iter().flatten().enumerate() {
-            check_text(Some(name), &responsible.item(index), problems);
-        }
-        check_text(self.number.as_deref(), &at.key("number"), problems);
-        check_text(self.method.as_deref(), &at.key("method"), problems);
+        // The schema of the DCC has no empty texts. A country without a code is already reported.
+        let mut check_text = |at: &Path, text: &str| {
+            if text.trim().is_empty() && at.last_key() != "country" {
+                problems.at(at, "only spaces", "text", "enter text, or omit the key");
+            }
+        };
+        self.write().iter().for_each(|node| node.each_text(&at, &mut check_text));
         problems.within(&at.key("temperature_c"), self.temperature_c, -90.0, 100.0);
         if let Some(Performed { from: Some(from), to: Some(to) }) = self.performed
             && to < from
@@ -135,36 +134,10 @@ impl Administrative {
     }
 }
 
-impl Contact {
-    /// Returns the texts with their keys, without the country.
-    pub(super) fn texts(&self) -> impl Iterator<Item = (&'static str, Option<&str>)> {
-        [
-            ("name", &self.name),
-            ("city", &self.city),
-            ("street", &self.street),
-            ("street_no", &self.street_no),
-            ("post_code", &self.post_code),
-            ("post_office_box", &self.post_office_box),
-            ("state", &self.state),
-            ("email", &self.email),
-            ("phone", &self.phone),
-        ]
-        .into_iter()
-        .map(|(key, text)| (key, text.as_deref()))
-    }
-}
-
 fn check_country(code: Option<&str>, at: &Path, problems: &mut Problems) {
     if let Some(code) = code.filter(|code| !is_country(code)) {
         let expected = "a country code of ISO 3166-1, two capital letters such as \"DE\"";
         problems.at(&at.key("country"), format!("{code:?}"), expected, "");
-    }
-}
-
-/// The schema of the DCC has no empty texts.
-fn check_text(text: Option<&str>, at: &Path, problems: &mut Problems) {
-    if text.is_some_and(|text| text.trim().is_empty()) {
-        problems.at(at, "only spaces", "text", "enter text, or omit the key");
     }
 }
 

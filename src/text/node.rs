@@ -1,7 +1,7 @@
 //! Documents as trees: every key is kept in order, including duplicates. Trees are serialised as JSON. And destinations of
 //! a document, written value by value: a text in canonical form, or a tree.
 
-use super::{Field, LARGEST_DOCUMENT_BYTES, Location, Unreadable};
+use super::{Field, LARGEST_DOCUMENT_BYTES, Location, Path, Unreadable};
 use serde::de::{self, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::{Serialize, Serializer};
 use std::cell::Cell;
@@ -52,6 +52,16 @@ impl Node {
         match self {
             Node::Map(entries) => entries.iter().find(|(name, _)| name == key).map(|(_, value)| value),
             _ => None,
+        }
+    }
+
+    /// Calls `found` for every text in the value at `at`, with the path of the text.
+    pub(crate) fn each_text(&self, at: &Path, found: &mut impl FnMut(&Path, &str)) {
+        match self {
+            Node::Text(text) => found(at, text),
+            Node::List(items) => items.iter().enumerate().for_each(|(n, item)| item.each_text(&at.item(n), found)),
+            Node::Map(entries) => entries.iter().for_each(|(key, value)| value.each_text(&at.key(key), found)),
+            _ => {}
         }
     }
 }

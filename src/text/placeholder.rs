@@ -1,6 +1,6 @@
 //! Placeholders of the templates: values that only the user knows, and that must not be signed.
 
-use super::{Node, Path, Problems, Unreadable, yaml};
+use super::{Path, Problems, Unreadable, yaml};
 
 /// Word that a template contains instead of a value.
 const PLACEHOLDER: &str = "CHANGE";
@@ -26,20 +26,13 @@ pub(crate) fn filled_in<T>(
         return Ok(document);
     }
     let (node, text) = yaml::tree(name, bytes)?;
-    let mut problems = Problems::new();
-    find(&node, &Path::Root, &mut problems);
-    if problems.is_empty() { Ok(document) } else { Err(problems.refuse(name, &text).in_text(bytes)) }
-}
-
-fn find(node: &Node, at: &Path, problems: &mut Problems) {
-    match node {
-        Node::Text(text) if is_placeholder(text) => {
+    let mut problems = Problems::default();
+    node.each_text(&Path::Root, &mut |at, text| {
+        if is_placeholder(text) {
             problems.at(at, format!("{text:?}"), "your value", "replace the word from the template");
         }
-        Node::List(items) => items.iter().enumerate().for_each(|(index, item)| find(item, &at.item(index), problems)),
-        Node::Map(entries) => entries.iter().for_each(|(key, value)| find(value, &at.key(key), problems)),
-        _ => {}
-    }
+    });
+    if problems.is_empty() { Ok(document) } else { Err(problems.refuse(name, &text).in_text(bytes)) }
 }
 
 #[cfg(test)]
