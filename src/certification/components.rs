@@ -195,8 +195,7 @@ pub(crate) fn estimate(
     let own = grouped(&squares, &keeps, 3, axis, &|_| 1.0).ok_or(NotCertified::TooFewPositions)?;
     let own_arcsec2 = [0, 1, 2].map(|a| own[a].own.over(changes));
     let axis_squares_arcsec2 = [0, 1, 2].map(|a| own[a].mean_square.over(changes));
-    let pooled_arcsec2 =
-        pooled(&[0, 1, 2].map(|a| Variance { value: axis_squares_arcsec2[a].value, ..own_arcsec2[a] }));
+    let pooled_arcsec2 = pooled(&axis_squares_arcsec2, &own_arcsec2);
     if own_arcsec2.iter().any(|variance| variance.value.is_nan() || variance.value < LEAST_SCATTER_ARCSEC2) {
         return Err(NotCertified::NoScatter);
     }
@@ -240,8 +239,7 @@ impl Components {
             *own = Variance { value: own.value * ratio, degrees_of_freedom: own.degrees_of_freedom / ratio };
         }
         self.axis_squares_arcsec2 = squares_arcsec2;
-        self.pooled_arcsec2 =
-            pooled(&[0, 1, 2].map(|a| Variance { value: self.axis_squares_arcsec2[a].value, ..self.own_arcsec2[a] }));
+        self.pooled_arcsec2 = pooled(&self.axis_squares_arcsec2, &self.own_arcsec2);
         let changes = self.residuals.len() as f64 - 1.0;
         let mean_ratio = ratios.iter().sum::<f64>() / 3.0;
         for (place, square) in self.position_squares.iter_mut().enumerate() {
@@ -374,9 +372,10 @@ fn grouped(
     Some((0..groups).map(of_group).collect())
 }
 
-/// Returns the mean of variances, weighted by their degrees of freedom, with degrees of freedom by Satterthwaite's
-/// formula.
-fn pooled(variances: &[Variance]) -> Variance {
+/// Returns the mean of the mean squares of the axes, weighted by the degrees of freedom of their `own` variances, with
+/// degrees of freedom by Satterthwaite's formula.
+fn pooled(axis_squares: &[Variance; 3], own: &[Variance; 3]) -> Variance {
+    let variances = [0, 1, 2].map(|axis| Variance { value: axis_squares[axis].value, ..own[axis] });
     let total: f64 = variances.iter().map(|v| v.degrees_of_freedom).sum();
     let sum: f64 = variances.iter().map(|v| v.degrees_of_freedom * v.value).sum();
     let squares: f64 = variances.iter().map(|v| v.degrees_of_freedom * v.value * v.value).sum();

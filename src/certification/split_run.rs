@@ -6,7 +6,7 @@
 
 use super::components::{Combinations, Components, by_axis};
 use super::remark::together;
-use super::rotated_runs::CommonAxis;
+use super::rotated_runs::{CommonAxis, FEWEST_RUNS};
 use super::suspects::OUTLIER;
 use super::{AngleReadings, Header};
 use crate::calibration::inputs::Turn;
@@ -15,9 +15,6 @@ use crate::statistics::student::{effective_degrees_of_freedom, f_beyond};
 use crate::wording::number::Probability;
 use crate::wording::{Language, Text, values};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
-
-/// Smallest number of runs that shows which one changed.
-const FEWEST_RUNS: usize = 3;
 
 /// Fewest positions before the change, and after it: one alone is a suspect reading.
 const FEWEST_POSITIONS: usize = 2;

@@ -16,8 +16,6 @@ use nalgebra::DVector;
 pub(crate) struct WorseGroup {
     /// Angle θ that the positions share, deg.
     pub theta_deg: f64,
-    /// Places of the positions in the header.
-    pub(crate) places: Vec<usize>,
     /// Standard deviation of these positions over that of the others.
     pub ratio: f64,
     /// Probability that the positions of any θ scatter this much more than the others by chance.
@@ -54,7 +52,7 @@ pub(super) fn find(header: &Header, components: &Components, outliers: &[Outlier
         }
         let scatter = (0..all.len()).map(|place| if places.contains(&place) { square } else { rest_square }).collect();
         let ratio = (square.value / rest_square.value).sqrt();
-        Some(WorseGroup { theta_deg, places, ratio, probability: (number * beyond(square)).min(1.0), scatter })
+        Some(WorseGroup { theta_deg, ratio, probability: (number * beyond(square)).min(1.0), scatter })
     });
     each.filter(|group| group.probability < OUTLIER).min_by(|a, b| a.probability.total_cmp(&b.probability))
 }

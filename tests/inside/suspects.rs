@@ -224,13 +224,7 @@ fn a_remark_says_the_same_in_both_languages() {
         |line| Outlier { index, place: 0, run: 4, line, axis: 1, residual_arcsec: -14.25, probability: 2.5e-3 };
     let remarks = [
         Remark::Worse(WorsePosition { index, place: 6, ratio: 2.25, probability: 0.031 }),
-        Remark::WorseGroup(WorseGroup {
-            theta_deg: 90.0,
-            places: vec![4, 5, 6, 7],
-            ratio: 2.9,
-            probability: 1.5e-6,
-            scatter: vec![],
-        }),
+        Remark::WorseGroup(WorseGroup { theta_deg: 90.0, ratio: 2.9, probability: 1.5e-6, scatter: vec![] }),
         Remark::Outlier(outlier(None)),
         Remark::Outlier(outlier(Some(17))),
         Remark::TwoRuns(1, 2),
