@@ -93,11 +93,10 @@ impl Drift {
         let Some(first) = certificates.first().map(|stand| stand.certificate.measured()) else {
             return Self { series: Vec::new(), relative: Vec::new() };
         };
-        let mut nominal: Vec<(PositionIndex, f64, f64)> = Vec::new();
+        let mut nominal: Vec<Nominal> = Vec::new();
         for at in certificates.iter().flat_map(|stand| &stand.positions) {
-            let position = (at.index(), at.theta_deg, at.phi_deg);
-            if !nominal.contains(&position) {
-                nominal.push(position);
+            if !nominal.contains(&nominal_of(at)) {
+                nominal.push(nominal_of(at));
             }
         }
         nominal.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2)));
@@ -105,7 +104,7 @@ impl Drift {
             .iter()
             .flat_map(|position| (0..3).map(move |angle| (position, angle)))
             .map(|(position, angle)| {
-                let values = certificates.iter().filter_map(|stand| value(stand, position, angle, first)).collect();
+                let values = certificates.iter().filter_map(|stand| value(stand, *position, angle, first)).collect();
                 Series::of(position.0, angle, values)
             })
             .collect();
@@ -205,9 +204,8 @@ fn test_lines(series: &mut [Series]) {
 }
 
 /// Returns the value of a deviation in a certificate, or `None` if it does not contain the position.
-fn value(stand: &Stand, position: &(PositionIndex, f64, f64), angle: usize, first: Date) -> Option<Value> {
-    let same = |at: &&CertifiedPosition| (at.index(), at.theta_deg, at.phi_deg) == *position;
-    let at = stand.positions.iter().find(same)?;
+fn value(stand: &Stand, nominal: Nominal, angle: usize, first: Date) -> Option<Value> {
+    let at = position(stand, nominal)?;
     let u_arcsec = u_of_deviations_arcsec(at, &stand.certificate)[angle];
     Some(Value {
         certificate: stand.certificate.number.clone(),
@@ -256,14 +254,13 @@ fn relative_series(certificates: &[&Stand], first: Date) -> Vec<Series> {
         return Vec::new();
     }
     let mut wanted: Vec<&CertifiedPosition> = known[0].positions.iter().collect();
-    wanted.retain(|at| known.iter().all(|stand| position(stand, at).is_some()));
+    wanted.retain(|at| known.iter().all(|stand| position(stand, nominal_of(at)).is_some()));
     wanted.sort_by_key(|at| at.index());
-    let positions =
-        known.iter().map(|stand| -> Vec<_> { wanted.iter().filter_map(|at| position(stand, at)).collect() });
-    let each: Vec<_> = positions
-        .zip(&known)
-        .map(|(positions, stand)| (covariance(&positions, &stand.certificate), positions, *stand))
-        .collect();
+    let each = known.iter().map(|stand| {
+        let positions: Vec<_> = wanted.iter().filter_map(|at| position(stand, nominal_of(at))).collect();
+        (covariance(&positions, &stand.certificate), positions, *stand)
+    });
+    let each: Vec<_> = each.collect();
     let size = 3 * wanted.len();
     let mean = each.iter().fold(DMatrix::zeros(size, size), |sum, (covariance, ..)| sum + covariance);
     let Some(inverse) = mean.cholesky().map(|factor| factor.inverse()) else { return Vec::new() };
@@ -290,10 +287,15 @@ fn relative_series(certificates: &[&Stand], first: Date) -> Vec<Series> {
     (0..size).map(of_row).collect()
 }
 
-/// Returns the position of a stand with the index and the nominal angles of another one.
-fn position<'a>(stand: &'a Stand, other: &CertifiedPosition) -> Option<&'a CertifiedPosition> {
-    let nominal = |at: &CertifiedPosition| (at.index(), at.theta_deg, at.phi_deg);
-    stand.positions.iter().find(|at| nominal(at) == nominal(other))
+/// Index of a position and its nominal angles (θ, φ), degrees.
+type Nominal = (PositionIndex, f64, f64);
+
+fn nominal_of(at: &CertifiedPosition) -> Nominal {
+    (at.index(), at.theta_deg, at.phi_deg)
+}
+
+fn position(stand: &Stand, nominal: Nominal) -> Option<&CertifiedPosition> {
+    stand.positions.iter().find(|at| nominal_of(at) == nominal)
 }
 
 /// Returns the covariance of α, β, γ of all positions, arcsec²: their own parts, and the turns of platform and base.
