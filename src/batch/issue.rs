@@ -158,11 +158,8 @@ impl Run<'_> {
         if self.batch.seal.is_some() {
             sweep(&self.swept, folder_of(&folder.path_of(&stand.stand().stand, &site.id, order.revision)));
         }
-        self.batch.settle(
-            || passport_id(&stand.stand().stand, &site.id, order.revision),
-            || folder.next_first(stand, site, order),
-            |seal| folder.issue(stand, site, order, seal),
-        )
+        let id = || passport_id(&stand.stand().stand, &site.id, order.revision);
+        self.batch.settle(folder, id, || folder.next_first(stand, site, order))
     }
 
     /// Reports a passport that was there already and may not be used.

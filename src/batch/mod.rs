@@ -25,7 +25,7 @@ use shard::Shard;
 
 use crate::files::walk::Visited;
 use crate::files::{Durability, FileError, leftovers};
-use crate::folder::{self, FolderRefused, Issued, Next, Seal};
+use crate::folder::{self, Folder, FolderRefused, Issued, Next, Seal};
 use crate::parallel;
 use crate::passport::issue::Remarks;
 use crate::text::{Unreadable, name_of};
@@ -167,15 +167,15 @@ impl Batch<'_> {
         (CHUNK_PER_THREAD * self.threads.max(1)).min(LARGEST_CHUNK)
     }
 
-    /// Signs and writes the passport that `issue` makes, or in a dry run returns what `next` would write.
+    /// Signs and writes what `next` returns, or in a dry run returns what would be written.
     fn settle(
         &self,
+        folder: &Folder,
         id: impl Fn() -> String,
         next: impl Fn() -> Result<Next, FolderRefused>,
-        issue: impl Fn(Seal) -> Result<Issued, FolderRefused>,
     ) -> Outcome {
         let there = match self.seal {
-            Some(seal) => issue(seal).map(Outcome::There),
+            Some(seal) => folder.settle(next, seal).map(Outcome::There),
             None => next().map(Outcome::from),
         };
         there.unwrap_or_else(|why| Outcome::Failed(Failure::of(id(), why.to_string(), why.is_unusable())))

@@ -4,8 +4,7 @@
 //! [`register`](crate::register). A passport whose content would not change is left as it is.
 
 use super::catalogue::Catalogue;
-use super::paths;
-use super::{Batch, Event, Failure, Listener, Outcome, Purpose, fail, parallel, sweep};
+use super::{Batch, Event, Failure, Listener, Outcome, Purpose, fail, parallel, paths, sweep};
 use crate::document::sha256_hex;
 use crate::files::walk::Visited;
 use crate::files::{self, FileError, folder_of};
@@ -234,11 +233,7 @@ impl Run<'_> {
             let path = folder.path_of(&successor.stand().stand, &successor.site.id, successor.first_revision());
             sweep(&self.swept, folder_of(&path));
         }
-        Some(self.batch.settle(
-            || name.clone(),
-            || folder.next_successor(successor),
-            |seal| folder.reissue(successor, seal),
-        ))
+        Some(self.batch.settle(folder, || name.clone(), || folder.next_successor(successor)))
     }
 
     fn examine(&self, candidate: &Candidate) -> Result<Examined, Failure> {

@@ -299,7 +299,11 @@ impl Folder {
 
     /// Signs and writes the next passport. If another run writes a file of that name first, the next step is determined
     /// again.
-    fn settle(&self, next: impl Fn() -> Result<Next, FolderRefused>, seal: Seal) -> Result<Issued, FolderRefused> {
+    pub(crate) fn settle(
+        &self,
+        next: impl Fn() -> Result<Next, FolderRefused>,
+        seal: Seal,
+    ) -> Result<Issued, FolderRefused> {
         let settle_once = || {
             let Sealed { issued, text } = self.seal(next()?, seal)?;
             if let Some(text) = text {
