@@ -195,7 +195,7 @@ impl<'a> SignedText<'a> {
 /// Returns the first line that is not in canonical form, or every rule that the content breaks.
 pub(crate) fn parse<T: Field>(name: &str, payload: &str, check: impl Fn(&T, &mut Problems)) -> Result<T, Unreadable> {
     let content: T = canonical::read(payload).map_err(|problem| Unreadable::of(name, vec![problem]))?;
-    let mut problems = Problems::new();
+    let mut problems = Problems::default();
     check(&content, &mut problems);
     if problems.is_empty() { Ok(content) } else { Err(problems.refuse_by_field(name)) }
 }

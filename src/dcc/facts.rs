@@ -72,7 +72,7 @@ impl Facts {
     ) -> Result<Self, Problems> {
         let none = Administrative::default();
         let file = file.unwrap_or(&none);
-        let mut collector = Collector { source: known.source, problems: Problems::new() };
+        let mut collector = Collector { source: known.source, problems: Problems::default() };
         let facts = collector.facts(known, file, lang);
         facts.filter(|_| collector.problems.is_empty()).ok_or(collector.problems)
     }

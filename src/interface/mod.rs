@@ -205,7 +205,7 @@ impl Asked {
     fn new(what: &'static str, text: &str) -> Result<Self, Failed> {
         let unusable = |error| Failed::unusable(format!("the {what} is not usable JSON: {error}"));
         let node = Node::from_json(text).map_err(unusable)?;
-        Ok(Self { what, node, known: Vec::new(), problems: Problems::new() })
+        Ok(Self { what, node, known: Vec::new(), problems: Problems::default() })
     }
 
     /// Returns the value of a key as `read` reads it; `None` if there is none, or after an error.

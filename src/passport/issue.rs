@@ -292,7 +292,7 @@ fn content_of(stand: &Stand, geometry: &StandGeometry, site: &Site, issue: &Issu
 
 /// Checks the site, because one that was not read from a file, such as that of a predecessor, must obey the same rules.
 fn check_site(site: &Site) -> Result<(), IssueRefused> {
-    let mut problems = Problems::new();
+    let mut problems = Problems::default();
     site.check_consistency(&Path::Root.key("site"), &mut problems);
     if problems.is_empty() {
         return Ok(());

@@ -140,10 +140,6 @@ pub(crate) struct Problems {
 }
 
 impl Problems {
-    pub(crate) fn new() -> Self {
-        Self::default()
-    }
-
     pub(crate) fn is_empty(&self) -> bool {
         self.found.is_empty()
     }

@@ -41,7 +41,7 @@ pub(crate) trait Field: Sized + Clone + Send + Sync + 'static {
 
     /// Reads a value from a text in canonical form; returns `None` after an error, or if the text is not canonical.
     fn scan(scanner: &mut Scanner) -> Option<Self> {
-        Self::read(&scanner.scalar()?, &Path::Root, &mut Problems::new())
+        Self::read(&scanner.scalar()?, &Path::Root, &mut Problems::default())
     }
 }
 
@@ -442,7 +442,7 @@ mod tests {
 
     /// Returns the value, and what the message says about it.
     fn read<T: Field>(node: Node) -> (Option<T>, Option<String>) {
-        let mut problems = Problems::new();
+        let mut problems = Problems::default();
         let value = T::read(&node, &Path::Root, &mut problems);
         let refused = (!problems.is_empty()).then(|| problems.refuse_by_field("f").problems()[0].found.clone());
         (value, refused)
@@ -513,7 +513,7 @@ mod tests {
 
     /// Returns what was found, expected and advised of each error in a [`Place`].
     fn refused(node: &Node) -> Vec<[String; 3]> {
-        let mut problems = Problems::new();
+        let mut problems = Problems::default();
         assert_eq!(Place::read(node, &Path::Root, &mut problems), None);
         let refused = problems.refuse_by_field("f");
         refused.problems().iter().map(|at| [at.found.clone(), at.expected.clone(), at.advice.clone()]).collect()

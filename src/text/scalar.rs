@@ -312,7 +312,7 @@ mod tests {
             (Node::Text("2.11.2026".to_owned()), FORM_OF_DATE),
             (Node::Integer(2026), FORM_OF_DATE),
         ] {
-            let mut problems = Problems::new();
+            let mut problems = Problems::default();
             assert_eq!(Date::read(&node, &Path::Root, &mut problems), None);
             assert_eq!(problems.refuse_by_field("f").problems()[0].advice, advice);
         }

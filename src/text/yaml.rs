@@ -212,7 +212,7 @@ pub(crate) fn read_document<T: Document>(
 
 fn parse<T: Document>(name: &str, bytes: &[u8], check: impl FnOnce(&T, &mut Problems)) -> Result<T, Unreadable> {
     let (node, text) = tree(name, bytes)?;
-    let mut problems = Problems::new();
+    let mut problems = Problems::default();
     let value = File::<T>::read(&node, &Path::Root, &mut problems).map(|File(value)| value);
     if let Some(value) = &value {
         check(value, &mut problems);

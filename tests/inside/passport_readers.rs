@@ -56,7 +56,7 @@ fn payloads() -> Vec<String> {
 /// Parses the text with a general YAML reader; returns `None` if its content, written again, gives different lines.
 fn general(text: &str) -> Option<Content> {
     let (node, _) = yaml::tree("t", text.as_bytes()).ok()?;
-    let mut problems = Problems::new();
+    let mut problems = Problems::default();
     let content = Content::read(&node, &Path::Root, &mut problems)?;
     content.check(&mut problems);
     let same = rule::differs(text, &canonical::write_bare(&content)).is_none();
