@@ -1,8 +1,7 @@
 //! Stand and site files by their ids; all are read and checked before anything is signed, but only a limited number is
 //! kept in memory.
 
-use super::parallel;
-use super::{Event, Failure, Listener};
+use super::{Event, Failure, Listener, parallel};
 use crate::files;
 use crate::passport::issue::PreparedStand;
 use crate::site::Site;

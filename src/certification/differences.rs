@@ -3,10 +3,9 @@
 use super::comparison::{CommonTurn, NotCompared, Test};
 use super::components::{RunModel, Variance, case_turn, turns_at};
 use super::finding::{ChangedSetting, Untested};
-use super::rotated_runs;
 use super::shared_settings::Setting;
 use super::suspects::OUTLIER;
-use super::{AngleReadings, Certification, NominalPosition};
+use super::{AngleReadings, Certification, NominalPosition, rotated_runs};
 use crate::calibration::inputs::Turn;
 use crate::stand::{ActsOn, Certificate, CertifiedPosition, Stand};
 use crate::statistics::least_squares::Factorised;

@@ -2,9 +2,8 @@
 
 use crate::coefficients::PositionIndex;
 use crate::stand::{self, Certificate, CertifiedPosition, Datum, Identity, Stand};
-use crate::text::placeholder;
 use crate::text::record::Document;
-use crate::text::{Path, Problems, Unreadable, record, yaml};
+use crate::text::{Path, Problems, Unreadable, placeholder, record, yaml};
 
 record! {
     /// Position to be certified, with its nominal angles only.

@@ -12,8 +12,7 @@ use crate::calibration::recorded::rounding_of;
 use crate::stand::remarks::Odd;
 use crate::text::number::decimals;
 use crate::wording::number::{Number, Probability};
-use crate::wording::plain;
-use crate::wording::{Language, Text, Values, date_text, values};
+use crate::wording::{Language, Text, Values, date_text, plain, values};
 use jiff::civil::Date;
 use std::fmt::{Display, Formatter};
 

@@ -16,10 +16,9 @@
 //! leaves. Bonferroni's bound counts them with the runs, and only the least probable is named, so a cause has one name. A
 //! move after the first or before the last run is that run's.
 
-use super::AngleReadings;
 use super::components::{Components, RunTurn};
 use super::suspects::{AXES, OUTLIER, Outlier, STEPS_OF_ROUNDING, STRAGGLER};
-use super::texts;
+use super::{AngleReadings, texts};
 use crate::statistics::outlier::bonferroni_student;
 use crate::wording::{Text, compass};
 use nalgebra::Vector3;

@@ -1,8 +1,7 @@
 //! Common part of `issue` and `reissue`: running a batch and reporting its progress.
 
 use super::key_options::{self, signer_of};
-use super::output;
-use super::{Code, Failure, REFUSED, UNUSABLE, long_run};
+use super::{Code, Failure, REFUSED, UNUSABLE, long_run, output};
 use crate::batch::shard::Shard;
 use crate::batch::{Batch, Event, Listener, Outcome};
 use crate::document::Signer;

@@ -1,9 +1,8 @@
 //! Input files of the verbs: documents read, and several inputs of which one that fails does not stop the others.
 
 use super::{Code, Failure, Format, output};
-use crate::batch::Purpose;
 use crate::batch::catalogue::Listed as _;
-use crate::batch::paths;
+use crate::batch::{Purpose, paths};
 use crate::dcc::Administrative;
 use crate::files::{self, FileError};
 use crate::gyro::GyroType;

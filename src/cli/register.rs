@@ -1,8 +1,7 @@
 //! Verb `register`: the passports in a folder and their states.
 
-use super::output;
 use super::trust_options::{TrustOptions, date};
-use super::{Code, Failure, code};
+use super::{Code, Failure, code, output};
 use crate::folder::search;
 use crate::parallel;
 use crate::register::{Asked, Line, Register, State};

@@ -2,9 +2,8 @@
 
 use super::facts::{Facts, Known, stated};
 use super::parts::{self, Subject, filled, in_words, quantity, real, units};
-use super::words;
 use super::xml::Element;
-use super::{Administrative, Dcc};
+use super::{Administrative, Dcc, words};
 use crate::calibration::document::Subject as GyroSubject;
 use crate::calibration::readings::Exclusion;
 use crate::calibration::stated::TemperatureOutside;

@@ -2,9 +2,8 @@
 
 use super::facts::{Facts, Known, stated};
 use super::parts::{self, Subject, in_words, plain, quantity, real, reals, units};
-use super::words;
 use super::xml::Element;
-use super::{Administrative, Dcc};
+use super::{Administrative, Dcc, words};
 use crate::document::sha256_hex;
 use crate::passport::Content;
 use crate::report::Languages;

@@ -3,8 +3,7 @@
 use super::successors::Successor;
 use super::{Examined, Line, series_of};
 use crate::revocation::{ListRefused, RevocationList, SeriesAlarm};
-use crate::text::words;
-use crate::text::{Printable, first_few};
+use crate::text::{Printable, first_few, words};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Display};

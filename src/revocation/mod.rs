@@ -13,8 +13,7 @@ pub(crate) mod series;
 pub use series::{Series, SeriesAlarm};
 
 use crate::document::{self, Malformed, SignedText, Signer, SigningFailed, sha256_hex};
-use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable};
-use crate::text::{Path, Printable, Problems, canonical, record};
+use crate::text::{LARGEST_DOCUMENT_BYTES, Path, Printable, Problems, Unreadable, canonical, record};
 use crate::trust::{AllowedSigners, BadIdentity, NotAuthorised, RevokedKeys, SignatureError};
 use jiff::Timestamp;
 

@@ -3,10 +3,9 @@
 //! This reader is stricter than OpenSSH, which skips a line that it cannot read. Here such a line is an error, because
 //! its author meant to trust a key or to end that trust.
 
-use super::lines;
 use super::pattern::matches_list;
 use super::signer_line::{self, SignerLine};
-use super::{KeyPoint, PublicKey};
+use super::{KeyPoint, PublicKey, lines};
 use crate::text::kind::mistaken;
 use crate::text::{Kind, Printable, Unreadable};
 use jiff::Timestamp;

@@ -1,10 +1,9 @@
 //! Checks that apply to all textual trust files before their lines are read.
 
 use super::LARGEST_TRUST_FILE_BYTES;
-use crate::text::Unreadable;
 use crate::text::node::{is_utf16, location_of, without_byte_order_mark};
 use crate::text::problem::{MOST_COUNTED, counted};
-use crate::text::{Location, Problem};
+use crate::text::{Location, Problem, Unreadable};
 
 /// A line that is neither empty nor a comment.
 #[derive(Debug, Clone, Copy)]

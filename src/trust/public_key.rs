@@ -1,8 +1,7 @@
 //! Public keys that can sign passports.
 
 use super::error::KeyError;
-use super::wire::Wire;
-use super::wire::string;
+use super::wire::{Wire, string};
 use base64ct::{Base64, Encoding};
 use sha2::{Digest, Sha256};
 use ssh_key::Algorithm;
