@@ -155,7 +155,6 @@ impl Failure {
     }
 }
 
-/// Function that receives the events of a batch.
 pub(crate) type Listener<'a> = &'a mut dyn FnMut(Event);
 
 impl Batch<'_> {

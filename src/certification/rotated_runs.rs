@@ -276,7 +276,6 @@ pub(crate) fn most_suspect(
     least_probable(all(&left, components.base_axes).into_iter().filter(|at| at.pattern.is_in_order() == in_order))
 }
 
-/// Returns the least probable of some rotations.
 fn least_probable(found: impl IntoIterator<Item = RotatedRuns>) -> Option<RotatedRuns> {
     // A large rotation is improbable about any axis; of equally improbable ones it is the largest.
     found.into_iter().min_by(|a, b| {

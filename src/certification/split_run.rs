@@ -36,7 +36,6 @@ pub(crate) struct SplitRun {
 }
 
 impl SplitRun {
-    /// Returns a text with the change within the run.
     pub(super) fn filled(&self, text: Text, language: Language) -> String {
         let ([before, after], [x, y, z]) = (self.between, together(self.turns_arcsec));
         let (axes, p) = (self.axis.names(), Probability(self.probability));

@@ -214,7 +214,6 @@ struct Line {
 }
 
 impl Bench<'_> {
-    /// Returns the time for which the passport was verified, or `None` if it was not.
     fn verified_as_of(&self) -> Option<Timestamp> {
         self.enquiry.as_ref().map(|enquiry| enquiry.question.time)
     }
@@ -247,7 +246,6 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// Calibrates the gyro whose currents are at `path`.
     fn calibrate(&self, path: &Path) -> Result<Found, Failure> {
         let (options, content) = (self.options, &self.passport.content);
         let bytes = inputs::bytes(path, Kind::Currents.words())?;
@@ -462,7 +460,6 @@ fn previous(options: &Options) -> Result<Vec<CalibrationDocument>, Failure> {
     Ok(results)
 }
 
-/// Leaves out the visits that `--exclude` names.
 fn exclude(options: &Options, readings: &mut Readings) -> Result<(), Failure> {
     let reasons = exclusion::reasons(options.exclude.len(), &options.why)?;
     for (&(PositionIndex { i, j }, visit, cycle), why) in options.exclude.iter().zip(reasons) {

@@ -27,7 +27,6 @@ static WORKSPACE: OnceLock<Workspace> = OnceLock::new();
 /// Verbs whose `--out` is the folder of passports.
 const WRITE_PASSPORTS: [&str; 3] = ["issue", "reissue", "recertify"];
 
-/// Returns the workspace, or `None` if none was named.
 pub(super) fn workspace() -> Option<&'static Workspace> {
     WORKSPACE.get()
 }

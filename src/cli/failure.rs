@@ -61,7 +61,6 @@ impl Failure {
         Failed::new(USAGE, error.to_string(), Vec::new()).into()
     }
 
-    /// Creates the failure of one of several inputs.
     pub(super) fn input(failed: &crate::batch::Failure) -> Self {
         let words = issued::failure(failed);
         if failed.unusable { Self::unusable(words) } else { Self::refused(words) }

@@ -59,7 +59,6 @@ fn site_by(path: &Path, reader: impl FnOnce(&str, &[u8]) -> Result<Site, Unreada
     Ok(site)
 }
 
-/// Reads a gyro type, or returns `None` without a path.
 pub(super) fn gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
     let gyro_type = path.map(|path| document(path, Kind::Gyro.words(), GyroType::from_yaml)).transpose()?;
     gyro_type.iter().flat_map(|gyro| gyro.remarks(Language::English)).for_each(|words| output::warn(&words));

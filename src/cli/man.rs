@@ -37,7 +37,6 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     Ok(0)
 }
 
-/// Renders the page of a command and those of its subcommands.
 fn render(command: &Command, pages: &mut Vec<(String, String)>) -> Result<(), Failure> {
     let mut page = Vec::new();
     let below = command.get_after_long_help().map(ToString::to_string).unwrap_or_default();

@@ -13,7 +13,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use terminal_size::{Height, Width, terminal_size_of};
 
-/// The form of a result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Format {
     /// Text for a terminal
@@ -23,7 +22,6 @@ pub(super) enum Format {
 }
 
 impl Format {
-    /// Writes a result in this form.
     pub(super) fn write<T: Serialize>(
         self,
         as_json: impl FnOnce() -> T,
@@ -137,7 +135,6 @@ pub(super) fn say_after(words: &str) {
     after().push(words.to_owned());
 }
 
-/// Writes the messages that follow the result.
 pub(super) fn say_rest() {
     std::mem::take(&mut *after()).iter().for_each(|words| say(words));
 }

@@ -101,7 +101,6 @@ impl Document for Administrative {
 }
 
 impl Administrative {
-    /// Reads a `dtg-dcc/1` file; `name` is the file name in messages.
     pub(crate) fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
         yaml::read_document(name, bytes, |file: &Self, problems| file.check(problems))
     }

@@ -61,7 +61,6 @@ impl FileError {
         nearest.map_or_else(|| self.to_string(), |near| format!("{self}; did you mean {}?", shown(&near)))
     }
 
-    /// Returns `true` if the path does not exist.
     pub(crate) fn is_missing(&self) -> bool {
         matches!(self, Self::Read(_, error) if error.kind() == io::ErrorKind::NotFound)
     }

@@ -378,7 +378,6 @@ pub(crate) fn lists(folder: &Path, passports: &Path, trust: &Trust, time: Timest
     Err(NoNewestList::Refused(alarms.join("\n")))
 }
 
-/// Returns a file in the folders that claims to be a list, or `None` if there is none.
 fn any_list(folders: &[PathBuf]) -> Option<PathBuf> {
     let is_list =
         |path: &PathBuf| files::read_first(path, BEGINNING_BYTES).is_ok_and(|bytes| claims_to_be_a_list(&bytes));

@@ -18,7 +18,6 @@ impl Summary {
         self.worst = self.worst.max(value.abs());
     }
 
-    /// Returns the summary of this sample together with another one.
     #[must_use]
     pub(crate) fn with(self, other: &Self) -> Self {
         Self {

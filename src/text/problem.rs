@@ -34,7 +34,6 @@ impl<'a> Path<'a> {
         Path::Key(self, key)
     }
 
-    /// Returns the path of the item `index` of a list, counted from 0.
     pub(crate) fn item(&'a self, index: usize) -> Path<'a> {
         Path::Item(self, index)
     }
@@ -173,7 +172,6 @@ impl Problems {
         }
     }
 
-    /// Records an error if the number is present and not within `low..=high`.
     pub(crate) fn within(&mut self, at: &Path, value: Option<f64>, low: f64, high: f64) {
         let Some(value) = value else { return };
         if !(low..=high).contains(&value) {

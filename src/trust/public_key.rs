@@ -112,7 +112,6 @@ impl AnyKey {
         ["ssh-", "ecdsa-", "sk-"].iter().any(|family| word.starts_with(family)) && !word.contains(['=', ',', '"'])
     }
 
-    /// Reads a key from two words of a line: its type and its base64.
     pub(super) fn read(algorithm: &str, base64: &str) -> Result<Self, KeyError> {
         let Some(&(algorithm, fields)) = KEY_TYPES.iter().find(|(name, _)| *name == algorithm) else {
             return match algorithm {
