@@ -107,7 +107,7 @@ record! {
     pub struct GyroNoise {
         /// Standard deviation of the drift between visits to a position. If absent: estimated from repeated visits.
         pub visit_deg_per_h: Option<f64>,
-        /// Standard deviation of ω_0 between turn-ons. If absent: estimated from repeated cycles.
+        /// Standard deviation of ω_0 between turn-ons. If absent: estimated from repeated turn-ons.
         pub turn_on_deg_per_h: Option<f64>,
     }
 }

@@ -85,7 +85,7 @@ impl Cause {
             Self::Noise(..) => ["meter, noise", "laboratory: meter.noise_ma, or repeated rows", "mA"],
             Self::Visits(..) => ["gyro, visits", "gyro type: noise.visit_deg_per_h, or repeated visits", "deg/h"],
             Self::Differences(_) => ["differences between visits", "all of a visit", "1"],
-            Self::TurnOn(_) => ["gyro, turn-ons", "gyro type: noise.turn_on_deg_per_h, or repeated cycles", "deg/h"],
+            Self::TurnOn(_) => ["gyro, turn-ons", "gyro type: noise.turn_on_deg_per_h, or repeated turn-ons", "deg/h"],
             Self::Platform(_) => ["platform", "certificate: common_platform_arcsec", "arcsec"],
             Self::Seat(_) => ["gyro seat", "laboratory: seating_arcsec", "arcsec"],
             Self::Base(_) => ["base of the stand", "certificate: common_base_arcsec", "arcsec"],

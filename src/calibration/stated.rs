@@ -42,7 +42,7 @@ words! {
         /// Noise of the gyro from visit to visit.
         Visits = "gyro noise from visit to visit (noise.visit_deg_per_h, or repeated visits)",
         /// Noise of the gyro from turn-on to turn-on.
-        TurnOns = "gyro noise from turn-on to turn-on (noise.turn_on_deg_per_h, or repeated cycles)",
+        TurnOns = "gyro noise from turn-on to turn-on (noise.turn_on_deg_per_h, or repeated turn-ons)",
         /// Gravity, required for a comparison with a gyro type.
         Gravity = "gravity (gravity_u_m_per_s2)",
     }

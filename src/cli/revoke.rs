@@ -92,7 +92,10 @@ fn file_of(id: &str, passports: &Path) -> Result<PathBuf, Failure> {
     let nearest = latin(id).map_or_else(String::new, alike) + &nearest;
     let (id, passports) = (Printable(id), shown(passports));
     Err(Failure::unusable(match path {
-        Some(_) => format!("{id}: {passports} contains no such passport{nearest}"),
+        Some(_) => {
+            let advice = if nearest.is_empty() { "; `register` lists those there" } else { &nearest };
+            format!("{id}: found no such passport in {passports}{advice}")
+        }
         None => format!(
             "{id}: found neither a file nor an identifier, expected MODEL/SERIAL/SITE/REVISION, such as \
              SPS-2/0017/moscow-bmstu/1{nearest}"

@@ -301,8 +301,8 @@ pub(crate) fn comparison(found: &Comparison) -> String {
     columns::table(&mut out, &names, rows);
     let positions = found.positions.len();
     let words = format!(
-        "CHANGED: p < {OUTLIER} / {positions}, a probability of {} % for the {positions} positions together. If no more than \
-         half of the positions repeat, all are CHANGED.",
+        "A position has changed if p < {OUTLIER} / {positions}, which happens by chance in at most {} % of the checks. If no \
+         more than half of the positions repeat, all are CHANGED.",
         100.0 * OUTLIER
     );
     columns::paragraph(&mut out, "", &words);

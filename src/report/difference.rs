@@ -51,7 +51,7 @@ pub(crate) fn text(a: &Side, b: &Side, found: &Differences) -> String {
     let (differ, all) = (found.numbers.len(), found.compared);
     let mut out = match differ {
         0 if found.others.is_empty() => format!("The contents are equal: {all} numbers and all texts.\n\n"),
-        _ => format!("{differ} of {all} numbers differ.\n\n"),
+        _ => format!("{differ} of {all} numbers differ{}.\n\n", largest(&found.numbers)),
     };
     for (name, side) in [("A", a), ("B", b)] {
         let (header, certificate) = (&side.content.passport, &side.content.certificate);
@@ -71,6 +71,14 @@ pub(crate) fn text(a: &Side, b: &Side, found: &Differences) -> String {
         }
     }
     out
+}
+
+/// Returns the number with the largest difference in units of its uncertainty, in words that go on a sentence; nothing if none
+/// has one.
+fn largest(numbers: &[NumberDifference]) -> String {
+    let ratios = numbers.iter().filter_map(|at| Some((at.ratio()?, &at.key)));
+    let largest = ratios.max_by(|(a, _), (b, _)| a.abs().total_cmp(&b.abs()));
+    largest.map_or_else(String::new, |(ratio, key)| format!("; the largest difference is {:.1} u: {key}", ratio.abs()))
 }
 
 /// Appends a table of numbers that differ.

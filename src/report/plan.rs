@@ -201,7 +201,8 @@ fn no_gyro_can_pass(plan: &Plan) -> Option<String> {
     let no_other = if plan.exhaustive { "; no other choice of as many readings is better" } else { "" };
     (!beyond.is_empty()).then(|| {
         format!(
-            "No gyro can pass with these readings, because 2 u is larger than the tolerance of {}{no_other}.",
+            "No gyro can pass by guarded acceptance with these readings, because 2 u is larger than the tolerance of \
+             {}{no_other}.",
             beyond.join(", ")
         )
     })
@@ -211,7 +212,11 @@ fn no_gyro_can_pass(plan: &Plan) -> Option<String> {
 fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<String> {
     let mut remarks = Vec::new();
     if plan.gravity_over_tolerance > LARGE_GRAVITY_SHARE {
-        let so = if COVERAGE_FACTOR * plan.gravity_over_tolerance > 1.0 { ", so that no gyro can pass" } else { "" };
+        let so = if COVERAGE_FACTOR * plan.gravity_over_tolerance > 1.0 {
+            ", so that no gyro can pass by guarded acceptance"
+        } else {
+            ""
+        };
         remarks.push(format!(
             "The uncertainty of the local g adds {} % of the tolerance to u of ω_g or ω_k at the g of the type{so}; to \
              reduce it, state the height of the site, or measure g.",

@@ -6,6 +6,7 @@ use super::{columns, style};
 use crate::simulation::{Accuracy, Convergence, ConvergenceRow, PAPER_LATITUDE_DEG};
 use crate::statistics::summary::upper_limit_without_a_case;
 use crate::units::printed;
+use std::fmt::Write;
 
 /// Returns the paper's table: worst error and standard deviation of every parameter by every method, and whether the worst
 /// error is within the paper's bound.
@@ -16,6 +17,12 @@ pub(crate) fn accuracy(found: &Accuracy) -> String {
     };
     let (trials, seed, latitude) = (grouped(found.trials), found.seed, found.latitude_deg);
     let mut out = format!("{trials} trials, seed {seed}, {stands}, latitude {latitude:.4}°\n");
+    let bounded: Vec<bool> = found.rows.iter().filter_map(|row| Some(row.worst < row.paper_bound?)).collect();
+    if !bounded.is_empty() {
+        let beyond = bounded.iter().filter(|within| !**within).count();
+        let words = format!("beyond the paper's bound: {beyond} of {} worst errors", bounded.len());
+        let _ = writeln!(out, "{}", style::marked(Some(beyond == 0), &words));
+    }
     let rows = found.rows.iter().map(|row| {
         // NaN if no trial gave a result.
         let three_digits = |value: f64| match value {

@@ -107,12 +107,12 @@ impl Kind {
             Self::Measurement => "export the table as CSV",
             Self::Workbook => "unpack it, or export the table as CSV",
             Self::Html | Self::Pdf => "give the file from which it was made",
-            Self::Stand => "`issue` takes it, other commands with --stand",
+            Self::Stand => "give it to `issue`, or to other commands with --stand",
             Self::Site => "give it with --site",
             Self::Passport => "commands that take a passport take it as the first argument",
-            Self::Angles => "`certify` takes it, and `recertify` after the passport",
-            Self::Currents => "`calibrate` takes it, after the passport",
-            Self::Result => "`calibrate` takes it with --previous",
+            Self::Angles => "give it to `certify`, or to `recertify` after the passport",
+            Self::Currents => "give it to `calibrate`, after the passport",
+            Self::Result => "give it to `calibrate` with --previous",
             Self::PublicKey => "give the file that has this key with its owner, as `keygen` prints the line",
         }
     }

@@ -625,7 +625,7 @@ fn the_uncertainty_of_the_local_g_is_stated() {
             "",
             0.7233,
             Some(
-                "adds 72 % of the tolerance to u of ω_g or ω_k at the g of the type, so that no gyro can pass; to reduce it, state the height",
+                "adds 72 % of the tolerance to u of ω_g or ω_k at the g of the type, so that no gyro can pass by guarded acceptance; to reduce it, state the height",
             ),
         ),
         ("gravity_m_per_s2: 9.8156\ngravity_u_m_per_s2: 1.0e-5\n", 0.00102, None),

@@ -127,7 +127,8 @@ pub(crate) fn table(page: &PassportPage, languages: &Languages) -> Markup {
             let words = |language| not_asked.iter().map(|check| of(*check).words(language)).collect::<Vec<_>>();
             languages.label_with(|language| words(language).join(between))
         };
-        rows.push(vec![joined(name, ", "), named(None), joined(absent, "; ")]);
+        let word = if not_asked.len() > 1 { texts::SEVERAL_NOT_ASKED } else { texts::NOT_ASKED };
+        rows.push(vec![joined(name, ", "), marked(None, &languages.label(word)), joined(absent, "; ")]);
     }
     let table = Table {
         headings: [texts::CHECK, texts::RESULT, texts::FOUND].map(|text| languages.label(text)).into(),

@@ -11,6 +11,7 @@ texts! {
     FAILED { en: "FAILED", ru: "НЕ ПРОЙДЕНА" }
 
     NOT_ASKED { en: "not asked", ru: "не запрошена" }
+    SEVERAL_NOT_ASKED { en: "not asked", ru: "не запрошены" }
     COUNTED {
         en: "Checks as of {time}: {passed} passed, {not_asked} not asked.",
         ru: "Проверки на {time}: пройдено\u{a0}{passed}, не\u{a0}запрошено\u{a0}{not_asked}."

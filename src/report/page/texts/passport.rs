@@ -52,7 +52,7 @@ texts! {
     SHA256 { en: "SHA-256 of the signed file", ru: "SHA-256 подписанного файла" }
     CODE { en: "Code with the SHA-256 of the signed file", ru: "Код с SHA-256 подписанного файла" }
     PAPER_IS_NOT_SIGNED {
-        en: "This page has no digital signature: only the file is valid, which the annex reproduces verbatim. Its SHA-256 \
+        en: "This page has no digital signature: only the file is authoritative, which the annex reproduces verbatim. Its SHA-256 \
              must equal the value here and in the code. dtg-passport verify checks the file, ssh-keygen its signature alone.",
         ru: "Страница не имеет электронной подписи: силу имеет только файл, дословно приведённый в приложении. Его хеш \
              SHA-256 должен совпадать с указанным здесь и в коде. Файл проверяют командой dtg-passport verify, одну лишь \
@@ -252,8 +252,8 @@ texts! {
     METER_NOISE { en: "noise of a reading {n} mA", ru: "шум показания {n} мА" }
     METER_RANGE { en: "range {n} mA", ru: "диапазон {n} мА" }
     SEATING { en: "u of the gyro seat about x, y, z", ru: "u посадочной поверхности вокруг x, y, z" }
-    BASE_AZIMUTH_U { en: "u of the azimuth, in this laboratory", ru: "u азимута в лаборатории" }
-    BASE_LEVEL_U { en: "u of the level, in this laboratory", ru: "u наклона в лаборатории" }
+    BASE_AZIMUTH_U { en: "u of the azimuth, in this laboratory", ru: "u азимута основания в лаборатории" }
+    BASE_LEVEL_U { en: "u of the level, in this laboratory", ru: "u наклона основания в лаборатории" }
     LABORATORY_TEMPERATURE { en: "Temperature in the laboratory", ru: "Температура в лаборатории" }
     NOMINAL { en: "Nominal value", ru: "Номинальное значение" }
     TOLERANCE { en: "Tolerance (%: of nominal)", ru: "Допуск (% — от номинального)" }

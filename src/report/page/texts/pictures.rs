@@ -53,8 +53,8 @@ texts! {
     }
     DEVIATION_NO_U { en: "the certificate gives no uncertainty", ru: "неопределённость в сертификате не указана" }
 
-    EARTH_RATE_DIFFERENCE { en: "ω_3: actual minus nominal", ru: "ω_3: реальная минус номинальная" }
-    SPECIFIC_FORCE_DIFFERENCE { en: "n: actual minus nominal", ru: "n: реальная минус номинальная" }
+    EARTH_RATE_DIFFERENCE { en: "ω_3: actual minus nominal", ru: "ω_3: при реальной минус при номинальной" }
+    SPECIFIC_FORCE_DIFFERENCE { en: "n: actual minus nominal", ru: "n: при реальной минус при номинальной" }
     EARTH_RATE_OF_FRAME { en: "ω_3, frame index i = {i}", ru: "ω_3, индекс рамки i = {i}" }
     SPECIFIC_FORCE_OF_FRAME { en: "n, frame index i = {i}", ru: "n, индекс рамки i = {i}" }
     VECTOR_IN_WORDS { en: "position {index}: x {x}, y {y}", ru: "положение {index}: x {x}, y {y}" }
