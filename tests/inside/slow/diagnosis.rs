@@ -290,7 +290,10 @@ fn a_wrong_reading_is_named_with_its_size() {
             });
             let found = found.unwrap_or_else(|| panic!("{index} {x_ua} {y_ua}: {hint}"));
             assert!((found - Vector2::new(x_ua, y_ua)).amax() < 0.01, "{index}: {found} for {x_ua}, {y_ua}");
-            assert!(hint.to_string().contains(&format!("position {index} did not repeat: by ")), "{hint}");
+            assert!(
+                hint.to_string().contains(&format!("position {index} did not repeat: its angle changed by ")),
+                "{hint}"
+            );
         }
     }
 }
