@@ -72,7 +72,7 @@
 //! | `dcc` | Digital Calibration Certificates of PTB, of a stand and of a gyro | `cli` |
 //! | `schema` | JSON Schemas of the formats | `cli` |
 //! | `template` | commented files to begin with | `cli` |
-//! | `workspace` | a folder that states key, trust and folders; what it contains | `cli` |
+//! | `workspace` | a folder that states key, trust and folders; its contents | `cli` |
 //! | `demonstration` | the whole story on a built-in example | `cli` |
 //! | [`cli`] | the command line: read, call, write | `cli` |
 //!

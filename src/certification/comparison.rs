@@ -106,7 +106,8 @@ pub struct CommonTurn {
 impl CommonTurn {
     /// Returns the smallest rotation of the platform about an axis of the case that the test finds with a probability of 95 %.
     fn detectable_arcsec(&self) -> Option<f64> {
-        self.test.map(|test| self.u_platform_arcsec * detectable(OUTLIER, test.degrees_of_freedom, test.of_u))
+        let test = self.test?;
+        Some(self.u_platform_arcsec * detectable(OUTLIER, test.degrees_of_freedom, test.of_u)?)
     }
 }
 
@@ -210,8 +211,10 @@ pub fn compare(
     }
     let same_stand =
         same_stand && !findings.iter().any(|found| found.is_of_the_certificate() || found.is_large_scatter());
-    if same_stand && !findings.contains(&Finding::TreatedAsExact) {
-        let position_arcsec = detectable_position_arcsec(&positions);
+    if same_stand
+        && !findings.contains(&Finding::TreatedAsExact)
+        && let Some(position_arcsec) = detectable_position_arcsec(&positions)
+    {
         findings.push(Finding::Detects { position_arcsec, platform_arcsec: common.detectable_arcsec() });
     }
     let words = findings.iter().map(ToString::to_string).collect();
@@ -219,13 +222,13 @@ pub fn compare(
     Ok(Comparison { certificate, runs, all, positions, common, same_stand, findings, words })
 }
 
-/// Returns the rotation about any axis of the case that is found with a probability of 95 % in each of the `positions`.
-fn detectable_position_arcsec(positions: &[ComparedPosition]) -> f64 {
-    let of = |at: &ComparedPosition| {
-        let largest = at.u_arcsec.into_iter().fold(0.0, f64::max);
-        largest * detectable(OUTLIER / positions.len() as f64, at.test.degrees_of_freedom, at.test.of_u)
-    };
-    positions.iter().map(of).fold(0.0, f64::max)
+/// Returns the rotation about any axis of the case that is found with a probability of 95 % in each of the `positions`, or
+/// `None` if the uncertainties have too few degrees of freedom.
+fn detectable_position_arcsec(positions: &[ComparedPosition]) -> Option<f64> {
+    let largest_u = positions.iter().flat_map(|at| at.u_arcsec).fold(0.0, f64::max);
+    // All have the same degrees of freedom.
+    let test = positions.first()?.test;
+    Some(largest_u * detectable(OUTLIER / positions.len() as f64, test.degrees_of_freedom, test.of_u)?)
 }
 
 /// Returns the findings on readings of which the angles stand in other places or in another unit.

@@ -1,4 +1,4 @@
-//! Verb `status`: what a workspace contains.
+//! Verb `status`: the contents of a workspace.
 
 use super::trust_options::{self, time};
 use super::{Code, Failure, Format, code, defaults};
@@ -7,7 +7,7 @@ use clap::Args;
 use jiff::Timestamp;
 use std::path::PathBuf;
 
-/// Show what a workspace contains: stands, sites, passports in force, expiring within 90 days, alarms, keys
+/// Show the contents of a workspace: stands, sites, passports in force, expiring within 90 days, alarms, keys
 #[derive(Args)]
 pub(super) struct Options {
     /// Trusted signing keys: an OpenSSH allowed_signers file

@@ -137,11 +137,13 @@ impl Drift {
         tested.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, series)| series)
     }
 
-    /// Returns the smallest drift that is found in any deviation with a probability of 95 %, ″/year; `None` if none was tested.
+    /// Returns the smallest drift that is found in any deviation with a probability of 95 %, ″/year; `None` if none was tested, or the
+    /// uncertainties have too few degrees of freedom.
     pub(crate) fn detectable_arcsec_per_year(&self) -> Option<f64> {
         let level = DRIFTS / self.tested() as f64;
-        let of = |line: StraightLine| line.u_slope * detectable(level, 1, line.slope_degrees_of_freedom);
-        self.series.iter().filter_map(|series| series.line.map(of)).reduce(f64::max)
+        let of = |line: &StraightLine| Some(line.u_slope * detectable(level, 1, line.slope_degrees_of_freedom)?);
+        let each: Option<Vec<f64>> = self.series.iter().filter_map(|series| series.line.as_ref()).map(of).collect();
+        each?.into_iter().reduce(f64::max)
     }
 
     /// Returns the deviation that has changed most relative to the others, steadily or in a jump, or `None` if no such

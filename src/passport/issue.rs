@@ -15,7 +15,7 @@ use crate::stand::{self, CertifiedPosition, Stand};
 use crate::text::scalar::day;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Path, Problems, Unreadable, rule};
 use crate::trust::{BadIdentity, SignatureError, check_identity};
-use crate::wording::number::{Number, localised};
+use crate::wording::number::Number;
 use crate::wording::{Language, plain};
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -378,15 +378,6 @@ const NOISE_WARNING: f64 = 2.0;
 /// Growth of K's uncertainty towards the poles above which the factory is warned.
 const POLAR_WARNING: f64 = 3.0;
 
-/// Formats a factor with two significant digits, and with a power of ten from 1000 on.
-fn two_digits(factor: f64) -> String {
-    let digits = match factor < 995.0 {
-        true => Number::significant(factor, 2).text(Language::English),
-        false => localised(&format!("{factor:.1e}"), Language::English),
-    };
-    plain(&digits)
-}
-
 /// Remarks for the factory to read before it delivers a passport.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Remarks {
@@ -425,7 +416,7 @@ impl Remarks {
         if self.uncertainty_growth > POLAR_WARNING {
             words.push(format!(
                 "WARNING: at this latitude, near the pole, the uncertainty of K is {} times that at the equator",
-                two_digits(self.uncertainty_growth)
+                plain(&Number::scientific(self.uncertainty_growth, 2).text(Language::English))
             ));
         }
         words.extend(self.odd.iter().map(|odd| format!("WARNING: {odd}")));

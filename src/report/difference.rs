@@ -2,6 +2,7 @@
 
 use crate::passport::Content;
 use crate::passport::difference::{Differences, NumberDifference, OtherDifference};
+use crate::report::page::passport::numbers::DECIMALS;
 use crate::report::{columns, style};
 use crate::text::{Node, Printable, number};
 use serde_json::{Value, json};
@@ -112,9 +113,6 @@ pub(crate) fn numbers(out: &mut String, numbers: &[NumberDifference]) {
     // Non-breaking spaces keep each heading on one line.
     columns::table(out, &["", "A", "B", "B\u{A0}-\u{A0}A", "u", "(B\u{A0}-\u{A0}A)/u"], rows);
 }
-
-/// Decimals of computed numbers without an uncertainty, as on the page.
-const DECIMALS: usize = 9;
 
 /// Returns the decimals with which a page prints a computed number without an uncertainty, by its key, or `None` for a
 /// number that people write.

@@ -157,11 +157,11 @@ fn of_lines(drift: &Drift, angles: [&str; 3]) -> String {
     } else if probability < SUSPECTED {
         format!("a drift is suspected: {name}, {slope}, {by}; recertify the stand earlier than planned")
     } else {
-        let smallest = columns::two_digits(drift.detectable_arcsec_per_year().unwrap_or_default());
-        format!(
-            "no drift was found: the most significant is {name}, {slope}, {by}; with a probability of 95 % a drift of any \
-             deviation by {smallest}″ per year is found"
-        )
+        let found = drift.detectable_arcsec_per_year().map_or_else(String::new, |smallest| {
+            let smallest = columns::two_digits(smallest);
+            format!("; with a probability of 95 % a drift of any deviation by {smallest}″ per year is found")
+        });
+        format!("no drift was found: the most significant is {name}, {slope}, {by}{found}")
     }
 }
 

@@ -123,12 +123,15 @@ fn non_central_f_larger(value: f64, numerator: usize, denominator: f64, non_cent
 
 /// Returns √λ that the test of F with the given degrees of freedom finds with a probability of 95 %, where it takes an F for
 /// a change that is larger by chance with the probability `level` only: for one degree of freedom of the numerator, the
-/// change in units of its standard uncertainty.
-pub(crate) fn detectable(level: f64, numerator: usize, denominator: f64) -> f64 {
+/// change in units of its standard uncertainty. Returns `None` if that is more than 100, as for one degree
+/// of freedom of the denominator or fewer.
+pub(crate) fn detectable(level: f64, numerator: usize, denominator: f64) -> Option<f64> {
     const MISSED: f64 = 0.05;
+    // The number of terms grows with λ, which has no bound for few degrees of freedom.
+    const LARGEST: f64 = 100.0;
     let critical = falling_root(|value| f_larger(value, numerator, denominator), level);
     let missed = |root: f64| 1.0 - non_central_f_larger(critical, numerator, denominator, root * root);
-    falling_root(missed, MISSED)
+    (missed(LARGEST) <= MISSED).then(|| falling_root(missed, MISSED))
 }
 
 /// Returns the value that chi-square with `degrees_of_freedom` exceeds with `probability`, or NaN if `probability` is
@@ -204,8 +207,16 @@ mod tests {
             (0.01, 1, f64::INFINITY, (2.575_829_303_548_9_f64 + 1.644_853_626_951_5).powi(2)),
             (0.01 / 8.0, 3, f64::INFINITY, 29.183_423_902_110),
         ] {
-            let found = detectable(level, numerator, denominator);
+            let found = detectable(level, numerator, denominator).unwrap();
             assert!((found * found / non_centrality - 1.0).abs() < 1e-9, "{level} {numerator} {denominator}: {found}");
+        }
+    }
+
+    /// Expected: SciPy 1.17, `ncf.sf(f.isf(0.01 / 8, 3, nu), 3, nu, 1e4)`: 0.0782 for one degree of freedom; with fewer it falls.
+    #[test]
+    fn few_degrees_of_freedom_find_nothing() {
+        for denominator in [1.0, 0.5, 0.01, 1e-9] {
+            assert_eq!(detectable(0.01 / 8.0, 3, denominator), None, "{denominator}");
         }
     }
 

@@ -2,7 +2,7 @@
 //! keys and the folders of all commands.
 //!
 //! * `layout`: a new workspace.
-//! * `status`: what a workspace contains.
+//! * `status`: the contents of a workspace.
 
 mod layout;
 mod status;

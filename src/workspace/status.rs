@@ -1,4 +1,4 @@
-//! What a workspace contains: stands, sites, passports in force, passports that expire soon, alarms, keys.
+//! Contents of a workspace: stands, sites, passports in force, passports that expire soon, alarms, keys.
 
 use super::{WORKSPACE_FILE, Workspace};
 use crate::batch::paths::{is_stand, is_yaml};

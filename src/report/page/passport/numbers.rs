@@ -17,7 +17,7 @@ use maud::{Markup, html};
 const PAPER: &str = "doi:10.18698/2308-6033-2017-10-1691";
 
 /// Decimals of numbers without an uncertainty: 1e-9 °/h and 1e-9 g are far below the resolution of any reading.
-const DECIMALS: usize = 9;
+pub(crate) const DECIMALS: usize = 9;
 
 pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let content = &page.content;
