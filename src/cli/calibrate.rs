@@ -331,6 +331,11 @@ impl Bench<'_> {
             all += 1;
             inputs::print(&done, options.format)
         })?;
+        if let Some(folder) = options.out.as_ref().filter(|_| !written.is_empty()) {
+            let (count, folder) = (written.len(), shown(folder));
+            let plural = if count == 1 { "" } else { "s" };
+            output::say(&format!("wrote the result (.json) and the report (.html) of {count} gyro{plural} to {folder}"));
+        }
         outcomes.insert("refused".to_owned(), all - outcomes.values().sum::<usize>());
         if all > 1 {
             let counted = report::OUTCOMES.iter().filter_map(|outcome| Some((outcomes.get(*outcome)?, outcome)));
@@ -367,7 +372,6 @@ impl Bench<'_> {
         let text = printable::json(&found.whole()).map_err(Failure::unusable)? + "\n";
         let pages = [(json.clone(), text), page];
         files::together::write_replaceable_together(&pages, self.options.uncertainty.force)?;
-        output::say(&format!("wrote {} and .html", shown(&json)));
         written.insert(json, found.currents.0.clone());
         Ok(())
     }

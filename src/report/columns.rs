@@ -66,11 +66,17 @@ pub(crate) fn fitted(text: &str, columns: usize) -> String {
         } else {
             out.push_str(&line[..at]);
             let column = shown_columns(&line[..at]);
-            let hang = if at == indent { HANG } else { 0 };
+            let hang = if at == indent { after_ordinal(words).unwrap_or(HANG) } else { 0 };
             wrapped(&mut out, column, (column + hang).max(HANG), &line[at..], columns);
         }
     }
     out
+}
+
+/// Returns the columns of the number of an item and of the space after it, as in `3. Words`; otherwise `None`.
+fn after_ordinal(words: &str) -> Option<usize> {
+    let (number, _) = words.split_once(". ")?;
+    number.parse::<u8>().ok().map(|_| number.len() + ". ".len())
 }
 
 /// Returns the text as [`fitted`] does, with no line wider than a sentence.

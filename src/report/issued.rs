@@ -128,7 +128,7 @@ pub(crate) fn failure(failure: &Failure) -> String {
 
 /// Returns the line of an order, and the SHA-256 of its passport below.
 pub(super) fn named(report: &Report) -> String {
-    let sha256 = report.sha256.as_ref().map(|sha256| format!("{INDENT}sha256 {sha256}\n"));
+    let sha256 = report.sha256.as_ref().map(|sha256| format!("{INDENT}SHA-256 {sha256}\n"));
     line(report) + &sha256.unwrap_or_default()
 }
 

@@ -30,7 +30,7 @@ pub(crate) fn text(content: &Content, verification: Option<&Verification>) -> St
     option(&mut out, "program", header.issued_with.as_ref());
     option(&mut out, "valid until (inclusive)", header.valid_until.as_ref());
     if let Some(old) = &header.reissued_from {
-        line(&mut out, "re-issued from", format!("{}, sha256 {}", old.id, old.sha256));
+        line(&mut out, "re-issued from", format!("{}, SHA-256 {}", old.id, old.sha256));
         line(&mut out, "reason", &old.reason);
         line(&mut out, "changes", &old.changed);
         line(&mut out, "supersedes", if header.supersedes == Some(true) { "yes" } else { "no" });
@@ -92,7 +92,7 @@ fn stand(out: &mut String, content: &Content) {
         line(out, &format!("type B, {}, ″", acts_on.word()), format!("{u_arcsec}{known}: {source}"));
     }
     if let Some(Evidence { readings_sha256, runs, excluded }) = &certificate.evidence {
-        line(out, "readings", format!("{runs} runs, sha256 {readings_sha256}"));
+        line(out, "readings", format!("{runs} runs, SHA-256 {readings_sha256}"));
         for excluded in excluded.iter().flatten() {
             line(out, "excluded", format!("{}: {}", excluded.describe(), excluded.why));
         }
