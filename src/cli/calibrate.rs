@@ -334,7 +334,9 @@ impl Bench<'_> {
         if let Some(folder) = options.out.as_ref().filter(|_| !written.is_empty()) {
             let (count, folder) = (written.len(), shown(folder));
             let plural = if count == 1 { "" } else { "s" };
-            output::say(&format!("wrote the result (.json) and the report (.html) of {count} gyro{plural} to {folder}"));
+            output::say(&format!(
+                "wrote the result (.json) and the report (.html) of {count} gyro{plural} to {folder}"
+            ));
         }
         outcomes.insert("refused".to_owned(), all - outcomes.values().sum::<usize>());
         if all > 1 {
