@@ -56,7 +56,7 @@ pub enum Explanation {
     /// Exchanged readings of two positions.
     #[error("positions {0} and {1} are exchanged")]
     Exchanged(PositionIndex, PositionIndex),
-    /// Positions that are numbered in another way than in the certificate.
+    /// Positions that are numbered differently from the certificate.
     #[error("the positions are numbered in another way (readings → passport): {}", numbering(i, j))]
     Renumbered {
         /// Certified i of the readings with i = 1, 2.

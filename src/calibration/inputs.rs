@@ -231,7 +231,7 @@ impl Setup {
     }
 
     /// Returns the setup with the positions that have readings, and with the rounding of the readings where it is larger
-    /// than the floor of the meter. Closed methods need all of the paper's eight positions.
+    /// than the floor of the meter. The analytic and iterative methods need all of the paper's eight positions.
     pub(crate) fn of_readings(&self, readings: &Readings) -> Cow<'_, Self> {
         let recorded = readings.recorded.applied_to(self);
         let is_left_out = |index: &PositionIndex| readings.left_out.contains(index);

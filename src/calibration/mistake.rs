@@ -54,7 +54,7 @@ pub enum Mistake {
     },
     /// A gyro rotated in its seat about the spin axis.
     GyroTurned {
-        /// Angle from the seat to the gyro, counterclockwise about z: 90, 180 or 270 degrees.
+        /// Angle from the seat to the gyro, anticlockwise about z: 90, 180 or 270 degrees.
         by_deg: u16,
     },
     /// A gyro that is rotated in its seat about the spin axis, or a base about the vertical, by a small angle.
@@ -77,7 +77,7 @@ pub enum Mistake {
         /// Factor by which the parameters are larger than the nominal values.
         factor: f64,
     },
-    /// Positions that are numbered in another way than in the certificate, such as φ in the other direction.
+    /// Positions that are numbered differently from the certificate, such as φ in the other direction.
     Renumbered {
         /// Certified i of the readings with i = 1, 2.
         i: [u32; 2],

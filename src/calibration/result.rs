@@ -231,7 +231,7 @@ pub struct MethodResult {
     /// Course of the iteration; `None` for other methods.
     pub iteration: Option<Iteration>,
     /// Covariance of the parameters from all inputs, 8×8 in the order of [`Parameter::EIGHT`]; 9×9 with the anisoelastic
-    /// coefficient last, or 12×12 with G by rows in place of ω_g and ω_k.
+    /// coefficient last, or 12×12 with G by rows instead of ω_g and ω_k.
     pub covariance: DMatrix<f64>,
     /// Standard uncertainties of the elements of ω_n, °/(h·g), 2×2.
     pub omega_n_uncertainty_deg_per_h_per_g: Matrix2<f64>,

@@ -89,21 +89,20 @@ texts! {
     }
     PLATFORM_AXES_DIFFER {
         en: "From run to run the platform rotates by {own}″ about {axis} and by {others}″ about its other two axes \
-             (Cochran’s test, {p}). The common part is pooled from all three and is too small about {axis} \
-             unless a component of type B of {missing}″ is stated, which allows for the {freedom} degrees of freedom \
-             of {own}″.",
+             (Cochran’s test, {p}). The common part is pooled from all three and is too small about {axis} unless a \
+             component of type B of {missing}″ is stated, which allows for the {freedom} degrees of freedom of {own}″.",
         ru: "От серии к серии стандартное отклонение поворота платформы вокруг {axis} равно {own}″, вокруг двух других \
-             осей {others}″ (критерий Кохрена, {p}). Общая составляющая, объединённая по трём осям, для {axis} \
-             занижена, если не указана составляющая по типу B {missing}″ (с учётом числа степеней свободы: {freedom})."
+             осей {others}″ (критерий Кохрена, {p}). Общая составляющая, объединённая по трём осям, для {axis} занижена, \
+             если не указана составляющая по типу B, равная {missing}″ (учтено число степеней свободы {freedom})."
     }
     BASE_AXES_DIFFER {
-        en: "From run to run the base rotates by {own}″ about {axis} and by {others}″ about its other two axes \
-             (Cochran’s test, {p}). The common part is pooled from all three and is too small about {axis} \
-             unless a component of type B of {missing}″ is stated, which allows for the {freedom} degrees of freedom \
-             of {own}″.",
+        en: "From run to run the base rotates by {own}″ about {axis} and by {others}″ about its other two axes (Cochran’s \
+             test, {p}). The common part is pooled from all three and is too small about {axis} unless a component of \
+             type B of {missing}″ is stated, which allows for the {freedom} degrees of freedom of {own}″.",
         ru: "От серии к серии стандартное отклонение поворота основания вокруг оси «{axis}» равно {own}″, вокруг двух \
              других осей {others}″ (критерий Кохрена, {p}). Общая составляющая, объединённая по трём осям, для оси \
-             «{axis}» занижена, если не указана составляющая по типу B {missing}″ (с учётом числа степеней свободы: {freedom})."
+             «{axis}» занижена, если не указана составляющая по типу B, равная {missing}″ (учтено число степеней свободы \
+             {freedom})."
     }
     SHARED_SETTING {
         en: "In each run the positions with the same {angle} share an error with a standard deviation of {u}″ (F test, \
@@ -115,10 +114,10 @@ texts! {
              устанавливать заново перед каждым положением."
     }
     FEW_RUNS {
-        en: "The common part of a run is estimated from {runs} runs with {freedom} degrees of freedom; its uncertainty has \
-             an uncertainty of {doubt} %. Five runs or more are recommended.",
-        ru: "Общая составляющая серии оценена по сериям в числе {runs} (число степеней свободы {freedom}); её \
-             неопределённость известна с погрешностью {doubt} %. Рекомендуется не менее пяти серий."
+        en: "The common part of a run is estimated from {runs} runs with {freedom} degrees of freedom; its uncertainty \
+             has an uncertainty of {doubt} %. Five runs or more are recommended.",
+        ru: "Общая составляющая серии оценена при числе серий {runs} и числе степеней свободы {freedom}; относительная \
+             неопределённость этой оценки {doubt} %. Рекомендуется не менее пяти серий."
     }
     BASE_NOT_SEEN {
         en: "In these positions a rotation of the base cannot be distinguished from one of the platform; the common part \
@@ -129,8 +128,8 @@ texts! {
     BASE_IN_PART {
         en: "In these positions rotations of the base can be distinguished from those of the platform about {axes} of \
              three axes only; the common part of the platform includes the rest.",
-        ru: "В этих положениях поворот основания отличим от поворота платформы не по всем трём осям (число осей {axes}); \
-             остальное включено в общую составляющую платформы."
+        ru: "В этих положениях поворот основания отличим от поворота платформы только по {axes} из трёх осей; остальное \
+             включено в общую составляющую платформы."
     }
     ROUNDING {
         en: "The readings of {angles} of {all} angles vary by less than half their step of {step}″, so their mean does not \
@@ -143,8 +142,10 @@ texts! {
         ru: "Ни один угол не превышает {largest}″; возможно, углы указаны в градусах, а не в секундах."
     }
     LITTLE_SCATTER {
-        en: "The visits scatter by only {scatter}″, less than a stand repeats; the angles may be in arcminutes instead of arcseconds.",
-        ru: "Стандартное отклонение одной установки — лишь {scatter}″, меньше, чем у любого стенда; возможно, углы указаны в минутах, а не в секундах."
+        en: "The visits scatter by only {scatter}″, less than the repeatability of any stand; the angles may be in \
+             arcminutes instead of arcseconds.",
+        ru: "Стандартное отклонение одной установки — лишь {scatter}″, меньше, чем у любого стенда; возможно, углы \
+             указаны в минутах, а не в секундах."
     }
     FAR_ANGLE {
         en: "{angle} of position {index} is {value}″; the angles of the other positions are up to {usual}″.",
@@ -206,20 +207,20 @@ texts! {
         ru: "Углы записаны в других столбцах или с другими знаками, чем в сертификате (показание → сертификат: {columns})."
     }
     SCATTERS_MORE {
-        en: "The visits of the check scatter by {found}″, the certificate states {certified}″ (F test, {p}). Either the \
-             stand repeats worse, so that uncertainties from its certificate are too small, or the instrument of the \
+        en: "The visits of the check scatter by {found}″, but the certificate states {certified}″ (F test, {p}). Either \
+             the stand repeats worse, so that uncertainties from its certificate are too small, or the instrument of the \
              check reads worse.",
-        ru: "Стандартное отклонение одной установки при проверке {found}″, по сертификату {certified}″ (критерий Фишера, {p}). \
-             Либо повторяемость стенда ухудшилась и неопределённости по его сертификату занижены, либо больше погрешность \
-             прибора, которым выполнена проверка."
+        ru: "Стандартное отклонение одной установки при проверке {found}″, по сертификату {certified}″ (критерий Фишера, \
+             {p}). Либо повторяемость стенда ухудшилась и неопределённости по его сертификату занижены, либо больше \
+             погрешность прибора, которым выполнена проверка."
     }
     POSITION_CHANGED {
         en: "Position {index} has changed relative to the other positions: {x}″, {y}″, {z}″ about x, y, z.",
         ru: "Положение {index} изменилось относительно остальных: {x}″, {y}″, {z}″ вокруг x, y, z."
     }
     CHANGED_TOGETHER {
-        en: "The positions have changed by more than stated; no single position stands out.",
-        ru: "Положения изменились больше, чем указано; ни одно из них не выделяется."
+        en: "The positions have changed by more than the stated uncertainties explain; no single position stands out.",
+        ru: "Изменения положений больше, чем объясняют указанные неопределённости; ни одно положение не выделяется."
     }
     CHANGED_SLIGHTLY {
         en: "The differences of the positions are slightly larger than chance explains; another run is needed.",
@@ -272,7 +273,7 @@ texts! {
     NOT_TESTED_RUNS {
         en: "Rotation of the stand as a whole was not tested: one run does not show the scatter between set-ups, and the \
              certificate does not state its number of runs.",
-        ru: "Общий поворот стенда не проверен: одна серия не показывает рассеяния между установками стенда, а число \
+        ru: "Общий поворот стенда не проверен: одна серия не показывает рассеяния между выставками основания, а число \
              серий в сертификате не указано."
     }
     NOT_TESTED_COMMON_PARTS {
@@ -281,14 +282,15 @@ texts! {
         ru: "Общий поворот стенда не проверен: общие составляющие неопределённости в сертификате не указаны."
     }
     DETECTS {
-        en: "With a probability of 95 % the check finds a rotation of one position by {position}″, or of the platform by \
-             {platform}″, about an axis of the case.",
-        ru: "С вероятностью 95 % проверка обнаруживает поворот одного положения на {position}″ или всей платформы на \
-             {platform}″ вокруг оси корпуса."
+        en: "A rotation of one position by {position}″, or of the platform by {platform}″, about an axis of the case \
+             would be detected with a probability of 95 %.",
+        ru: "Поворот одного положения на {position}″ или всей платформы на {platform}″ вокруг оси корпуса был бы \
+             обнаружен с вероятностью 95 %."
     }
     DETECTS_OF_POSITION {
-        en: "With a probability of 95 % the check finds a rotation of one position by {position}″ about an axis of the case.",
-        ru: "С вероятностью 95 % проверка обнаруживает поворот одного положения на {position}″ вокруг оси корпуса."
+        en: "A rotation of one position by {position}″ about an axis of the case would be detected with a probability of \
+             95 %.",
+        ru: "Поворот одного положения на {position}″ вокруг оси корпуса был бы обнаружен с вероятностью 95 %."
     }
     TREATED_AS_EXACT {
         en: "The certificate does not state the uncertainty of all angles; these were treated as exact, so differences \

@@ -35,8 +35,8 @@ use std::path::{Path, PathBuf};
 
 /// Calibrate a gyro: parameters, their uncertainty, the fit, and the decision for its type
 ///
-/// For several gyros on one stand, CURRENTS.csv is several files, a quoted pattern, or a folder, whose *.csv are taken;
-/// a - reads a list of paths from standard input. Each gyro is one line, and with --format json one line of JSON.
+/// For several gyros on one stand, give several files, a quoted pattern, or a folder, whose *.csv files are read; with -
+/// the paths are read from standard input. Each gyro gives one line of output, and with --format json one line of JSON.
 #[derive(Args)]
 pub(super) struct Options {
     /// Passport file; in a workspace also its identifier
@@ -107,10 +107,10 @@ pub(super) struct Options {
     anisoelasticity: bool,
     #[command(flatten)]
     uncertainty: uncertainty::UncertaintyOptions,
-    /// Report to write, for paper, screen and phone, with fields for handwritten signatures
+    /// Write a report for paper, screen and phone, with fields for handwritten signatures
     #[arg(long, value_name = "FILE.html", value_parser = output::path_of("html"))]
     report: Option<PathBuf>,
-    /// Digital Calibration Certificate of the gyro to write; needs --gyro-serial, --administrative and a verified passport
+    /// Write a Digital Calibration Certificate of the gyro; needs --gyro-serial, --administrative and a verified passport
     #[arg(long, value_name = "FILE.xml", conflicts_with_all = ["no_verify", "anisoelasticity", "drift"])]
     dcc: Option<PathBuf>,
     /// Administrative data of --dcc (dtg-dcc/1); `new dcc` writes a template

@@ -24,9 +24,9 @@ use std::path::{Path, PathBuf};
 
 /// Certify a stand from repeated readings of its angles, or check that it has not changed
 ///
-/// For several stands, READINGS.csv is several files, a quoted pattern, or a folder, whose *.csv are taken; a - reads a
-/// list of paths from standard input. --stand is then the folder of their headers, NAME.yaml for NAME.csv. Each stand is
-/// one line, and with --format json one line of JSON.
+/// For several stands, give several files, a quoted pattern, or a folder, whose *.csv files are read; with - the paths are
+/// read from standard input. --stand is then the folder of their headers, NAME.yaml for NAME.csv. Each stand gives one
+/// line of output, and with --format json one line of JSON.
 #[derive(Args)]
 pub(super) struct Options {
     /// Angles: CSV with the header i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec, and every position in every run
@@ -36,7 +36,7 @@ pub(super) struct Options {
     /// folder of these files
     #[arg(long, value_name = "HEADER.yaml", required_unless_present = "against")]
     stand: Option<PathBuf>,
-    /// Certified stand file to write, for one stand
+    /// Write the certified stand file of one stand
     #[arg(
         short,
         long,
@@ -59,7 +59,7 @@ pub(super) struct Options {
     trust: OptionalTrust,
     #[command(flatten)]
     exclusions: ExclusionOptions,
-    /// Record of the certification for paper to write: readings, tests, uncertainty, signature lines
+    /// Write a printable record of the certification: readings, tests, uncertainty, signature lines
     #[arg(long, value_name = "FILE.html", value_parser = output::path_of("html"))]
     report: Option<PathBuf>,
     /// Languages of the record; the first sets the number format

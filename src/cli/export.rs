@@ -1,4 +1,4 @@
-//! Verb `export`: verified passports in other forms: stand and site files again, JSON, and a DCC.
+//! Verb `export`: verified passports in other forms: stand and site files, JSON, and a DCC.
 
 use super::inputs::{self, AdministrativeFile, Each};
 use super::render::languages;
@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 /// Number of passports that are verified at a time.
 const AT_ONCE: usize = 256;
 
-/// Export verified passports: the stand and site files again, JSON, or a Digital Calibration Certificate
+/// Export verified passports as stand and site files, as JSON, or as a Digital Calibration Certificate
 ///
 /// PASSPORT is a file, a quoted pattern, or a folder; a - reads a list of paths from standard input. Files are written
 /// to DIR/<model>/<serial>/stand.yaml, DIR/<site id>.yaml, DIR/<model>/<serial>/<site id>-<revision>.json and

@@ -80,7 +80,7 @@ impl Failure {
         self
     }
 
-    /// Creates the failure for a folder in place of the file that `expected` describes.
+    /// Creates the failure for a folder found instead of the file that `expected` describes.
     pub(super) fn folder(path: &Path, expected: &str) -> Self {
         let message = format!("{}: found a folder, expected {expected}; specify a file in it", shown(path));
         let problems = vec![Place::file(name_of(path), message.clone())];

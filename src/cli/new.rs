@@ -18,13 +18,13 @@ pub(super) struct Options {
     /// Kind of file
     #[arg(value_enum)]
     kind: Kind,
-    /// File to write [default: standard output]
+    /// Write the template to this file [default: standard output]
     #[arg(value_name = "FILE")]
     file: Option<PathBuf>,
-    /// Number of positions of a stand, header, readings or currents: the paper's 8, four of them, or 16 more [default: 8]
+    /// Number of positions of a stand, header, readings or currents: the paper's 8, 4 of these, or these and 16 more [default: 8]
     #[arg(long, value_name = "N", value_parser = ["4", "8", "24"])]
     positions: Option<String>,
-    /// Plan whose positions a stand, header, readings or currents get, in its order (from `plan --format json`)
+    /// Take the positions of a stand, header, readings or currents, and their order, from this plan (`plan --format json`)
     #[arg(long, value_name = "PLAN.json", conflicts_with = "positions")]
     from_plan: Option<PathBuf>,
     /// Number of runs of readings [default: 5]

@@ -110,7 +110,7 @@ pub(super) fn json(value: &impl Serialize) -> Result<(), Failure> {
     result(&(text + "\n"))
 }
 
-/// Writes a failure as JSON in place of a result. Errors are ignored, because the message and the exit code remain.
+/// Writes a failure as JSON instead of a result. Errors are ignored, because the message and the exit code remain.
 pub(super) fn failure(failure: &Failure) {
     let _ = json(&failure.failed.document());
 }
@@ -170,7 +170,7 @@ pub(super) fn usage(words: &str) {
     let _ = anstream::stderr().lock().write_all(words.as_bytes());
 }
 
-/// Writes a warning beside the output.
+/// Writes a warning next to the output.
 pub(super) fn warn(words: &str) {
     complain(&format!("WARNING: {words}"));
 }

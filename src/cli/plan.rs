@@ -10,7 +10,7 @@ use crate::report::plan as report;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
-/// Find the best positions to certify or to read, how often, in which order, and with the frame's axis at which azimuth
+/// Find the best positions to certify or read, the number and order of visits, and the best azimuth of the frame's axis
 #[derive(Args)]
 pub(super) struct Options {
     /// Site file (dtg-site/1); in a workspace also the identifier of the site
@@ -41,7 +41,7 @@ pub(super) struct Options {
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
-    /// Picture to write
+    /// Write a picture of the plan
     #[arg(short, long, value_name = "FILE.svg", value_parser = output::path_of("svg"))]
     output: Option<PathBuf>,
     /// Replace an existing picture

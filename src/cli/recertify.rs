@@ -70,7 +70,7 @@ pub(super) struct Options {
     out: Option<PathBuf>,
     #[command(flatten)]
     exclusions: ExclusionOptions,
-    /// Record of the certification for paper to write, with a table and a picture of what has changed
+    /// Write a printable record of the certification, with a table and a picture of the changes
     #[arg(long, value_name = "FILE.html", value_parser = output::path_of("html"))]
     report: Option<PathBuf>,
     /// Languages of the record; the first sets the number format

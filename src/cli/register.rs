@@ -78,7 +78,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     Ok(code)
 }
 
-/// Refuses a file in place of the folder of passports.
+/// Refuses a file given instead of the folder of passports.
 pub(super) fn refuse_file(folder: &Path) -> Result<(), Failure> {
     if folder.is_file() {
         let folder = shown(folder);

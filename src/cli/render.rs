@@ -18,7 +18,7 @@ pub(super) struct Options {
     /// Passport files; in a workspace also their identifiers
     #[arg(required = true, value_name = "PASSPORT", value_parser = defaults::passport())]
     passports: Vec<PathBuf>,
-    /// HTML file to write, for one passport
+    /// Write the page of one passport to this file
     #[arg(short, long, value_name = "FILE.html", value_parser = output::path_of("html"), required_unless_present = "out", conflicts_with = "out")]
     output: Option<PathBuf>,
     /// Folder for the pages of several passports: <model>/<serial>/<site>-<revision>.html

@@ -85,7 +85,7 @@ struct ConvergenceArguments {
     trials: u64,
     #[command(flatten)]
     run: RunArguments,
-    /// Figure to write
+    /// Write a figure
     #[arg(short, long, value_name = "FILE.svg", value_parser = output::path_of("svg"))]
     output: Option<PathBuf>,
     /// Replace an existing figure

@@ -24,7 +24,7 @@ pub(super) struct UncertaintyOptions {
     /// Uncertainty budget: contribution of every input to every parameter
     #[arg(long)]
     budget: bool,
-    /// Picture of the budget to write
+    /// Write a picture of the budget
     #[arg(long, value_name = "FILE.svg", value_parser = output::path_of("svg"), requires = "budget")]
     pub budget_svg: Option<PathBuf>,
     /// Replace an existing picture or report

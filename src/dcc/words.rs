@@ -9,10 +9,10 @@ texts! {
     SERIAL { en: "Serial number", ru: "Заводской номер" }
     CONFIGURATION { en: "Configuration", ru: "Исполнение" }
     PASSPORT_ID { en: "Identifier of the signed passport", ru: "Обозначение подписанного паспорта" }
-    PREDECESSOR { en: "Signed passport that was re-issued", ru: "Перевыпущенный подписанный паспорт" }
+    PREDECESSOR { en: "Signed predecessor of the passport", ru: "Прежний подписанный паспорт" }
     TRACEABILITY { en: "Traceability", ru: "Прослеживаемость" }
     VALID_UNTIL { en: "Valid until (inclusive)", ru: "Действителен по (включительно)" }
-    TEMPERATURE_RANGE { en: "Temperature range of validity", ru: "Диапазон температур" }
+    TEMPERATURE_RANGE { en: "Temperature range of validity", ru: "Диапазон применимости по температуре" }
     LOWEST { en: "Lowest temperature", ru: "Наименьшая температура" }
     HIGHEST { en: "Highest temperature", ru: "Наибольшая температура" }
     LEVEL { en: "Datum surface for levelling", ru: "Базовая поверхность для горизонтирования" }
@@ -56,8 +56,8 @@ texts! {
     PASSPORT_NOTE {
         en: "Passport {id}, byte for byte; SHA-256 {sha256}. This DCC is not signed, the passport in it is: save the \
              passport and verify it.",
-        ru: "Паспорт {id}, байт в байт; SHA-256 {sha256}. Сам этот сертификат не подписан, подписан вложенный паспорт: \
-             его следует сохранить и проверить."
+        ru: "Паспорт {id}, байт в байт; SHA-256 {sha256}. Этот цифровой сертификат калибровки не подписан, подписан \
+             вложенный паспорт: его следует сохранить и проверить."
     }
     STAND { en: "Test stand with certified deviations", ru: "Поворотный стенд с отклонениями по сертификату" }
     GYRO { en: "Dynamically tuned gyro", ru: "Динамически настраиваемый гироскоп" }
@@ -95,6 +95,7 @@ texts! {
     }
     NOT_SIGNED {
         en: "This DCC is not signed. The passport of the stand is signed; its SHA-256 is given with the equipment.",
-        ru: "Этот сертификат не подписан. Подписан паспорт стенда, его хеш SHA-256 указан при средствах калибровки."
+        ru: "Этот цифровой сертификат калибровки не подписан. Подписан паспорт стенда, его хеш SHA-256 указан при \
+             средствах калибровки."
     }
 }

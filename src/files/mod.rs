@@ -26,7 +26,7 @@ pub enum FileError {
     /// File that cannot be opened or read.
     #[error("{}: cannot be read: {}", shown(.0), Printable(reason_at(.0, .1)))]
     Read(PathBuf, io::Error),
-    /// Folder in place of a file.
+    /// Folder found instead of a file.
     #[error("{}: found a folder, expected a file", shown(.0))]
     Folder(PathBuf),
     /// Pipe, device or socket, which its reader might wait for indefinitely.

@@ -239,7 +239,7 @@ fn degrees_of_freedom(stand: &Stand, at: &CertifiedPosition, angle: usize, u: f6
 /// difference; `first` is the date of the first certificate. Certificates that do not state all uncertainties, and
 /// positions that are not in all of the others, are left out; empty if nothing common is stated or nothing can be compared.
 ///
-/// Platform and base are set up anew for every certificate, which turns all positions together. If these common parts are
+/// Platform and base are set up again for every certificate, which rotates all positions together. If these common parts are
 /// larger than the own part of a position, its drift does not show in the deviation itself; its expectation given the others
 /// they do not change much.
 ///

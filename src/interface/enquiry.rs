@@ -283,11 +283,11 @@ mod tests {
             (r#"{"at": [91, 0]}"#, "latitude 91"),
             (r#"{"at": [0, 181]}"#, "longitude 181"),
             (r#"{"serial": "0018", "serial": "0017"}"#, "duplicate key \"serial\""),
-            (r#"["0017"]"#, "found a list of 1 items, expected a mapping with the keys time, at, serial"),
+            (r#"["0017"]"#, "found a list of 1 item, expected a mapping with the keys time, at, serial"),
             (r#"{"at": [1e999, 0]}"#, "JSON"),
             (r#"{"at": [0]}"#, "at: found [0.0], expected [latitude, longitude]"),
             (r#"{"revoked": "rubbish"}"#, "revoked: found \"rubbish\", expected a list"),
-            (r#"{"revoked": [[256]]}"#, "revoked: found a list of 1 items, expected a list of revocation lists, each"),
+            (r#"{"revoked": [[256]]}"#, "revoked: found a list of 1 item, expected a list of revocation lists, each"),
             (r#"{"revoked": ["rubbish"]}"#, "revoked[0]"),
             (r#"{"revoked": [[83, 83, 72, 75, 82, 76, 10, 0]]}"#, "revoked[0]"),
         ] {

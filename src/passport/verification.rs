@@ -307,7 +307,9 @@ impl Run {
             NotAuthorised::Expired { .. } => Code::KeyExpired,
         };
         let remedy = match code {
-            Code::UnknownKey => "; ask the factory for its key, and compare the fingerprint by another channel",
+            Code::UnknownKey => {
+                "; ask the factory for its key, and compare the fingerprint by a channel other than that of the passport"
+            }
             _ => "",
         };
         let detail = format!("{miss} (key {}, issuer {issuer}, issued {at}){remedy}", key.fingerprint());

@@ -141,7 +141,7 @@ pub(crate) struct Plan {
     pub beyond_range: usize,
     /// `true` if every choice was compared; `false` if the plan was found by exchange.
     pub exhaustive: bool,
-    /// `true` if the paper's eight positions are in the plan, so that its matrices and closed methods exist.
+    /// `true` if the paper's eight positions are in the plan, so that its matrices exist and its analytic and iterative methods apply.
     pub has_matrices: bool,
     /// `true` if the plan also determines the twelve parameters of the general model.
     pub has_general_model: bool,

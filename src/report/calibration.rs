@@ -61,7 +61,7 @@ pub(crate) fn text(
         verified_as_of.map_or_else(|| "NOT VERIFIED".to_owned(), |time| format!("verified as of {time}{unchecked}"));
     columns::paragraph(&mut out, "", &format!("Passport {}, {state}", document.passport_id));
     let gravity = match (document.gravity_m_per_s2, document.gravity_u_m_per_s2) {
-        (gravity, Some(u)) => format!("{gravity:.0$} m/s² (u {u:.0$})", columns::decimals(u)),
+        (gravity, Some(u)) => format!("{gravity:.0$} m/s² (u = {u:.0$})", columns::decimals(u)),
         (gravity, None) => format!("{gravity} m/s²"),
     };
     let of_type =
@@ -313,13 +313,13 @@ fn methods(out: &mut String, calibration: &Calibration, results: &[ResultDocumen
         let predicted = result.iterations_predicted.map(|steps| steps.to_string());
         let predicted = predicted.unwrap_or_else(|| format!("more than {LARGEST_NUMBER_OF_STEPS}"));
         let radius = columns::powers(&format!("{radius:.1e}"));
-        let negligible = texts::NEGLIGIBLE.of(Language::English);
+        let negligible = format!("at most {}", texts::NEGLIGIBLE.of(Language::English));
         let remaining = match result.remaining_errors() {
-            Some([None, None]) | None => negligible.to_owned(),
+            Some([None, None]) | None => negligible,
             Some(errors) => {
                 let words = |error: Option<f64>, unit: &str| {
                     error.map_or_else(
-                        || negligible.to_owned(),
+                        || negligible.clone(),
                         |most| format!("at most {} {unit}", columns::two_digits(most)),
                     )
                 };

@@ -212,7 +212,7 @@ pub(crate) fn table(out: &mut String, names: &[&str], rows: impl IntoIterator<It
 /// Heading of a difference in units of its uncertainty; it stays on one line.
 pub(crate) const OFF: &str = "diff.\u{A0}/\u{A0}u";
 
-/// Returns the end of the columns from `next` on that fit beside the first `heads`; at least one does. A column `u` is
+/// Returns the end of the columns from `next` on that fit next to the first `heads`; at least one does. A column `u` is
 /// never parted from its value.
 fn end_of_part(names: &[&str], columns: &[Vec<String>], heads: usize, next: usize) -> usize {
     let needed = |column: &Vec<String>| 2 + widest(column);

@@ -88,7 +88,7 @@ pub(crate) fn sentence(drift: &Drift, angles: [&str; 3]) -> String {
 /// Formats a change with its unit and its standard uncertainty.
 fn measured(value: f64, unit: &str, u: f64) -> String {
     let decimals = columns::decimals(u);
-    format!("{}{unit} (u {u:.decimals$})", columns::signed(value, decimals))
+    format!("{}{unit} (u = {u:.decimals$})", columns::signed(value, decimals))
 }
 
 /// Returns the sentence on a change of one deviation that the parts common to all positions hide.
@@ -159,7 +159,7 @@ fn of_lines(drift: &Drift, angles: [&str; 3]) -> String {
     } else {
         let found = drift.detectable_arcsec_per_year().map_or_else(String::new, |smallest| {
             let smallest = columns::two_digits(smallest);
-            format!("; with a probability of 95 % a drift of any deviation by {smallest}″ per year is found")
+            format!("; a drift of any deviation by {smallest}″ per year would be detected with a probability of 95 %")
         });
         format!("no drift was found: the most significant is {name}, {slope}, {by}{found}")
     }

@@ -129,14 +129,14 @@ fn positions(out: &mut String, content: &Content) {
 
 /// Returns a standard uncertainty to print after its value, or nothing if it is `None`.
 fn with_u(u: Option<f64>) -> String {
-    u.map_or_else(String::new, |u| format!(", u {u}"))
+    u.map_or_else(String::new, |u| format!(", u = {u}"))
 }
 
 /// Returns a value to the digits of its standard uncertainty, and the uncertainty; all digits if it is `None`.
 fn measured(value: f64, u: Option<f64>) -> String {
     let Some(u) = u else { return value.to_string() };
     let digits = columns::decimals(u);
-    format!("{value:.digits$}, u {u:.digits$}")
+    format!("{value:.digits$}, u = {u:.digits$}")
 }
 
 fn site(out: &mut String, content: &Content) {
@@ -171,7 +171,7 @@ fn site(out: &mut String, content: &Content) {
     heading(out, "Earth at the site");
     line(out, "Earth rate, °/h", format!("{:.9}", earth.rate_deg_per_h));
     let latitude_u = site.astronomic_latitude_u_arcsec();
-    let u = if latitude_u > 0.0 { format!(", u {}″", columns::two_digits(latitude_u)) } else { String::new() };
+    let u = if latitude_u > 0.0 { format!(", u = {}″", columns::two_digits(latitude_u)) } else { String::new() };
     line(out, "astronomic latitude, °", format!("{}{u}", earth.latitude_deg));
     let rates = [("horizontal", earth.horizontal_deg_per_h), ("vertical", earth.vertical_deg_per_h)];
     for ((name, rate), u) in rates.into_iter().zip(earth.rate_u_deg_per_h(site)) {

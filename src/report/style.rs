@@ -56,7 +56,7 @@ impl Outcome {
     }
 }
 
-/// Returns the mark of an outcome, in a terminal and on paper. The mark only repeats the words beside it, so that they
+/// Returns the mark of an outcome, in a terminal and on paper. The mark only repeats the words next to it, so that they
 /// can be read without it.
 pub(crate) fn mark(outcome: Outcome) -> &'static str {
     match outcome {

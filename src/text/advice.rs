@@ -60,7 +60,7 @@ pub(super) fn on_cell(text: &str, column: &str) -> Option<&'static str> {
     } else if text.strip_prefix('(').and_then(|text| text.strip_suffix(')')).is_some_and(is_number) {
         Some("write a negative number with a minus, without parentheses")
     } else if is_number(&text.replace([',', ' ', '\u{A0}', '\u{202F}'], "")) {
-        Some("use a decimal point, and no separators of thousands")
+        Some("use a decimal point, and no thousands separators")
     } else if is_number(&text.replace(['D', 'd'], "E")) {
         Some("write the exponent with E, such as 1.0E-3")
     } else if has_unit(text) {
@@ -227,7 +227,7 @@ mod tests {
     #[test]
     fn the_advice_on_a_cell_fits_what_was_written() {
         const WITHOUT_UNIT: &str = "write the number alone, in the unit that the column name states";
-        const NO_THOUSANDS: &str = "use a decimal point, and no separators of thousands";
+        const NO_THOUSANDS: &str = "use a decimal point, and no thousands separators";
         for (written, column, due) in [
             ("-1:10.9", "beta_arcsec", ARCSECONDS),
             ("0°01′10.9″", "alpha_arcsec", ARCSECONDS),

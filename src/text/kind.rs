@@ -23,7 +23,7 @@ words! {
         AllowedSigners = "a list of trusted keys (allowed_signers)",
         PublicKey = "a public key",
         PrivateKey = "a private key",
-        KeyRevocationList = "a key revocation list of OpenSSH (KRL)",
+        KeyRevocationList = "an OpenSSH key revocation list (KRL)",
         Workbook = "a ZIP archive or an Office file",
         Measurement = "a data file of MATLAB or LabVIEW",
         Pdf = "a PDF file",

@@ -42,6 +42,7 @@ impl Node {
             Node::Number(value) => format!("{value}"),
             Node::Text(value) if value.chars().count() <= 60 => format!("{value:?}"),
             Node::Text(value) => format!("text of {} characters", value.chars().count()),
+            Node::List(items) if items.len() == 1 => "a list of 1 item".to_owned(),
             Node::List(items) => format!("a list of {} items", items.len()),
             Node::Map(_) => "a mapping".to_owned(),
         }

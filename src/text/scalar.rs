@@ -148,7 +148,7 @@ impl Field for Identifier {
 
     fn expected(_: &str) -> String {
         "1 to 64 ASCII letters, digits, '.', '_' or '-', starting with a letter or digit, without '..', without '.' \
-         at the end, and no device name of Windows"
+         at the end, and not a Windows device name"
             .to_owned()
     }
 

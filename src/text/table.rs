@@ -155,7 +155,7 @@ impl<'a> Table<'a> {
         Problem::new(Some(cell.location), column_name(&self.columns, column), found, expected, advice)
     }
 
-    /// Refuses a table in which the points in `columns` seem to be separators of thousands, as in 1.064 for 1064: each is before
+    /// Refuses a table in which the points in `columns` seem to be thousands separators, as in 1.064 for 1064: each is before
     /// exactly three digits, no number is below 1, and other numbers are whole.
     pub(crate) fn check_marks(&self, columns: &[&str]) -> Result<(), Unreadable> {
         let places: Vec<usize> = columns.iter().filter_map(|column| self.place(column)).collect();
@@ -175,7 +175,7 @@ impl<'a> Table<'a> {
             return Ok(());
         }
         let advice = "every point is before exactly three digits, and other numbers are whole: save the table again without \
-                      separators of thousands, or, if the points are decimal, with all decimals in every number";
+                      thousands separators, or, if the points are decimal, with all decimals in every number";
         let expected = "a number that can be read in one way";
         Err(self.refuse(vec![self.problem(first, place, described(&first.text), expected, advice)]))
     }
@@ -232,7 +232,7 @@ fn with_decimal_points(rows: &mut [Row], columns: &[&str]) -> Result<bool, Probl
             let found = format!("{:?}, with decimal commas from line {} on", cell.text, comma.location.line);
             let expected = "decimal commas or decimal points in the whole file";
             let advice = match cell.text.contains(',') {
-                true => "save the table again without separators of thousands",
+                true => "save the table again without thousands separators",
                 false => "save the table again with decimal points",
             };
             return Err(Problem::new(Some(cell.location), column_name(columns, place), found, expected, advice));
@@ -463,7 +463,7 @@ mod tests {
         };
         for rows in ["1;1;-622;-1.064\n1;2;12.345;17", "1;1;2,697;-2,136\n1;2;-459;63"] {
             let words = checked(rows).unwrap_err();
-            assert!(words.contains("without separators of thousands"), "{words}");
+            assert!(words.contains("without thousands separators"), "{words}");
         }
         for rows in [
             "1;1;-622.5;-1.064\n1;2;12.345;17",

@@ -51,7 +51,7 @@ fn unreadable_yaml(name: &str, text: &str, error: &serde_yaml::Error) -> Unreada
         words.truncate(at);
     }
     if let Some(found) = location.and_then(|at| tab(text, at)) {
-        return Unreadable::whole(name, location, found, "spaces", "replace the tab by spaces");
+        return Unreadable::whole(name, location, found, "spaces", "replace the tab with spaces");
     }
     // The parser could read these constructs, but they are refused; the message describes what is in the file.
     let (found, advice) = match words.as_str() {

@@ -17,7 +17,7 @@ pub enum KeyError {
     #[error("found a key of type {}, expected ssh-ed25519 or sk-ssh-ed25519@openssh.com", Printable(.0))]
     OtherKeyType(String),
     /// The file is not an OpenSSH private key file.
-    #[error("found {found}, expected a private key file of OpenSSH (`-----BEGIN OPENSSH PRIVATE KEY-----`); {advice}")]
+    #[error("found {found}, expected an OpenSSH private key file (`-----BEGIN OPENSSH PRIVATE KEY-----`); {advice}")]
     NotAPrivateKey {
         /// Content that was found instead.
         found: &'static str,

@@ -269,13 +269,13 @@ mod tests {
         let public = SigningKey::generate().unwrap().public_key().to_openssh();
         for (text, words) in [
             ("", "an empty file"),
-            (public.as_str(), "a public key, expected a private key file of OpenSSH"),
+            (public.as_str(), "a public key, expected an OpenSSH private key file"),
             ("-----BEGIN PRIVATE KEY-----\nMC4=\n-----END PRIVATE KEY-----", "PKCS#8"),
             ("-----BEGIN ENCRYPTED PRIVATE KEY-----", "PKCS#8"),
             ("-----BEGIN RSA PRIVATE KEY-----", "an RSA key in PEM"),
             ("-----BEGIN EC PRIVATE KEY-----", "an ECDSA key in PEM"),
-            ("-----BEGIN CERTIFICATE-----", "found a certificate, expected a private key file"),
-            ("---- BEGIN SSH2 PUBLIC KEY ----", "found a public key, expected a private key file"),
+            ("-----BEGIN CERTIFICATE-----", "found a certificate, expected an OpenSSH private key file"),
+            ("---- BEGIN SSH2 PUBLIC KEY ----", "found a public key, expected an OpenSSH private key file"),
             (public.as_str(), "give the private key, the file without .pub"),
             ("PuTTY-User-Key-File-3: ssh-ed25519", "puttygen"),
             ("hello", "found no private key, expected"),

@@ -160,16 +160,16 @@ pub(crate) mod implausible {
         OF_LABORATORY {
             en: "{key} of the laboratory is {value}, more than {largest} {unit}; check the unit, because no decision is \
                  possible with such an uncertainty",
-            ru: "Значение {key} лаборатории — {value}, больше {largest} {unit}; проверьте единицу: при такой неопределённости \
-                 решение невозможно"
+            ru: "Значение {key} лаборатории равно {value}, больше {largest} {unit}; следует проверить единицу: при такой \
+                 неопределённости решение невозможно"
         }
         OF_TYPE {
-            en: "{key} of the gyro type is {value} percent of the scale factor; check the unit, because such a \
-                 tolerance decides nothing",
-            ru: "Значение {key} типа гироскопа — {value} % масштабного коэффициента; проверьте единицу: такой допуск \
-                 ничего не решает"
+            en: "{key} of the gyro type is {value} percent of the scale factor; check the unit, because such a tolerance \
+                 decides nothing",
+            ru: "Значение {key} типа гироскопа равно {value} % масштабного коэффициента; следует проверить единицу: при \
+                 таком допуске заключение о соответствии не имеет смысла"
         }
-        PERCENT { en: "percent", ru: "процента" }
+        PERCENT { en: "%", ru: "%" }
         MILLIAMPERES { en: "milliamperes", ru: "мА" }
         ARCSECONDS { en: "arcseconds", ru: "угловых секунд" }
     }

@@ -119,7 +119,7 @@ fn it_goes_through_every_document() {
     assert_eq!(content.certificate.type_b_on(ActsOn::Platform).count(), 1);
     let shown = passport_table::text(content, None);
     for words in
-        ["type B, platform, ″", "0.6: mirror cube", "0.4 (8 degrees of freedom): mirror flatness", "5 runs, sha256"]
+        ["type B, platform, ″", "0.6: mirror cube", "0.4 (8 degrees of freedom): mirror flatness", "5 runs, SHA-256"]
     {
         assert!(shown.contains(words), "no {words:?} in\n{shown}");
     }

@@ -27,7 +27,7 @@ pub(super) fn torn_visits(table: &Table, readings: &[Reading]) -> Vec<Problem> {
         before = Some(here);
         if ended.contains(&here) {
             let found = format!("visit {visit} of position {} again, later than another visit", reading.index);
-            let advice = "give a return to the position the next number, or check the times";
+            let advice = "give a later visit to the position the next number, or check the times";
             let column = table.place("visit").unwrap_or(0);
             return vec![table.problem(&row[column], column, found, "a visit that is not interrupted", advice)];
         }
@@ -120,7 +120,7 @@ pub(super) fn scattered_visit(readings: &[Reading]) -> Option<String> {
         if let (true, (_, index, Some(visit))) = (ended.contains(&next), next) {
             return Some(format!(
                 "rows of visit {visit} to position {index} are not next to each other, and count as readings of one visit; give \
-                 every return to the position a number of its own"
+                 every visit to the position its own number"
             ));
         }
     }

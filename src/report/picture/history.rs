@@ -244,7 +244,7 @@ fn in_words(history: &History) -> String {
     let drifts = history.drift.series.iter().filter_map(|series| {
         let fitted = series.line.as_ref()?;
         let (name, index) = (ANGLE_SYMBOLS[series.angle], series.index);
-        Some(format!("{name} {index} {:+.3} arcsec per year, u {:.3}", fitted.slope, fitted.u_slope))
+        Some(format!("{name} {index} {:+.3} arcsec per year, u = {:.3}", fitted.slope, fitted.u_slope))
     });
     let all: Vec<String> = certificates
         .chain(passports)

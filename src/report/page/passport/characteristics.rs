@@ -216,7 +216,7 @@ fn with_u(value: f64, u: f64, unit: Text, languages: &Languages) -> Markup {
 /// Writes the standard uncertainty of what stands before it.
 fn its_u(languages: &Languages, u: Option<(f64, Text)>) -> Markup {
     let u = match u {
-        Some((u, unit)) => quantity(languages, &Number::uncertainty(u), unit),
+        Some((u, unit)) => html! { "=" (BLANK) (quantity(languages, &Number::uncertainty(u), unit)) },
         None => not_stated(languages),
     };
     html! { ", " span.quantity { (symbol("u", "")) (BLANK) (u) } }

@@ -124,7 +124,11 @@ pub(crate) fn table(page: &PassportPage, languages: &Languages) -> Markup {
         .collect();
     if !not_asked.is_empty() {
         let joined = |of: fn(CheckName) -> Text, between| {
-            let words = |language| not_asked.iter().map(|check| of(*check).words(language)).collect::<Vec<_>>();
+            // Only the first name of a list has its capital letter.
+            let words = |language| {
+                let words = not_asked.iter().map(|check| of(*check).words(language)).enumerate();
+                words.map(|(place, words)| if place == 0 { words } else { words.to_lowercase() }).collect::<Vec<_>>()
+            };
             languages.label_with(|language| words(language).join(between))
         };
         let word = if not_asked.len() > 1 { texts::SEVERAL_NOT_ASKED } else { texts::NOT_ASKED };

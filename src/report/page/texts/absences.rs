@@ -17,7 +17,7 @@ texts! {
     }
     TRACEABILITY {
         en: "No traceability is stated; the deviations are not shown to be traceable to the SI.",
-        ru: "Прослеживаемость не указана; прослеживаемость отклонений не подтверждена."
+        ru: "Прослеживаемость не указана; связь отклонений с единицами СИ не подтверждена."
     }
     TEMPERATURE {
         en: "The certificate gives no temperature; the validity of the deviations at other temperatures is unknown.",

@@ -55,9 +55,9 @@ texts! {
     }
     NOT_IN_U {
         en: "Inputs not in U (u not stated, or stated as 0): {count} (section\u{a0}3){more}.",
-        ru: "Величин, не учтённых в U (u не указана или 0): {count} (раздел\u{a0}3){more}."
+        ru: "Число величин, не учтённых в U (u не указана или равна 0): {count} (раздел\u{a0}3){more}."
     }
-    AND_TEMPERATURE { en: ", and the temperature", ru: ", а также температура" }
+    AND_TEMPERATURE { en: ", and the temperature", ru: "; температура также не учтена" }
     NO_TYPE { en: "Parameters determined", ru: "Параметры определены" }
     NO_TYPE_WORDS {
         en: "No gyro type was specified; this report makes no statement of conformity.",
@@ -67,62 +67,65 @@ texts! {
     MISTAKE_CURRENTS {
         en: "The readings fit, but the parameters do not match this gyro. One error explains this: {causes}. Check the \
              torquer cables, the signs and unit of the currents, and the gyro seat; then calibrate again.",
-        ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: \
-             {causes}. Следует проверить кабели датчиков момента, знаки и единицу токов, установку гироскопа и повторить \
-             калибровку."
+        ru: "Показания согласуются с моделью, но параметры не соответствуют данному гироскопу. Это объясняется одной \
+             ошибкой: {causes}. Следует проверить кабели датчиков момента, знаки и единицу токов, установку гироскопа и \
+             повторить калибровку."
     }
     MISTAKE_PLACE {
         en: "The readings fit, but the parameters do not match this gyro. One error explains this: the passport is for \
              another site, and the stand is at a latitude of about {latitude}. Check the location of the stand; then \
              calibrate again with the passport for that site.",
-        ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: \
-             паспорт выдан для другого места установки, а стенд находится на широте около {latitude}. Следует \
+        ru: "Показания согласуются с моделью, но параметры не соответствуют данному гироскопу. Это объясняется одной \
+             ошибкой: стенд находится на широте около {latitude}, а паспорт выдан для другого места установки. Следует \
              проверить место установки стенда и повторить калибровку по паспорту для этого места."
     }
     MISTAKE_GYRO_TURNED {
         en: "The readings fit, but the parameters do not match this gyro. One error explains this: the gyro is rotated by \
-             {angle}° about its spin axis, or φ is counted from another position. Check the gyro seat; then \
-             calibrate again.",
-        ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: \
-             гироскоп повёрнут вокруг оси собственного вращения на {angle}°, или угол φ отсчитан от другого \
+             {angle}° about its spin axis, or φ is counted from another position. Check the gyro seat; then calibrate \
+             again.",
+        ru: "Показания согласуются с моделью, но параметры не соответствуют данному гироскопу. Это объясняется одной \
+             ошибкой: гироскоп повёрнут вокруг оси собственного вращения на {angle}°, или угол φ отсчитан от другого \
              положения. Следует проверить установку гироскопа и повторить калибровку."
     }
     MISTAKE_ROTATED {
         en: "The readings fit, but the parameters do not match this gyro. One error explains this: the gyro is rotated in \
-             its seat about the spin axis, or the base about the vertical, by about {angle}°. Check the gyro seat \
-             and the azimuth of the base; then calibrate again.",
-        ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: \
-             гироскоп повёрнут на посадочной поверхности вокруг оси собственного вращения или основание — вокруг вертикали \
-             примерно на {angle}°. Следует проверить установку гироскопа и азимут основания и повторить калибровку."
+             its seat about the spin axis, or the base about the vertical, by about {angle}°. Check the gyro seat and the \
+             azimuth of the base; then calibrate again.",
+        ru: "Показания согласуются с моделью, но параметры не соответствуют данному гироскопу. Это объясняется одной \
+             ошибкой: гироскоп повёрнут на посадочной поверхности вокруг оси собственного вращения или основание — вокруг \
+             вертикали примерно на {angle}°. Следует проверить установку гироскопа и азимут основания и повторить \
+             калибровку."
     }
     MISTAKE_OTHER_AXIS {
-        en: "The readings fit, but the parameters do not match this gyro. One error explains this: the frame’s axis of the \
-             stand points to the azimuth {azimuth}°, and not to that of the passport. Check the set-up of the base; then \
-             calibrate again, or request a passport for this azimuth.",
-        ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: ось \
-             рамки стенда направлена по азимуту {azimuth}°, а не по указанному в паспорте. Следует проверить выставку \
-             основания и повторить калибровку или запросить паспорт для этого азимута."
+        en: "The readings fit, but the parameters do not match this gyro. One error explains this: the frame’s axis of \
+             the stand points to the azimuth {azimuth}°, and not to that of the passport. Check the set-up of the base; \
+             then calibrate again, or request a passport for this azimuth.",
+        ru: "Показания согласуются с моделью, но параметры не соответствуют данному гироскопу. Это объясняется одной \
+             ошибкой: ось рамки стенда направлена по азимуту {azimuth}°, а не по указанному в паспорте. Следует проверить \
+             выставку основания и повторить калибровку или запросить паспорт для этого азимута."
     }
     MISTAKE_TYPE_TOO_SMALL {
         en: "The readings fit, but the parameters do not match this gyro. One error explains this: all values of the gyro \
              type are too small by a factor of {factor}; degrees per second are to be multiplied by 3600. Correct the \
              gyro type; then calibrate again.",
-        ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: \
-             все значения типа гироскопа занижены в {factor} раз; значения в градусах в секунду следует умножить на 3600. \
-             Следует исправить тип гироскопа и повторить калибровку."
+        ru: "Показания согласуются с моделью, но параметры не соответствуют данному гироскопу. Это объясняется одной \
+             ошибкой: все значения типа гироскопа занижены (делитель {factor}); значения в градусах в секунду следует \
+             умножить на 3600. Следует исправить тип гироскопа и повторить калибровку."
     }
     MISTAKE_TYPE_TOO_LARGE {
         en: "The readings fit, but the parameters do not match this gyro. One error explains this: all values of the gyro \
              type are too large by a factor of {factor}. Correct the gyro type; then calibrate again.",
-        ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: \
-             все значения типа гироскопа завышены в {factor} раз. Следует исправить тип гироскопа и повторить калибровку."
+        ru: "Показания согласуются с моделью, но параметры не соответствуют данному гироскопу. Это объясняется одной \
+             ошибкой: все значения типа гироскопа завышены (множитель {factor}). Следует исправить тип гироскопа и \
+             повторить калибровку."
     }
     MISTAKE_RENUMBERED {
         en: "The readings fit, but the parameters do not match this gyro. One error explains this: the positions are \
-             numbered in another way (readings → passport): {numbers}. Check the numbering and the direction of φ; then calibrate again.",
-        ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: \
-             положения пронумерованы иначе (показания → паспорт): {numbers}. \
-             Следует проверить нумерацию и направление отсчёта φ и повторить калибровку."
+             numbered in another way (readings → passport): {numbers}. Check the numbering and the direction of φ; then \
+             calibrate again.",
+        ru: "Показания согласуются с моделью, но параметры не соответствуют данному гироскопу. Это объясняется одной \
+             ошибкой: положения пронумерованы иначе (показания → паспорт): {numbers}. Следует проверить нумерацию и \
+             направление отсчёта φ и повторить калибровку."
     }
     MISTAKE_AND { en: "and", ru: "и" }
     MISTAKE_EXCHANGED { en: "the x and y columns are exchanged", ru: "столбцы x и y переставлены" }
@@ -135,11 +138,11 @@ texts! {
     }
     MISTAKE_TOO_LARGE {
         en: "all currents are too large by a factor of {factor}",
-        ru: "все токи завышены в {factor} раз"
+        ru: "все токи завышены (множитель {factor})"
     }
     MISTAKE_TOO_SMALL {
         en: "all currents are too small by a factor of {factor}",
-        ru: "все токи занижены в {factor} раз"
+        ru: "все токи занижены (делитель {factor})"
     }
 
     NO_CHANGE { en: "No change can be shown", ru: "Изменение установить нельзя" }
@@ -199,9 +202,9 @@ texts! {
         ru: "Температура вне диапазона, указанного в сертификате"
     }
     TEMPERATURE_OUTSIDE {
-        en: "The temperature in the laboratory is {here} °C; the deviations of the stand are certified from \
-             {low} °C to {high} °C. U does not include the effect of this.",
-        ru: "Температура в лаборатории {here} °C; отклонения стенда определены при температуре от {low} до \
+        en: "The temperature in the laboratory is {here} °C; the deviations of the stand are certified from {low} °C to \
+             {high} °C. U does not include the effect of this.",
+        ru: "Температура в лаборатории {here} °C; отклонения стенда по сертификату применимы при температуре от {low} до \
              {high} °C. Влияние этого в U не учтено."
     }
     GRAVITY { en: "Gravity g, local", ru: "Ускорение g, местное" }
@@ -214,10 +217,10 @@ texts! {
         ru: "Параметры и их расширенная неопределённость U (коэффициент охвата k = {k}; вероятность охвата 95,45 %); \
              ω_g и ω_k отнесены к местному g"
     }
-    PASSED { en: "{passed} of {all} parameters pass", ru: "Соответствуют допускам {passed} из {all} параметров" }
+    PASSED { en: "{passed} of {all} parameters pass", ru: "Соответствует допускам {passed} из {all} параметров" }
     CHANGE_PASSED {
         en: "Change since the previous calibration: {passed} of {all} parameters pass",
-        ru: "Изменение после предыдущей калибровки: соответствуют допускам {passed} из {all} параметров"
+        ru: "Изменение после предыдущей калибровки: соответствует допускам {passed} из {all} параметров"
     }
     ARE_UNDECIDED { en: "; undecided: {names}", ru: "; не определено: {names}" }
     FAIL { en: "; fail: {names}", ru: "; не соответствуют: {names}" }
@@ -228,7 +231,7 @@ texts! {
     PLUS_MINUS { en: "± U", ru: "± U" }
     IN_TOLERANCE { en: "% of the tolerance", ru: "% допуска" }
     METHODS { en: "Methods and convergence", ru: "Методы и сходимость" }
-    NEGLIGIBLE { en: "negligible, below a thousandth of u", ru: "пренебрежимо мала, менее тысячной доли u" }
+    NEGLIGIBLE { en: "a thousandth of u (negligible)", ru: "тысячной доли u (пренебрежимо мала)" }
     PARAMETERS_CAPTION {
         en: "Values, each with its standard uncertainty u (k = 1) below it; ω_g and ω_k refer to local g, {g} m/s²",
         ru: "Значения и под ними стандартная неопределённость u (k = 1); ω_g и ω_k отнесены к \
@@ -297,18 +300,20 @@ texts! {
     OF_PLACE { en: "local g,", ru: "местному g," }
     CALIBRATED { en: "Calibration", ru: "Калибровка" }
     CHANGE_CAPTION {
-        en: "Change since the previous calibration, to which the tolerance applies as well; expanded uncertainty U (coverage factor k = {k}; coverage \
-             probability 95.45 %); ω_g and ω_k refer to the g of the type, g_0\u{a0}=\u{a0}{g} m/s²",
-        ru: "Изменение (допуск относится и к нестабильности); расширенная неопределённость U (коэффициент охвата k = {k}; \
-             вероятность охвата 95,45 %); ω_g и ω_k отнесены к g типа, g_0\u{a0}=\u{a0}{g} м/с²"
+        en: "Change since the previous calibration, to which the tolerance applies as well; expanded uncertainty U \
+             (coverage factor k = {k}; coverage probability 95.45 %); ω_g and ω_k refer to the g of the type, \
+             g_0\u{a0}=\u{a0}{g} m/s²",
+        ru: "Изменение после предыдущей калибровки (допуск относится и к нему); расширенная неопределённость U \
+             (коэффициент охвата k = {k}; вероятность охвата 95,45 %); ω_g и ω_k отнесены к g типа, g_0\u{a0}=\u{a0}{g} \
+             м/с²"
     }
     PARAMETER { en: "Parameter", ru: "Параметр" }
     NOMINAL { en: "Nominal", ru: "Номин. значение" }
     PREVIOUS {
-        en: "Previous calibration: {day}, passport {passport}, currents {sha256}. Errors common \
-             to both, such as those of the stand, are not in the change: U is an upper estimate.",
-        ru: "Предыдущая калибровка: {day}, паспорт {passport}, токи {sha256}. Общие погрешности (стенда) \
-             в изменение не входят: U завышена."
+        en: "Previous calibration: {day}, passport {passport}, currents {sha256}. Errors common to both, such as those of \
+             the stand, are not in the change: U is an upper estimate.",
+        ru: "Предыдущая калибровка: {day}, паспорт {passport}, токи {sha256}. Погрешности, общие для обеих калибровок \
+             (например, погрешности стенда), в изменение не входят: U — оценка сверху."
     }
     NO_DAY_BUT_CURRENTS { en: "{number}, currents {sha256}", ru: "{number}, токи {sha256}" }
     NO_DAY { en: "date not stated", ru: "дата не указана" }
@@ -344,7 +349,7 @@ texts! {
     GUARDED { en: "Guarded acceptance", ru: "С защитной полосой" }
     PASSED_BY_SIMPLE {
         en: "By simple acceptance, without a guard band, {passed} of {all} parameters pass",
-        ru: "При простой приёмке, без защитной полосы, соответствуют допускам {passed} из {all} параметров"
+        ru: "При простой приёмке, без защитной полосы, соответствует допускам {passed} из {all} параметров"
     }
     TOO_UNCERTAIN {
         en: "No gyro can pass by guarded acceptance: U exceeds the tolerance of {names}.",
@@ -433,15 +438,16 @@ texts! {
         ru: "Их всего две, поэтому ошибочной может быть и другая."
     }
     DRIFTS {
-        en: "The residuals show a drift of ω_0 in time, ({x}, {y}) °/h per hour ({p}), which is not fitted. Fit it with {option}.",
-        ru: "Остатки обнаруживают изменение ω_0 во времени: ({x}, {y}) °/ч за час ({p}); модель его не содержит. Следует учесть его: \
-             {option}."
+        en: "The residuals show a drift of ω_0 in time, ({x}, {y}) °/h per hour ({p}), which is not fitted. Fit it with \
+             {option}.",
+        ru: "Остатки обнаруживают изменение ω_0 во времени: ({x}; {y}) °/ч² ({p}); модель его не содержит. Следует учесть \
+             его: {option}."
     }
     DRIFTS_IN_ORDER {
         en: "In the order of the rows the residuals show a drift of ω_0, ({x}, {y}) °/h from one visit to the next ({p}), \
              which is not fitted and enlarges u; with the times of the readings it could be fitted.",
-        ru: "В порядке строк остатки обнаруживают изменение ω_0: ({x}, {y}) °/ч от установки к установке ({p}); модель его не \
-             содержит, и оно увеличивает u; если указать время показаний, его можно оценить."
+        ru: "В порядке строк остатки обнаруживают изменение ω_0: ({x}; {y}) °/ч от установки к установке ({p}); модель \
+             его не содержит, и оно увеличивает u; если указать время показаний, его можно оценить."
     }
     DRIFT_OR_NOISE {
         en: "A drift in time was not tested, because the repeated visits cannot tell it from the noise of the gyro.",
@@ -474,14 +480,14 @@ texts! {
     IDENTICAL_ROWS {
         en: "All readings of a visit are identical, so they show no scatter: they are copies, or the last digit is too \
              coarse. They count as one reading.",
-        ru: "Все показания одной установки одинаковы и не обнаруживают рассеяния: это копии, или последний знак слишком \
-             груб. Они учтены как одно показание."
+        ru: "Все показания одной установки одинаковы и не обнаруживают рассеяния: это копии, или шаг последнего разряда \
+             слишком велик. Они учтены как одно показание."
     }
     IDENTICAL_VISITS {
         en: "All visits to a position are identical, so they show no scatter: they are copies, or the last digit is too \
              coarse. They count as one visit.",
-        ru: "Все установки в одно положение дали одинаковые показания и не обнаруживают рассеяния: это копии, или \
-             последний знак слишком груб. Они учтены как одна установка."
+        ru: "Все установки в одно положение дали одинаковые показания и не обнаруживают рассеяния: это копии, или шаг \
+             последнего разряда слишком велик. Они учтены как одна установка."
     }
     LESS_THAN_STATED {
         en: "The variation is less than stated. Readings taken without leaving the position belong to one visit.",
@@ -531,18 +537,21 @@ texts! {
              axis, the gain and offset of the meter, x and y exchanged, one sign reversed. A base rotated in azimuth \
              leaves almost no residuals. To detect these errors, check the serial number of the stand, the site of the \
              passport, the specification of the gyro and its previous calibration.",
-        ru: "Малые остатки не исключают погрешностей. Не проявляются в остатках, но изменяют результат: паспорт для \
-             другого места установки (широта), наклон основания вокруг направления на восток, поворот гироскопа на \
-             посадочной поверхности вокруг оси собственного вращения, погрешности коэффициента преобразования и \
-             смещения нуля измерителя, перестановка x и y, обратный знак одной из величин. Поворот основания по азимуту почти не \
-             проявляется в остатках. Для выявления этих погрешностей проверяют номер стенда, место установки по \
-             паспорту, технические условия на гироскоп и результаты его предыдущей калибровки."
+        ru: "Малые остатки не исключают погрешностей и ошибок. Не проявляются в остатках, но изменяют результат: паспорт \
+             для другого места установки (широта), наклон основания вокруг направления на восток, поворот гироскопа на \
+             посадочной поверхности вокруг оси собственного вращения, погрешности коэффициента преобразования и смещения \
+             нуля измерителя, перестановка x и y, обратный знак одной из величин. Поворот основания по азимуту почти не \
+             проявляется в остатках. Для их выявления проверяют номер стенда, место установки по паспорту, технические \
+             условия на гироскоп и результаты его предыдущей калибровки."
     }
     NOT_STATED {
         en: "Not stated, or stated as 0, and not included in any uncertainty:",
         ru: "Не указано (или указано равным нулю) и не учтено в неопределённости:"
     }
-    ALL_STATED { en: "All relevant uncertainties are stated.", ru: "Все учитываемые неопределённости указаны." }
+    ALL_STATED {
+        en: "The uncertainties of all relevant inputs are stated.",
+        ru: "Неопределённости всех влияющих величин указаны."
+    }
     NOT_STATED_PLATFORM { en: "common part of the platform", ru: "общая составляющая платформы" }
     NOT_STATED_BASE { en: "common part of the base of the stand", ru: "общая составляющая основания стенда" }
     NOT_STATED_GAIN { en: "gain of the meter", ru: "коэффициент преобразования измерителя" }
@@ -628,7 +637,7 @@ texts! {
     CAUSE_NOISE { en: "meter, noise", ru: "измеритель, шум показаний" }
     CAUSE_PLATFORM { en: "platform about {axis}", ru: "платформа, ось {axis}" }
     CAUSE_SEAT { en: "gyro seat about {axis}", ru: "посадочная поверхность, ось {axis}" }
-    CAUSE_BASE { en: "base of the stand about {axis}", ru: "основание по сертификату, вокруг {axis}" }
+    CAUSE_BASE { en: "base of the stand about {axis}", ru: "основание стенда, поворот вокруг {axis}" }
     ABOUT_EAST { en: "east", ru: "направления на восток" }
     ABOUT_NORTH { en: "north", ru: "направления на север" }
     ABOUT_UP { en: "up", ru: "вертикали" }
@@ -677,7 +686,7 @@ texts! {
     APPROVED_BY { en: "Approved by", ru: "Утвердил" }
     VALID_WHEN_SIGNED {
         en: "Valid only with a handwritten signature.",
-        ru: "Действительно только с собственноручной подписью."
+        ru: "Документ действителен только с собственноручной подписью."
     }
 
     ANNEX { en: "Annex: machine-readable result", ru: "Приложение: машиночитаемый результат" }

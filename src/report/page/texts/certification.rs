@@ -157,11 +157,17 @@ texts! {
         en: "The readings were not compared with an earlier certificate.",
         ru: "Показания не сравнивались с предыдущим сертификатом."
     }
-    SAME { en: "The stand is unchanged since certificate {number}", ru: "Стенд не изменился после сертификата {number}" }
-    CHANGED { en: "The stand has changed since certificate {number}", ru: "Стенд изменился после сертификата {number}" }
+    SAME {
+        en: "The stand is unchanged since certificate {number}",
+        ru: "Стенд не изменился по сравнению с сертификатом {number}"
+    }
+    CHANGED {
+        en: "The stand has changed since certificate {number}",
+        ru: "Стенд изменился по сравнению с сертификатом {number}"
+    }
     UNDECIDED {
         en: "It is undecided whether the stand has changed since certificate {number}",
-        ru: "Не установлено, изменился ли стенд после сертификата {number}"
+        ru: "Не установлено, изменился ли стенд по сравнению с сертификатом {number}"
     }
     CHANGE_CAPTION {
         en: "Deviations of certificate {number} and of this one; u: standard uncertainty of the change",

@@ -45,7 +45,7 @@ texts! {
         ru: "содержание полно и соответствует формату {format}"
     }
     SIGNER { en: "Signing key", ru: "Ключ подписи" }
-    SIGNER_OK { en: "the key belongs to {issuer}", ru: "ключ принадлежит {issuer}" }
+    SIGNER_OK { en: "the key belongs to {issuer}", ru: "владелец ключа: {issuer}" }
     REVOCATION { en: "Withdrawal", ru: "Отзыв" }
     REVOCATION_NO_LIST {
         en: "no list of revoked keys or withdrawn passports was given",
@@ -87,7 +87,7 @@ texts! {
         ru: "выдан {time}, позже момента проверки"
     }
     ISSUER { en: "Issuer", ru: "Организация" }
-    ISSUER_OK { en: "issued by {issuer}, as required", ru: "выдан {issuer}, как требовалось" }
+    ISSUER_OK { en: "issued by {issuer}, as required", ru: "выдавшая организация: {issuer}, как требовалось" }
     ISSUER_NOT_ASKED { en: "no issuer was required", ru: "выдавшая организация не задана" }
     STAND { en: "Stand", ru: "Стенд" }
     STAND_OK { en: "for stand {serial}, as required", ru: "относится к стенду {serial}, как требовалось" }
@@ -99,11 +99,13 @@ texts! {
     PLACE { en: "Place", ru: "Место" }
     PLACE_OK {
         en: "the stand is {distance} from the site; validity radius {radius}",
-        ru: "стенд в {distance} от места установки; радиус применимости {radius}"
+        ru: "стенд в {distance} от места установки по паспорту; радиус применимости {radius}"
     }
     PLACE_WRONG {
-        en: "the stand is {distance} from the site, outside the validity radius of {radius}; request a re-issue for its new site",
-        ru: "стенд в {distance} от места установки, за пределами радиуса применимости {radius}; следует запросить перевыпуск для этого места"
+        en: "the stand is {distance} from the site of the passport, outside the validity radius of {radius}; request a \
+             re-issue for the new site",
+        ru: "стенд в {distance} от места установки по паспорту, за пределами радиуса применимости {radius}; следует \
+             запросить перевыпуск для нового места"
     }
     PLACE_NOT_ASKED { en: "no place was given", ru: "место не задано" }
     REGISTER { en: "Register", ru: "Реестр" }

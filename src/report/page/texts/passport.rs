@@ -22,7 +22,7 @@ texts! {
     }
     WHERE { en: "Use within", ru: "Применять в пределах" }
     AROUND { en: "of", ru: "от" }
-    AROUND_PARALLEL { en: "north or south of latitude", ru: "к северу и югу от широты" }
+    AROUND_PARALLEL { en: "north or south of latitude", ru: "к северу и югу от параллели" }
     WORD { en: "Based on certificate", ru: "На основании сертификата" }
     WITHOUT_UNCERTAINTY { en: "no uncertainty stated", ru: "неопределённость не указана" }
     PASSPORT_ISSUER { en: "Issuer of the passport", ru: "Выдавшая организация" }
@@ -44,7 +44,7 @@ texts! {
     KEY { en: "Key fingerprint", ru: "Отпечаток ключа" }
     VALID_UNTIL { en: "Valid until (inclusive)", ru: "Действителен по (включительно)" }
     ISSUED_WITH { en: "Program", ru: "Программа" }
-    REISSUED_FROM { en: "Re-issued from", ru: "Выдан взамен" }
+    REISSUED_FROM { en: "Predecessor", ru: "Прежний паспорт" }
     REISSUED_SHA256 { en: "SHA-256 of the predecessor", ru: "SHA-256 прежнего паспорта" }
     REISSUE_REASON { en: "Reason for re-issue", ru: "Причина перевыпуска" }
     REISSUE_CHANGED { en: "Changes", ru: "Изменения" }
@@ -81,7 +81,7 @@ texts! {
     METHOD { en: "Method", ru: "Методика" }
     TRACEABILITY { en: "Traceability", ru: "Прослеживаемость" }
     TEMPERATURE { en: "Temperature during measurement", ru: "Температура при измерениях" }
-    TEMPERATURE_RANGE { en: "Temperature range of validity", ru: "Диапазон температур" }
+    TEMPERATURE_RANGE { en: "Temperature range of validity", ru: "Диапазон применимости по температуре" }
     FROM_TO { en: "{low} to {high}", ru: "от {low} до {high}" }
     THIS_ITEM_ONLY {
         en: "The results relate only to the stand identified here. This passport shall not be reproduced except in \
@@ -134,7 +134,7 @@ texts! {
         ru: "исключено: положение {index}, серия {run}"
     }
     EXCLUDED_RUN { en: "excluded: run {run}", ru: "исключена серия {run}" }
-    EVIDENCE { en: "Number of runs, file of readings", ru: "Серии, файл показаний" }
+    EVIDENCE { en: "Number of runs, file of readings", ru: "Число серий, файл показаний" }
     DATUM { en: "Datum surfaces", ru: "Базовые поверхности" }
     DATUM_LEVEL { en: "Surface for levelling", ru: "Поверхность для горизонтирования" }
     DATUM_AZIMUTH { en: "Surface for north alignment", ru: "Поверхность для ориентирования на север" }
@@ -166,7 +166,7 @@ texts! {
     RADIUS { en: "Validity radius", ru: "Радиус применимости" }
     RADIUS_WITHIN {
         en: "Change of the Earth-rate components at this radius",
-        ru: "Изменение угловых скоростей на границе области применимости"
+        ru: "Изменение составляющих угловой скорости Земли на границе области применимости"
     }
     AZIMUTH { en: "Astronomic azimuth of the mark", ru: "Астрономический азимут пункта" }
 
@@ -200,9 +200,10 @@ texts! {
     }
     SELF_CHECK { en: "Self-check", ru: "Контрольный пример" }
     SELF_CHECK_NOTE {
-        en: "From the currents J of the self-check (use all digits given in the annex), laboratory software should \
-             obtain these parameters with a relative error of at most 10⁻⁹:",
-        ru: "По токам J (все цифры — в приложении) программа лаборатории должна получить с относительной погрешностью до 10⁻⁹:"
+        en: "From the currents J of the self-check (use all digits given in the annex), laboratory software should obtain \
+             these parameters with a relative error of at most 10⁻⁹:",
+        ru: "По токам J (все цифры — в приложении) программа лаборатории должна получить следующие параметры с \
+             относительной погрешностью не более 10⁻⁹:"
     }
     EQUATIONS_NOTE {
         en: "Equation numbers: Tang and Podchezertsev (2017), {source}.",

@@ -53,8 +53,8 @@ texts! {
     }
     DEVIATION_NO_U { en: "the certificate gives no uncertainty", ru: "неопределённость в сертификате не указана" }
 
-    EARTH_RATE_DIFFERENCE { en: "ω_3: actual minus nominal", ru: "ω_3: при реальной минус при номинальной" }
-    SPECIFIC_FORCE_DIFFERENCE { en: "n: actual minus nominal", ru: "n: при реальной минус при номинальной" }
+    EARTH_RATE_DIFFERENCE { en: "ω_3: actual minus nominal", ru: "ω_3: отличие от номинальной" }
+    SPECIFIC_FORCE_DIFFERENCE { en: "n: actual minus nominal", ru: "n: отличие от номинальной" }
     EARTH_RATE_OF_FRAME { en: "ω_3, frame index i = {i}", ru: "ω_3, индекс рамки i = {i}" }
     SPECIFIC_FORCE_OF_FRAME { en: "n, frame index i = {i}", ru: "n, индекс рамки i = {i}" }
     VECTOR_IN_WORDS { en: "position {index}: x {x}, y {y}", ru: "положение {index}: x {x}, y {y}" }
@@ -70,7 +70,7 @@ texts! {
     }
     PLACE_BAND {
         en: "Within {radius} m north or south of latitude {latitude}; no longitude is stated.",
-        ru: "Не далее {radius} м к северу и югу от широты {latitude}; долгота не указана."
+        ru: "Не далее {radius} м к северу и югу от параллели {latitude}; долгота не указана."
     }
     PLACE_MARK_IN_WORDS {
         en: "The azimuth of the mark is {azimuth}°, clockwise from north.",
