@@ -461,7 +461,7 @@ class Report:
         missing = len(self.result.get("not_stated", []))
         if missing and (self.stated() or "verdict" not in self.result):
             said = " ".join(self.said["verdicts"]).replace("\u00a0", " ")
-            due = {"en": f"stated as 0): {missing} (", "ru": f"не указана или 0): {missing} ("}
+            due = {"en": f"stated as 0): {missing} (", "ru": f"не указана или равна 0): {missing} ("}
             if due[self.said["lang"]] not in said:
                 self.wrong.append(f"{missing} inputs are not in U, and the verdict says {said!r}")
 
