@@ -132,7 +132,7 @@ impl Stage<'_> {
         let angles = stand.positions.iter().flat_map(CertifiedPosition::angles_arcsec);
         let largest = angles.fold(0.0, |largest: f64, angle| largest.max(angle.abs())) / 3600.0;
         self.line(&format!(
-            "2. It measures the deviations of a low-cost stand from its eight positions: up to {largest:.1} degrees."
+            "2. It measures the deviations of the eight positions of a low-cost stand: up to {largest:.1}°."
         ))?;
         self.line("3. It computes the calibration data for the site and signs them:")?;
         let order = Issue::first(IDENTITY, self.now);

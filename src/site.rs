@@ -235,6 +235,7 @@ impl Site {
                 let advice = "keep the geodetic latitude, with deflection_arcsec, or the astronomic latitude";
                 problems.at(&at.key("astronomic_latitude_deg"), "both latitudes", "one of them", advice);
             }
+            (None, None) if problems.name("latitude_deg") => {}
             (None, None) => {
                 let expected = "latitude_deg (geodetic) or astronomic_latitude_deg";
                 problems.at(at, "no latitude", expected, "add the known latitude");

@@ -176,7 +176,7 @@ impl Readings {
         let Exclusion { i, j, visit: number, cycle, .. } = exclusion;
         let index = PositionIndex { i, j };
         let is_it = |visit: &&Visit| visit.number == number && cycle.is_none_or(|cycle| visit.cycle == cycle);
-        let missing = || format!("found no visit {number} to position {index} to exclude");
+        let missing = || format!("found no visit {number} to position {index} to exclude; check i, j and the visit");
         let place = self.positions.iter().position(|at| at.index == index).ok_or_else(missing)?;
         let at = &self.positions[place];
         let found: Vec<u32> = at.visits.iter().filter(is_it).map(|visit| visit.cycle).collect();

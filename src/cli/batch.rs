@@ -125,6 +125,8 @@ impl BatchOptions {
 struct Reporter {
     reports: Reports,
     told: Told,
+    /// Messages of failures whose reports are held back, so that the verdict comes first.
+    held: Vec<String>,
     bar: ProgressBar,
     code: Code,
     cancel: Arc<AtomicBool>,
@@ -137,7 +139,16 @@ impl Reporter {
         let bar = long_run::bar(0, "passports")?;
         bar.set_draw_target(ProgressDrawTarget::hidden());
         let out = if form == Form::Text { output::text } else { output::result };
-        Ok(Self { reports: Reports::new(form), told: Told::default(), bar, code: 0, cancel, unwritten: None, out })
+        Ok(Self {
+            reports: Reports::new(form),
+            told: Told::default(),
+            held: Vec::new(),
+            bar,
+            code: 0,
+            cancel,
+            unwritten: None,
+            out,
+        })
     }
 
     fn hear(&mut self, event: Event) {
@@ -167,10 +178,17 @@ impl Reporter {
         }
         if let Outcome::Failed(failed) = outcome {
             self.code = self.code.max(if failed.unusable { UNUSABLE } else { REFUSED });
-            self.bar.suspend(|| output::complain(&failure(failed)));
+            self.held.push(failure(failed));
         }
         let text = self.reports.add(Report::of(outcome));
         self.write(&text);
+        if !self.reports.holds() {
+            self.complain();
+        }
+    }
+
+    fn complain(&mut self) {
+        self.bar.suspend(|| self.held.drain(..).for_each(|words| output::complain(&words)));
     }
 
     /// Writes a report. A failure ends the batch, because the user would not know what was issued.
@@ -188,6 +206,7 @@ impl Reporter {
         self.bar.finish_and_clear();
         let text = self.reports.end();
         self.write(&text);
+        self.complain();
         self.told.lines().iter().for_each(|line| output::say(line));
         if let Some(failure) = self.unwritten {
             return Err(failure);

@@ -343,7 +343,11 @@ impl Bench<'_> {
             let counted = report::OUTCOMES.iter().filter_map(|outcome| Some((outcomes.get(*outcome)?, outcome)));
             let counts: Vec<String> =
                 counted.filter(|(count, _)| **count > 0).map(|(count, outcome)| format!("{count} {outcome}")).collect();
-            output::say(&format!("{all} gyros: {}", counts.join(", ")));
+            let words = format!("{all} gyros: {}", counts.join(", "));
+            match options.format {
+                Format::Text => output::text(&format!("{words}\n"))?,
+                Format::Json => output::say(&words),
+            }
         }
         Ok(code)
     }

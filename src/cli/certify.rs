@@ -118,9 +118,6 @@ fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
         let path = folder.join(stand.model.as_str()).join(stand.serial.as_str()).join("stand.yaml");
         write(&path, &certified, &[], options.force)?;
         let text = report::line(&certified, &name_of(&path));
-        for warning in &certified.warnings {
-            output::say(&format!("{}: WARNING: {warning}", Printable(&name)));
-        }
         let result = report::to_json(Some(&certified), None, None);
         Ok(((Line { file: name, stand_file: name_of(&path), result }, text), 0))
     };
@@ -204,7 +201,7 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
     }
     let as_text = || {
         let shown = certified.as_ref().filter(|_| options.output.is_some()).map(report::certification);
-        let compared = comparison.as_ref().map(report::comparison);
+        let compared = comparison.as_ref().map(report::check);
         // Whether the stand has changed comes first: it decides whether the new certificate is of any use.
         compared.into_iter().chain(shown).collect::<Vec<_>>().join("\n")
     };

@@ -37,8 +37,9 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (key, signers) = (options.folder.join("factory.key"), options.folder.join("allowed_signers"));
     let identity = options.identity.as_deref().unwrap_or("WHO");
     output::say(&format!(
-        "next: dtg-passport keygen {} --identity {identity} --allowed-signers {}\n\
-         then: dtg-passport status --workspace {}",
+        "next, create the signing key, and look at the workspace:\n\
+         dtg-passport keygen {} --identity {identity} --allowed-signers {}\n\
+         dtg-passport status --workspace {}",
         quoted(&key),
         quoted(&signers),
         quoted(&options.folder)

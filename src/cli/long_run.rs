@@ -2,7 +2,7 @@
 
 use super::{Failure, output};
 use crate::interface::Failed;
-use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
+use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use std::fmt::Write;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -18,11 +18,15 @@ pub(super) fn cancelled_by_ctrl_c() -> Result<Arc<AtomicBool>, Failure> {
 /// Returns a bar on standard error for a number of `what`; it is drawn only on a terminal.
 pub(super) fn bar(length: u64, what: &str) -> Result<ProgressBar, Failure> {
     let bar = ProgressBar::new(length);
-    let style = ProgressStyle::with_template(&format!("{{wide_bar}} {{human_pos}} of {{human_len}} {what}{{left}}"));
+    let style = ProgressStyle::with_template(&format!("{{wide_bar}} {what}: {{human_pos}} of {{human_len}}{{left}}"));
     // Before the first is done, nothing is known of the time.
     let left = |state: &ProgressState, out: &mut dyn Write| {
         if state.pos() > 0 {
-            let _ = write!(out, ", {:#} left", HumanDuration(state.eta()));
+            let seconds = state.eta().as_secs();
+            let _ = match seconds {
+                0..120 => write!(out, ", {seconds} s left"),
+                _ => write!(out, ", {} min left", seconds.div_ceil(60)),
+            };
         }
     };
     bar.set_style(style.map_err(Failure::unusable)?.with_key("left", left));

@@ -139,7 +139,7 @@ pub fn main() -> ExitCode {
         added.iter().for_each(|option| output::say(&format!("uses {option}")));
     }
     let result = cli.verb.run();
-    output::say_rest();
+    output::complain_of_the_rest();
     if cli.verbose {
         output::say(&format!("took {:.3} s", start.elapsed().as_secs_f64()));
     }

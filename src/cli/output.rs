@@ -132,11 +132,18 @@ static AFTER: Mutex<Vec<String>> = Mutex::new(Vec::new());
 
 /// Writes a message as [`say`] does, but after the result of the verb, whose verdict comes first.
 pub(super) fn say_after(words: &str) {
+    if !QUIET.load(Ordering::Relaxed) {
+        complain_after(words);
+    }
+}
+
+/// Writes a message as [`complain`] does, but after the result of the verb.
+pub(super) fn complain_after(words: &str) {
     after().push(words.to_owned());
 }
 
-pub(super) fn say_rest() {
-    std::mem::take(&mut *after()).iter().for_each(|words| say(words));
+pub(super) fn complain_of_the_rest() {
+    std::mem::take(&mut *after()).iter().for_each(|words| complain(words));
 }
 
 fn after() -> MutexGuard<'static, Vec<String>> {

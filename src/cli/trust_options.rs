@@ -115,7 +115,7 @@ pub(super) fn among(trust: Trust, question: Question, folder: Option<&Path>) -> 
     let alone = Enquiry::of(trust, question);
     let Some(folder) = folder else { return Ok(alone) };
     let enquiry = alone.with_register(folder)?;
-    enquiry.remarks.iter().for_each(|alarm| output::complain(alarm));
+    enquiry.remarks.iter().for_each(|alarm| output::complain_after(alarm));
     Ok(enquiry)
 }
 
@@ -132,7 +132,7 @@ pub(super) fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Resu
     let revoked = revoked.iter().map(|path| Ok((name_of(path), read(path)?)));
     let revoked = revoked.collect::<Result<Vec<_>, Failure>>()?;
     let (trust, remarks) = enquiry::trust((&name_of(signers), &keys?), &revoked, time)?;
-    remarks.iter().for_each(|remark| output::complain(remark));
+    remarks.iter().for_each(|remark| output::complain_after(remark));
     Ok(trust)
 }
 

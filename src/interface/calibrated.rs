@@ -200,7 +200,10 @@ impl<'a> Prepared<'a> {
         let subject = Subject { currents_sha256, gyro_type: gyro, ..subject };
         if let Some([before, now]) = subject.another_gyro(previous) {
             let [before, now] = [before, now].map(printable::printable);
-            return Err(Failed::refused(format!("the previous result is that of gyro {before}, not of {now}")));
+            return Err(Failed::refused(format!(
+                "the previous result is that of gyro {before}, not of {now}; give the result of the same gyro, or correct \
+                 the serial number"
+            )));
         }
         if let Some([later, now]) = subject.later_result(previous) {
             let words =

@@ -86,8 +86,8 @@ pub enum IssueRefused {
     },
     /// The time of issue is ahead of the clock.
     #[error(
-        "issued_at {issued_at} is more than one day later than the clock, {clock}; specify the time of issue, or omit \
-         it"
+        "issued_at {issued_at} is more than one day later than the clock, {clock}; specify an earlier \
+         time of issue, or omit it"
     )]
     AheadOfClock {
         /// Requested time of issue.

@@ -351,7 +351,7 @@ impl Register {
                 let advice = "get the damaged or missing file from the issuer again; move a file that is not a passport out of the folder";
                 (Code::RegisterUnknown, format!("unknown: {}; {advice}", alarm.reason()))
             } else {
-                (Code::Ok, format!("not superseded by any of {} files", self.files))
+                (Code::Ok, format!("not superseded by another passport in the register (files read: {})", self.files))
             }
         });
         verification.with(Check::new(CheckName::Register, code, detail))

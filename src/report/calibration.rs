@@ -61,7 +61,7 @@ pub(crate) fn text(
         verified_as_of.map_or_else(|| "NOT VERIFIED".to_owned(), |time| format!("verified as of {time}{unchecked}"));
     columns::paragraph(&mut out, "", &format!("Passport {}, {state}", document.passport_id));
     let gravity = match (document.gravity_m_per_s2, document.gravity_u_m_per_s2) {
-        (gravity, Some(u)) => format!("{gravity:.0$} m/s² (u = {u:.0$})", columns::decimals(u)),
+        (gravity, Some(u)) => format!("{gravity:.0$} m/s² (u = {u:.0$} m/s²)", columns::decimals(u)),
         (gravity, None) => format!("{gravity} m/s²"),
     };
     let of_type =
@@ -196,7 +196,7 @@ pub(crate) fn outcome(done: &Done, gyro_type: Option<&str>) -> String {
 /// Writes which visits and positions were left out, and what that cost.
 fn left_out(out: &mut String, readings: &Readings, cost: Option<(Parameter, f64)>) {
     for Exclusion { i, j, visit, cycle, why } in &readings.exclusions {
-        let cycle = cycle.map_or_else(String::new, |cycle| format!(" in cycle {cycle}"));
+        let cycle = cycle.map_or_else(String::new, |cycle| format!(" in turn-on {cycle}"));
         let words = format!("Left out: visit {visit} to position ({i}, {j}){cycle}: {}.", printable(why));
         columns::paragraph(out, "", &words);
     }
@@ -277,7 +277,7 @@ fn beyond_the_paper(out: &mut String, answer: &MethodResult) {
             let (value, u) = (drift.deg_per_h_per_h[axis], drift.standard_uncertainty_deg_per_h_per_h[axis]);
             let digits = columns::decimals(u);
             let value = columns::fixed(value, digits);
-            let _ = writeln!(out, "  drift in time about {name}: {value} °/h², u = {u:.digits$}");
+            let _ = writeln!(out, "  drift in time about {name}: {value} °/h², u = {u:.digits$} °/h²");
         }
         columns::paragraph(out, "  ", "ω_0 is that at the mean time of the readings.");
     }

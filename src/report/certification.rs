@@ -106,12 +106,14 @@ pub(crate) fn line(found: &Certification, file: &str) -> String {
     let (stand, runs) = (&found.stand, found.runs.len());
     let certificate = Printable(&stand.certificate.number);
     let certified = style::marked(Some(true), "certified");
-    format!(
+    let mut out = format!(
         "{certified}  {}  {}  certificate {certificate}, {} positions, {runs} runs\n",
         stand.stand.id(),
         Printable(file),
         stand.positions.len()
-    )
+    );
+    every_warning(&mut out, "  ", found);
+    out
 }
 
 /// Returns a certification as text.
@@ -152,15 +154,19 @@ pub(crate) fn certification(found: &Certification) -> String {
         columns::paragraph(&mut out, "", words);
     }
     tests(&mut out, found);
-    for warning in &found.remarks {
-        columns::paragraph(&mut out, "", &columns::powers(&format!("WARNING: {warning}.")));
-    }
+    every_warning(&mut out, "", found);
     out
+}
+
+fn every_warning(out: &mut String, indent: &str, found: &Certification) {
+    for warning in &found.remarks {
+        columns::paragraph(out, indent, &columns::powers(&format!("WARNING: {warning}.")));
+    }
 }
 
 fn components(out: &mut String, found: &Certification) {
     let components = &found.components;
-    let own = components.own_arcsec2.map(|variance| columns::two_digits(variance.value.sqrt()));
+    let own = components.own_arcsec2.map(|variance| columns::two_digits(variance.value.sqrt()) + "″");
     let words = format!(
         "Repeatability of one visit: {}″ per axis ({} degrees of freedom); about x, y, z: {}",
         columns::two_digits(components.pooled_arcsec2.value.sqrt()),
@@ -182,10 +188,13 @@ fn components(out: &mut String, found: &Certification) {
         let certified = certified.filter(|_| type_b > 0.0).map_or_else(String::new, |certified| {
             format!("; {}″ with its type B uncertainty, as certified", columns::two_digits(certified))
         });
+        let limit = match common.upper_limit_arcsec2.sqrt() {
+            limit if limit > 0.0 => format!("at most {}″ at 95 %", columns::two_digits(limit)),
+            _ => "no upper limit, because the runs agree better than the scatter of the visits explains".to_owned(),
+        };
         let words = format!(
-            "Common part of the {what}: {}″ per axis from run to run (at most {}″ at 95 %), {}″ in the mean{certified}",
+            "Common part of the {what}: {}″ per axis from run to run ({limit}), {}″ in the mean{certified}",
             columns::two_digits(seen),
-            columns::two_digits(common.upper_limit_arcsec2.sqrt()),
             columns::two_digits(seen / root)
         );
         columns::paragraph(out, "", &words);
@@ -194,6 +203,7 @@ fn components(out: &mut String, found: &Certification) {
         let numbers = turn.platform_arcsec.iter().chain(&turn.base_arcsec).map(|value| columns::signed(*value, 2));
         std::iter::once(turn.run.to_string()).chain(numbers).collect()
     });
+    out.push_str("Rotation of each run relative to the mean of the runs, ″\n");
     columns::table(out, &["run", "platform x", "y", "z", "base east", "north", "up"], rows);
 }
 
@@ -260,15 +270,29 @@ pub(super) fn answer(found: &Comparison) -> (Outcome, &'static str) {
     (outcome, word(outcome))
 }
 
-/// Returns a check run as text.
-pub(crate) fn comparison(found: &Comparison) -> String {
+/// Returns a check run as text, with what to do if the stand has changed and is not recertified from it.
+pub(crate) fn check(found: &Comparison) -> String {
+    comparison(found, Some("Do not use the stand until it has been recertified."))
+}
+
+/// Returns a check run as text; `advice` is for a stand that has changed.
+pub(super) fn comparison(found: &Comparison, advice: Option<&str>) -> String {
     let mut out = String::new();
     let (outcome, answer) = answer(found);
-    let answer = style::marked(outcome, &answer.to_uppercase());
+    let mut answer = answer.to_uppercase();
+    if outcome == Outcome::Passed && found.common.test.is_none() {
+        // Rotation of the stand as a whole was not tested.
+        answer.insert_str(0, "POSITIONS ");
+    }
+    let answer = style::marked(outcome, &answer);
     let runs = if found.runs == 1 { "run" } else { "runs" };
     let _ = writeln!(out, "{answer}  check against certificate {}, {} {runs}", found.certificate, found.runs);
     for words in &found.findings {
         columns::paragraph(&mut out, "  ", &format!("{words}."));
+    }
+    let is_change = outcome == Outcome::Failed && !found.findings.iter().any(|finding| finding.is_misplaced());
+    if let Some(advice) = advice.filter(|_| is_change) {
+        columns::paragraph(&mut out, "  ", advice);
     }
     let line = |test: &Test| {
         format!(

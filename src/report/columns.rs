@@ -85,11 +85,16 @@ pub(crate) fn sentences(text: &str, columns: usize) -> String {
 }
 
 /// Returns a message with every line broken that is wider than `columns` or a sentence; lines continue below their last
-/// column, at least `indent` characters from the left.
+/// column, at least `indent` characters from the left. A command stays one line, to be copied.
 pub(crate) fn hanging(text: &str, indent: usize, columns: usize) -> String {
     let columns = columns.min(TEXT_COLUMNS);
     let mut out = String::with_capacity(text.len());
     for line in text.lines() {
+        if line.trim_start().starts_with(COMMAND) {
+            out.push_str(line);
+            out.push('\n');
+            continue;
+        }
         let at = line.char_indices().nth(indent).map_or(line.len(), |(at, _)| at);
         let at = at + last_column(&line[at..], columns.saturating_sub(indent));
         let column = shown_columns(&line[..at]);

@@ -84,34 +84,56 @@ fn largest(numbers: &[NumberDifference]) -> String {
 
 /// Appends a table of numbers that differ.
 pub(crate) fn numbers(out: &mut String, numbers: &[NumberDifference]) {
-    let rows = numbers.iter().map(|at| {
-        let difference = at.difference();
-        let on_the_page = decimals_on_the_page(&at.key);
-        let decimals = match (at.standard_uncertainty.map(columns::decimals).or(on_the_page), at.a.zip(at.b)) {
-            (Some(decimals), _) => decimals,
-            // The difference of two numbers as people write them is exact.
-            (None, Some((a, b))) if is_short(a) && is_short(b) => decimals_of(a).max(decimals_of(b)),
-            (None, _) => difference.map_or(6, decimals_of_a_difference),
-        };
-        let plain = |value: Option<f64>| match value {
-            None => "-".to_owned(),
-            Some(value) if at.standard_uncertainty.is_some() || on_the_page.is_some() => {
-                columns::fixed(value, decimals)
-            }
-            Some(value) => stated(value, decimals),
-        };
-        let signed = |value: Option<f64>| value.map_or_else(String::new, |value| columns::signed(value, decimals));
-        vec![
-            at.key.clone(),
-            plain(at.a),
-            plain(at.b),
-            signed(difference),
-            at.standard_uncertainty.map_or_else(String::new, |u| format!("{u:.decimals$}")),
-            at.ratio().map_or_else(String::new, |ratio| columns::signed(ratio, 1)),
-        ]
-    });
+    let rows: Vec<Vec<String>> = numbers
+        .iter()
+        .map(|at| {
+            let difference = at.difference();
+            let on_the_page = decimals_on_the_page(&at.key);
+            let decimals = match (at.standard_uncertainty.map(columns::decimals).or(on_the_page), at.a.zip(at.b)) {
+                (Some(decimals), _) => decimals,
+                // The difference of two numbers as people write them is exact.
+                (None, Some((a, b))) if is_short(a) && is_short(b) => decimals_of(a).max(decimals_of(b)),
+                (None, _) => difference.map_or(6, decimals_of_a_difference),
+            };
+            let plain = |value: Option<f64>| match value {
+                None => "-".to_owned(),
+                Some(value) if at.standard_uncertainty.is_some() || on_the_page.is_some() => {
+                    columns::fixed(value, decimals)
+                }
+                Some(value) => stated(value, decimals),
+            };
+            let signed = |value: Option<f64>| value.map_or_else(String::new, |value| columns::signed(value, decimals));
+            vec![
+                at.key.clone(),
+                plain(at.a),
+                plain(at.b),
+                signed(difference),
+                at.standard_uncertainty.map_or_else(String::new, |u| format!("{u:.decimals$}")),
+                at.ratio().map_or_else(String::new, |ratio| columns::signed(ratio, 1)),
+            ]
+        })
+        .collect();
     // Non-breaking spaces keep each heading on one line.
-    columns::table(out, &["", "A", "B", "B\u{A0}-\u{A0}A", "u", "(B\u{A0}-\u{A0}A)/u"], rows);
+    let names = ["", "A", "B", "B\u{A0}-\u{A0}A", "u", "(B\u{A0}-\u{A0}A)/u"];
+    let table = |names: &[&str], rows: Vec<Vec<String>>| {
+        let mut table = String::new();
+        columns::table(&mut table, names, rows);
+        table
+    };
+    let lines = 1 + rows.len();
+    let wide = table(&names, rows.clone());
+    let narrow = table(&names[1..], rows.iter().map(|row| row[1..].to_vec()).collect());
+    if wide.lines().count() == lines || narrow.lines().count() != lines {
+        out.push_str(&wide);
+        return;
+    }
+    // Each key on a line of its own leaves room for its numbers below.
+    for (line, key) in narrow.lines().zip(std::iter::once("").chain(rows.iter().map(|row| row[0].as_str()))) {
+        if !key.is_empty() {
+            let _ = writeln!(out, "  {key}");
+        }
+        let _ = writeln!(out, "  {line}");
+    }
 }
 
 /// Returns the decimals with which a page prints a computed number without an uncertainty, by its key, or `None` for a

@@ -148,6 +148,9 @@ fn text(report: &Report) -> String {
     text
 }
 
+/// Word for an order or an input that was refused.
+const REFUSED: &str = "REFUSED";
+
 /// Returns the word for an outcome with its mark, padded to the width of the longest.
 pub(super) fn marked(passed: Option<bool>, word: &str) -> String {
     style::marked(passed, &format!("{word:<9}"))
@@ -155,13 +158,16 @@ pub(super) fn marked(passed: Option<bool>, word: &str) -> String {
 
 fn line(report: &Report) -> String {
     let file = report.file.as_deref().unwrap_or("nothing was written");
-    let state = marked(report.state.passed(), report.state.key());
+    let state = match report.state {
+        State::Refused => marked(Some(false), REFUSED),
+        state => marked(state.passed(), state.key()),
+    };
     format!("{state}  {}  {}\n", Printable(&report.id), Printable(file))
 }
 
 /// Returns the line of an input that was refused.
 pub(crate) fn refused_line(file: &str) -> String {
-    format!("{}  {}\n", marked(Some(false), State::Refused.key()), Printable(file))
+    format!("{}  {}\n", marked(Some(false), REFUSED), Printable(file))
 }
 
 /// Number of orders for each outcome, in the order of [`State::ALL`], and of inputs that cannot be used.
@@ -221,6 +227,11 @@ impl Reports {
         Self { form, count: 0, held: Vec::new(), totals: Totals::default() }
     }
 
+    /// Returns `true` if reports are held back until the end, because there may be only a few.
+    pub(crate) fn holds(&self) -> bool {
+        self.form == Form::Text && self.count <= FEW
+    }
+
     /// Adds a report and returns the text to write now.
     pub(crate) fn add(&mut self, report: Report) -> String {
         self.totals.add(&report);
@@ -235,7 +246,7 @@ impl Reports {
                 format!("{}\n  {json}", if self.count == 1 { "[" } else { "," })
             }
             Form::Csv => self.csv(&report),
-            Form::Text if self.count <= FEW => {
+            Form::Text if self.holds() => {
                 self.held.push(report);
                 String::new()
             }
@@ -340,7 +351,7 @@ mod tests {
             text += &reports.add(Report::new(number.to_string(), state));
         }
         text += &reports.end();
-        let due = "✕ refused    7  nothing was written\n✕ refused    1007  nothing was written\n\
+        let due = "✕ REFUSED    7  nothing was written\n✕ REFUSED    1007  nothing was written\n\
                    ✕ issued 1,998, unchanged 0, refused 2\n";
         assert_eq!(style::plain(&text), due);
     }

@@ -83,12 +83,12 @@ fn stand(out: &mut String, content: &Content) {
     option(out, "traceability", certificate.traceability.as_ref());
     option(out, "temperature, °C", certificate.temperature_c);
     option(out, "temperature range, °C", certificate.temperature_range_c.map(|[low, high]| format!("{low} to {high}")));
-    option(out, "repeatability, ″", certificate.repeatability_arcsec);
-    option(out, "its degrees of freedom", certificate.repeatability_degrees_of_freedom);
+    let of_repeatability = with_freedom(certificate.repeatability_degrees_of_freedom);
+    option(out, "repeatability, ″", certificate.repeatability_arcsec.map(|u| format!("{u}{of_repeatability}")));
     option(out, "common part, platform, ″", certificate.common_platform_arcsec);
     option(out, "common part, base, ″", certificate.common_base_arcsec);
     for TypeB { source, acts_on, u_arcsec, degrees_of_freedom } in certificate.type_b.iter().flatten() {
-        let known = degrees_of_freedom.map_or_else(String::new, |known| format!(" ({known} degrees of freedom)"));
+        let known = with_freedom(*degrees_of_freedom);
         line(out, &format!("type B, {}, ″", acts_on.word()), format!("{u_arcsec}{known}: {source}"));
     }
     if let Some(Evidence { readings_sha256, runs, excluded }) = &certificate.evidence {
@@ -125,6 +125,11 @@ fn positions(out: &mut String, content: &Content) {
     columns::table(out, &names, rows);
     out.push('\n');
     deviations::picture(out, &content.positions);
+}
+
+/// Returns degrees of freedom to print after an uncertainty, or nothing if they are `None`.
+fn with_freedom(degrees_of_freedom: Option<f64>) -> String {
+    degrees_of_freedom.map_or_else(String::new, |known| format!(" ({known} degrees of freedom)"))
 }
 
 /// Returns a standard uncertainty to print after its value, or nothing if it is `None`.
@@ -264,13 +269,13 @@ fn expected(out: &mut String, content: &Content) {
 
 fn self_check(out: &mut String, content: &Content) {
     let Some(check) = &content.self_check else { return };
-    heading(out, "Self-check: from these currents, mA, with all digits of the file, software should find, to 10⁻⁹:");
+    heading(out, "Self-check: currents, mA (the file has all digits)");
     let rows = check
         .currents
         .iter()
         .map(|at| vec![at.i.to_string(), at.j.to_string(), format!("{:.9}", at.jx_ma), format!("{:.9}", at.jy_ma)]);
     columns::table(out, &["i", "j", "J_x", "J_y"], rows);
-    out.push('\n');
+    heading(out, "Self-check: parameters that software should find from them, to 10⁻⁹ of each value");
     let values = numbers_of(&check.parameters());
     let rows = Parameter::AS_IN_THE_PAPER
         .into_iter()

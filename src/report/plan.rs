@@ -36,6 +36,10 @@ pub(crate) fn text(plan: &Plan, site: &str, site_azimuth_deg: f64) -> String {
     if let Some(sentence) = no_gyro_can_pass(plan) {
         columns::paragraph(&mut out, "", &style::marked(Outcome::Failed, &sentence));
     }
+    if gravity_prevents_a_pass(plan) {
+        let sentence = format!("No gyro can pass by guarded acceptance at this site. {}", gravity(plan));
+        columns::paragraph(&mut out, "", &style::marked(Outcome::Failed, &sentence));
+    }
     let value = plan.evaluation.value;
     let mut words = format!("Criterion {}: {}, {how}.", of_criterion(plan.criterion), significant(value));
     if let Some(paper) = &plan.paper {
@@ -208,20 +212,25 @@ fn no_gyro_can_pass(plan: &Plan) -> Option<String> {
     })
 }
 
+/// Returns `true` if the uncertainty of local g alone exceeds a tolerance.
+fn gravity_prevents_a_pass(plan: &Plan) -> bool {
+    COVERAGE_FACTOR * plan.gravity_over_tolerance > 1.0
+}
+
+/// Returns what the uncertainty of local g contributes.
+fn gravity(plan: &Plan) -> String {
+    format!(
+        "Local g contributes {} % of the tolerance to u of ω_g or ω_k at the g of the type; to reduce this, state the \
+         height of the site, or measure g.",
+        percent(plan.gravity_over_tolerance)
+    )
+}
+
 /// Returns what a user of the plan must know besides the numbers.
 fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<String> {
     let mut remarks = Vec::new();
-    if plan.gravity_over_tolerance > LARGE_GRAVITY_SHARE {
-        let so = if COVERAGE_FACTOR * plan.gravity_over_tolerance > 1.0 {
-            ", so that no gyro can pass by guarded acceptance"
-        } else {
-            ""
-        };
-        remarks.push(format!(
-            "The uncertainty of the local g adds {} % of the tolerance to u of ω_g or ω_k at the g of the type{so}; to \
-             reduce it, state the height of the site, or measure g.",
-            percent(plan.gravity_over_tolerance)
-        ));
+    if plan.gravity_over_tolerance > LARGE_GRAVITY_SHARE && !gravity_prevents_a_pass(plan) {
+        remarks.push(gravity(plan));
     }
     if plan.beyond_range > 0 {
         let positions = match plan.beyond_range {

@@ -53,7 +53,7 @@ pub(crate) fn text(found: &Recertified, dry_run: bool) -> String {
         reports(found).count()
     );
     out += &certification::certification(&found.certification);
-    let _ = write!(out, "\n{}", certification::comparison(&found.comparison));
+    let _ = write!(out, "\n{}", certification::comparison(&found.comparison, None));
     let heading = format!("Change of the deviations from certificate {} (A) to {number} (B), ″", found.old_number);
     let _ = writeln!(out, "\n{}", style::heading(&heading));
     difference::numbers(&mut out, &found.changes);

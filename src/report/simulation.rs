@@ -16,13 +16,17 @@ pub(crate) fn accuracy(found: &Accuracy) -> String {
         None => "the specified stand".to_owned(),
     };
     let (trials, seed, latitude) = (grouped(found.trials), found.seed, found.latitude_deg);
-    let mut out = format!("{trials} trials, seed {seed}, {stands}, latitude {latitude:.4}°\n");
+    let mut out = String::new();
     let bounded: Vec<bool> = found.rows.iter().filter_map(|row| Some(row.worst < row.paper_bound?)).collect();
     if !bounded.is_empty() {
-        let beyond = bounded.iter().filter(|within| !**within).count();
-        let words = format!("beyond the paper's bound: {beyond} of {} worst errors", bounded.len());
-        let _ = writeln!(out, "{}", style::marked(Some(beyond == 0), &words));
+        let (within, all) = (bounded.iter().filter(|within| **within).count(), bounded.len());
+        let words = match all - within {
+            0 => format!("within the paper's bounds: {all} of {all} worst errors"),
+            beyond => format!("beyond the paper's bounds: {beyond} of {all} worst errors"),
+        };
+        let _ = writeln!(out, "{}", style::marked(Some(within == all), &words));
     }
+    let _ = writeln!(out, "{trials} trials, seed {seed}, {stands}, latitude {latitude:.4}°");
     let rows = found.rows.iter().map(|row| {
         // NaN if no trial gave a result.
         let three_digits = |value: f64| match value {

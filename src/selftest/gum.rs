@@ -103,9 +103,9 @@ fn impedance() -> Vec<Case> {
     vec![
         case(MEANS, "u(V), V", 0.0032, 4, u_of_mean[0]),
         case(MEANS, "u(I), mA", 0.0095, 4, 1e3 * u_of_mean[1]),
-        case(MEANS, "u(phi), rad", 0.00075, 5, u_of_mean[2]),
+        case(MEANS, "u(φ), rad", 0.00075, 5, u_of_mean[2]),
         case(MEANS, "r(V, I)", -0.36, 2, r_of_means[(0, 1)]),
-        case(MEANS, "r(V, phi)", 0.86, 2, r_of_means[(0, 2)]),
+        case(MEANS, "r(V, φ)", 0.86, 2, r_of_means[(0, 2)]),
         case(MEANS, "r(I, phi)", -0.65, 2, r_of_means[(1, 2)]),
         case(RESULTS, "R, Ω", 127.732, 3, z * cos),
         case(RESULTS, "X, Ω", 219.847, 3, z * sin),

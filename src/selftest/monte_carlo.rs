@@ -66,7 +66,7 @@ pub(crate) fn cases() -> Vec<Case> {
     };
     let mass = Printed {
         example: "JCGM 101 9.3 mass calibration",
-        source: "JCGM 101:2008, 9.3.2.3, table 6 (Monte Carlo, itself drawn)",
+        source: "JCGM 101:2008, 9.3.2.3, table 6 (a Monte Carlo result)",
         standard_uncertainty: (0.0754, 0.0004),
         interval: [1.0834, 1.3825],
         limit: 0.004,

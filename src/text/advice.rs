@@ -138,8 +138,23 @@ pub(super) fn on_name(known: &[&str], found: &str) -> Option<String> {
         let (of, known) = split(name)?;
         (of == quantity && known != unit).then_some((name, known))
     })?;
-    let words = |unit: &str| unit.replace('_', " ");
+    let words = |unit: &str| unit.split('_').map(unit_in_words).collect::<Vec<_>>().join(" ");
     Some(format!("convert the numbers from {} to {}, then name it {name}", words(unit), words(known)))
+}
+
+/// Returns a part of a unit in a name as people write it.
+fn unit_in_words(part: &str) -> &str {
+    match part {
+        "a" => "A",
+        "ma" => "mA",
+        "ua" => "µA",
+        "na" => "nA",
+        "mgal" => "mGal",
+        "deg" => "degrees",
+        "arcmin" => "arcminutes",
+        "arcsec" => "arcseconds",
+        other => other,
+    }
 }
 
 /// Returns the quantity and the unit of a name such as `alpha_arcsec` or `k_x_deg_per_h_per_ma`; `None` if it states no unit.
@@ -274,16 +289,16 @@ mod tests {
             "omega_g_deg_per_h_per_g",
         ];
         for (found, from, to, name) in [
-            ("alpha_arcmin", "arcmin", "arcsec", "alpha_arcsec"),
-            ("alpha_deg", "deg", "arcsec", "alpha_arcsec"),
-            ("alpha_mrad", "mrad", "arcsec", "alpha_arcsec"),
-            ("u_arcmin", "arcmin", "arcsec", "u_arcsec"),
-            ("jx_uA", "ua", "ma", "jx_ma"),
-            ("jx_A", "a", "ma", "jx_ma"),
+            ("alpha_arcmin", "arcminutes", "arcseconds", "alpha_arcsec"),
+            ("alpha_deg", "degrees", "arcseconds", "alpha_arcsec"),
+            ("alpha_mrad", "mrad", "arcseconds", "alpha_arcsec"),
+            ("u_arcmin", "arcminutes", "arcseconds", "u_arcsec"),
+            ("jx_uA", "µA", "mA", "jx_ma"),
+            ("jx_A", "A", "mA", "jx_ma"),
             ("time_ms", "ms", "s", "time_s"),
-            ("gravity_mGal", "mgal", "m per s2", "gravity_m_per_s2"),
+            ("gravity_mGal", "mGal", "m per s2", "gravity_m_per_s2"),
             ("height_km", "km", "m", "height_m"),
-            ("omega_g_rad_per_s_per_g", "rad per s per g", "deg per h per g", "omega_g_deg_per_h_per_g"),
+            ("omega_g_rad_per_s_per_g", "rad per s per g", "degrees per h per g", "omega_g_deg_per_h_per_g"),
         ] {
             let due = format!("convert the numbers from {from} to {to}, then name it {name}");
             assert_eq!(on_name(&known, found), Some(due), "{found}");

@@ -2,6 +2,7 @@
 
 use super::Printable;
 use super::excerpt::{Excerpt, Location};
+use super::kind::{Kind, mistaken};
 use super::node::without_byte_order_mark;
 use super::scalar::is_sha256_hex;
 use std::collections::HashMap;
@@ -141,6 +142,11 @@ pub(crate) struct Problems {
 impl Problems {
     pub(crate) fn is_empty(&self) -> bool {
         self.found.is_empty()
+    }
+
+    /// Returns `true` if the advice of an error names `key`, because it was found with another name.
+    pub(crate) fn name(&self, key: &str) -> bool {
+        self.found.iter().any(|(_, problem)| problem.advice.contains(key))
     }
 
     /// Returns `true` if more than [`MOST_PROBLEMS`] errors were found; further ones are not recorded.
@@ -306,6 +312,9 @@ impl Unreadable {
 
     /// Creates the refusal of JSON that cannot be read as what is `expected`.
     pub(crate) fn json(name: &str, bytes: &[u8], error: &serde_json::Error, expected: &str, advice: &str) -> Self {
+        if let Some(other) = mistaken(name, bytes, expected, |kind| kind == Kind::Result) {
+            return other;
+        }
         let location = (error.line() > 0).then(|| Location { line: error.line(), column: error.column().max(1) });
         let mut found = error.to_string();
         // Names of all keys, or a place, which is given apart.

@@ -355,7 +355,10 @@ impl<'a> Header<'a> {
             }
         }
         let place = |column: &&str| cells.iter().position(|cell| cell.text == *column);
-        let missing: Vec<&str> = required.iter().filter(|column| place(column).is_none()).copied().collect();
+        // A column that only has another name is named there.
+        let is_named = |column: &&&str| problems.iter().any(|problem| problem.advice.contains(**column));
+        let missing = required.iter().filter(|column| place(column).is_none() && !is_named(column));
+        let missing: Vec<&str> = missing.copied().collect();
         if !missing.is_empty() {
             let plural = if missing.len() > 1 { "s" } else { "" };
             let found = format!("no column{plural} {}", missing.join(", "));

@@ -211,7 +211,13 @@ impl Status {
 
     /// Returns the status as text: one line for each number, and below it what needs attention.
     pub(crate) fn text(&self) -> String {
-        let mut out = format!("Workspace  {}, {}\n", Printable(&self.workspace), self.time);
+        let alarms = self.passports.as_ref().map_or(0, |passports| passports.alarms.len());
+        let verdict = match self.needs_attention() {
+            true => format!("NEEDS ATTENTION  alarms: {alarms}; remarks: {}", self.remarks.len()),
+            false => "no alarms".to_owned(),
+        };
+        let mut out = style::marked(Some(!self.needs_attention()), &verdict) + "\n";
+        let _ = writeln!(out, "Workspace  {}, {}", Printable(&self.workspace), self.time);
         let expired = self.stands.iter().filter(|stand| stand.expired).count();
         let _ = writeln!(out, "Stands     {}{}", self.stands.len(), count(expired, "with an expired certificate"));
         let expired = self.stands.iter().filter(|stand| stand.expired).map(|stand| {
@@ -222,7 +228,7 @@ impl Status {
         let _ = writeln!(out, "Sites      {}", self.sites.len());
         if let Some(passports) = &self.passports {
             let counts: Vec<String> =
-                passports.counts.iter().map(|(state, count)| format!("{count} {}", state.replace('_', " "))).collect();
+                passports.counts.iter().map(|(state, count)| format!("{count} {}", in_words(state))).collect();
             let counts = if counts.is_empty() { "none".to_owned() } else { counts.join(", ") };
             let _ = writeln!(out, "Passports  {counts}");
             let dated = |lines: &[Line], words: &str| {
@@ -236,7 +242,7 @@ impl Status {
             let expired = format!("{}, was valid until", style::marked(Outcome::Failed, "EXPIRED"));
             indented(&mut out, dated(&passports.expired, &expired));
             let _ = writeln!(out, "Alarms     {}", passports.alarms.len());
-            indented(&mut out, passports.alarms.clone());
+            indented(&mut out, passports.alarms.iter().map(|alarm| style::marked(Outcome::Failed, alarm)).collect());
         }
         self.write_keys(&mut out);
         for remark in &self.remarks {
@@ -269,6 +275,11 @@ impl Status {
             let _ = writeln!(out, "Signs with {}  {}  {trusted}", Printable(&key.file), Printable(identity));
         }
     }
+}
+
+/// Returns a state in words, in capitals if it is broken, as in the register.
+fn in_words(state: &str) -> String {
+    if state == State::Broken.key() { state.to_uppercase() } else { state.replace('_', " ") }
 }
 
 fn count(number: usize, words: &str) -> String {

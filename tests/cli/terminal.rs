@@ -145,8 +145,9 @@ fn every_line_fits_the_terminal_and_no_word_is_broken() {
         assert!(wide.iter().any(|line| !line.is_empty()), "{command_line}");
         for columns in [80, 160] {
             let lines = lines_at(columns, &command_line, folder.path());
-            // A single word may be longer than a line.
-            let long = lines.iter().filter(|line| line.chars().count() > columns && line.trim().contains(' '));
+            // A single word may be longer than a line, and so may a command, which is copied as one line.
+            let may_be_long = |line: &str| !line.trim().contains(' ') || line.trim().starts_with("dtg-passport ");
+            let long = lines.iter().filter(|line| line.chars().count() > columns && !may_be_long(line));
             let long: Vec<_> = long.collect();
             assert!(long.is_empty(), "{command_line}, {columns} columns: {long:#?}");
             let (found, due, own) = (words(&lines), words(&wide), with_width(columns));

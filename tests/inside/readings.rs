@@ -25,7 +25,7 @@ const BAD: [(&str, &[&str]); 47] = [
     ("i,j,Jx (mA),Jy (mA)\n", &["no columns jx_ma, jy_ma", "\"Jx (mA)\", \"Jy (mA)\" is meant"]),
     ("Gyro 12,,,\ni,j,jx_ma,jy_ma\n", &["c.csv:1:1", "no columns i, j, jx_ma, jy_ma", "put # before the lines"]),
     ("i,j,jx_ma,jy_ma,time_s\n1,1,0.1,0.2,45000.1\n1,2,0.1,0.2,45000.2\n", &["2 visits within 0.10 s", "in days"]),
-    ("i,j,jx_ua,jy_ma\n", &["c.csv:1:5", "\"jx_ua\"", "convert the numbers from ua to ma, then name it jx_ma"]),
+    ("i,j,jx_ua,jy_ma\n", &["c.csv:1:5", "\"jx_ua\"", "convert the numbers from µA to mA, then name it jx_ma"]),
     ("i,j,jx_ma,jy_ma,Cycles\n", &["c.csv:1:17", "\"Cycles\"", "did you mean cycle?"]),
     ("i,j,jx_ma,jy_ma,time_min\n", &["c.csv:1:17", "convert the numbers from min to s, then name it time_s"]),
     ("i,j,jx_ma,jy_ma,time\n", &["c.csv:1:17", "did you mean time_s?"]),
