@@ -360,7 +360,13 @@ pub(crate) fn powers(text: &str) -> String {
         out.push_str(before);
         if digits > 0 && before.ends_with(|c: char| c.is_ascii_digit()) {
             let (exponent, further) = after.split_at(sign + digits);
-            out += &format!("×10{}", superscripts(exponent));
+            let mantissa = out.rsplit(|c: char| !c.is_ascii_digit() && c != '.').next();
+            if mantissa == Some("1") {
+                out.pop();
+            } else {
+                out.push('×');
+            }
+            out += &format!("10{}", superscripts(exponent));
             rest = further;
         } else {
             out.push('e');

@@ -201,6 +201,9 @@ pub(crate) fn localised(ascii: &str, language: Language) -> String {
         None => ("", ascii),
     };
     let (mantissa, exponent) = unsigned.split_once('e').map_or((unsigned, None), |(m, e)| (m, Some(e)));
+    if let ("1", Some(exponent)) = (mantissa, exponent) {
+        return format!("{sign}10{}", superscripts(exponent));
+    }
     let (whole, decimals) = mantissa.split_once('.').map_or((mantissa, None), |(w, d)| (w, Some(d)));
     let mut out = sign.to_owned();
     grouped(&mut out, whole, whole.len() % 3);

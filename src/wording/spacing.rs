@@ -46,12 +46,18 @@ fn belong(before: &str, after: &str) -> bool {
         || before == "№"
         || is_initial(before) && is_initial(first)
         || is_short_word(before)
+        || is_axis(before.trim_end_matches(',')) && before.ends_with(',') && is_axis(unit)
 }
 
 /// Returns `true` for a capital letter with a point, as in «М. П.».
 fn is_initial(word: &str) -> bool {
     let mut letters = word.chars();
     matches!((letters.next(), letters.next()), (Some(letter), Some('.')) if letter.is_uppercase())
+}
+
+/// Returns `true` for an axis, as in `x, y, z`.
+fn is_axis(word: &str) -> bool {
+    matches!(word, "x" | "y" | "z")
 }
 
 /// Returns `true` for a Russian word of one letter: a preposition or conjunction.
@@ -75,6 +81,7 @@ mod tests {
             "the 5_mA of position {index} in {unit}: {u}_{unit}, < {limit}",
             "JCGM_106, 8.3; eq._(4) to_(5), p_≤_0.05",
             "relative to the mean,_″; θ,_°",
+            "about x,_y,_z of the platform: x, then y",
             "a table of A and B, o and O",
         ] {
             let due = due.replace("от_", "от ").replace("to_(", "to (").replace("< {", "<_{").replace('_', "\u{a0}");

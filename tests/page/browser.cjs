@@ -374,9 +374,9 @@ async function look(browser, folder, name) {
     const code = page.locator("svg.code");
     if (await code.count()) await code.screenshot({ path: path.join(folder, `${name}-code-${colours}.png`) });
   }
-  // A sheet is 180 mm wide between its margins.
+  // The area of a page is 182 mm wide.
   await page.emulateMedia({ media: "print", colorScheme: "dark" });
-  await page.setViewportSize({ width: Math.floor((180 / 25.4) * 96), height: 1000 });
+  await page.setViewportSize({ width: Math.round((182 / 25.4) * 96), height: 1000 });
   result.unfit.print = await page.evaluate(unfit);
   result.crowded.print = await page.evaluate(crowded);
   result.print = { small: await page.evaluate(small), misaligned: await page.evaluate(misaligned), upright: await page.evaluate(upright), torn: await page.evaluate(torn), low: await page.evaluate(low) };

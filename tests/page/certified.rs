@@ -212,7 +212,7 @@ fn a_record_says_whether_the_stand_has_changed() {
     assert_eq!(headline("record-en"), "● Positions certified: 8; runs: 5");
     assert_eq!(
         headline("record-both"),
-        "✕ Стенд изменился по сравнению с\u{a0}сертификатом C-2026-0143 The stand has changed since certificate C-2026-0143"
+        "✕ Стенд изменился после выдачи сертификата C-2026-0143 The stand has changed since certificate C-2026-0143"
     );
     let said = &CERTIFIED.found["record-both"]["said"];
     assert_eq!(strings(&said["sections"]), ["1", "2", "3", "4", "5", "6"]);

@@ -61,13 +61,23 @@ fn field(changes: &[StepChange], rule: &StopRule) -> Field {
     let finite = powers.filter(|power| power.is_finite());
     let (low, high) = finite.fold((-1.0, 1.0), |(low, high), power| (f64::min(low, power), f64::max(high, power)));
     let low = libm::floor(low).max(-f64::from(MOST_DECADES));
+    let mut high = libm::ceil(high);
+    // The limit, 1, has a number.
+    while !(high as usize).is_multiple_of(every(low as i32, high as i32)) {
+        high += 1.0;
+    }
     let steps = || changes.iter().map(|change| f64::from(change.step));
     let (first, last) = (steps().fold(2.0, f64::min), steps().fold(2.0, f64::max));
     let [[left, top], [right, bottom]] = FIELD;
     Field {
         x: Scale { values: [first - 0.5, last + 0.5], places: [left, right] },
-        y: Scale { values: [low, libm::ceil(high)], places: [bottom, top] },
+        y: Scale { values: [low, high], places: [bottom, top] },
     }
+}
+
+/// Returns every how many decades have a number.
+fn every(low: i32, high: i32) -> usize {
+    usize::try_from((high - low) / 6 + 1).unwrap_or(1)
 }
 
 /// Returns the decimal logarithm of a share; that of 0 is drawn at the lower end of the axis, like other values too
@@ -81,19 +91,22 @@ fn axes(languages: &Languages, field: &Field) -> Markup {
     let steps = Ticks::along(&field.x, language).values.into_iter().filter(|step| libm::floor(*step) == *step);
     let steps: Vec<_> = steps.map(|step| (step, Number::fixed(step, 0).text(language))).collect();
     let [low, high] = field.y.values.map(|value| value as i32);
-    let every = usize::try_from((high - low) / 6 + 1).unwrap_or(1);
-    let decades = (low..=high).rev().step_by(every);
+    let decades = (low..=high).rev().step_by(every(low, high));
     let decades: Vec<_> = decades.map(|exponent| (f64::from(exponent), decade(exponent, language))).collect();
     let [[_, top], [right, bottom]] = FIELD;
     html! {
         (field.axes(&steps, &decades))
-        (label([right, top - 8.0], Anchor::End, "small", &html! { (languages.plain(texts::CONVERGENCE_SHARE)) }))
+        (label([2.0, top - 10.0], Anchor::Start, "small", &html! { (languages.plain(texts::CONVERGENCE_SHARE)) }))
         (label([right, bottom + 32.0], Anchor::End, "small", &html! { (languages.plain(texts::CONVERGENCE_STEP)) }))
     }
 }
 
 fn decade(exponent: i32, language: Language) -> String {
-    if exponent == 0 { "1".to_owned() } else { power(exponent, language) }
+    match exponent {
+        0 => "1".to_owned(),
+        1 => "10".to_owned(),
+        _ => power(exponent, language),
+    }
 }
 
 fn in_words(language: Language, changes: &[StepChange], rule: &StopRule) -> String {

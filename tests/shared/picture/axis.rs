@@ -26,6 +26,7 @@ impl Axis {
     pub fn of_decades(svg: Node) -> Self {
         let exponent = |text: Node| match words(text).as_str() {
             "1" => Some(0.0),
+            "10" => Some(1.0),
             other => power(other).map(f64::from),
         };
         Self::of(svg, ["y1", "y2"], exponent, level)

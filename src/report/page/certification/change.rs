@@ -15,6 +15,7 @@ use crate::report::page::spacing::BLANK;
 use crate::report::page::texts::{certification as texts, checks, pictures, units};
 use crate::report::picture::residuals::{Bars, key_of};
 use crate::report::style::Outcome;
+use crate::wording::number::LEAST_PROBABILITY;
 use maud::{Markup, html};
 
 /// Writes whether the stand has changed since its last certificate, and the reasons.
@@ -86,7 +87,7 @@ fn test(test: &Test, languages: &Languages) -> Markup {
     html! {
         (Number::chi_square(test.f()).markup(languages)) " (" (test.degrees_of_freedom) "; "
         @if test.of_u.is_finite() { (Number::at_most(test.of_u, 1).markup(languages)) } @else { "∞" } "), "
-        (symbol("p", "")) " " (probability(languages, test.probability))
+        (symbol("p", "")) (BLANK) @if test.probability >= LEAST_PROBABILITY { "=" (BLANK) } (probability(languages, test.probability))
     }
 }
 
@@ -98,7 +99,8 @@ fn rotations(comparison: &Comparison, languages: &Languages) -> Markup {
         let us = positions.iter().map(|at| Number::uncertainty(at.u_arcsec[axis]));
         let heading = symbol_and_unit(languages, &symbol(name, ""), units::ARCSEC);
         columns.push(Column::new(heading, column(languages, values)));
-        columns.push(Column::new(symbol("u", ""), column(languages, us)));
+        let of_axis = html! { (symbol("u", "")) "(" (symbol(name, "")) ")" };
+        columns.push(Column::new(symbol_and_unit(languages, &of_axis, units::ARCSEC), column(languages, us)));
     }
     let p = positions.iter().map(|at| Cell::probability(at.test.probability));
     columns.push(Column::named(languages, texts::PROBABILITY, column(languages, p)));
@@ -134,7 +136,8 @@ fn table(changes: &[NumberDifference], caption: Markup, languages: &Languages) -
     let change = |at: &NumberDifference| Some((at.difference()?, at.standard_uncertainty));
     let bars = Bars::over(changes.iter().filter_map(change));
     let drawn = changes.iter().map(|at| change(at).map_or_else(|| html! { "–" }, |change| bars.bar(change)));
-    let drawn_within = languages.label_with(|language| format!("{}, ±2u", texts::DIFFERENCE.words(language)));
+    let drawn_within =
+        languages.label_with(|language| format!("{}{BLANK}± 2u,{BLANK}″", texts::DIFFERENCE.words(language)));
     let columns = [
         of(texts::OLD, |at| at.a),
         of(texts::NEW, |at| at.b),
@@ -151,7 +154,7 @@ fn table(changes: &[NumberDifference], caption: Markup, languages: &Languages) -
         caption: Some(caption),
         starts: starts(changes.iter().map(|at| of_key(&at.key).0)),
         class: "numbers residuals changes",
-        ..Table::of(vec![languages.label(texts::POSITION), html! {}], names.collect(), &columns)
+        ..Table::of(vec![languages.label(texts::POSITION), languages.label(texts::ANGLE)], names.collect(), &columns)
     };
     html! {
         (table.markup(languages.spoken(texts::CHANGE)))

@@ -80,7 +80,12 @@ fn components(page: &CertificationPage, languages: &Languages) -> Markup {
     let [x, y, z] = &components.own_arcsec2;
     let visit = |name: Text, of: &Variance| (name, of.value.sqrt(), of.degrees_of_freedom, None);
     let run = |name: Text, of: &Common| {
-        (name, of.between_runs_arcsec2.sqrt(), of.degrees_of_freedom, Some(of.upper_limit_arcsec2.sqrt()))
+        (
+            name,
+            of.between_runs_arcsec2.sqrt(),
+            of.degrees_of_freedom,
+            Some(of.upper_limit_arcsec2.sqrt()).filter(|s| *s > 0.0),
+        )
     };
     let mut found = vec![
         visit(texts::OWN_X, x),

@@ -244,7 +244,8 @@ fn mark(site: &Site, languages: &Languages) -> Markup {
 fn the_earth(site: &Site, earth: &Earth, languages: &Languages) -> Markup {
     let rate = |value: f64, u: f64| match u > 0.0 {
         true => with_u(value, u, units::DEG_PER_H, languages),
-        false => html! { (quantity(languages, &Number::fixed(value, 9), units::DEG_PER_H)) (its_u(languages, None)) },
+        // To the place that a usual latitude determines.
+        false => html! { (quantity(languages, &Number::fixed(value, 5), units::DEG_PER_H)) (its_u(languages, None)) },
     };
     let u = site.gravity_u_m_per_s2();
     let radius = quantity(languages, &Number::fixed(earth.valid_radius_m, 0), units::METRES);

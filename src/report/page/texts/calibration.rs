@@ -55,9 +55,9 @@ texts! {
     }
     NOT_IN_U {
         en: "Inputs not in U (u not stated, or stated as 0): {count} (section\u{a0}3){more}.",
-        ru: "Число величин, не учтённых в U (u не указана или равна 0): {count} (раздел\u{a0}3){more}."
+        ru: "Не учтено в U величин (u не указана или равна 0): {count} (раздел\u{a0}3){more}."
     }
-    AND_TEMPERATURE { en: ", and the temperature", ru: "; температура также не учтена" }
+    AND_TEMPERATURE { en: ", and the temperature", ru: "; не учтена и температура" }
     NO_TYPE { en: "Parameters determined", ru: "Параметры определены" }
     NO_TYPE_WORDS {
         en: "No gyro type was specified; this report makes no statement of conformity.",
@@ -315,7 +315,7 @@ texts! {
         ru: "Предыдущая калибровка: {day}, паспорт {passport}, токи {sha256}. Погрешности, общие для обеих калибровок \
              (например, погрешности стенда), в изменение не входят: U — оценка сверху."
     }
-    NO_DAY_BUT_CURRENTS { en: "{number}, currents {sha256}", ru: "{number}, токи {sha256}" }
+    NO_DAY_BUT_CURRENTS { en: "{number}, SHA-256 {sha256}…", ru: "{number}, SHA-256 {sha256}…" }
     NO_DAY { en: "date not stated", ru: "дата не указана" }
     SAME_GYRO_NOT_SHOWN {
         en: "Serial numbers do not show that it was the same gyro.",

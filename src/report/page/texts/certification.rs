@@ -159,15 +159,15 @@ texts! {
     }
     SAME {
         en: "The stand is unchanged since certificate {number}",
-        ru: "Стенд не изменился по сравнению с сертификатом {number}"
+        ru: "Стенд не изменился после выдачи сертификата {number}"
     }
     CHANGED {
         en: "The stand has changed since certificate {number}",
-        ru: "Стенд изменился по сравнению с сертификатом {number}"
+        ru: "Стенд изменился после выдачи сертификата {number}"
     }
     UNDECIDED {
         en: "It is undecided whether the stand has changed since certificate {number}",
-        ru: "Не установлено, изменился ли стенд по сравнению с сертификатом {number}"
+        ru: "Не установлено, изменился ли стенд после выдачи сертификата {number}"
     }
     CHANGE_CAPTION {
         en: "Deviations of certificate {number} and of this one; u: standard uncertainty of the change",
@@ -187,10 +187,11 @@ texts! {
     }
     REPEATS { en: "unchanged", ru: "без изменений" }
     REPEATS_NOT { en: "changed", ru: "изменилось" }
-    OLD { en: "before", ru: "предыдущее" }
-    NEW { en: "now", ru: "новое" }
-    DIFFERENCE { en: "change", ru: "изменение" }
-    DIFFERENCE_IN_U { en: "change/u", ru: "изменение/u" }
+    ANGLE { en: "Angle", ru: "Угол" }
+    OLD { en: "Before", ru: "Предыдущее" }
+    NEW { en: "Now", ru: "Новое" }
+    DIFFERENCE { en: "Change", ru: "Изменение" }
+    DIFFERENCE_IN_U { en: "Change/u", ru: "Изменение/u" }
     ALL_TOGETHER { en: "All positions, F (ν)", ru: "Все положения, F (ν)" }
     COMMON_TURN { en: "Common rotation, F (ν)", ru: "Общий поворот, F (ν)" }
 

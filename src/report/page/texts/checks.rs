@@ -8,7 +8,7 @@ texts! {
     RESULT { en: "Result", ru: "Результат" }
     FOUND { en: "Finding", ru: "Пояснение" }
     PASSED { en: "passed", ru: "пройдена" }
-    FAILED { en: "FAILED", ru: "НЕ ПРОЙДЕНА" }
+    FAILED { en: "FAILED", ru: "НЕ\u{a0}ПРОЙДЕНА" }
 
     NOT_ASKED { en: "not asked", ru: "не запрошена" }
     SEVERAL_NOT_ASKED { en: "not asked", ru: "не запрошены" }

@@ -133,7 +133,7 @@ texts! {
         ru: "Итерационный метод: изменение на каждом шаге относительно предела"
     }
     CONVERGENCE_STEP { en: "step", ru: "шаг" }
-    CONVERGENCE_SHARE { en: "change : limit", ru: "изменение : предел" }
+    CONVERGENCE_SHARE { en: "change/limit", ru: "изменение/предел" }
     CONVERGENCE_K {
         en: "main scale factors, the larger change",
         ru: "основные масштабные коэффициенты, большее из изменений"
