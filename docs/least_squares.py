@@ -25,6 +25,6 @@ for at in vectors:
     a += [[jx, jy, 0, 0, 1, 0, c, -d], [0, 0, jx, jy, 0, 1, d, c]]
     b += at["omega_deg_per_h"]
 kx, kxy, kyx, ky, x, y, omega_g, omega_k = np.linalg.lstsq(np.array(a), np.array(b), rcond=None)[0]
-print(f"K = {kx:.5f}, {kxy:.5f}; {kyx:.5f}, {ky:.5f} deg/h/mA")
-print(f"omega_0 = {x:.5f}, {y:.5f} deg/h")
-print(f"omega_g = {omega_g:.5f}, omega_k = {omega_k:.5f} deg/h/g")
+print(f"K = {kx:.5f}, {kxy:.5f}; {kyx:.5f}, {ky:.5f} °/(h·mA)")
+print(f"omega_0 = {x:.5f}, {y:.5f} °/h")
+print(f"omega_g = {omega_g:.5f}, omega_k = {omega_k:.5f} °/(h·g)")

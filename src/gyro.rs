@@ -6,7 +6,7 @@ use crate::coefficients::PositionCoefficients;
 use crate::earth::STANDARD_GRAVITY_M_PER_S2;
 use crate::text::{Document, Path, Problems, record};
 use crate::wording::number::Number;
-use crate::wording::{Language, implausible, plain, values};
+use crate::wording::{Language, implausible, values};
 use nalgebra::{Matrix2, Vector2};
 
 /// Parameters of a dynamically tuned gyro in rate mode.
@@ -180,9 +180,10 @@ impl GyroType {
             ("tolerance.k_main_percent", k_main_percent, LARGEST_MAIN_PERCENT),
             ("tolerance.k_cross_percent", k_cross_percent.unwrap_or_default(), LARGEST_CROSS_PERCENT),
         ];
-        let words = each.into_iter().filter(|(_, value, largest)| value > largest).map(|(key, value, _)| {
-            plain(&implausible::OF_TYPE.filled(language, values! { key, value: Number::exact(value) }))
-        });
+        let words = each
+            .into_iter()
+            .filter(|(_, value, largest)| value > largest)
+            .map(|(key, value, _)| implausible::OF_TYPE.filled(language, values! { key, value: Number::exact(value) }));
         words.collect()
     }
 

@@ -2,7 +2,7 @@
 
 use crate::text::{Document, Path, Problems, record};
 use crate::wording::number::Number;
-use crate::wording::{Language, implausible, plain, values};
+use crate::wording::{Language, implausible, values};
 
 /// Lowest and highest temperature of a laboratory, °C.
 pub(crate) const TEMPERATURES_C: [f64; 2] = [-90.0, 100.0];
@@ -129,8 +129,10 @@ impl Laboratory {
         ];
         let odd = each.into_iter().filter(|(_, (value, largest, _))| value > largest);
         let words = odd.map(|(key, (value, largest, unit))| {
-            let [value, largest] = [value, largest].map(Number::exact);
-            plain(&implausible::OF_LABORATORY.filled(language, values! { key, value, largest, unit }))
+            let space = if unit == implausible::ARCSECONDS { "" } else { "\u{a0}" };
+            let with_unit = |value| format!("{}{space}{}", Number::exact(value).text(language), unit.of(language));
+            let [value, largest] = [value, largest].map(with_unit);
+            implausible::OF_LABORATORY.filled(language, values! { key, value, largest })
         });
         words.collect()
     }
@@ -205,10 +207,14 @@ temperature_c: 21.0
             Vec::<String>::new()
         );
         for (from, to, key) in [
-            ("reading_percent: 0.0087", "reading_percent: 8.7", "meter.reading_percent of the laboratory is 8.7,"),
-            ("floor_ma: 1.0e-06", "floor_ma: 0.5", "meter.floor_ma of the laboratory is 0.5,"),
-            ("about_z: 10.0", "about_z: 10000.0", "seating_arcsec.about_z of the laboratory is 10000,"),
-            ("level_arcsec: 3.0", "level_arcsec: 3600.5", "base.level_arcsec of the laboratory is 3600.5,"),
+            (
+                "reading_percent: 0.0087",
+                "reading_percent: 8.7",
+                "meter.reading_percent of the laboratory is 8.7\u{a0}%,",
+            ),
+            ("floor_ma: 1.0e-06", "floor_ma: 0.5", "meter.floor_ma of the laboratory is 0.5\u{a0}mA,"),
+            ("about_z: 10.0", "about_z: 10000.0", "seating_arcsec.about_z of the laboratory is 10\u{202f}000″,"),
+            ("level_arcsec: 3.0", "level_arcsec: 3600.5", "base.level_arcsec of the laboratory is 3600.5″,"),
         ] {
             let remarks =
                 Laboratory::from_yaml("l", FILE.replace(from, to).as_bytes()).unwrap().remarks(Language::English);

@@ -1,7 +1,7 @@
 //! Signed passports that let a cheap test stand calibrate a dynamically tuned gyro (DTG) as well as an expensive one.
 //!
 //! A DTG is calibrated in eight fixed positions of a two-axis test stand. A cheap stand is misaligned in each of them, but
-//! it repeats. So its factory measures the misalignment once, certifies it, and for each place of delivery computes what
+//! it repeats. So its factory measures the misalignment once, certifies it, and for each site computes what
 //! a calibration needs: the matrices Δ, B, C and the Earth-rate vectors of
 //! [the paper](bibliography::Bibliography::Tang17). It issues them as a signed text, the passport; the laboratory's
 //! software reads it, checks it, and finds the gyro's scale factors and drifts.
@@ -50,7 +50,7 @@
 //! | [`attitude`] | eq. (3), (4): A, E, Ã | |
 //! | [`coefficients`] | eq. (5), (9)-(13): n, ω_3, Δ, B, C | |
 //! | [`earth`] | Earth rate, gravity, deflection, geodesics | |
-//! | [`site`], [`stand`] | a place of delivery; a stand and its certified deviations | |
+//! | [`site`], [`stand`] | the place where a stand is used; a stand and its certified deviations | |
 //! | [`gyro`], [`laboratory`] | eq. (2): parameters and currents, types of gyro; the meter and the seat | |
 //! | `statistics` | least squares, distributions; random streams with `monte-carlo`: no gyro in it | |
 //! | [`calibration`] | from currents to parameters, their uncertainty, the fit | |

@@ -71,7 +71,7 @@ record! {
 }
 
 record! {
-    /// Site: the place of delivery of a stand (`dtg-site/1`).
+    /// Site: the place where a stand is used (`dtg-site/1`).
     #[cfg_attr(feature = "cli", schemars(extend("oneOf" = [
         {"required": ["latitude_deg"]}, {"required": ["astronomic_latitude_deg"]}
     ])))]
@@ -401,10 +401,9 @@ fn decimal_degrees(angle: f64, largest: f64) -> Option<String> {
 
 /// Returns the advice for gravity that may be in another unit; empty if none explains it.
 fn gravity_in_another_unit(gravity: f64) -> String {
-    const UNITS: [(&str, f64); 3] = [("Gal (cm/s2)", 1e-2), ("mGal", 1e-5), ("um/s2", 1e-6)];
+    const UNITS: [(&str, f64); 3] = [("Gal (cm/s²)", 1e-2), ("mGal", 1e-5), ("µm/s²", 1e-6)];
     let explains = |(_, factor): &&(&str, f64)| GRAVITY_M_PER_S2.contains(&(gravity * factor));
-    UNITS
-        .iter()
-        .find(explains)
-        .map_or_else(String::new, |(unit, factor)| format!("write m/s2; in {unit} it would be {:.5}", gravity * factor))
+    UNITS.iter().find(explains).map_or_else(String::new, |(unit, factor)| {
+        format!("write m/s²; if it is in {unit}, it is {:.5} m/s²", gravity * factor)
+    })
 }

@@ -220,8 +220,8 @@ impl<T: Listed> Draft<T> {
                 catalogue.files.push(seen.file);
             } else {
                 let others: Vec<_> = seen.others.iter().map(|path| shown(path).to_string()).collect();
-                let (what, id, others, path) = (T::NAME, seen.id, first_few(&others), shown(&seen.file.path));
-                let why = format!("{path}: is {what} {id}, like {others}, but with other content; keep one file");
+                let (id, others, path) = (seen.id, first_few(&others), shown(&seen.file.path));
+                let why = format!("{path}: has the id {id}, like {others}, but different content; keep one file");
                 self.failures.push(Failure::refused(&seen.file.path, why));
             }
         }

@@ -324,7 +324,10 @@ impl Recertification<'_> {
                 chosen.done.push(Line::clone(line));
             } else if content.certificate.number == new.certificate.number {
                 let number = &new.certificate.number;
-                return Err(refused(format!("{}: certificate {number} already states other contents", shown(&path))));
+                return Err(refused(format!(
+                    "{}: certificate {number} already states different contents",
+                    shown(&path)
+                )));
             } else if self.sites.is_empty() || asked.is_some() {
                 let site = asked.and_then(|asked| match asked {
                     AtSite::File(site) => Some(Site::clone(site)),

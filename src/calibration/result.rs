@@ -120,7 +120,7 @@ pub enum MethodRefusal {
     LeastSquares(#[from] NoLeastSquares),
     /// Method of the paper that was asked for another model than the paper's.
     #[error(
-        "the method has only the paper's model with one constant drift; the general model, a drift in time, and turn-ons \
+        "the method supports only the paper's model with one constant drift; the general model, a drift in time, and turn-ons \
          that did not all visit the same positions need least squares"
     )]
     NotThisModel,
@@ -172,7 +172,7 @@ pub struct GMatrix {
     pub standard_uncertainty_deg_per_h_per_g: Matrix2x3<f64>,
 }
 
-/// F test whether the two parameters of the paper's g-sensitive drift are enough.
+/// F test of whether the two parameters of the paper's g-sensitive drift are enough.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ModelTest {

@@ -250,7 +250,7 @@ pub(super) fn findings(
     let suspect: Vec<Finding> = again.map_or_else(Vec::new, |again| suspect(again, positions));
     let explained = |at: &ComparedPosition| suspect.iter().chain(&misplaced).any(|found| found.explains(at));
     findings.retain(|found| !matches!(found, Finding::Changed(at) if explained(at)));
-    // A run that changed within itself changes all positions of the check.
+    // A run during which the stand moved changes all positions of the check.
     if suspect.iter().any(|found| matches!(found, Finding::SplitRun(_))) {
         findings.clear();
     }

@@ -6,7 +6,7 @@
 //! * `deletion`: the fit without some of the readings.
 //! * `suspects`: positions that scatter more (Cochran), outliers (Grubbs), and runs that agree too well.
 //! * `rotated_runs`: runs rotated as a whole relative to the other runs (Grubbs), moves and drifts of the stand.
-//! * `split_run`: a run that changed within itself (F test).
+//! * `split_run`: a run during which the stand moved (F test).
 //! * `unequal_axes`: axes about which the runs rotate more than about the others (Cochran).
 //! * `shared_settings`: settings of an angle that several positions of a run share.
 //! * `worse_groups`: positions with the same θ that scatter more (F test).
@@ -183,7 +183,7 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     };
     certificate.evidence = readings.sha256.as_deref().map(of_readings);
     let mut rotated_runs = rotated_runs::bumped(readings, &components, &suspects.outliers);
-    // A run that changed within itself is also rotated on average.
+    // A run during which the stand moved is also rotated on average.
     rotated_runs.retain(|at| suspects.split.is_none_or(|split| at.run() != Some(split.run)));
     // A suspect reading enlarges the scatter that would have to be subtracted from the variation of the runs.
     let unequal_axes = if suspects.outliers.is_empty() {

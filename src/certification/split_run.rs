@@ -1,8 +1,8 @@
-//! A run that changed within itself: its positions from one reading on are rotated together relative to those before it.
+//! A run during which the stand moved: its positions from one reading on are rotated together relative to those before it.
 //!
 //! A bump in the middle of a run leaves residuals in all of its positions, and the test of single readings would name good
 //! ones. So a rotation of the platform, or of the base, is fitted to the positions after each reading of each run, in the order
-//! of the rows, and compared with what it leaves (F test).
+//! of the rows, and compared with the residuals (F test).
 
 use super::components::{Combinations, Components, by_axis};
 use super::remark::together;
@@ -43,7 +43,7 @@ impl SplitRun {
     }
 }
 
-/// Returns the run that most probably changed within itself, if chance explains that in less than 1 %; `relative` are the
+/// Returns the run during which the stand most probably moved, if chance explains that in less than 1 %; `relative` are the
 /// variances of the positions relative to their mean.
 pub(super) fn find(
     header: &Header,

@@ -75,7 +75,7 @@ pub(crate) struct Suspects {
     pub worse: Vec<WorsePosition>,
     /// Positions with the same θ that scatter more than the others.
     pub group: Option<WorseGroup>,
-    /// Run that changed within itself; single readings and positions are then not examined.
+    /// Run during which the stand moved; single readings and positions are then not examined.
     pub split: Option<SplitRun>,
     /// Outliers, the least probable first.
     pub outliers: Vec<Outlier>,
@@ -84,7 +84,7 @@ pub(crate) struct Suspects {
 }
 
 impl Suspects {
-    /// Returns what is suspect; a run that changed within itself is looked for if `may_split`.
+    /// Returns what is suspect; a run during which the stand moved is looked for if `may_split`.
     pub(crate) fn of(header: &Header, readings: &AngleReadings, components: &Components, may_split: bool) -> Self {
         let alike = vec![1.0; header.positions.len()];
         let found = Self::relative_to(header, readings, components, &alike);
@@ -140,7 +140,7 @@ impl Suspects {
         Some((first.shifts_arcsec[0], probability(components, &of_readings(&relative), &first, 0)))
     }
 
-    /// Returns `true` if the outliers explain the readings better than a run that changed within itself, or rounding does.
+    /// Returns `true` if the outliers explain the readings better than a run during which the stand moved, or rounding does.
     fn explains(&self, split: &SplitRun, readings: &AngleReadings, components: &Components) -> bool {
         let angle =
             |out: &Outlier| Some((readings.runs.iter().position(|run| *run == out.run)?, 3 * out.place + out.axis));

@@ -13,10 +13,10 @@ texts! {
              {p}). Неопределённость этого положения вычислена по его показаниям, остальных — без него."
     }
     WORSE_GROUP {
-        en: "The standard deviation of the positions with θ = {theta}° is {ratio} times that of the others (F test, \
-             {p}). Their uncertainty is computed from their own readings, that of the others without them. The \
-             repeatability is pooled from all positions.",
-        ru: "Стандартное отклонение положений с θ = {theta}° в {ratio} раза больше, чем остальных (критерий Фишера, \
+        en: "The standard deviation of the positions with θ = {theta}° is {ratio} times that of the others (F test, {p}). \
+             Their uncertainty is computed from their own readings, that of the others without them. The repeatability is \
+             pooled from all positions.",
+        ru: "Стандартное отклонение положений с θ = {theta}° в {ratio} раза больше, чем у остальных (критерий Фишера, \
              {p}). Их неопределённость вычислена по их показаниям, остальных — без них. Указана повторяемость, \
              объединённая по всем положениям."
     }
@@ -58,7 +58,7 @@ texts! {
              середине измерений."
     }
     SPLIT_RUN {
-        en: "Run {run} seems to have changed within itself: from position {after} on, its positions are rotated by {x}″, \
+        en: "The stand seems to have moved during run {run}: from position {after} on, its positions are rotated by {x}″, \
              {y}″, {z}″ about {axes} relative to those up to {before}, in the order of the rows (F test, {p}). The run \
              was not excluded; single readings and positions were not examined.",
         ru: "По-видимому, стенд сместился во время серии {run}: её положения начиная с {after} повёрнуты относительно \
@@ -128,8 +128,8 @@ texts! {
     BASE_IN_PART {
         en: "In these positions rotations of the base can be distinguished from those of the platform about {axes} of \
              three axes only; the common part of the platform includes the rest.",
-        ru: "В этих положениях поворот основания отличим от поворота платформы только по {axes} из трёх осей; остальное \
-             включено в общую составляющую платформы."
+        ru: "В этих положениях поворот основания отличим от поворота платформы не вокруг всех трёх осей (число осей: \
+             {axes}); остальное включено в общую составляющую платформы."
     }
     ROUNDING {
         en: "The readings of {angles} of {all} angles vary by less than half their step of {step}″, so their mean does not \
@@ -255,15 +255,15 @@ texts! {
              {y}″, {z}″ вокруг {axes}; общий поворот относится к середине проверки."
     }
     CHECK_SPLIT {
-        en: "Run {run} of the check seems to have changed within itself: from position {after} on, its positions are \
+        en: "The stand seems to have moved during run {run} of the check: from position {after} on, its positions are \
              rotated by {x}″, {y}″, {z}″ about {axes} relative to those up to {before}, in the order of the rows.",
         ru: "По-видимому, стенд сместился во время контрольной серии {run}: её положения начиная с {after} повёрнуты \
              относительно положений до {before} включительно (в порядке строк) на {x}″, {y}″, {z}″ вокруг {axes}."
     }
     CHECK_OUTLIER {
-        en: "The reading of position {index} in run {run} of the check differs by {residual}″ about {axis} from those of the \
-             other runs; this shifts the mean of the position by {mean}″.",
-        ru: "Показание положения {index} в контрольной серии {run} отличается на {residual}″ вокруг {axis} от показаний \
+        en: "The reading of position {index} in run {run} of the check differs by {residual}″ about {axis} from those of \
+             the other runs; this shifts the mean of the position by {mean}″.",
+        ru: "Показание в положении {index} контрольной серии {run} отличается на {residual}″ вокруг {axis} от показаний \
              других серий; среднее для положения смещено этим на {mean}″."
     }
     NOT_TESTED_VARIATION {

@@ -33,7 +33,7 @@ use serde_json::Value;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-/// Calibrate a gyro: parameters, their uncertainty, the fit, and the decision for its type
+/// Calibrate a gyro: parameters, their uncertainty, the fit, and the decision against the gyro type
 ///
 /// For several gyros on one stand, give several files, a quoted pattern, or a folder, whose *.csv files are read; with -
 /// the paths are read from standard input. Each gyro gives one line of output, and with --format json one line of JSON.
@@ -96,7 +96,7 @@ pub(super) struct Options {
     /// Temperature during the readings, °C
     #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = temperature)]
     temperature_c: Option<f64>,
-    /// Model of the g-sensitive drift: the paper's, or the full 2×3 matrix, with a test whether it is needed
+    /// Model of the g-sensitive drift: the paper's, or the full 2×3 matrix, with a test of whether it is needed
     #[arg(long, value_enum, default_value = "paper")]
     model: ModelName,
     /// Fit one linear drift of ω_0 in time; needs the column time_s

@@ -14,7 +14,7 @@ use std::process::ExitCode;
 const USAGE: &str = "usage";
 
 const IN_A_WORKSPACE: &str =
-    "identifiers of passports have a meaning only in a workspace; specify it with --workspace, or give the file";
+    "identifiers of passports can be used only in a workspace; specify it with --workspace, or give the file";
 
 /// A failure that ends a verb at once, and its exit code.
 #[derive(Debug)]

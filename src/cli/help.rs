@@ -11,7 +11,7 @@ const EXIT_CODES: &str = "\
 Exit codes:
   0  done, or the document is valid
   1  a document or a result is refused
-  2  wrong usage, or a file that cannot be read as what it should be";
+  2  wrong usage, or a file that cannot be read or is not of the expected kind";
 
 /// Two examples for each verb, one a line, without the name of the program.
 const EXAMPLES: &str = include_str!("examples.txt");

@@ -13,7 +13,7 @@ use crate::site::Site;
 use crate::stand::Stand;
 use crate::text::placeholder::filled_in;
 use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, Printable, Problems, Unreadable, name_of, printable, shown};
-use crate::wording::Language;
+use crate::wording::{Language, plain};
 use serde::Serialize;
 use std::ops::RangeBounds;
 use std::path::{Path, PathBuf};
@@ -61,7 +61,7 @@ fn site_by(path: &Path, reader: impl FnOnce(&str, &[u8]) -> Result<Site, Unreada
 
 pub(super) fn gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
     let gyro_type = path.map(|path| document(path, Kind::Gyro.words(), GyroType::from_yaml)).transpose()?;
-    gyro_type.iter().flat_map(|gyro| gyro.remarks(Language::English)).for_each(|words| output::warn(&words));
+    gyro_type.iter().flat_map(|gyro| gyro.remarks(Language::English)).for_each(|words| output::warn(&plain(&words)));
     Ok(gyro_type)
 }
 
@@ -69,7 +69,7 @@ pub(super) fn gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
 pub(super) fn laboratory(path: Option<&Path>) -> Result<Laboratory, Failure> {
     let Some(path) = path else { return Ok(Laboratory::paper()) };
     let laboratory = document(path, Kind::Laboratory.words(), Laboratory::from_yaml)?;
-    laboratory.remarks(Language::English).iter().for_each(|words| output::warn(words));
+    laboratory.remarks(Language::English).iter().for_each(|words| output::warn(&plain(words)));
     Ok(laboratory)
 }
 

@@ -53,7 +53,7 @@ pub(super) struct Options {
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let list = Path::new("-");
     if options.stands.iter().chain(&options.sites).filter(|path| *path == list).count() > 1 {
-        return Err(Failure::unusable("standard input can be only one list: of stands or of sites"));
+        return Err(Failure::unusable("standard input can supply only one list, that of stands or that of sites"));
     }
     let now = trust_options::now();
     let issued_at = time_of_issue(options.issued_at, now).map_err(Failure::refused)?;

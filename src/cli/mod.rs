@@ -61,7 +61,7 @@ struct Cli {
     // It is read before the other arguments are parsed.
     #[allow(dead_code)]
     workspace: Option<PathBuf>,
-    /// Print no messages about a result, only those about failures
+    /// Suppress remarks; results, failures and warnings are still printed
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     quiet: bool,
     /// Also print where options come from, and the duration

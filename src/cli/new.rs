@@ -12,7 +12,8 @@ use std::path::{Path, PathBuf};
 
 /// Write a commented template of a file
 ///
-/// Lines with CHANGE have a value that only you know. Every template is accepted by its reader as it is.
+/// Lines with CHANGE need a value that only you know. Every template has a valid form, but a file that still contains
+/// CHANGE is not certified or issued.
 #[derive(Args)]
 pub(super) struct Options {
     /// Kind of file

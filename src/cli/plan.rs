@@ -16,7 +16,7 @@ pub(super) struct Options {
     /// Site file (dtg-site/1); in a workspace also the identifier of the site
     #[arg(long, value_name = "SITE", value_parser = defaults::site())]
     site: PathBuf,
-    /// Certified stand to read (dtg-stand/1); in a workspace also MODEL/SERIAL [default: the positions of --angles, without deviations]
+    /// Stand file (dtg-stand/1) whose certified positions to choose from; in a workspace also MODEL/SERIAL [default: the positions of --angles, without deviations]
     #[arg(long, value_name = "STAND", conflicts_with = "angles", value_parser = defaults::stand())]
     stand: Option<PathBuf>,
     /// Gyro type (dtg-gyro/1) [default: the paper's GVK-6]
@@ -25,7 +25,7 @@ pub(super) struct Options {
     /// Laboratory (dtg-laboratory/1) [default: the paper's meter, 0.015 %]
     #[arg(long, value_name = "FILE")]
     laboratory: Option<PathBuf>,
-    /// Number of readings, each of one visit to its position
+    /// Number of readings; each is one visit to a position
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = readings())]
     readings: u32,
     /// Nominal angles to choose from: quadrants, or a step in degrees for theta and phi

@@ -91,7 +91,7 @@ pub(super) fn refuse_file(folder: &Path) -> Result<(), Failure> {
 /// Returns a remark if no passport is of the stand asked for, which may be mistyped.
 fn no_such_stand(serial: Option<&str>, register: &Register) -> Option<String> {
     let serial = serial.filter(|_| register.passports.is_empty())?;
-    let words = "every character counts, also leading zeros";
+    let words = "every character counts, including leading zeros";
     Some(format!("no passport of a stand with the serial number {}; {words}", Printable(serial)))
 }
 

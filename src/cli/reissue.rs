@@ -58,7 +58,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let list = Path::new("-");
     let lists = options.passports.iter().filter(|path| *path == list).count();
     if lists > 1 || options.stands.iter().chain(&options.sites).any(|path| path == list) {
-        return Err(Failure::unusable("standard input can be only one list, of passports"));
+        return Err(Failure::unusable("standard input can supply only the list of passports"));
     }
     let (trust, question) = options.trust.load()?;
     let order = Order {

@@ -24,7 +24,8 @@ pub(super) struct Options {
     /// Reason, recorded in the list
     #[arg(long, value_name = "TEXT")]
     reason: String,
-    /// Folder of revocation lists, `revocations` in a workspace; the newest list is extended
+    /// Folder of lists of withdrawn passports, `revocations` in a workspace; a new list is written, which continues the
+    /// newest one
     #[arg(long, value_name = "FOLDER")]
     list: PathBuf,
     /// Folder of passports
@@ -72,7 +73,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         || json!({ "file": name_of(&path), "sequence": list.sequence, "revoked": ids, "passports": count }),
         || {
             let withdrawn = style::marked(Some(true), "withdrawn");
-            format!("{withdrawn}  {}  {} (passports in all: {count})\n", ids.join(", "), shown(&path))
+            format!("{withdrawn}  {}  {} (passports in the list: {count})\n", ids.join(", "), shown(&path))
         },
     )?;
     Ok(0)

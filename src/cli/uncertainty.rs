@@ -27,7 +27,7 @@ pub(super) struct UncertaintyOptions {
     /// Write a picture of the budget
     #[arg(long, value_name = "FILE.svg", value_parser = output::path_of("svg"), requires = "budget")]
     pub budget_svg: Option<PathBuf>,
-    /// Replace an existing picture or report
+    /// Replace existing results, reports and pictures
     #[arg(long)]
     pub force: bool,
     /// Monte Carlo method (JCGM 101): coverage intervals, and validity of the linear approximation

@@ -37,7 +37,7 @@ record! {
         pub city: Option<String>,
         /// Street.
         pub street: Option<String>,
-        /// Number of the house.
+        /// House number.
         pub street_no: Option<String>,
         /// Postcode.
         pub post_code: Option<String>,

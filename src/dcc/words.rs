@@ -79,12 +79,13 @@ texts! {
     G_DRIFT { en: "g-sensitive drift ω_g, ω_k", ru: "Составляющие дрейфа, зависящие от g: ω_g, ω_k" }
     CONFORMITY { en: "Conformity with gyro type {type}", ru: "Соответствие типу {type}" }
     RULE {
-        en: "Guarded acceptance with a guard band equal to the expanded uncertainty U, with k = 2 or that of \
-             Student’s t for few degrees of freedom, coverage probability 95.45 % (JCGM 106, 8.3): pass or fail. Where \
-             the uncertainty does not permit this decision, the decision by simple acceptance is conditional.",
-        ru: "Приёмка с защитной полосой, равной расширенной неопределённости U, k = 2 или по Стьюденту при малом числе \
-             степеней свободы, вероятность охвата 95,45 % (JCGM 106, 8.3). Если неопределённость не позволяет принять \
-             решение, решение при простой приёмке условное."
+        en: "Guarded acceptance with a guard band equal to the expanded uncertainty U, with k = 2 or that of Student’s t \
+             for few degrees of freedom, coverage probability 95.45 % (JCGM 106, 8.3): pass or fail. Where the \
+             uncertainty does not permit this decision, the decision by simple acceptance is conditional.",
+        ru: "Приёмка с защитной полосой, равной расширенной неопределённости U (коэффициент охвата k = 2, при малом числе \
+             степеней свободы — коэффициент Стьюдента; вероятность охвата 95,45 %; JCGM 106, 8.3): соответствует или не \
+             соответствует. Если неопределённость не позволяет принять такое решение, приводится условное решение по \
+             правилу простой приёмки."
     }
     DECISIONS { en: "Decisions on conformity, in the order of the values", ru: "Решения о соответствии в порядке значений" }
     LOWER_LIMIT { en: "Lower limit of the tolerance", ru: "Нижняя граница допуска" }

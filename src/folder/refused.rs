@@ -12,15 +12,15 @@ use std::path::PathBuf;
 pub enum FolderRefused {
     /// Existing passport of this name with other content, and the differences in words.
     #[error(
-        "{}: already exists with other content ({}); to issue the changes, use `reissue {}`",
+        "{}: already exists with different content ({}); to issue the changes, use `reissue {}`",
         shown(.0),
         .1,
         shown(.0)
     )]
     OtherContent(PathBuf, String),
-    /// Existing successor of the predecessor for this site, with other content.
+    /// Existing successor of the predecessor for this site, with different content.
     #[error(
-        "{}: is already a successor of this passport for this site, with other content; re-issue that successor",
+        "{}: is already a successor of this passport for this site, with different content; re-issue that successor",
         shown(.0)
     )]
     OtherSuccessor(PathBuf),

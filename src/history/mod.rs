@@ -1,6 +1,6 @@
 //! One stand over the years: its certificates, passports, places and withdrawals, and the drift of its deviations.
 //!
-//! `drift`: the deviations of all certificates, also relative to each other, and the test whether they drift.
+//! `drift`: the deviations of all certificates, also relative to each other, and the test of whether they drift.
 //!
 //! A history is a function of verified passports; [`crate::folder`] finds the files.
 

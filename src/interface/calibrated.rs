@@ -20,7 +20,7 @@ use crate::text::printable;
 use crate::uncertainty::Budget;
 #[cfg(feature = "monte-carlo")]
 use crate::uncertainty::{self, Engine, MonteCarlo, ReadingShape, Trials};
-use crate::wording::Language;
+use crate::wording::{Language, plain};
 use jiff::Timestamp;
 use std::collections::BTreeMap;
 
@@ -250,9 +250,10 @@ impl<'a> Prepared<'a> {
             document.mistake = Mistake::of_numbering(&found, gyro_type, others);
         }
         document.remarks = remarks(&calibration, &readings, document.mistake.as_ref());
+        let of_files = laboratory.remarks(Language::English).into_iter();
+        let of_files = of_files.chain(gyro_type.into_iter().flat_map(|gyro| gyro.remarks(Language::English)));
         let of_conditions =
-            warning.map(|warning| warning.to_string()).into_iter().chain(laboratory.remarks(Language::English));
-        let of_conditions = of_conditions.chain(gyro_type.into_iter().flat_map(|gyro| gyro.remarks(Language::English)));
+            warning.map(|warning| warning.to_string()).into_iter().chain(of_files.map(|words| plain(&words)));
         let of_others = of_conditions.chain(early).chain(another_type(previous, gyro_type)).chain(unknown_gyro.clone());
         document.remarks.extend(readings.remarks.iter().cloned().chain(of_others));
         document.verdict = gyro_type.and_then(|gyro_type| document.judged(gyro_type));

@@ -165,7 +165,12 @@ fn lists(node: &Node, at: &Path, problems: &mut Problems) -> Option<Vec<Vec<u8>>
     };
     let lists = if let Node::List(all) = node { all.iter().map(list).collect() } else { None };
     if lists.is_none() {
-        problems.at(at, node.describe(), "a list of revocation lists, each its text or a list of its bytes", "");
+        problems.at(
+            at,
+            node.describe(),
+            "a list of revocations (KRLs or lists), each its text or a list of its bytes",
+            "",
+        );
     }
     lists
 }
@@ -287,7 +292,10 @@ mod tests {
             (r#"{"at": [1e999, 0]}"#, "JSON"),
             (r#"{"at": [0]}"#, "at: found [0.0], expected [latitude, longitude]"),
             (r#"{"revoked": "rubbish"}"#, "revoked: found \"rubbish\", expected a list"),
-            (r#"{"revoked": [[256]]}"#, "revoked: found a list of 1 item, expected a list of revocation lists, each"),
+            (
+                r#"{"revoked": [[256]]}"#,
+                "revoked: found a list of 1 item, expected a list of revocations (KRLs or lists), each",
+            ),
             (r#"{"revoked": ["rubbish"]}"#, "revoked[0]"),
             (r#"{"revoked": [[83, 83, 72, 75, 82, 76, 10, 0]]}"#, "revoked[0]"),
         ] {

@@ -97,7 +97,7 @@ pub struct Check {
 }
 
 /// Detail of the check of revocations if there is no list to check.
-pub(super) const NO_LIST: &str = "no revocation list was given (--revoked)";
+pub(super) const NO_LIST: &str = "no list of revocations was given (--revoked)";
 
 /// Request at the end of the detail of a passport that was withdrawn.
 pub(crate) const ASK_THE_ISSUER: &str = "ask the issuer for a new passport";

@@ -148,7 +148,7 @@ record! {
         /// Positions, sorted by (i, j); at most 256.
         #[cfg_attr(feature = "cli", schemars(length(max = 256)))]
         pub positions: Vec<CertifiedPosition>,
-        /// Site (place of delivery).
+        /// Site of the stand.
         pub site: Site,
         /// Earth parameters at the site.
         pub earth: Earth,

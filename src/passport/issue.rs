@@ -108,7 +108,7 @@ pub enum IssueRefused {
     },
     /// The time of issue is later than the expiry date.
     #[error(
-        "issued_at {issued_at} is later than {last}, until which the {} is valid; {}",
+        "issued_at {issued_at} is later than the expiry date of the {}, {last}; {}",
         document.word(),
         if *document == Dated::Certificate { "have the stand recertified" } else { "specify a later date" }
     )]

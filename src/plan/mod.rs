@@ -1,7 +1,7 @@
-//! The best positions to certify, or of a certified stand's positions to read: how often each, in which order, and with
-//! the frame's axis at which azimuth.
+//! The best positions to certify, or to read on a certified stand: the number of visits to each, their order, and the
+//! azimuth of the frame's axis.
 //!
-//! A reading is one visit of a position. Its errors are those of a calibration by least squares: specification and
+//! A reading is one visit to a position. Its errors are those of a calibration by least squares: specification and
 //! noise of the meter, noise of the gyro from visit to visit, repeatability and certified angles of the stand. Errors
 //! that all positions share do not depend on the choice in this way; [`sensitivity`] computes what they cost and
 //! whether the residuals would show them.
@@ -51,7 +51,7 @@ pub(crate) struct Question<'a> {
     /// Nominal angles of candidates without a stand.
     pub angles: Angles,
     pub gyro: &'a GyroType,
-    /// Laboratory, of which the meter and the seat count.
+    /// Laboratory; only its meter and gyro seat are used.
     pub laboratory: &'a Laboratory,
     /// Number of readings, [`FEWEST_READINGS`] to [`MOST_READINGS`].
     pub readings: u32,

@@ -209,6 +209,6 @@ pub(super) fn misplaced(line: &Line) -> Option<Alarm> {
     let before = file.strip_suffix(&format!("-{revision}.yaml"));
     let above = before.and_then(|name| name.strip_suffix(folder));
     let there = above.is_some_and(|above| above.is_empty() || above.ends_with('/'));
-    let words = || format!("{id} must be in {folder}-{revision}.yaml");
+    let words = || format!("the file of {id} must be {folder}-{revision}.yaml");
     (!there).then(|| Alarm::of_file(AlarmKind::Misplaced, &words(), &line.file))
 }

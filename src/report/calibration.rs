@@ -261,7 +261,7 @@ fn comparison(out: &mut String, answer: &MethodResult, others: &[&MethodResult])
     columns::paragraph(out, "  ", words);
 }
 
-/// Writes ω_0 of each turn-on, the drift in time, and the test whether a larger model is needed.
+/// Writes ω_0 of each turn-on, the drift in time, and the test of whether a larger model is needed.
 fn beyond_the_paper(out: &mut String, answer: &MethodResult) {
     for at in &answer.cycles {
         let u = answer.standard_uncertainty(Parameter::Omega0x).unwrap_or(0.0);

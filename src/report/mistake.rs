@@ -7,6 +7,7 @@ use super::page::spacing::BLANK;
 use super::page::texts::calibration as texts;
 use crate::calibration::diagnosis::numbering;
 use crate::calibration::{CurrentsMistaken, Mistake};
+use crate::wording::Value;
 use crate::wording::spacing::spaced;
 
 /// Power of ten by which microamperes exceed milliamperes.
@@ -47,9 +48,25 @@ pub(crate) fn words(mistake: &Mistake, language: Language) -> String {
 }
 
 /// Returns a factor or its inverse, whichever is larger, with three significant digits, and whole from 1000 on.
-fn factor_of(factor: f64) -> Number {
+fn factor_of(factor: f64) -> Times {
     let factor = factor.max(1.0 / factor);
-    if factor < 1000.0 { Number::significant(factor, 3) } else { Number::fixed(factor, 0) }
+    Times(if factor < 1000.0 { Number::significant(factor, 3) } else { Number::fixed(factor, 0) })
+}
+
+/// A factor, in Russian with the noun that agrees with its digits.
+struct Times(Number);
+
+impl Value for Times {
+    fn said(&self, language: Language) -> String {
+        let digits = self.0.text(language);
+        let before_last = digits.chars().rev().nth(1);
+        let is_few = digits.ends_with(['2', '3', '4']) && before_last != Some('1');
+        match language {
+            Language::English => digits,
+            Language::Russian if digits.contains(',') || is_few => format!("{digits}{BLANK}раза"),
+            Language::Russian => format!("{digits}{BLANK}раз"),
+        }
+    }
 }
 
 fn causes(mistaken: &CurrentsMistaken, language: Language) -> Vec<String> {
@@ -64,7 +81,7 @@ fn causes(mistaken: &CurrentsMistaken, language: Language) -> Vec<String> {
         (false, true) => add(texts::MISTAKE_Y_REVERSED),
         (false, false) => {}
     }
-    let factor = Number::fixed(libm::pow(10.0, f64::from(mistaken.power_of_ten.abs())), 0);
+    let factor = Times(Number::fixed(libm::pow(10.0, f64::from(mistaken.power_of_ten.abs())), 0));
     let too = |text: Text| text.filled(language, values! { factor });
     match mistaken.power_of_ten {
         0 => {}

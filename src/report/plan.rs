@@ -220,8 +220,8 @@ fn gravity_prevents_a_pass(plan: &Plan) -> bool {
 /// Returns what the uncertainty of local g contributes.
 fn gravity(plan: &Plan) -> String {
     format!(
-        "Local g contributes {} % of the tolerance to u of ω_g or ω_k at the g of the type; to reduce this, state the \
-         height of the site, or measure g.",
+        "The standard uncertainty of local g alone makes u of ω_g or ω_k {} % of the tolerance at the g of the type; to \
+         reduce it, state the height of the site, or measure g.",
         percent(plan.gravity_over_tolerance)
     )
 }
@@ -244,7 +244,7 @@ fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<String> {
             effect.matters() && effect.is_hidden()
         }),
         ("The residuals show errors of this size", |effect| effect.matters() && !effect.is_hidden()),
-        ("Almost without effect on it (below 0.1 % of every tolerance)", |effect| !effect.matters()),
+        ("These errors have almost no effect (below 0.1 % of every tolerance)", |effect| !effect.matters()),
     ];
     for (words, is) in kinds {
         let effects = plan.evaluation.effects.iter().filter(|effect| is(effect));
@@ -254,12 +254,12 @@ fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<String> {
         }
     }
     let worse: Vec<String> =
-        plan.worse().iter().map(|(parameter, ratio)| format!("{} {ratio:.2} times", parameter.symbol())).collect();
+        plan.worse().iter().map(|(parameter, ratio)| format!("{} ({ratio:.2} times)", parameter.symbol())).collect();
     match (&plan.paper, worse.as_slice()) {
         (None, _) => {}
         (Some(_), []) => remarks.push("No parameter is more uncertain than with the paper's eight.".to_owned()),
         (Some(_), worse) => {
-            remarks.push(format!("More uncertain than with the paper's eight: {}.", worse.join(", ")));
+            remarks.push(format!("Uncertainties larger than with the paper's eight: {}.", worse.join(", ")));
         }
     }
     if !plan.has_matrices {

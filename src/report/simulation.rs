@@ -72,7 +72,7 @@ pub(crate) fn convergence(found: &Convergence) -> String {
             if row.stands < found.trials { format!("{} stands", grouped(row.stands)) } else { String::new() },
         ]
     });
-    columns::table(&mut out, &["limit, °", "angles", "mean", "95th perc.", "most", "not converged, %", ""], rows);
+    columns::table(&mut out, &["limit, °", "angles", "mean", "95th perc.", "maximum", "not converged, %", ""], rows);
     out.push_str("  ±: standard uncertainty; < and >: limit at 95 %, where all stands converged or none did\n");
     out
 }

@@ -162,8 +162,8 @@ mod tests {
     fn a_coverage_factor_that_is_not_2_is_named() {
         let words = |factors: &[f64]| coverage_factor(factors.iter().copied(), Language::English);
         assert_eq!(words(&[2.0, 2.0]), "2");
-        assert_eq!(words(&[2.43, 2.43]), "2.43 (Student’s t)");
-        assert_eq!(words(&[2.0, 2.4463, 2.0]), "2.00–2.45 (Student’s t)");
-        assert_eq!(coverage_factor([2.0, 2.4463].into_iter(), Language::Russian), "2,00–2,45 (коэффициент Стьюдента)");
+        assert_eq!(words(&[2.43, 2.43]), "2.43, Student’s t");
+        assert_eq!(words(&[2.0, 2.4463, 2.0]), "2.00–2.45, Student’s t");
+        assert_eq!(coverage_factor([2.0, 2.4463].into_iter(), Language::Russian), "2,00–2,45, коэффициент Стьюдента");
     }
 }

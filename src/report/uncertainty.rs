@@ -35,7 +35,11 @@ pub(crate) fn budget(budget: &Budget, sentence: Option<&str>, document: &Calibra
             }
             Some(_) => "its tolerance",
         };
-        columns::paragraph(&mut out, "", &columns::powers(&format!("Largest relative to {relative}: {sentence}.")));
+        columns::paragraph(
+            &mut out,
+            "",
+            &columns::powers(&format!("Largest uncertainty relative to {relative}: {sentence}.")),
+        );
     }
     if document.scatter.is_some() {
         columns::paragraph(&mut out, "", texts::BUDGET_MEANS.of(Language::English));

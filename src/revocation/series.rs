@@ -24,10 +24,10 @@ pub struct Series {
 #[non_exhaustive]
 pub enum SeriesAlarm {
     /// The lists before this first one are missing.
-    #[error("gap: the series of revocation lists begins with {0}, not with 1")]
+    #[error("gap: the series of lists of withdrawn passports begins with {0}, not with 1")]
     Beginning(u32),
     /// Lists in the middle are missing.
-    #[error("gap: revocation list {from} is followed by {to}")]
+    #[error("gap: list {from} of withdrawn passports is followed by list {to}")]
     Gap {
         /// Number of the last list before the gap.
         from: u32,
@@ -36,7 +36,7 @@ pub enum SeriesAlarm {
     },
     /// A list that another one continues is missing, so its withdrawals are unknown.
     #[error(
-        "revocation list {list} continues list {missing}, which is missing; the withdrawals of list {missing} are \
+        "list {list} of withdrawn passports continues list {missing}, which is missing; the withdrawals of list {missing} are \
          unknown"
     )]
     Missing {
@@ -46,10 +46,10 @@ pub enum SeriesAlarm {
         missing: u32,
     },
     /// Two different lists have the same number.
-    #[error("fork: two different revocation lists have the number {0}")]
+    #[error("fork: two different lists of withdrawn passports have the number {0}")]
     Fork(u32),
     /// A later list has an earlier time of issue.
-    #[error("step back in time: revocation list {to} was issued earlier than list {from}")]
+    #[error("step back in time: list {to} of withdrawn passports was issued earlier than list {from}")]
     StepBack {
         /// Number of the earlier list.
         from: u32,
@@ -57,7 +57,7 @@ pub enum SeriesAlarm {
         to: u32,
     },
     /// A later list lacks an entry of an earlier one.
-    #[error("revocation list {to} lacks an entry of list {from}")]
+    #[error("list {to} of withdrawn passports lacks an entry of list {from}")]
     LostEntry {
         /// Number of the earlier list.
         from: u32,
@@ -332,7 +332,7 @@ mod tests {
         let first = list(1, 100, &["a"]);
         let second = list(2, 200, &["a", "b"]);
         let third = continuing(list(3, 300, &["c"]), &first);
-        assert_eq!(alarms(vec![first, second, third]), ["revocation list 3 lacks an entry of list 2"]);
+        assert_eq!(alarms(vec![first, second, third]), ["list 3 of withdrawn passports lacks an entry of list 2"]);
     }
 
     #[test]

@@ -33,13 +33,13 @@ pub(crate) enum Odd {
     FarAngle { angle: usize, index: PositionIndex, arcsec: f64, usual_arcsec: f64 },
     /// Temperature that no laboratory has; `key` states it.
     #[error(
-        "{key} is {celsius} deg C, outside the usual room temperature of {} to {} deg C{}",
+        "{key} is {celsius} °C, outside the usual room temperature of {} to {} °C{}",
         ROOM_C.start(), ROOM_C.end(), in_kelvin(*.celsius)
     )]
     Temperature { key: &'static str, celsius: f64 },
     /// Temperature of the measurement outside the certified range.
     #[error(
-        "temperature_c is {celsius} deg C, but temperature_range_c is {} to {} deg C; the deviations were measured \
+        "temperature_c is {celsius} °C, but temperature_range_c is {} to {} °C; the deviations were measured \
          outside the certified range",
         .range[0], .range[1]
     )]
@@ -56,7 +56,7 @@ pub(crate) enum Odd {
 fn in_kelvin(celsius: f64) -> String {
     let from_kelvin = celsius - ZERO_CELSIUS_K;
     let is_room = ROOM_C.contains(&from_kelvin);
-    if is_room { format!("; in kelvin it would be {from_kelvin:.2} deg C") } else { String::new() }
+    if is_room { format!("; if it is in kelvin, it is {from_kelvin:.2} °C") } else { String::new() }
 }
 
 /// Returns the unusual values in a certificate and its positions.
@@ -138,10 +138,10 @@ mod tests {
     #[test]
     fn temperatures_that_cannot_be_are_said() {
         let kelvin = said_of("temperature_c: 20.0", "temperature_c: 293.15");
-        assert!(kelvin[0].contains("293.15") && kelvin[0].contains("in kelvin it would be 20.00 deg C"), "{kelvin:?}");
-        assert!(kelvin[1].contains("18 to 22 deg C"), "{kelvin:?}");
+        assert!(kelvin[0].contains("293.15") && kelvin[0].contains("if it is in kelvin, it is 20.00 °C"), "{kelvin:?}");
+        assert!(kelvin[1].contains("18 to 22 °C"), "{kelvin:?}");
         let warm = said_of("temperature_c: 20.0", "temperature_c: 25.5");
-        assert!(warm.len() == 1 && warm[0].contains("25.5") && warm[0].contains("18 to 22 deg C"), "{warm:?}");
+        assert!(warm.len() == 1 && warm[0].contains("25.5") && warm[0].contains("18 to 22 °C"), "{warm:?}");
         let range = said_of("[18.0, 22.0]", "[18.0, 295.0]");
         assert!(range.len() == 1 && range[0].contains("temperature_range_c is 295"), "{range:?}");
     }

@@ -98,21 +98,21 @@ impl Kind {
 
     fn advice(self) -> &'static str {
         match self {
-            Self::RevocationList | Self::KeyRevocationList => "give it with --revoked",
-            Self::AllowedSigners => "give it with --trust",
-            Self::PrivateKey => "give it with --key, and keep it secret",
-            Self::Gyro => "give it to a command with --gyro, such as `calibrate`",
-            Self::Laboratory => "give it to a command with --laboratory, such as `calibrate`",
-            Self::Dcc => "give it to `export` or `calibrate` with --administrative",
+            Self::RevocationList | Self::KeyRevocationList => "give this file with --revoked",
+            Self::AllowedSigners => "give this file with --trust",
+            Self::PrivateKey => "give this file with --key, and keep it secret",
+            Self::Gyro => "give this file to a command with --gyro, such as `calibrate`",
+            Self::Laboratory => "give this file to a command with --laboratory, such as `calibrate`",
+            Self::Dcc => "give this file to `export` or `calibrate` with --administrative",
             Self::Measurement => "export the table as CSV",
             Self::Workbook => "unpack it, or export the table as CSV",
             Self::Html | Self::Pdf => "give the file from which it was made",
-            Self::Stand => "give it to `issue`, or to other commands with --stand",
-            Self::Site => "give it to a command with --site, such as `issue`",
+            Self::Stand => "give this file to `issue`, or to other commands with --stand",
+            Self::Site => "give this file to a command with --site, such as `issue`",
             Self::Passport => "commands that take a passport take it as the first argument",
-            Self::Angles => "give it to `certify`, or to `recertify` after the passport",
-            Self::Currents => "give it to `calibrate`, after the passport",
-            Self::Result => "give it to `calibrate` with --previous",
+            Self::Angles => "give this file to `certify`, or to `recertify` after the passport",
+            Self::Currents => "give this file to `calibrate`, after the passport",
+            Self::Result => "give this file to `calibrate` with --previous",
             Self::PublicKey => "give the file that has this key with its owner, as `keygen` prints the line",
         }
     }

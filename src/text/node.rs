@@ -109,11 +109,11 @@ fn text_of<'a>(name: &str, bytes: &'a [u8], signed: Option<&str>) -> Result<&'a 
         let at = Some(location_of(&bytes[..index]));
         return if text[index..].starts_with("\r\n") {
             let advice = "transfer the file again byte for byte (git autocrlf may have changed it), or save your own \
-                          file with LF line ends";
-            refuse(at, "CR LF line ends", "LF line ends", advice)
+                          file with LF line endings";
+            refuse(at, "CR LF line endings", "LF line endings", advice)
         } else {
-            let advice = signed.unwrap_or("save the file with LF line ends");
-            refuse(at, "a carriage return (CR)", "LF line ends", advice)
+            let advice = signed.unwrap_or("save the file with LF line endings");
+            refuse(at, "a carriage return (CR)", "LF line endings", advice)
         };
     }
     Ok(text)
@@ -124,7 +124,7 @@ pub(crate) fn without_byte_order_mark(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes)
 }
 
-/// Returns the text of a hand-written file, without byte order mark and with LF line ends, as editors of Windows and
+/// Returns the text of a hand-written file, without byte order mark and with LF line endings, as editors of Windows and
 /// spreadsheets write them.
 pub(crate) fn hand_written_text(name: &str, bytes: &[u8]) -> Result<String, Unreadable> {
     let bytes = without_byte_order_mark(bytes);

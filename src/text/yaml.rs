@@ -12,7 +12,7 @@ use std::fmt;
 
 /// Reads one YAML document.
 ///
-/// `name` is the file name used in messages. A byte order mark and CR LF line ends are accepted. Refused are documents
+/// `name` is the file name used in messages. A byte order mark and CR LF line endings are accepted. Refused are documents
 /// larger than [`super::LARGEST_DOCUMENT_BYTES`], bytes that are not UTF-8, other CR, and anything that `serde_yaml`
 /// cannot read (with line and column).
 pub(crate) fn tree(name: &str, bytes: &[u8]) -> Result<(Node, String), Unreadable> {

@@ -94,7 +94,7 @@ pub enum SignatureError {
         signature: String,
     },
     /// The armor is not byte for byte as OpenSSH writes it.
-    #[error("the signature block is not written as by OpenSSH (line length, line ends or padding)")]
+    #[error("the signature block is not written as by OpenSSH (line length, line endings or padding)")]
     NotCanonical,
     /// The signature was made for another namespace.
     #[error("the signature is for the namespace \"{}\", expected {expected:?}", Printable(found))]

@@ -37,7 +37,7 @@ fn broken_rule(identity: &str) -> Option<String> {
     identity.chars().find(bad).map(|c| match c {
         ' ' => "contains a space".to_owned(),
         '"' | '\'' => "contains a quote".to_owned(),
-        ',' | '*' | '?' | '!' | '#' => format!("contains `{c}`, which has a meaning in a list of names"),
+        ',' | '*' | '?' | '!' | '#' => format!("contains `{c}`, which has a special meaning in a list of names"),
         _ => format!("contains {}, which no identity may contain", c.escape_unicode()),
     })
 }

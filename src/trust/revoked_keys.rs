@@ -52,7 +52,7 @@ impl RevokedKeys {
 fn binary(name: &str, bytes: &[u8]) -> Result<Revoked, Unreadable> {
     lines::check_size(name, bytes)?;
     if bytes.starts_with(b"SSHKRL\r\n") {
-        let found = "a key revocation list with changed line ends (for example by git autocrlf)";
+        let found = "a key revocation list with changed line endings (for example by git autocrlf)";
         let advice = "transfer it again as a binary file";
         return Err(Unreadable::whole(name, None, found, "the list as ssh-keygen wrote it", advice));
     }
@@ -204,7 +204,7 @@ mod tests {
             (list(&[section(5, &[&[0; 20]])]), "a fingerprint of 20 bytes at byte 52, expected 32 bytes"),
             (list(&[critical]), "critical extension `must@here`"),
             (list(&[longer]), "1 bytes after an extension"),
-            (b"SSHKRL\r\n\0\0".to_vec(), "changed line ends"),
+            (b"SSHKRL\r\n\0\0".to_vec(), "changed line endings"),
             (b"SSHKRL".to_vec(), "only 6 bytes are left"),
             (b"SSHKRL\n\0\0\0\0\x02".to_vec(), "format version 2 at byte 8"),
             (b"SSHKRLxx".to_vec(), "other bytes at the beginning"),

@@ -34,7 +34,7 @@ pub(crate) const MOST_TRIALS: u64 = 200_000_000;
 /// Returns the reason why trials cannot have the model of a calibration, or `None` if it is the paper's without a drift.
 pub(crate) fn refused_model(options: &Options) -> Option<&'static str> {
     let same = options.model == Model::Paper && !options.drift;
-    (!same).then_some("the Monte Carlo method has the paper's model with one constant drift")
+    (!same).then_some("the Monte Carlo method supports only the paper's model with one constant drift")
 }
 
 /// Settings of a Monte Carlo run.

@@ -158,20 +158,20 @@ pub(crate) mod compass {
 pub(crate) mod implausible {
     super::texts! {
         OF_LABORATORY {
-            en: "{key} of the laboratory is {value}, more than {largest} {unit}; check the unit, because no decision is \
-                 possible with such an uncertainty",
-            ru: "Значение {key} лаборатории равно {value}, больше {largest} {unit}; следует проверить единицу: при такой \
+            en: "{key} of the laboratory is {value}, more than {largest}; check the unit, because no decision is possible \
+                 with such an uncertainty",
+            ru: "Значение {key} лаборатории равно {value}, что больше {largest}; следует проверить единицу: при такой \
                  неопределённости решение невозможно"
         }
         OF_TYPE {
-            en: "{key} of the gyro type is {value} percent of the scale factor; check the unit, because such a tolerance \
-                 decides nothing",
+            en: "{key} of the gyro type is {value} % of the scale factor; check the unit, because no decision is \
+                 meaningful with such a tolerance",
             ru: "Значение {key} типа гироскопа равно {value} % масштабного коэффициента; следует проверить единицу: при \
                  таком допуске заключение о соответствии не имеет смысла"
         }
         PERCENT { en: "%", ru: "%" }
-        MILLIAMPERES { en: "milliamperes", ru: "мА" }
-        ARCSECONDS { en: "arcseconds", ru: "угловых секунд" }
+        MILLIAMPERES { en: "mA", ru: "мА" }
+        ARCSECONDS { en: "″", ru: "″" }
     }
 }
 

@@ -81,7 +81,7 @@ fn of_two_sites_with_one_id_neither_counts_unless_they_are_the_same() {
     let workshop = Workshop::new(2, 3);
     workshop.write("sites/other.yaml", &site("site-00001", 999));
     let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 1);
-    let why = "sites/other.yaml: is site site-00001, like sites/site-00001.yaml, but with other content; keep one file (passports not issued: 2)";
+    let why = "sites/other.yaml: has the id site-00001, like sites/site-00001.yaml, but different content; keep one file (passports not issued: 2)";
     assert!(said.words.contains(why), "{}", said.words);
     assert_eq!(said.ids("issued").len(), 4);
     assert!(workshop.sound("passports").iter().all(|id| !id.contains("site-00001")));
@@ -96,7 +96,7 @@ fn of_two_sites_with_one_id_neither_counts_unless_they_are_the_same() {
     }
     let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 1);
     let others = "copy-001.yaml, sites/copy-002.yaml, sites/copy-003.yaml, sites/copy-004.yaml, sites/copy-005.yaml";
-    let why = format!("sites/copy-000.yaml: is site site-00002, like sites/{others} and 195 more, but with other");
+    let why = format!("sites/copy-000.yaml: has the id site-00002, like sites/{others} and 195 more, but different");
     assert!(said.words.contains(&why), "{}", said.words);
 }
 
@@ -111,7 +111,7 @@ fn a_stand_given_twice_is_taken_once_and_one_given_differently_not_at_all() {
     workshop.write("stands/copy/stand.yaml", &text.replace("12.4", "12.5"));
     let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 1);
     assert!(
-        said.words.contains("is stand SPS-2/0000, like stands/copy/stand.yaml, but with other content; keep one file")
+        said.words.contains("has the id SPS-2/0000, like stands/copy/stand.yaml, but different content; keep one file")
     );
     assert!(said.ids("issued").is_empty());
 }
@@ -163,7 +163,11 @@ fn a_passport_in_the_wrong_place_for_its_id_is_not_taken_for_the_right_one() {
     let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 1);
     assert_eq!((said.ids("unchanged").len(), said.ids("issued").len()), (2, 1));
     assert_eq!(said.ids("refused"), BTreeSet::from(["SPS-2/0001/site-00001/1".to_owned()]));
-    assert!(said.words.contains("already exists with other content (stand serial '0000' -> '0001')"), "{}", said.words);
+    assert!(
+        said.words.contains("already exists with different content (stand serial '0000' -> '0001')"),
+        "{}",
+        said.words
+    );
     assert_eq!(fs::read(file("0000")).unwrap(), fs::read(file("0001")).unwrap());
 }
 
@@ -204,7 +208,7 @@ fn patterns_folders_and_lists_name_the_same() {
     let said = workshop.run(&format!("issue stands/x* --site sites {SIGN}"), 2);
     assert_eq!(said.words, "dtg-passport: stands/x*: no file matches this pattern\n");
     let said = workshop.run(&format!("issue - --site - {SIGN}"), 2);
-    assert_eq!(said.words, "dtg-passport: standard input can be only one list: of stands or of sites\n");
+    assert_eq!(said.words, "dtg-passport: standard input can supply only one list, that of stands or that of sites\n");
 }
 
 #[test]
@@ -234,7 +238,11 @@ fn a_dry_run_says_all_and_writes_nothing() {
     let said = workshop.run("issue stands --site sites --identity factory --dry-run --format csv", 1);
     assert_eq!((said.ids("unchanged").len(), said.ids("planned").len()), (4, 5));
     assert_eq!(said.ids("refused"), BTreeSet::from(["SPS-2/0000/site-00002/1".to_owned()]));
-    assert!(said.words.contains("already exists with other content (site height_m 150.0 -> 151.0)"), "{}", said.words);
+    assert!(
+        said.words.contains("already exists with different content (site height_m 150.0 -> 151.0)"),
+        "{}",
+        said.words
+    );
     assert_eq!(snapshot(&workshop.path(".")), before);
     // A key that is given must be usable.
     let said = workshop.run("issue stands --site sites --identity factory --key no/such/key --dry-run --out new", 2);
@@ -256,13 +264,13 @@ fn progress_is_shown_on_a_terminal_and_nowhere_else() {
     fs::remove_dir_all(workshop.path("passports")).unwrap();
     let command = workshop.shell(&format!("script -qec \"$DTG {issue}\" /dev/null")).env("TERM", "xterm").output();
     let seen = Said::of(command.unwrap(), 0).results;
-    assert!(seen.contains("of 300 passports, "), "{seen:?}");
+    assert!(seen.contains(" of 300, "), "{seen:?}");
     assert!(seen.contains("left") && seen.contains("issued 300, unchanged 0, refused 0"), "{seen:?}");
     // Nothing is to be done, so there is no bar.
     let issue = issue.replace("--site sites", "--site nowhere");
     let command = workshop.shell(&format!("script -qec \"$DTG {issue}\" /dev/null")).env("TERM", "xterm").output();
     let seen = Said::of(command.unwrap(), 2).results;
-    assert!(seen.contains("nowhere: cannot be read") && !seen.contains(" of 0 passports"), "{seen:?}");
+    assert!(seen.contains("nowhere: cannot be read") && !seen.contains(" of 0"), "{seen:?}");
 }
 
 #[test]

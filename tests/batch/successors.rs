@@ -209,7 +209,7 @@ fn what_is_broken_or_misplaced_or_a_link_is_refused_and_the_rest_goes_on() {
     assert_eq!(said.ids("refused"), refused.map(|file| format!("passports/SPS-2/{file}-1.yaml")).into());
     for words in [
         "failed verification (signature",
-        "SPS-2/0000/site-00001/1 must be in",
+        "the file of SPS-2/0000/site-00001/1 must be",
         "links are not followed",
         "more than 1048576",
     ] {

@@ -668,7 +668,7 @@ def test_what_cannot_be_issued_leaves_no_file(corpus: Corpus, tmp_path: Path) ->
             issue(corpus, **{"out": tmp_path / "out", **asked})
     assert not (tmp_path / "out").exists()
     first = issue(corpus, tmp_path / "out", trust=corpus.signers)
-    with pytest.raises(ValueError, match="already exists with other content"):
+    with pytest.raises(ValueError, match="already exists with different content"):
         issue(corpus, tmp_path / "out", valid_until="2027-01-01")
     assert issue(corpus, tmp_path / "out").sha256 == first.sha256
 

@@ -87,7 +87,7 @@ fn a_list_that_is_full_is_continued_and_the_whole_chain_counts() {
 
     // Without the list that is named nobody knows what is withdrawn.
     let said = office.run("verify bench-1.yaml --trust allowed_signers --revoked lists/revocation-3.yaml", 2);
-    assert!(said.contains("revocation list 3 continues list 1, which is missing"), "{said}");
+    assert!(said.contains("list 3 of withdrawn passports continues list 1, which is missing"), "{said}");
     fs::remove_file(office.path("lists/revocation-1.yaml")).unwrap();
     let sign = format!("--key key --identity {} --reason more --trust allowed_signers", fixtures::ISSUER);
     let said = office.run(&format!("revoke bench-1.yaml --list lists {sign}"), 1);

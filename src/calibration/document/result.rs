@@ -30,7 +30,7 @@ result! {
         pub(crate) omega_k_deg_per_h_per_g: Option<f64> = default,
         /// Matrix of g-sensitive drift of the general model, °/h per local g, 2×3, for (n_x, n_y, n_z).
         pub(crate) g_matrix_deg_per_h_per_g: Option<[[f64; 3]; 2]> = default,
-        /// F test whether the paper's model is enough; present with a larger one.
+        /// F test of whether the paper's model is enough; present with a larger one.
         pub(crate) model_test: Option<ModelTest> = default,
         /// Linear drift of ω_0 in time, °/h per hour: [x, y]; ω_0 is then that at the mean time of the readings.
         pub(crate) drift_deg_per_h_per_h: Option<[f64; 2]> = default,

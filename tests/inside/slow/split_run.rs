@@ -1,4 +1,4 @@
-//! A run that changed within itself is named instead of its good readings; wrong readings and good runs are not such runs.
+//! A run during which the stand moved is named instead of its good readings; wrong readings and good runs are not such runs.
 
 use crate::inside::simulated_stands::{Truth, header, normal};
 use dtg_passport::certification::comparison::compare;
@@ -60,7 +60,7 @@ fn a_bump_within_a_run_is_named() {
                 named += u32::from(at.run == 2 && at.between == between);
                 assert!(
                     found.suspects.outliers.is_empty()
-                        && found.warnings.iter().any(|said| said.contains("within itself"))
+                        && found.warnings.iter().any(|said| said.contains("moved during run"))
                 );
                 if at.between == between && at.axis.is_of_the_base() == of_base && first != 4 {
                     let off = (Vector3::from(at.turns_arcsec) - bump).amax();
@@ -130,7 +130,7 @@ fn a_check_with_a_bump_within_a_run_is_undecided() {
         let again = certify(&header(), &check).ok();
         let found = compare(&certificate, &header(), &check, again.as_ref()).unwrap();
         assert!(!found.same_stand && found.is_undecided(), "{:?}", found.words);
-        let due = "Run 1 of the check seems to have changed within itself: from position (1, 4) on";
+        let due = "The stand seems to have moved during run 1 of the check: from position (1, 4) on";
         assert!(found.words[0].starts_with(due), "{:?}", found.words);
         assert!(!found.words.iter().any(|said| said.contains("has changed relative")), "{:?}", found.words);
     }

@@ -15,6 +15,7 @@ use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::convergence::convergence;
 use crate::wording::number::Probability;
+use crate::wording::spacing::BLANK;
 use maud::{Markup, html};
 
 pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
@@ -100,12 +101,12 @@ fn anisoelasticity(result: &ResultDocument, languages: &Languages) -> Markup {
 /// Returns a value with its standard uncertainty.
 fn with_uncertainty(languages: &Languages, value: f64, u: f64, unit: Text) -> Markup {
     html! {
-        (quantity(languages, &Number::measured(value, u), unit)) ", " (symbol("u", "")) " = "
+        (quantity(languages, &Number::measured(value, u), unit)) ", " (symbol("u", "")) (BLANK) "=" (BLANK)
         (quantity(languages, &Number::uncertainty(u), unit))
     }
 }
 
-/// Writes the matrix of the general model and the test whether it is needed.
+/// Writes the matrix of the general model and the test of whether it is needed.
 fn general(result: &ResultDocument, languages: &Languages) -> Markup {
     let u = result.standard_uncertainty.g_matrix_deg_per_h_per_g;
     let Some((matrix, u)) = result.g_matrix_deg_per_h_per_g.zip(u) else { return html! {} };

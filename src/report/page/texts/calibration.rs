@@ -109,15 +109,15 @@ texts! {
              type are too small by a factor of {factor}; degrees per second are to be multiplied by 3600. Correct the \
              gyro type; then calibrate again.",
         ru: "Показания согласуются с моделью, но параметры не соответствуют данному гироскопу. Это объясняется одной \
-             ошибкой: все значения типа гироскопа занижены (делитель {factor}); значения в градусах в секунду следует \
-             умножить на 3600. Следует исправить тип гироскопа и повторить калибровку."
+             ошибкой: все значения типа гироскопа занижены в {factor}; значения в градусах в секунду следует умножить на \
+             3600. Следует исправить тип гироскопа и повторить калибровку."
     }
     MISTAKE_TYPE_TOO_LARGE {
         en: "The readings fit, but the parameters do not match this gyro. One error explains this: all values of the gyro \
              type are too large by a factor of {factor}. Correct the gyro type; then calibrate again.",
         ru: "Показания согласуются с моделью, но параметры не соответствуют данному гироскопу. Это объясняется одной \
-             ошибкой: все значения типа гироскопа завышены (множитель {factor}). Следует исправить тип гироскопа и \
-             повторить калибровку."
+             ошибкой: все значения типа гироскопа завышены в {factor}. Следует исправить тип гироскопа и повторить \
+             калибровку."
     }
     MISTAKE_RENUMBERED {
         en: "The readings fit, but the parameters do not match this gyro. One error explains this: the positions are \
@@ -129,21 +129,24 @@ texts! {
     }
     MISTAKE_AND { en: "and", ru: "и" }
     MISTAKE_EXCHANGED { en: "the x and y columns are exchanged", ru: "столбцы x и y переставлены" }
-    MISTAKE_X_REVERSED { en: "the sign of the x column is reversed", ru: "знак столбца x изменён" }
-    MISTAKE_Y_REVERSED { en: "the sign of the y column is reversed", ru: "знак столбца y изменён" }
-    MISTAKE_REVERSED { en: "the signs of both columns are reversed", ru: "знаки обоих столбцов изменены" }
+    MISTAKE_X_REVERSED {
+        en: "the sign of the x column is reversed",
+        ru: "знаки значений столбца x изменены на обратные"
+    }
+    MISTAKE_Y_REVERSED {
+        en: "the sign of the y column is reversed",
+        ru: "знаки значений столбца y изменены на обратные"
+    }
+    MISTAKE_REVERSED {
+        en: "the signs of both columns are reversed",
+        ru: "знаки значений обоих столбцов изменены на обратные"
+    }
     MISTAKE_MICROAMPERES {
         en: "the currents are in microamperes instead of milliamperes, or the expected scale factors are per ampere",
         ru: "токи указаны в микроамперах, а не в миллиамперах, либо ожидаемые масштабные коэффициенты указаны на 1 А"
     }
-    MISTAKE_TOO_LARGE {
-        en: "all currents are too large by a factor of {factor}",
-        ru: "все токи завышены (множитель {factor})"
-    }
-    MISTAKE_TOO_SMALL {
-        en: "all currents are too small by a factor of {factor}",
-        ru: "все токи занижены (делитель {factor})"
-    }
+    MISTAKE_TOO_LARGE { en: "all currents are too large by a factor of {factor}", ru: "все токи завышены в {factor}" }
+    MISTAKE_TOO_SMALL { en: "all currents are too small by a factor of {factor}", ru: "все токи занижены в {factor}" }
 
     NO_CHANGE { en: "No change can be shown", ru: "Изменение установить нельзя" }
     SAME_READINGS {
@@ -170,9 +173,12 @@ texts! {
     SITE { en: "Site", ru: "Место установки" }
     VERIFIED_NOT_WITHDRAWAL {
         en: "Passport {id}, verified as of {time}; withdrawal not checked",
-        ru: "Паспорт {id}, проверен по состоянию на\u{a0}{time}; отзыв не\u{a0}проверен"
+        ru: "Паспорт {id} проверен по состоянию на\u{a0}{time}; отзыв не\u{a0}проверен"
     }
-    VERIFIED_AS_OF { en: "Passport {id}, verified as of {time}", ru: "Паспорт {id}, проверен по состоянию на\u{a0}{time}" }
+    VERIFIED_AS_OF {
+        en: "Passport {id}, verified as of {time}",
+        ru: "Паспорт {id} проверен по состоянию на\u{a0}{time}"
+    }
     CURRENTS { en: "File of currents", ru: "Файл токов" }
     OPERATOR { en: "Readings taken by", ru: "Показания снял" }
     MEASURED_TEMPERATURE { en: "Temperature during the readings", ru: "Температура при снятии показаний" }
@@ -223,7 +229,7 @@ texts! {
         ru: "Изменение после предыдущей калибровки: соответствует допускам {passed} из {all} параметров"
     }
     ARE_UNDECIDED { en: "; undecided: {names}", ru: "; не определено: {names}" }
-    FAIL { en: "; fail: {names}", ru: "; не соответствуют: {names}" }
+    FAIL { en: "; fail: {names}", ru: "; не соответствует: {names}" }
     NOT_IN_THE_MODEL {
         en: "not assessed, because the general model does not contain them: {names}",
         ru: "не оценивались, так как их нет в общей модели: {names}"
@@ -245,8 +251,8 @@ texts! {
     OFF_BY_NOTE {
         en: "Difference from least squares: in units of the standard uncertainty of that difference. The same input \
              errors act on both methods.",
-        ru: "Отличие: разность с методом наименьших квадратов (МНК) в единицах стандартной неопределённости этой \
-             разности; на оба метода действуют одни и те же погрешности."
+        ru: "Отличие — разность с результатом метода наименьших квадратов (МНК) в единицах стандартной неопределённости \
+             этой разности; на оба метода действуют одни и те же погрешности."
     }
     ANISOELASTICITY { en: "Anisoelastic coefficient", ru: "Коэффициент неравножёсткости" }
     SPECTRAL_RADIUS { en: "Spectral radius", ru: "Спектральный радиус" }
@@ -271,7 +277,7 @@ texts! {
     NOT_THIS_MODEL {
         en: "the method has only the paper’s model with a constant drift, and needs turn-ons that all visited the same \
              positions",
-        ru: "метод применим только к модели статьи с постоянным дрейфом и к запускам с одинаковыми положениями"
+        ru: "метод применим только к модели с ω_g и ω_k и постоянным дрейфом, если во всех запусках положения одинаковы"
     }
     CONVERGENCE_CAPTION {
         en: "Convergence: change in each step, relative to the limit at which the iteration stops. The first approximation \
@@ -287,7 +293,7 @@ texts! {
         ru: "Отклонение от номинального значения; расширенная неопределённость U (коэффициент охвата k = {k}; вероятность \
              охвата 95,45 %); ω_g и ω_k отнесены к g типа, g_0\u{a0}=\u{a0}{g} м/с²"
     }
-    STUDENT { en: "{k} (Student’s t)", ru: "{k} (коэффициент Стьюдента)" }
+    STUDENT { en: "{k}, Student’s t", ru: "{k}, коэффициент Стьюдента" }
     CHANGE { en: "Change since the previous calibration", ru: "Изменение после предыдущей калибровки" }
     HISTORY { en: "Calibrations compared", ru: "Сопоставляемые калибровки" }
     HISTORY_CAPTION {
@@ -353,11 +359,11 @@ texts! {
     }
     TOO_UNCERTAIN {
         en: "No gyro can pass by guarded acceptance: U exceeds the tolerance of {names}.",
-        ru: "Приёмка с защитной полосой невозможна: U больше допуска для {names}."
+        ru: "При приёмке с защитной полосой подтвердить соответствие невозможно: U больше допуска для {names}."
     }
     OPPOSITE {
         en: "With the other sign these would be within the tolerance: {names}. Check the sign convention.",
-        ru: "С противоположным знаком в допуске были бы: {names}. Следует проверить правило знаков."
+        ru: "С противоположным знаком допуску соответствовало бы: {names}. Следует проверить правило знаков."
     }
     RISK_NOTE {
         en: "Risk (specific risk): probability that this decision on the parameter is wrong.",
@@ -384,7 +390,7 @@ texts! {
     }
     OF_ESTIMATES {
         en: "Some of the uncertainties are estimates, which the probability takes into account.",
-        ru: "Часть неопределённостей — оценки, что в вероятности учтено."
+        ru: "Часть неопределённостей — оценки; вероятность вычислена с учётом этого."
     }
     SCATTER {
         en: "Scatter of the visits to a position, chi-square",
@@ -440,14 +446,14 @@ texts! {
     DRIFTS {
         en: "The residuals show a drift of ω_0 in time, ({x}, {y}) °/h per hour ({p}), which is not fitted. Fit it with \
              {option}.",
-        ru: "Остатки обнаруживают изменение ω_0 во времени: ({x}; {y}) °/ч² ({p}); модель его не содержит. Следует учесть \
+        ru: "Остатки обнаруживают изменение ω_0 во времени: ({x}; {y}) °/ч² ({p}). Модель его не содержит. Следует учесть \
              его: {option}."
     }
     DRIFTS_IN_ORDER {
         en: "In the order of the rows the residuals show a drift of ω_0, ({x}, {y}) °/h from one visit to the next ({p}), \
              which is not fitted and enlarges u; with the times of the readings it could be fitted.",
-        ru: "В порядке строк остатки обнаруживают изменение ω_0: ({x}; {y}) °/ч от установки к установке ({p}); модель \
-             его не содержит, и оно увеличивает u; если указать время показаний, его можно оценить."
+        ru: "В порядке строк остатки обнаруживают изменение ω_0 на ({x}; {y}) °/ч от установки к установке ({p}). Модель \
+             его не содержит, и оно увеличивает u. Если указать время показаний, его можно оценить."
     }
     DRIFT_OR_NOISE {
         en: "A drift in time was not tested, because the repeated visits cannot tell it from the noise of the gyro.",

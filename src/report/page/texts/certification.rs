@@ -41,7 +41,7 @@ texts! {
     READING_OF { en: "position {index}, run {run}", ru: "положение {index}, серия {run}" }
     OF_A_VISIT { en: "standard deviation of a visit, pooled", ru: "стандартное отклонение установки, объединённое" }
     COMMON_PARTS { en: "Common parts, per axis: platform; base", ru: "Общие составляющие (по осям): платформа; основание" }
-    FEW { en: "few: see section {number}", ru: "мало: см. раздел {number}" }
+    FEW { en: "few: see section\u{a0}{number}", ru: "мало: см. раздел\u{a0}{number}" }
     STANDARD { en: "standard uncertainty (k = 1)", ru: "стандартная неопределённость (k = 1)" }
 
     UNCERTAINTY { en: "Uncertainty", ru: "Неопределённость" }
@@ -128,14 +128,14 @@ texts! {
     OUTLIER { en: "outlier", ru: "выброс" }
     STRAGGLER { en: "straggler", ru: "квазивыброс" }
     TESTS_NOTE {
-        en: "Value: the statistic given last in the first column; differences and rotations are from the other readings or \
-             runs. Probability of a result at least as extreme by chance: below 5 % a \
-             value is a straggler and equality is doubtful, below 1 % it is an outlier and the variances are different. No \
-             reading is excluded because of these tests. Bartlett’s test requires a fine resolution and no suspect reading.",
-        ru: "Значение: величина, указанная в конце названия критерия; отличия и повороты — от остальных показаний или \
-             серий. Вероятность случайно получить не меньшее значение: \
-             менее 5 % — квазивыброс, равенство сомнительно; менее 1 % — выброс, дисперсии различаются. По этим \
-             критериям показания не исключаются. Критерий Бартлетта применим при малом шаге отсчёта и без сомнительных показаний."
+        en: "Value: the statistic given last in the first column; differences and rotations are from the other readings \
+             or runs. Probability of a result at least as extreme by chance: below 5 % a value is a straggler and \
+             equality is doubtful, below 1 % it is an outlier and the variances are different. No reading is excluded \
+             because of these tests. Bartlett’s test requires a fine resolution and no suspect reading.",
+        ru: "Значение: величина, указанная в конце названия критерия; отличия — от остальных показаний, повороты — \
+             относительно остальных серий. Вероятность случайно получить не меньшее значение: менее 5 % — квазивыброс, \
+             равенство сомнительно; менее 1 % — выброс, дисперсии различаются. По этим критериям показания не \
+             исключаются. Критерий Бартлетта применим при малом шаге отсчёта и без сомнительных показаний."
     }
     WARNINGS_COUNTED {
         en: "Warnings of the program: {count}; see section “{section}”.",
@@ -146,7 +146,7 @@ texts! {
     DRAFT { en: "Draft: this certificate was not issued", ru: "Проект: этот сертификат не выдан" }
     DRAFT_WORDS {
         en: "A dry run computed it. Neither a certificate nor a passport was written.",
-        ru: "Он вычислен в пробном запуске. Ни сертификат, ни паспорт не записаны."
+        ru: "Сертификат вычислен в пробном режиме. Ни сертификат, ни паспорт не записаны."
     }
     CHANGE { en: "Change since the previous certificate", ru: "Изменение после предыдущей калибровки" }
     CERTIFIED {
@@ -178,12 +178,12 @@ texts! {
         ru: "Поворот каждого положения относительно остальных"
     }
     TWO_CHANGES {
-        en: "The decision rests on the rotation of the case relative to the other positions (u from the repeatability of the \
-             earlier certificate, if stated). Below are the changes of the deviations, computed before rounding (u from \
-             their uncertainties in both).",
+        en: "The decision rests on the rotation of the case relative to the other positions (u from the repeatability of \
+             the earlier certificate, if stated). Below are the changes of the deviations, computed before rounding (u \
+             from their uncertainties in both).",
         ru: "Решение принимается по повороту корпуса относительно остальных положений (u — по повторяемости предыдущего \
              сертификата, если указана). Ниже — изменения отклонений, вычисленные до округления (u — по их \
-             неопределённостям в обоих)."
+             неопределённостям в обоих сертификатах)."
     }
     REPEATS { en: "unchanged", ru: "без изменений" }
     REPEATS_NOT { en: "changed", ru: "изменилось" }

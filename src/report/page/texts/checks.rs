@@ -3,7 +3,7 @@
 use super::texts;
 
 texts! {
-    CAPTION { en: "Checks of the passport as of {time}", ru: "Проверки паспорта на {time}" }
+    CAPTION { en: "Checks of the passport as of {time}", ru: "Проверки паспорта по состоянию на\u{a0}{time}" }
     CHECK { en: "Check", ru: "Проверка" }
     RESULT { en: "Result", ru: "Результат" }
     FOUND { en: "Finding", ru: "Пояснение" }
@@ -14,11 +14,12 @@ texts! {
     SEVERAL_NOT_ASKED { en: "not asked", ru: "не запрошены" }
     COUNTED {
         en: "Checks as of {time}: {passed} passed, {not_asked} not asked.",
-        ru: "Проверки на {time}: пройдено\u{a0}{passed}, не\u{a0}запрошено\u{a0}{not_asked}."
+        ru: "Проверки по состоянию на\u{a0}{time}: пройдено\u{a0}{passed}, не\u{a0}запрошено\u{a0}{not_asked}."
     }
     COUNTED_FAILED {
         en: "Checks as of {time}: {passed} passed, {not_asked} not asked, {failed}\u{a0}failed.",
-        ru: "Проверки на {time}: пройдено\u{a0}{passed}, не\u{a0}запрошено\u{a0}{not_asked}, не\u{a0}пройдено\u{a0}{failed}."
+        ru: "Проверки по состоянию на\u{a0}{time}: пройдено\u{a0}{passed}, не\u{a0}запрошено\u{a0}{not_asked}, \
+             не\u{a0}пройдено\u{a0}{failed}."
     }
 
     IN_FORCE { en: "In force", ru: "Действует" }

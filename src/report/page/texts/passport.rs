@@ -104,12 +104,12 @@ texts! {
              преобразуют координаты от номинальной платформы к реальной, формула (4)."
     }
     DEVIATIONS_U_NOTE {
-        en: "u: own part of the standard uncertainty (k = 1) of the certified mean; ν: degrees of freedom, the smallest of those \
-             of the three u (–: not stated). Uncertainties have two significant digits; values are rounded to the same decimal \
-             place.",
+        en: "u: own part of the standard uncertainty (k = 1) of the certified mean; ν: degrees of freedom, the smallest \
+             of those of the three u (–: not stated). Uncertainties have two significant digits; values are rounded to \
+             the same decimal place.",
         ru: "u — стандартная неопределённость (k = 1) среднего по сертификату, собственная составляющая положения; ν — \
-             число степеней свободы, наименьшее у трёх u (прочерк — не указано). В неопределённостях две значащие цифры, \
-             значения — до того же разряда."
+             число степеней свободы, наименьшее у трёх u (прочерк — не указано). Неопределённости приведены с двумя \
+             значащими цифрами, значения округлены до того же разряда."
     }
     FIGURE_POSITIONS {
         en: "The stand in its positions (i, j), viewed as in Figure 1.",
@@ -160,8 +160,8 @@ texts! {
     EARTH { en: "Earth parameters at the site", ru: "Параметры Земли в месте установки" }
     EARTH_RATE { en: "Earth rate Ω", ru: "Угловая скорость Земли Ω" }
     EARTH_LATITUDE { en: "Astronomic latitude Φ", ru: "Астрономическая широта Φ" }
-    HORIZONTAL { en: "Horizontal component, Ω\u{a0}cos\u{a0}Φ", ru: "Горизонтальная, Ω\u{a0}cos\u{a0}Φ" }
-    VERTICAL { en: "Vertical component, Ω\u{a0}sin\u{a0}Φ", ru: "Вертикальная, Ω\u{a0}sin\u{a0}Φ" }
+    HORIZONTAL { en: "Horizontal component, Ω\u{a0}cos\u{a0}Φ", ru: "Горизонтальная составляющая, Ω\u{a0}cos\u{a0}Φ" }
+    VERTICAL { en: "Vertical component, Ω\u{a0}sin\u{a0}Φ", ru: "Вертикальная составляющая, Ω\u{a0}sin\u{a0}Φ" }
     GRAVITY { en: "Gravity g, local", ru: "Ускорение g, местное" }
     RADIUS { en: "Validity radius", ru: "Радиус применимости" }
     RADIUS_WITHIN {
@@ -195,8 +195,8 @@ texts! {
         ru: "Перегрузка n и угловая скорость Земли ω_3 в осях корпуса гироскопа и токи J контрольного примера"
     }
     FIGURE_VECTORS {
-        en: "Earth rate and specific force in case axes: differences from those of an ideal stand.",
-        ru: "Угловая скорость Земли и перегрузка в осях корпуса: отличия от значений для идеального стенда."
+        en: "Earth rate and specific force in case axes: differences from those in the nominal orientation.",
+        ru: "Угловая скорость Земли и перегрузка в осях корпуса: отличия от значений при номинальной ориентации."
     }
     SELF_CHECK { en: "Self-check", ru: "Контрольный пример" }
     SELF_CHECK_NOTE {
@@ -207,7 +207,7 @@ texts! {
     }
     EQUATIONS_NOTE {
         en: "Equation numbers: Tang and Podchezertsev (2017), {source}.",
-        ru: "Номера формул: Синюань Т., Подчерзцев В. П. (2017), {source}."
+        ru: "Номера формул: Синюань Т., Подчезерцев В. П. (2017), {source}."
     }
     DIGITS_NOTE {
         en: "The numbers in this section are rounded to nine decimals. For computation, use the annex, which gives all \

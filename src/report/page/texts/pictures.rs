@@ -53,8 +53,8 @@ texts! {
     }
     DEVIATION_NO_U { en: "the certificate gives no uncertainty", ru: "неопределённость в сертификате не указана" }
 
-    EARTH_RATE_DIFFERENCE { en: "ω_3: actual minus nominal", ru: "ω_3: отличие от номинальной" }
-    SPECIFIC_FORCE_DIFFERENCE { en: "n: actual minus nominal", ru: "n: отличие от номинальной" }
+    EARTH_RATE_DIFFERENCE { en: "ω_3: actual minus nominal", ru: "Отличие ω_3" }
+    SPECIFIC_FORCE_DIFFERENCE { en: "n: actual minus nominal", ru: "Отличие n" }
     EARTH_RATE_OF_FRAME { en: "ω_3, frame index i = {i}", ru: "ω_3, индекс рамки i = {i}" }
     SPECIFIC_FORCE_OF_FRAME { en: "n, frame index i = {i}", ru: "n, индекс рамки i = {i}" }
     VECTOR_IN_WORDS { en: "position {index}: x {x}, y {y}", ru: "положение {index}: x {x}, y {y}" }
@@ -66,7 +66,7 @@ texts! {
     PLACE_TITLE { en: "Area of validity of the passport", ru: "Область применимости паспорта" }
     PLACE_CIRCLE {
         en: "Within {radius} m of the site at latitude {latitude}, longitude {longitude}.",
-        ru: "Не далее {radius} м от места с широтой {latitude} и долготой {longitude}."
+        ru: "От точки {latitude}, {longitude} — не далее {radius} м."
     }
     PLACE_BAND {
         en: "Within {radius} m north or south of latitude {latitude}; no longitude is stated.",
