@@ -70,7 +70,7 @@ fn in_folder(folder: &Path, purpose: Purpose) -> Paths<'static> {
 
 /// Returns the failure of a folder without a file of the kind `what`.
 pub(super) fn contains_no(folder: &Path, what: &str) -> Failure {
-    Failure::unusable(folder, format!("{}: this folder contains no {what}", shown(folder)))
+    Failure::unusable(folder, format!("{}: this folder contains no {what}; check the path", shown(folder)))
 }
 
 /// Returns the path of a file found by a walk, or a failure for a link and for an entry that cannot be read.

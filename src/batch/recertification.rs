@@ -340,7 +340,7 @@ impl Recertification<'_> {
         }
         if let Some(line) = given.filter(|given| !counts(given) && chosen.done.is_empty()) {
             let words = format!(
-                "{}: the passport is not in force: {} {}",
+                "{}: the passport is not in force: {} {}; give the passport that is in force",
                 shown(self.passport),
                 line.state.key(),
                 for_the_issuer(&line.why)

@@ -185,7 +185,11 @@ impl Readings {
             [_] => {}
             cycles => {
                 return Err(format!(
-                    "position {index} has a visit {number} in the cycles {cycles:?}; add the number of one as i,j,visit,cycle"
+                    "position {index} has a visit {number} in the turn-ons {}; add the turn-on, as in {},{},{number},{}",
+                    cycles.iter().map(u32::to_string).collect::<Vec<_>>().join(", "),
+                    index.i,
+                    index.j,
+                    cycles[0]
                 ));
             }
         }

@@ -142,6 +142,12 @@ impl Comparison {
             is_any(Finding::is_outlier) || is_any(Finding::is_of_the_certificate) || is_any(Finding::is_large_scatter);
         !self.same_stand && unusable && !is_any(Finding::is_change)
     }
+
+    /// Returns `true` if all that was found is that the angles stand in other places or in another unit.
+    pub(crate) fn is_misread(&self) -> bool {
+        let mut changes = self.findings.iter().filter(|found| found.is_change()).peekable();
+        changes.peek().is_some() && changes.all(Finding::is_misplaced)
+    }
 }
 
 /// Compares `readings` of the stand of `header` with its certificate. `again` is the certification from these readings

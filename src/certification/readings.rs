@@ -269,7 +269,7 @@ fn not_there(rows: &[Reading], excluded: &[Excluded]) -> Vec<Problem> {
     let missing = excluded.iter().filter(|excluded| !rows.iter().any(|(place, ..)| is_excluded(excluded, *place)));
     let problem = |excluded: &Excluded| {
         let found = format!("no reading of {} to exclude", excluded.describe());
-        Problem::whole(found, "a reading of the file", "check --exclude")
+        Problem::whole(found, "its row in the file, with or without angles", "add the row, or check --exclude")
     };
     missing.map(problem).collect()
 }
@@ -302,7 +302,7 @@ fn incomplete(positions: &[NominalPosition], rows: &[Reading], excluded: &[Exclu
         }
         missing.retain(|run| !of_exclusions(*run));
         let advice = "measure it, or omit the whole run, because only complete runs show their common part; to exclude it, \
-                      add its row with empty cells";
+                      add its row with empty cells, and give --exclude and --why";
         for run in missing.into_iter().take(MOST_PROBLEMS - problems.len()) {
             let found = format!("no reading of position {} in run {run}", at.index());
             problems.push(Problem::whole(found, "every position in every run", advice));

@@ -173,7 +173,10 @@ impl Remark {
     fn advice(&self) -> Option<String> {
         Some(match self {
             Self::WorseGroup(_) => "Find the cause.".to_owned(),
-            Self::Outlier(_) => "Measure it again, or omit the run.".to_owned(),
+            Self::Outlier(out) => {
+                let Outlier { index, run, .. } = out;
+                format!("Measure it again, or exclude it with --exclude {},{},{run} and --why.", index.i, index.j)
+            }
             Self::RotatedRuns(at) => match at.pattern {
                 Pattern::One(run) => without_run(run),
                 Pattern::Move(_, after) => format!(

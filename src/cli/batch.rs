@@ -204,6 +204,9 @@ impl Reporter {
 
     fn end(mut self) -> Result<Code, Failure> {
         self.bar.finish_and_clear();
+        if self.reports.is_empty() && self.code == 0 {
+            output::say("found no passport to issue; check the folder and the options that select passports");
+        }
         let text = self.reports.end();
         self.write(&text);
         self.complain();

@@ -67,7 +67,10 @@ pub(super) fn passphrase(prompt: &str) -> Result<Zeroizing<String>, String> {
         return Ok(Zeroizing::new(passphrase));
     }
     if !std::io::stdin().is_terminal() {
-        return Err(format!("no terminal is available for its passphrase; set {PASSPHRASE_VARIABLE}"));
+        return Err(format!("no terminal is available for the passphrase of the key; set {PASSPHRASE_VARIABLE}"));
     }
-    rpassword::prompt_password(prompt).map(Zeroizing::new).map_err(|error| error.to_string())
+    rpassword::prompt_password(prompt).map(Zeroizing::new).map_err(|error| match error.kind() {
+        std::io::ErrorKind::UnexpectedEof => "no passphrase was entered; enter one".to_owned(),
+        _ => error.to_string(),
+    })
 }

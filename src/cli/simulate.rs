@@ -133,7 +133,7 @@ fn run_accuracy(arguments: &AccuracyArguments) -> Result<Code, Failure> {
         methods: arguments.method.clone(),
     };
     let found = watched(&arguments.run, arguments.trials, 1, |run| accuracy(&options, run))?;
-    arguments.run.format.write(|| &found, || table::accuracy(&found))?;
+    arguments.run.format.write(|| &found, || table::accuracy(&found, &options))?;
     Ok(0)
 }
 

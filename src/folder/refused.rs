@@ -12,7 +12,8 @@ use std::path::PathBuf;
 pub enum FolderRefused {
     /// Existing passport of this name with other content, and the differences in words.
     #[error(
-        "{}: already exists with different content ({}); to issue the changes, use `reissue {}`",
+        "{}: already exists with different content ({}); to issue the changes, use `reissue {}` with --stand or --site, the \
+         changed file",
         shown(.0),
         .1,
         shown(.0)

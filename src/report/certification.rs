@@ -219,7 +219,9 @@ fn tests(out: &mut String, found: &Certification) {
         );
         columns::paragraph(out, "", &words);
     }
-    let readings = found.runs.len() * found.components.keeps.nrows();
+    let excluded = found.stand.certificate.evidence.iter().flat_map(|evidence| evidence.excluded.iter().flatten());
+    let alone = excluded.filter(|excluded| excluded.i.is_some()).count();
+    let readings = found.runs.len() * found.components.keeps.nrows() - 3 * alone;
     let named = graded(found.suspects.outliers.iter().map(|out| out.probability));
     if found.suspects.split.is_none() {
         let _ = writeln!(out, "Grubbs' test of {readings} angles: {named}");
@@ -247,11 +249,11 @@ fn graded(probabilities: impl Iterator<Item = f64>) -> String {
 }
 
 /// Returns the outcome of a check run, or of one of its positions, that repeats or does not. If the readings do not show
-/// whether the stand has changed, neither does a position.
+/// whether the stand has changed, or are in other places or units, neither does a position.
 pub(crate) fn outcome_of(found: &Comparison, repeats: bool) -> Outcome {
     match repeats {
         true => Outcome::Passed,
-        false if found.is_undecided() => Outcome::Undecided,
+        false if found.is_undecided() || found.is_misread() => Outcome::Undecided,
         false => Outcome::Failed,
     }
 }
@@ -290,8 +292,7 @@ pub(super) fn comparison(found: &Comparison, advice: Option<&str>) -> String {
     for words in &found.findings {
         columns::paragraph(&mut out, "  ", &format!("{words}."));
     }
-    let is_change = outcome == Outcome::Failed && !found.findings.iter().any(|finding| finding.is_misplaced());
-    if let Some(advice) = advice.filter(|_| is_change) {
+    if let Some(advice) = advice.filter(|_| outcome == Outcome::Failed) {
         columns::paragraph(&mut out, "  ", advice);
     }
     let line = |test: &Test| {

@@ -106,11 +106,16 @@ fn relative(drift: &Drift, angles: [&str; 3], series: &Series) -> String {
         }
     };
     format!(
-        "{name} {what} relative to the other positions, probability {}, corrected for {} tests; the uncertainty common to \
-         all positions hides it",
-        columns::probability(probability),
-        drift.relative.len()
+        "{name} {what} relative to the other positions, {}; the uncertainty common to all positions hides it",
+        by_chance(probability, drift.relative.len())
     )
+}
+
+/// Returns a probability, what it is of, and for how many tests it is corrected.
+fn by_chance(probability: f64, tests: usize) -> String {
+    let p = columns::probability(probability);
+    let equals = if p.starts_with('<') { "" } else { "= " };
+    format!("p {equals}{p} (probability of a larger value by chance, corrected for {tests} tests)")
 }
 
 /// Returns the sentence on the deviations that are not on a line.
@@ -119,7 +124,7 @@ fn jumped(drift: &Drift, angles: [&str; 3], series: &Series, jump: &Jump) -> Str
     format!(
         "the stand has jumped: {} of {} deviations are not on a straight line and have no rate of drift; the most significant \
          is {} of position {}, {} between certificates {from} and {to}, chi-square of the line {:.1} with {} degrees of \
-         freedom, probability {}, corrected for {} tests",
+         freedom, {}",
         drift.jumps().count(),
         drift.tested(),
         angles[series.angle],
@@ -127,8 +132,7 @@ fn jumped(drift: &Drift, angles: [&str; 3], series: &Series, jump: &Jump) -> Str
         measured(jump.change_arcsec, "″", jump.u_arcsec),
         jump.line.chi_square,
         jump.line.degrees_of_freedom,
-        columns::probability(jump.corrected_probability),
-        drift.tested()
+        by_chance(jump.corrected_probability, drift.tested())
     )
 }
 
@@ -141,8 +145,7 @@ fn of_lines(drift: &Drift, angles: [&str; 3]) -> String {
     };
     let name = format!("{} of position {}", angles[worst.angle], worst.index);
     let tested = drift.tested();
-    let p = columns::probability(probability);
-    let by = format!("probability {p}, corrected for {tested} tests");
+    let by = by_chance(probability, tested);
     let slope = worst.line.map_or_else(String::new, |line| measured(line.slope, "″ per year", line.u_slope));
     let drifting = drift.series.iter().filter(|at| at.corrected_probability.is_some_and(|p| p < DRIFTS)).count();
     let between_two = worst.line.filter(|line| line.degrees_of_freedom == 0).and_then(|_| worst.change());
@@ -185,7 +188,7 @@ pub(crate) fn text(history: &History) -> String {
     for stay in &history.places {
         let from = day(stay.from);
         let time = stay.until.map_or_else(|| format!("from {from}"), |until| format!("{from} to {}", day(until)));
-        columns::named(&mut out, &time, 25, &stay.site);
+        columns::named(&mut out, &time, 26, &stay.site);
     }
     drift(&mut out, &history.drift);
     for remark in &history.remarks {

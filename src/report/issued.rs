@@ -227,6 +227,11 @@ impl Reports {
         Self { form, count: 0, held: Vec::new(), totals: Totals::default() }
     }
 
+    /// Returns `true` if nothing was reported.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
     /// Returns `true` if reports are held back until the end, because there may be only a few.
     pub(crate) fn holds(&self) -> bool {
         self.form == Form::Text && self.count <= FEW

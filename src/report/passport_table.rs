@@ -8,7 +8,7 @@ use crate::report::page::passport::accuracy;
 use crate::report::page::passport::numbers::numbers_of;
 use crate::report::{columns, deviations, style, verdict};
 use crate::stand::{Evidence, TypeB};
-use crate::units::printed;
+use crate::units::{ARCSECONDS_PER_DEGREE, printed};
 use std::fmt::{Display, Write};
 
 /// Width of the names on the left, in characters.
@@ -84,9 +84,13 @@ fn stand(out: &mut String, content: &Content) {
     option(out, "temperature, °C", certificate.temperature_c);
     option(out, "temperature range, °C", certificate.temperature_range_c.map(|[low, high]| format!("{low} to {high}")));
     let of_repeatability = with_freedom(certificate.repeatability_degrees_of_freedom);
-    option(out, "repeatability, ″", certificate.repeatability_arcsec.map(|u| format!("{u}{of_repeatability}")));
-    option(out, "common part, platform, ″", certificate.common_platform_arcsec);
-    option(out, "common part, base, ″", certificate.common_base_arcsec);
+    option(
+        out,
+        "repeatability, ″",
+        certificate.repeatability_arcsec.map(|u| format!("{}{of_repeatability}", columns::two_digits(u))),
+    );
+    option(out, "common part, platform, ″", certificate.common_platform_arcsec.map(columns::two_digits));
+    option(out, "common part, base, ″", certificate.common_base_arcsec.map(columns::two_digits));
     for TypeB { source, acts_on, u_arcsec, degrees_of_freedom } in certificate.type_b.iter().flatten() {
         let known = with_freedom(*degrees_of_freedom);
         line(out, &format!("type B, {}, ″", acts_on.word()), format!("{u_arcsec}{known}: {source}"));
@@ -144,6 +148,12 @@ fn measured(value: f64, u: Option<f64>) -> String {
     format!("{value:.digits$}, u = {u:.digits$}")
 }
 
+/// Returns an angle in degrees to the digits of its standard uncertainty, and the uncertainty; all digits if it is `None`.
+fn angle(degrees: f64, u_arcsec: Option<f64>) -> String {
+    let Some(u) = u_arcsec else { return degrees.to_string() };
+    format!("{degrees:.*}, u = {}″", columns::decimals(u / ARCSECONDS_PER_DEGREE), columns::two_digits(u))
+}
+
 fn site(out: &mut String, content: &Content) {
     let (site, earth) = (&content.site, &content.earth);
     heading(out, "Site");
@@ -176,8 +186,7 @@ fn site(out: &mut String, content: &Content) {
     heading(out, "Earth at the site");
     line(out, "Earth rate, °/h", format!("{:.9}", earth.rate_deg_per_h));
     let latitude_u = site.astronomic_latitude_u_arcsec();
-    let u = if latitude_u > 0.0 { format!(", u = {}″", columns::two_digits(latitude_u)) } else { String::new() };
-    line(out, "astronomic latitude, °", format!("{}{u}", earth.latitude_deg));
+    line(out, "astronomic latitude, °", angle(earth.latitude_deg, Some(latitude_u).filter(|u| *u > 0.0)));
     let rates = [("horizontal", earth.horizontal_deg_per_h), ("vertical", earth.vertical_deg_per_h)];
     for ((name, rate), u) in rates.into_iter().zip(earth.rate_u_deg_per_h(site)) {
         line(out, &format!("{name} component, °/h"), measured(rate, Some(u).filter(|u| *u > 0.0)));
@@ -185,8 +194,7 @@ fn site(out: &mut String, content: &Content) {
     line(out, "gravity, m/s²", measured(earth.gravity_m_per_s2, site.gravity_u_m_per_s2()));
     let radius = format!("{:.0} (Earth rate within {} °/h)", earth.valid_radius_m, earth.valid_within_deg_per_h);
     line(out, "validity radius, m", radius);
-    option(out, "azimuth of mark, °", earth.azimuth_deg);
-    option(out, "u of azimuth, ″", earth.azimuth_u_arcsec);
+    option(out, "azimuth of mark, °", earth.azimuth_deg.map(|azimuth| angle(azimuth, earth.azimuth_u_arcsec)));
 }
 
 fn missing(out: &mut String, content: &Content) {
@@ -262,9 +270,10 @@ fn expected(out: &mut String, content: &Content) {
         let in_percent = parameter.is_scale_factor() && percent.is_finite();
         let percent = if in_percent { columns::two_digits(percent) } else { String::new() };
         let limit = format!("{limit} {}", if gyro.tolerance.is_in_percent(parameter) { "%" } else { &unit });
-        vec![parameter.symbol().to_owned(), format!("{} {unit}", columns::two_digits(u)), percent, limit]
+        let u = format!("{u:.*}", columns::decimals(u));
+        vec![parameter.symbol().to_owned(), unit, u, percent, limit]
     });
-    columns::table(out, &["", "u", "u, %", "tolerance"], rows);
+    columns::table(out, &["", "unit", "u", "u, %", "tolerance"], rows);
 }
 
 fn self_check(out: &mut String, content: &Content) {

@@ -24,15 +24,8 @@ pub(crate) fn text(plan: &Plan, site: &str, site_azimuth_deg: f64) -> String {
     let readings: u32 = plan.readings.iter().map(|at| at.visits).sum();
     let how = match plan.exhaustive {
         true => "the best of all choices",
-        false => "found by exchange",
+        false => "the best found by exchanging positions (not all choices were compared)",
     };
-    let _ = writeln!(
-        out,
-        "Plan for {site}: {readings} readings in {} of {} positions, frame's axis at {}",
-        plan.readings.len(),
-        plan.candidates,
-        azimuth(plan.frame_axis_azimuth_deg)
-    );
     if let Some(sentence) = no_gyro_can_pass(plan) {
         columns::paragraph(&mut out, "", &style::marked(Outcome::Failed, &sentence));
     }
@@ -40,6 +33,13 @@ pub(crate) fn text(plan: &Plan, site: &str, site_azimuth_deg: f64) -> String {
         let sentence = format!("No gyro can pass by guarded acceptance at this site. {}", gravity(plan));
         columns::paragraph(&mut out, "", &style::marked(Outcome::Failed, &sentence));
     }
+    let _ = writeln!(
+        out,
+        "Plan for {site}: {readings} readings in {} of {} positions, frame's axis at {}",
+        plan.readings.len(),
+        plan.candidates,
+        azimuth(plan.frame_axis_azimuth_deg)
+    );
     let value = plan.evaluation.value;
     let mut words = format!("Criterion {}: {}, {how}.", of_criterion(plan.criterion), significant(value));
     if let Some(paper) = &plan.paper {
@@ -240,9 +240,10 @@ fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<String> {
         remarks.push(format!("{positions} left out: the gyro needs more current there than meter.range_ma."));
     }
     let kinds: [(&str, Named); 3] = [
-        ("The residuals of this plan do not show the following errors", |effect| {
-            effect.matters() && effect.is_hidden()
-        }),
+        (
+            "The residuals of the following errors are too small to be seen next to the noise of the readings",
+            |effect| effect.matters() && effect.is_hidden(),
+        ),
         ("The residuals show errors of this size", |effect| effect.matters() && !effect.is_hidden()),
         ("These errors have almost no effect (below 0.1 % of every tolerance)", |effect| !effect.matters()),
     ];

@@ -1,6 +1,7 @@
 //! Register as text for a terminal and as CSV.
 
-use crate::register::{Register, State};
+use crate::register::{AlarmKind, Register, State};
+use crate::report::style::Outcome;
 use crate::report::{columns, style};
 use crate::text::{Printable, printable};
 use std::fmt::Write;
@@ -10,9 +11,13 @@ impl State {
         if self == Self::Broken { "BROKEN".to_owned() } else { self.key().replace('_', " ") }
     }
 
-    /// Returns whether the passport may be used, or `None` if that is unknown.
-    fn passed(self) -> Option<bool> {
-        (self != Self::Unknown).then_some(matches!(self, Self::InForce | Self::Expiring))
+    /// Returns whether the passport may be used.
+    fn outcome(self) -> Outcome {
+        match self {
+            Self::InForce | Self::Expiring => Outcome::Passed,
+            Self::Unknown => Outcome::Undecided,
+            _ => Outcome::Failed,
+        }
     }
 }
 
@@ -25,12 +30,17 @@ pub(crate) fn text(register: &Register) -> String {
     let mut out = format!("{summary}; alarms: {}\n", register.alarms.len());
     for line in &register.passports {
         let id = line.id.as_deref().unwrap_or("(id not verified)");
-        let state = style::marked(line.state.passed(), &format!("{:<13}", line.state.words()));
+        let state = style::marked(line.state.outcome(), &format!("{:<13}", line.state.words()));
         let _ = writeln!(out, "{state}  {id}  {}", Printable(&line.file));
         columns::paragraph(&mut out, "                 ", &printable(&line.why));
     }
     for alarm in &register.alarms {
         columns::paragraph(&mut out, "", &style::marked(Some(false), &alarm.to_string()));
+    }
+    if register.alarms.iter().any(|alarm| alarm.kind == AlarmKind::Damaged) {
+        let advice =
+            "Get damaged files from the issuer again. Move a file that is not a passport or a list out of the folder.";
+        columns::paragraph(&mut out, "", advice);
     }
     out
 }

@@ -3,16 +3,17 @@
 use super::columns::grouped;
 use super::style::Outcome;
 use super::{columns, style};
-use crate::simulation::{Accuracy, Convergence, ConvergenceRow, PAPER_LATITUDE_DEG};
+use crate::simulation::draw::CurrentError;
+use crate::simulation::{Accuracy, AccuracyOptions, Convergence, ConvergenceRow, PAPER_LATITUDE_DEG};
 use crate::statistics::summary::upper_limit_without_a_case;
 use crate::units::printed;
 use std::fmt::Write;
 
 /// Returns the paper's table: worst error and standard deviation of every parameter by every method, and whether the worst
 /// error is within the paper's bound.
-pub(crate) fn accuracy(found: &Accuracy) -> String {
+pub(crate) fn accuracy(found: &Accuracy, options: &AccuracyOptions) -> String {
     let stands = match found.limit_deg {
-        Some(limit) => format!("all deviations uniform within {limit}°"),
+        Some(limit) => format!("all deviations uniform within ±{limit}°"),
         None => "the specified stand".to_owned(),
     };
     let (trials, seed, latitude) = (grouped(found.trials), found.seed, found.latitude_deg);
@@ -21,12 +22,22 @@ pub(crate) fn accuracy(found: &Accuracy) -> String {
     if !bounded.is_empty() {
         let (within, all) = (bounded.iter().filter(|within| **within).count(), bounded.len());
         let words = match all - within {
-            0 => format!("within the paper's bounds: {all} of {all} worst errors"),
-            beyond => format!("beyond the paper's bounds: {beyond} of {all} worst errors"),
+            0 => format!("WITHIN  all {all} worst errors are within the paper's bounds"),
+            beyond => format!("BEYOND  {beyond} of {all} worst errors exceed the paper's bounds"),
         };
         let _ = writeln!(out, "{}", style::marked(Some(within == all), &words));
     }
-    let _ = writeln!(out, "{trials} trials, seed {seed}, {stands}, latitude {latitude:.4}°");
+    let errors = match options.current_error {
+        CurrentError::Independent => "independent",
+        CurrentError::Channel => "common to each axis",
+        CurrentError::Common => "common to all readings",
+    };
+    let gyro = if options.within_tolerance { "drawn within its tolerance" } else { "nominal" };
+    let words = format!(
+        "{trials} trials, seed {seed}, {stands}, currents within ±{} % ({errors}), gyro {gyro}, latitude {latitude:.4}°",
+        options.current_percent
+    );
+    columns::paragraph(&mut out, "", &words);
     let rows = found.rows.iter().map(|row| {
         // NaN if no trial gave a result.
         let three_digits = |value: f64| match value {

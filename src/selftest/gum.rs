@@ -106,7 +106,7 @@ fn impedance() -> Vec<Case> {
         case(MEANS, "u(φ), rad", 0.00075, 5, u_of_mean[2]),
         case(MEANS, "r(V, I)", -0.36, 2, r_of_means[(0, 1)]),
         case(MEANS, "r(V, φ)", 0.86, 2, r_of_means[(0, 2)]),
-        case(MEANS, "r(I, phi)", -0.65, 2, r_of_means[(1, 2)]),
+        case(MEANS, "r(I, φ)", -0.65, 2, r_of_means[(1, 2)]),
         case(RESULTS, "R, Ω", 127.732, 3, z * cos),
         case(RESULTS, "X, Ω", 219.847, 3, z * sin),
         case(RESULTS, "Z, Ω", 254.260, 3, z),

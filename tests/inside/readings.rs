@@ -305,7 +305,7 @@ fn visits_and_cycles_that_cannot_be() {
         |PositionIndex { i, j }, visit, cycle| Exclusion { i, j, visit, cycle, why: "table was knocked".to_owned() };
     let mut readings = timed("1,1,0.1,0.2,2,1,60\n1,2,0.1,0.2,2,1,70\n1,2,0.3,0.2,1,2,50\n").unwrap();
     let error = readings.exclude(exclusion(first, 1, None)).unwrap_err();
-    assert!(error.contains("cycles [1, 2]") && error.contains("i,j,visit,cycle"), "{error}");
+    assert!(error.contains("turn-ons 1, 2") && error.contains("as in 1,1,1,1"), "{error}");
     let error = readings.exclude(exclusion(first, 7, None)).unwrap_err();
     assert!(error.contains("no visit 7 to position (1, 1)"), "{error}");
     readings.exclude(exclusion(other, 2, None)).unwrap();

@@ -477,8 +477,7 @@ texts! {
     }
     LAST_DIGIT {
         en: "The currents are recorded to {digit} mA. Rounding to this digit has a standard uncertainty of {u} mA, which \
-             is larger than the stated constant part of the meter’s error and takes its place. To reduce it, record more \
-             digits.",
+             is larger than the stated floor of the meter and takes its place. To reduce it, record more digits.",
         ru: "Токи записаны с точностью до {digit} мА. Стандартная неопределённость округления {u} мА больше указанной \
              постоянной части погрешности измерителя и принята вместо неё. Для уменьшения следует записывать больше \
              знаков."
