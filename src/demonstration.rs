@@ -237,7 +237,9 @@ impl Stage<'_> {
             self.line(&format!("   {}", quantity(&values.join(", "), parameters[0].unit())))?;
         }
         let probability = found.chi_square.probability;
-        self.line(&format!("   The sixteen readings fit; the probability of a worse fit is {probability:.2}."))?;
+        self.line(&format!(
+            "   The sixteen readings fit; the probability of a larger chi-square is {probability:.2}."
+        ))?;
         self.as_expected &= calibration.hint.is_none();
         Ok(())
     }

@@ -63,7 +63,7 @@ record! {
     pub struct SiteUncertainty {
         /// Standard uncertainty of the astronomic latitude.
         pub latitude_arcsec: Option<f64>,
-        /// Standard uncertainty of the azimuth of the base: from the mark to the base.
+        /// Standard uncertainty of the azimuth of the base relative to the mark.
         pub azimuth_arcsec: Option<f64>,
         /// Standard uncertainty of the level of the base, per axis.
         pub level_arcsec: Option<f64>,

@@ -47,7 +47,7 @@ use suspects::Suspects;
 
 use crate::attitude::ANGLES;
 use crate::calibration::inputs::Turn;
-use crate::stand::{self, ActsOn, Certificate, CertifiedPosition, Evidence, Stand};
+use crate::stand::{self, ActsOn, Certificate, CertifiedPosition, Evidence, Excluded, Stand};
 use components::{case_turn, turns_at};
 use deletion::Deletion;
 use nalgebra::{DVector, Vector3};
@@ -295,6 +295,15 @@ fn differences(turns: &[Turn], readings: &AngleReadings) -> Vec<DVector<f64>> {
 }
 
 impl Certification {
+    /// Returns the number of angles that Grubbs' test examines: an excluded reading has no residual, because the three angles
+    /// of its position are predicted.
+    pub(crate) fn tested_angles(&self) -> usize {
+        let evidence = self.stand.certificate.evidence.as_ref();
+        let excluded = evidence.and_then(|evidence| evidence.excluded.as_deref()).unwrap_or_default();
+        let is_left_out = |at: &&Excluded| at.index().is_some() && self.runs.contains(&at.run);
+        self.runs.len() * self.components.keeps.nrows() - 3 * excluded.iter().filter(is_left_out).count()
+    }
+
     /// Returns the degrees of freedom of the common parts of platform and base in the certificate, from the runs and the type B
     /// variances that act on them; `None` for a part that is absent or known exactly.
     pub(crate) fn freedom_of_common_parts(&self) -> [Option<f64>; 2] {

@@ -144,8 +144,8 @@ texts! {
     LITTLE_SCATTER {
         en: "The visits scatter by only {scatter}″, less than the repeatability of any stand; the angles may be in \
              arcminutes instead of arcseconds.",
-        ru: "Стандартное отклонение одной установки — лишь {scatter}″, меньше, чем у любого стенда; возможно, углы \
-             указаны в минутах, а не в секундах."
+        ru: "Стандартное отклонение одной установки в положение — лишь {scatter}″, меньше, чем у любого стенда; возможно, \
+             углы указаны в минутах, а не в секундах."
     }
     FAR_ANGLE {
         en: "{angle} of position {index} is {value}″; the angles of the other positions are up to {usual}″.",
@@ -210,13 +210,13 @@ texts! {
         en: "The visits of the check scatter by {found}″, but the certificate states {certified}″ (F test, {p}). Either \
              the stand repeats worse, so that uncertainties from its certificate are too small, or the instrument of the \
              check reads worse.",
-        ru: "Стандартное отклонение одной установки при проверке {found}″, по сертификату {certified}″ (критерий Фишера, \
-             {p}). Либо повторяемость стенда ухудшилась и неопределённости по его сертификату занижены, либо больше \
-             погрешность прибора, которым выполнена проверка."
+        ru: "Стандартное отклонение одной установки в положение при проверке {found}″, по сертификату {certified}″ \
+             (критерий Фишера, {p}). Либо повторяемость стенда ухудшилась и неопределённости по его сертификату занижены, \
+             либо больше погрешность прибора, которым выполнена проверка."
     }
     POSITION_CHANGED {
         en: "Position {index} has changed relative to the other positions: {x}″, {y}″, {z}″ about x, y, z.",
-        ru: "Положение {index} изменилось относительно остальных: {x}″, {y}″, {z}″ вокруг x, y, z."
+        ru: "Положение {index} изменилось относительно остальных: поворот на {x}″, {y}″, {z}″ вокруг x, y, z."
     }
     CHANGED_TOGETHER {
         en: "The positions have changed by more than the stated uncertainties explain; no single position stands out.",

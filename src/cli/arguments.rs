@@ -113,8 +113,11 @@ fn clearer(words: &str) -> String {
         let (before, range) = line.trim_end().split_once(" is not in ")?;
         let (first, last) = range.split_once("..=").or(range.split_once(".."))?;
         let (option, _) = before.rsplit_once(": ")?;
-        let up_to = if last == u64::MAX.to_string() { String::new() } else { format!(" to {last}") };
-        Some(format!("{option}: expected a whole number from {first}{up_to}\n"))
+        let numbers = match last == u64::MAX.to_string() {
+            true => format!("of {first} or more"),
+            false => format!("from {first} to {last}"),
+        };
+        Some(format!("{option}: expected a whole number {numbers}\n"))
     };
     let words: String =
         words.split_inclusive('\n').map(|line| range(line).unwrap_or_else(|| line.to_owned())).collect();

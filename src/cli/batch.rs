@@ -33,8 +33,8 @@ pub(super) struct BatchOptions {
     /// Issue even if the positions of the stand do not determine the parameters of a gyro
     #[arg(long)]
     pub allow_uncalibratable: bool,
-    /// Compute and check everything, and list what would be issued, but write nothing; requires no key, and checks the
-    /// one given as far as this needs no passphrase
+    /// Compute and check everything, and list what would be issued, but write nothing; no key is required; if one is
+    /// given, it is checked as far as possible without its passphrase
     #[arg(short = 'n', long)]
     dry_run: bool,
     /// Do not sync to disk: faster, but a power failure may lose files

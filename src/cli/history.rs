@@ -18,7 +18,8 @@ pub(super) struct Options {
     /// Stand
     #[arg(value_name = "MODEL/SERIAL", value_parser = stand)]
     stand: String,
-    /// Folder of passports; revocation lists in it, in `revocations` next to it, and up to two levels above are used too
+    /// Folder of passports; lists of withdrawn passports count in it, in `revocations` next to it, and in the folders up
+    /// to two levels above
     #[arg(long, value_name = "DIR", default_value = "passports")]
     passports: PathBuf,
     #[command(flatten)]

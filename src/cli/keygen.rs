@@ -22,7 +22,7 @@ pub(super) struct Options {
     /// Owner of the key: the issuer in allowed_signers and passports [default: the file name]
     #[arg(long, value_name = "WHO", value_parser = key_options::identity)]
     identity: Option<String>,
-    /// Append the line to this file instead of printing it, unless the key exists
+    /// Append the line to this file instead of printing it
     #[arg(long, value_name = "FILE")]
     allowed_signers: Option<PathBuf>,
     /// Leave the key unencrypted

@@ -30,7 +30,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let pages: Vec<(PathBuf, String)> = pages.into_iter().map(file).collect();
     // All or none: the page of an older version would contradict the others.
     write_replaceable_together(&pages, options.force)?;
-    output::say(&format!("wrote {} pages into {}", pages.len(), shown(&options.folder)));
+    output::say(&format!("wrote {} pages to {}", pages.len(), shown(&options.folder)));
     if options.format == Format::Json {
         output::json(&json!({ "pages": pages.iter().map(|(path, _)| name_of(path)).collect::<Vec<_>>() }))?;
     }

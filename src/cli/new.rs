@@ -12,8 +12,8 @@ use std::path::{Path, PathBuf};
 
 /// Write a commented template of a file
 ///
-/// Lines with CHANGE need a value that only you know. Every template has a valid form, but a file that still contains
-/// CHANGE is not certified or issued.
+/// Lines with CHANGE need a value that only you know. Every template has a valid form, but `certify` and `issue`
+/// refuse a file that still contains CHANGE.
 #[derive(Args)]
 pub(super) struct Options {
     /// Kind of file
@@ -22,7 +22,7 @@ pub(super) struct Options {
     /// Write the template to this file [default: standard output]
     #[arg(value_name = "FILE")]
     file: Option<PathBuf>,
-    /// Number of positions of a stand, header, readings or currents: the paper's 8, 4 of these, or these and 16 more [default: 8]
+    /// Number of positions of a stand, header, readings or currents: the paper's 8, 4 of those 8, or the 8 and 16 more [default: 8]
     #[arg(long, value_name = "N", value_parser = ["4", "8", "24"])]
     positions: Option<String>,
     /// Take the positions of a stand, header, readings or currents, and their order, from this plan (`plan --format json`)

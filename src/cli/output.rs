@@ -184,14 +184,16 @@ pub(super) fn warn(words: &str) {
 
 /// Writes a message about a failure. Errors are ignored, because there is nowhere left to report them.
 pub(super) fn complain(words: &str) {
+    // A verdict comes first.
+    let name = if words.starts_with('✕') { "" } else { NAME };
     let mut lines: Vec<String> = words.trim_end().split('\n').map(printable).collect();
     let columns = columns_of(terminal_size_of(io::stderr()));
     if let Some(columns) = columns {
-        excerpt::cut(&mut lines, columns.saturating_sub(NAME.len()));
+        excerpt::cut(&mut lines, columns.saturating_sub(name.len()));
     }
-    let text = format!("{NAME}{}\n", lines.join(&format!("\n{:1$}", "", NAME.len())));
+    let text = format!("{name}{}\n", lines.join(&format!("\n{:1$}", "", name.len())));
     let text = match columns {
-        Some(columns) => columns::hanging(&text, NAME.len(), columns),
+        Some(columns) => columns::hanging(&text, name.len(), columns),
         None => text,
     };
     let _ = io::stderr().lock().write_all(text.as_bytes());

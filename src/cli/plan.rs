@@ -16,7 +16,7 @@ pub(super) struct Options {
     /// Site file (dtg-site/1); in a workspace also the identifier of the site
     #[arg(long, value_name = "SITE", value_parser = defaults::site())]
     site: PathBuf,
-    /// Stand file (dtg-stand/1) whose certified positions to choose from; in a workspace also MODEL/SERIAL [default: the positions of --angles, without deviations]
+    /// Certified stand (dtg-stand/1) from whose positions to choose; in a workspace also MODEL/SERIAL [default: the positions of --angles, without deviations]
     #[arg(long, value_name = "STAND", conflicts_with = "angles", value_parser = defaults::stand())]
     stand: Option<PathBuf>,
     /// Gyro type (dtg-gyro/1) [default: the paper's GVK-6]

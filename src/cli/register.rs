@@ -16,10 +16,11 @@ use std::path::{Path, PathBuf};
 /// List every passport under a folder: in force, superseded, moved, expired, revoked, broken
 #[derive(Args)]
 pub(super) struct Options {
-    /// Folder of passports; revocation lists in it, in `revocations` next to it, and up to two levels above are used too
+    /// Folder of passports; lists of withdrawn passports count in it, in `revocations` next to it, and in the folders up
+    /// to two levels above
     #[arg(value_name = "DIR", required_unless_present = "passports")]
     folder: Option<PathBuf>,
-    /// Folder of passports, as DIR
+    /// Folder of passports (the same as the argument DIR)
     #[arg(long, value_name = "DIR", conflicts_with = "folder")]
     passports: Option<PathBuf>,
     #[command(flatten)]

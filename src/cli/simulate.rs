@@ -46,7 +46,7 @@ struct AccuracyArguments {
     /// Stand file to take the angles from [default: random stands]
     #[arg(long, value_name = "STAND", conflicts_with = "limit_deg", value_parser = defaults::stand())]
     stand: Option<PathBuf>,
-    /// Site file [default: the paper's latitude, 55.7658]
+    /// Site file [default: the paper's latitude, 55.7658°]
     #[arg(long, value_name = "SITE", value_parser = defaults::site())]
     site: Option<PathBuf>,
     /// Gyro type [default: the paper's GVK-6]

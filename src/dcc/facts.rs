@@ -70,9 +70,13 @@ impl Facts {
         file: Option<&Administrative>,
         lang: Option<&Languages>,
     ) -> Result<Self, Problems> {
+        let advice = match file {
+            Some(_) => "add it",
+            None => "add it to a file for --administrative",
+        };
         let none = Administrative::default();
         let file = file.unwrap_or(&none);
-        let mut collector = Collector { source: known.source, problems: Problems::default() };
+        let mut collector = Collector { source: known.source, advice, problems: Problems::default() };
         let facts = collector.facts(known, file, lang);
         facts.filter(|_| collector.problems.is_empty()).ok_or(collector.problems)
     }
@@ -85,6 +89,8 @@ pub(super) fn stated(text: Option<&str>) -> Option<&str> {
 
 struct Collector {
     source: &'static str,
+    /// What to do if a key is missing.
+    advice: &'static str,
     problems: Problems,
 }
 
@@ -153,7 +159,7 @@ impl Collector {
     /// Returns a required value, or records that its key is missing and the element of the DCC that needs it.
     fn need<T>(&mut self, at: &Path, key: &str, value: Option<T>, expected: &str, element: &str) -> Option<T> {
         if value.is_none() {
-            self.problems.missing(at, key, format!("{expected}, for {element}"), "add it");
+            self.problems.missing(at, key, format!("{expected}, for {element}"), self.advice);
         }
         value
     }

@@ -20,7 +20,7 @@ texts! {
     SEAT { en: "Gyro seat", ru: "Посадочная поверхность гироскопа" }
     REPEATABILITY {
         en: "Repeatability of positioning: standard deviation of one visit, per axis",
-        ru: "Повторяемость положений: стандартное отклонение одной установки, по осям"
+        ru: "Повторяемость положений: стандартное отклонение одной установки в положение, по осям"
     }
     COMMON_PLATFORM {
         en: "Standard uncertainty common to all positions, per axis of the platform",
@@ -87,7 +87,10 @@ texts! {
              соответствует. Если неопределённость не позволяет принять такое решение, приводится условное решение по \
              правилу простой приёмки."
     }
-    DECISIONS { en: "Decisions on conformity, in the order of the values", ru: "Решения о соответствии в порядке значений" }
+    DECISIONS {
+        en: "Decisions on conformity, in the order of the values",
+        ru: "Решения о соответствии в порядке следования значений"
+    }
     LOWER_LIMIT { en: "Lower limit of the tolerance", ru: "Нижняя граница допуска" }
     UPPER_LIMIT { en: "Upper limit of the tolerance", ru: "Верхняя граница допуска" }
     NOT_STATED {
@@ -96,7 +99,7 @@ texts! {
     }
     NOT_SIGNED {
         en: "This DCC is not signed. The passport of the stand is signed; its SHA-256 is given with the equipment.",
-        ru: "Этот цифровой сертификат калибровки не подписан. Подписан паспорт стенда, его хеш SHA-256 указан при \
-             средствах калибровки."
+        ru: "Этот цифровой сертификат калибровки не подписан. Подписан паспорт стенда, его хеш SHA-256 указан в сведениях \
+             о средствах калибровки."
     }
 }

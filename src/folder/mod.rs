@@ -228,7 +228,10 @@ impl Folder {
             Some(there) if same(&there.content, draft.content()) => Ok(Next::There(there.left(&draft))),
             Some(there) => {
                 let changed = there.differences(stand, site, draft.content());
-                Err(FolderRefused::OtherContent(there.path, changed))
+                Err(match changed == OTHER_ACCURACY {
+                    true => FolderRefused::OtherAccuracy(there.path),
+                    false => FolderRefused::OtherContent(there.path, changed),
+                })
             }
             None => match self.sites.later(&path, order.revision) {
                 Some(last) => Err(FolderRefused::Gap { path, later: self.path_of(&stand.stand, &site.id, last) }),
@@ -403,6 +406,9 @@ struct Existing {
     content: Content,
 }
 
+/// Difference of passports that state other expected uncertainties.
+const OTHER_ACCURACY: &str = "issued with other --accuracy, --gyro or --laboratory";
+
 impl Existing {
     fn of(path: &Path, bytes: &[u8]) -> Result<Self, FolderRefused> {
         let name = name_of(path);
@@ -428,7 +434,7 @@ impl Existing {
             words.push(format!("valid until {} -> {}", day(there.valid_until), day(new.passport.valid_until)));
         }
         if self.content.accuracy != new.accuracy {
-            words.push("issued with other --accuracy, --gyro or --laboratory".to_owned());
+            words.push(OTHER_ACCURACY.to_owned());
         }
         words.extend(there.reissued_from.as_ref().map(|predecessor| format!("re-issued from {}", predecessor.id)));
         let changed = changes(&self.content, stand, site, &new.passport.issuer);

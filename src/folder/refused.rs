@@ -12,13 +12,20 @@ use std::path::PathBuf;
 pub enum FolderRefused {
     /// Existing passport of this name with other content, and the differences in words.
     #[error(
-        "{}: already exists with different content ({}); to issue the changes, use `reissue {}` with --stand or --site, the \
-         changed file",
+        "{}: already exists with different content ({}); to issue the changes, use `reissue {}` with the changed \
+         --stand, --site or --valid-until",
         shown(.0),
         .1,
         shown(.0)
     )]
     OtherContent(PathBuf, String),
+    /// Existing passport of this name that states another expected uncertainty.
+    #[error(
+        "{}: already exists with other values of --accuracy, --gyro or --laboratory; repeat the options with which it was \
+         issued, or issue to another folder with --out",
+        shown(.0)
+    )]
+    OtherAccuracy(PathBuf),
     /// Existing successor of the predecessor for this site, with different content.
     #[error(
         "{}: is already a successor of this passport for this site, with different content; re-issue that successor",

@@ -207,12 +207,16 @@ pub(super) fn read<T>(key: &str, text: &str, parse: fn(&str) -> Result<T, String
     parse(text).map_err(|why| Failed::unusable(format!("{key}: found {text:?}; {why}")))
 }
 
+/// Expected form of a time.
+const TIME: &str = "expected a time such as 2026-11-02T09:30:00Z, or a UTC date such as 2026-11-02";
+
+/// Parses a time, or a date, which is its first second in UTC.
 pub(crate) fn time(text: &str) -> Result<Timestamp, String> {
     if let Ok(date) = date(text) {
         return Ok(day(date).0);
     }
     if let Some(words) = impossible_date(text.get(..10).unwrap_or(text)) {
-        return Err(words);
+        return Err(format!("{words}; {TIME}"));
     }
     match text.parse::<Timestamp>() {
         Ok(time) if time.subsec_nanosecond() == 0 => Ok(time),
@@ -220,7 +224,7 @@ pub(crate) fn time(text: &str) -> Result<Timestamp, String> {
         Err(_) if text.parse::<DateTime>().is_ok() => {
             Err("the time zone is missing; for UTC, write Z at the end, as in 2026-11-02T09:30:00Z".to_owned())
         }
-        Err(_) => Err("expected a time such as 2026-11-02T09:30:00Z, or a UTC date such as 2026-11-02".to_owned()),
+        Err(_) => Err(TIME.to_owned()),
     }
 }
 

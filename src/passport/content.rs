@@ -393,7 +393,7 @@ impl Content {
             problems.at(&header.key("id"), format!("{:?}", self.passport.id), expected, "");
         }
         if self.passport.revision == 0 {
-            problems.at(&header.key("revision"), "0", "a whole number from 1", "");
+            problems.at(&header.key("revision"), "0", "a whole number of 1 or more", "");
         }
         let (issued_at, certified) = (self.passport.issued_at, self.certificate.issued);
         if issued_at < day(certified).0 {

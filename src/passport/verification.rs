@@ -208,14 +208,15 @@ pub fn verify(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> V
             }
         }
     }
-    Verification { checks: run.completed(question), key, content }
+    let without_list = trust.revoked.is_empty() && trust.withdrawn.newest().is_none();
+    Verification { checks: run.completed(question, without_list), key, content }
 }
 
 /// Creates the result for a file that could not be read; no check was run. `why` is the system's error message.
 pub(crate) fn unreadable(why: &str, question: &Question) -> Verification {
     let mut run = Run { checks: Vec::new() };
     run.note(CheckName::Grammar, Code::Unreadable, why);
-    Verification { checks: run.completed(question), key: None, content: None }
+    Verification { checks: run.completed(question, false), key: None, content: None }
 }
 
 /// Creates the result for a passport that was not verified on request: no check was run.
@@ -389,8 +390,9 @@ impl Run {
         }
     }
 
-    /// Returns all checks in their order, also those that were not run.
-    fn completed(mut self, question: &Question) -> Vec<Check> {
+    /// Returns all checks in their order, including those that were not run. That of revocations was not requested if there
+    /// is no list of them.
+    fn completed(mut self, question: &Question, without_list: bool) -> Vec<Check> {
         let asked = [
             question.issuer.as_ref().map(|_| CheckName::Issuer),
             question.serial.as_ref().map(|_| CheckName::Stand),
@@ -398,7 +400,8 @@ impl Run {
         ];
         for name in always().chain(asked.into_iter().flatten()) {
             if !self.checks.iter().any(|check| check.name == name) {
-                self.note(name, Code::NotRun, "not run: an earlier check failed");
+                let is_asked = name != CheckName::Revocation || !without_list;
+                self.note(name, Code::NotRun, if is_asked { "not run: an earlier check failed" } else { NO_LIST });
             }
         }
         self.checks.sort_by_key(|check| check.name);

@@ -10,7 +10,7 @@ use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::prediction::FurtherVisit;
 use crate::calibration::readings::Exclusion;
 use crate::calibration::verdict::{BEYOND, change_in_uncertainties};
-use crate::calibration::{Calibration, Hint, MethodResult, Mistake, NotStated, Parameter, Readings, Verdict};
+use crate::calibration::{Calibration, Hint, MethodResult, Mistake, Model, NotStated, Parameter, Readings, Verdict};
 use crate::interface::calibrated::Done;
 use crate::report::page::calibration::why_no_change;
 use crate::report::page::language::{Language, capital, values};
@@ -64,8 +64,10 @@ pub(crate) fn text(
         (gravity, Some(u)) => format!("{gravity:.0$} m/s² (u = {u:.0$} m/s²)", columns::decimals(u)),
         (gravity, None) => format!("{gravity} m/s²"),
     };
-    let of_type =
-        verdict.map(|(_, verdict)| verdict.gravity_m_per_s2).filter(|of_type| *of_type != document.gravity_m_per_s2);
+    // The matrix of the general model is at local g: only ω_g and ω_k are compared with the type.
+    let of_type = verdict.map(|(_, verdict)| verdict.gravity_m_per_s2).filter(|of_type| {
+        *of_type != document.gravity_m_per_s2 && calibration.answer().is_none_or(|answer| answer.model == Model::Paper)
+    });
     let refer_to = of_type.map_or_else(
         || format!("local g, {gravity}"),
         |of_type| format!("the g of the type, g₀ = {of_type} m/s²; local g: {gravity}"),
@@ -83,10 +85,14 @@ pub(crate) fn text(
     if let Some((name, verdict)) = verdict {
         let words = format!(
             "Comparison with gyro type {name}; deviation and U in the unit of the tolerance; U = k u, k = {}; coverage \
-             probability {:.2} %; g-sensitive drifts refer to the g of the type, g₀ = {} m/s²:",
+             probability {:.2} %{}:",
             plain(&coverage_factor(verdict.parameters.iter().map(|row| row.coverage_factor), Language::English)),
             100.0 * (1.0 - BEYOND),
-            verdict.gravity_m_per_s2
+            match verdict.not_found().is_empty() {
+                true =>
+                    format!("; g-sensitive drifts refer to the g of the type, g₀ = {} m/s²", verdict.gravity_m_per_s2),
+                false => String::new(),
+            }
         );
         let _ = writeln!(out);
         columns::paragraph(&mut out, "", &words);

@@ -219,9 +219,7 @@ fn tests(out: &mut String, found: &Certification) {
         );
         columns::paragraph(out, "", &words);
     }
-    let excluded = found.stand.certificate.evidence.iter().flat_map(|evidence| evidence.excluded.iter().flatten());
-    let alone = excluded.filter(|excluded| excluded.i.is_some()).count();
-    let readings = found.runs.len() * found.components.keeps.nrows() - 3 * alone;
+    let readings = found.tested_angles();
     let named = graded(found.suspects.outliers.iter().map(|out| out.probability));
     if found.suspects.split.is_none() {
         let _ = writeln!(out, "Grubbs' test of {readings} angles: {named}");

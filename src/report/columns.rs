@@ -157,11 +157,16 @@ fn unbroken(text: &str) -> Vec<String> {
         let belongs = |last: &str| {
             let plain = style::plain(last);
             let before = plain.rsplit([' ', '(']).next().unwrap_or_default();
+            // An index of a position, such as (4, 3).
+            let is_open = plain.rsplit(' ').next().is_some_and(|last| {
+                last.strip_prefix('(').and_then(|last| last.strip_suffix(',')).is_some_and(|i| i.parse::<u32>().is_ok())
+            });
             let is_symbol = before == "u" || before.starts_with("K_") || before.starts_with("ω_");
             matches!(word, "=" | "±")
                 || before.ends_with(['=', '±', '●', '◐', '✕', '○'])
                 || is_unit && before.ends_with(|c: char| c.is_numeric())
                 || is_symbol && is_number
+                || is_open && is_number
         };
         match words.last_mut().filter(|last| belongs(last)) {
             Some(last) => *last += &format!(" {word}"),

@@ -148,7 +148,11 @@ fn decimals_on_the_page(key: &str) -> Option<usize> {
 
 /// Formats a number as it is in the file if it is short, as those are that people write, and else with `decimals`.
 fn stated(value: f64, decimals: usize) -> String {
-    if is_short(value) { number::decimal(value) } else { format!("{value:.decimals$}") }
+    if is_short(value) {
+        number::decimal(value).trim_end_matches(".0").to_owned()
+    } else {
+        format!("{value:.decimals$}")
+    }
 }
 
 fn is_short(value: f64) -> bool {

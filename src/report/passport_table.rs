@@ -70,7 +70,7 @@ fn stand(out: &mut String, content: &Content) {
     option(out, "name", stand.name.as_ref());
     option(out, "customer", stand.customer.as_ref());
     heading(out, "Certificate (standard uncertainties, k = 1)");
-    line(out, "number", format!("{}, {}", certificate.number, certificate.issued));
+    line(out, "number", format!("{}, issued {}", certificate.number, certificate.issued));
     line(out, "laboratory", &certificate.laboratory);
     option(out, "address", certificate.address.as_ref());
     option(out, "authorised by", certificate.authorized_by.as_ref());

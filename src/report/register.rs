@@ -27,7 +27,9 @@ pub(crate) fn text(register: &Register) -> String {
     let counts: Vec<String> =
         register.counts().into_iter().map(|(state, count)| format!("{count} {}", state.words())).collect();
     let summary = if counts.is_empty() { "no passports".to_owned() } else { counts.join(", ") };
-    let mut out = format!("{summary}; alarms: {}\n", register.alarms.len());
+    let is_good = !register.is_incomplete() && !register.needs_attention();
+    let summary = format!("{summary}; alarms: {}", register.alarms.len());
+    let mut out = style::marked(Some(is_good), &summary) + "\n";
     for line in &register.passports {
         let id = line.id.as_deref().unwrap_or("(id not verified)");
         let state = style::marked(line.state.outcome(), &format!("{:<13}", line.state.words()));

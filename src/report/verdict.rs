@@ -52,7 +52,11 @@ pub(crate) fn answer(valid: bool) -> String {
 
 /// Returns the names of the checks that an earlier failure prevented.
 fn not_run(checks: &[Check]) -> Vec<&'static str> {
-    checks.iter().filter(|check| check.passed().is_none()).map(|check| check.name.as_str()).collect()
+    checks
+        .iter()
+        .filter(|check| check.was_asked() && check.passed().is_none())
+        .map(|check| check.name.as_str())
+        .collect()
 }
 
 /// Returns the checks for which there was no question: those on request are absent.

@@ -218,7 +218,7 @@ impl RevocationList {
             problems.at(&at.key("format"), format!("{:?}", self.format), format!("{REVOCATION_FORMAT:?}"), "");
         }
         if self.sequence == 0 {
-            problems.at(&at.key("sequence"), "0", "a whole number from 1", "");
+            problems.at(&at.key("sequence"), "0", "a whole number of 1 or more", "");
         }
         if let Some(continued) = &self.continues {
             let at = at.key("continues");

@@ -40,8 +40,8 @@ fn largest(errors: impl Iterator<Item = f64>) -> f64 {
 }
 
 fn case(quantity: &str, tolerance: f64, found: f64) -> Case {
-    const SOURCE: &str = "60-digit arithmetic of eq. (3)-(16), tests/vectors/model.json";
-    Case::new("the paper's model", SOURCE, quantity, [0.0, tolerance, found])
+    const SOURCE: &str = "60-digit arithmetic of eq. (3) to (16), tests/vectors/model.json";
+    Case::new("The paper's model", SOURCE, quantity, [0.0, tolerance, found])
 }
 
 /// Returns the errors of the coefficients and of the parameters of a stand; NaN if there is nothing to compare.

@@ -70,7 +70,7 @@ impl Excluded {
         }
         for (key, number) in [("i", self.i), ("j", self.j), ("run", Some(self.run))] {
             if number == Some(0) {
-                problems.at(&at.key(key), "0", "a whole number from 1", "");
+                problems.at(&at.key(key), "0", "a whole number of 1 or more", "");
             }
         }
         if self.why.is_empty() {

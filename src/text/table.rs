@@ -145,7 +145,7 @@ impl<'a> Table<'a> {
         let index = cell.text.parse::<f64>().ok().filter(is_index).map(|index| index as u32);
         if index.is_none() {
             let advice = advice_for_index(&cell.text);
-            problems.push(self.problem(cell, column, described(&cell.text), "a whole number from 1", advice));
+            problems.push(self.problem(cell, column, described(&cell.text), "a whole number of 1 or more", advice));
         }
         index
     }

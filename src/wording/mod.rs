@@ -161,7 +161,7 @@ pub(crate) mod implausible {
             en: "{key} of the laboratory is {value}, more than {largest}; check the unit, because no decision is possible \
                  with such an uncertainty",
             ru: "Значение {key} лаборатории равно {value}, что больше {largest}; следует проверить единицу: при такой \
-                 неопределённости решение невозможно"
+                 неопределённости принять решение о соответствии невозможно"
         }
         OF_TYPE {
             en: "{key} of the gyro type is {value} % of the scale factor; check the unit, because no decision is \

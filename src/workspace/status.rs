@@ -66,6 +66,9 @@ struct Passports {
     /// Passports that have expired, for the text.
     #[serde(skip)]
     expired: Vec<Line>,
+    /// Passports that are broken, for the text.
+    #[serde(skip)]
+    broken: Vec<Line>,
     alarms: Vec<String>,
 }
 
@@ -165,7 +168,7 @@ fn passports(register: Register) -> Passports {
     let counts = register.counts().into_iter().map(|(state, count)| (state.key(), count)).collect();
     let alarms = register.alarms.iter().map(ToString::to_string).collect();
     let of = |state| register.passports.iter().filter(|line| line.state == state).cloned().collect();
-    Passports { counts, expiring: of(State::Expiring), expired: of(State::Expired), alarms }
+    Passports { counts, expiring: of(State::Expiring), expired: of(State::Expired), broken: of(State::Broken), alarms }
 }
 
 fn keys(trust: &Trust, time: Timestamp) -> Vec<KeyLine> {
@@ -213,8 +216,14 @@ impl Status {
     pub(crate) fn text(&self) -> String {
         let alarms = self.passports.as_ref().map_or(0, |passports| passports.alarms.len());
         let verdict = match self.needs_attention() {
-            true => format!("NEEDS ATTENTION  alarms: {alarms}; remarks: {}", self.remarks.len()),
-            false => "no alarms".to_owned(),
+            true => {
+                let broken = self.passports.as_ref().map_or(0, |passports| passports.broken.len());
+                format!(
+                    "NEEDS ATTENTION  broken passports: {broken}; alarms: {alarms}; remarks: {}",
+                    self.remarks.len()
+                )
+            }
+            false => "NO ALARMS".to_owned(),
         };
         let mut out = style::marked(Some(!self.needs_attention()), &verdict) + "\n";
         let _ = writeln!(out, "Workspace  {}, {}", Printable(&self.workspace), self.time);
@@ -241,6 +250,11 @@ impl Status {
             indented(&mut out, dated(&passports.expiring, "valid until"));
             let expired = format!("{}, was valid until", style::marked(Outcome::Failed, "EXPIRED"));
             indented(&mut out, dated(&passports.expired, &expired));
+            let broken = passports.broken.iter().map(|line| {
+                let state = style::marked(Outcome::Failed, "BROKEN");
+                format!("{state}  {}; for the cause, run `register`", Printable(&line.file))
+            });
+            indented(&mut out, broken.collect());
             let _ = writeln!(out, "Alarms     {}", passports.alarms.len());
             indented(&mut out, passports.alarms.iter().map(|alarm| style::marked(Outcome::Failed, alarm)).collect());
         }

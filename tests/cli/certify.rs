@@ -92,7 +92,7 @@ fn bad_readings_are_refused_with_their_place() {
         (replaced("1,1,2,", 3, |_| "10012.4".into()), 2, &["check the digits, the sign and the position"]),
         (replaced("1,1,2,", 3, |_| "170000".into()), 2, &["45 degrees", "in arcseconds"]),
         (replaced("1,1,2,", 3, |_| "x".into()), 2, &["r.csv:11:7", "a number"]),
-        (replaced("1,1,2,", 2, |_| "0".into()), 2, &["run", "a whole number from 1"]),
+        (replaced("1,1,2,", 2, |_| "0".into()), 2, &["run", "a whole number of 1 or more"]),
         (of_run("2", |_, _| ["0", "0", "0"].map(str::to_owned)), 2, &["r.csv:11:5", "run 2, whose angles are all 0"]),
         (
             of_run("3", |row, lines| angles_of(&lines[(row + 1) % 8])),

@@ -29,7 +29,7 @@ const BAD: [(&str, &[&str]); 47] = [
     ("i,j,jx_ma,jy_ma,Cycles\n", &["c.csv:1:17", "\"Cycles\"", "did you mean cycle?"]),
     ("i,j,jx_ma,jy_ma,time_min\n", &["c.csv:1:17", "convert the numbers from min to s, then name it time_s"]),
     ("i,j,jx_ma,jy_ma,time\n", &["c.csv:1:17", "did you mean time_s?"]),
-    ("i,j,jx_ma,jy_ma,visit\n1,1,0.1,0.2,0\n", &["c.csv:2:13", "visit", "a whole number from 1"]),
+    ("i,j,jx_ma,jy_ma,visit\n1,1,0.1,0.2,0\n", &["c.csv:2:13", "visit", "a whole number of 1 or more"]),
     ("i,j,jx_ma,jy_ma,cycle\n1,1,0.1,0.2,\n", &["c.csv:2:13", "cycle", "found nothing"]),
     ("i,j,jx_ma,jy_ma,time_s\n1,1,0.1,0.2,noon\n", &["c.csv:2:13", "time_s", "a number"]),
     ("i,j,jx_ma,jy_ma,note\n1,1,0.1,0.2,\"a, b\n", &["c.csv:2:13", "a quoted cell without a closing quote"]),
@@ -51,8 +51,8 @@ const BAD: [(&str, &[&str]); 47] = [
     ("ROW 3,1,0.1,0.2\n", &["c.csv:2:1", "position (3, 1)", "stand, and that i and j are not exchanged"]),
     ("ROW 5,1,0.1,0.2\n", &["c.csv:2:1", "position (5, 1)", "check that this is the passport of this stand"]),
     ("ROW 90,270,0.1,0.2\n", &["c.csv:2:1", "position (90, 270)", "not degrees"]),
-    ("ROW 0,1,0.1,0.2\n", &["c.csv:2:1", "a whole number from 1; count from 1"]),
-    ("ROW 1,1.5,0.1,0.2\n", &["c.csv:2:3", "a whole number from 1"]),
+    ("ROW 0,1,0.1,0.2\n", &["c.csv:2:1", "a whole number of 1 or more; count from 1"]),
+    ("ROW 1,1.5,0.1,0.2\n", &["c.csv:2:3", "a whole number of 1 or more"]),
     ("ROW 1,1,x,0.2\n1,2,0.1,2.5\n", &["c.csv:2:5", "c.csv:3:9"]),
 ];
 

@@ -129,7 +129,7 @@ fn other_scales(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Prob
         let near = |factor: f64| (1.0 / FACTOR_MARGIN..FACTOR_MARGIN).contains(&(ratio * factor));
         let problem = |words: String, advice: &str| {
             let found = format!("run {run}, whose angles are {words}");
-            at_run(table, rows, run, found, "about those of the other runs", advice)
+            at_run(table, rows, run, found, "angles close to those of the other runs", advice)
         };
         let too_small = UNITS.into_iter().find(|(factor, _)| near(*factor));
         let too_large = UNITS.into_iter().find(|(factor, _)| near(1.0 / factor));

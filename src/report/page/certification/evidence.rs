@@ -12,7 +12,6 @@ use crate::report::page::parts::{
 use crate::report::page::passport::characteristics;
 use crate::report::page::texts::{calibration, certification as texts, checks, units};
 use crate::report::style::Outcome;
-use crate::stand::Excluded;
 use crate::statistics::outlier::Bartlett;
 use crate::wording::compass;
 use maud::{Markup, html};
@@ -155,16 +154,17 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
         probability: Some(test.probability),
     };
     // A test names something only below the limit of stragglers.
-    let named = |name: Markup, statistic: f64, p: f64| Tested {
+    let graded_as = |[significant, doubtful]: [Text; 2], name: Markup, statistic: f64, p: f64| Tested {
         name,
         result: match graded(p) {
-            Outcome::Failed => said(Outcome::Failed, texts::OUTLIER),
-            _ => said(Outcome::Undecided, texts::STRAGGLER),
+            Outcome::Failed => said(Outcome::Failed, significant),
+            _ => said(Outcome::Undecided, doubtful),
         },
         statistic: Some(Number::fixed(statistic, 2)),
         freedom: None,
         probability: Some(p),
     };
+    let named = |name, statistic, p| graded_as([texts::OUTLIER, texts::STRAGGLER], name, statistic, p);
     let of_variances = [(texts::BARTLETT_POSITIONS, &suspects.positions), (texts::BARTLETT_AXES, &suspects.axes)];
     found.extend(of_variances.map(|(name, test)| match test {
         Some(test) => bartlett(name, test),
@@ -196,7 +196,11 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
             (Pattern::Drift, false) => (texts::DRIFT_PLATFORM, 0),
         };
         let name = languages.label_with(|language| of.filled(language, values! { run, axis: at.axis.word() }));
-        named(name, at.turn_arcsec(), at.probability)
+        match at.pattern {
+            Pattern::One(_) => named(name, at.turn_arcsec(), at.probability),
+            // A shift or a drift is not an outlier.
+            _ => graded_as([texts::SIGNIFICANT, texts::DOUBTFUL], name, at.turn_arcsec(), at.probability),
+        }
     }));
     found.extend(without_findings(page, languages));
     let cells = |cell: fn(&Tested) -> Option<Cell>| {
@@ -231,11 +235,7 @@ fn without_findings<'a>(page: &CertificationPage, languages: &'a Languages) -> i
     let (runs, axes) = (page.certification.runs.len(), 3 + components.base_axes);
     let (bumped, moved): (Vec<&RotatedRuns>, Vec<_>) =
         page.certification.rotated_runs.iter().partition(|at| at.run().is_some());
-    // An excluded reading has no residual: the three angles of its position are predicted.
-    let evidence = page.certification.stand.certificate.evidence.as_ref();
-    let excluded = evidence.and_then(|evidence| evidence.excluded.as_deref()).unwrap_or_default();
-    let is_left_out = |at: &&Excluded| at.index().is_some() && page.certification.runs.contains(&at.run);
-    let angles = runs * components.keeps.nrows() - 3 * excluded.iter().filter(is_left_out).count();
+    let angles = page.certification.tested_angles();
     let rotated = |in_order: bool| {
         let named = &page.certification.rotated_runs;
         let at = rotated_runs::most_suspect(components, &suspects.outliers, named, in_order)?;

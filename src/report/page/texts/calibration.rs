@@ -143,7 +143,7 @@ texts! {
     }
     MISTAKE_MICROAMPERES {
         en: "the currents are in microamperes instead of milliamperes, or the expected scale factors are per ampere",
-        ru: "токи указаны в микроамперах, а не в миллиамперах, либо ожидаемые масштабные коэффициенты указаны на 1 А"
+        ru: "токи указаны в микроамперах, а не в миллиамперах, либо ожидаемые масштабные коэффициенты отнесены к амперу"
     }
     MISTAKE_TOO_LARGE { en: "all currents are too large by a factor of {factor}", ru: "все токи завышены в {factor}" }
     MISTAKE_TOO_SMALL { en: "all currents are too small by a factor of {factor}", ru: "все токи занижены в {factor}" }
@@ -200,8 +200,8 @@ texts! {
     READINGS_OLDER {
         en: "The readings are of {date}; the stand was measured for its certificate on {performed}. Nothing shows that it \
              then agreed with the certificate.",
-        ru: "Показания сняты {date}; углы стенда измерены для сертификата {performed}. Ничто не подтверждает, что на дату \
-             показаний стенд соответствовал сертификату."
+        ru: "Показания сняты {date}, а углы стенда для сертификата измерены {performed}. Ничто не подтверждает, что на \
+             дату показаний стенд соответствовал сертификату."
     }
     TEMPERATURE_IS_OUTSIDE {
         en: "The temperature is outside the certified range",
@@ -267,7 +267,7 @@ texts! {
     NO_RESULT { en: "{method}: no result, because {why}.", ru: "{method}: результат не получен, так как {why}." }
     EIGHT_MISSING {
         en: "some of the eight positions that the method requires have no readings",
-        ru: "нет показаний в части из восьми положений, необходимых для метода"
+        ru: "показания имеются не для всех восьми положений, необходимых для метода"
     }
     SINGULAR { en: "the currents do not determine K", ru: "токи не определяют K" }
     DIVERGES {
@@ -291,7 +291,7 @@ texts! {
         en: "Deviation from the nominal value; expanded uncertainty U (coverage factor k = {k}; coverage probability \
              95.45 %); ω_g and ω_k refer to the g of the type, g_0\u{a0}=\u{a0}{g} m/s²",
         ru: "Отклонение от номинального значения; расширенная неопределённость U (коэффициент охвата k = {k}; вероятность \
-             охвата 95,45 %); ω_g и ω_k отнесены к g типа, g_0\u{a0}=\u{a0}{g} м/с²"
+             охвата 95,45 %); ω_g и ω_k отнесены к g, заданному для типа, g_0\u{a0}=\u{a0}{g} м/с²"
     }
     STUDENT { en: "{k}, Student’s t", ru: "{k}, коэффициент Стьюдента" }
     CHANGE { en: "Change since the previous calibration", ru: "Изменение после предыдущей калибровки" }
@@ -302,7 +302,7 @@ texts! {
         ru: "Параметры предыдущих калибровок (по датам, если они указаны) и этой; расширенная неопределённость U\u{a0}=\u{a0}2u \
              (коэффициент охвата k = 2; отметки — как при сравнении с типом); ω_g и ω_k отнесены к {of}\u{a0}{g} м/с²"
     }
-    OF_TYPE { en: "the g of the type, g_0\u{a0}=", ru: "g типа, g_0\u{a0}=" }
+    OF_TYPE { en: "the g of the type, g_0\u{a0}=", ru: "g, заданному для типа, g_0\u{a0}=" }
     OF_PLACE { en: "local g,", ru: "местному g," }
     CALIBRATED { en: "Calibration", ru: "Калибровка" }
     CHANGE_CAPTION {
@@ -310,8 +310,8 @@ texts! {
              (coverage factor k = {k}; coverage probability 95.45 %); ω_g and ω_k refer to the g of the type, \
              g_0\u{a0}=\u{a0}{g} m/s²",
         ru: "Изменение после предыдущей калибровки (допуск относится и к нему); расширенная неопределённость U \
-             (коэффициент охвата k = {k}; вероятность охвата 95,45 %); ω_g и ω_k отнесены к g типа, g_0\u{a0}=\u{a0}{g} \
-             м/с²"
+             (коэффициент охвата k = {k}; вероятность охвата 95,45 %); ω_g и ω_k отнесены к g, заданному для типа, \
+             g_0\u{a0}=\u{a0}{g} м/с²"
     }
     PARAMETER { en: "Parameter", ru: "Параметр" }
     NOMINAL { en: "Nominal", ru: "Номин. значение" }
@@ -321,7 +321,7 @@ texts! {
         ru: "Предыдущая калибровка: {day}, паспорт {passport}, токи {sha256}. Погрешности, общие для обеих калибровок \
              (например, погрешности стенда), в изменение не входят: U — оценка сверху."
     }
-    NO_DAY_BUT_CURRENTS { en: "{number}, SHA-256 {sha256}…", ru: "{number}, SHA-256 {sha256}…" }
+    NO_DAY_BUT_CURRENTS { en: "{number}, SHA-256 {sha256}…", ru: "№\u{a0}{number}, SHA-256 токов {sha256}…" }
     NO_DAY { en: "date not stated", ru: "дата не указана" }
     SAME_GYRO_NOT_SHOWN {
         en: "Serial numbers do not show that it was the same gyro.",
@@ -545,9 +545,9 @@ texts! {
         ru: "Малые остатки не исключают погрешностей и ошибок. Не проявляются в остатках, но изменяют результат: паспорт \
              для другого места установки (широта), наклон основания вокруг направления на восток, поворот гироскопа на \
              посадочной поверхности вокруг оси собственного вращения, погрешности коэффициента преобразования и смещения \
-             нуля измерителя, перестановка x и y, обратный знак одной из величин. Поворот основания по азимуту почти не \
-             проявляется в остатках. Для их выявления проверяют номер стенда, место установки по паспорту, технические \
-             условия на гироскоп и результаты его предыдущей калибровки."
+             нуля измерителя, перестановка x и y, обратный знак одного из токов. Поворот основания по азимуту почти не \
+             проявляется в остатках. Для выявления таких погрешностей и ошибок проверяют заводской номер стенда, место \
+             установки по паспорту, технические условия на гироскоп и результаты его предыдущей калибровки."
     }
     NOT_STATED {
         en: "Not stated, or stated as 0, and not included in any uncertainty:",
@@ -576,11 +576,13 @@ texts! {
     }
     SHARES_CAPTION {
         en: "Standard uncertainty u of each parameter, and the shares of its variance u²; ω_g and ω_k refer to local g",
-        ru: "Стандартная неопределённость u каждого параметра и доли в её дисперсии u²; ω_g и ω_k отнесены к местному g"
+        ru: "Стандартная неопределённость u каждого параметра и доли источников в его дисперсии u²; ω_g и ω_k отнесены к \
+             местному g"
     }
     SHARES_CAPTION_AT_TYPE {
         en: "Standard uncertainty u of each parameter, and the shares of its variance u²; ω_g and ω_k refer to g_0",
-        ru: "Стандартная неопределённость u каждого параметра и доли в её дисперсии u²; ω_g и ω_k отнесены к g_0"
+        ru: "Стандартная неопределённость u каждого параметра и доли источников в его дисперсии u²; ω_g и ω_k отнесены к \
+             g_0"
     }
     SHARE_OF_GRAVITY { en: "local g", ru: "местное g" }
     SHARES { en: "Share of the variance, %", ru: "Доля дисперсии, %" }
@@ -640,9 +642,9 @@ texts! {
     CAUSE_DIFFERENCES { en: "differences between visits", ru: "разности между установками" }
     CAUSE_TURN_ON { en: "gyro, turn-ons about {axis}", ru: "гироскоп, среднее по запускам, ось {axis}" }
     CAUSE_NOISE { en: "meter, noise", ru: "измеритель, шум показаний" }
-    CAUSE_PLATFORM { en: "platform about {axis}", ru: "платформа, ось {axis}" }
+    CAUSE_PLATFORM { en: "platform about {axis}", ru: "платформа (общая составляющая), ось {axis}" }
     CAUSE_SEAT { en: "gyro seat about {axis}", ru: "посадочная поверхность, ось {axis}" }
-    CAUSE_BASE { en: "base of the stand about {axis}", ru: "основание стенда, поворот вокруг {axis}" }
+    CAUSE_BASE { en: "base of the stand about {axis}", ru: "основание (общая составляющая), вокруг {axis}" }
     ABOUT_EAST { en: "east", ru: "направления на восток" }
     ABOUT_NORTH { en: "north", ru: "направления на север" }
     ABOUT_UP { en: "up", ru: "вертикали" }

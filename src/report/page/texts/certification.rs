@@ -39,7 +39,10 @@ texts! {
         ru: "В средние вошли показания, отмеченные критерием как выбросы или квазивыбросы: {readings}; см. раздел «{section}»."
     }
     READING_OF { en: "position {index}, run {run}", ru: "положение {index}, серия {run}" }
-    OF_A_VISIT { en: "standard deviation of a visit, pooled", ru: "стандартное отклонение установки, объединённое" }
+    OF_A_VISIT {
+        en: "standard deviation of a visit, pooled",
+        ru: "стандартное отклонение одной установки в положение, объединённое"
+    }
     COMMON_PARTS { en: "Common parts, per axis: platform; base", ru: "Общие составляющие (по осям): платформа; основание" }
     FEW { en: "few: see section\u{a0}{number}", ru: "мало: см. раздел\u{a0}{number}" }
     STANDARD { en: "standard uncertainty (k = 1)", ru: "стандартная неопределённость (k = 1)" }
@@ -59,17 +62,20 @@ texts! {
     }
     FEW_DEGREES {
         en: "Below ν = 4 the uncertainty of s itself exceeds 35 % (JCGM 100, E.4.3): see its upper limit.",
-        ru: "При ν < 4 неопределённость самой s более 35 % (JCGM 100, E.4.3): см. её верхнюю границу."
+        ru: "При ν < 4 относительная неопределённость самого s более 35 % (JCGM 100, E.4.3): см. верхнюю границу s."
     }
     COMPONENT { en: "Component", ru: "Составляющая" }
-    OWN_X { en: "Visit, about x", ru: "Установка, вокруг x" }
-    OWN_Y { en: "Visit, about y", ru: "Установка, вокруг y" }
-    OWN_Z { en: "Visit, about z", ru: "Установка, вокруг z" }
-    POOLED { en: "Visit, pooled (repeatability)", ru: "Установка, по всем осям (повторяемость)" }
+    OWN_X { en: "Visit, about x", ru: "Установка в положение, вокруг x" }
+    OWN_Y { en: "Visit, about y", ru: "Установка в положение, вокруг y" }
+    OWN_Z { en: "Visit, about z", ru: "Установка в положение, вокруг z" }
+    POOLED { en: "Visit, pooled (repeatability)", ru: "Установка в положение, по всем осям (повторяемость)" }
     PLATFORM { en: "Run, platform, per axis", ru: "Серия, платформа, по осям" }
     BASE { en: "Run, base, per axis", ru: "Серия, основание, по осям" }
     UPPER { en: "Upper limit of s (95 %), ″", ru: "Верхняя граница s (95 %), ″" }
-    RUN_TURNS { en: "Rotation of each run relative to the mean, ″", ru: "Поворот каждой серии относительно среднего, ″" }
+    RUN_TURNS {
+        en: "Rotation of each run relative to the mean, ″",
+        ru: "Поворот платформы и основания в каждой серии относительно среднего, ″"
+    }
     OF_PLATFORM { en: "Platform", ru: "Платформа" }
     OF_BASE { en: "Base", ru: "Основание" }
 
@@ -126,6 +132,7 @@ texts! {
     UNEQUAL { en: "different", ru: "различаются" }
     NOT_MADE { en: "not made", ru: "не применялся" }
     OUTLIER { en: "outlier", ru: "выброс" }
+    SIGNIFICANT { en: "significant", ru: "значимо" }
     STRAGGLER { en: "straggler", ru: "квазивыброс" }
     TESTS_NOTE {
         en: "Value: the statistic given last in the first column; differences and rotations are from the other readings \

@@ -7,11 +7,11 @@ texts! {
     CHECK { en: "Check", ru: "Проверка" }
     RESULT { en: "Result", ru: "Результат" }
     FOUND { en: "Finding", ru: "Пояснение" }
-    PASSED { en: "passed", ru: "пройдена" }
-    FAILED { en: "FAILED", ru: "НЕ\u{a0}ПРОЙДЕНА" }
+    PASSED { en: "passed", ru: "пройдено" }
+    FAILED { en: "FAILED", ru: "НЕ\u{a0}ПРОЙДЕНО" }
 
-    NOT_ASKED { en: "not asked", ru: "не запрошена" }
-    SEVERAL_NOT_ASKED { en: "not asked", ru: "не запрошены" }
+    NOT_ASKED { en: "not asked", ru: "не запрошено" }
+    SEVERAL_NOT_ASKED { en: "not asked", ru: "не запрошено" }
     COUNTED {
         en: "Checks as of {time}: {passed} passed, {not_asked} not asked.",
         ru: "Проверки по состоянию на\u{a0}{time}: пройдено\u{a0}{passed}, не\u{a0}запрошено\u{a0}{not_asked}."
@@ -123,5 +123,5 @@ texts! {
         ru: "неизвестно: в указанной папке повреждён или отсутствует файл"
     }
     REGISTER_NOT_ASKED { en: "no folder of passports was given", ru: "папка с паспортами не задана" }
-    NOT_RUN { en: "not run", ru: "не проводилась" }
+    NOT_RUN { en: "not run", ru: "не проводилось" }
 }

@@ -84,11 +84,12 @@ texts! {
     TEMPERATURE_RANGE { en: "Temperature range of validity", ru: "Диапазон применимости по температуре" }
     FROM_TO { en: "{low} to {high}", ru: "от {low} до {high}" }
     THIS_ITEM_ONLY {
-        en: "The results relate only to the stand identified here. This passport shall not be reproduced except in \
-             full without the written approval of the laboratory. The calibration results include no statement of \
-             conformity, no opinion and no interpretation.",
+        en: "The results relate only to the stand identified here. This passport shall not be reproduced except in full \
+             without the written approval of the laboratory. The calibration results include no statement of conformity, \
+             no opinion and no interpretation.",
         ru: "Результаты относятся только к указанному здесь стенду. Частичное воспроизведение паспорта без письменного \
-             согласия лаборатории не допускается. Результаты калибровки не включают заключений о соответствии, мнений и толкований."
+             согласия лаборатории не допускается. Результаты калибровки не включают заключений о соответствии, мнений и \
+             интерпретаций."
     }
 
     CHARACTERISTICS { en: "Characteristics", ru: "Основные технические данные" }
@@ -207,7 +208,7 @@ texts! {
     }
     EQUATIONS_NOTE {
         en: "Equation numbers: Tang and Podchezertsev (2017), {source}.",
-        ru: "Номера формул: Синюань Т., Подчезерцев В. П. (2017), {source}."
+        ru: "Номера формул: Тан Синюань, Подчезерцев В. П. (2017), {source}."
     }
     DIGITS_NOTE {
         en: "The numbers in this section are rounded to nine decimals. For computation, use the annex, which gives all \

@@ -37,7 +37,7 @@ texts! {
         ru: "номинальные, где отличие заметно"
     }
     FRAME { en: "frame, rotated by θ about ξ", ru: "рамка, поворот на θ вокруг\u{a0}ξ" }
-    EXAGGERATED { en: "Deviations are drawn ×{factor}.", ru: "Отклонения изображены в масштабе ×{factor}." }
+    EXAGGERATED { en: "Deviations are drawn ×{factor}.", ru: "Увеличение отклонений: ×{factor}." }
     PLATFORM {
         en: "platform with the gyro, rotated by φ about z; the pins of its seat lie along x",
         ru: "платформа с гироскопом, поворот на φ вокруг\u{a0}z; штифты вдоль\u{a0}x"
@@ -142,7 +142,10 @@ texts! {
         en: "g-sensitive drifts, the larger change",
         ru: "составляющие дрейфа, зависящие от g, большее из изменений"
     }
-    CONVERGENCE_LIMIT { en: "the iteration stops when both are below", ru: "если оба изменения ниже, итерации прекращаются" }
+    CONVERGENCE_LIMIT {
+        en: "limit: the iteration stops when both are below it",
+        ru: "предел: итерации прекращаются, когда оба изменения ниже него"
+    }
     CONVERGENCE_IN_WORDS {
         en: "step {step}: {k} % and {g} °/(h·g)",
         ru: "шаг {step}: {k} % и {g} °/(ч·g)"
