@@ -48,9 +48,9 @@ record! {
         pub k_deg_per_h_per_ma: [[f64; 2]; 2],
         /// Constant drift ω_0: [x, y].
         pub omega0_deg_per_h: [f64; 2],
-        /// g-sensitive drift ω_g, per local g.
+        /// g-sensitive drift ω_g: of a gyro type per g of its `gravity_m_per_s2`, otherwise per local g.
         pub omega_g_deg_per_h_per_g: f64,
-        /// g-sensitive drift ω_k, per local g.
+        /// g-sensitive drift ω_k, as ω_g.
         pub omega_k_deg_per_h_per_g: f64,
     }
 }
@@ -87,9 +87,9 @@ record! {
         {"required": ["k_cross_percent"]}, {"required": ["k_cross_deg_per_h_per_ma"]}
     ])))]
     pub struct Tolerance {
-        /// Tolerance of K_x and K_y, in percent of their value.
+        /// Tolerance of K_x and K_y, in percent of their nominal values.
         pub k_main_percent: f64,
-        /// Tolerance of K_xy and K_yx, in percent of their value.
+        /// Tolerance of K_xy and K_yx, in percent of their nominal values.
         pub k_cross_percent: Option<f64>,
         /// Tolerance of K_xy and K_yx, instead of that in percent; for types whose nominal values are 0 or near 0.
         pub k_cross_deg_per_h_per_ma: Option<f64>,

@@ -18,7 +18,9 @@ pub(crate) struct AnalyticSolution {
 #[non_exhaustive]
 pub enum NoAnalyticSolution {
     /// Some of the paper's eight positions have no currents, and the method requires all of them.
-    #[error("some of the eight positions that the analytic method requires have no readings")]
+    #[error(
+        "some of the eight positions that the analytic method requires have no readings; least squares does not require them"
+    )]
     EightPositionsMissing,
     /// The matrix J_1 − J_2 Δ has no inverse.
     #[error("the currents do not determine K: J_1 - J_2 Delta has no inverse")]

@@ -140,8 +140,8 @@ pub(crate) fn another_type(earlier: &[CalibrationDocument], gyro_type: Option<&G
     let other = stated.find(|before| before != now)?;
     let [before, now] = [other, now].map(printable);
     Some(format!(
-        "the previous result is that of a gyro of type {before}, not {now}; check that it is that of this gyro, because the \
-         change would otherwise be the difference of two gyros"
+        "the previous result is that of a gyro of type {before}, not {now}; check that it belongs to this gyro; otherwise the change is \
+         the difference between two gyros"
     ))
 }
 

@@ -42,20 +42,20 @@ texts! {
              {mean}″."
     }
     MOVED {
-        en: "The stand seems to have moved between runs {run} and {after}: all positions are rotated by {x}″, {y}″, \
-             {z}″ about {axes} (Student’s test of a step, {p}). No run was excluded; the certified angles are a \
-             mean of both states.",
+        en: "The stand seems to have moved between runs {run} and {after}: all positions are rotated by {x}″, {y}″, {z}″ \
+             about {axes} (Student’s test of a step, {p}). No run was excluded; the certified angles are a mean of both \
+             states.",
         ru: "По-видимому, между сериями {run} и {after} стенд сместился: все положения повёрнуты на {x}″, {y}″, {z}″ \
-             вокруг {axes} (критерий Стьюдента для скачка, {p}). Серии не исключены; отклонения в сертификате — \
-             среднее по обоим состояниям."
+             вокруг {axes} (критерий Стьюдента для смещения, {p}). Серии не исключены; отклонения в сертификате — среднее \
+             по обоим состояниям."
     }
     DRIFTS {
-        en: "The stand seems to drift: from run to run all positions rotate by {x}″, {y}″, {z}″ about {axes} \
-             (Student’s test of a straight line, {p}). No run was excluded; the certified angles are those of the \
-             middle of the measurement.",
-        ru: "По-видимому, стенд дрейфует: от серии к серии все положения поворачиваются на {x}″, {y}″, {z}″ вокруг \
-             {axes} (критерий Стьюдента для прямой, {p}). Серии не исключены; отклонения в сертификате относятся к \
-             середине измерений."
+        en: "The stand seems to drift: from run to run all positions rotate by {x}″, {y}″, {z}″ about {axes} (Student’s \
+             test of a straight line, {p}). No run was excluded; the certified angles are those of the middle of the \
+             measurement.",
+        ru: "По-видимому, стенд дрейфует: от серии к серии все положения поворачиваются на {x}″, {y}″, {z}″ вокруг {axes} \
+             (критерий Стьюдента для дрейфа, {p}). Серии не исключены; отклонения в сертификате относятся к середине \
+             измерений."
     }
     SPLIT_RUN {
         en: "The stand seems to have moved during run {run}: from position {after} on, its positions are rotated by {x}″, \
@@ -169,10 +169,10 @@ texts! {
     }
 
     SETTING_CHANGED {
-        en: "The positions with {symbol} = {angle}° have rotated by {turn}″ about the axis of {symbol} relative to the others; \
-             no other change was found.",
-        ru: "Положения с {symbol} = {angle}° повернулись на {turn}″ вокруг оси угла {symbol} относительно остальных; других \
-             изменений не обнаружено."
+        en: "The positions with {symbol} = {angle}° have rotated by {turn}″ about the axis of {symbol} relative to the \
+             others; no other change was found.",
+        ru: "Положения с {symbol} = {angle}° повернулись на {turn}″ вокруг оси, вокруг которой отсчитывают {symbol}, \
+             относительно остальных; других изменений не обнаружено."
     }
     WORN {
         en: "No more than half of the positions agree with each other, but the angles resemble the certificate (correlation {r}): \
@@ -306,6 +306,6 @@ texts! {
     }
     SAME_READINGS {
         en: "The certificate was computed from these readings; they do not show the present state of the stand.",
-        ru: "Сертификат вычислен по этим же показаниям; о нынешнем состоянии стенда они не свидетельствуют."
+        ru: "Данные сертификата вычислены по этим же показаниям; о нынешнем состоянии стенда они не свидетельствуют."
     }
 }

@@ -33,7 +33,7 @@ pub(super) struct BatchOptions {
     /// Issue even if the positions of the stand do not determine the parameters of a gyro
     #[arg(long)]
     pub allow_uncalibratable: bool,
-    /// Compute and check everything, and list what would be issued, but write nothing; no key is required; if one is
+    /// Compute and check everything, and list what would be issued, but write nothing. No key is required; if one is
     /// given, it is checked as far as possible without its passphrase
     #[arg(short = 'n', long)]
     dry_run: bool,
@@ -84,11 +84,16 @@ impl BatchOptions {
         source: &str,
     ) {
         if let Err(miss) = signers.authorise(public, &self.identity, NAMESPACE, issued_at) {
-            output::say(&format!(
-                "--identity {}: {miss} (according to {source}); laboratories with that list will refuse the new passports; use the \
-                 identity of this key, or another key",
-                self.identity
-            ));
+            let (who, refuse) = (&self.identity, "laboratories with that list will refuse the new passports");
+            output::say(&match miss {
+                NotAuthorised::UnknownKey => format!(
+                    "--identity {who}: the list of trusted keys ({source}) does not contain the signing key; {refuse}; use a \
+                     listed key, or add the line of this key"
+                ),
+                miss => format!(
+                    "--identity {who}: {miss} (according to {source}); {refuse}; use the identity of this key, or another key"
+                ),
+            });
         }
     }
 

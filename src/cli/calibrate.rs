@@ -21,7 +21,7 @@ use crate::files;
 use crate::gyro::GyroType;
 use crate::interface::calibrated::{Done, Prepared};
 use crate::laboratory::{Laboratory, TEMPERATURES_C};
-use crate::passport::{Check, CheckName, Verification};
+use crate::passport::{Check, Verification};
 use crate::report::calibration as report;
 use crate::report::{CalibrationPage, Language, PassportPage, UsedPassport};
 use crate::text::{Kind, Printable, name_of, printable, shown};
@@ -33,7 +33,7 @@ use serde_json::Value;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-/// Calibrate a gyro: parameters, their uncertainty, the fit, and the decision against the gyro type
+/// Calibrate a gyro: parameters, their uncertainty, the fit, and the decision on conformity with the gyro type
 ///
 /// For several gyros on one stand, give several files, a quoted pattern, or a folder, whose *.csv files are read; with -
 /// the paths are read from standard input. Each gyro gives one line of output, and with --format json one line of JSON.
@@ -78,7 +78,7 @@ pub(super) struct Options {
     /// Stop limit of the iteration for ω_g and ω_k, °/(h·g)
     #[arg(long, value_name = "D", default_value_t = 0.001, value_parser = limit, allow_hyphen_values = true)]
     delta2_deg_per_h: f64,
-    /// Visit to leave out, as i,j,visit or i,j,visit,cycle; visits count within a cycle and position. May be repeated
+    /// Visit to leave out, as i,j,visit or i,j,visit,cycle; visits count within a turn-on and position. May be repeated
     #[arg(long, value_name = "I,J,VISIT[,CYCLE]", value_parser = excluded, requires = "why")]
     exclude: Vec<(PositionIndex, u32, Option<u32>)>,
     /// Reason for leaving a visit out; one for each --exclude, in the same order, or one for all
@@ -218,10 +218,9 @@ impl Bench<'_> {
         self.enquiry.as_ref().map(|enquiry| enquiry.question.time)
     }
 
-    /// Returns `true` if a list shows whether the passport was withdrawn.
-    fn withdrawal_checked(&self) -> bool {
-        let checks = self.passport.verification.iter().flat_map(Verification::checks);
-        checks.filter(|check| check.name == CheckName::Revocation).all(Check::was_asked)
+    /// Returns the checks of the passport; none if it was not verified.
+    fn checks(&self) -> &[Check] {
+        self.passport.verification.as_ref().map_or(&[], Verification::checks)
     }
 
     /// Returns what is calibrated and under which conditions, without the digest of the currents.
@@ -289,13 +288,7 @@ impl Bench<'_> {
                 output::json(&found.whole())?;
             }
             Format::Text => {
-                let text = report::text(
-                    done,
-                    trials,
-                    self.gyro_name(),
-                    options.laboratory.is_none(),
-                    self.withdrawal_checked(),
-                );
+                let text = report::text(done, trials, self.gyro_name(), options.laboratory.is_none(), self.checks());
                 output::text(&(text + &found.uncertainty.text(&done.document)))?;
             }
         }

@@ -87,14 +87,14 @@ impl Failure {
         Failed::new(interface::UNREADABLE, message, problems).into()
     }
 
-    /// Creates the failure for the passport `name`, which did not pass every check; `words` precede its verdict.
+    /// Creates the failure for the passport `name`, which did not pass every check; `words` follow its verdict.
     pub(super) fn verdict(words: &str, name: &str, verification: &Verification) -> Self {
         let verdict = verdict::Verdict::of(name, verification);
         let failed: Vec<_> = verdict.checks.iter().filter(|check| check.passed() == Some(false)).collect();
         let kind = failed.first().map_or(interface::REFUSED, |check| check.code.as_str());
         let place = |check: &&Check| Place::file(name.to_owned(), format!("{}: {}", check.name.as_str(), check.detail));
         let problems = failed.iter().map(place).collect();
-        let words = format!("{words}{}", style::plain(&verdict::text(&verdict)));
+        let words = style::plain(&verdict::text(&verdict)) + words;
         Self { failed: Failed::new(kind, words.trim_end().to_owned(), problems), code: REFUSED }
     }
 }

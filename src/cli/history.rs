@@ -24,7 +24,7 @@ pub(super) struct Options {
     passports: PathBuf,
     #[command(flatten)]
     trust: TrustOptions,
-    /// Write a picture of the time line and of the drift
+    /// Write a picture of the timeline and of the drift
     #[arg(short, long, value_name = "FILE.svg", value_parser = output::path_of("svg"))]
     output: Option<PathBuf>,
     /// Replace an existing picture

@@ -79,7 +79,7 @@ pub(super) struct Options {
     /// Replace an existing record
     #[arg(long)]
     force: bool,
-    /// Compute and check everything, and show it, but write only the record, if --report is given; no key is
+    /// Compute and check everything, and show it, but write only the record, if --report is given. No key is
     /// required; if one is given, it is checked as far as possible without its passphrase
     #[arg(short = 'n', long)]
     dry_run: bool,

@@ -58,7 +58,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         let bytes = inputs::bytes(passport, Kind::Passport.words())?;
         let name = name_of(passport);
         let page = PassportPage::verified(&name, &bytes, &trust, &question, register.as_ref())
-            .map_err(|refused| Failure::verdict("no page was written\n", &name, &refused))?;
+            .map_err(|refused| Failure::verdict("no page was written", &name, &refused))?;
         let verdict = verdict::Verdict::of(&name, &page.verification);
         let in_folder = || {
             let path = Folder::new(options.out.as_deref()?).path_of_id(verdict.id.as_deref()?)?;

@@ -94,8 +94,9 @@ fn file_of(id: &str, passports: &Path) -> Result<PathBuf, Failure> {
     let (id, passports) = (Printable(id), shown(passports));
     Err(Failure::unusable(match path {
         Some(_) => {
-            let advice = if nearest.is_empty() { "; `register` lists those there" } else { &nearest };
-            format!("{id}: found no such passport in {passports}{advice}")
+            let advice =
+                if nearest.is_empty() { "; give the folder of the passport with --passports" } else { &nearest };
+            format!("{id}: found no such passport in the folder {passports}{advice}")
         }
         None => format!(
             "{id}: found neither a file nor an identifier, expected MODEL/SERIAL/SITE/REVISION, such as \

@@ -12,10 +12,12 @@ use crate::calibration::readings::Exclusion;
 use crate::calibration::verdict::{BEYOND, change_in_uncertainties};
 use crate::calibration::{Calibration, Hint, MethodResult, Mistake, Model, NotStated, Parameter, Readings, Verdict};
 use crate::interface::calibrated::Done;
+use crate::passport::Check;
 use crate::report::page::calibration::why_no_change;
 use crate::report::page::language::{Language, capital, values};
 use crate::report::page::texts::calibration as texts;
 use crate::report::picture::tolerances::unit_at_type;
+use crate::report::verdict::counts_with_names;
 use crate::report::{columns, mistake, recorded, style};
 use crate::text::printable;
 use crate::uncertainty::MonteCarlo;
@@ -32,13 +34,13 @@ const LEAST_EFFECT_PERCENT: f64 = 1.0;
 
 /// Returns the whole result: decision, parameters, fit; then methods, residuals, comparisons, and errors that the
 /// residuals do not show. `gyro_type` is the name of the type that the verdict is for; without a laboratory the meter of
-/// the paper was assumed. `withdrawal_checked` says whether a list of withdrawn passports was given.
+/// the paper was assumed. `checks` are those of the passport.
 pub(crate) fn text(
     done: &Done,
     trials: Option<&MonteCarlo>,
     gyro_type: Option<&str>,
     meter_assumed: bool,
-    withdrawal_checked: bool,
+    checks: &[Check],
 ) -> String {
     let Done { calibration, document, readings, .. } = done;
     let verdict = gyro_type.zip(document.verdict.as_ref());
@@ -56,9 +58,10 @@ pub(crate) fn text(
         columns::paragraph(&mut out, "", &gyro);
     }
     let verified_as_of = subject.and_then(|subject| subject.passport_verified_as_of);
-    let unchecked = if withdrawal_checked { "" } else { "; withdrawal not checked" };
-    let state =
-        verified_as_of.map_or_else(|| "NOT VERIFIED".to_owned(), |time| format!("verified as of {time}{unchecked}"));
+    let state = verified_as_of.map_or_else(
+        || "NOT VERIFIED".to_owned(),
+        |time| format!("verified as of {time}: {}", counts_with_names(checks)),
+    );
     columns::paragraph(&mut out, "", &format!("Passport {}, {state}", document.passport_id));
     let gravity = match (document.gravity_m_per_s2, document.gravity_u_m_per_s2) {
         (gravity, Some(u)) => format!("{gravity:.0$} m/s² (u = {u:.0$} m/s²)", columns::decimals(u)),
@@ -203,7 +206,7 @@ pub(crate) fn outcome(done: &Done, gyro_type: Option<&str>) -> String {
 fn left_out(out: &mut String, readings: &Readings, cost: Option<(Parameter, f64)>) {
     for Exclusion { i, j, visit, cycle, why } in &readings.exclusions {
         let cycle = cycle.map_or_else(String::new, |cycle| format!(" in turn-on {cycle}"));
-        let words = format!("Left out: visit {visit} to position ({i}, {j}){cycle}: {}.", printable(why));
+        let words = format!("Excluded: visit {visit} to position ({i}, {j}){cycle}: {}.", printable(why));
         columns::paragraph(out, "", &words);
     }
     if let Some(words) = without_reading(readings) {

@@ -54,6 +54,10 @@ pub(crate) fn text(a: &Side, b: &Side, found: &Differences) -> String {
         0 if found.others.is_empty() => format!("The contents are equal: {all} numbers and all texts.\n\n"),
         _ => format!("{differ} of {all} numbers differ{}.\n\n", largest(&found.numbers)),
     };
+    let [one, other] = [a, b].map(|side| side.content.stand.id());
+    if one != other {
+        out.insert_str(0, &format!("The passports are for different stands, {one} and {other}.\n"));
+    }
     for (name, side) in [("A", a), ("B", b)] {
         let (header, certificate) = (&side.content.passport, &side.content.certificate);
         let _ = writeln!(out, "{name}  {}  {}", style::heading(&header.id), Printable(&side.file));

@@ -152,7 +152,7 @@ fn common_errors(out: &mut String, plan: &Plan) {
     );
     let mut names = vec!["error", "size", "change, %", "residual, °/h"];
     if plan.paper.is_some() {
-        names.extend(["paper: change, %", "residual, °/h"]);
+        names.extend(["paper: change, %", "paper: residual, °/h"]);
     }
     let cells = |effect: &Effect| {
         // Rounding leaves about 1e-15.

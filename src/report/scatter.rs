@@ -99,7 +99,7 @@ fn suspicion(suspect: &Suspect) -> String {
         if suspect.one_of_two { format!(" {}", texts::EITHER_OF_TWO.of(Language::English)) } else { String::new() };
     let [jx, jy] = suspect.difference_ma.map(|difference| with_sign(1000.0 * difference));
     format!(
-        "{what} by ({jx}, {jy}) µA (probability of as much by chance: {}).{either} Look for the cause; if there is one, \
+        "{what} by ({jx}, {jy}) µA (probability of so large a difference by chance: {}).{either} Look for the cause; if there is one, \
          leave the visit out with --exclude {i},{j},{visit},{cycle} and --why.",
         columns::probability(suspect.probability)
     )
@@ -129,7 +129,7 @@ fn agreement(what: &str, found: &Scatter, less: &str) -> String {
         Agreement::Less => format!("less than stated; {less}"),
     };
     format!(
-        "{what} vary with chi-square {} for {} degrees of freedom (probability of a larger value: {}): {verdict}.",
+        "{what} scatter with a chi-square of {} ({} degrees of freedom; probability of a larger value: {}): {verdict}.",
         columns::chi_square(found.chi_square),
         found.degrees_of_freedom,
         columns::probability(found.probability)

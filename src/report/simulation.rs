@@ -32,7 +32,11 @@ pub(crate) fn accuracy(found: &Accuracy, options: &AccuracyOptions) -> String {
         CurrentError::Channel => "common to each axis",
         CurrentError::Common => "common to all readings",
     };
-    let gyro = if options.within_tolerance { "drawn within its tolerance" } else { "nominal" };
+    let gyro = if options.within_tolerance {
+        "drawn within its tolerance (errors are relative to the nominal values)"
+    } else {
+        "nominal"
+    };
     let words = format!(
         "{trials} trials, seed {seed}, {stands}, currents within ±{} % ({errors}), gyro {gyro}, latitude {latitude:.4}°",
         options.current_percent

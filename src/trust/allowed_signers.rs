@@ -23,7 +23,7 @@ pub struct AllowedSigners {
 #[non_exhaustive]
 pub enum NotAuthorised {
     /// No line contains the key.
-    #[error("the signing key is not in the list of trusted keys (allowed_signers)")]
+    #[error("the signing key is not in allowed_signers, the list of trusted keys")]
     UnknownKey,
     /// The key belongs to other signers, with these patterns of principals.
     #[error("the signing key belongs to {}, not to this issuer", Printable(.0.join(" or ")))]

@@ -283,7 +283,10 @@ impl Status {
             let trusted = match (key.trusted, &key.why) {
                 (Some(true), _) => style::marked(Outcome::Passed, "trusted"),
                 (_, Some(why)) => format!("{}: {why}", style::marked(Outcome::Failed, "NOT USABLE")),
-                _ => style::marked(Outcome::NotAsked, "not checked: identity or trust is not stated"),
+                _ => style::marked(
+                    Outcome::NotAsked,
+                    "not checked: state `identity` and `trust` in the file of the workspace",
+                ),
             };
             let identity = key.identity.as_deref().unwrap_or("(no identity)");
             let _ = writeln!(out, "Signs with {}  {}  {trusted}", Printable(&key.file), Printable(identity));

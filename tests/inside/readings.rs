@@ -6,7 +6,7 @@ use dtg_passport::calibration::{Readings, Setup};
 use dtg_passport::coefficients::PositionIndex;
 
 /// (file, what the message must say).
-const BAD: [(&str, &[&str]); 47] = [
+const BAD: [(&str, &[&str]); 48] = [
     ("", &["empty file"]),
     ("# nothing\n\n", &["only spaces and comments"]),
     ("i;j;jx_ma;jy_ma\n1;1;0,1;0.2\n", &["c.csv:2:9", "decimal commas from line 2 on", "the whole file"]),
@@ -25,6 +25,7 @@ const BAD: [(&str, &[&str]); 47] = [
     ("i,j,Jx (mA),Jy (mA)\n", &["no columns jx_ma, jy_ma", "\"Jx (mA)\", \"Jy (mA)\" is meant"]),
     ("Gyro 12,,,\ni,j,jx_ma,jy_ma\n", &["c.csv:1:1", "no columns i, j, jx_ma, jy_ma", "put # before the lines"]),
     ("i,j,jx_ma,jy_ma,time_s\n1,1,0.1,0.2,45000.1\n1,2,0.1,0.2,45000.2\n", &["2 visits within 0.10 s", "in days"]),
+    ("j,jx_ua,jy_ma\n", &["c.csv:1:3", "name it jx_ma", "found no column i, expected the header"]),
     ("i,j,jx_ua,jy_ma\n", &["c.csv:1:5", "\"jx_ua\"", "convert the numbers from µA to mA, then name it jx_ma"]),
     ("i,j,jx_ma,jy_ma,Cycles\n", &["c.csv:1:17", "\"Cycles\"", "did you mean cycle?"]),
     ("i,j,jx_ma,jy_ma,time_min\n", &["c.csv:1:17", "convert the numbers from min to s, then name it time_s"]),
@@ -269,7 +270,7 @@ fn visits_and_cycles_that_cannot_be() {
     let error = timed("1,1,0.1,0.2,1,2,60\n1,2,0.1,0.2,1,2,70\n1,1,0.1,0.2,1,2,80\n").unwrap_err();
     assert!(error.contains("c.csv:12:15") && error.contains("visit 2 of position (1, 1) again"), "{error}");
     let error = timed("1,1,0.1,0.2,2,1,60\n").unwrap_err();
-    assert!(error.contains("one position alone in cycle 2"), "{error}");
+    assert!(error.contains("one position alone in turn-on 2"), "{error}");
 
     let error = timed("1,1,0.1,0.2,2,1,-60\n1,2,0.1,0.2,2,1,-50\n").unwrap_err();
     assert!(error.contains("c.csv:10:17") && error.contains("after the last one of cycle 1, 0 s"), "{error}");

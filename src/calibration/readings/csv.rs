@@ -230,9 +230,13 @@ fn lone_cycles(readings: &[Reading]) -> Vec<Problem> {
         return Vec::new();
     }
     let lone = positions.iter().filter(|(_, at)| at.len() == 1).map(|(cycle, _)| *cycle);
-    let advice = "leave this cycle out, or check the column cycle: it counts the turn-ons of the gyro";
+    let advice = "leave this turn-on out, or check the column cycle, which counts the turn-ons";
     lone.map(|cycle| {
-        Problem::whole(format!("one position alone in cycle {cycle}"), "at least two positions in every cycle", advice)
+        Problem::whole(
+            format!("one position alone in turn-on {cycle}"),
+            "at least two positions in every turn-on",
+            advice,
+        )
     })
     .collect()
 }

@@ -65,7 +65,7 @@ fn done(setup: &Setup, readings: Readings, calibration: Calibration) -> Done {
 
 fn text_of(setup: &Setup, rows: &[Reading], calibration: Calibration) -> String {
     let readings = Readings::of_rows(setup.coefficients(), rows).unwrap();
-    report::text(&done(setup, readings, calibration), None, None, false, true)
+    report::text(&done(setup, readings, calibration), None, None, false, &[])
 }
 
 fn u(calibration: &Calibration, parameter: Parameter) -> f64 {
@@ -278,7 +278,7 @@ fn too_few_readings_to_judge() {
     let bytes = serde_json::to_vec(&document).unwrap();
     assert_eq!(CalibrationDocument::from_json("earlier.json", &bytes).unwrap(), document);
     let done = done(&setup, readings(&setup, &exact), found);
-    let text = report::text(&done, None, None, false, true);
+    let text = report::text(&done, None, None, false, &[]);
     assert!(text.contains("The fit cannot be tested") && !text.contains("chi-square"), "{text}");
     assert!(!text.contains("x, °/h"), "{text}");
 }

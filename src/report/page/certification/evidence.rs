@@ -199,7 +199,7 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
         match at.pattern {
             Pattern::One(_) => named(name, at.turn_arcsec(), at.probability),
             // A shift or a drift is not an outlier.
-            _ => graded_as([texts::SIGNIFICANT, texts::DOUBTFUL], name, at.turn_arcsec(), at.probability),
+            _ => graded_as([texts::SIGNIFICANT, texts::PROBABLE], name, at.turn_arcsec(), at.probability),
         }
     }));
     found.extend(without_findings(page, languages));

@@ -9,7 +9,7 @@ texts! {
     }
     REPEATABILITY {
         en: "The certificate gives no repeatability; the uncertainty that positioning adds is unknown.",
-        ru: "Повторяемость положений в сертификате не указана; вклад установки в положение неизвестен."
+        ru: "Повторяемость положений в сертификате не указана; вклад повторяемости в неопределённость неизвестен."
     }
     COMMON_PART {
         en: "The certificate does not give the uncertainty common to all positions for both platform and base.",
@@ -39,10 +39,10 @@ texts! {
         ru: "В сертификате не все восемь положений: матриц нет, применим только метод наименьших квадратов."
     }
     DEFLECTION {
-        en: "The deflection of the vertical is unknown; it is taken as 0 with u = {u}″, which contributes \
-             u = {cost} °/h at most to a component of the Earth rate.",
-        ru: "Уклонение отвесной линии неизвестно: принято равным 0 с u = {u}″, что даёт u до {cost} °/ч для \
-             составляющей угловой скорости Земли."
+        en: "The deflection of the vertical is unknown; it is taken as 0 with u = {u}″, which contributes u = {cost} °/h \
+             at most to a component of the Earth rate.",
+        ru: "Уклонение отвесной линии неизвестно: принято равным 0 с u = {u}″, что даёт u не более {cost} °/ч для каждой \
+             из составляющих угловой скорости Земли."
     }
     LONGITUDE {
         en: "The longitude is unknown; only the latitude of a place can be checked.",
@@ -53,10 +53,10 @@ texts! {
         ru: "Геодезическая широта неизвестна: при проверке места допускается отличие {margin}″."
     }
     HEIGHT {
-        en: "The height is unknown; normal gravity is that at 0 m, which is {slope} m/s² too large for each \
-             metre of height.",
-        ru: "Высота неизвестна: нормальное ускорение силы тяжести вычислено для высоты 0 м и завышено на \
-             {slope} м/с² на каждый метр."
+        en: "The height is unknown; normal gravity is that at 0 m, which is {slope} m/s² too large for each metre of \
+             height.",
+        ru: "Высота неизвестна: нормальное ускорение силы тяжести вычислено для высоты 0 м и завышено на {slope} м/с² на \
+             каждый метр высоты."
     }
     BASE_UNCERTAINTY {
         en: "The uncertainties of the latitude, azimuth and level of the base are not stated for this site.",

@@ -65,11 +65,11 @@ texts! {
     }
     MISTAKE { en: "These are not the parameters of this gyro", ru: "Параметры не относятся к данному гироскопу" }
     MISTAKE_CURRENTS {
-        en: "The readings fit, but the parameters do not match this gyro. One error explains this: {causes}. Check the \
-             torquer cables, the signs and unit of the currents, and the gyro seat; then calibrate again.",
-        ru: "Показания согласуются с моделью, но параметры не соответствуют данному гироскопу. Это объясняется одной \
-             ошибкой: {causes}. Следует проверить кабели датчиков момента, знаки и единицу токов, установку гироскопа и \
-             повторить калибровку."
+        en: "The readings fit, but the parameters do not match this gyro. This explains it: {causes}. Check the torquer \
+             cables, the signs and unit of the currents, and the gyro seat; then calibrate again.",
+        ru: "Показания согласуются с моделью, но параметры не соответствуют данному гироскопу. Это объясняется так: \
+             {causes}. Следует проверить кабели датчиков момента, знаки и единицу токов, установку гироскопа и повторить \
+             калибровку."
     }
     MISTAKE_PLACE {
         en: "The readings fit, but the parameters do not match this gyro. One error explains this: the passport is for \
@@ -182,7 +182,10 @@ texts! {
     CURRENTS { en: "File of currents", ru: "Файл токов" }
     OPERATOR { en: "Readings taken by", ru: "Показания снял" }
     MEASURED_TEMPERATURE { en: "Temperature during the readings", ru: "Температура при снятии показаний" }
-    EXCLUDED { en: "Visits left out (i, j, visit, cycle)", ru: "Исключённые установки (i, j, установка, запуск)" }
+    EXCLUDED {
+        en: "Visits left out (i, j, visit, cycle)",
+        ru: "Исключённые установки в положение (i, j, установка, запуск)"
+    }
     LEFT_OUT { en: "Positions without a reading", ru: "Положения без показаний" }
     CURRENTS_SHA256 { en: "SHA-256 of the file of currents", ru: "SHA-256 файла токов" }
     PASSPORT { en: "Passport of the stand", ru: "Паспорт стенда" }
@@ -277,7 +280,8 @@ texts! {
     NOT_THIS_MODEL {
         en: "the method has only the paper’s model with a constant drift, and needs turn-ons that all visited the same \
              positions",
-        ru: "метод применим только к модели с ω_g и ω_k и постоянным дрейфом, если во всех запусках положения одинаковы"
+        ru: "метод применим только при модели с ω_g и ω_k, постоянном дрейфе и одинаковом наборе положений во всех \
+             запусках"
     }
     CONVERGENCE_CAPTION {
         en: "Convergence: change in each step, relative to the limit at which the iteration stops. The first approximation \
@@ -349,8 +353,8 @@ texts! {
     DEVIATION { en: "Deviation", ru: "Отклонение" }
     CHANGED_BY { en: "Change", ru: "Изменение" }
     TOLERANCE { en: "Tolerance", ru: "Допуск" }
-    IN_UNIT_OF_PARAMETER { en: "In the unit of the parameter", ru: "В единице параметра" }
-    IN_UNIT_OF_TOLERANCE { en: "In the unit of the tolerance", ru: "В единице допуска" }
+    IN_UNIT_OF_PARAMETER { en: "In the unit of the parameter", ru: "В единицах параметра" }
+    IN_UNIT_OF_TOLERANCE { en: "In the unit of the tolerance", ru: "В единицах допуска" }
     RISK { en: "Risk\u{a0}of\u{a0}simple acceptance", ru: "Риск\u{a0}простой приёмки" }
     GUARDED { en: "Guarded acceptance", ru: "С защитной полосой" }
     PASSED_BY_SIMPLE {
@@ -414,7 +418,7 @@ texts! {
         en: "Scatter of the turn-ons, chi-square",
         ru: "Рассеяние между запусками, хи-квадрат"
     }
-    VISIT_NOISE { en: "Gyro noise from visit to visit", ru: "Шум гироскопа от установки к установке" }
+    VISIT_NOISE { en: "Gyro noise from visit to visit", ru: "Шум гироскопа между установками в положение" }
     TURN_ON_NOISE { en: "Gyro noise from turn-on to turn-on", ru: "Шум гироскопа от запуска к запуску" }
     NOISE_STATED { en: "as the gyro type states", ru: "по данным типа гироскопа" }
     NOISE_ESTIMATED {
@@ -472,7 +476,7 @@ texts! {
     NOISE_ADDED {
         en: "The scatter of the visits is larger than the stated uncertainties explain. The noise of the gyro was \
              estimated from it and is included in all uncertainties.",
-        ru: "Рассеяние между установками больше, чем объясняют указанные неопределённости. По нему оценён шум \
+        ru: "Рассеяние между установками в положение больше, чем объясняют указанные неопределённости. По нему оценён шум \
              гироскопа, который учтён во всех неопределённостях."
     }
     LAST_DIGIT {
@@ -485,14 +489,14 @@ texts! {
     IDENTICAL_ROWS {
         en: "All readings of a visit are identical, so they show no scatter: they are copies, or the last digit is too \
              coarse. They count as one reading.",
-        ru: "Все показания одной установки одинаковы и не обнаруживают рассеяния: это копии, или шаг последнего разряда \
+        ru: "Все показания одной установки в положение одинаковы, рассеяние отсутствует: это копии, или шаг отсчёта \
              слишком велик. Они учтены как одно показание."
     }
     IDENTICAL_VISITS {
         en: "All visits to a position are identical, so they show no scatter: they are copies, or the last digit is too \
              coarse. They count as one visit.",
-        ru: "Все установки в одно положение дали одинаковые показания и не обнаруживают рассеяния: это копии, или шаг \
-             последнего разряда слишком велик. Они учтены как одна установка."
+        ru: "Все установки в одно положение дали одинаковые показания, рассеяние отсутствует: это копии, или шаг отсчёта \
+             слишком велик. Они учтены как одна установка."
     }
     LESS_THAN_STATED {
         en: "The variation is less than stated. Readings taken without leaving the position belong to one visit.",
@@ -561,7 +565,7 @@ texts! {
     NOT_STATED_BASE { en: "common part of the base of the stand", ru: "общая составляющая основания стенда" }
     NOT_STATED_GAIN { en: "gain of the meter", ru: "коэффициент преобразования измерителя" }
     NOT_STATED_OFFSET { en: "offset of the meter", ru: "смещение нуля измерителя" }
-    NOT_STATED_VISITS { en: "gyro noise from visit to visit", ru: "шум гироскопа от установки к установке" }
+    NOT_STATED_VISITS { en: "gyro noise from visit to visit", ru: "шум между установками в положение" }
     NOT_STATED_TURN_ONS { en: "gyro noise from turn-on to turn-on", ru: "шум гироскопа от запуска к запуску" }
     NOT_STATED_GRAVITY { en: "gravity", ru: "местное ускорение g" }
     NOT_STATED_LEVEL { en: "level of the base", ru: "наклон основания" }
@@ -571,7 +575,7 @@ texts! {
     BUDGET_CAPTION {
         en: "Contributions of the inputs, by kind, to the standard uncertainty of each parameter; ω_g and ω_k refer to \
              local g",
-        ru: "Вклады входных величин по видам в стандартную неопределённость каждого параметра; ω_g и ω_k отнесены к \
+        ru: "Вклады входных величин (по видам) в стандартную неопределённость каждого параметра; ω_g и ω_k отнесены к \
              местному g"
     }
     SHARES_CAPTION {
@@ -593,7 +597,7 @@ texts! {
     }
     BUDGET_MEANS {
         en: "The u of repeatability, noise and visits is that of the mean of all visits to a position.",
-        ru: "Для повторяемости, шума и установок u относится к среднему по всем установкам в положение."
+        ru: "Для повторяемости, шума и установок в положение u относится к среднему по всем установкам в положение."
     }
     BUDGET_NOT_SHOWN {
         en: "Not shown, below a thousandth of every variance: {names}.",
@@ -638,8 +642,8 @@ texts! {
     CAUSE_RETURN { en: "repeatability of positioning", ru: "повторяемость положений" }
     CAUSE_READING { en: "meter, specification", ru: "измеритель, погрешность показания" }
     CAUSE_FLOOR { en: "meter, floor", ru: "измеритель, постоянная часть" }
-    CAUSE_VISITS { en: "gyro, visits", ru: "гироскоп, среднее по установкам" }
-    CAUSE_DIFFERENCES { en: "differences between visits", ru: "разности между установками" }
+    CAUSE_VISITS { en: "gyro, visits", ru: "гироскоп, установки в положение" }
+    CAUSE_DIFFERENCES { en: "differences between visits", ru: "разности между установками в положение" }
     CAUSE_TURN_ON { en: "gyro, turn-ons about {axis}", ru: "гироскоп, среднее по запускам, ось {axis}" }
     CAUSE_NOISE { en: "meter, noise", ru: "измеритель, шум показаний" }
     CAUSE_PLATFORM { en: "platform about {axis}", ru: "платформа (общая составляющая), ось {axis}" }

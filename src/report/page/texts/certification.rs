@@ -53,12 +53,12 @@ texts! {
     COMPONENTS_NOTE {
         en: "A reading differs from the mean of its position by a rotation of the platform and one of the base, both \
              common to the whole run, and by the scatter of the single visit. s: standard deviation; ν: its degrees of \
-             freedom; s/√R: its part in the mean of R runs. The repeatability is the quadratic mean of s over x, y and z, weighted by ν. The \
-             upper limit is one-sided, by chi-square, with the scatter of the visits subtracted.",
+             freedom; s/√R: its part in the mean of R runs. The repeatability is the quadratic mean of s over x, y and z, \
+             weighted by ν. The upper limit is one-sided, by chi-square, with the scatter of the visits subtracted.",
         ru: "Показание отличается от среднего по положению на поворот платформы и поворот основания, общие для всей \
-             серии, и на рассеяние одной установки. s — стандартное отклонение, ν — число его степеней свободы, \
-             s/√R — его часть в среднем по R\u{a0}сериям. Повторяемость — среднее квадратическое s по x, y и z с весами ν. Верхняя \
-             граница — односторонняя, по хи-квадрат, за вычетом рассеяния установок."
+             серии, и на случайное отклонение одной установки в положение. s — стандартное отклонение, ν — число его \
+             степеней свободы, s/√R — его часть в среднем по R\u{a0}сериям. Повторяемость — среднее квадратическое s по \
+             x, y и z с весами ν. Верхняя граница — односторонняя, по хи-квадрат, за вычетом рассеяния установок."
     }
     FEW_DEGREES {
         en: "Below ν = 4 the uncertainty of s itself exceeds 35 % (JCGM 100, E.4.3): see its upper limit.",
@@ -120,11 +120,11 @@ texts! {
     }
     ROTATED_RUNS {
         en: "Grubbs: most suspect run of {count} ({axes} axes), rotation, ″",
-        ru: "Граббса: самая сомнительная серия из {count} (осей {axes}), поворот, ″"
+        ru: "Граббса: самая сомнительная серия из {count} (осей: {axes}), поворот, ″"
     }
     MOVE_OR_DRIFT {
         en: "Student: most suspect shift or drift of {count} runs, rotation, ″",
-        ru: "Стьюдента: наибольшее смещение или дрейф (серий {count}), поворот, ″"
+        ru: "Стьюдента: наибольшее смещение или дрейф (серий: {count}), поворот, ″"
     }
     NOT_SUSPECT { en: "not suspect", ru: "не выделяется" }
     EQUAL { en: "no difference", ru: "различий нет" }
@@ -133,16 +133,19 @@ texts! {
     NOT_MADE { en: "not made", ru: "не применялся" }
     OUTLIER { en: "outlier", ru: "выброс" }
     SIGNIFICANT { en: "significant", ru: "значимо" }
+    PROBABLE { en: "probable", ru: "вероятно" }
     STRAGGLER { en: "straggler", ru: "квазивыброс" }
     TESTS_NOTE {
         en: "Value: the statistic given last in the first column; differences and rotations are from the other readings \
-             or runs. Probability of a result at least as extreme by chance: below 5 % a value is a straggler and \
-             equality is doubtful, below 1 % it is an outlier and the variances are different. No reading is excluded \
-             because of these tests. Bartlett’s test requires a fine resolution and no suspect reading.",
+             or runs. Probability of a result at least as extreme by chance: below 5 % a value is a straggler, equality \
+             is doubtful, and a shift or drift is probable; below 1 % the value is an outlier, the variances are \
+             different, and the shift or drift is significant. No reading is excluded because of these tests. Bartlett’s \
+             test requires a fine resolution and no suspect reading.",
         ru: "Значение: величина, указанная в конце названия критерия; отличия — от остальных показаний, повороты — \
              относительно остальных серий. Вероятность случайно получить не меньшее значение: менее 5 % — квазивыброс, \
-             равенство сомнительно; менее 1 % — выброс, дисперсии различаются. По этим критериям показания не \
-             исключаются. Критерий Бартлетта применим при малом шаге отсчёта и без сомнительных показаний."
+             равенство сомнительно, смещение или дрейф вероятны; менее 1 % — выброс, дисперсии различаются, смещение или \
+             дрейф значимы. По этим критериям показания не исключаются. Критерий Бартлетта применим при малом шаге \
+             отсчёта и без сомнительных показаний."
     }
     WARNINGS_COUNTED {
         en: "Warnings of the program: {count}; see section “{section}”.",
@@ -153,7 +156,7 @@ texts! {
     DRAFT { en: "Draft: this certificate was not issued", ru: "Проект: этот сертификат не выдан" }
     DRAFT_WORDS {
         en: "A dry run computed it. Neither a certificate nor a passport was written.",
-        ru: "Сертификат вычислен в пробном режиме. Ни сертификат, ни паспорт не записаны."
+        ru: "Данные сертификата вычислены в пробном режиме. Ни сертификат, ни паспорт не записаны."
     }
     CHANGE { en: "Change since the previous certificate", ru: "Изменение после предыдущей калибровки" }
     CERTIFIED {

@@ -29,7 +29,7 @@ texts! {
     CHECKING { en: "How to check", ru: "Как проверить" }
     CHECKING_HOW {
         en: "of the file: must equal that in the code; dtg-passport verify checks all",
-        ru: "файла: должен совпадать с хешем в коде; dtg-passport verify проверяет всё"
+        ru: "файла должен совпадать с хешем в коде; все проверки выполняет dtg-passport verify"
     }
     FIGURE_STAND {
         en: "The stand: its axes and angles, for θ = 40° and φ = 35°, the frame’s axis ξ as at this site.",
@@ -99,10 +99,11 @@ texts! {
         ru: "Номинальные углы и отклонения реальной ориентации от номинальной"
     }
     DEVIATIONS_NOTE {
-        en: "Position (i, j): frame angle θ about ξ, then platform angle φ about the spin axis. α, β, γ transform \
-             coordinates from the nominal to the actual platform, eq. (4).",
+        en: "Position (i, j): frame angle θ about ξ, then platform angle φ about the spin axis. α, β, γ define the \
+             transformation from the platform axes in the nominal orientation to those in the actual one, eq. (4).",
         ru: "Положение (i, j): угол рамки θ вокруг ξ, затем угол платформы φ вокруг оси собственного вращения. α, β, γ \
-             преобразуют координаты от номинальной платформы к реальной, формула (4)."
+             задают преобразование координат из осей платформы при номинальной ориентации в оси при реальной, формула \
+             (4)."
     }
     DEVIATIONS_U_NOTE {
         en: "u: own part of the standard uncertainty (k = 1) of the certified mean; ν: degrees of freedom, the smallest \
@@ -246,11 +247,11 @@ texts! {
     GYRO_TYPE { en: "Gyro type", ru: "Тип гироскопа" }
     GYRO_GRAVITY { en: "g to which the type’s drifts refer", ru: "g, к которому отнесены составляющие дрейфа по типу" }
     CALIBRATING_LABORATORY { en: "Laboratory that calibrates the gyro", ru: "Лаборатория, калибрующая гироскоп" }
-    METER { en: "Current meter (k = 1)", ru: "Измеритель тока (k = 1)" }
+    METER { en: "Current meter: u (k = 1), range", ru: "Измеритель тока: u (k = 1), диапазон" }
     METER_READING { en: "{n} % of reading", ru: "{n} % показания" }
-    METER_GAIN { en: "gain {n} %", ru: "коэффициент преобразования {n} %" }
-    METER_OFFSET { en: "offset {n} mA", ru: "смещение нуля {n} мА" }
-    METER_FLOOR { en: "floor {n} mA", ru: "постоянная часть {n} мА" }
+    METER_GAIN { en: "gain {n} %", ru: "коэффициента преобразования {n} %" }
+    METER_OFFSET { en: "offset {n} mA", ru: "смещения нуля {n} мА" }
+    METER_FLOOR { en: "floor {n} mA", ru: "постоянной части погрешности {n} мА" }
     METER_NOISE { en: "noise of a reading {n} mA", ru: "шум показания {n} мА" }
     METER_RANGE { en: "range {n} mA", ru: "диапазон {n} мА" }
     SEATING { en: "u of the gyro seat about x, y, z", ru: "u посадочной поверхности вокруг x, y, z" }
