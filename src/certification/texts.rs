@@ -175,16 +175,16 @@ texts! {
              относительно остальных; других изменений не обнаружено."
     }
     WORN {
-        en: "No more than half of the positions agree with each other, but the angles resemble the certificate (correlation {r}): \
-             the stand has changed in most positions.",
-        ru: "Согласуется не более половины положений, но углы коррелируют с сертификатом (r = {r}): стенд изменился в большинстве \
-             положений."
+        en: "No more than half of the positions agree with each other, but the angles resemble the certificate \
+             (correlation {r}): the stand has changed in most positions.",
+        ru: "Между собой согласуется не более половины положений, но углы коррелируют с сертификатом (r = {r}): стенд \
+             изменился в большинстве положений."
     }
     ANOTHER_STAND {
-        en: "No more than half of the positions agree with each other, and the angles do not resemble the certificate: this is \
-             another stand or another certificate, or the stand was rebuilt or damaged.",
-        ru: "Согласуется не более половины положений, углы не коррелируют с сертификатом: стенд или сертификат другой либо стенд \
-             разбирали или повредили."
+        en: "No more than half of the positions agree with each other, and the angles do not resemble the certificate: \
+             this is another stand or another certificate, or the stand was rebuilt or damaged.",
+        ru: "Между собой согласуется не более половины положений, и углы не коррелируют с сертификатом: это другой стенд \
+             или другой сертификат либо стенд разбирали или повредили."
     }
     EXCHANGED {
         en: "Positions {one} and {other} are exchanged: each has the angles that the certificate states for the other.",

@@ -47,6 +47,22 @@ fn with_sections(command: Command) -> Command {
     })
 }
 
+/// Help of options of trust that a verb uses for something else than to verify a passport, or not at all.
+const OTHER_HELP: [(&str, &str, &str); 6] = [
+    ("register", "issuer", "Only passports of this issuer"),
+    ("register", "serial", "Only passports of stands with this serial number"),
+    ("register", "at", "Only passports for this place: latitude and longitude in degrees, north and east positive"),
+    ("history", "issuer", "Has no effect on a history"),
+    ("history", "serial", "Has no effect on a history"),
+    ("history", "at", "Has no effect on a history"),
+];
+
+/// Returns a verb with the help of its options that differs from that of other verbs.
+fn with_other_help(name: &str, verb: Command) -> Command {
+    let other = OTHER_HELP.into_iter().filter(|(of, ..)| *of == name);
+    other.fold(verb, |verb, (_, option, help)| verb.mut_arg(option, |arg| arg.help(help)))
+}
+
 /// Returns the command line with the sections of its options and the examples of its verbs.
 pub(super) fn command() -> Command {
     let command = with_sections(Cli::command()).version(env!("CARGO_PKG_VERSION")).long_version(long_version());
@@ -54,7 +70,7 @@ pub(super) fn command() -> Command {
     verbs.iter().fold(command.after_long_help(EXIT_CODES), |command, name| {
         command.mut_subcommand(name, |verb| {
             let parts: Vec<String> = verb.get_subcommands().map(|part| part.get_name().to_owned()).collect();
-            let verb = parts.iter().fold(with_sections(verb), |verb, part| {
+            let verb = parts.iter().fold(with_other_help(name, with_sections(verb)), |verb, part| {
                 verb.mut_subcommand(part, |command| command.after_long_help(after_help(&format!("{name} {part}"))))
             });
             verb.after_long_help(after_help(name))

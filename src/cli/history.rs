@@ -44,6 +44,9 @@ fn stand(text: &str) -> Result<String, String> {
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     refuse_file(&options.passports)?;
     let (trust, question) = options.trust.load()?;
+    if !question.is_open() {
+        output::warn("--issuer, --serial and --at have no effect on a history");
+    }
     let (history, register) =
         search::history(&options.passports, &options.stand, trust, question.time, parallel::processors())?;
     let Some(history) = history else {

@@ -145,7 +145,11 @@ pub(super) fn place(text: &str) -> Result<Place, String> {
     let (latitude, longitude) = text.split_once(',').ok_or(form)?;
     let number = |text: &str| text.trim().parse::<f64>().map_err(|_| form.to_owned());
     let (latitude_deg, longitude_deg) = (number(latitude)?, number(longitude)?);
-    enquiry::place(latitude_deg, longitude_deg)
+    enquiry::place(latitude_deg, longitude_deg).map_err(|refused| match text.contains('.') {
+        true => refused,
+        // A decimal comma splits a number in two.
+        false => format!("{refused}; the decimal mark is a point, as in 55.7658,37.6856"),
+    })
 }
 
 /// Returns the current time in whole seconds, as passports state it.

@@ -304,7 +304,8 @@ impl Register {
         }
         if let Some(by) = self.successors.by(&line.sha256, &file.series, file.revision) {
             line.state = if by.series == file.series { State::Superseded } else { State::Moved };
-            line.why = format!("by {} ({})", by.id, by.file);
+            let what = if line.state == State::Moved { "superseded " } else { "" };
+            line.why = format!("{what}by {} ({})", by.id, by.file);
         } else if let Some(other) = line.id.as_deref().and_then(|id| self.other_original(id, &line.sha256)) {
             line.state = State::Superseded;
             line.why = format!("another file has the same id ({other}); withdraw all but one");
@@ -349,7 +350,7 @@ impl Register {
                 (Code::Superseded, format!("another file has the same id ({other}); {advice}"))
             } else if let Some(alarm) = self.doubt(&content.stand.id()) {
                 let advice = "get the damaged or missing file from the issuer again; move a file that is not a passport out of the folder";
-                (Code::RegisterUnknown, format!("unknown: {}; {advice}", alarm.reason()))
+                (Code::RegisterUnknown, format!("it is unknown whether the passport was superseded or withdrawn: {}; {advice}", alarm.reason()))
             } else {
                 (Code::Ok, format!("not superseded by another passport in the register (files read: {})", self.files))
             }

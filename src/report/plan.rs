@@ -30,7 +30,11 @@ pub(crate) fn text(plan: &Plan, site: &str, site_azimuth_deg: f64) -> String {
         columns::paragraph(&mut out, "", &style::marked(Outcome::Failed, &sentence));
     }
     if gravity_prevents_a_pass(plan) {
-        let sentence = format!("No gyro can pass by guarded acceptance at this site. {}", gravity(plan));
+        let sentence = format!(
+            "No gyro can pass by guarded acceptance at this site: the uncertainty of local g alone makes U (k = 2) of ω_g or \
+             ω_k {} % of the tolerance at the g of the type. To reduce it, state the height of the site, or measure g.",
+            percent(COVERAGE_FACTOR * plan.gravity_over_tolerance)
+        );
         columns::paragraph(&mut out, "", &style::marked(Outcome::Failed, &sentence));
     }
     let _ = writeln!(

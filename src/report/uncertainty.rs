@@ -60,6 +60,9 @@ pub(crate) fn budget(budget: &Budget, sentence: Option<&str>, document: &Calibra
     out
 }
 
+/// Width of a terminal that has room for the number of inputs of each kind.
+const WITH_COUNTS: usize = 90;
+
 fn parameter(out: &mut String, line: &ParameterBudget) {
     let u = line.standard_uncertainty;
     let digits = columns::decimals(u);
@@ -88,7 +91,14 @@ fn parameter(out: &mut String, line: &ParameterBudget) {
         let name = format!("{} others", rest.len());
         rows.push(vec![name, String::new(), String::new(), format!("{:.digits$}", sum.sqrt()), share]);
     }
-    columns::table(out, &["input", "u of input", "inputs", "contribution", "share, %"], rows);
+    let mut names = vec!["input", "u of input", "inputs", "contribution", "share, %"];
+    if columns::width() < WITH_COUNTS {
+        names.remove(2);
+        rows.iter_mut().for_each(|row| {
+            row.remove(2);
+        });
+    }
+    columns::table(out, &names, rows);
 }
 
 fn contribution(part: &Contribution, digits: usize) -> Vec<String> {

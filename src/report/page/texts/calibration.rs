@@ -394,7 +394,7 @@ texts! {
     }
     OF_ESTIMATES {
         en: "Some of the uncertainties are estimates, which the probability takes into account.",
-        ru: "Часть неопределённостей — оценки; вероятность вычислена с учётом этого."
+        ru: "Часть неопределённостей известна с конечным числом степеней свободы; это учтено в вероятности."
     }
     SCATTER {
         en: "Scatter of the visits to a position, chi-square",
@@ -402,17 +402,18 @@ texts! {
     }
     ROW_SCATTER {
         en: "Scatter of the readings of a visit, chi-square",
-        ru: "Рассеяние показаний одной установки, хи-квадрат"
+        ru: "Рассеяние показаний в пределах одной установки в положение, хи-квадрат"
     }
     ROW_DEVIATION {
         en: "Standard deviation of a reading within a visit",
-        ru: "Стандартное отклонение показания в одной установке"
+        ru: "Стандартное отклонение показания в пределах одной установки в положение"
     }
     ROWS_CORRELATED {
-        en: "Successive readings of a visit are correlated ({r}), so their mean is less certain than their scatter shows, and the \
-             stated uncertainties are too small. Average the readings of each visit to one row.",
-        ru: "Последовательные показания одной установки коррелированы ({r}): их среднее менее точно, чем следует из рассеяния, и \
-             указанные неопределённости занижены. Следует усреднить показания каждой установки до одного."
+        en: "Successive readings of a visit are correlated ({r}), so their mean is less certain than their scatter shows, \
+             and the stated uncertainties are too small. Average the readings of each visit to one row.",
+        ru: "Последовательные показания одной установки в положение коррелированы ({r}): их среднее менее точно, чем \
+             следует из рассеяния, и указанные неопределённости занижены. Показания каждой установки в положение следует \
+             заменить их средним."
     }
     TURN_ON_SCATTER {
         en: "Scatter of the turn-ons, chi-square",

@@ -249,9 +249,9 @@ texts! {
     CALIBRATING_LABORATORY { en: "Laboratory that calibrates the gyro", ru: "Лаборатория, калибрующая гироскоп" }
     METER { en: "Current meter: u (k = 1), range", ru: "Измеритель тока: u (k = 1), диапазон" }
     METER_READING { en: "{n} % of reading", ru: "{n} % показания" }
-    METER_GAIN { en: "gain {n} %", ru: "коэффициента преобразования {n} %" }
-    METER_OFFSET { en: "offset {n} mA", ru: "смещения нуля {n} мА" }
-    METER_FLOOR { en: "floor {n} mA", ru: "постоянной части погрешности {n} мА" }
+    METER_GAIN { en: "gain {n} %", ru: "коэффициент преобразования {n} %" }
+    METER_OFFSET { en: "offset {n} mA", ru: "смещение нуля {n} мА" }
+    METER_FLOOR { en: "floor {n} mA", ru: "постоянная часть погрешности {n} мА" }
     METER_NOISE { en: "noise of a reading {n} mA", ru: "шум показания {n} мА" }
     METER_RANGE { en: "range {n} mA", ru: "диапазон {n} мА" }
     SEATING { en: "u of the gyro seat about x, y, z", ru: "u посадочной поверхности вокруг x, y, z" }
