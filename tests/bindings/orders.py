@@ -55,7 +55,7 @@ REFUSED: list[tuple[Path, dict, str, str]] = [
     (CURRENTS, {"method": "exact"}, "unusable", "method: found \"exact\", expected \"analytic\""),
     (CURRENTS, {"model": "full"}, "unusable", "model: found \"full\", expected \"paper\" or \"general\""),
     (CURRENTS, {"drift": 1}, "unusable", "drift: found 1, expected true or false"),
-    (RUN, {"exclude": [{"i": 2, "j": 4, "visit": 1, "why": "door opened"}]}, "unusable", "has a visit 1 in the cycles [1, 2, 3]"),
+    (RUN, {"exclude": [{"i": 2, "j": 4, "visit": 1, "why": "door opened"}]}, "unusable", "has a visit 1 in the turn-ons 1, 2, 3"),
     (RUN, {"exclude": [{**DOOR, "visit": 9}]}, "unusable", "found no visit 9 to position (2, 4)"),
     (RUN, {"exclude": [{**DOOR, "why": ""}]}, "unusable", "exclude[0].why: found empty text"),
     (CURRENTS, {"anisoelasticity": True, "model": "general"}, "unusable", "anisoelasticity: found true, expected false"),
