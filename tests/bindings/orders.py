@@ -70,7 +70,7 @@ REFUSED: list[tuple[Path, dict, str, str]] = [
     (CURRENTS, {"date": "2026-11-06", "previous": [EARLIER]}, "refused", "check which is earlier"),
     (RUN, {"anisoelasticity": True}, "refused", "cannot determine ω_n (anisoelasticity)"),
     (CURRENTS, {"drift": True}, "refused", "time_s"),
-    (CURRENTS, {"model": "general", "method": "analytic"}, "refused", "has only the paper's model"),
+    (CURRENTS, {"model": "general", "method": "analytic"}, "refused", "supports only the paper's model"),
 ]
 
 
