@@ -121,7 +121,7 @@ impl Run<'_> {
     /// Reports the failure of one passport; the others are exported nevertheless. With `has_line`, the line of the passport,
     /// with its checks, is already on standard output.
     fn failed(&mut self, file: String, failure: Failure, has_line: bool) -> Result<(), Failure> {
-        output::complain(&failure.failed.message);
+        failure.complain(&failure.failed.message);
         self.code = self.code.max(failure.code);
         match self.options.format {
             Format::Json if !has_line => inputs::json_line(&Each::<Value>::Refused { file, refusal: failure.failed }),
@@ -221,7 +221,7 @@ impl Run<'_> {
         let files = files.map_err(|error| {
             let mut failed = Failed::from(error.clone());
             failed.message = format!("nothing was exported from {}\n{}", shown(path), failed.message);
-            Failure { failed, code: REFUSED }
+            Failure { code: REFUSED, ..Failure::from(failed) }
         })?;
         let mut new = Vec::new();
         for (target, text) in files {

@@ -22,12 +22,14 @@ pub(super) struct Failure {
     pub failed: Failed,
     /// Exit code.
     pub code: Code,
+    /// `true` if the message begins with a verdict, before which the name of the program is omitted.
+    pub is_verdict: bool,
 }
 
 impl From<Failed> for Failure {
     fn from(failed: Failed) -> Self {
         let code = if matches!(failed.code, interface::REFUSED | interface::EXISTS) { REFUSED } else { UNUSABLE };
-        Self { failed, code }
+        Self { failed, code, is_verdict: false }
     }
 }
 
@@ -71,8 +73,13 @@ impl Failure {
         if as_json {
             output::failure(self);
         }
-        output::complain(&self.failed.message);
+        self.complain(&self.failed.message);
         ExitCode::from(self.code)
+    }
+
+    /// Writes the message, or `words` that contain it.
+    pub(super) fn complain(&self, words: &str) {
+        if self.is_verdict { output::verdict(words) } else { output::complain(words) }
     }
 
     pub(super) fn with_advice(mut self, advice: &str) -> Self {
@@ -95,6 +102,6 @@ impl Failure {
         let place = |check: &&Check| Place::file(name.to_owned(), format!("{}: {}", check.name.as_str(), check.detail));
         let problems = failed.iter().map(place).collect();
         let words = style::plain(&verdict::text(&verdict)) + words;
-        Self { failed: Failed::new(kind, words.trim_end().to_owned(), problems), code: REFUSED }
+        Self { failed: Failed::new(kind, words.trim_end().to_owned(), problems), code: REFUSED, is_verdict: true }
     }
 }

@@ -147,8 +147,8 @@ pub(super) fn each<T>(
             Ok((result, _)) => hear(Each::Done(result))?,
             Err((file, failure)) => {
                 let words = words(&file, &failure);
-                let heard = hear(Each::Refused { file, refusal: failure.failed });
-                output::complain(&words);
+                let heard = hear(Each::Refused { file, refusal: failure.failed.clone() });
+                failure.complain(&words);
                 heard?;
             }
         }

@@ -165,7 +165,14 @@ pub(super) fn say(words: &str) {
     }
 }
 
-/// Beginning of every message.
+/// Writes a verdict about a result as [`say`] does.
+pub(super) fn say_verdict(words: &str) {
+    if !QUIET.load(Ordering::Relaxed) {
+        verdict(words);
+    }
+}
+
+/// Beginning of every message that does not begin with a verdict.
 const NAME: &str = "dtg-passport: ";
 
 /// Writes clap's message about arguments. Errors are ignored, because there is nowhere left to report them.
@@ -184,8 +191,15 @@ pub(super) fn warn(words: &str) {
 
 /// Writes a message about a failure. Errors are ignored, because there is nowhere left to report them.
 pub(super) fn complain(words: &str) {
-    // A verdict comes first.
-    let name = if words.starts_with('✕') { "" } else { NAME };
+    message(NAME, words);
+}
+
+/// Writes a message that begins with a verdict. Whether it does is not read from its text: that may be the name of a file.
+pub(super) fn verdict(words: &str) {
+    message("", words);
+}
+
+fn message(name: &str, words: &str) {
     let mut lines: Vec<String> = words.trim_end().split('\n').map(printable).collect();
     let columns = columns_of(terminal_size_of(io::stderr()));
     if let Some(columns) = columns {

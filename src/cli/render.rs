@@ -69,7 +69,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         output::file(&output, &page.html(&languages(&options.lang)), options.force)?;
         output::say(&format!("wrote {}", shown(&output)));
         if options.format == Format::Text && !verdict.valid {
-            output::say(&style::plain(&verdict::text(&verdict)));
+            output::say_verdict(&style::plain(&verdict::text(&verdict)));
         }
         Ok(Rendered { page: name_of(&output), verdict })
     };
