@@ -65,9 +65,8 @@ record! {
 }
 
 record! {
-    /// Administrative data of a Digital Calibration Certificate (`dtg-dcc/1`). Keys that a
-    /// DCC requires may be omitted only if the passport, or the calibration of the gyro, states the same; the program lists
-    /// all that are missing.
+    /// Administrative data of a Digital Calibration Certificate (`dtg-dcc/1`). Keys that a DCC requires may be omitted
+    /// only if the passport, or the calibration of the gyro, states the same; the program lists all that are missing.
     #[derive(Default)]
     pub struct Administrative {
         /// Country in which the certificate is issued: two capital letters of ISO 3166-1.

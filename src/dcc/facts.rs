@@ -89,7 +89,7 @@ pub(super) fn stated(text: Option<&str>) -> Option<&str> {
 
 struct Collector {
     source: &'static str,
-    /// What to do if a key is missing.
+    /// Advice for a missing key.
     advice: &'static str,
     problems: Problems,
 }

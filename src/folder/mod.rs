@@ -226,13 +226,7 @@ impl Folder {
         let path = self.path_of(&stand.stand, &site.id, order.revision);
         match self.existing(&path)? {
             Some(there) if same(&there.content, draft.content()) => Ok(Next::There(there.left(&draft))),
-            Some(there) => {
-                let changed = there.differences(stand, site, draft.content());
-                Err(match changed == OTHER_ACCURACY {
-                    true => FolderRefused::OtherAccuracy(there.path),
-                    false => FolderRefused::OtherContent(there.path, changed),
-                })
-            }
+            Some(there) => Err(there.refuse(stand, site, draft.content())),
             None => match self.sites.later(&path, order.revision) {
                 Some(last) => Err(FolderRefused::Gap { path, later: self.path_of(&stand.stand, &site.id, last) }),
                 None => Ok(Next::New { path, draft }),
@@ -406,9 +400,6 @@ struct Existing {
     content: Content,
 }
 
-/// Difference of passports that state other expected uncertainties.
-const OTHER_ACCURACY: &str = "issued with other --accuracy, --gyro or --laboratory";
-
 impl Existing {
     fn of(path: &Path, bytes: &[u8]) -> Result<Self, FolderRefused> {
         let name = name_of(path);
@@ -425,23 +416,24 @@ impl Existing {
         Issued { id, path: self.path, sha256: self.sha256, new: false, remarks: draft.remarks() }
     }
 
-    /// Returns the differences of `new` from the existing passport, in words.
-    fn differences(&self, stand: &Stand, site: &Site, new: &Content) -> String {
+    /// Returns the refusal of `new`, which differs from the existing passport.
+    fn refuse(self, stand: &Stand, site: &Site, new: &Content) -> FolderRefused {
         let there = &self.content.passport;
-        let mut words = Vec::new();
-        if there.valid_until != new.passport.valid_until {
-            let day = |day: Option<Date>| day.map_or_else(|| "none".to_owned(), |day| day.to_string());
-            words.push(format!("valid until {} -> {}", day(there.valid_until), day(new.passport.valid_until)));
-        }
-        if self.content.accuracy != new.accuracy {
-            words.push(OTHER_ACCURACY.to_owned());
-        }
-        words.extend(there.reissued_from.as_ref().map(|predecessor| format!("re-issued from {}", predecessor.id)));
+        let day = |day: Option<Date>| day.map_or_else(|| "none".to_owned(), |day| day.to_string());
+        let valid_until = (there.valid_until != new.passport.valid_until)
+            .then(|| format!("valid until {} -> {}", day(there.valid_until), day(new.passport.valid_until)));
+        let accuracy = (self.content.accuracy != new.accuracy)
+            .then(|| "issued with other --accuracy, --gyro or --laboratory".to_owned());
+        let reissued = there.reissued_from.as_ref().map(|predecessor| format!("re-issued from {}", predecessor.id));
         let changed = changes(&self.content, stand, site, &new.passport.issuer);
+        if accuracy.is_some() && valid_until.is_none() && reissued.is_none() && changed == NO_CHANGES {
+            return FolderRefused::OtherAccuracy(self.path);
+        }
+        let mut words: Vec<String> = [valid_until, accuracy, reissued].into_iter().flatten().collect();
         if changed != NO_CHANGES || words.is_empty() {
             words.push(changed);
         }
-        words.join("; ")
+        FolderRefused::OtherContent(self.path, words.join("; "))
     }
 }
 

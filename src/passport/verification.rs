@@ -33,6 +33,11 @@ impl Trust {
     pub fn of(signers: AllowedSigners) -> Self {
         Self { signers, revoked: Vec::new(), withdrawn: Series::default() }
     }
+
+    /// Returns `true` if a list of revoked keys or of withdrawn passports is given.
+    pub(crate) fn has_lists(&self) -> bool {
+        !self.revoked.is_empty() || self.withdrawn.newest().is_some()
+    }
 }
 
 /// Time, issuer, stand and place to verify a passport for.
@@ -208,15 +213,14 @@ pub fn verify(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> V
             }
         }
     }
-    let without_list = trust.revoked.is_empty() && trust.withdrawn.newest().is_none();
-    Verification { checks: run.completed(question, without_list), key, content }
+    Verification { checks: run.completed(question, trust.has_lists()), key, content }
 }
 
 /// Creates the result for a file that could not be read; no check was run. `why` is the system's error message.
 pub(crate) fn unreadable(why: &str, question: &Question) -> Verification {
     let mut run = Run { checks: Vec::new() };
     run.note(CheckName::Grammar, Code::Unreadable, why);
-    Verification { checks: run.completed(question, false), key: None, content: None }
+    Verification { checks: run.completed(question, true), key: None, content: None }
 }
 
 /// Creates the result for a passport that was not verified on request: no check was run.
@@ -390,9 +394,9 @@ impl Run {
         }
     }
 
-    /// Returns all checks in their order, including those that were not run. That of revocations was not requested if there
-    /// is no list of them.
-    fn completed(mut self, question: &Question, without_list: bool) -> Vec<Check> {
+    /// Returns all checks in their order, including those that were not run. The check of revocations is not requested
+    /// if no list is given.
+    fn completed(mut self, question: &Question, has_lists: bool) -> Vec<Check> {
         let asked = [
             question.issuer.as_ref().map(|_| CheckName::Issuer),
             question.serial.as_ref().map(|_| CheckName::Stand),
@@ -400,7 +404,7 @@ impl Run {
         ];
         for name in always().chain(asked.into_iter().flatten()) {
             if !self.checks.iter().any(|check| check.name == name) {
-                let is_asked = name != CheckName::Revocation || !without_list;
+                let is_asked = name != CheckName::Revocation || has_lists;
                 self.note(name, Code::NotRun, if is_asked { "not run: an earlier check failed" } else { NO_LIST });
             }
         }

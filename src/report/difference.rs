@@ -88,35 +88,33 @@ fn largest(numbers: &[NumberDifference]) -> String {
 
 /// Appends a table of numbers that differ.
 pub(crate) fn numbers(out: &mut String, numbers: &[NumberDifference]) {
-    let rows: Vec<Vec<String>> = numbers
-        .iter()
-        .map(|at| {
-            let difference = at.difference();
-            let on_the_page = decimals_on_the_page(&at.key);
-            let decimals = match (at.standard_uncertainty.map(columns::decimals).or(on_the_page), at.a.zip(at.b)) {
-                (Some(decimals), _) => decimals,
-                // The difference of two numbers as people write them is exact.
-                (None, Some((a, b))) if is_short(a) && is_short(b) => decimals_of(a).max(decimals_of(b)),
-                (None, _) => difference.map_or(6, decimals_of_a_difference),
-            };
-            let plain = |value: Option<f64>| match value {
-                None => "-".to_owned(),
-                Some(value) if at.standard_uncertainty.is_some() || on_the_page.is_some() => {
-                    columns::fixed(value, decimals)
-                }
-                Some(value) => stated(value, decimals),
-            };
-            let signed = |value: Option<f64>| value.map_or_else(String::new, |value| columns::signed(value, decimals));
-            vec![
-                at.key.clone(),
-                plain(at.a),
-                plain(at.b),
-                signed(difference),
-                at.standard_uncertainty.map_or_else(String::new, |u| format!("{u:.decimals$}")),
-                at.ratio().map_or_else(String::new, |ratio| columns::signed(ratio, 1)),
-            ]
-        })
-        .collect();
+    let row = |at: &NumberDifference| {
+        let difference = at.difference();
+        let on_the_page = decimals_on_the_page(&at.key);
+        let decimals = match (at.standard_uncertainty.map(columns::decimals).or(on_the_page), at.a.zip(at.b)) {
+            (Some(decimals), _) => decimals,
+            // The difference of two numbers as people write them is exact.
+            (None, Some((a, b))) if is_short(a) && is_short(b) => decimals_of(a).max(decimals_of(b)),
+            (None, _) => difference.map_or(6, decimals_of_a_difference),
+        };
+        let plain = |value: Option<f64>| match value {
+            None => "-".to_owned(),
+            Some(value) if at.standard_uncertainty.is_some() || on_the_page.is_some() => {
+                columns::fixed(value, decimals)
+            }
+            Some(value) => stated(value, decimals),
+        };
+        let signed = |value: Option<f64>| value.map_or_else(String::new, |value| columns::signed(value, decimals));
+        vec![
+            at.key.clone(),
+            plain(at.a),
+            plain(at.b),
+            signed(difference),
+            at.standard_uncertainty.map_or_else(String::new, |u| format!("{u:.decimals$}")),
+            at.ratio().map_or_else(String::new, |ratio| columns::signed(ratio, 1)),
+        ]
+    };
+    let rows: Vec<Vec<String>> = numbers.iter().map(row).collect();
     // Non-breaking spaces keep each heading on one line.
     let names = ["", "A", "B", "B\u{A0}-\u{A0}A", "u", "(B\u{A0}-\u{A0}A)/u"];
     let table = |names: &[&str], rows: Vec<Vec<String>>| {

@@ -100,6 +100,12 @@ impl Problem {
         Self { location, field, found, expected, advice }
     }
 
+    /// Returns `true` if the advice names `key`, because it was found with another name.
+    pub(super) fn names(&self, key: &str) -> bool {
+        let is_in_a_name = |c: char| c.is_alphanumeric() || c == '_';
+        self.advice.split(|c| !is_in_a_name(c)).any(|word| word == key)
+    }
+
     /// Creates the report of an error in a whole document.
     pub(crate) fn whole(found: impl Into<String>, expected: &str, advice: &str) -> Self {
         Self::new(None, "", found, expected, advice)
@@ -144,9 +150,9 @@ impl Problems {
         self.found.is_empty()
     }
 
-    /// Returns `true` if the advice of an error names `key`, because it was found with another name.
+    /// Returns `true` if an error [names](Problem::names) `key`.
     pub(crate) fn name(&self, key: &str) -> bool {
-        self.found.iter().any(|(_, problem)| problem.advice.contains(key))
+        self.found.iter().any(|(_, problem)| problem.names(key))
     }
 
     /// Returns `true` if more than [`MOST_PROBLEMS`] errors were found; further ones are not recorded.

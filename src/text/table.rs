@@ -356,9 +356,7 @@ impl<'a> Header<'a> {
         }
         let place = |column: &&str| cells.iter().position(|cell| cell.text == *column);
         // A column that only has another name is named there.
-        let is_word = |c: char| c.is_alphanumeric() || c == '_';
-        let named = |advice: &str, column: &str| advice.split(|c| !is_word(c)).any(|word| word == column);
-        let is_named = |column: &&&str| problems.iter().any(|problem| named(&problem.advice, column));
+        let is_named = |column: &&&str| problems.iter().any(|problem| problem.names(column));
         let missing = required.iter().filter(|column| place(column).is_none() && !is_named(column));
         let missing: Vec<&str> = missing.copied().collect();
         if !missing.is_empty() {

@@ -61,7 +61,7 @@ struct SiteLine {
 
 #[derive(Debug, Serialize)]
 struct Passports {
-    counts: BTreeMap<&'static str, usize>,
+    counts: BTreeMap<State, usize>,
     expiring: Vec<Line>,
     /// Passports that have expired, for the text.
     #[serde(skip)]
@@ -165,7 +165,7 @@ fn read_each<T, L>(
 }
 
 fn passports(register: Register) -> Passports {
-    let counts = register.counts().into_iter().map(|(state, count)| (state.key(), count)).collect();
+    let counts = register.counts();
     let alarms = register.alarms.iter().map(ToString::to_string).collect();
     let of = |state| register.passports.iter().filter(|line| line.state == state).cloned().collect();
     Passports { counts, expiring: of(State::Expiring), expired: of(State::Expired), broken: of(State::Broken), alarms }
@@ -208,7 +208,8 @@ impl Status {
     /// Returns `true` if there is an alarm, a broken passport, or a file that cannot be read.
     pub(crate) fn needs_attention(&self) -> bool {
         let passports = self.passports.as_ref();
-        let broken = |passports: &Passports| !passports.alarms.is_empty() || passports.counts.contains_key("broken");
+        let broken =
+            |passports: &Passports| !passports.alarms.is_empty() || passports.counts.contains_key(&State::Broken);
         passports.is_some_and(broken) || !self.remarks.is_empty()
     }
 
@@ -237,7 +238,7 @@ impl Status {
         let _ = writeln!(out, "Sites      {}", self.sites.len());
         if let Some(passports) = &self.passports {
             let counts: Vec<String> =
-                passports.counts.iter().map(|(state, count)| format!("{count} {}", in_words(state))).collect();
+                passports.counts.iter().map(|(state, count)| format!("{count} {}", state.words())).collect();
             let counts = if counts.is_empty() { "none".to_owned() } else { counts.join(", ") };
             let _ = writeln!(out, "Passports  {counts}");
             let dated = |lines: &[Line], words: &str| {
@@ -292,11 +293,6 @@ impl Status {
             let _ = writeln!(out, "Signs with {}  {}  {trusted}", Printable(&key.file), Printable(identity));
         }
     }
-}
-
-/// Returns a state in words, in capitals if it is broken, as in the register.
-fn in_words(state: &str) -> String {
-    if state == State::Broken.key() { state.to_uppercase() } else { state.replace('_', " ") }
 }
 
 fn count(number: usize, words: &str) -> String {

@@ -16,9 +16,8 @@ use maud::{Markup, html};
 /// withdrawal.
 fn passed(page: &PassportPage, name: CheckName) -> Option<bool> {
     let check = page.verification.checks().iter().find(|check| check.name == name);
-    let no_list = page.trust.revoked.is_empty() && page.trust.withdrawn.newest().is_none();
     let passed = check.and_then(Check::passed);
-    passed.filter(|passed| !(*passed && name == CheckName::Revocation && no_list))
+    passed.filter(|passed| !(*passed && name == CheckName::Revocation && !page.trust.has_lists()))
 }
 
 fn word(passed: Option<bool>) -> Text {
