@@ -211,7 +211,7 @@ fn the_headline_is_the_verdict() {
             "✕ Показания не согласуются с\u{a0}этим стендом The readings are not consistent with this stand",
             true,
         ),
-        ("plain-ru", "○ Параметры определены", false),
+        ("plain-ru", "○ Параметры определены, соответствие не оценивалось", false),
         ("unverified-many-en", "○ Passport NOT VERIFIED", true),
     ];
     let failed = format!("✕ NOT within the tolerances of gyro type {HOSTILE_TYPE}");

@@ -21,17 +21,16 @@ pub(crate) fn pieces(text: &str) -> Vec<Piece<'_>> {
     if text.chars().count() == 1 {
         return vec![Piece::Words(text)];
     }
-    let (mut before, mut from) = (None, 0);
+    let mut from = 0;
     for (at, letter) in text.char_indices() {
         let after = &text[at + letter.len_utf8()..];
-        if at >= from && is_symbol(before, letter, after) {
+        if at >= from && is_symbol(&text[..at], letter, after) {
             let rest = after.strip_prefix('_').unwrap_or("");
             let index = &rest[..rest.find(|c: char| !c.is_ascii_alphanumeric()).unwrap_or(rest.len())];
             pieces.push(Piece::Words(&text[from..at]));
             pieces.push(Piece::Symbol(&text[at..at + letter.len_utf8()], index));
             from = text.len() - after.len() + if index.is_empty() { 0 } else { 1 + index.len() };
         }
-        before = Some(letter);
     }
     pieces.push(Piece::Words(&text[from..]));
     pieces.retain(|piece| *piece != Piece::Words(""));
@@ -39,7 +38,7 @@ pub(crate) fn pieces(text: &str) -> Vec<Piece<'_>> {
 }
 
 /// Returns `true` if a letter between others is a symbol, not part of a word, a unit or a name of a file.
-fn is_symbol(before: Option<char>, letter: char, after: &str) -> bool {
+fn is_symbol(before: &str, letter: char, after: &str) -> bool {
     let greek = ('Α'..='Ω').contains(&letter) || ('α'..='ω').contains(&letter);
     if !greek && !LATIN.contains(letter) {
         return false;
@@ -48,9 +47,11 @@ fn is_symbol(before: Option<char>, letter: char, after: &str) -> bool {
     let (next, second) = (next.next(), next.next());
     // In 2u, u is a symbol.
     let factor = |c: char| c.is_ascii_digit() && matches!(letter, 'u' | 'U');
-    // In 1/g, g is the unit.
-    let unit = letter == 'g' && before == Some('/');
-    let begins = !unit && before.is_none_or(|c| factor(c) || !c.is_alphanumeric() && !"·°'’.-_@".contains(c));
+    // In 1/g and 10⁻⁴ g, g is the unit.
+    let number = || before.trim_end().ends_with(|c: char| c.is_numeric()) && before.ends_with(char::is_whitespace);
+    let unit = letter == 'g' && (before.ends_with('/') || number());
+    let begins = !unit
+        && before.chars().next_back().is_none_or(|c| factor(c) || !c.is_alphanumeric() && !"·°'’.-_@".contains(c));
     let subscript = |c: char| c == '_' || ('₀'..='₉').contains(&c);
     let squared = |c: char| letter == 'u' && c == '²';
     let ends = next.is_none_or(|c| {
@@ -93,7 +94,7 @@ mod tests {
     fn quantities_are_italic_and_units_are_not() {
         for due in [
             "*u*(*α*), *k* = 1, ±2*u*, *U* = 2*u*",
-            "5 m/s², 3 °/(h·g), 1/g, °/h, 20 °C, 5 mA, µA; *x*/*u*",
+            "5 m/s², 3 °/(h·g), 1/g, 2 g, 10⁻⁴\u{a0}g, °/h, 20 °C, 5 mA, µA; *x*/*u*",
             "the frame’s axis *ξ*, the platform's; a file.s, a-u, i.e. a text",
             "*g*-sensitive drift, отнесены к *g*; в осях *x*, *y*, *z*",
             "test whether *ω*_g and *ω*_k; *ω*₃; position (*i*, *j*); labels are *i*,*j*",

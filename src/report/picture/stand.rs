@@ -1,7 +1,7 @@
 //! The stand in one large drawing with its parts, axes and angles named; the small pictures of the positions leave the
 //! names out. The frame's axis points to its azimuth at the site.
 
-use super::drawing::{Anchor, Panel, Point, arrow, label, line, list, symbols, words};
+use super::drawing::{Anchor, Panel, Point, arrow, coordinate, label, line, list, symbols, words};
 use super::label::width;
 use super::positions::{AXIS, AXIS_HEIGHT, GYRO, GYRO_HEIGHT, View, plate, rows, stand as parts};
 use crate::attitude;
@@ -46,16 +46,16 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
     };
     let azimuth = Number::exact(frame_axis_azimuth_deg);
     let named = [
-        (texts::PART_FRAME, across * 0.8 + xi * 0.4),
-        (texts::PART_PLATFORM, x * -0.12 - y * 0.5),
-        (texts::PART_PINS, x * -0.5),
-        (texts::PART_GYRO, z * GYRO_HEIGHT),
-        (texts::PART_BASE, near_the_right_corner(&view, &base)),
-        (texts::PART_AXIS, xi * 1.5),
+        (texts::PART_FRAME, across * 0.8 + xi * 0.4, true),
+        (texts::PART_PLATFORM, x * -0.12 - y * 0.5, true),
+        (texts::PART_PINS, x * -0.5, true),
+        (texts::PART_GYRO, z * GYRO_HEIGHT, true),
+        (texts::PART_BASE, near_the_right_corner(&view, &base), true),
+        (texts::PART_AXIS, xi * 1.5, false),
     ];
-    let named = named.map(|(text, at)| {
+    let named = named.map(|(text, at, within)| {
         let name = |language| text.filled(language, values! { azimuth });
-        (languages.iter().map(name).collect(), view.point(&at))
+        Part { names: languages.iter().map(name).collect(), at: view.point(&at), within }
     });
     let drawing = [
         plate(&view, &base),
@@ -142,16 +142,25 @@ fn compass_rose(languages: &Languages, base: &Matrix3<f64>) -> Markup {
     }
 }
 
+/// A part of the stand to be named.
+struct Part {
+    /// Its name in each language.
+    names: Vec<String>,
+    at: Point,
+    /// Whether `at` lies within the outline of the part.
+    within: bool,
+}
+
 /// Writes the names of parts in a column on either side, each language on its own line, with a line from each name to its part.
-fn leaders(named: &[(Vec<String>, Point)]) -> Markup {
+fn leaders(named: &[Part]) -> Markup {
     const GAP: f64 = 3.0;
     const LINE: f64 = 17.0;
     const TOP: f64 = 30.0;
     const EDGE: f64 = 4.0;
-    let mut sorted: Vec<&(Vec<String>, Point)> = named.iter().collect();
-    sorted.sort_by(|(_, one), (_, other)| one[1].total_cmp(&other[1]));
+    let mut sorted: Vec<&Part> = named.iter().collect();
+    sorted.sort_by(|one, other| one.at[1].total_cmp(&other.at[1]));
     let mut next = [TOP, TOP];
-    let places = sorted.into_iter().map(|(names, at)| {
+    let places = sorted.into_iter().map(|Part { names, at, within }| {
         let right = usize::from(at[0] > CENTRE[0]);
         // Two lines begin higher, so that the last stays above the directions.
         let y = (at[1] - LINE * (names.len() - 1) as f64).max(next[right]);
@@ -163,6 +172,8 @@ fn leaders(named: &[(Vec<String>, Point)]) -> Markup {
         };
         html! {
             (line([end, y], *at, "leader"))
+            // ISO 128-2: a leader that ends within the outline of a part ends with a dot.
+            @if *within { circle.leader-end cx=(coordinate(at[0])) cy=(coordinate(at[1])) r="1.6" {} }
             @for (row, name) in names.iter().enumerate() {
                 (label([x, y + 4.0 + LINE * row as f64], anchor, if row == 0 { "" } else { "soft" }, &symbols(name)))
             }

@@ -2,8 +2,8 @@
 //! gyro's x-y plane ([the paper](crate::bibliography::Bibliography::Tang17), eq. (5)).
 
 use super::drawing::{
-    Anchor, Panel, Point, Scale, Ticks, arrow, crowding, heading_with, label, legend_with, line, mark, panels,
-    plain_symbol, power, power_of_ten, rectangle, words,
+    Anchor, Panel, Point, Scale, Ticks, arrow, crowding, heading_with, legend_with, line, mark, panels, plain_symbol,
+    power, power_of_ten, rectangle, words,
 };
 use super::label as labels;
 use crate::attitude;
@@ -169,15 +169,19 @@ impl Plane {
         [self.x.place(x), self.y.place(y)]
     }
 
-    fn grid(&self, languages: &Languages, unit: Text) -> Markup {
+    /// Returns the unit of the numbers on both axes.
+    fn unit(&self, unit: Text, language: Language) -> String {
+        match self.exponent {
+            0 => unit.words(language),
+            exponent => format!("{}\u{a0}{}", power(exponent, language), unit.words(language)),
+        }
+    }
+
+    fn grid(&self, languages: &Languages) -> Markup {
         let [[left, top], [right, bottom]] = self.layout.field;
         let factor = power_of_ten(self.exponent);
         let reach = self.x.values[1] / factor;
         let ticks = Ticks::between(-0.93 * reach, 0.93 * reach, self.layout.ticks);
-        let unit = match self.exponent {
-            0 => languages.plain(unit),
-            exponent => format!("{}\u{a0}{}", power(exponent, languages.first()), languages.plain(unit)),
-        };
         html! {
             @for (value, text) in ticks.marks(languages.first()) {
                 @let (x, y) = (self.x.place(value * factor), self.y.place(value * factor));
@@ -187,9 +191,8 @@ impl Plane {
                 (words([left - 4.0, y + 4.0], Anchor::End, "small", &text))
             }
             (rectangle([left, top], [right, bottom], "frame-line", None))
-            // Both axes have one scale, whose unit stands where no vector can cross it.
-            (label([right, bottom + 27.0], Anchor::End, "", &html! { tspan.letter { "x" } ", " tspan.letter { "y" } ": " (unit) }))
-            (label([left + 5.0, top + 13.0], Anchor::Start, "", &html! { tspan.letter { "y" } }))
+            (words([right, bottom + 26.0], Anchor::End, "letter", "x"))
+            (words([left + 5.0, top + 13.0], Anchor::Start, "letter", "y"))
         }
     }
 }
@@ -210,14 +213,17 @@ fn differences_of(
     let [[left, top], [right, bottom]] = plane.layout.field;
     let axis = labels::Area { low: [left, top], high: [left + 18.0, top + 18.0] };
     let field = labels::Area { low: [left, top], high: [right, bottom] };
-    let title = |language: Language| match pairs.first().filter(|_| part.is_some()) {
-        Some(pair) => subject.of_frame.filled(language, values! { i: pair.index.i }),
-        None => subject.title.words(language),
+    let title = |language: Language| {
+        let unit = plane.unit(subject.unit, language);
+        match pairs.first().filter(|_| part.is_some()) {
+            Some(pair) => subject.of_frame.filled(language, values! { i: pair.index.i, unit }),
+            None => subject.title.filled(language, values! { unit }),
+        }
     };
     let (title_lines, more) = heading_with(languages, [2.0, 13.0], title);
     let moved = html! {
         g transform={ "translate(0 " (more) ")" } {
-            (plane.grid(languages, subject.unit))
+            (plane.grid(languages))
             @for (tip, _) in &tips { (arrow(origin, *tip, "real")) }
             @for (tip, index) in &tips { (mark(*tip, if part.is_some() { 1 } else { index.i }, "mark")) }
             (labels::place(&labels::together(&named), &[axis], &lines, &field))

@@ -99,12 +99,15 @@ fn said(text: Node) -> Option<f64> {
 
 /// Returns the power of ten that is factored out of the numbers of a picture's axes.
 fn factor(svg: Node) -> f64 {
-    // The factor stands before a unit. The numbers of decades are powers of ten themselves.
-    let units =
-        svg.descendants().filter(|node| node.has_tag_name("text") && node.attribute("text-anchor") == Some("end"));
-    let unit =
-        units.map(words).find(|words| words.starts_with("x, ") || words.starts_with("10") && words.contains('\u{a0}'));
-    unit.and_then(|words| power(&words)).map_or(1.0, |exponent| 10_f64.powi(exponent))
+    // The factor stands before a unit, at the end of an axis or of the title. The numbers of decades are powers of ten
+    // themselves.
+    let units = svg.descendants().filter_map(|node| match (node.attribute("text-anchor"), node.attribute("class")) {
+        (Some("end"), _) => Some(words(node)),
+        (_, Some("title")) => words(node).rsplit_once(", ").map(|(_, unit)| unit.to_owned()),
+        _ => None,
+    });
+    let mut units = units.filter(|words| words.starts_with("10") && words.contains('\u{a0}'));
+    units.next().and_then(|words| power(&words)).map_or(1.0, |exponent| 10_f64.powi(exponent))
 }
 
 /// Returns the exponent of a power of ten.

@@ -32,6 +32,8 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
         @if let Some(change) = &page.document.change {
             (heading(languages, texts::CHANGE))
             (table(languages, change, texts::CHANGE_CAPTION, [texts::EARLIER, texts::CHANGED_BY], false))
+            // With two languages the two tables are seldom on one sheet.
+            @if !languages.single() { (key(languages, &[change])) }
             @if !change.withheld { (simple(change, None, languages)) }
             @if let Some(earlier) = page.previous.last() {
                 (languages.paragraph_with(|language| previous(page, earlier, language)))

@@ -58,7 +58,10 @@ texts! {
         ru: "Не учтено в U величин (u не указана или равна 0): {count} (раздел\u{a0}3){more}."
     }
     AND_TEMPERATURE { en: ", and the temperature", ru: "; не учтена и температура" }
-    NO_TYPE { en: "Parameters determined", ru: "Параметры определены" }
+    NO_TYPE {
+        en: "Parameters determined, conformity not assessed",
+        ru: "Параметры определены, соответствие не оценивалось"
+    }
     NO_TYPE_WORDS {
         en: "No gyro type was specified; this report makes no statement of conformity.",
         ru: "Тип гироскопа не указан; заключение о соответствии не приводится."

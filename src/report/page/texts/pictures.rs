@@ -53,10 +53,10 @@ texts! {
     }
     DEVIATION_NO_U { en: "the certificate gives no uncertainty", ru: "неопределённость в сертификате не указана" }
 
-    EARTH_RATE_DIFFERENCE { en: "ω_3: actual minus nominal", ru: "Отличие ω_3" }
-    SPECIFIC_FORCE_DIFFERENCE { en: "n: actual minus nominal", ru: "Отличие n" }
-    EARTH_RATE_OF_FRAME { en: "ω_3, frame index i = {i}", ru: "ω_3, индекс рамки i = {i}" }
-    SPECIFIC_FORCE_OF_FRAME { en: "n, frame index i = {i}", ru: "n, индекс рамки i = {i}" }
+    EARTH_RATE_DIFFERENCE { en: "ω_3: actual minus nominal, {unit}", ru: "Отличие ω_3, {unit}" }
+    SPECIFIC_FORCE_DIFFERENCE { en: "n: actual minus nominal, {unit}", ru: "Отличие n, {unit}" }
+    EARTH_RATE_OF_FRAME { en: "ω_3, i = {i}, {unit}", ru: "ω_3, i = {i}, {unit}" }
+    SPECIFIC_FORCE_OF_FRAME { en: "n, i = {i}, {unit}", ru: "n, i = {i}, {unit}" }
     VECTOR_IN_WORDS { en: "position {index}: x {x}, y {y}", ru: "положение {index}: x {x}, y {y}" }
     VECTORS_DESCRIPTION { en: "In {unit}: {list}.", ru: "В {unit}: {list}." }
     VECTOR_DIFFERENCE { en: "from nominal to actual orientation", ru: "от номинальной к реальной ориентации" }
