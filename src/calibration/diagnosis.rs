@@ -36,8 +36,7 @@ const PRICE_OF_ONE_NUMBER: f64 = 2.0;
 const MOST_SUSPECTS: usize = 24;
 
 /// Consequence of readings that do not fit the stand, as a sentence without a full stop.
-pub(crate) const INCONSISTENT: &str =
-    "the readings are not consistent with this stand; the parameters are not valid until the cause has been found";
+pub(crate) const INCONSISTENT: &str = "the readings are not consistent with this stand; the parameters are not valid: find the cause and repeat the calibration";
 
 /// Possible causes of readings that do not fit.
 #[derive(Debug, Clone, PartialEq)]

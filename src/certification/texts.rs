@@ -237,33 +237,33 @@ texts! {
         ru: "Общий поворот всех положений несколько больше случайного; требуются дополнительные серии."
     }
     CHECK_BUMPED {
-        en: "All positions of run {run} of the check are rotated by {x}″, {y}″, {z}″ about {axes} relative to its \
-             other runs; the common rotation includes {of_x}″, {of_y}″, {of_z}″ of it.",
-        ru: "Все положения контрольной серии {run} повёрнуты относительно других серий на {x}″, {y}″, {z}″ вокруг \
+        en: "All positions of run {run} are rotated by {x}″, {y}″, {z}″ about {axes} relative to the other \
+             runs; the common rotation includes {of_x}″, {of_y}″, {of_z}″ of it.",
+        ru: "Все положения серии {run} повёрнуты относительно других серий на {x}″, {y}″, {z}″ вокруг \
              {axes}; в общий поворот вошли {of_x}″, {of_y}″, {of_z}″."
     }
     CHECK_MOVED {
-        en: "The stand seems to have moved between runs {run} and {after} of the check: all positions are rotated by \
+        en: "The stand seems to have moved between runs {run} and {after}: all positions are rotated by \
              {x}″, {y}″, {z}″ about {axes}; the common rotation is a mean of both states.",
-        ru: "По-видимому, между контрольными сериями {run} и {after} стенд сместился: все положения повёрнуты на {x}″, \
+        ru: "По-видимому, между сериями {run} и {after} стенд сместился: все положения повёрнуты на {x}″, \
              {y}″, {z}″ вокруг {axes}; общий поворот — среднее по обоим состояниям."
     }
     CHECK_DRIFTS {
-        en: "The stand seems to drift: from run to run of the check all positions rotate by {x}″, {y}″, {z}″ about \
-             {axes}; the common rotation is that of the middle of the check.",
-        ru: "По-видимому, стенд дрейфует: от одной контрольной серии к другой все положения поворачиваются на {x}″, \
-             {y}″, {z}″ вокруг {axes}; общий поворот относится к середине проверки."
+        en: "The stand seems to drift: from run to run all positions rotate by {x}″, {y}″, {z}″ about \
+             {axes}; the common rotation is that of the middle of the readings.",
+        ru: "По-видимому, стенд дрейфует: от одной серии к другой все положения поворачиваются на {x}″, \
+             {y}″, {z}″ вокруг {axes}; общий поворот относится к середине показаний."
     }
     CHECK_SPLIT {
-        en: "The stand seems to have moved during run {run} of the check: from position {after} on, its positions are \
+        en: "The stand seems to have moved during run {run}: from position {after} on, its positions are \
              rotated by {x}″, {y}″, {z}″ about {axes} relative to those up to {before}, in the order of the rows.",
-        ru: "По-видимому, стенд сместился во время контрольной серии {run}: её положения начиная с {after} повёрнуты \
+        ru: "По-видимому, стенд сместился во время серии {run}: её положения начиная с {after} повёрнуты \
              относительно положений до {before} включительно (в порядке строк) на {x}″, {y}″, {z}″ вокруг {axes}."
     }
     CHECK_OUTLIER {
-        en: "The reading of position {index} in run {run} of the check differs by {residual}″ about {axis} from those of \
+        en: "The reading of position {index} in run {run} differs by {residual}″ about {axis} from those of \
              the other runs; this shifts the mean of the position by {mean}″.",
-        ru: "Показание в положении {index} контрольной серии {run} отличается на {residual}″ вокруг {axis} от показаний \
+        ru: "Показание в положении {index}, серия {run}, отличается на {residual}″ вокруг {axis} от показаний \
              других серий; среднее для положения смещено этим на {mean}″."
     }
     NOT_TESTED_VARIATION {

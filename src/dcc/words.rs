@@ -20,15 +20,15 @@ texts! {
     SEAT { en: "Gyro seat", ru: "Посадочная поверхность гироскопа" }
     REPEATABILITY {
         en: "Repeatability of positioning: standard deviation of one visit, per axis",
-        ru: "Повторяемость положений: стандартное отклонение одной установки в положение, по осям"
+        ru: "Повторяемость положений: стандартное отклонение одной установки в положение, по оси"
     }
     COMMON_PLATFORM {
         en: "Standard uncertainty common to all positions, per axis of the platform",
-        ru: "Стандартная неопределённость, общая для всех положений, по осям платформы"
+        ru: "Стандартная неопределённость, общая для всех положений, по оси платформы"
     }
     COMMON_BASE {
         en: "Standard uncertainty common to all positions, per axis of the base",
-        ru: "Стандартная неопределённость, общая для всех положений, по осям основания"
+        ru: "Стандартная неопределённость, общая для всех положений, по оси основания"
     }
     METHOD { en: "Method of measurement", ru: "Методика измерений" }
     STAND_RESULT {
@@ -94,8 +94,8 @@ texts! {
     LOWER_LIMIT { en: "Lower limit of the tolerance", ru: "Нижняя граница допуска" }
     UPPER_LIMIT { en: "Upper limit of the tolerance", ru: "Верхняя граница допуска" }
     NOT_STATED {
-        en: "Not stated, or stated as 0, and not included in any uncertainty",
-        ru: "Не указано (или указано равным нулю) и не учтено в неопределённости"
+        en: "Uncertainty not stated, or stated as 0, and not included",
+        ru: "Неопределённость не указана (или равна 0) и не учтена"
     }
     NOT_SIGNED {
         en: "This DCC is not signed. The passport of the stand is signed; its SHA-256 is given with the equipment.",

@@ -372,7 +372,8 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
     }
     if !missing.is_empty() {
         let missing: Vec<&str> = missing.iter().map(|what| what.words()).collect();
-        let words = format!("Not stated, or stated as 0, and not included in any u: {}.", missing.join("; "));
+        let words =
+            format!("u not stated, or stated as 0, and not included in any uncertainty: {}.", missing.join("; "));
         columns::paragraph(out, "", &words);
     }
 }

@@ -203,7 +203,7 @@ fn components(out: &mut String, found: &Certification) {
         let numbers = turn.platform_arcsec.iter().chain(&turn.base_arcsec).map(|value| columns::signed(*value, 2));
         std::iter::once(turn.run.to_string()).chain(numbers).collect()
     });
-    out.push_str("Rotation of each run relative to the mean of the runs, ″\n");
+    out.push_str("Rotation in each run relative to the mean of the runs, ″\n");
     columns::table(out, &["run", "platform x", "y", "z", "base east", "north", "up"], rows);
 }
 

@@ -31,7 +31,7 @@ pub(crate) fn budget(budget: &Budget, sentence: Option<&str>, document: &Calibra
         let relative = match verdict {
             None => "its value",
             Some(verdict) if verdict.parameters.iter().any(ParameterVerdict::is_mostly_from_gravity) => {
-                "its tolerance, local g aside"
+                "its tolerance, excluding local g"
             }
             Some(_) => "its tolerance",
         };

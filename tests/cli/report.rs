@@ -154,7 +154,7 @@ fn the_annex_is_the_result() {
     assert!(page.contains("Change since the previous calibration"));
     let of_earlier = previous_calibration(&page);
     let sha256 = &result["subject"]["currents_sha256"].as_str().unwrap()[..8];
-    for words in ["date not stated", "SPS-2/0017/moscow-bmstu/1", sha256, "Serial numbers do not show"] {
+    for words in ["date not stated", "SPS-2/0017/moscow-bmstu/1", sha256, "Not confirmed by serial number"] {
         assert!(of_earlier.contains(words), "{words}: {of_earlier}");
     }
 }

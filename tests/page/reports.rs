@@ -326,13 +326,13 @@ fn what_the_budget_comes_to_is_said_in_every_language() {
         (
             "changed-both",
             "en",
-            "Largest uncertainty relative to tolerance, that of local g aside: ",
+            "Largest uncertainty relative to tolerance, excluding local g: ",
             "Without this source, u would be ",
         ),
         (
             "repeated-en",
             "en",
-            "Largest uncertainty relative to tolerance, that of local g aside: ",
+            "Largest uncertainty relative to tolerance, excluding local g: ",
             "To halve u, reduce the uncertainty of this source to ",
         ),
         ("unverified-many-en", "en", "Largest uncertainty relative to the value: ", "Without this source, u would be "),

@@ -313,7 +313,7 @@ class Report:
         gravity = []
         for row in table["rows"]:
             name = row[0]["text"].lower().replace("\xa0", " ")
-            if part == "budget" and name.startswith(("local g", "местное g", "combined, u, at", "суммарная, u, при")):
+            if part == "budget" and name.startswith(("conversion to g", "пересчёт к g", "combined u, for", "суммарная u, для")):
                 gravity.append(self.at_gravity(name, heads, row, lines))
                 continue
             key = next((keys[word] for word in keys if row[0]["text"].lower().replace(",", "").split(" ")[0] == word), None)
@@ -339,7 +339,7 @@ class Report:
 
     def at_gravity(self, name, heads, row, lines):
         """What the local g adds to the decision, and what the uncertainty then is: their squares add up with those above."""
-        kind = "part" if name.startswith(("local", "местное")) else "whole"
+        kind = "part" if name.startswith(("conversion", "пересчёт")) else "whole"
         for symbol, cell in zip(heads[1:], row[1:]):
             due, whole = (self.of_gravity if kind == "part" else self.at_type).get(symbol), self.at_type[symbol]
             # A contribution has one digit more than the whole.

@@ -33,9 +33,9 @@ impl Number {
         html! { (self.markup(languages)) (self.pad(languages, longest)) }
     }
 
-    /// Writes that a value is below this one, aligned like a number.
-    fn below(&self, languages: &Languages, longest: &Tail) -> Markup {
-        html! { "<" (BLANK) (self.text(languages.first())) (self.pad(languages, longest)) }
+    /// Writes that a value is below this one. It ends with the column: of a power of ten alone no decimal mark aligns.
+    fn below(&self, languages: &Languages) -> Markup {
+        html! { "<" (BLANK) (self.text(languages.first())) }
     }
 
     fn pad(&self, languages: &Languages, longest: &Tail) -> Markup {
@@ -83,7 +83,7 @@ impl Tail {
 pub(crate) enum Cell {
     /// A number; its decimal mark aligns with those of the column.
     Number(Number),
-    /// A number that is only said to be below this limit.
+    /// A number that is only said to be below this limit, a power of ten.
     Below(Number),
     /// A number directly followed by its unit; all units of a column have one width.
     WithUnit(Number, Markup),
@@ -125,15 +125,13 @@ impl From<Option<Number>> for Cell {
 pub(crate) fn column(languages: &Languages, cells: impl IntoIterator<Item = impl Into<Cell>>) -> Vec<Markup> {
     let cells: Vec<Cell> = cells.into_iter().map(Into::into).collect();
     let tails = cells.iter().filter_map(|cell| match cell {
-        Cell::Number(number) | Cell::Below(number) | Cell::WithUnit(number, _) => {
-            Some(Tail::of(&number.text(languages.first())))
-        }
-        Cell::Words(_) => None,
+        Cell::Number(number) | Cell::WithUnit(number, _) => Some(Tail::of(&number.text(languages.first()))),
+        Cell::Below(_) | Cell::Words(_) => None,
     });
     let longest = tails.fold(Tail::default(), Tail::or_longer);
     let written = cells.into_iter().map(|cell| match cell {
         Cell::Number(number) => number.aligned(languages, &longest),
-        Cell::Below(limit) => limit.below(languages, &longest),
+        Cell::Below(limit) => limit.below(languages),
         Cell::WithUnit(number, unit) => {
             html! { (number.markup(languages)) span.unit { (BLANK) (unit) } (number.pad(languages, &longest)) }
         }

@@ -188,13 +188,13 @@ pub(crate) fn date(languages: &Languages, date: Date) -> Markup {
 
 /// Writes a time in UTC.
 pub(crate) fn time(languages: &Languages, time: Timestamp) -> Markup {
-    html! { time datetime=(time) { (time_text(languages.first(), time)) } }
+    html! { time datetime=(time) { (unbroken(&time_text(languages.first(), time))) } }
 }
 
 /// Returns a time in UTC in the format of `language`.
 pub(crate) fn time_text(language: Language, time: Timestamp) -> String {
     let at = time.to_zoned(TimeZone::UTC);
-    format!("{}{BLANK}{}{BLANK}UTC", date_text(language, at.date()), at.strftime("%H:%M:%S"))
+    format!("{} {}{BLANK}UTC", date_text(language, at.date()), at.strftime("%H:%M:%S"))
 }
 
 pub(crate) fn symbol(letter: &str, subscript: &str) -> Markup {
@@ -209,11 +209,21 @@ pub(crate) fn symbol_and_unit(languages: &Languages, symbol: &Markup, unit: Text
 /// Writes a picture with its caption, which the style sheet numbers; `id` is its name there. The picture contains its own description for
 /// screen readers.
 pub(crate) fn figure(languages: &Languages, id: &str, drawing: &Markup, caption: Text) -> Markup {
+    figure_with(languages, id, drawing, |language| caption.words(language))
+}
+
+/// Writes a picture as `figure` does; `caption` gives its words in each language.
+pub(crate) fn figure_with(
+    languages: &Languages,
+    id: &str,
+    drawing: &Markup,
+    caption: impl Fn(Language) -> String,
+) -> Markup {
     let second = languages.iter().nth(1).map(|language| format!("--second:\"{}\"", words::FIGURE.of(language)));
     html! {
         figure id={ "figure-" (id) } style=[second] {
             (drawing)
-            figcaption data-word=(languages.spoken(words::FIGURE)) { (languages.label(caption)) }
+            figcaption data-word=(languages.spoken(words::FIGURE)) { (languages.label_with(caption)) }
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::calibration::{Found, Parameter, against_type};
 use crate::passport::Accuracy;
 use crate::report::page::Number;
 use crate::report::page::language::{Language, Languages, Text, values};
-use crate::report::page::texts::{calibration, pictures as texts, units};
+use crate::report::page::texts::{pictures as texts, units};
 use maud::{Markup, html};
 
 const PANEL_PIXELS: u32 = 330;
@@ -15,7 +15,7 @@ const BARS: [f64; 2] = [44.0, 450.0];
 const TOP: f64 = 5.0;
 const ROW: f64 = 17.0;
 const BAR_HALF: f64 = 5.0;
-const AXIS_HEIGHT: f64 = 34.0;
+const AXIS_HEIGHT: f64 = 20.0;
 
 /// Largest share of the tolerance on the axis. Larger values are drawn at its end.
 const LARGEST_SHARE: f64 = 20.0;
@@ -95,9 +95,8 @@ fn grid(languages: &Languages, scale: &Scale, bottom: f64) -> Markup {
         @for (percent, text) in ticks.marks(languages.first()) {
             @let x = scale.place(percent / 100.0);
             (line([x, TOP], [x, bottom + 4.0], "grid"))
-            (words([x, bottom + 16.0], Anchor::Middle, "small", &text))
+            (words([x, bottom + 16.0], Anchor::Middle, "small", &format!("{text}\u{a0}%")))
         }
-        (words([BARS[0], bottom + 31.0], Anchor::Start, "small", &languages.plain(calibration::IN_TOLERANCE)))
     }
 }
 

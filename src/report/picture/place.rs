@@ -84,7 +84,7 @@ fn compass(languages: &Languages) -> Markup {
         (line([x - COMPASS, y], [x + COMPASS, y], "grid"))
         (line([x, y + COMPASS], [x, y], "grid"))
         (arrow([x, y], [x, y - COMPASS], "meridian"))
-        (words([x, y - COMPASS - 6.0], Anchor::Middle, "title", &languages.plain(texts::NORTH_LETTER)))
+        (words([x, y - COMPASS - 6.0], Anchor::Middle, "", &languages.plain(texts::NORTH_LETTER)))
         (letter([x + COMPASS + 3.0, y - 5.0], Anchor::Middle, texts::EAST_LETTER))
         (letter([x - COMPASS - 3.0, y - 5.0], Anchor::Middle, texts::WEST_LETTER))
         (letter([x + 5.0, y + COMPASS], Anchor::Start, texts::SOUTH_LETTER))

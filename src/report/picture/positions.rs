@@ -49,10 +49,10 @@ pub(crate) fn positions(languages: &Languages, positions: &[CertifiedPosition], 
     let base = attitude::base(frame_axis_azimuth_deg);
     let factor = exaggeration(positions);
     let drawings: Vec<Markup> = positions.iter().map(|at| position(languages, at, &base, factor)).collect();
-    panels(COLUMNS, PANEL_PIXELS, &drawings, &key(languages, factor))
+    panels(COLUMNS, PANEL_PIXELS, &drawings, &key(languages))
 }
 
-fn key(languages: &Languages, factor: f64) -> Markup {
+fn key(languages: &Languages) -> Markup {
     let stroke = |class: &str| arrow([2.0, 7.0], [26.0, 7.0], class);
     let swatch = |class: &str| polygon(&[[4.0, 2.0], [24.0, 2.0], [24.0, 12.0], [4.0, 12.0]], class);
     let entries = [
@@ -61,16 +61,11 @@ fn key(languages: &Languages, factor: f64) -> Markup {
         (swatch("solid frame s2"), texts::FRAME),
         (swatch("solid platform s1"), texts::PLATFORM),
     ];
-    html! {
-        (legend(languages, &entries))
-        p.legend {
-            (languages.label_with(|language| texts::EXAGGERATED.filled(language, values! { factor: Number::exact(factor) })))
-        }
-    }
+    legend(languages, &entries)
 }
 
 /// Returns the factor by which the deviations are exaggerated: the round one that shows the largest closest to 10°.
-fn exaggeration(positions: &[CertifiedPosition]) -> f64 {
+pub(crate) fn exaggeration(positions: &[CertifiedPosition]) -> f64 {
     const SHOWN_ARCSEC: f64 = 10.0 * ARCSECONDS_PER_DEGREE;
     const MOST: i32 = 4;
     let all = positions.iter().flat_map(CertifiedPosition::angles_arcsec);

@@ -51,16 +51,17 @@ impl Bars {
         strip([WIDTH, HEIGHT], &drawing)
     }
 
-    /// Draws the axis of a column, with its unit and the factor of the unit.
-    pub(crate) fn axis(&self, languages: &Languages, unit: Text) -> Markup {
+    /// Draws the axis of a column, with the factor of its unit, and with the unit if the heading does not have it.
+    pub(crate) fn axis(&self, languages: &Languages, unit: Option<Text>) -> Markup {
         let Self(scale) = self;
         let exponent = crowding(scale.values[1]);
         let factor = power_of_ten(exponent);
         let shown = Scale { values: scale.values.map(|value| value / factor), ..*scale };
         let language = languages.first();
+        let unit = unit.map_or("", |unit| unit.of(language));
         let unit = match exponent {
-            0 => unit.of(language).to_owned(),
-            exponent => format!("{}\u{a0}{}", power(exponent, language), unit.of(language)),
+            0 => unit.to_owned(),
+            exponent => format!("{}\u{a0}{unit}", power(exponent, language)),
         };
         let drawing = html! {
             (words([WIDTH, 14.0], Anchor::End, "small", &unit))

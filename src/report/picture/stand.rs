@@ -69,7 +69,7 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
         arc(&view, &phi, None),
         letters(
             &view,
-            &[("x", x * 1.37), ("y", y * 1.37), ("z", z * 1.37), ("θ", theta_letter(&theta)), ("φ", phi(0.5) * 1.2)],
+            &[("x", x * 1.37), ("y", y * 1.37), ("z", z * 1.37), ("θ", theta_letter(&theta)), ("φ", phi(0.5) * 1.11)],
         ),
         compass_rose(languages, &base),
         leaders(&named),
@@ -157,18 +157,23 @@ fn leaders(named: &[Part]) -> Markup {
     const LINE: f64 = 17.0;
     const TOP: f64 = 30.0;
     const EDGE: f64 = 4.0;
+    /// Of the width of a name in class `small`, for that in the class of parts.
+    const RESERVE: f64 = 1.17;
     let mut sorted: Vec<&Part> = named.iter().collect();
     sorted.sort_by(|one, other| one.at[1].total_cmp(&other.at[1]));
+    let side = |part: &Part| usize::from(part.at[0] > CENTRE[0]);
     let mut next = [TOP, TOP];
-    let places = sorted.into_iter().map(|Part { names, at, within }| {
-        let right = usize::from(at[0] > CENTRE[0]);
+    let places = sorted.iter().map(|part| {
+        let Part { names, at, within } = part;
+        let side = side(part);
         // Two lines begin higher, so that the last stays above the directions.
-        let y = (at[1] - LINE * (names.len() - 1) as f64).max(next[right]);
-        next[right] = y + LINE * names.len() as f64 + GAP;
-        let long = names.iter().map(|name| width(name)).fold(0.0, f64::max);
-        let (x, anchor, end) = match right {
-            0 => (EDGE, Anchor::Start, EDGE + 1.14 * long + 3.0),
-            _ => (SIZE[0] - EDGE, Anchor::End, SIZE[0] - EDGE - 1.14 * long - 3.0),
+        let y = (at[1] - LINE * (names.len() - 1) as f64).max(next[side]);
+        next[side] = y + LINE * names.len() as f64 + GAP;
+        // A name begins or ends at its line, so that the gap does not depend on the font.
+        let inner = EDGE + RESERVE * names.iter().map(|name| width(name)).fold(0.0, f64::max);
+        let (x, anchor, end) = match side {
+            0 => (inner, Anchor::End, inner + GAP),
+            _ => (SIZE[0] - inner, Anchor::Start, SIZE[0] - inner - GAP),
         };
         html! {
             (line([end, y], *at, "leader"))

@@ -11,7 +11,7 @@ use maud::{Markup, html};
 
 const HEIGHT: f64 = 17.0;
 /// Between the mark of a value beyond the axis, which stands outside the tolerance, and the end of the axis.
-const ROOM_FOR_ARROW: f64 = 12.0;
+const ROOM_FOR_ARROW: f64 = 15.0;
 
 /// The axis of every strip, in tolerances: to both limits and half as far again, so that strips of all reports compare. An
 /// arrow points to what is beyond it.
@@ -24,7 +24,7 @@ pub(crate) struct Strips {
 }
 
 /// Strips beside deviations and decisions, and wider ones beside values alone.
-pub(crate) const BESIDE_DECISIONS: Strips = Strips { width: 132.0 };
+pub(crate) const BESIDE_DECISIONS: Strips = Strips { width: 140.0 };
 pub(crate) const BESIDE_VALUES: Strips = Strips { width: 400.0 };
 
 /// Returns the ends of the interval of a deviation with its expanded uncertainty.
@@ -67,6 +67,10 @@ impl Strips {
             @if row.tolerance > 0.0 {
                 @if guarded > 0.0 { (rectangle([share(-guarded), y - 6.0], [share(guarded), y + 6.0], "limits", None)) }
                 (line([scale.place(0.0), 0.0], [scale.place(0.0), HEIGHT], "grid"))
+            }
+            // Below the marks: a value close to a limit is on one side of it.
+            @for x in limits { (line([x, 0.0], [x, HEIGHT], "limit")) }
+            @if row.tolerance > 0.0 {
                 @if let Some((end, inwards)) = beyond {
                     (arrow([end + inwards * ROOM_FOR_ARROW, y], [end, y], "meridian"))
                     (decided([end + inwards * ROOM_FOR_ARROW, y], decision))
@@ -80,7 +84,6 @@ impl Strips {
                     (decided([share(row.deviation), y], decision))
                 }
             }
-            @for x in limits { (line([x, 0.0], [x, HEIGHT], "limit")) }
         };
         strip([self.width, HEIGHT], &drawing)
     }
@@ -108,7 +111,7 @@ pub(crate) fn key(languages: &Languages, verdicts: &[&Verdict]) -> Markup {
 /// Draws the mark of a decision: a disc, a disc half filled, or a cross; a circle if there is none.
 fn decided([x, y]: Point, decision: Option<Decision>) -> Markup {
     let (cx, cy) = (coordinate(x), coordinate(y));
-    match decision {
+    let found = match decision {
         None => html! { circle.site cx=(cx) cy=(cy) r="4.2" {} },
         Some(Decision::Pass) => html! { circle.mark cx=(cx) cy=(cy) r="4.4" {} },
         Some(Decision::Undecided) => {
@@ -125,7 +128,8 @@ fn decided([x, y]: Point, decision: Option<Decision>) -> Markup {
             let points: Vec<Point> = arms.iter().chain(&rest).map(|[dx, dy]| [x + dx, y + dy]).collect();
             polygon(&points, "mark")
         }
-    }
+    };
+    html! { circle.ground cx=(cx) cy=(cy) r="5.8" {} (found) }
 }
 
 /// Returns deviation and expanded uncertainty, rounded to the second digit of the latter.

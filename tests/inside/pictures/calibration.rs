@@ -33,7 +33,7 @@ fn made_up_result() -> ResultDocument {
 fn residuals_stand_within_limits_of_two_uncertainties() {
     let result = made_up_result();
     let bars = residuals::Bars::of(&result);
-    let axis = whole(&[bars.axis(&english(), units::DEG_PER_H)]);
+    let axis = whole(&[bars.axis(&english(), Some(units::DEG_PER_H))]);
     let axis = Document::parse(&axis).unwrap();
     let axis = Axis::along_x(axis.root_element());
     for (value, u) in [(0.001, 0.0015), (-0.003, 0.001), (-0.002, 0.001), (0.0, 0.0005)] {

@@ -130,7 +130,7 @@ fn a_check_with_a_bump_within_a_run_is_undecided() {
         let again = certify(&header(), &check).ok();
         let found = compare(&certificate, &header(), &check, again.as_ref()).unwrap();
         assert!(!found.same_stand && found.is_undecided(), "{:?}", found.words);
-        let due = "The stand seems to have moved during run 1 of the check: from position (1, 4) on";
+        let due = "The stand seems to have moved during run 1: from position (1, 4) on";
         assert!(found.words[0].starts_with(due), "{:?}", found.words);
         assert!(!found.words.iter().any(|said| said.contains("has changed relative")), "{:?}", found.words);
     }

@@ -88,10 +88,10 @@ pub fn words(text: Node) -> String {
     text.descendants().filter(Node::is_text).filter_map(|node| node.text()).collect()
 }
 
-/// Returns the number of a mark; one in degrees in arcseconds.
+/// Returns the number of a mark; one in degrees in arcseconds, one in percent without its sign.
 fn said(text: Node) -> Option<f64> {
     let words = words(text);
-    let words = words.trim_end_matches('″');
+    let words = words.trim_end_matches(['″', '%', '\u{a0}']);
     let (words, factor) = words.strip_suffix('°').map_or((words, 1.0), |degrees| (degrees, 3600.0));
     let number: Option<f64> = words.replace('\u{2212}', "-").replace('\u{202f}', "").replace(',', ".").parse().ok();
     number.map(|number| factor * number)

@@ -179,7 +179,7 @@ fn table(result: &ResultDocument, languages: &Languages) -> Markup {
         [
             Column::new(heading(symbol(axis, "")), column(languages, residuals.iter().map(value))),
             Column::new(heading(symbol("u", axis)), column(languages, residuals.iter().map(u))),
-            Column { heading: drawn, cells, foot: bars.axis(languages, units::DEG_PER_H) },
+            Column { heading: drawn, cells, foot: bars.axis(languages, Some(units::DEG_PER_H)) },
         ]
     });
     let names = residuals.iter().map(|at| vec![html! { (at.i) }, html! { (at.j) }]).collect();

@@ -284,7 +284,10 @@ impl CalibrationPage<'_> {
     fn not_in_u(&self, language: Language) -> Markup {
         let count = self.missing.len();
         let more = subject::outside(self).map(|_| texts::AND_TEMPERATURE.words(language)).unwrap_or_default();
-        html! { @if count > 0 { " " (italic(&texts::NOT_IN_U.filled(language, values! { count, more }))) } }
+        html! {
+            @if count > 0 { " " (italic(&texts::NOT_IN_U.filled(language, values! { count, more }))) }
+            @if self.laboratory.is_none() { " " (texts::METER_IS_ASSUMED.words(language)) }
+        }
     }
 
     /// Writes the parameters for which a Monte Carlo run shows that the linear approximation is not valid.

@@ -1,9 +1,8 @@
 //! Change of the stand since its last certificate.
 
 use super::CertificationPage;
-use crate::certification::comparison::Comparison;
-use crate::certification::comparison::{ComparedPosition, Test};
-use crate::certification::suspects::AXES;
+use crate::certification::comparison::{ComparedPosition, Comparison, Test};
+use crate::certification::suspects::{AXES, OUTLIER};
 use crate::passport::difference::NumberDifference;
 use crate::report::certification::outcome_of;
 use crate::report::page::language::{Languages, Text, values};
@@ -12,6 +11,7 @@ use crate::report::page::parts::{
     Column, Table, field, fields, heading, mark, marked, outcome_box, starts, symbol, symbol_and_unit,
 };
 use crate::report::page::spacing::BLANK;
+use crate::report::page::symbols::italic;
 use crate::report::page::texts::{certification as texts, checks, pictures, units};
 use crate::report::picture::residuals::{Bars, key_of};
 use crate::report::style::Outcome;
@@ -73,7 +73,9 @@ fn compared(comparison: &Comparison, changes: &[NumberDifference], languages: &L
     html! {
         (heading(languages, texts::ROTATIONS))
         (rotations(comparison, languages))
-        (languages.paragraph(texts::TWO_CHANGES))
+        (languages.paragraph_with(|language| {
+            italic(&texts::TWO_CHANGES.filled(language, values! { limit: Number::exact(OUTLIER) }))
+        }))
         (fields([
             field(languages, texts::ALL_TOGETHER, Some(test(&comparison.all, languages))),
             field(languages, texts::COMMON_TURN, Some(common.map_or_else(|| html! { "–" }, |of| test(of, languages)))),
@@ -144,7 +146,7 @@ fn table(changes: &[NumberDifference], caption: Markup, languages: &Languages) -
         of(texts::DIFFERENCE, NumberDifference::difference),
         Column::new(symbol_and_unit(languages, &symbol("u", ""), units::ARCSEC), column(languages, us)),
         Column::named(languages, texts::DIFFERENCE_IN_U, column(languages, ratios)),
-        Column { heading: drawn_within, cells: drawn.collect(), foot: bars.axis(languages, units::ARCSEC) },
+        Column { heading: drawn_within, cells: drawn.collect(), foot: bars.axis(languages, None) },
     ];
     let names = changes.iter().map(|at| {
         let (index, angle) = of_key(&at.key);

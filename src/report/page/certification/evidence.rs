@@ -10,7 +10,7 @@ use crate::report::page::parts::{
     Column, Table, field, fields, file_name, given, heading, marked, symbol, symbol_and_unit, wide_field,
 };
 use crate::report::page::passport::characteristics;
-use crate::report::page::texts::{calibration, certification as texts, checks, units};
+use crate::report::page::texts::{certification as texts, checks, units};
 use crate::report::style::Outcome;
 use crate::statistics::outlier::Bartlett;
 use crate::wording::compass;
@@ -207,12 +207,11 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
         column(languages, found.iter().map(|test| cell(test).unwrap_or_else(Cell::none)))
     };
     let columns = [
-        (checks::RESULT, found.iter().map(|test| test.result.clone()).collect()),
-        (texts::STATISTIC, cells(|test| test.statistic.clone().map(Cell::Number))),
-        (calibration::FREEDOM, cells(|test| test.freedom.clone().map(Cell::Number))),
-        (texts::PROBABILITY, cells(|test| test.probability.map(Cell::probability))),
+        Column::named(languages, checks::RESULT, found.iter().map(|test| test.result.clone()).collect()),
+        Column::named(languages, texts::STATISTIC, cells(|test| test.statistic.clone().map(Cell::Number))),
+        Column::new(symbol("ν", ""), cells(|test| test.freedom.clone().map(Cell::Number))),
+        Column::named(languages, texts::PROBABILITY, cells(|test| test.probability.map(Cell::probability))),
     ];
-    let columns = columns.map(|(heading, cells)| Column::named(languages, heading, cells));
     let names = found.iter().map(|test| vec![test.name.clone()]).collect();
     let table = Table { class: "numbers tests", ..Table::of(vec![languages.label(texts::TEST)], names, &columns) };
     html! {

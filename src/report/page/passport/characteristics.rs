@@ -5,8 +5,8 @@ use crate::attitude::ANGLE_SYMBOLS;
 use crate::report::page::language::{Language, Languages, Text, values};
 use crate::report::page::number::{LARGEST_IN_ARCSEC, LATITUDES, LONGITUDES, Number, column};
 use crate::report::page::parts::{
-    Column, Table, coordinate, fields, figure, given, heading, in_hemisphere, not_stated, quantity, starts, stated,
-    symbol, symbol_and_unit, wide_stated,
+    Column, Table, coordinate, fields, figure, figure_with, given, heading, in_hemisphere, not_stated, quantity,
+    starts, stated, symbol, symbol_and_unit, wide_stated,
 };
 use crate::report::page::spacing::BLANK;
 use crate::report::page::symbols::italic;
@@ -25,6 +25,7 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let content = &page.content;
     let is_stated = content.positions.iter().flat_map(CertifiedPosition::u_arcsec).any(|u| u.is_some());
     let stand = picture::positions(languages, &content.positions, content.site.frame_axis_azimuth_deg());
+    let factor = Number::exact(picture::exaggeration(&content.positions));
     html! {
         (heading(languages, texts::DEVIATIONS))
         (positions(&content.positions, languages))
@@ -32,7 +33,7 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
             (italic(&texts::DEVIATIONS_NOTE.words(language)))
             @if is_stated { " " (italic(&texts::DEVIATIONS_U_NOTE.words(language))) }
         }))
-        (figure(languages, "positions", &stand, texts::FIGURE_POSITIONS))
+        (figure_with(languages, "positions", &stand, |language| texts::FIGURE_POSITIONS.filled(language, values! { factor })))
         (heading(languages, texts::COMMON))
         (common(&content.certificate, languages))
         (heading(languages, texts::DATUM))

@@ -28,8 +28,8 @@ texts! {
         ru: "Показания не согласуются с этим стендом"
     }
     DOES_NOT_FIT_WORDS {
-        en: "The parameters are not valid until the cause has been found.",
-        ru: "До выяснения причины найденные параметры недействительны."
+        en: "The parameters are not valid. Find the cause and repeat the calibration.",
+        ru: "Найденные параметры недействительны. Следует выяснить причину и повторить калибровку."
     }
     CONFORMS { en: "Within the tolerances of gyro type {type}", ru: "Соответствует допускам типа {type}" }
     CONFORMS_NOT { en: "NOT within the tolerances of gyro type {type}", ru: "НЕ соответствует допускам типа {type}" }
@@ -54,8 +54,12 @@ texts! {
              |отклонение|\u{a0}−\u{a0}U > допуск, иначе не определено."
     }
     NOT_IN_U {
-        en: "Inputs not in U (u not stated, or stated as 0): {count} (section\u{a0}3){more}.",
-        ru: "Не учтено в U величин (u не указана или равна 0): {count} (раздел\u{a0}3){more}."
+        en: "Inputs not included in U (u not stated, or stated as 0): {count} (section\u{a0}3){more}.",
+        ru: "Величин, не учтённых в U (u не указана или равна 0): {count} (раздел\u{a0}3){more}."
+    }
+    METER_IS_ASSUMED {
+        en: "The error of the current meter is assumed: ±0.015\u{a0}% of the reading.",
+        ru: "Погрешность измерителя тока принята: ±0,015\u{a0}% показания."
     }
     AND_TEMPERATURE { en: ", and the temperature", ru: "; не учтена и температура" }
     NO_TYPE {
@@ -176,7 +180,7 @@ texts! {
     SITE { en: "Site", ru: "Место установки" }
     VERIFIED_NOT_WITHDRAWAL {
         en: "Passport {id}, verified as of {time}; withdrawal not checked",
-        ru: "Паспорт {id} проверен по состоянию на\u{a0}{time}; отзыв не\u{a0}проверен"
+        ru: "Паспорт {id} проверен по состоянию на\u{a0}{time}; отзыв не\u{a0}проверялся"
     }
     VERIFIED_AS_OF {
         en: "Passport {id}, verified as of {time}",
@@ -197,7 +201,7 @@ texts! {
         en: "No laboratory file states the current meter. This report assumes a meter with an error uniformly \
              distributed within ±0.015 % of the reading, and no other uncertainty of the laboratory.",
         ru: "Измеритель тока лаборатории не указан: принята погрешность ±0,015 % показания, распределённая \
-             равномерно; другие составляющие неопределённости лаборатории не учтены."
+             равномерно; другие составляющие, вносимые лабораторией, не учтены."
     }
     READINGS_ARE_OLDER {
         en: "The readings are older than the measurement of the stand",
@@ -324,14 +328,14 @@ texts! {
     NOMINAL { en: "Nominal", ru: "Номин. значение" }
     PREVIOUS {
         en: "Previous calibration: {day}, passport {passport}, currents {sha256}. Errors common to both, such as those of \
-             the stand, are not in the change: U is an upper estimate.",
+             the stand, do not affect the change, so U is an upper bound.",
         ru: "Предыдущая калибровка: {day}, паспорт {passport}, токи {sha256}. Погрешности, общие для обеих калибровок \
              (например, погрешности стенда), в изменение не входят: U — оценка сверху."
     }
     NO_DAY_BUT_CURRENTS { en: "{number}, SHA-256 {sha256}…", ru: "№\u{a0}{number}, SHA-256 токов {sha256}…" }
     NO_DAY { en: "date not stated", ru: "дата не указана" }
     SAME_GYRO_NOT_SHOWN {
-        en: "Serial numbers do not show that it was the same gyro.",
+        en: "Not confirmed by serial number to be the same gyro.",
         ru: "Не подтверждено, что это тот же гироскоп."
     }
     EARLIER { en: "Previous", ru: "Предыдущее" }
@@ -342,9 +346,9 @@ texts! {
     }
     FROM_UNKNOWN_HEIGHT {
         en: "Local g contributes {parts}: the height is not stated, so g is that at 0 m; its standard uncertainty, {u}, is the \
-             r.m.s. error of this for heights from 0 to 4000 m. To reduce it, state the height or measure g.",
-        ru: "Вклад местного g в U: {parts}. Высота не указана, g вычислено для 0 м; {u} — его среднеквадратическая погрешность \
-             при высотах от 0 до 4000 м. Для уменьшения следует указать высоту или измерить g."
+             r.m.s. error of this assumption for heights from 0 to 4000 m. To reduce it, state the height or measure g.",
+        ru: "Вклад местного g в U: {parts}. Высота не указана, g вычислено для 0 м с u = {u} (среднее квадратическое отличие при \
+             высотах от 0 до 4000 м). Для уменьшения следует указать высоту или измерить g."
     }
     FROM_GRAVITY_PART { en: "{gravity} to the U of {parameter}", ru: "{gravity} для {parameter}" }
     FROM_TURN_ONS {
@@ -358,7 +362,7 @@ texts! {
     TOLERANCE { en: "Tolerance", ru: "Допуск" }
     IN_UNIT_OF_PARAMETER { en: "In the unit of the parameter", ru: "В единицах параметра" }
     IN_UNIT_OF_TOLERANCE { en: "In the unit of the tolerance", ru: "В единицах допуска" }
-    RISK { en: "Risk\u{a0}of\u{a0}simple acceptance", ru: "Риск\u{a0}простой приёмки" }
+    RISK { en: "Risk of\u{a0}error", ru: "Риск ошибки" }
     GUARDED { en: "Guarded acceptance", ru: "С защитной полосой" }
     PASSED_BY_SIMPLE {
         en: "By simple acceptance, without a guard band, {passed} of {all} parameters pass",
@@ -373,8 +377,8 @@ texts! {
         ru: "С противоположным знаком допуску соответствовало бы: {names}. Следует проверить правило знаков."
     }
     RISK_NOTE {
-        en: "Risk (specific risk): probability that this decision on the parameter is wrong.",
-        ru: "Риск: вероятность того, что это решение по параметру ошибочно."
+        en: "Risk of error (specific risk): probability that this decision on the parameter is wrong.",
+        ru: "Риск ошибки: вероятность того, что это решение по параметру неверно."
     }
 
     FIT { en: "Goodness of fit", ru: "Согласие показаний с моделью" }
@@ -388,7 +392,7 @@ texts! {
     }
     TOO_SMALL {
         en: "Chi-square is much smaller than expected: the stated uncertainties are too large for these readings, or the \
-             readings were computed.",
+             readings were computed, not measured.",
         ru: "Хи-квадрат значительно меньше ожидаемого: указанные неопределённости завышены либо показания получены расчётом."
     }
     OF_UNCERTAINTIES {
@@ -430,14 +434,14 @@ texts! {
         ru: "оценка, число степеней свободы {known}"
     }
     SUSPECT_VISIT {
-        en: "Visit {visit} to position {index} in turn-on {cycle} differs from the other visits by {jx} µA along x and {jy} µA \
+        en: "Visit {visit} to position {index} in turn-on {cycle} differs from the other visits by {jx} µA in x and {jy} µA \
              along y, more than chance explains (probability below 0.001). It is included in the result.",
         ru: "Установка {visit} в положение {index} в запуске {cycle} отличается от других установок на {jx} мкА по x и \
              {jy} мкА по y; случайностью это не объяснить (вероятность меньше 0,001). Она учтена в результате."
     }
     SUSPECT_ROW {
         en: "Row {row} of visit {visit} to position {index} in turn-on {cycle} differs from the other rows of the visit by \
-             {jx} µA along x and {jy} µA along y, more than chance explains (probability below 0.001). It is included in \
+             {jx} µA in x and {jy} µA in y, more than chance explains (probability below 0.001). It is included in \
              the result.",
         ru: "Показание {row} установки {visit} в положение {index} в запуске {cycle} отличается от других показаний этой \
              установки на {jx} мкА по x и {jy} мкА по y; случайностью это не объяснить (вероятность меньше 0,001). Оно \
@@ -528,7 +532,7 @@ texts! {
     }
     HINT_DID_NOT_REPEAT {
         en: "Position {index} may not have been reproduced: if its angle has changed, the difference is {angle}″; if the currents \
-             are wrong, their errors are {jx} µA along x and {jy} µA along y.",
+             are wrong, their errors are {jx} µA in x and {jy} µA in y.",
         ru: "Возможно, положение {index} не воспроизведено: если изменился угол, отличие равно {angle}″; если неверны токи, \
              их погрешность {jx} мкА по x и {jy} мкА по y."
     }
@@ -547,7 +551,7 @@ texts! {
     CANNOT_TELL {
         en: "Small residuals do not exclude all errors. The following leave no residuals but change the result: the \
              passport of another site (latitude), a base tilted about east, a gyro rotated in its seat about the spin \
-             axis, the gain and offset of the meter, x and y exchanged, one sign reversed. A base rotated in azimuth \
+             axis, the gain and offset of the meter, x and y exchanged, the sign of one current reversed. A base rotated in azimuth \
              leaves almost no residuals. To detect these errors, check the serial number of the stand, the site of the \
              passport, the specification of the gyro and its previous calibration.",
         ru: "Малые остатки не исключают погрешностей и ошибок. Не проявляются в остатках, но изменяют результат: паспорт \
@@ -558,8 +562,8 @@ texts! {
              установки по паспорту, технические условия на гироскоп и результаты его предыдущей калибровки."
     }
     NOT_STATED {
-        en: "Not stated, or stated as 0, and not included in any uncertainty:",
-        ru: "Не указано (или указано равным нулю) и не учтено в неопределённости:"
+        en: "u not stated, or stated as 0, and not included in any uncertainty:",
+        ru: "u не указана (или равна 0) и не учтена в неопределённости:"
     }
     ALL_STATED {
         en: "The uncertainties of all relevant inputs are stated.",
@@ -569,11 +573,11 @@ texts! {
     NOT_STATED_BASE { en: "common part of the base of the stand", ru: "общая составляющая основания стенда" }
     NOT_STATED_GAIN { en: "gain of the meter", ru: "коэффициент преобразования измерителя" }
     NOT_STATED_OFFSET { en: "offset of the meter", ru: "смещение нуля измерителя" }
-    NOT_STATED_VISITS { en: "gyro noise from visit to visit", ru: "шум между установками в положение" }
+    NOT_STATED_VISITS { en: "gyro noise from visit to visit", ru: "шум гироскопа от установки к установке" }
     NOT_STATED_TURN_ONS { en: "gyro noise from turn-on to turn-on", ru: "шум гироскопа от запуска к запуску" }
     NOT_STATED_GRAVITY { en: "gravity", ru: "местное ускорение g" }
     NOT_STATED_LEVEL { en: "level of the base", ru: "наклон основания" }
-    NOT_STATED_SEAT { en: "gyro seat", ru: "посадочная поверхность гироскопа" }
+    NOT_STATED_SEAT { en: "gyro seat", ru: "установка гироскопа" }
 
     BUDGET { en: "Uncertainty budget", ru: "Бюджет неопределённости" }
     BUDGET_CAPTION {
@@ -612,7 +616,7 @@ texts! {
         ru: "Наибольшая неопределённость относительно допуска: {parameter}, u = {u}."
     }
     BUDGET_WORST_BUT_GRAVITY {
-        en: "Largest uncertainty relative to tolerance, that of local g aside: {parameter}, u = {u}.",
+        en: "Largest uncertainty relative to tolerance, excluding local g: {parameter}, u = {u}.",
         ru: "Наибольшая неопределённость относительно допуска без учёта местного g: {parameter}, u = {u}."
     }
     BUDGET_WORST_OF_SIZE {
@@ -636,13 +640,13 @@ texts! {
         ru: "Для уменьшения u вдвое неопределённость этого источника не должна превышать {limit}."
     }
     BUDGET_LEAVES { en: "Without this source, u would be {rest}.", ru: "Без этого источника u составила бы {rest}." }
-    COMBINED { en: "Combined, u", ru: "Суммарная, u" }
-    BUDGET_GRAVITY { en: "Local g, for g_0", ru: "Местное g, для g_0" }
-    COMBINED_AT_G0 { en: "Combined, u, at g_0", ru: "Суммарная, u, при g_0" }
+    COMBINED { en: "Combined u", ru: "Суммарная u" }
+    BUDGET_GRAVITY { en: "Conversion to g_0", ru: "Пересчёт к g_0" }
+    COMBINED_AT_G0 { en: "Combined u, for g_0", ru: "Суммарная u, для g_0" }
     EFFECTIVE_FREEDOM { en: "Effective degrees of freedom", ru: "Эффективное число степеней свободы" }
     INPUT { en: "{input}: u = {u}", ru: "{input}: u = {u}" }
     INPUTS { en: "{input}: u ≤ {u}", ru: "{input}: u ≤ {u}" }
-    CAUSE_ANGLE { en: "certified angles", ru: "углы по сертификату" }
+    CAUSE_ANGLE { en: "certified angles", ru: "отклонения по сертификату" }
     CAUSE_RETURN { en: "repeatability of positioning", ru: "повторяемость положений" }
     CAUSE_READING { en: "meter, specification", ru: "измеритель, погрешность показания" }
     CAUSE_FLOOR { en: "meter, floor", ru: "измеритель, постоянная часть" }
@@ -650,8 +654,8 @@ texts! {
     CAUSE_DIFFERENCES { en: "differences between visits", ru: "разности между установками в положение" }
     CAUSE_TURN_ON { en: "gyro, turn-ons about {axis}", ru: "гироскоп, среднее по запускам, ось {axis}" }
     CAUSE_NOISE { en: "meter, noise", ru: "измеритель, шум показаний" }
-    CAUSE_PLATFORM { en: "platform about {axis}", ru: "платформа (общая составляющая), ось {axis}" }
-    CAUSE_SEAT { en: "gyro seat about {axis}", ru: "посадочная поверхность, ось {axis}" }
+    CAUSE_PLATFORM { en: "platform about {axis}", ru: "платформа (общая составляющая), вокруг {axis}" }
+    CAUSE_SEAT { en: "gyro seat about {axis}", ru: "установка гироскопа вокруг {axis}" }
     CAUSE_BASE { en: "base of the stand about {axis}", ru: "основание (общая составляющая), вокруг {axis}" }
     ABOUT_EAST { en: "east", ru: "направления на восток" }
     ABOUT_NORTH { en: "north", ru: "направления на север" }

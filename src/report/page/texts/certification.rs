@@ -43,7 +43,7 @@ texts! {
         en: "standard deviation of a visit, pooled",
         ru: "стандартное отклонение одной установки в положение, объединённое"
     }
-    COMMON_PARTS { en: "Common parts, per axis: platform; base", ru: "Общие составляющие (по осям): платформа; основание" }
+    COMMON_PARTS { en: "Common parts, per axis: platform; base", ru: "Общие составляющие (по оси): платформа; основание" }
     FEW { en: "few: see section\u{a0}{number}", ru: "мало: см. раздел\u{a0}{number}" }
     STANDARD { en: "standard uncertainty (k = 1)", ru: "стандартная неопределённость (k = 1)" }
 
@@ -53,7 +53,7 @@ texts! {
     COMPONENTS_NOTE {
         en: "A reading differs from the mean of its position by a rotation of the platform and one of the base, both \
              common to the whole run, and by the scatter of the single visit. s: standard deviation; ν: its degrees of \
-             freedom; s/√R: its part in the mean of R runs. The repeatability is the quadratic mean of s over x, y and z, \
+             freedom; s/√R: its contribution to the mean of R runs. The repeatability is the quadratic mean of s over x, y and z, \
              weighted by ν. The upper limit is one-sided, by chi-square, with the scatter of the visits subtracted.",
         ru: "Показание отличается от среднего по положению на поворот платформы и поворот основания, общие для всей \
              серии, и на случайное отклонение одной установки в положение. s — стандартное отклонение, ν — число его \
@@ -69,11 +69,11 @@ texts! {
     OWN_Y { en: "Visit, about y", ru: "Установка в положение, вокруг y" }
     OWN_Z { en: "Visit, about z", ru: "Установка в положение, вокруг z" }
     POOLED { en: "Visit, pooled (repeatability)", ru: "Установка в положение, по всем осям (повторяемость)" }
-    PLATFORM { en: "Run, platform, per axis", ru: "Серия, платформа, по осям" }
-    BASE { en: "Run, base, per axis", ru: "Серия, основание, по осям" }
+    PLATFORM { en: "Run, platform, per axis", ru: "Серия, платформа, по оси" }
+    BASE { en: "Run, base, per axis", ru: "Серия, основание, по оси" }
     UPPER { en: "Upper limit of s (95 %), ″", ru: "Верхняя граница s (95 %), ″" }
     RUN_TURNS {
-        en: "Rotation of each run relative to the mean, ″",
+        en: "Rotation in each run relative to the mean, ″",
         ru: "Поворот платформы и основания в каждой серии относительно среднего, ″"
     }
     OF_PLATFORM { en: "Platform", ru: "Платформа" }
@@ -127,25 +127,25 @@ texts! {
         ru: "Стьюдента: наибольшее смещение или дрейф (серий: {count}), поворот, ″"
     }
     NOT_SUSPECT { en: "not suspect", ru: "не выделяется" }
-    EQUAL { en: "no difference", ru: "различий нет" }
+    EQUAL { en: "no difference found", ru: "различий не найдено" }
     DOUBTFUL { en: "doubtful", ru: "сомнительно" }
     UNEQUAL { en: "different", ru: "различаются" }
-    NOT_MADE { en: "not made", ru: "не применялся" }
+    NOT_MADE { en: "not run", ru: "не применялся" }
     OUTLIER { en: "outlier", ru: "выброс" }
     SIGNIFICANT { en: "significant", ru: "значимо" }
     PROBABLE { en: "probable", ru: "вероятно" }
     STRAGGLER { en: "straggler", ru: "квазивыброс" }
     TESTS_NOTE {
         en: "Value: the statistic given last in the first column; differences and rotations are from the other readings \
-             or runs. Probability of a result at least as extreme by chance: below 5 % a value is a straggler, equality \
+             or runs. ν: degrees of freedom. Probability of a result at least as extreme by chance: below 5 % a value is a straggler, equality \
              is doubtful, and a shift or drift is probable; below 1 % the value is an outlier, the variances are \
              different, and the shift or drift is significant. No reading is excluded because of these tests. Bartlett’s \
              test requires a fine resolution and no suspect reading.",
         ru: "Значение: величина, указанная в конце названия критерия; отличия — от остальных показаний, повороты — \
-             относительно остальных серий. Вероятность случайно получить значение, не меньшее по модулю: менее 5 % — \
+             относительно остальных серий. ν — число степеней свободы. Вероятность случайно получить значение, не меньшее по модулю: менее 5 % — \
              квазивыброс, равенство сомнительно, смещение или дрейф вероятны; менее 1 % — выброс, дисперсии различаются, \
              смещение или дрейф значимы. По этим критериям показания не исключаются. Критерий Бартлетта применим при \
-             малом шаге отсчёта и без сомнительных показаний."
+             малой дискретности отсчёта и без сомнительных показаний."
     }
     WARNINGS_COUNTED {
         en: "Warnings of the program: {count}; see section “{section}”.",
@@ -184,15 +184,17 @@ texts! {
         ru: "Отклонения по сертификату {number} и по новому; u — стандартная неопределённость изменения"
     }
     ROTATIONS {
-        en: "Rotation of each position relative to the other positions",
-        ru: "Поворот каждого положения относительно остальных"
+        en: "Rotation in each position relative to the other positions",
+        ru: "Поворот в каждом положении относительно остальных"
     }
     TWO_CHANGES {
-        en: "The decision rests on the rotation of the case relative to the other positions (u from the repeatability of \
-             the earlier certificate, if stated). Below are the changes of the deviations, computed before rounding (u \
-             from their uncertainties in both).",
-        ru: "Решение принимается по повороту корпуса относительно остальных положений (u — по повторяемости предыдущего \
-             сертификата, если указана). Ниже — изменения отклонений, вычисленные до округления (u — по их \
+        en: "The decision rests on the rotation of the platform relative to the other positions (u from the repeatability \
+             of the earlier certificate, if stated): changed if the probability, times the number of positions, is below \
+             {limit}; undecided if outliers or scatter leave this open. Below are the changes of the deviations, computed \
+             before rounding (u from their uncertainties in both).",
+        ru: "Решение принимается по повороту платформы относительно остальных положений (u — по повторяемости предыдущего \
+             сертификата, если указана): изменилось, если вероятность, умноженная на число положений, меньше {limit}; не \
+             определено, если выбросы или рассеяние не позволяют решить. Ниже — изменения отклонений до округления (u — по \
              неопределённостям в обоих сертификатах)."
     }
     REPEATS { en: "unchanged", ru: "без изменений" }

@@ -12,13 +12,13 @@ texts! {
     INCLUSIVE { en: "inclusive", ru: "включительно" }
     INCLUSIVE_NOT_CHECKED {
         en: "inclusive; withdrawal not checked",
-        ru: "включительно; отзыв не\u{a0}проверен"
+        ru: "включительно; отзыв не\u{a0}проверялся"
     }
     PERIOD { en: "validity period ends on {day} (inclusive)", ru: "срок действия по {day} включительно" }
     NO_END { en: "no expiry date is stated", ru: "срок действия не указан" }
     NO_END_NOT_CHECKED {
         en: "no expiry date is stated; withdrawal not checked",
-        ru: "срок действия не указан; отзыв не\u{a0}проверен"
+        ru: "срок действия не указан; отзыв не\u{a0}проверялся"
     }
     WHERE { en: "Use within", ru: "Применять в пределах" }
     AROUND { en: "of", ru: "от" }
@@ -28,12 +28,12 @@ texts! {
     PASSPORT_ISSUER { en: "Issuer of the passport", ru: "Выдавшая организация" }
     CHECKING { en: "How to check", ru: "Как проверить" }
     CHECKING_HOW {
-        en: "of the file: must equal that in the code; dtg-passport verify checks all",
-        ru: "файла должен совпадать с хешем в коде; все проверки выполняет dtg-passport verify"
+        en: "of the file: must match that in the QR code; for all checks run dtg-passport verify",
+        ru: "файла должен совпадать с хешем в QR-коде; все проверки выполняет dtg-passport verify"
     }
     FIGURE_STAND {
-        en: "The stand: its axes and angles, for θ = 40° and φ = 35°, the frame’s axis ξ as at this site.",
-        ru: "Оси и углы стенда при θ = 40° и φ = 35°, ось рамки ξ — как в месте установки."
+        en: "The stand: its axes and angles, for θ = 40° and φ = 35°, with the axis ξ of the frame at its azimuth at this site.",
+        ru: "Оси и углы стенда при θ = 40° и φ = 35°, азимут оси рамки ξ — для места установки."
     }
 
     FRONT { en: "Identity and verification", ru: "Идентификация и проверка" }
@@ -50,12 +50,12 @@ texts! {
     REISSUE_CHANGED { en: "Changes", ru: "Изменения" }
     REISSUE_SUPERSEDES { en: "Supersedes the predecessor", ru: "Прежний паспорт заменён" }
     SHA256 { en: "SHA-256 of the signed file", ru: "SHA-256 подписанного файла" }
-    CODE { en: "Code with the SHA-256 of the signed file", ru: "Код с SHA-256 подписанного файла" }
+    CODE { en: "QR code with the SHA-256 of the signed file", ru: "QR-код с SHA-256 подписанного файла" }
     PAPER_IS_NOT_SIGNED {
         en: "This page has no digital signature: only the file is authoritative, which the annex reproduces verbatim. Its SHA-256 \
-             must equal the value here and in the code. dtg-passport verify checks the file, ssh-keygen its signature alone.",
+             must equal the value here and in the QR code. dtg-passport verify checks the file, ssh-keygen its signature alone.",
         ru: "Страница не имеет электронной подписи: силу имеет только файл, дословно приведённый в приложении. Его хеш \
-             SHA-256 должен совпадать с указанным здесь и в коде. Файл проверяют командой dtg-passport verify, одну лишь \
+             SHA-256 должен совпадать с указанным здесь и в QR-коде. Файл проверяют командой dtg-passport verify, одну лишь \
              подпись — ssh-keygen."
     }
 
@@ -81,7 +81,7 @@ texts! {
     METHOD { en: "Method", ru: "Методика" }
     TRACEABILITY { en: "Traceability", ru: "Прослеживаемость" }
     TEMPERATURE { en: "Temperature during measurement", ru: "Температура при измерениях" }
-    TEMPERATURE_RANGE { en: "Temperature range of validity", ru: "Диапазон применимости по температуре" }
+    TEMPERATURE_RANGE { en: "Temperature range of validity", ru: "Диапазон температур" }
     FROM_TO { en: "{low} to {high}", ru: "от {low} до {high}" }
     THIS_ITEM_ONLY {
         en: "The results relate only to the stand identified here. This passport shall not be reproduced except in full \
@@ -100,10 +100,10 @@ texts! {
     }
     DEVIATIONS_NOTE {
         en: "Position (i, j): frame angle θ about ξ, then platform angle φ about the spin axis. α, β, γ define the \
-             transformation from the platform axes in the nominal orientation to those in the actual one, eq. (4).",
+             coordinate transformation from the platform axes in the nominal orientation to those in the actual one, \
+             eq. (4) of Tang and Podchezertsev (2017).",
         ru: "Положение (i, j): угол рамки θ вокруг ξ, затем угол платформы φ вокруг оси собственного вращения. α, β, γ \
-             задают преобразование координат из осей платформы при номинальной ориентации в оси при реальной, формула \
-             (4)."
+             задают преобразование координат из осей платформы при номинальной ориентации в оси при реальной, формула (4) работы Тан Синюаня и В. П. Подчезерцева (2017)."
     }
     DEVIATIONS_U_NOTE {
         en: "u: own part of the standard uncertainty (k = 1) of the certified mean; ν: degrees of freedom, the smallest \
@@ -114,17 +114,17 @@ texts! {
              значащими цифрами, значения округлены до того же разряда."
     }
     FIGURE_POSITIONS {
-        en: "The stand in its positions (i, j), viewed as in Figure 1.",
-        ru: "Стенд в положениях (i, j); вид тот же, что на рисунке\u{a0}1."
+        en: "The stand in its positions (i, j), viewed as in Figure 1. Deviations are drawn ×{factor}.",
+        ru: "Стенд в положениях (i, j); вид тот же, что на рисунке\u{a0}1. Увеличение отклонений: ×{factor}."
     }
     COMMON {
         en: "Repeatability and common parts of the uncertainty (k = 1)",
         ru: "Повторяемость и общие составляющие неопределённости (k = 1)"
     }
-    REPEATABILITY { en: "Repeatability of positioning, per axis", ru: "Повторяемость положений (по осям)" }
+    REPEATABILITY { en: "Repeatability of positioning, per axis", ru: "Повторяемость положений (по оси)" }
     REPEATABILITY_DOF { en: "Degrees of freedom of the repeatability", ru: "Число степеней свободы повторяемости" }
-    COMMON_PLATFORM { en: "Common part, per axis of the platform", ru: "Общая составляющая, по осям платформы" }
-    COMMON_BASE { en: "Common part, per axis of the base", ru: "Общая составляющая, по осям основания" }
+    COMMON_PLATFORM { en: "Common part, per axis of the platform", ru: "Общая составляющая, по оси платформы" }
+    COMMON_BASE { en: "Common part, per axis of the base", ru: "Общая составляющая, по оси основания" }
     TYPE_B_POSITION { en: "Type B, part of u(α), u(β), u(γ)", ru: "По типу B, в составе u(α), u(β), u(γ)" }
     TYPE_B_PLATFORM {
         en: "Type B, in the common part of the platform",
@@ -168,7 +168,7 @@ texts! {
     RADIUS { en: "Validity radius", ru: "Радиус применимости" }
     RADIUS_WITHIN {
         en: "Change of the Earth-rate components at this radius",
-        ru: "Изменение составляющих угловой скорости Земли на границе области применимости"
+        ru: "Изменение составляющих угловой скорости Земли на границе"
     }
     AZIMUTH { en: "Astronomic azimuth of the mark", ru: "Астрономический азимут пункта" }
 
@@ -214,8 +214,8 @@ texts! {
     DIGITS_NOTE {
         en: "The numbers in this section are rounded to nine decimals. For computation, use the annex, which gives all \
              digits.",
-        ru: "Числа этого раздела округлены до девяти знаков после запятой; для вычислений служат полные числа \
-             приложения."
+        ru: "Числа этого раздела округлены до девяти знаков после запятой; для вычислений берут числа из приложения \
+             (все цифры)."
     }
     SCALE_FACTORS_MAIN { en: "Main scale factors", ru: "Основные масштабные коэффициенты" }
     SCALE_FACTORS_CROSS { en: "Cross-axis scale factors", ru: "Перекрёстные масштабные коэффициенты" }
@@ -245,7 +245,7 @@ texts! {
         ru: "Неопределённости в сравнении с допусками."
     }
     GYRO_TYPE { en: "Gyro type", ru: "Тип гироскопа" }
-    GYRO_GRAVITY { en: "g to which the type’s drifts refer", ru: "g, к которому отнесены составляющие дрейфа по типу" }
+    GYRO_GRAVITY { en: "g to which the type’s drifts refer", ru: "g, заданное для типа" }
     CALIBRATING_LABORATORY { en: "Laboratory that calibrates the gyro", ru: "Лаборатория, калибрующая гироскоп" }
     METER { en: "Current meter: u (k = 1), range", ru: "Измеритель тока: u (k = 1), диапазон" }
     METER_READING { en: "{n} % of reading", ru: "{n} % показания" }
@@ -254,7 +254,7 @@ texts! {
     METER_FLOOR { en: "floor {n} mA", ru: "постоянная часть погрешности {n} мА" }
     METER_NOISE { en: "noise of a reading {n} mA", ru: "шум показания {n} мА" }
     METER_RANGE { en: "range {n} mA", ru: "диапазон {n} мА" }
-    SEATING { en: "u of the gyro seat about x, y, z", ru: "u посадочной поверхности вокруг x, y, z" }
+    SEATING { en: "u of the gyro seat about x, y, z", ru: "u установки гироскопа вокруг x, y, z" }
     BASE_AZIMUTH_U { en: "u of the azimuth, in this laboratory", ru: "u азимута основания в лаборатории" }
     BASE_LEVEL_U { en: "u of the level, in this laboratory", ru: "u наклона основания в лаборатории" }
     LABORATORY_TEMPERATURE { en: "Temperature in the laboratory", ru: "Температура в лаборатории" }

@@ -37,7 +37,6 @@ texts! {
         ru: "номинальные, где отличие заметно"
     }
     FRAME { en: "frame, rotated by θ about ξ", ru: "рамка, поворот на θ вокруг\u{a0}ξ" }
-    EXAGGERATED { en: "Deviations are drawn ×{factor}.", ru: "Увеличение отклонений: ×{factor}." }
     PLATFORM {
         en: "platform with the gyro, rotated by φ about z; the pins of its seat lie along x",
         ru: "платформа с гироскопом, поворот на φ вокруг\u{a0}z; штифты вдоль\u{a0}x"
@@ -113,15 +112,12 @@ texts! {
         ru: "границы ±2u, где u\u{a0}— стандартная неопределённость изменения"
     }
 
-    TOLERANCES_WHISKER {
-        en: "expanded uncertainty ±U",
-        ru: "расширенная неопределённость ±U"
-    }
+    TOLERANCES_WHISKER { en: "interval ±U", ru: "интервал ±U" }
     TOLERANCES_GUARDED {
-        en: "guarded acceptance",
-        ru: "приёмка с защитной полосой"
+        en: "acceptance interval",
+        ru: "интервал приёмки"
     }
-    TOLERANCES_BEYOND { en: "beyond the axis", ru: "за пределами шкалы" }
+    TOLERANCES_BEYOND { en: "beyond the axis", ru: "вне шкалы" }
     TOLERANCES_LIMIT { en: "tolerance", ru: "допуск" }
     DECISION_PASS { en: "pass", ru: "соответствует" }
     DECISION_FAIL { en: "fail", ru: "не соответствует" }
@@ -144,7 +140,7 @@ texts! {
     }
     CONVERGENCE_LIMIT {
         en: "limit: the iteration stops when both are below it",
-        ru: "предел: итерации прекращаются, когда оба изменения ниже него"
+        ru: "предел: итерации прекращаются, когда оба изменения меньше его"
     }
     CONVERGENCE_IN_WORDS {
         en: "step {step}: {k} % and {g} °/(h·g)",
