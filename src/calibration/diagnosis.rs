@@ -11,7 +11,7 @@ use super::{ChiSquare, Model, Setup};
 use crate::coefficients::PositionIndex;
 use crate::gyro::GyroParameters;
 use crate::text::number::{exponent_as_printed, two_digits};
-use crate::units::arcseconds_from_radians;
+use crate::units::{ARCSECONDS_PER_DEGREE, arcseconds_from_radians};
 use nalgebra::{Matrix2, Vector2};
 use std::fmt;
 
@@ -31,6 +31,9 @@ const PRICE_OF_TWO_NUMBERS: f64 = 4.0;
 
 /// Chi-square that an explanation with one free number must gain over one without, to be preferred.
 const PRICE_OF_ONE_NUMBER: f64 = 2.0;
+
+/// Change of an angle that nobody overlooks, so that an error in writing down a reading is more likely.
+const GROSS_ARCSEC: f64 = ARCSECONDS_PER_DEGREE;
 
 /// Maximum number of positions that are examined one by one and in pairs; a stand may have many more.
 const MOST_SUSPECTS: usize = 24;
@@ -55,6 +58,17 @@ pub enum Explanation {
     /// Exchanged readings of two positions.
     #[error("positions {0} and {1} are exchanged")]
     Exchanged(PositionIndex, PositionIndex),
+    /// Reversed sign of the current along an axis, 0 for x and 1 for y, in one position.
+    #[error("the sign of J_{} in position {index} is reversed", ["x", "y"][*axis])]
+    Sign {
+        /// Index (i, j) of the position.
+        index: PositionIndex,
+        /// Axis of the current.
+        axis: usize,
+    },
+    /// Exchanged currents of one position.
+    #[error("J_x and J_y of position {0} are exchanged")]
+    ExchangedCurrents(PositionIndex),
     /// Positions that are numbered differently from the certificate.
     #[error("the positions are numbered in another way (readings → passport): {}", numbering(i, j))]
     Renumbered {
@@ -100,8 +114,12 @@ fn either(angle_arcsec: f64, current_ua: &Vector2<f64>) -> String {
     // Adding zero turns -0.0 into 0.0.
     let rounded = |error: f64| format!("{:.decimals$}", (error * scale).round() / scale + 0.0);
     let [x, y] = [current_ua.x, current_ua.y].map(rounded);
-    let angle = two_digits(angle_arcsec);
-    format!("its angle changed by {angle}″, or its currents are wrong by {x} µA in J_x and {y} µA in J_y")
+    let currents = format!("its currents are wrong by {x} µA in J_x and {y} µA in J_y");
+    if angle_arcsec < GROSS_ARCSEC {
+        format!("its angle changed by {}″, or {currents}", two_digits(angle_arcsec))
+    } else {
+        format!("{currents}, or its angle changed by {}°", two_digits(angle_arcsec / ARCSECONDS_PER_DEGREE))
+    }
 }
 
 impl Hint {
@@ -159,6 +177,16 @@ pub(crate) fn hint(setup: &Setup, data: &Data, model: Model, chi_square: &ChiSqu
     let suspects = suspects(setup, data, &fit);
     let mut possible: Vec<(f64, Explanation)> = exchanges(setup, data, model, &suspects);
     possible.extend(single_positions(setup, data, model, &suspects));
+    for (score, index, explanation) in slips(setup, data, model, &suspects) {
+        // A slip explains a gross error better than one of any size, which by chance would be that of a slip.
+        possible.retain(|(other, found)| match found {
+            Explanation::DidNotRepeat { index: of, angle_arcsec, .. } => {
+                *of != index || *angle_arcsec < GROSS_ARCSEC || other + WORSE < score
+            }
+            _ => true,
+        });
+        possible.push((score, explanation));
+    }
     let renumbered = numberings(setup)
         .filter_map(|(i, j, places)| Some((score(setup, &data.at(&places), model)?, Explanation::Renumbered { i, j })));
     let of_all = renumbered.chain(other_axes(setup, data, model));
@@ -195,6 +223,26 @@ fn exchanges(setup: &Setup, data: &Data, model: Model, suspects: &[usize]) -> Ve
         }
     }
     possible
+}
+
+/// Returns every position whose reading fits with the sign of a current reversed or with both currents exchanged, with
+/// its score.
+fn slips(setup: &Setup, data: &Data, model: Model, suspects: &[usize]) -> Vec<(f64, PositionIndex, Explanation)> {
+    let possible = suspects.iter().flat_map(|&place| {
+        let index = setup.coefficients().positions[place].index;
+        let [x, y] = data.currents_ma[place].into();
+        let meant = [
+            (Vector2::new(-x, y), Explanation::Sign { index, axis: 0 }),
+            (Vector2::new(x, -y), Explanation::Sign { index, axis: 1 }),
+            (Vector2::new(y, x), Explanation::ExchangedCurrents(index)),
+        ];
+        meant.into_iter().filter_map(move |(current_ma, explanation)| {
+            let mut meant = data.clone();
+            meant.currents_ma[place] = current_ma;
+            Some((score(setup, &meant, model)?, index, explanation))
+        })
+    });
+    possible.collect()
 }
 
 /// Returns every other numbering of the paper's eight positions, with the place of the reading for each position: θ

@@ -105,7 +105,7 @@ fn certification_json(found: &Certification) -> Value {
 pub(crate) fn line(found: &Certification, file: &str) -> String {
     let (stand, runs) = (&found.stand, found.runs.len());
     let certificate = Printable(&stand.certificate.number);
-    let certified = style::marked(Some(true), "certified");
+    let certified = style::marked(outcome_of_certification(found), "certified");
     let mut out = format!(
         "{certified}  {}  {}  certificate {certificate}, {} positions, {runs} runs\n",
         stand.stand.id(),
@@ -122,16 +122,17 @@ pub(crate) fn certification(found: &Certification) -> String {
     let (stand, runs) = (&found.stand, found.runs.len());
     let warnings = match found.remarks.len() {
         0 => "no warnings".to_owned(),
-        count => format!("warnings: {count} (at the end)"),
+        count => format!("warnings: {count}"),
     };
     let _ = writeln!(
         out,
         "{}  {} {}: {} positions, {runs} runs; {warnings}",
-        style::marked(Some(true), "CERTIFIED"),
+        style::marked(outcome_of_certification(found), "CERTIFIED"),
         stand.stand.model,
         stand.stand.serial,
         stand.positions.len()
     );
+    every_warning(&mut out, "", found);
     columns::paragraph(&mut out, "", "u: standard uncertainty (k = 1) of the mean, own part of the position.");
     if found.repeated_rows > 0 {
         let _ = writeln!(out, "Rows averaged with another row of the same visit: {}.", found.repeated_rows);
@@ -154,8 +155,12 @@ pub(crate) fn certification(found: &Certification) -> String {
         columns::paragraph(&mut out, "", words);
     }
     tests(&mut out, found);
-    every_warning(&mut out, "", found);
     out
+}
+
+/// Returns the mark of a certification: with warnings, someone must decide whether it can be used.
+pub(crate) fn outcome_of_certification(found: &Certification) -> Outcome {
+    if found.remarks.is_empty() { Outcome::Passed } else { Outcome::Undecided }
 }
 
 fn every_warning(out: &mut String, indent: &str, found: &Certification) {

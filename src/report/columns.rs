@@ -109,10 +109,18 @@ pub(crate) fn hanging(text: &str, indent: usize, columns: usize) -> String {
 fn last_column(line: &str, columns: usize) -> usize {
     let room =
         |words: &str| unbroken(words).iter().map(|word| shown_columns(word)).fold(columns.div_ceil(2), usize::max);
-    let after_gap =
-        |at: &usize| line[..*at].ends_with("  ") && shown_columns(&line[..*at]) + room(&line[*at..]) <= columns;
+    // Spaces in what is quoted from a file are no gap.
+    let after_gap = |at: &usize| {
+        let before = &line[..*at];
+        before.ends_with("  ") && !is_quoting(before) && shown_columns(before) + room(&line[*at..]) <= columns
+    };
     let indent = line.len() - line.trim_start_matches(' ').len();
     line.match_indices(|c| c != ' ').map(|(at, _)| at).rfind(after_gap).unwrap_or(indent)
+}
+
+/// Returns `true` if a quotation between backquotes begins in a text and does not end in it.
+fn is_quoting(text: &str) -> bool {
+    text.matches('`').count() % 2 == 1
 }
 
 /// Returns the columns that a text takes in a terminal, in which emphasis takes none.
@@ -146,9 +154,10 @@ fn wrapped(out: &mut String, mut column: usize, indent: usize, words: &str, colu
     out.push('\n');
 }
 
-/// Splits a text into words; a unit belongs to the word of its number, signs of equality and of uncertainty to both their
+/// Splits a text into words; a short quotation between backquotes is one, such as a command to run. A unit belongs to the word of its number, signs of equality and of uncertainty to both their
 /// sides, a symbol to its number, and a mark to what it marks.
 fn unbroken(text: &str) -> Vec<String> {
+    const LONGEST_QUOTATION: usize = 48;
     const UNITS: [&str; 9] = ["%", "arcsec", "deg", "°/h", "mA", "µA", "m", "m/s2", "m/s²"];
     let mut words: Vec<String> = Vec::new();
     for word in text.split(' ') {
@@ -167,6 +176,7 @@ fn unbroken(text: &str) -> Vec<String> {
                 || is_unit && before.ends_with(|c: char| c.is_numeric())
                 || is_symbol && is_number
                 || is_open && is_number
+                || is_quoting(last) && shown_columns(last) + shown_columns(word) < LONGEST_QUOTATION
         };
         match words.last_mut().filter(|last| belongs(last)) {
             Some(last) => *last += &format!(" {word}"),
@@ -401,6 +411,18 @@ mod tests {
             assert_eq!(chi_square(value), due, "{value}");
         }
         assert_eq!(chi_square(100_419_738.45), "1.0×10⁸");
+    }
+
+    /// By hand, with 40 columns: the gap in the quotation is no column of a table, and no line ends within it.
+    #[test]
+    fn a_quotation_stays_whole() {
+        let words = "name: found `   model: \"SPS-2\"`, expected the next key of the passport";
+        let due = "name: found `   model: \"SPS-2\"`,\n      expected the next key of the\n      passport\n";
+        assert_eq!(hanging(words, 6, 40), due);
+        assert_eq!(
+            fitted("First run `keygen KEY --trust FILE` here", 24),
+            "First run\n  `keygen KEY --trust FILE`\n  here\n"
+        );
     }
 
     #[test]

@@ -42,6 +42,11 @@ pub(crate) fn text(found: &Recertified, dry_run: bool) -> String {
     let stand = &found.certification.stand;
     let number = &stand.certificate.number;
     let (outcome, answer) = certification::answer(&found.comparison);
+    // The work is done even if the stand has changed: a cross would say that it failed.
+    let outcome = match (outcome, certification::outcome_of_certification(&found.certification)) {
+        (Outcome::Passed, of_readings) => of_readings,
+        _ => Outcome::Undecided,
+    };
     let (outcome, work) = if dry_run { (Outcome::NotAsked, "PLANNED") } else { (outcome, "RECERTIFIED") };
     let _ = writeln!(
         out,

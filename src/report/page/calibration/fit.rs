@@ -209,6 +209,10 @@ pub(super) fn what_may_be_wrong(hint: &Hint, languages: &Languages) -> Markup {
 fn explained(explanation: &Explanation, language: Language) -> String {
     match explanation {
         Explanation::Exchanged(one, other) => texts::HINT_EXCHANGED.filled(language, values! { one, other }),
+        Explanation::Sign { index, axis } => {
+            texts::HINT_SIGN.filled(language, values! { index, current: ["J_x", "J_y"][*axis] })
+        }
+        Explanation::ExchangedCurrents(index) => texts::HINT_EXCHANGED_CURRENTS.filled(language, values! { index }),
         Explanation::Renumbered { i, j } => {
             texts::HINT_RENUMBERED.filled(language, values! { numbers: spaced(&numbering(i, j)) })
         }

@@ -4,7 +4,7 @@ use super::CertificationPage;
 use crate::certification::comparison::{ComparedPosition, Comparison, Test};
 use crate::certification::suspects::{AXES, OUTLIER};
 use crate::passport::difference::NumberDifference;
-use crate::report::certification::outcome_of;
+use crate::report::certification::{outcome_of, outcome_of_certification};
 use crate::report::page::language::{Languages, Text, values};
 use crate::report::page::number::{Cell, Number, column, probability};
 use crate::report::page::parts::{
@@ -25,8 +25,7 @@ pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup
         let headline = languages.label_with(|language| texts::CERTIFIED.filled(language, values! { positions, runs }));
         let not_compared = |language| html! { (mark(Outcome::NotAsked)) " " (texts::NOT_COMPARED.words(language)) };
         let words = html! { (languages.paragraph_with(not_compared)) (warnings(page, languages)) };
-        let is_clear = page.certification.remarks.is_empty();
-        return outcome_box(if is_clear { Outcome::Passed } else { Outcome::Undecided }, &headline, words);
+        return outcome_box(outcome_of_certification(page.certification), &headline, words);
     };
     let outcome = outcome_of(comparison, comparison.same_stand);
     let verdict = match outcome {

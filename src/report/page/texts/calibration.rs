@@ -518,6 +518,14 @@ texts! {
         en: "The readings of positions {one} and {other} may be exchanged.",
         ru: "Возможно, показания в положениях {one} и {other} переставлены."
     }
+    HINT_SIGN {
+        en: "The sign of {current} in position {index} may be reversed.",
+        ru: "Возможно, в положении {index} знак тока {current} изменён на обратный."
+    }
+    HINT_EXCHANGED_CURRENTS {
+        en: "The currents J_x and J_y of position {index} may be exchanged.",
+        ru: "Возможно, в положении {index} переставлены токи J_x и J_y."
+    }
     HINT_RENUMBERED {
         en: "The positions may be numbered in another way (readings → passport): {numbers}.",
         ru: "Возможно, положения пронумерованы иначе (показания → паспорт): {numbers}."

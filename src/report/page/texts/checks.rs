@@ -35,8 +35,8 @@ texts! {
 
     GRAMMAR { en: "Form of the file", ru: "Форма" }
     GRAMMAR_OK {
-        en: "the file has the canonical form, which all programs read alike",
-        ru: "файл записан в канонической форме, которую все программы читают одинаково"
+        en: "text that all programs read alike, and its signature",
+        ru: "текст, который все программы читают одинаково, и его подпись"
     }
     SIGNATURE { en: "Signature", ru: "Подпись" }
     SIGNATURE_OK { en: "the signature is correct; the text has not changed", ru: "подпись верна, текст не изменён" }
