@@ -85,7 +85,7 @@ impl BatchOptions {
     ) {
         if let Err(miss) = signers.authorise(public, &self.identity, NAMESPACE, issued_at) {
             let (who, refuse) = (&self.identity, "laboratories with that list will refuse the new passports");
-            output::say(&match miss {
+            output::warn(&match miss {
                 NotAuthorised::UnknownKey => format!(
                     "--identity {who}: the list of trusted keys ({source}) does not contain the signing key; {refuse}; use a \
                      listed key, or add the line of this key"
@@ -159,7 +159,7 @@ impl Reporter {
     fn hear(&mut self, event: Event) {
         match event {
             Event::Planned(more) => {
-                if more > 0 && self.bar.is_hidden() {
+                if more > 0 && self.bar.is_hidden() && !output::is_quiet() {
                     self.bar.set_draw_target(ProgressDrawTarget::stderr());
                 }
                 self.bar.inc_length(more);

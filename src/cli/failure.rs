@@ -87,6 +87,13 @@ impl Failure {
         self
     }
 
+    /// Creates the failure for a file that does not exist, which `expected` describes.
+    pub(super) fn missing(error: FileError, expected: &str) -> Self {
+        let failure = Self::from(error);
+        let has_advice = failure.failed.message.ends_with(IN_A_WORKSPACE);
+        if has_advice { failure } else { failure.with_advice(&format!("expected {expected}")) }
+    }
+
     /// Creates the failure for a folder found instead of the file that `expected` describes.
     pub(super) fn folder(path: &Path, expected: &str) -> Self {
         let message = format!("{}: found a folder, expected {expected}; specify a file in it", shown(path));

@@ -20,10 +20,12 @@ use std::path::{Path, PathBuf};
 
 pub(super) const HEADER: &str = "a header (dtg-stand/1)";
 
-/// Reads the bytes of a document; `expected` says what it should be, for the message about a folder.
+/// Reads the bytes of a document; `expected` says what it should be, for the message about a folder or a file that does not
+/// exist.
 pub(super) fn bytes(path: &Path, expected: &str) -> Result<Vec<u8>, Failure> {
     files::read(path, LARGEST_DOCUMENT_BYTES).map_err(|error| match error {
         FileError::Folder(path) => Failure::folder(&path, expected),
+        error if error.is_unlike_any() => Failure::missing(error, expected),
         error => error.into(),
     })
 }

@@ -15,9 +15,10 @@ pub(super) fn cancelled_by_ctrl_c() -> Result<Arc<AtomicBool>, Failure> {
     Ok(cancel)
 }
 
-/// Returns a bar on standard error for a number of `what`; it is drawn only on a terminal.
+/// Returns a bar on standard error for a number of `what`; it is drawn only on a terminal, and not if only failures are
+/// reported.
 pub(super) fn bar(length: u64, what: &str) -> Result<ProgressBar, Failure> {
-    let bar = ProgressBar::new(length);
+    let bar = if output::is_quiet() { ProgressBar::hidden() } else { ProgressBar::new(length) };
     let style = ProgressStyle::with_template(&format!("{{wide_bar}} {what}: {{human_pos}} of {{human_len}}{{left}}"));
     // Before the first is done, nothing is known of the time.
     let left = |state: &ProgressState, out: &mut dyn Write| {

@@ -158,16 +158,21 @@ pub(super) fn set_quiet(quiet: bool) {
     QUIET.store(quiet, Ordering::Relaxed);
 }
 
+/// Returns `true` if only failures are reported.
+pub(super) fn is_quiet() -> bool {
+    QUIET.load(Ordering::Relaxed)
+}
+
 /// Writes a message about a result, unless only failures are reported.
 pub(super) fn say(words: &str) {
-    if !QUIET.load(Ordering::Relaxed) {
+    if !is_quiet() {
         complain(words);
     }
 }
 
 /// Writes a verdict about a result as [`say`] does.
 pub(super) fn say_verdict(words: &str) {
-    if !QUIET.load(Ordering::Relaxed) {
+    if !is_quiet() {
         verdict(words);
     }
 }

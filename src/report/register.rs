@@ -29,7 +29,12 @@ pub(crate) fn text(register: &Register) -> String {
     let summary = if counts.is_empty() { "no passports".to_owned() } else { counts.join(", ") };
     let is_good = !register.is_incomplete() && !register.needs_attention();
     let summary = format!("{summary}; alarms: {}", register.alarms.len());
-    let mut out = style::marked(Some(is_good), &summary) + "\n";
+    // Of a folder without passports nothing is known to be good: its name may be wrong.
+    let is_empty = counts.is_empty() && register.alarms.is_empty();
+    let mut out = style::marked(Some(is_good).filter(|_| !is_empty), &summary) + "\n";
+    if is_empty {
+        out.push_str("The folder contains no passport; check its path.\n");
+    }
     for line in &register.passports {
         let id = line.id.as_deref().unwrap_or("(id not verified)");
         let state = style::marked(line.state.outcome(), &format!("{:<13}", line.state.words()));
