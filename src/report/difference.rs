@@ -67,7 +67,21 @@ pub(crate) fn text(a: &Side, b: &Side, found: &Differences) -> String {
     }
     if !found.numbers.is_empty() {
         let _ = writeln!(out, "\nu: standard uncertainty (k = 1) of B - A");
-        numbers(&mut out, &found.numbers);
+        let (computed, given): (Vec<_>, Vec<_>) = found.numbers.iter().cloned().partition(|at| is_computed(&at.key));
+        // What was computed says nothing beyond what it was computed from.
+        if given.is_empty() {
+            numbers(&mut out, &computed);
+        } else {
+            numbers(&mut out, &given);
+            if !computed.is_empty() {
+                let words = format!(
+                    "Numbers computed from these that differ as well: {} (matrices, vectors, self-check); --format json \
+                     has them all.",
+                    computed.len()
+                );
+                columns::paragraph(&mut out, "  ", &words);
+            }
+        }
     }
     if !found.others.is_empty() {
         let _ = writeln!(out, "\n{}", style::heading("Other differences, A -> B"));
@@ -141,11 +155,15 @@ pub(crate) fn numbers(out: &mut String, numbers: &[NumberDifference]) {
 /// Returns the decimals with which a page prints a computed number without an uncertainty, by its key, or `None` for a
 /// number that people write.
 fn decimals_on_the_page(key: &str) -> Option<usize> {
-    let is_used_as_exact = ["matrices.", "vectors[", "self_check.currents["].iter().any(|part| key.starts_with(part));
     match key {
         "earth.valid_radius_m" => Some(0),
-        _ => is_used_as_exact.then_some(DECIMALS),
+        _ => is_computed(key).then_some(DECIMALS),
     }
+}
+
+/// Returns `true` for a number that is computed from the deviations and the site, and used without an uncertainty.
+fn is_computed(key: &str) -> bool {
+    ["matrices.", "vectors[", "self_check.currents["].iter().any(|part| key.starts_with(part))
 }
 
 /// Formats a number as it is in the file if it is short, as those are that people write, and else with `decimals`.
