@@ -17,6 +17,8 @@ const HEIGHT: f64 = 13.0;
 /// Left and right end of the bars, with room for the outer numbers of the axis.
 const BARS: [f64; 2] = [13.0, 103.0];
 const BAR_HALF: f64 = 4.0;
+/// Length of a whisker from which its ends have marks.
+const SHORTEST_WITH_MARKS: f64 = 5.0;
 
 /// Largest value on an axis, arcsec: 180°. The uncertainties themselves have no limit.
 const LARGEST_ARCSEC: f64 = 648_000.0;
@@ -55,7 +57,11 @@ impl Bars {
         let (zero, half) = (scale.place(0.0), COVERAGE_FACTOR * u.unwrap_or(0.0));
         let drawing = html! {
             (rectangle([zero, y - BAR_HALF], [scale.clamped(value), y + BAR_HALF], "bar", None))
-            @if u.is_some() { (whisker([value - half, value + half].map(|end| scale.clamped(end)), [true; 2], y, 3.0)) }
+            @if u.is_some() {
+                @let ends = [value - half, value + half].map(|end| scale.clamped(end));
+                // The marks of short ends would run together.
+                (whisker(ends, [ends[1] - ends[0] >= SHORTEST_WITH_MARKS; 2], y, 3.0))
+            }
             (line([zero, 0.0], [zero, HEIGHT], "zero"))
         };
         strip([WIDTH, HEIGHT], &drawing)

@@ -113,7 +113,7 @@ impl CalibrationPage<'_> {
                 (false, ..) => languages.plain(texts::NOT_VERIFIED),
                 (true, false, _) => languages.plain(texts::DOES_NOT_FIT),
                 (true, true, Some(_)) => languages.plain(texts::MISTAKE),
-                (true, true, None) => self.failed(languages.first()).unwrap_or_default(),
+                (true, true, None) => self.reservation(languages),
             },
             bottom_left: texts::MARGIN_SHA256.filled(languages.first(), values! { sha256: self.currents.1 }),
         };
@@ -121,10 +121,14 @@ impl CalibrationPage<'_> {
         document(languages, &title, &margins, &self.body(languages))
     }
 
-    /// Returns the headline of parameters that fail, for the head of every sheet.
-    fn failed(&self, language: Language) -> Option<String> {
-        let (gyro, _) = self.judged().filter(|(_, verdict)| verdict.overall == Decision::Fail)?;
-        Some(texts::CONFORMS_NOT.filled(language, values! { type: gyro.r#type }))
+    /// Returns the headline of parameters that fail, or of a temperature outside the certified range, for the head of every
+    /// sheet.
+    fn reservation(&self, languages: &Languages) -> String {
+        match self.judged().filter(|(_, verdict)| verdict.overall == Decision::Fail) {
+            Some((gyro, _)) => texts::CONFORMS_NOT.filled(languages.first(), values! { type: gyro.r#type }),
+            None if subject::outside(self).is_some() => languages.plain(texts::TEMPERATURE_IS_OUTSIDE),
+            None => String::new(),
+        }
     }
 
     fn content(&self) -> &Content {
