@@ -156,7 +156,7 @@ fn laboratory(page: &CalibrationPage, languages: &Languages) -> Markup {
             field(languages, passport_texts::ADDRESS, None),
             field(languages, texts::PROCEDURE, None),
             field(languages, texts::GRAVITY, Some(characteristics::gravity(g, u, languages))),
-        ].into_iter().chain(angles).chain([meter])))
+        ].into_iter().chain(angles).chain([field(languages, texts::METER_IDENTITY, None), meter])))
         @if page.laboratory.is_none() { div.statement { (languages.paragraph(texts::METER_ASSUMED)) } }
     }
 }
@@ -185,5 +185,5 @@ pub(super) fn temperature(page: &CalibrationPage, languages: &Languages) -> Mark
     let values = [("here", here_c), ("low", low_c), ("high", high_c)]
         .map(|(name, c)| (name, Number::exact(c).markup(languages)));
     let words = languages.paragraph_with(|language| texts::TEMPERATURE_OUTSIDE.marked_up(language, &values));
-    boxed("verdict neutral", marked(Outcome::Failed, &languages.label(texts::TEMPERATURE_IS_OUTSIDE)), words)
+    boxed("verdict warned", marked(Outcome::Failed, &languages.label(texts::TEMPERATURE_IS_OUTSIDE)), words)
 }

@@ -141,7 +141,7 @@ pub(crate) fn table(page: &PassportPage, languages: &Languages) -> Markup {
         ..Table::default()
     };
     // Not a caption, which some browsers part from its table in print.
-    html! { p { (caption) } (table.markup(languages.spoken(texts::CHECK))) }
+    html! { p.caption { (caption) } (table.markup(languages.spoken(texts::CHECK))) }
 }
 
 fn name(check: CheckName) -> Text {

@@ -14,7 +14,7 @@ texts! {
     }
     MARGIN { en: "Calibration report: {name}", ru: "Отчёт о калибровке: {name}" }
     MARGIN_SHA256 { en: "SHA-256 of the file of currents {sha256}", ru: "SHA-256 файла токов {sha256}" }
-    END { en: "End of the calibration report: {name}", ru: "Конец отчёта о калибровке: {name}" }
+    END { en: "End of the calibration report: {name}", ru: "Конец отчёта: {name}" }
 
     NOT_VERIFIED { en: "Passport NOT VERIFIED", ru: "Паспорт НЕ ПРОВЕРЕН" }
     NOT_VERIFIED_WORDS {
@@ -197,6 +197,10 @@ texts! {
     CURRENTS_SHA256 { en: "SHA-256 of the file of currents", ru: "SHA-256 файла токов" }
     PASSPORT { en: "Passport of the stand", ru: "Паспорт стенда" }
     PASSPORT_SHA256 { en: "SHA-256 of the passport", ru: "SHA-256 паспорта" }
+    METER_IDENTITY {
+        en: "Current meter: type, serial number, certificate",
+        ru: "Измеритель тока: тип, номер, сертификат"
+    }
     METER_ASSUMED {
         en: "No laboratory file states the current meter. This report assumes a meter with an error uniformly \
              distributed within ±0.015 % of the reading, and no other uncertainty of the laboratory.",
@@ -377,8 +381,8 @@ texts! {
         ru: "С противоположным знаком допуску соответствовало бы: {names}. Следует проверить правило знаков."
     }
     RISK_NOTE {
-        en: "Risk of error (specific risk): probability that this decision on the parameter is wrong.",
-        ru: "Риск ошибки: вероятность того, что это решение по параметру неверно."
+        en: "Risk of error (specific risk): probability that the decision by simple acceptance is wrong.",
+        ru: "Риск ошибки: вероятность того, что решение при простой приёмке неверно."
     }
 
     FIT { en: "Goodness of fit", ru: "Согласие показаний с моделью" }
