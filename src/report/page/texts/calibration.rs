@@ -180,11 +180,11 @@ texts! {
     SITE { en: "Site", ru: "Место установки" }
     VERIFIED_NOT_WITHDRAWAL {
         en: "Passport {id}, verified as of {time}; withdrawal not checked",
-        ru: "Паспорт {id} проверен по состоянию на\u{a0}{time}; отзыв не\u{a0}проверялся"
+        ru: "Паспорт {id} проверен на\u{a0}{time}; отзыв не\u{a0}проверялся"
     }
     VERIFIED_AS_OF {
         en: "Passport {id}, verified as of {time}",
-        ru: "Паспорт {id} проверен по состоянию на\u{a0}{time}"
+        ru: "Паспорт {id} проверен на\u{a0}{time}"
     }
     CURRENTS { en: "File of currents", ru: "Файл токов" }
     OPERATOR { en: "Readings taken by", ru: "Показания снял" }
