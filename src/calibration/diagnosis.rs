@@ -32,14 +32,15 @@ const PRICE_OF_TWO_NUMBERS: f64 = 4.0;
 /// Chi-square that an explanation with one free number must gain over one without, to be preferred.
 const PRICE_OF_ONE_NUMBER: f64 = 2.0;
 
-/// Change of an angle that nobody overlooks, so that an error in writing down a reading is more likely.
+/// Smallest change of an angle that is less likely than a mistake in recording the reading, arcsec.
 const GROSS_ARCSEC: f64 = ARCSECONDS_PER_DEGREE;
 
 /// Maximum number of positions that are examined one by one and in pairs; a stand may have many more.
 const MOST_SUSPECTS: usize = 24;
 
 /// Consequence of readings that do not fit the stand, as a sentence without a full stop.
-pub(crate) const INCONSISTENT: &str = "the readings are not consistent with this stand; the parameters are not valid: find the cause and repeat the calibration";
+pub(crate) const INCONSISTENT: &str = "the readings are not consistent with this stand; the parameters are not valid: \
+                                       find the cause and repeat the calibration";
 
 /// Possible causes of readings that do not fit.
 #[derive(Debug, Clone, PartialEq)]
@@ -178,7 +179,7 @@ pub(crate) fn hint(setup: &Setup, data: &Data, model: Model, chi_square: &ChiSqu
     let mut possible: Vec<(f64, Explanation)> = exchanges(setup, data, model, &suspects);
     possible.extend(single_positions(setup, data, model, &suspects));
     for (score, index, explanation) in slips(setup, data, model, &suspects) {
-        // A slip explains a gross error better than one of any size, which by chance would be that of a slip.
+        // An error of any size would rarely equal a reversed or exchanged reading by chance, unless it is small.
         possible.retain(|(other, found)| match found {
             Explanation::DidNotRepeat { index: of, angle_arcsec, .. } => {
                 *of != index || *angle_arcsec < GROSS_ARCSEC || other + WORSE < score

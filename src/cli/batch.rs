@@ -159,8 +159,8 @@ impl Reporter {
     fn hear(&mut self, event: Event) {
         match event {
             Event::Planned(more) => {
-                if more > 0 && self.bar.is_hidden() && !output::is_quiet() {
-                    self.bar.set_draw_target(ProgressDrawTarget::stderr());
+                if more > 0 && self.bar.is_hidden() {
+                    self.bar.set_draw_target(long_run::target());
                 }
                 self.bar.inc_length(more);
             }

@@ -36,9 +36,7 @@ impl From<Failed> for Failure {
 /// An existing file is a refusal, any other error of a file is not.
 impl From<FileError> for Failure {
     fn from(error: FileError) -> Self {
-        let is_id = Folder::new("").path_of_id(&error.path().to_string_lossy()).is_some() && error.is_unlike_any();
-        let failure = Self::from(Failed::from(error));
-        if is_id && defaults::workspace().is_none() { failure.with_advice(IN_A_WORKSPACE) } else { failure }
+        Self::of_file(error, None)
     }
 }
 
@@ -87,11 +85,17 @@ impl Failure {
         self
     }
 
-    /// Creates the failure for a file that does not exist, which `expected` describes.
-    pub(super) fn missing(error: FileError, expected: &str) -> Self {
-        let failure = Self::from(error);
-        let has_advice = failure.failed.message.ends_with(IN_A_WORKSPACE);
-        if has_advice { failure } else { failure.with_advice(&format!("expected {expected}")) }
+    /// Creates the failure for a file; if neither it nor one with a similar name exists, the message says what is `expected`,
+    /// or where the identifier of a passport can be used.
+    pub(super) fn of_file(error: FileError, expected: Option<&str>) -> Self {
+        let is_id = Folder::new("").path_of_id(&error.path().to_string_lossy()).is_some();
+        let advice = match expected {
+            _ if !error.is_unlike_any() => None,
+            _ if is_id && defaults::workspace().is_none() => Some(IN_A_WORKSPACE.to_owned()),
+            expected => expected.map(|expected| format!("expected {expected}")),
+        };
+        let failure = Self::from(Failed::from(error));
+        advice.into_iter().fold(failure, |failure, advice| failure.with_advice(&advice))
     }
 
     /// Creates the failure for a folder found instead of the file that `expected` describes.

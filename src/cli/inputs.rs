@@ -25,8 +25,7 @@ pub(super) const HEADER: &str = "a header (dtg-stand/1)";
 pub(super) fn bytes(path: &Path, expected: &str) -> Result<Vec<u8>, Failure> {
     files::read(path, LARGEST_DOCUMENT_BYTES).map_err(|error| match error {
         FileError::Folder(path) => Failure::folder(&path, expected),
-        error if error.is_unlike_any() => Failure::missing(error, expected),
-        error => error.into(),
+        error => Failure::of_file(error, Some(expected)),
     })
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Failure, output};
 use crate::interface::Failed;
-use indicatif::{ProgressBar, ProgressState, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt::Write;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -15,10 +15,14 @@ pub(super) fn cancelled_by_ctrl_c() -> Result<Arc<AtomicBool>, Failure> {
     Ok(cancel)
 }
 
-/// Returns a bar on standard error for a number of `what`; it is drawn only on a terminal, and not if only failures are
-/// reported.
+/// Returns where bars are drawn: on standard error if it is a terminal, and nowhere if only failures are reported.
+pub(super) fn target() -> ProgressDrawTarget {
+    if output::is_quiet() { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() }
+}
+
+/// Returns a bar for a number of `what`.
 pub(super) fn bar(length: u64, what: &str) -> Result<ProgressBar, Failure> {
-    let bar = if output::is_quiet() { ProgressBar::hidden() } else { ProgressBar::new(length) };
+    let bar = ProgressBar::with_draw_target(Some(length), target());
     let style = ProgressStyle::with_template(&format!("{{wide_bar}} {what}: {{human_pos}} of {{human_len}}{{left}}"));
     // Before the first is done, nothing is known of the time.
     let left = |state: &ProgressState, out: &mut dyn Write| {

@@ -246,7 +246,7 @@ impl Run {
 
     fn grammar<'a>(&mut self, name: &str, bytes: &'a [u8]) -> Option<SignedText<'a>> {
         let split = SignedText::split(name, bytes, NAMESPACE);
-        let good = "text that all programs read alike, and its signature";
+        let good = "all programs read it alike; it ends with a signature";
         match &split {
             Ok(_) => self.note(CheckName::Grammar, Code::Ok, good),
             Err(Malformed { fault, other_namespace: None }) => self.note(CheckName::Grammar, Code::Malformed, fault),

@@ -154,8 +154,9 @@ fn wrapped(out: &mut String, mut column: usize, indent: usize, words: &str, colu
     out.push('\n');
 }
 
-/// Splits a text into words; a short quotation between backquotes is one, such as a command to run. A unit belongs to the word of its number, signs of equality and of uncertainty to both their
-/// sides, a symbol to its number, and a mark to what it marks.
+/// Splits a text into words; a short quotation between backquotes is one, such as a command to run. A unit belongs to the
+/// word of its number, signs of equality and of uncertainty to both their sides, a symbol to its number, and a mark to
+/// what it marks.
 fn unbroken(text: &str) -> Vec<String> {
     const LONGEST_QUOTATION: usize = 48;
     const UNITS: [&str; 9] = ["%", "arcsec", "deg", "°/h", "mA", "µA", "m", "m/s2", "m/s²"];

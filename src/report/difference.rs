@@ -67,20 +67,16 @@ pub(crate) fn text(a: &Side, b: &Side, found: &Differences) -> String {
     }
     if !found.numbers.is_empty() {
         let _ = writeln!(out, "\nu: standard uncertainty (k = 1) of B - A");
-        let (computed, given): (Vec<_>, Vec<_>) = found.numbers.iter().cloned().partition(|at| is_computed(&at.key));
-        // What was computed says nothing beyond what it was computed from.
-        if given.is_empty() {
-            numbers(&mut out, &computed);
-        } else {
-            numbers(&mut out, &given);
-            if !computed.is_empty() {
-                let words = format!(
-                    "Numbers computed from these that differ as well: {} (matrices, vectors, self-check); --format json \
-                     has them all.",
-                    computed.len()
-                );
-                columns::paragraph(&mut out, "  ", &words);
-            }
+        // Computed numbers say nothing beyond those from which they were computed, if these differ.
+        let given: Vec<_> = found.numbers.iter().filter(|at| !is_computed(&at.key)).cloned().collect();
+        let shown = if given.is_empty() { &found.numbers } else { &given };
+        numbers(&mut out, shown);
+        if shown.len() < differ {
+            let words = format!(
+                "Not shown: {} computed numbers (matrices, vectors, self-check), which --format json has.",
+                differ - shown.len()
+            );
+            columns::paragraph(&mut out, "  ", &words);
         }
     }
     if !found.others.is_empty() {

@@ -29,9 +29,9 @@ pub(crate) fn text(register: &Register) -> String {
     let summary = if counts.is_empty() { "no passports".to_owned() } else { counts.join(", ") };
     let is_good = !register.is_incomplete() && !register.needs_attention();
     let summary = format!("{summary}; alarms: {}", register.alarms.len());
-    // Of a folder without passports nothing is known to be good: its name may be wrong.
+    // A folder without passports may be the wrong one.
     let is_empty = counts.is_empty() && register.alarms.is_empty();
-    let mut out = style::marked(Some(is_good).filter(|_| !is_empty), &summary) + "\n";
+    let mut out = style::marked((!is_empty).then_some(is_good), &summary) + "\n";
     if is_empty {
         out.push_str("The folder contains no passport; check its path.\n");
     }

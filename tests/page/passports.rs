@@ -206,6 +206,24 @@ fn what_was_not_asked_is_not_called_passed() {
     }
 }
 
+/// By hand: the largest deviation, 90.4″ or 180″, is drawn as 10°.
+#[test]
+fn a_caption_states_how_much_the_deviations_are_enlarged() {
+    let mut seen = 0;
+    for (case, found) in PASSPORTS.each() {
+        let factor = match case.name {
+            "usual-en" | "usual-ru" => "×400.",
+            "many-en" | "many-ru" => "×200.",
+            _ => continue,
+        };
+        let words = found["said"]["words"].as_array().unwrap();
+        let stated = words.iter().filter(|word| word["text"].as_str().unwrap().contains(factor)).count();
+        assert_eq!(stated, 1, "{}", case.name);
+        seen += 1;
+    }
+    assert_eq!(seen, 4);
+}
+
 /// A passport without a self-check has no currents, and its page names none.
 #[test]
 fn a_caption_names_the_columns_that_there_are() {

@@ -449,6 +449,14 @@ pub(crate) fn power(exponent: i32, language: Language) -> String {
     one.find("10").map_or_else(String::new, |at| one[at..].to_owned())
 }
 
+/// Returns a unit with the power of ten that is factored out of its numbers.
+pub(crate) fn with_power(exponent: i32, unit: &str, language: Language) -> String {
+    match exponent {
+        0 => unit.to_owned(),
+        exponent => format!("{}\u{a0}{unit}", power(exponent, language)),
+    }
+}
+
 /// Returns the power of ten of the first digit of `value`.
 fn exponent(value: f64) -> i32 {
     if value > 0.0 && value.is_finite() { libm::floor(libm::log10(value)) as i32 } else { 0 }

@@ -1,7 +1,7 @@
 //! Residuals of each equation after the fit, and changes of deviations, as bars in their table with limits from their
 //! uncertainty.
 
-use super::drawing::{Anchor, Scale, Ticks, crowding, legend, line, power, power_of_ten, rectangle, strip, words};
+use super::drawing::{Anchor, Scale, Ticks, crowding, legend, line, power_of_ten, rectangle, strip, with_power, words};
 use crate::calibration::document::{ResidualDocument, ResultDocument};
 use crate::report::page::language::{Languages, Text};
 use crate::report::page::texts::pictures as texts;
@@ -58,11 +58,7 @@ impl Bars {
         let factor = power_of_ten(exponent);
         let shown = Scale { values: scale.values.map(|value| value / factor), ..*scale };
         let language = languages.first();
-        let unit = unit.map_or("", |unit| unit.of(language));
-        let unit = match exponent {
-            0 => unit.to_owned(),
-            exponent => format!("{}\u{a0}{unit}", power(exponent, language)),
-        };
+        let unit = with_power(exponent, unit.map_or("", |unit| unit.of(language)), language);
         let drawing = html! {
             (words([WIDTH, 14.0], Anchor::End, "small", &unit))
             @for (value, text) in Ticks::along(&shown, language).marks(language) {

@@ -142,12 +142,13 @@ fn compass_rose(languages: &Languages, base: &Matrix3<f64>) -> Markup {
     }
 }
 
-/// A part of the stand to be named.
+/// Part of the stand with a name.
 struct Part {
-    /// Its name in each language.
+    /// Names in the languages of the page.
     names: Vec<String>,
+    /// Point to which the line from the name leads.
     at: Point,
-    /// Whether `at` lies within the outline of the part.
+    /// `true` if this point is inside the outline of the part.
     within: bool,
 }
 
@@ -157,15 +158,13 @@ fn leaders(named: &[Part]) -> Markup {
     const LINE: f64 = 17.0;
     const TOP: f64 = 30.0;
     const EDGE: f64 = 4.0;
-    /// Of the width of a name in class `small`, for that in the class of parts.
+    /// Width of a name, in widths of the same name in class `small`.
     const RESERVE: f64 = 1.17;
     let mut sorted: Vec<&Part> = named.iter().collect();
     sorted.sort_by(|one, other| one.at[1].total_cmp(&other.at[1]));
-    let side = |part: &Part| usize::from(part.at[0] > CENTRE[0]);
     let mut next = [TOP, TOP];
-    let places = sorted.iter().map(|part| {
-        let Part { names, at, within } = part;
-        let side = side(part);
+    let places = sorted.into_iter().map(|Part { names, at, within }| {
+        let side = usize::from(at[0] > CENTRE[0]);
         // Two lines begin higher, so that the last stays above the directions.
         let y = (at[1] - LINE * (names.len() - 1) as f64).max(next[side]);
         next[side] = y + LINE * names.len() as f64 + GAP;

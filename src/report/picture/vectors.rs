@@ -3,7 +3,7 @@
 
 use super::drawing::{
     Anchor, Panel, Point, Scale, Ticks, arrow, crowding, heading_with, legend_with, line, mark, panels, plain_symbol,
-    power, power_of_ten, rectangle, words,
+    power_of_ten, rectangle, with_power, words,
 };
 use super::label as labels;
 use crate::attitude;
@@ -169,14 +169,6 @@ impl Plane {
         [self.x.place(x), self.y.place(y)]
     }
 
-    /// Returns the unit of the numbers on both axes.
-    fn unit(&self, unit: Text, language: Language) -> String {
-        match self.exponent {
-            0 => unit.words(language),
-            exponent => format!("{}\u{a0}{}", power(exponent, language), unit.words(language)),
-        }
-    }
-
     fn grid(&self, languages: &Languages) -> Markup {
         let [[left, top], [right, bottom]] = self.layout.field;
         let factor = power_of_ten(self.exponent);
@@ -214,7 +206,7 @@ fn differences_of(
     let axis = labels::Area { low: [left, top], high: [left + 18.0, top + 18.0] };
     let field = labels::Area { low: [left, top], high: [right, bottom] };
     let title = |language: Language| {
-        let unit = plane.unit(subject.unit, language);
+        let unit = with_power(plane.exponent, subject.unit.of(language), language);
         match pairs.first().filter(|_| part.is_some()) {
             Some(pair) => subject.of_frame.filled(language, values! { i: pair.index.i, unit }),
             None => subject.title.filled(language, values! { unit }),

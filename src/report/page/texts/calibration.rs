@@ -585,11 +585,11 @@ texts! {
     NOT_STATED_BASE { en: "common part of the base of the stand", ru: "общая составляющая основания стенда" }
     NOT_STATED_GAIN { en: "gain of the meter", ru: "коэффициент преобразования измерителя" }
     NOT_STATED_OFFSET { en: "offset of the meter", ru: "смещение нуля измерителя" }
-    NOT_STATED_VISITS { en: "gyro noise from visit to visit", ru: "шум гироскопа от установки к установке" }
+    NOT_STATED_VISITS { en: "gyro noise from visit to visit", ru: "шум между установками в положение" }
     NOT_STATED_TURN_ONS { en: "gyro noise from turn-on to turn-on", ru: "шум гироскопа от запуска к запуску" }
     NOT_STATED_GRAVITY { en: "gravity", ru: "местное ускорение g" }
     NOT_STATED_LEVEL { en: "level of the base", ru: "наклон основания" }
-    NOT_STATED_SEAT { en: "gyro seat", ru: "установка гироскопа" }
+    NOT_STATED_SEAT { en: "gyro seat", ru: "угол посадки гироскопа" }
 
     BUDGET { en: "Uncertainty budget", ru: "Бюджет неопределённости" }
     BUDGET_CAPTION {
@@ -667,7 +667,7 @@ texts! {
     CAUSE_TURN_ON { en: "gyro, turn-ons about {axis}", ru: "гироскоп, среднее по запускам, ось {axis}" }
     CAUSE_NOISE { en: "meter, noise", ru: "измеритель, шум показаний" }
     CAUSE_PLATFORM { en: "platform about {axis}", ru: "платформа (общая составляющая), вокруг {axis}" }
-    CAUSE_SEAT { en: "gyro seat about {axis}", ru: "установка гироскопа вокруг {axis}" }
+    CAUSE_SEAT { en: "gyro seat about {axis}", ru: "угол посадки гироскопа вокруг {axis}" }
     CAUSE_BASE { en: "base of the stand about {axis}", ru: "основание (общая составляющая), вокруг {axis}" }
     ABOUT_EAST { en: "east", ru: "направления на восток" }
     ABOUT_NORTH { en: "north", ru: "направления на север" }

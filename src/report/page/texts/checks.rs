@@ -35,8 +35,8 @@ texts! {
 
     GRAMMAR { en: "Form of the file", ru: "Форма" }
     GRAMMAR_OK {
-        en: "text that all programs read alike, and its signature",
-        ru: "текст, который все программы читают одинаково, и его подпись"
+        en: "all programs read it alike; it ends with a signature",
+        ru: "все программы читают файл одинаково; в конце стоит подпись"
     }
     SIGNATURE { en: "Signature", ru: "Подпись" }
     SIGNATURE_OK { en: "the signature is correct; the text has not changed", ru: "подпись верна, текст не изменён" }

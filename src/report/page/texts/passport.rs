@@ -81,7 +81,7 @@ texts! {
     METHOD { en: "Method", ru: "Методика" }
     TRACEABILITY { en: "Traceability", ru: "Прослеживаемость" }
     TEMPERATURE { en: "Temperature during measurement", ru: "Температура при измерениях" }
-    TEMPERATURE_RANGE { en: "Temperature range of validity", ru: "Диапазон температур" }
+    TEMPERATURE_RANGE { en: "Temperature range of validity", ru: "Диапазон температур применения" }
     FROM_TO { en: "{low} to {high}", ru: "от {low} до {high}" }
     THIS_ITEM_ONLY {
         en: "The results relate only to the stand identified here. This passport shall not be reproduced except in full \
@@ -254,7 +254,7 @@ texts! {
     METER_FLOOR { en: "floor {n} mA", ru: "постоянная часть погрешности {n} мА" }
     METER_NOISE { en: "noise of a reading {n} mA", ru: "шум показания {n} мА" }
     METER_RANGE { en: "range {n} mA", ru: "диапазон {n} мА" }
-    SEATING { en: "u of the gyro seat about x, y, z", ru: "u установки гироскопа вокруг x, y, z" }
+    SEATING { en: "u of the gyro seat about x, y, z", ru: "u угла посадки вокруг x, y, z" }
     BASE_AZIMUTH_U { en: "u of the azimuth, in this laboratory", ru: "u азимута основания в лаборатории" }
     BASE_LEVEL_U { en: "u of the level, in this laboratory", ru: "u наклона основания в лаборатории" }
     LABORATORY_TEMPERATURE { en: "Temperature in the laboratory", ru: "Температура в лаборатории" }
