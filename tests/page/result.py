@@ -472,8 +472,8 @@ class Report:
         passed = sum(line["simple"] == "pass" for line in lines)
         due = {
             "en": f"without a guard band, {passed} of {len(lines)} parameters pass" + (f"; fail: {fails}." if fails else "."),
-            "ru": f"без защитной полосы, соответствует допускам {passed} из {len(lines)} параметров"
-            + (f"; не соответствуют: {fails}." if fails else "."),
+            "ru": f"без защитной полосы: соответствие допускам у {passed} из {len(lines)} параметров"
+            + (f"; несоответствие: {fails}." if fails else "."),
         }
         said = "".join(words["text"] for words in self.said["words"]).replace("\u00a0", " ")
         if self.stated() and due[self.said["lang"]] not in said:

@@ -154,7 +154,7 @@ impl CertificationPage<'_> {
     fn result(&self, languages: &Languages) -> Markup {
         html! {
             (characteristics::positions(&self.certification.stand.positions, languages))
-            (languages.paragraph(passport_texts::DEVIATIONS_NOTE))
+            (characteristics::deviations_note(&self.certification.stand.positions, languages))
             (self.outliers(languages))
         }
     }

@@ -65,11 +65,14 @@ fn previous(page: &CalibrationPage, earlier: &CalibrationDocument, language: Lan
     let beginning = |sha256: &str| html! { code { (sha256.chars().take(8).collect::<String>()) } };
     let sha256 = earlier.currents_sha256().map_or_else(|| html! { "–" }, beginning);
     let values = [("day", html! { (day) }), ("passport", given(&earlier.passport_id)), ("sha256", sha256)];
-    let is_same = earlier.gyro_serial().is_some() && earlier.gyro_serial() == page.document.gyro_serial();
-    html! {
-        (texts::PREVIOUS.marked_up(language, &values))
-        @if !is_same { " " (texts::SAME_GYRO_NOT_SHOWN.words(language)) }
-    }
+    html! { (texts::PREVIOUS.marked_up(language, &values)) (gyro_not_confirmed(page, language)) }
+}
+
+/// Writes, after a sentence, that no serial number shows the previous calibration to be that of this gyro; nothing if one does.
+pub(super) fn gyro_not_confirmed(page: &CalibrationPage, language: Language) -> Markup {
+    let serial = page.previous.last().and_then(CalibrationDocument::gyro_serial);
+    let is_same = serial.is_some() && serial == page.document.gyro_serial();
+    html! { @if !is_same { " " (texts::SAME_GYRO_NOT_SHOWN.words(language)) } }
 }
 
 /// Writes how many parameters pass by guarded acceptance, in the words of `passed`, and which are undecided or fail; `then`

@@ -275,7 +275,8 @@ impl CalibrationPage<'_> {
         let words = html! {
             (conformity::counted(verdict, texts::PASSED, |language| self.not_in_u(language), languages))
             @if let Some(change) = change {
-                (conformity::counted(change, texts::CHANGE_PASSED, |_| html! {}, languages))
+                @let then = |language| conformity::gyro_not_confirmed(self, language);
+                (conformity::counted(change, texts::CHANGE_PASSED, then, languages))
             }
             (self.not_linear(languages))
             (self.implausible(languages))

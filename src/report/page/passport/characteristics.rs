@@ -23,16 +23,12 @@ const METRES_PER_DEGREE: f64 = 111e3;
 
 pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let content = &page.content;
-    let is_stated = content.positions.iter().flat_map(CertifiedPosition::u_arcsec).any(|u| u.is_some());
     let stand = picture::positions(languages, &content.positions, content.site.frame_axis_azimuth_deg());
     let factor = Number::exact(picture::exaggeration(&content.positions));
     html! {
         (heading(languages, texts::DEVIATIONS))
         (positions(&content.positions, languages))
-        (languages.paragraph_with(|language| html! {
-            (italic(&texts::DEVIATIONS_NOTE.words(language)))
-            @if is_stated { " " (italic(&texts::DEVIATIONS_U_NOTE.words(language))) }
-        }))
+        (deviations_note(&content.positions, languages))
         (figure_with(languages, "positions", &stand, |language| texts::FIGURE_POSITIONS.filled(language, values! { factor })))
         (heading(languages, texts::COMMON))
         (common(&content.certificate, languages))
@@ -90,6 +86,17 @@ pub(crate) fn positions(positions: &[CertifiedPosition], languages: &Languages) 
         ..Table::of(vec![symbol("i", ""), symbol("j", "")], names, &columns)
     };
     html! { (table.captioned(languages, texts::DEVIATIONS_CAPTION)) (bars.key(languages)) }
+}
+
+/// Writes what the deviations and their uncertainties are.
+pub(crate) fn deviations_note(positions: &[CertifiedPosition], languages: &Languages) -> Markup {
+    let is_stated = positions.iter().flat_map(CertifiedPosition::u_arcsec).any(|u| u.is_some());
+    languages.paragraph_with(|language| {
+        html! {
+            (italic(&texts::DEVIATIONS_NOTE.words(language)))
+            @if is_stated { " " (italic(&texts::DEVIATIONS_U_NOTE.words(language))) }
+        }
+    })
 }
 
 /// Writes an excluded reading or run, with the reason.

@@ -237,13 +237,13 @@ texts! {
         ru: "Параметры и их расширенная неопределённость U (коэффициент охвата k = {k}; вероятность охвата 95,45 %); \
              ω_g и ω_k отнесены к местному g"
     }
-    PASSED { en: "{passed} of {all} parameters pass", ru: "Соответствует допускам {passed} из {all} параметров" }
+    PASSED { en: "{passed} of {all} parameters pass", ru: "Соответствие допускам: {passed} из {all} параметров" }
     CHANGE_PASSED {
         en: "Change since the previous calibration: {passed} of {all} parameters pass",
-        ru: "Изменение после предыдущей калибровки: соответствует допускам {passed} из {all} параметров"
+        ru: "Изменение после предыдущей калибровки соответствует допускам у {passed} из {all} параметров"
     }
     ARE_UNDECIDED { en: "; undecided: {names}", ru: "; не определено: {names}" }
-    FAIL { en: "; fail: {names}", ru: "; не соответствует: {names}" }
+    FAIL { en: "; fail: {names}", ru: "; несоответствие: {names}" }
     NOT_IN_THE_MODEL {
         en: "not assessed, because the general model does not contain them: {names}",
         ru: "не оценивались, так как их нет в общей модели: {names}"
@@ -271,7 +271,7 @@ texts! {
     ANISOELASTICITY { en: "Anisoelastic coefficient", ru: "Коэффициент неравножёсткости" }
     SPECTRAL_RADIUS { en: "Spectral radius", ru: "Спектральный радиус" }
     STEPS { en: "Number of steps", ru: "Число шагов" }
-    STEPS_PREDICTED { en: "Predicted number of steps", ru: "Расчётное число шагов" }
+    STEPS_PREDICTED { en: "Predicted number of steps", ru: "Ожидаемое число шагов" }
     STEPS_OVER { en: "more than {most}", ru: "более {most}" }
     REMAINDER_K { en: "Remaining error of K, at most", ru: "Остаточная погрешность K, не более" }
     REMAINDER_OMEGA {
@@ -370,7 +370,7 @@ texts! {
     GUARDED { en: "Guarded acceptance", ru: "С защитной полосой" }
     PASSED_BY_SIMPLE {
         en: "By simple acceptance, without a guard band, {passed} of {all} parameters pass",
-        ru: "При простой приёмке, без защитной полосы, соответствует допускам {passed} из {all} параметров"
+        ru: "Простая приёмка, без защитной полосы: соответствие допускам у {passed} из {all} параметров"
     }
     TOO_UNCERTAIN {
         en: "No gyro can pass by guarded acceptance: U exceeds the tolerance of {names}.",
@@ -404,7 +404,7 @@ texts! {
         ru: "Число степеней свободы исходных неопределённостей (учтено)"
     }
     OF_ESTIMATES {
-        en: "Some of the uncertainties are estimates, which the probability takes into account.",
+        en: "Some of the uncertainties have finite degrees of freedom, which the probability takes into account.",
         ru: "Часть неопределённостей известна с конечным числом степеней свободы; это учтено в вероятности."
     }
     SCATTER {
@@ -460,16 +460,16 @@ texts! {
         ru: "Их всего две, поэтому ошибочной может быть и другая."
     }
     DRIFTS {
-        en: "The residuals show a drift of ω_0 in time, ({x}, {y}) °/h per hour ({p}), which is not fitted. Fit it with \
+        en: "The residuals show a trend in ω_0, ({x}, {y}) °/h per hour ({p}), which is not fitted. Fit it with \
              {option}.",
         ru: "Остатки обнаруживают изменение ω_0 во времени: ({x}; {y}) °/ч² ({p}). Модель его не содержит. Следует учесть \
              его: {option}."
     }
     DRIFTS_IN_ORDER {
-        en: "In the order of the rows the residuals show a drift of ω_0, ({x}, {y}) °/h from one visit to the next ({p}), \
-             which is not fitted and enlarges u; with the times of the readings it could be fitted.",
+        en: "In the order of the rows the residuals show a trend in ω_0, ({x}, {y}) °/h per visit ({p}), which is not fitted \
+             and enlarges u. To fit it, state the time of each reading.",
         ru: "В порядке строк остатки обнаруживают изменение ω_0 на ({x}; {y}) °/ч от установки к установке ({p}). Модель \
-             его не содержит, и оно увеличивает u. Если указать время показаний, его можно оценить."
+             его не содержит, и оно увеличивает u. Чтобы оценить его, следует указать время каждого показания."
     }
     DRIFT_OR_NOISE {
         en: "A drift in time was not tested, because the repeated visits cannot tell it from the noise of the gyro.",

@@ -115,35 +115,35 @@ texts! {
         ru: "Стьюдента: дрейф, основание, ось «{axis}», поворот от серии к серии, ″"
     }
     OUTLYING_ANGLES {
-        en: "Grubbs: most suspect angle of {count}, difference, ″",
+        en: "Grubbs: most extreme angle of {count}, difference, ″",
         ru: "Граббса: самый сомнительный угол из {count}, отличие, ″"
     }
     ROTATED_RUNS {
-        en: "Grubbs: most suspect run of {count} ({axes} axes), rotation, ″",
+        en: "Grubbs: most extreme run of {count} ({axes} axes), rotation, ″",
         ru: "Граббса: самая сомнительная серия из {count} (осей: {axes}), поворот, ″"
     }
     MOVE_OR_DRIFT {
-        en: "Student: most suspect shift or drift of {count} runs, rotation, ″",
+        en: "Student: most extreme shift or drift of {count} runs, rotation, ″",
         ru: "Стьюдента: наибольшее смещение или дрейф (серий: {count}), поворот, ″"
     }
     NOT_SUSPECT { en: "not suspect", ru: "не выделяется" }
     EQUAL { en: "no difference found", ru: "различий не найдено" }
     DOUBTFUL { en: "doubtful", ru: "сомнительно" }
-    UNEQUAL { en: "different", ru: "различаются" }
+    UNEQUAL { en: "different", ru: "различие значимо" }
     NOT_MADE { en: "not run", ru: "не применялся" }
     OUTLIER { en: "outlier", ru: "выброс" }
     SIGNIFICANT { en: "significant", ru: "значимо" }
-    PROBABLE { en: "probable", ru: "вероятно" }
+    PROBABLE { en: "suspected", ru: "возможно" }
     STRAGGLER { en: "straggler", ru: "квазивыброс" }
     TESTS_NOTE {
-        en: "Value: the statistic given last in the first column; differences and rotations are from the other readings \
-             or runs. ν: degrees of freedom. Probability of a result at least as extreme by chance: below 5 % a value is a straggler, equality \
-             is doubtful, and a shift or drift is probable; below 1 % the value is an outlier, the variances are \
-             different, and the shift or drift is significant. No reading is excluded because of these tests. Bartlett’s \
-             test requires a fine resolution and no suspect reading.",
+        en: "Value: the quantity named last in the first column; differences are relative to the other readings, rotations \
+             to the other runs. ν: degrees of freedom. Probability of a result at least as extreme by chance: below 5 % \
+             a value is a straggler, equality is doubtful, and a shift or drift is suspected; below 1 % a value is an \
+             outlier, the variances differ significantly, and a shift or drift is significant. No reading is excluded \
+             because of these tests. Bartlett’s test requires a fine resolution and no suspect reading.",
         ru: "Значение: величина, указанная в конце названия критерия; отличия — от остальных показаний, повороты — \
              относительно остальных серий. ν — число степеней свободы. Вероятность случайно получить значение, не меньшее по модулю: менее 5 % — \
-             квазивыброс, равенство сомнительно, смещение или дрейф вероятны; менее 1 % — выброс, дисперсии различаются, \
+             квазивыброс, равенство сомнительно, смещение или дрейф возможны; менее 1 % — выброс, различие дисперсий, \
              смещение или дрейф значимы. По этим критериям показания не исключаются. Критерий Бартлетта применим при \
              малой дискретности отсчёта и без сомнительных показаний."
     }
@@ -164,7 +164,7 @@ texts! {
         ru: "Откалибровано положений: {positions} (серий: {runs})"
     }
     NOT_COMPARED {
-        en: "The readings were not compared with an earlier certificate.",
+        en: "The readings were not compared with a previous certificate.",
         ru: "Показания не сравнивались с предыдущим сертификатом."
     }
     SAME {
@@ -189,10 +189,10 @@ texts! {
     }
     TWO_CHANGES {
         en: "The decision rests on the rotation of the platform relative to the other positions (u from the repeatability \
-             of the earlier certificate, if stated): changed if the probability, times the number of positions, is below \
+             of the previous certificate, if stated): changed if the probability, times the number of positions, is below \
              {limit}; undecided if outliers or scatter leave this open. Below are the changes of the deviations, computed \
-             before rounding (u from their uncertainties in both).",
-        ru: "Решение принимается по повороту платформы относительно остальных положений (u — по повторяемости предыдущего \
+             before rounding (u from their uncertainties in both certificates).",
+        ru: "Решение принимается по повороту платформы относительно остальных положений (u — по повторяемости из предыдущего \
              сертификата, если указана): изменилось, если вероятность, умноженная на число положений, меньше {limit}; не \
              определено, если выбросы или рассеяние не позволяют решить. Ниже — изменения отклонений до округления (u — по \
              неопределённостям в обоих сертификатах)."

@@ -255,8 +255,8 @@ texts! {
     METER_NOISE { en: "noise of a reading {n} mA", ru: "шум показания {n} мА" }
     METER_RANGE { en: "range {n} mA", ru: "диапазон {n} мА" }
     SEATING { en: "u of the gyro seat about x, y, z", ru: "u угла посадки вокруг x, y, z" }
-    BASE_AZIMUTH_U { en: "u of the azimuth, in this laboratory", ru: "u азимута основания в лаборатории" }
-    BASE_LEVEL_U { en: "u of the level, in this laboratory", ru: "u наклона основания в лаборатории" }
+    BASE_AZIMUTH_U { en: "u of the base azimuth, laboratory", ru: "u азимута основания в лаборатории" }
+    BASE_LEVEL_U { en: "u of the base level, laboratory", ru: "u наклона основания в лаборатории" }
     LABORATORY_TEMPERATURE { en: "Temperature in the laboratory", ru: "Температура в лаборатории" }
     NOMINAL { en: "Nominal value", ru: "Номинальное значение" }
     TOLERANCE { en: "Tolerance (%: of nominal)", ru: "Допуск (% — от номинального)" }

@@ -9,7 +9,7 @@ texts! {
     CONDITION { en: "Condition of the stand", ru: "Состояние стенда" }
     MANUFACTURED { en: "Date of manufacture", ru: "Дата изготовления" }
     METHOD_CHANGES { en: "Deviations from the method", ru: "Отступления от методики" }
-    ADJUSTMENT { en: "Results before adjustment or repair", ru: "Данные до юстировки или ремонта" }
+    ADJUSTMENT { en: "Results before adjustment or repair", ru: "Результаты до юстировки или ремонта" }
     EXTERNAL { en: "Results from external providers", ru: "Результаты внешних поставщиков" }
     SIGNATURE { en: "Signature", ru: "Подпись" }
     POST_AND_NAME { en: "Position and name", ru: "Должность, фамилия" }
@@ -74,7 +74,7 @@ texts! {
     REMOVED { en: "Date removed", ru: "Дата снятия" }
     WHY_REMOVED { en: "Reason for removal", ru: "Причина снятия" }
 
-    REPAIRS { en: "Repairs and work under bulletins", ru: "Ремонт и учёт работы по бюллетеням и указаниям" }
+    REPAIRS { en: "Repairs and service bulletins", ru: "Ремонт и учёт работы по бюллетеням и указаниям" }
     REPAIR { en: "Reason, work performed", ru: "Основание, работы" }
     CERTIFIED_AGAIN { en: "Recertification, certificate No.", ru: "Повторная калибровка, № сертификата" }
 
