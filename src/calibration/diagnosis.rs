@@ -48,6 +48,8 @@ pub struct Hint {
     /// Possible explanations, the best first. If empty, none of the known errors explains the readings; several
     /// positions differ at once.
     pub explanations: Vec<Explanation>,
+    /// Parameters with each explanation.
+    pub(crate) parameters: Vec<GyroParameters>,
     /// Rough size of the angular errors of all positions that would explain the fit, arcsec.
     pub size_arcsec: f64,
 }
@@ -80,8 +82,7 @@ pub enum Explanation {
     },
     /// Base that was set up with the frame's axis to another azimuth.
     #[error(
-        "the frame's axis of the stand points to an azimuth of about {frame_axis_azimuth_deg}°, and not to that of the \
-         passport"
+        "the axis of the frame points to an azimuth of about {frame_axis_azimuth_deg}°, not to that of the passport"
     )]
     OtherAxis {
         /// Azimuth of the frame's axis that explains the readings, degrees clockwise from north, to a tenth.
@@ -133,6 +134,12 @@ impl Hint {
         self.explanations.iter().any(is_of_all)
     }
 
+    /// Drops the explanations whose parameters `is_possible` rejects.
+    pub(crate) fn retain(&mut self, is_possible: impl Fn(&GyroParameters) -> bool) {
+        let all = self.explanations.drain(..).zip(self.parameters.drain(..));
+        (self.explanations, self.parameters) = all.filter(|(_, found)| is_possible(found)).unzip();
+    }
+
     /// Returns the possible causes as a sentence without a full stop.
     pub(crate) fn causes(&self) -> String {
         if self.explanations.is_empty() {
@@ -176,27 +183,35 @@ pub(crate) fn hint(setup: &Setup, data: &Data, model: Model, chi_square: &ChiSqu
     }
     let fit = data.fit(setup, model).ok()?;
     let suspects = suspects(setup, data, &fit);
-    let mut possible: Vec<(f64, Explanation)> = exchanges(setup, data, model, &suspects);
+    let mut possible = exchanges(setup, data, model, &suspects);
     possible.extend(single_positions(setup, data, model, &suspects));
-    for (score, index, explanation) in slips(setup, data, model, &suspects) {
+    for (index, slip) in slips(setup, data, model, &suspects) {
         // An error of any size would rarely equal a reversed or exchanged reading by chance, unless it is small.
-        possible.retain(|(other, found)| match found {
+        possible.retain(|other| match other.explanation {
             Explanation::DidNotRepeat { index: of, angle_arcsec, .. } => {
-                *of != index || *angle_arcsec < GROSS_ARCSEC || other + WORSE < score
+                of != index || angle_arcsec < GROSS_ARCSEC || other.score + WORSE < slip.score
             }
             _ => true,
         });
-        possible.push((score, explanation));
+        possible.push(slip);
     }
     let renumbered = numberings(setup)
-        .filter_map(|(i, j, places)| Some((score(setup, &data.at(&places), model)?, Explanation::Renumbered { i, j })));
+        .filter_map(|(i, j, places)| possibility(setup, &data.at(&places), model, Explanation::Renumbered { i, j }));
     let of_all = renumbered.chain(other_axes(setup, data, model));
-    possible.extend(of_all.filter(|(score, _)| score + WORSE <= chi_square.value));
-    possible.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-    let best = possible.first().map_or(0.0, |(score, _)| *score);
-    possible.retain(|(score, _)| *score <= best + WORSE);
-    let explanations = possible.into_iter().map(|(_, explanation)| explanation).collect();
-    Some(Hint { explanations, size_arcsec: size_arcsec(setup, &fit, chi_square) })
+    possible.extend(of_all.filter(|found| found.score + WORSE <= chi_square.value));
+    possible.sort_by(|one, other| one.score.total_cmp(&other.score));
+    let best = possible.first().map_or(0.0, |found| found.score);
+    possible.retain(|found| found.score <= best + WORSE);
+    let (explanations, parameters) = possible.iter().map(|found| (found.explanation, found.parameters)).unzip();
+    Some(Hint { explanations, parameters, size_arcsec: size_arcsec(setup, &fit, chi_square) })
+}
+
+/// Explanation with which the readings fit.
+struct Possible {
+    /// Chi-square of the fit, plus the price of the numbers that the explanation has chosen.
+    score: f64,
+    explanation: Explanation,
+    parameters: GyroParameters,
 }
 
 /// Returns the indices of the positions to examine, in ascending order: at most `MOST_SUSPECTS`, with the largest
@@ -211,8 +226,8 @@ fn suspects(setup: &Setup, data: &Data, fit: &Fit) -> Vec<usize> {
     places
 }
 
-/// Returns every exchange of two positions that makes the readings fit, with its score.
-fn exchanges(setup: &Setup, data: &Data, model: Model, suspects: &[usize]) -> Vec<(f64, Explanation)> {
+/// Returns every exchange of two positions that makes the readings fit.
+fn exchanges(setup: &Setup, data: &Data, model: Model, suspects: &[usize]) -> Vec<Possible> {
     let positions = &setup.coefficients().positions;
     let mut possible = Vec::new();
     for (rank, &one) in suspects.iter().enumerate() {
@@ -220,15 +235,14 @@ fn exchanges(setup: &Setup, data: &Data, model: Model, suspects: &[usize]) -> Ve
             let mut places: Vec<usize> = (0..positions.len()).collect();
             places.swap(one, other);
             let explanation = Explanation::Exchanged(positions[one].index, positions[other].index);
-            possible.extend(score(setup, &data.at(&places), model).map(|score| (score, explanation)));
+            possible.extend(possibility(setup, &data.at(&places), model, explanation));
         }
     }
     possible
 }
 
-/// Returns every position whose reading fits with the sign of a current reversed or with both currents exchanged, with
-/// its score.
-fn slips(setup: &Setup, data: &Data, model: Model, suspects: &[usize]) -> Vec<(f64, PositionIndex, Explanation)> {
+/// Returns every position whose reading fits with the sign of a current reversed or with both currents exchanged.
+fn slips(setup: &Setup, data: &Data, model: Model, suspects: &[usize]) -> Vec<(PositionIndex, Possible)> {
     let possible = suspects.iter().flat_map(|&place| {
         let index = setup.coefficients().positions[place].index;
         let [x, y] = data.currents_ma[place].into();
@@ -240,7 +254,7 @@ fn slips(setup: &Setup, data: &Data, model: Model, suspects: &[usize]) -> Vec<(f
         meant.into_iter().filter_map(move |(current_ma, explanation)| {
             let mut meant = data.clone();
             meant.currents_ma[place] = current_ma;
-            Some((score(setup, &meant, model)?, index, explanation))
+            Some((index, possibility(setup, &meant, model, explanation)?))
         })
     });
     possible.collect()
@@ -291,26 +305,28 @@ pub(crate) fn other_numberings(setup: &Setup, readings: &Readings, model: Model,
 }
 
 /// Returns every quarter by which the frame's axis may be rotated so that the readings fit, and the small angle with which
-/// they fit best, with their scores.
-fn other_axes(setup: &Setup, data: &Data, model: Model) -> Vec<(f64, Explanation)> {
-    let of = |by_deg: f64| chi_square(&setup.turned(by_deg), data, model).map_or(f64::INFINITY, |found| found.value);
+/// they fit best.
+fn other_axes(setup: &Setup, data: &Data, model: Model) -> Vec<Possible> {
+    let of = |by_deg: f64| fitted(&setup.turned(by_deg), data, model).map_or(f64::INFINITY, |(found, _)| found.value);
     let small = minimum(-LARGEST_ROTATION_DEG, LARGEST_ROTATION_DEG, of);
     let angles = [(90.0, 0.0), (180.0, 0.0), (270.0, 0.0), (small, PRICE_OF_ONE_NUMBER)];
     let possible = angles.into_iter().filter_map(|(by_deg, price)| {
         let turned = setup.turned(by_deg);
         let frame_axis_azimuth_deg = (turned.frame_axis_azimuth_deg() * 10.0).round() / 10.0 % 360.0;
-        Some((score(&turned, data, model)? + price, Explanation::OtherAxis { frame_axis_azimuth_deg }))
+        let found = possibility(&turned, data, model, Explanation::OtherAxis { frame_axis_azimuth_deg })?;
+        Some(Possible { score: found.score + price, ..found })
     });
     possible.collect()
 }
 
-/// Returns chi-square of readings that fit, or `None` if they do not.
-fn score(setup: &Setup, data: &Data, model: Model) -> Option<f64> {
-    chi_square(setup, data, model).filter(|found| found.probability > POSSIBLE).map(|found| found.value)
+/// Returns an explanation if the readings fit with it: `setup` and `data` are those that it states.
+fn possibility(setup: &Setup, data: &Data, model: Model, explanation: Explanation) -> Option<Possible> {
+    let (found, parameters) = fitted(setup, data, model).filter(|(found, _)| found.probability > POSSIBLE)?;
+    Some(Possible { score: found.value, explanation, parameters })
 }
 
-/// Returns every position without which the other positions fit, with its score.
-fn single_positions(setup: &Setup, data: &Data, model: Model, suspects: &[usize]) -> Vec<(f64, Explanation)> {
+/// Returns every position without which the other positions fit.
+fn single_positions(setup: &Setup, data: &Data, model: Model, suspects: &[usize]) -> Vec<Possible> {
     let possible = suspects.iter().filter_map(|&place| {
         let places: Vec<usize> = (0..data.currents_ma.len()).filter(|other| *other != place).collect();
         let (rest, others) = (setup.at(&places), data.at(&places));
@@ -332,15 +348,17 @@ fn single_positions(setup: &Setup, data: &Data, model: Model, suspects: &[usize]
             angle_arcsec: arcseconds_from_radians(angle),
             current_ua: -(inverse * misclosure) * 1000.0,
         };
-        Some((found.value + PRICE_OF_TWO_NUMBERS, explanation))
+        let parameters = fit.unknowns.parameters;
+        Some(Possible { score: found.value + PRICE_OF_TWO_NUMBERS, explanation, parameters })
     });
     possible.collect()
 }
 
-fn chi_square(setup: &Setup, data: &Data, model: Model) -> Option<ChiSquare> {
+/// Returns chi-square and the parameters of readings.
+fn fitted(setup: &Setup, data: &Data, model: Model) -> Option<(ChiSquare, GyroParameters)> {
     let fit = data.fit(setup, model).ok().filter(|fit| fit.settled)?;
     let found = chi_square::chi_square(&Propagation::new(setup, data, &fit));
-    found.value.is_finite().then_some(found)
+    found.value.is_finite().then_some((found, fit.unknowns.parameters))
 }
 
 /// Returns the approximate uncertainty, arcsec, that every angle would need for chi-square to have its expected value.

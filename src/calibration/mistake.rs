@@ -8,7 +8,7 @@
 //! ψ − δ)·R(−90°), and W′ is W for δ = 0: exactly for 180°, for quarter turns on a stand of the paper's eight positions
 //! without deviations. Each of these errors can be undone.
 
-use super::diagnosis::{Numbering, WORSE};
+use super::diagnosis::{Hint, Numbering, WORSE};
 use super::{Calibration, Found, Verdict, against_type};
 use crate::coefficients::EarthRate;
 use crate::earth::{NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2, normal_gravity_m_per_s2};
@@ -148,6 +148,16 @@ impl Mistake {
             _ => None,
         }
         .map(|Numbering { i, j, .. }| Self::Renumbered { i: *i, j: *j })
+    }
+}
+
+/// Drops the possible causes of readings that do not fit whose parameters are far from the gyro type, if those of another
+/// are near it.
+pub(crate) fn narrow_by_type(hint: &mut Hint, found: &Found, gyro_type: &GyroType) {
+    let distance = |parameters| distance(&against_type(&Found { parameters, ..*found }, gyro_type));
+    let nearest = hint.parameters.iter().map(|&parameters| distance(parameters)).fold(f64::INFINITY, f64::min);
+    if nearest < CLEARLY {
+        hint.retain(|&parameters| distance(parameters) < CLEARLY * nearest.max(1.0));
     }
 }
 

@@ -198,6 +198,7 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     remarks.extend(unequal_axes.iter().copied().map(Remark::RunAxesDiffer));
     remarks.extend(remarks_on(&components, readings, &stand.positions));
     remarks.extend(remark_on_rounding(readings));
+    remarks.extend(stand.certificate.performed.is_none().then_some(Remark::NotDated));
     remarks.extend(stand::remarks::of(&stand.certificate, &stand.positions).into_iter().map(Remark::Odd));
     let warnings = remarks.iter().map(ToString::to_string).collect();
     let (runs, repeated_rows) = (runs.to_vec(), readings.repeated_rows);

@@ -49,6 +49,8 @@ pub(crate) enum Remark {
     SmallAngles(f64),
     /// Standard deviation of a visit that no stand has, arcsec.
     LittleScatter(f64),
+    /// No day of the measurement.
+    NotDated,
     Odd(Odd),
 }
 
@@ -156,6 +158,7 @@ impl Remark {
                 let (angle, value, usual) = (ANGLE_SYMBOLS[*angle], fixed(*arcsec, 0), fixed(*usual_arcsec, 0));
                 fill(texts::FAR_ANGLE, values! { angle, index, value, usual })
             }
+            Self::NotDated => fill(texts::NOT_DATED, &[]),
             Self::Odd(Odd::Temperature { celsius, .. }) => fill(texts::TEMPERATURE, values! { value: exact(*celsius) }),
             Self::Odd(Odd::OldMeasurement { performed, issued }) => {
                 fill(texts::OLD_MEASUREMENT, values! { performed: day(*performed), issued: day(*issued) })
@@ -193,6 +196,7 @@ impl Remark {
             ),
             Self::SharedSetting(_) => "Measure again.".to_owned(),
             Self::BaseAxes(0) => "Therefore common_base_arcsec is absent.".to_owned(),
+            Self::NotDated => "State performed in the header.".to_owned(),
             Self::Rounding { .. } => "Record more digits.".to_owned(),
             _ => return None,
         })

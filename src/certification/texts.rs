@@ -36,14 +36,14 @@ texts! {
     AXES_OF_BASE { en: "east, north, up of the base", ru: "осей основания «восток», «север», «верх»" }
     BUMPED_RUN {
         en: "{grade}: all positions of run {run} are rotated by {x}″, {y}″, {z}″ about {axes} relative to the other \
-             runs (Grubbs’ test, {p}). The run was not excluded; it changes certified angles by up to {mean}″.",
+             runs (Grubbs’ test, {p}). The run was not excluded; it changes certified deviations by up to {mean}″.",
         ru: "{grade}: все положения серии {run} повёрнуты относительно других серий на {x}″, {y}″, {z}″ вокруг {axes} \
              (критерий Граббса, {p}). Серия не исключена; она изменяет отклонения в сертификате не более чем на \
              {mean}″."
     }
     MOVED {
         en: "The stand seems to have moved between runs {run} and {after}: all positions are rotated by {x}″, {y}″, {z}″ \
-             about {axes} (Student’s test of a step, {p}). No run was excluded; the certified angles are a mean of both \
+             about {axes} (Student’s test of a step, {p}). No run was excluded; the certified deviations are a mean of both \
              states.",
         ru: "По-видимому, между сериями {run} и {after} стенд сместился: все положения повёрнуты на {x}″, {y}″, {z}″ \
              вокруг {axes} (критерий Стьюдента для смещения, {p}). Серии не исключены; отклонения в сертификате — среднее \
@@ -51,7 +51,7 @@ texts! {
     }
     DRIFTS {
         en: "The stand seems to drift: from run to run all positions rotate by {x}″, {y}″, {z}″ about {axes} (Student’s \
-             test of a straight line, {p}). No run was excluded; the certified angles are those of the middle of the \
+             test of a straight line, {p}). No run was excluded; the certified deviations are those of the middle of the \
              measurement.",
         ru: "По-видимому, стенд дрейфует: от серии к серии все положения поворачиваются на {x}″, {y}″, {z}″ вокруг {axes} \
              (критерий Стьюдента для дрейфа, {p}). Серии не исключены; отклонения в сертификате относятся к середине \
@@ -88,16 +88,16 @@ texts! {
              трём осям: для одной оси она завышена, для другой занижена."
     }
     PLATFORM_AXES_DIFFER {
-        en: "From run to run the platform rotates by {own}″ about {axis} and by {others}″ about its other two axes \
-             (Cochran’s test, {p}). The common part is pooled from all three and is too small about {axis} unless a \
+        en: "From run to run the standard deviation of the platform’s rotation is {own}″ about {axis} and {others}″ \
+             about its other two axes (Cochran’s test, {p}). The common part is pooled from all three and is too small about {axis} unless a \
              component of type B of {missing}″ is stated, which allows for the {freedom} degrees of freedom of {own}″.",
         ru: "От серии к серии стандартное отклонение поворота платформы вокруг {axis} равно {own}″, вокруг двух других \
              осей {others}″ (критерий Кохрена, {p}). Общая составляющая, объединённая по трём осям, для {axis} занижена, \
              если не указана составляющая по типу B, равная {missing}″ (учтено число степеней свободы {freedom})."
     }
     BASE_AXES_DIFFER {
-        en: "From run to run the base rotates by {own}″ about {axis} and by {others}″ about its other two axes (Cochran’s \
-             test, {p}). The common part is pooled from all three and is too small about {axis} unless a component of \
+        en: "From run to run the standard deviation of the base’s rotation is {own}″ about {axis} and {others}″ about \
+             its other two axes (Cochran’s test, {p}). The common part is pooled from all three and is too small about {axis} unless a component of \
              type B of {missing}″ is stated, which allows for the {freedom} degrees of freedom of {own}″.",
         ru: "От серии к серии стандартное отклонение поворота основания вокруг оси «{axis}» равно {own}″, вокруг двух \
              других осей {others}″ (критерий Кохрена, {p}). Общая составляющая, объединённая по трём осям, для оси \
@@ -154,6 +154,10 @@ texts! {
     TEMPERATURE {
         en: "A temperature of {value} °C is unusual for a laboratory.",
         ru: "Температура {value} °C необычна для лаборатории."
+    }
+    NOT_DATED {
+        en: "The date of measurement is not stated; the date of issue is taken for it.",
+        ru: "Дата измерений не указана; вместо неё принята дата выдачи."
     }
     OLD_MEASUREMENT {
         en: "The stand was measured on {performed}, more than a year before the certificate was issued on {issued}.",

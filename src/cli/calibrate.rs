@@ -269,9 +269,6 @@ impl Bench<'_> {
         files::check_replaceable(files(), options.uncertainty.force)?;
         let found = self.calibrate(path)?;
         let done = &found.done;
-        if let Some(warning) = &done.warning {
-            output::complain(&format!("WARNING: {warning}"));
-        }
         if let Some(path) = &options.dcc {
             let laboratory = options.laboratory.is_some().then_some(&self.laboratory);
             let sha256 = sha256_hex(&self.passport.bytes);

@@ -69,7 +69,8 @@ pub(super) fn gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
 /// Reads a laboratory file, or returns the paper's meter without a path.
 pub(super) fn laboratory(path: Option<&Path>) -> Result<Laboratory, Failure> {
     let Some(path) = path else { return Ok(Laboratory::paper()) };
-    let laboratory = document(path, Kind::Laboratory.words(), Laboratory::from_yaml)?;
+    let laboratory =
+        document(path, Kind::Laboratory.words(), |name, bytes| filled_in(name, bytes, Laboratory::from_yaml))?;
     laboratory.remarks(Language::English).iter().for_each(|words| output::warn(&plain(words)));
     Ok(laboratory)
 }

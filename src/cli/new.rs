@@ -12,8 +12,8 @@ use std::path::{Path, PathBuf};
 
 /// Write a commented template of a file
 ///
-/// Lines with CHANGE need a value that only you know. Every template has a valid form, but `certify` and `issue`
-/// refuse a file that still contains CHANGE.
+/// Lines with CHANGE need a value that only you know. Every template has a valid form, but `certify`, `issue` and
+/// `calibrate` refuse a value that is still CHANGE.
 #[derive(Args)]
 pub(super) struct Options {
     /// Kind of file

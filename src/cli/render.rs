@@ -67,10 +67,11 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         let output = output.map(Path::to_owned).or_else(in_folder);
         let output = output.ok_or_else(|| Failure::usage("missing -o FILE.html or --out DIR"))?;
         output::file(&output, &page.html(&languages(&options.lang)), options.force)?;
-        output::say(&format!("wrote {}", shown(&output)));
         if options.format == Format::Text && !verdict.valid {
             output::say_verdict(&style::plain(&verdict::text(&verdict)));
         }
+        let so = if verdict.valid { "" } else { "; it says that the passport may not be used" };
+        output::say(&format!("wrote {}{so}", shown(&output)));
         Ok(Rendered { page: name_of(&output), verdict })
     };
     let Some(output) = &options.output else {

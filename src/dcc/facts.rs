@@ -31,6 +31,8 @@ pub(super) struct Known<'a> {
     pub traceability: Option<&'a str>,
     /// Temperature during the measurements, °C.
     pub temperature_c: Option<f64>,
+    /// Keys that options of the command line state too, with the options.
+    pub options: &'static [(&'static str, &'static str)],
 }
 
 /// Complete facts of a DCC.
@@ -76,7 +78,8 @@ impl Facts {
         };
         let none = Administrative::default();
         let file = file.unwrap_or(&none);
-        let mut collector = Collector { source: known.source, advice, problems: Problems::default() };
+        let options = known.options;
+        let mut collector = Collector { source: known.source, advice, options, problems: Problems::default() };
         let facts = collector.facts(known, file, lang);
         facts.filter(|_| collector.problems.is_empty()).ok_or(collector.problems)
     }
@@ -91,6 +94,7 @@ struct Collector {
     source: &'static str,
     /// Advice for a missing key.
     advice: &'static str,
+    options: &'static [(&'static str, &'static str)],
     problems: Problems,
 }
 
@@ -126,8 +130,9 @@ impl Collector {
         let expected = "the temperature during the measurements, in degrees Celsius";
         let element = "measurementResult/influenceConditions";
         let temperature = self.need(&at, "temperature_c", temperature, expected, element);
-        if let Some(serial) = known.serial {
-            self.need(&at, "--gyro-serial", stated(serial), "the serial number of the gyro", "item/identifications");
+        if known.serial.is_some_and(|serial| stated(serial).is_none()) {
+            let expected = "the serial number of the gyro, for item/identifications";
+            self.problems.missing(&at, "--gyro-serial", expected, "use the option");
         }
         if file.traceable == Some(true) && stated(known.traceability).is_none() {
             let expected = "absent, because the certificate states no traceability";
@@ -159,7 +164,9 @@ impl Collector {
     /// Returns a required value, or records that its key is missing and the element of the DCC that needs it.
     fn need<T>(&mut self, at: &Path, key: &str, value: Option<T>, expected: &str, element: &str) -> Option<T> {
         if value.is_none() {
-            self.problems.missing(at, key, format!("{expected}, for {element}"), self.advice);
+            let option = self.options.iter().find(|(of, _)| *of == key);
+            let advice = option.map_or_else(String::new, |(_, option)| format!(", or use {option}"));
+            self.problems.missing(at, key, format!("{expected}, for {element}"), self.advice.to_owned() + &advice);
         }
         value
     }

@@ -78,6 +78,7 @@ pub(crate) fn of_gyro(
         laboratory: calibrated.laboratory.and_then(|laboratory| laboratory.name.as_deref()),
         temperature_c: calibrated.subject.temperature_c.or(calibrated.laboratory.and_then(|file| file.temperature_c)),
         method_is_known: true,
+        options: &[("from", "--date"), ("to", "--date"), ("temperature_c", "--temperature-c")],
         ..Known::default()
     };
     let facts = Facts::collect(&known, administrative, lang)?;

@@ -5,6 +5,7 @@ use super::{Failed, Order, json};
 use crate::calibration::diagnosis::INCONSISTENT;
 use crate::calibration::diagnosis::other_numberings;
 use crate::calibration::document::{NoChange, Subject, another_type};
+use crate::calibration::mistake::narrow_by_type;
 use crate::calibration::prediction::{FurtherVisit, best_further_visit, cost_of_missing};
 use crate::calibration::stated::TemperatureOutside;
 use crate::calibration::verdict::without_nominal;
@@ -213,7 +214,7 @@ impl<'a> Prepared<'a> {
         let unknown_gyro = subject.unknown_gyro(previous);
         let calibration = calibration::calibrate(&setup, &readings, options);
         let name = printable::printable(&name);
-        let calibration = calibration.map_err(|error| {
+        let mut calibration = calibration.map_err(|error| {
             let remedy = match &error {
                 NoLeastSquares::Inseparable { .. } if options.model == Model::Paper => {
                     "; read more positions (`plan` finds them)"
@@ -248,6 +249,10 @@ impl<'a> Prepared<'a> {
         if let (None, None, Some(gyro_type)) = (&document.mistake, &document.hint, gyro_type) {
             let others = || other_numberings(&setup, &readings, options.model, options.drift);
             document.mistake = Mistake::of_numbering(&found, gyro_type, others);
+        }
+        if let Some((hint, gyro_type)) = calibration.hint.as_mut().zip(gyro_type) {
+            narrow_by_type(hint, &found, gyro_type);
+            document.hint = Some(hint.to_string());
         }
         document.remarks = remarks(&calibration, &readings, document.mistake.as_ref());
         let of_files = laboratory.remarks(Language::English).into_iter();

@@ -79,7 +79,7 @@ fn ordered(order: &str, now: Timestamp) -> Result<Issue, Failed> {
 pub(super) fn stated([gyro, laboratory]: [Option<File>; 2]) -> Result<Stated, Failed> {
     let gyro = gyro.map_or_else(|| Ok(GyroType::gvk_6()), |(name, bytes)| GyroType::from_yaml(name, bytes))?;
     let paper = || Ok(Laboratory::paper());
-    let laboratory = laboratory.map_or_else(paper, |(name, bytes)| Laboratory::from_yaml(name, bytes))?;
+    let laboratory = laboratory.map_or_else(paper, |(name, bytes)| filled_in(name, bytes, Laboratory::from_yaml))?;
     Ok(Stated { gyro, laboratory })
 }
 

@@ -54,8 +54,8 @@ pub(crate) fn text(
         }
     }
     let subject = document.subject.as_ref();
-    if let Some(gyro) = subject.and_then(gyro) {
-        columns::paragraph(&mut out, "", &gyro);
+    if let Some(words) = subject.and_then(conditions) {
+        columns::paragraph(&mut out, "", &words);
     }
     let verified_as_of = subject.and_then(|subject| subject.passport_verified_as_of);
     let state = verified_as_of.map_or_else(
@@ -128,18 +128,21 @@ pub(crate) fn text(
     out
 }
 
-/// Returns the serial number of the gyro and the day of the readings, as far as they were stated.
-fn gyro(Subject { gyro_serial, date, .. }: &Subject) -> Option<String> {
-    let serial = gyro_serial.as_ref().map(|serial| format!("Gyro {}", printable(serial)));
-    match (serial, date) {
-        (Some(gyro), Some(day)) => Some(format!("{gyro}, measured on {day}")),
-        (None, Some(day)) => Some(format!("Measured on {day}")),
-        (gyro, None) => gyro,
-    }
+/// Returns which gyro was measured, when, by whom and at which temperature, as far as this was stated.
+fn conditions(Subject { gyro_serial, date, operator, temperature_c, .. }: &Subject) -> Option<String> {
+    let said = [
+        gyro_serial.as_ref().map(|serial| format!("gyro {}", printable(serial))),
+        date.map(|day| format!("measured on {day}")),
+        operator.as_ref().map(|operator| format!("readings by {}", printable(operator))),
+        temperature_c.map(|celsius| format!("at {celsius} °C")),
+    ];
+    let said: Vec<String> = said.into_iter().flatten().collect();
+    (!said.is_empty()).then(|| capital(&said.join(", ")))
 }
 
-/// Returns what makes the parameters or their uncertainties unusable, a sentence each.
-pub(crate) fn warnings(Done { calibration, document, .. }: &Done, trials: Option<&MonteCarlo>) -> Vec<String> {
+/// Returns what makes the parameters or their uncertainties unusable or doubtful, a sentence each.
+pub(crate) fn warnings(done: &Done, trials: Option<&MonteCarlo>) -> Vec<String> {
+    let Done { calibration, document, warning, .. } = done;
     let causes = calibration.hint.as_ref().map(Hint::each_cause).unwrap_or_default();
     let each = || causes.iter().map(|cause| format!("\n  - {}", capital(cause))).collect::<String>();
     let unusable = unusable(calibration, document.mistake.as_ref()).enumerate().map(|(place, words)| match place {
@@ -147,7 +150,10 @@ pub(crate) fn warnings(Done { calibration, document, .. }: &Done, trials: Option
         0 if causes.len() > 1 => format!("{INCONSISTENT}. Possible causes:{}", each()),
         _ => words,
     });
-    unusable.chain(trials.and_then(not_linear)).map(|words| format!("WARNING: {}", capital(&words))).collect()
+    let of_scatter = scatter(calibration).into_iter().filter(|(weight, _)| *weight == Weight::Warning);
+    let others = of_scatter.map(|(_, words)| words).chain(warning.as_ref().map(ToString::to_string));
+    let all = unusable.chain(others).chain(trials.and_then(not_linear));
+    all.map(|words| format!("WARNING: {}", capital(&words))).collect()
 }
 
 /// Returns what makes the parameters unusable: readings that do not fit, or those of another gyro.
@@ -364,11 +370,8 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
     for words in calibration.digits.iter().flat_map(|digits| recorded::words(digits, Language::English)) {
         columns::paragraph(out, "  ", &plain(&words));
     }
-    for (weight, words) in scatter(calibration) {
-        match weight {
-            Weight::Warning => columns::paragraph(out, "", &format!("WARNING: {}", capital(&words))),
-            Weight::Usual | Weight::Remark => columns::paragraph(out, "  ", &words),
-        }
+    for (_, words) in scatter(calibration).into_iter().filter(|(weight, _)| *weight != Weight::Warning) {
+        columns::paragraph(out, "  ", &words);
     }
     if !missing.is_empty() {
         let missing: Vec<&str> = missing.iter().map(|what| what.words()).collect();

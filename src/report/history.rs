@@ -226,7 +226,8 @@ fn time_line(history: &History) -> Vec<(String, &'static str, String)> {
             "{}, {}{runs}, issued {}{withdrawn}",
             certificate.number, certificate.laboratory, certificate.issued
         );
-        events.push((certificate.measured().to_string(), "measured", words));
+        let kind = if certificate.performed.is_some() { "measured" } else { "certified" };
+        events.push((certificate.measured().to_string(), kind, words));
     }
     for passport in &history.passports {
         let Some(issued) = passport.issued_at else { continue };

@@ -62,13 +62,30 @@ fn unreadable_yaml(name: &str, text: &str, error: &serde_yaml::Error) -> Unreada
             ("aliases (`*name`) that repeat too much content", "write out the content")
         }
         tag if tag.contains("invalid type: enum") => ("a tag (`!name`)", "delete it"),
-        several if several.contains("more than one document") => ("several documents (`---`)", "keep one document"),
+        several if several.contains("more than one document") => match less_indented(text) {
+            // The parser takes the line for the beginning of another document.
+            Some(line) if !text.lines().any(|line| line.starts_with("---")) => {
+                let (at, found) = (Location { line, column: 1 }, "a line that is indented less than the first one");
+                let advice = "begin every key of the file in column 1";
+                return Unreadable::whole(name, Some(at), found, "a plain YAML mapping", advice);
+            }
+            _ => ("several documents (`---`)", "keep one document"),
+        },
         _ => {
             let advice = "check the quotes, brackets and indentation of this line and the one before";
             return Unreadable::whole(name, location, format!("invalid YAML ({words})"), "a YAML mapping", advice);
         }
     };
     Unreadable::whole(name, location, found, "a plain YAML mapping", advice)
+}
+
+/// Returns the number of the first line that is indented less than the first line with content.
+fn less_indented(text: &str) -> Option<usize> {
+    let indent = |line: &str| line.len() - line.trim_start_matches(' ').len();
+    let mut lines =
+        (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty() && !line.trim_start().starts_with('#'));
+    let (_, first) = lines.next()?;
+    lines.find(|(_, line)| indent(line) < indent(first)).map(|(number, _)| number)
 }
 
 /// Describes a tab that indents the line at `at` or is the character there, or returns `None` if there is none.

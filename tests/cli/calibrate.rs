@@ -35,6 +35,30 @@ fn largest<'a>(
     ratios.max_by(|one, other| one.1.total_cmp(&other.1)).unwrap()
 }
 
+/// A wrong current of one position also fits with the frame's axis to the north or the south, but as another gyro: its K would be
+/// turned by 90°. Only the gyro type tells.
+#[test]
+fn causes_that_make_the_readings_those_of_another_gyro_are_not_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let wrong = folder.path().join("wrong.csv");
+    let right = std::fs::read_to_string(programs::project("docs/currents.csv")).unwrap();
+    let row = right.lines().find(|line| line.starts_with("1,3,")).unwrap();
+    let cells: Vec<f64> = row.split(',').map(|cell| cell.parse().unwrap()).collect();
+    let [jx, jy] = [cells[2] + 1e-4, cells[3]];
+    std::fs::write(&wrong, right.replace(row, &format!("1,3,{jx:.7},{jy:.7}"))).unwrap();
+    let (with_type, result) = calibrated(&wrong, Path::new(GYRO));
+    let mut without = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
+    without.current_dir(programs::project("")).args(["calibrate", "passports/SPS-2/0017/moscow-bmstu-1.yaml"]);
+    without.arg(&wrong).args(["--trust", "docs/allowed_signers", "--time", "2026-11-20T08:00:00Z"]);
+    without.args(["--laboratory", "docs/laboratory.yaml"]).env("COLUMNS", "200");
+    let without_type = String::from_utf8(without.output().unwrap().stdout).unwrap();
+    for (words, due) in [(with_type.as_str(), false), (result["hint"].as_str().unwrap(), false), (&without_type, true)]
+    {
+        assert!(words.contains("osition (1, 3) did not repeat"), "{words}");
+        assert_eq!(words.contains("axis of the frame"), due, "{words}");
+    }
+}
+
 /// The site has no height, so most of U of ω_g and ω_k comes from local g, which no reading reduces.
 #[test]
 fn the_effect_of_positions_is_that_of_their_readings() {

@@ -299,13 +299,13 @@ fn parameters_that_no_gyro_can_pass_are_named_with_the_reason() {
     assert!(text.contains("No gyro can pass by guarded acceptance: U exceeds the tolerance of ω_g, ω_k."), "{text}");
     assert!(
         text.contains(
-            "the height is not stated, so g is that at 0 m; its standard uncertainty, 0.0071 m/s², is the r.m.s. error"
+            "The height is not stated, so g is that at 0 m; its standard uncertainty, 0.0071 m/s², is the r.m.s. error"
         ),
         "{text}"
     );
     let page = page.replace('\u{a0}', " ");
     for words in
-        ["No gyro can pass by guarded acceptance", "подтвердить соответствие невозможно", "the height is not stated"]
+        ["No gyro can pass by guarded acceptance", "подтвердить соответствие невозможно", "The height is not stated"]
     {
         assert!(page.contains(words), "{words}");
     }

@@ -142,13 +142,15 @@ function unfit() {
     });
     if (!seen) found.push(`a decision out of sight: ${name(row)}`);
   }
-  // A table that has been scrolled to its end still shows the names of its rows, one after the other.
+  // A table that has been scrolled to its end still shows the names of its rows, one after the other; on a phone, beside the strips
+  // of several calibrations, the first ones.
   for (const table of document.querySelectorAll(".scroll:has(tbody th)")) {
     if (table.scrollWidth <= table.clientWidth || getComputedStyle(table).overflowX === "visible") continue;
     table.scrollLeft = table.scrollWidth;
     const left = table.getBoundingClientRect().left;
     for (const row of table.querySelectorAll("tbody tr")) {
-      const boxes = [...row.querySelectorAll("th")].map((cell) => {
+      const names = row.querySelectorAll(table.matches(":has(.past)") && width <= 640 ? "th:first-child" : "th");
+      const boxes = [...names].map((cell) => {
         const range = document.createRange();
         range.selectNodeContents(cell);
         return range.getBoundingClientRect();
@@ -176,6 +178,39 @@ function unfit() {
     if (boxed && element.scrollWidth > element.clientWidth + 1 && element.clientWidth > 0 && !element.matches("table, thead, tbody, tr")) {
       found.push(`wider than its box: ${name(element)}`);
     }
+  }
+  return found;
+}
+
+/** Tables in which numbers are seen, cut, right beside the names that stay while it scrolls: pixels there that change when the
+ * numbers vanish. */
+async function cut(page) {
+  const found = [];
+  const shown = (index) => page.evaluate((index) => {
+    const table = document.querySelectorAll(".scroll:has(tbody th)")[index];
+    table.scrollLeft = (table.scrollWidth - table.clientWidth) / 2;
+    const names = [...table.querySelector("tbody tr:has(th)").querySelectorAll("th")].filter((name) => getComputedStyle(name).position === "sticky");
+    const body = table.querySelector("tbody").getBoundingClientRect();
+    const x = names.at(-1).getBoundingClientRect().right + 1.5 + window.scrollX;
+    return { x, y: body.top + window.scrollY, width: 4, height: Math.min(body.height, 600), scrolls: table.scrollWidth > table.clientWidth + 1 };
+  }, index);
+  const count = await page.locator(".scroll:has(tbody th)").count();
+  for (let index = 0; index < count; index++) {
+    const { scrolls, ...clip } = await shown(index);
+    if (!scrolls) continue;
+    // What scrolling moves follows it a frame later.
+    const frames = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    const picture = () => frames().then(() => page.screenshot({ clip, fullPage: true, animations: "allow" }));
+    const before = await picture();
+    const hide = (hidden) => page.evaluate(([index, hidden]) => {
+      for (const cell of document.querySelectorAll(".scroll:has(tbody th)")[index].querySelectorAll("td")) {
+        cell.style.color = hidden ? "transparent" : "";
+        for (const part of cell.querySelectorAll("*")) part.style.visibility = hidden ? "hidden" : "";
+      }
+    }, [index, hidden]);
+    await hide(true);
+    if (!before.equals(await picture())) found.push(`table ${index + 1}`);
+    await hide(false);
   }
   return found;
 }
@@ -349,7 +384,7 @@ async function look(browser, folder, name) {
   const file = path.join(folder, `${name}.html`);
   const address = `file://${file}`;
   const html = fs.readFileSync(file, "utf8");
-  const result = { bytes: Buffer.byteLength(html), asked: [], complaints: [], unfit: {}, crowded: {}, axe: {}, html: [] };
+  const result = { bytes: Buffer.byteLength(html), asked: [], complaints: [], unfit: {}, crowded: {}, cut: [], axe: {}, html: [] };
   const page = await browser.newPage();
   page.on("request", (request) => { if (request.url() !== address) result.asked.push(request.url()); });
   page.on("console", (message) => result.complaints.push(message.text()));
@@ -365,6 +400,7 @@ async function look(browser, folder, name) {
       await page.setViewportSize({ width, height: 1000 });
       result.unfit[`${device} ${colours}`] = await page.evaluate(unfit);
       result.crowded[`${device} ${colours}`] = await page.evaluate(crowded);
+      if (device === "phone") result.cut = await cut(page);
       if (process.env.SCREENS === "write") await page.screenshot({ path: path.join(folder, `${name}-${device}-${colours}.png`), fullPage: true });
     }
     // The page's policy forbids scripts, so axe comes in through the debugger, as the measurements do.

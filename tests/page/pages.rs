@@ -67,6 +67,14 @@ fn nothing_is_cut_off_or_leaves_the_page() {
     all_pages().for_each(|page| page.nothing("unfit"));
 }
 
+/// On a phone, in the pixels beside the names that stay while a table scrolls: a number without its sign would look whole.
+#[test]
+fn no_cut_number_is_seen_beside_the_names_of_a_table_that_scrolls() {
+    for page in all_pages() {
+        assert_eq!(strings(&page.found["cut"]), [""; 0], "{}", page.name);
+    }
+}
+
 /// However many positions there are: measured by the boxes that the browser sets the words in.
 #[test]
 fn no_words_of_a_picture_lie_on_others() {

@@ -61,7 +61,7 @@ fn an_unequal_axis_by_hand() {
     let due = [14.5_f64.sqrt(), 1.0, 2.1724, 6.0 * 9.74668e-4];
     assert!(numbers.iter().zip(due).all(|(found, due)| (found / due - 1.0).abs() < 1e-3), "{numbers:?}, not {due:?}");
     assert!(
-        found.warnings.iter().any(|words| words.contains("rotates by 3.8″ about y and by 1.0″")),
+        found.warnings.iter().any(|words| words.contains("rotation is 3.8″ about y and 1.0″")),
         "{:?}",
         found.warnings
     );

@@ -25,7 +25,7 @@ texts! {
     }
     LAST_DAY {
         en: "The certificate has no expiry date; the user sets the recertification interval.",
-        ru: "Срок действия сертификата не указан; срок повторной калибровки устанавливает владелец стенда."
+        ru: "Срок действия сертификата не указан; срок повторной калибровки устанавливает пользователь стенда."
     }
     DATUM {
         en: "No datum surfaces are stated; the surfaces for levelling, for north alignment and for seating the gyro \

@@ -38,8 +38,8 @@ texts! {
         ru: "Изменение НЕ соответствует допускам типа {type}"
     }
     CHANGE_UNDECIDED {
-        en: "Within the tolerances of gyro type {type}; the change since the previous calibration is undecided",
-        ru: "Соответствует допускам типа {type}; изменение после предыдущей калибровки не определено"
+        en: "Within the tolerances of gyro type {type}; conformity of the change is undecided",
+        ru: "Соответствует допускам типа {type}; соответствие изменения не определено"
     }
     UNITS { en: "; units {units}", ru: "; единицы {units}" }
     NO_STATEMENT {
@@ -104,8 +104,8 @@ texts! {
              калибровку."
     }
     MISTAKE_OTHER_AXIS {
-        en: "The readings fit, but the parameters do not match this gyro. One error explains this: the frame’s axis of \
-             the stand points to the azimuth {azimuth}°, and not to that of the passport. Check the set-up of the base; \
+        en: "The readings fit, but the parameters do not match this gyro. One error explains this: the axis of the \
+             frame points to azimuth {azimuth}°, not to that of the passport. Check the set-up of the base; \
              then calibrate again, or request a passport for this azimuth.",
         ru: "Показания согласуются с моделью, но параметры не соответствуют данному гироскопу. Это объясняется одной \
              ошибкой: ось рамки стенда направлена по азимуту {azimuth}°, а не по указанному в паспорте. Следует проверить \
@@ -113,11 +113,11 @@ texts! {
     }
     MISTAKE_TYPE_TOO_SMALL {
         en: "The readings fit, but the parameters do not match this gyro. One error explains this: all values of the gyro \
-             type are too small by a factor of {factor}; degrees per second are to be multiplied by 3600. Correct the \
+             type are too small by a factor of {factor} (about 3600 if they are in degrees per second). Correct the \
              gyro type; then calibrate again.",
         ru: "Показания согласуются с моделью, но параметры не соответствуют данному гироскопу. Это объясняется одной \
-             ошибкой: все значения типа гироскопа занижены в {factor}; значения в градусах в секунду следует умножить на \
-             3600. Следует исправить тип гироскопа и повторить калибровку."
+             ошибкой: все значения типа гироскопа занижены в {factor} (примерно в 3600 раз, если указаны в градусах в \
+             секунду). Следует исправить тип гироскопа и повторить калибровку."
     }
     MISTAKE_TYPE_TOO_LARGE {
         en: "The readings fit, but the parameters do not match this gyro. One error explains this: all values of the gyro \
@@ -190,7 +190,7 @@ texts! {
     OPERATOR { en: "Readings taken by", ru: "Показания снял" }
     MEASURED_TEMPERATURE { en: "Temperature during the readings", ru: "Температура при снятии показаний" }
     EXCLUDED {
-        en: "Visits left out (i, j, visit, cycle)",
+        en: "Visits left out (i, j, visit, turn-on)",
         ru: "Исключённые установки в положение (i, j, установка, запуск)"
     }
     LEFT_OUT { en: "Positions without a reading", ru: "Положения без показаний" }
@@ -213,7 +213,7 @@ texts! {
     }
     READINGS_OLDER {
         en: "The readings are of {date}; the stand was measured for its certificate on {performed}. Nothing shows that it \
-             then agreed with the certificate.",
+             agreed with the certificate on the earlier date.",
         ru: "Показания сняты {date}, а углы стенда для сертификата измерены {performed}. Ничто не подтверждает, что на \
              дату показаний стенд соответствовал сертификату."
     }
@@ -289,8 +289,7 @@ texts! {
         ru: "итерации не сходятся (спектральный радиус {radius})"
     }
     NOT_THIS_MODEL {
-        en: "the method has only the paper’s model with a constant drift, and needs turn-ons that all visited the same \
-             positions",
+        en: "the method requires the model with ω_g and ω_k, a constant drift, and the same positions in every turn-on",
         ru: "метод применим только при модели с ω_g и ω_k, постоянном дрейфе и одинаковом наборе положений во всех \
              запусках"
     }
@@ -345,16 +344,16 @@ texts! {
     EARLIER { en: "Previous", ru: "Предыдущее" }
     FOUND { en: "Value", ru: "Значение" }
     FROM_GRAVITY {
-        en: "Local g, with a standard uncertainty of {u}, contributes {parts}. To reduce this, measure g.",
-        ru: "Вклад местного g, стандартная неопределённость которого {u}, в U: {parts}. Для уменьшения следует измерить g."
+        en: "Contribution of local g (standard uncertainty {u}) to U: {parts}. To reduce it, measure g.",
+        ru: "Вклад местного g, стандартная неопределённость которого {u}, в U: {parts}. Для его уменьшения следует измерить g."
     }
     FROM_UNKNOWN_HEIGHT {
-        en: "Local g contributes {parts}: the height is not stated, so g is that at 0 m; its standard uncertainty, {u}, is the \
+        en: "Contribution of local g to U: {parts}. The height is not stated, so g is that at 0 m; its standard uncertainty, {u}, is the \
              r.m.s. error of this assumption for heights from 0 to 4000 m. To reduce it, state the height or measure g.",
         ru: "Вклад местного g в U: {parts}. Высота не указана, g вычислено для 0 м с u = {u} (среднее квадратическое отличие при \
-             высотах от 0 до 4000 м). Для уменьшения следует указать высоту или измерить g."
+             высотах от 0 до 4000 м). Для его уменьшения следует указать высоту или измерить g."
     }
-    FROM_GRAVITY_PART { en: "{gravity} to the U of {parameter}", ru: "{gravity} для {parameter}" }
+    FROM_GRAVITY_PART { en: "{gravity} for {parameter}", ru: "{gravity} для {parameter}" }
     FROM_TURN_ONS {
         en: "The turn-on noise contributes {u} to the standard uncertainty of ω_0x and ω_0y, most of it. To reduce this, take \
              more turn-ons.",
@@ -439,7 +438,7 @@ texts! {
     }
     SUSPECT_VISIT {
         en: "Visit {visit} to position {index} in turn-on {cycle} differs from the other visits by {jx} µA in x and {jy} µA \
-             along y, more than chance explains (probability below 0.001). It is included in the result.",
+             in y, more than chance explains (probability below 0.001). It is included in the result.",
         ru: "Установка {visit} в положение {index} в запуске {cycle} отличается от других установок на {jx} мкА по x и \
              {jy} мкА по y; случайностью это не объяснить (вероятность меньше 0,001). Она учтена в результате."
     }
@@ -495,7 +494,7 @@ texts! {
         en: "The currents are recorded to {digit} mA. Rounding to this digit has a standard uncertainty of {u} mA, which \
              is larger than the stated floor of the meter and takes its place. To reduce it, record more digits.",
         ru: "Токи записаны с точностью до {digit} мА. Стандартная неопределённость округления {u} мА больше указанной \
-             постоянной части погрешности измерителя и принята вместо неё. Для уменьшения следует записывать больше \
+             постоянной части погрешности измерителя и принята вместо неё. Для её уменьшения следует записывать больше \
              знаков."
     }
     IDENTICAL_ROWS {
@@ -535,7 +534,7 @@ texts! {
         ru: "Возможно, положения пронумерованы иначе (показания → паспорт): {numbers}."
     }
     HINT_OTHER_AXIS {
-        en: "The frame’s axis of the stand may point to an azimuth of about {azimuth}°, and not to that of the passport.",
+        en: "The axis of the frame may point to an azimuth of about {azimuth}°, not to that of the passport.",
         ru: "Возможно, ось рамки стенда направлена по азимуту около {azimuth}°, а не по указанному в паспорте."
     }
     HINT_OTHER_STAND {
@@ -563,7 +562,7 @@ texts! {
     CANNOT_TELL {
         en: "Small residuals do not exclude all errors. The following leave no residuals but change the result: the \
              passport of another site (latitude), a base tilted about east, a gyro rotated in its seat about the spin \
-             axis, the gain and offset of the meter, x and y exchanged, the sign of one current reversed. A base rotated in azimuth \
+             axis, errors of the gain and offset of the meter, x and y exchanged, or the sign of one current reversed. A base rotated in azimuth \
              leaves almost no residuals. To detect these errors, check the serial number of the stand, the site of the \
              passport, the specification of the gyro and its previous calibration.",
         ru: "Малые остатки не исключают погрешностей и ошибок. Не проявляются в остатках, но изменяют результат: паспорт \
@@ -585,7 +584,7 @@ texts! {
     NOT_STATED_BASE { en: "common part of the base of the stand", ru: "общая составляющая основания стенда" }
     NOT_STATED_GAIN { en: "gain of the meter", ru: "коэффициент преобразования измерителя" }
     NOT_STATED_OFFSET { en: "offset of the meter", ru: "смещение нуля измерителя" }
-    NOT_STATED_VISITS { en: "gyro noise from visit to visit", ru: "шум между установками в положение" }
+    NOT_STATED_VISITS { en: "gyro noise from visit to visit", ru: "шум гироскопа между установками" }
     NOT_STATED_TURN_ONS { en: "gyro noise from turn-on to turn-on", ru: "шум гироскопа от запуска к запуску" }
     NOT_STATED_GRAVITY { en: "gravity", ru: "местное ускорение g" }
     NOT_STATED_LEVEL { en: "level of the base", ru: "наклон основания" }
@@ -703,7 +702,7 @@ texts! {
     }
     NOT_STABLE {
         en: "Not all stated digits are stable; more trials would change some of them.",
-        ru: "Не все приведённые цифры установились; при большем числе испытаний некоторые изменятся."
+        ru: "Не все приведённые цифры стабильны; при большем числе испытаний некоторые могут измениться."
     }
 
     ONLY_THIS_ONE {

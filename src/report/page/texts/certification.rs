@@ -43,12 +43,12 @@ texts! {
         en: "standard deviation of a visit, pooled",
         ru: "стандартное отклонение одной установки в положение, объединённое"
     }
-    COMMON_PARTS { en: "Common parts, per axis: platform; base", ru: "Общие составляющие (по оси): платформа; основание" }
+    COMMON_PARTS { en: "Common parts, per axis: platform; base", ru: "Общие составляющие: платформа; основание" }
     FEW { en: "few: see section\u{a0}{number}", ru: "мало: см. раздел\u{a0}{number}" }
     STANDARD { en: "standard uncertainty (k = 1)", ru: "стандартная неопределённость (k = 1)" }
 
     UNCERTAINTY { en: "Uncertainty", ru: "Неопределённость" }
-    BUDGET { en: "Budget of the certificate (k = 1)", ru: "Бюджет неопределённости сертификата (k = 1)" }
+    BUDGET { en: "Budget of the certificate (k = 1)", ru: "Бюджет неопределённости сертификата (k = 1, по каждой оси)" }
     COMPONENTS { en: "Components found in the readings", ru: "Составляющие, найденные по показаниям" }
     COMPONENTS_NOTE {
         en: "A reading differs from the mean of its position by a rotation of the platform and one of the base, both \
@@ -69,8 +69,8 @@ texts! {
     OWN_Y { en: "Visit, about y", ru: "Установка в положение, вокруг y" }
     OWN_Z { en: "Visit, about z", ru: "Установка в положение, вокруг z" }
     POOLED { en: "Visit, pooled (repeatability)", ru: "Установка в положение, по всем осям (повторяемость)" }
-    PLATFORM { en: "Run, platform, per axis", ru: "Серия, платформа, по оси" }
-    BASE { en: "Run, base, per axis", ru: "Серия, основание, по оси" }
+    PLATFORM { en: "Run, platform, per axis", ru: "Серия, платформа, по осям" }
+    BASE { en: "Run, base, per axis", ru: "Серия, основание, по осям" }
     UPPER { en: "Upper limit of s (95 %), ″", ru: "Верхняя граница s (95 %), ″" }
     RUN_TURNS {
         en: "Rotation in each run relative to the mean, ″",

@@ -119,12 +119,12 @@ texts! {
     }
     COMMON {
         en: "Repeatability and common parts of the uncertainty (k = 1)",
-        ru: "Повторяемость и общие составляющие неопределённости (k = 1)"
+        ru: "Повторяемость и общие составляющие неопределённости (k = 1, по каждой оси)"
     }
-    REPEATABILITY { en: "Repeatability of positioning, per axis", ru: "Повторяемость положений (по оси)" }
+    REPEATABILITY { en: "Repeatability of positioning, per axis", ru: "Повторяемость положений" }
     REPEATABILITY_DOF { en: "Degrees of freedom of the repeatability", ru: "Число степеней свободы повторяемости" }
-    COMMON_PLATFORM { en: "Common part, per axis of the platform", ru: "Общая составляющая, по оси платформы" }
-    COMMON_BASE { en: "Common part, per axis of the base", ru: "Общая составляющая, по оси основания" }
+    COMMON_PLATFORM { en: "Common part, per axis of the platform", ru: "Общая составляющая платформы" }
+    COMMON_BASE { en: "Common part, per axis of the base", ru: "Общая составляющая основания" }
     TYPE_B_POSITION { en: "Type B, part of u(α), u(β), u(γ)", ru: "По типу B, в составе u(α), u(β), u(γ)" }
     TYPE_B_PLATFORM {
         en: "Type B, in the common part of the platform",

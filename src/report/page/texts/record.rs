@@ -45,14 +45,14 @@ texts! {
 
     PACKING { en: "Packing certificate", ru: "Свидетельство об упаковывании" }
     PACKING_WORDS {
-        en: "Stand {model} № {serial} has been packed by the organisation specified below in accordance with the \
+        en: "Stand {model} No. {serial} has been packed by the organisation specified below in accordance with the \
              technical documentation in force.",
         ru: "Стенд {model} № {serial} упакован указанной ниже организацией согласно требованиям действующей \
              технической документации."
     }
     ACCEPTANCE { en: "Acceptance certificate", ru: "Свидетельство о приёмке" }
     ACCEPTANCE_WORDS {
-        en: "Stand {model} № {serial} has been manufactured and accepted in accordance with the mandatory \
+        en: "Stand {model} No. {serial} has been manufactured and accepted in accordance with the mandatory \
              requirements of standards and the technical documentation in force, and has been found fit for use.",
         ru: "Стенд {model} № {serial} изготовлен и принят в соответствии с обязательными требованиями стандартов, \
              действующей технической документацией и признан годным для эксплуатации."
