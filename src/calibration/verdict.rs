@@ -292,7 +292,7 @@ impl Verdict {
     /// Returns the comparison with nothing decided, for parameters that are not valid.
     pub(crate) fn undecided(mut self) -> Self {
         for row in &mut self.parameters {
-            row.guarded = Decision::Undecided;
+            (row.simple, row.guarded) = (Decision::Undecided, Decision::Undecided);
         }
         Self { withheld: true, ..Self::of(self.gravity_m_per_s2, self.parameters) }
     }

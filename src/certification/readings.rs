@@ -126,7 +126,7 @@ impl AngleReadings {
         refuse_any(torn(&table, &rows))?;
         refuse_any(not_there(&rows, excluded))?;
         rows.retain(|(place, ..)| !is_out(*place));
-        refuse_any(incomplete(positions, &rows, excluded))?;
+        refuse_any(incomplete(&table, positions, &rows, excluded))?;
         let others = other_runs(&rows);
         refuse_any(whole_runs::problems(&table, &rows, &others))?;
         refuse_any(slips(&table, &rows, &others))?;
@@ -274,17 +274,34 @@ fn not_there(rows: &[Reading], excluded: &[Excluded]) -> Vec<Problem> {
     missing.map(problem).collect()
 }
 
-/// Returns a problem for each position without any reading, and for each position missing from a run.
-fn incomplete(positions: &[NominalPosition], rows: &[Reading], excluded: &[Excluded]) -> Vec<Problem> {
-    let runs: BTreeSet<u32> = rows.iter().map(|((_, run), ..)| *run).collect();
+/// Returns a problem for each run with less than half of the positions, for each position without any reading, and for each
+/// position missing from another run.
+fn incomplete(table: &Table, positions: &[NominalPosition], rows: &[Reading], excluded: &[Excluded]) -> Vec<Problem> {
+    let mut runs: BTreeSet<u32> = rows.iter().map(|((_, run), ..)| *run).collect();
     let there: BTreeSet<Place> = rows.iter().map(|(place, ..)| *place).collect();
     let mut problems = Vec::new();
+    let is_excluded = |place: Place| excluded.iter().any(|excluded| is_excluded(excluded, place));
+    let missing = |run: u32| {
+        let places = positions.iter().map(move |at| (at.index(), run));
+        places.filter(|place| !there.contains(place) && !is_excluded(*place)).count()
+    };
+    let is_begun = |run: u32| 2 * missing(run) > positions.len();
+    // Most of these are one number mistyped. Its position is named below, where it is missing.
+    if !runs.iter().all(|run| is_begun(*run)) {
+        for run in runs.iter().copied().filter(|run| is_begun(*run)).take(MOST_PROBLEMS) {
+            let Some((.., row)) = rows.iter().find(|((_, of), ..)| *of == run) else { continue };
+            let found = format!("run {run}, in which {} of {} positions are missing", missing(run), positions.len());
+            let advice = "correct the number of the run, measure the other positions, or omit the run";
+            problems.push(table.problem(&row[2], 2, found, "every position in every run", advice));
+        }
+        runs.retain(|run| !is_begun(*run));
+    }
     for at in positions {
         if problems.len() >= MOST_PROBLEMS {
             break;
         }
         let mut missing: Vec<u32> = runs.iter().copied().filter(|run| !there.contains(&(at.index(), *run))).collect();
-        let of_exclusions = |run: u32| excluded.iter().any(|excluded| is_excluded(excluded, (at.index(), run)));
+        let of_exclusions = |run: u32| is_excluded((at.index(), run));
         let left = runs.len() - missing.len();
         if left < 2 && missing.iter().any(|run| of_exclusions(*run)) {
             let found = format!("{left} readings of position {} after the exclusions", at.index());

@@ -84,6 +84,11 @@ fn bad_readings_are_refused_with_their_place() {
     };
     let cases: Vec<(String, i32, &[&str])> = vec![
         (one_run, 1, &["one run", "repeatability can be estimated", "better five"]),
+        (
+            good.replace("\n1,3,1,", "\n1,3,9,"),
+            2,
+            &["r.csv:5:5: run: found run 9, in which 7 of 8 positions are missing"],
+        ),
         (without("2,3,4,"), 2, &["no reading of position (2, 3) in run 4", "omit the whole run"]),
         (without("2,3,"), 2, &["no reading of position (2, 3), expected a reading of every position", "of this stand"]),
         (good.replace("\n2,4,", "\n3,4,"), 2, &["r.csv:10:1", "position (3, 4)", "readings of this stand"]),

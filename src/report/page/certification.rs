@@ -154,7 +154,7 @@ impl CertificationPage<'_> {
     fn result(&self, languages: &Languages) -> Markup {
         html! {
             (characteristics::positions(&self.certification.stand.positions, languages))
-            (characteristics::deviations_note(&self.certification.stand.positions, languages))
+            (characteristics::deviations_note(&self.certification.stand.positions, false, languages))
             (self.outliers(languages))
         }
     }

@@ -105,7 +105,10 @@ fn simple(verdict: &Verdict, note: Option<Text>, languages: &Languages) -> Marku
     let of_opposite = listed(opposite.iter().map(|one| name_of(one.symbol())));
     languages.paragraph_with(|language| {
         html! {
-            (counts(verdict, |row| row.simple, texts::PASSED_BY_SIMPLE, language)) "."
+            // An uncertainty above every tolerance does not allow it.
+            @if too_uncertain.len() < verdict.parameters.len() {
+                (counts(verdict, |row| row.simple, texts::PASSED_BY_SIMPLE, language)) "."
+            }
             @if let Some(note) = note { " " (italic(&note.words(language))) }
             @if !too_uncertain.is_empty() { " " (texts::TOO_UNCERTAIN.marked_up(language, &[("names", names.clone())])) }
             @if !opposite.is_empty() { " " (texts::OPPOSITE.marked_up(language, &[("names", of_opposite.clone())])) }

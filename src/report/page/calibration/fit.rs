@@ -3,7 +3,7 @@
 use super::CalibrationPage;
 use crate::calibration::Calibration;
 use crate::calibration::chi_square::FEW_DEGREES;
-use crate::calibration::diagnosis::{Explanation, Hint, numbering};
+use crate::calibration::diagnosis::{ALARM, Explanation, Hint, numbering};
 use crate::calibration::document::{ResidualDocument, ResultDocument};
 use crate::calibration::noise::NoiseSource;
 use crate::calibration::scatter::{Agreement, Scatter};
@@ -66,7 +66,14 @@ fn chi_square(result: &ResultDocument, languages: &Languages) -> Markup {
     let mut each = vec![
         field(languages, texts::CHI_SQUARE, Some(value)),
         field(languages, texts::FREEDOM, Some(whole(found.degrees_of_freedom))),
-        field(languages, texts::PROBABILITY, found.probability.map(|p| probability(languages, p))),
+        field(
+            languages,
+            texts::PROBABILITY,
+            found.probability.map(|p| {
+                let limit = |language| texts::CONSISTENT.filled(language, values! { limit: Number::exact(ALARM) });
+                html! { (probability(languages, p)) " (" (languages.inline_with(limit)) ")" }
+            }),
+        ),
     ];
     if let Some(of_uncertainties) = found.uncertainty_degrees_of_freedom.filter(|known| *known < FEW_DEGREES) {
         let value = Number::fixed(of_uncertainties, 0).markup(languages);

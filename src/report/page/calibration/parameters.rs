@@ -2,6 +2,7 @@
 
 use super::conformity::with_gravity;
 use super::{CalibrationPage, method};
+use crate::calibration::Method;
 use crate::calibration::analytic::NoAnalyticSolution;
 use crate::calibration::document::ResultDocument;
 use crate::calibration::iterative::{LARGEST_NUMBER_OF_STEPS, NoIterativeSolution};
@@ -51,6 +52,7 @@ fn reason(refusal: &MethodRefusal, language: Language) -> String {
 
 fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
     let results = &page.document.results;
+    let has_least_squares = results.iter().any(|result| result.method == Method::LeastSquares.key());
     // The adopted result comes first: it is the last of the methods.
     let rows = results.iter().rev().flat_map(|result| {
         let [values, u] = values(result);
@@ -68,7 +70,7 @@ fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
         let found = cells(&|parameter| Number::measured(values[parameter.place()], u[parameter.place()]));
         let uncertainty = cells(&|parameter| Number::uncertainty(u[parameter.place()]));
         let mut rows = vec![(html! { strong { (name) } }, found), (symbol("u", ""), uncertainty)];
-        rows.extend(result.from_least_squares.map(|off| {
+        rows.extend(result.from_least_squares.filter(|_| has_least_squares).map(|off| {
             let cells = cells(&|parameter| Number::fixed(off[parameter.place()], 1));
             (languages.label(texts::OFF_BY), cells)
         }));

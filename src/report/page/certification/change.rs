@@ -28,10 +28,10 @@ pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup
         return outcome_box(outcome_of_certification(page.certification), &headline, words);
     };
     let outcome = outcome_of(comparison, comparison.same_stand);
-    let verdict = match outcome {
-        Outcome::Passed => texts::SAME,
-        Outcome::Failed => texts::CHANGED,
-        Outcome::Undecided | Outcome::NotAsked => texts::UNDECIDED,
+    let (verdict, remedy) = match outcome {
+        Outcome::Passed => (texts::SAME, None),
+        Outcome::Failed => (texts::CHANGED, Some(texts::CHANGED_WORDS)),
+        Outcome::Undecided | Outcome::NotAsked => (texts::UNDECIDED, Some(texts::UNDECIDED_WORDS)),
     };
     let headline =
         languages.label_with(|language| verdict.filled(language, values! { number: comparison.certificate }));
@@ -43,6 +43,7 @@ pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup
                 }
             }
         }
+        @if let Some(remedy) = remedy { (languages.paragraph(remedy)) }
         (warnings(page, languages))
     };
     outcome_box(outcome, &headline, reasons)

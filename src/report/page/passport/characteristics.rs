@@ -28,7 +28,7 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     html! {
         (heading(languages, texts::DEVIATIONS))
         (positions(&content.positions, languages))
-        (deviations_note(&content.positions, languages))
+        (deviations_note(&content.positions, true, languages))
         (figure_with(languages, "positions", &stand, |language| texts::FIGURE_POSITIONS.filled(language, values! { factor })))
         (heading(languages, texts::COMMON))
         (common(&content.certificate, languages))
@@ -88,13 +88,14 @@ pub(crate) fn positions(positions: &[CertifiedPosition], languages: &Languages) 
     html! { (table.captioned(languages, texts::DEVIATIONS_CAPTION)) (bars.key(languages)) }
 }
 
-/// Writes what the deviations and their uncertainties are.
-pub(crate) fn deviations_note(positions: &[CertifiedPosition], languages: &Languages) -> Markup {
+/// Writes what the deviations and their uncertainties are, and, if they are `rounded` from signed numbers, how.
+pub(crate) fn deviations_note(positions: &[CertifiedPosition], rounded: bool, languages: &Languages) -> Markup {
     let is_stated = positions.iter().flat_map(CertifiedPosition::u_arcsec).any(|u| u.is_some());
     languages.paragraph_with(|language| {
         html! {
             (italic(&texts::DEVIATIONS_NOTE.words(language)))
             @if is_stated { " " (italic(&texts::DEVIATIONS_U_NOTE.words(language))) }
+            @if is_stated && rounded { " " (texts::DEVIATIONS_ROUNDED.words(language)) }
         }
     })
 }

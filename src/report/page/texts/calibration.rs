@@ -223,9 +223,10 @@ texts! {
     }
     TEMPERATURE_OUTSIDE {
         en: "The temperature in the laboratory is {here} °C; the deviations of the stand are certified from {low} °C to \
-             {high} °C. U does not include the effect of this.",
+             {high} °C. U does not include the effect of this: the decisions hold only if it is negligible.",
         ru: "Температура в лаборатории {here} °C; отклонения стенда по сертификату применимы при температуре от {low} до \
-             {high} °C. Влияние этого в U не учтено."
+             {high} °C. Влияние этого в U не учтено: решения верны, только если оно пренебрежимо \
+             мало."
     }
     GRAVITY { en: "Gravity g, local", ru: "Ускорение g, местное" }
 
@@ -388,6 +389,7 @@ texts! {
     CHI_SQUARE { en: "Chi-square", ru: "Хи-квадрат" }
     FREEDOM { en: "Degrees of freedom", ru: "Число степеней свободы" }
     PROBABILITY { en: "Probability of a larger value", ru: "Вероятность большего значения" }
+    CONSISTENT { en: "consistent: {limit} or more", ru: "согласуются: {limit} и более" }
     NOT_JUDGED {
         en: "The fit cannot be tested: there are as many unknowns as readings, so any readings would fit.",
         ru: "Согласие проверить нельзя: число неизвестных равно числу показаний, и модели соответствуют любые \

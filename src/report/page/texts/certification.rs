@@ -141,11 +141,11 @@ texts! {
              a value is a straggler, equality is doubtful, and a shift or drift is suspected; below 1 % a value is an \
              outlier, the variances differ significantly, and a shift or drift is significant. No reading is excluded \
              because of these tests. Bartlett’s test requires a fine resolution and no suspect reading.",
-        ru: "Значение: величина, указанная в конце названия критерия; отличия — от остальных показаний, повороты — \
-             относительно остальных серий. ν — число степеней свободы. Вероятность случайно получить значение, не меньшее по модулю: менее 5 % — \
-             квазивыброс, равенство сомнительно, смещение или дрейф возможны; менее 1 % — выброс, различие дисперсий, \
-             смещение или дрейф значимы. По этим критериям показания не исключаются. Критерий Бартлетта применим при \
-             малой дискретности отсчёта и без сомнительных показаний."
+        ru: "Значение — величина в конце названия критерия; отличия — от остальных показаний, повороты — от остальных \
+             серий. ν — число степеней свободы. Вероятность случайно получить не меньшее по модулю значение: менее 5 % — \
+             квазивыброс, равенство сомнительно, возможны смещение или дрейф; менее 1 % — выброс, различие дисперсий, \
+             смещение или дрейф значимы. По критериям показания не исключают. Критерий Бартлетта требует малой \
+             дискретности отсчёта и отсутствия сомнительных показаний."
     }
     WARNINGS_COUNTED {
         en: "Warnings of the program: {count}; see section “{section}”.",
@@ -178,6 +178,16 @@ texts! {
     UNDECIDED {
         en: "It is undecided whether the stand has changed since certificate {number}",
         ru: "Не установлено, изменился ли стенд после выдачи сертификата {number}"
+    }
+    CHANGED_WORDS {
+        en: "The passports of that certificate no longer describe the stand: re-issue them from this one. Calibrations since the \
+             change may be wrong.",
+        ru: "Паспорта, выданные по тому сертификату, стенду больше не соответствуют: их следует перевыпустить по этому. \
+             Калибровки, выполненные после изменения, могут быть неверны."
+    }
+    UNDECIDED_WORDS {
+        en: "Measure the position again, or exclude the reading for a stated reason.",
+        ru: "Следует повторить измерения в этом положении или исключить показание с указанием причины."
     }
     CHANGE_CAPTION {
         en: "Deviations of certificate {number} and of this one; u: standard uncertainty of the change",

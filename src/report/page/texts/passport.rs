@@ -107,11 +107,13 @@ texts! {
     }
     DEVIATIONS_U_NOTE {
         en: "u: own part of the standard uncertainty (k = 1) of the certified mean; ν: degrees of freedom, the smallest \
-             of those of the three u (–: not stated). Uncertainties have two significant digits; values are rounded to \
-             the same decimal place.",
+             of those of the three u (–: not stated).",
         ru: "u — стандартная неопределённость (k = 1) среднего по сертификату, собственная составляющая положения; ν — \
-             число степеней свободы, наименьшее у трёх u (прочерк — не указано). Неопределённости приведены с двумя \
-             значащими цифрами, значения округлены до того же разряда."
+             число степеней свободы, наименьшее у трёх u (прочерк — не указано)."
+    }
+    DEVIATIONS_ROUNDED {
+        en: "Uncertainties have two significant digits; values are rounded to the same decimal place.",
+        ru: "Неопределённости приведены с двумя значащими цифрами, значения округлены до того же разряда."
     }
     FIGURE_POSITIONS {
         en: "The stand in its positions (i, j), viewed as in Figure 1. Deviations are drawn ×{factor}.",
@@ -122,15 +124,15 @@ texts! {
         ru: "Повторяемость и общие составляющие неопределённости (k = 1, по каждой оси)"
     }
     REPEATABILITY { en: "Repeatability of positioning, per axis", ru: "Повторяемость положений" }
-    REPEATABILITY_DOF { en: "Degrees of freedom of the repeatability", ru: "Число степеней свободы повторяемости" }
+    REPEATABILITY_DOF { en: "Degrees of freedom ν", ru: "Число степеней свободы ν" }
     COMMON_PLATFORM { en: "Common part, per axis of the platform", ru: "Общая составляющая платформы" }
     COMMON_BASE { en: "Common part, per axis of the base", ru: "Общая составляющая основания" }
     TYPE_B_POSITION { en: "Type B, part of u(α), u(β), u(γ)", ru: "По типу B, в составе u(α), u(β), u(γ)" }
     TYPE_B_PLATFORM {
-        en: "Type B, in the common part of the platform",
-        ru: "По типу B, в общей составляющей платформы"
+        en: "Type B, common part of the platform",
+        ru: "По типу B, общая составляющая платформы"
     }
-    TYPE_B_BASE { en: "Type B, in the common part of the base", ru: "По типу B, в общей составляющей основания" }
+    TYPE_B_BASE { en: "Type B, common part of the base", ru: "По типу B, общая составляющая основания" }
     EXCLUDED_READING {
         en: "excluded: position {index}, run {run}",
         ru: "исключено: положение {index}, серия {run}"
