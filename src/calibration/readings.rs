@@ -176,12 +176,17 @@ impl Readings {
         let Exclusion { i, j, visit: number, cycle, .. } = exclusion;
         let index = PositionIndex { i, j };
         let is_it = |visit: &&Visit| visit.number == number && cycle.is_none_or(|cycle| visit.cycle == cycle);
-        let missing = || format!("found no visit {number} to position {index} to exclude; check i, j and the visit");
-        let place = self.positions.iter().position(|at| at.index == index).ok_or_else(missing)?;
+        let missing = |there: &str| format!("found no visit {number} to position {index} to exclude; {there}");
+        let place = self.positions.iter().position(|at| at.index == index);
+        let place = place.ok_or_else(|| missing("the position has no readings"))?;
         let at = &self.positions[place];
         let found: Vec<u32> = at.visits.iter().filter(is_it).map(|visit| visit.cycle).collect();
         match found.as_slice() {
-            [] => return Err(missing()),
+            [] => {
+                let there: BTreeSet<u32> = at.visits.iter().map(|visit| visit.number).collect();
+                let there: Vec<String> = there.iter().map(u32::to_string).collect();
+                return Err(missing(&format!("the position has visit {}", there.join(", "))));
+            }
             [_] => {}
             cycles => {
                 return Err(format!(

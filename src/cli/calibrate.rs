@@ -251,7 +251,7 @@ impl Bench<'_> {
         let name = name_of(path);
         let prepared = Prepared::new(content, &self.laboratory, self.gyro_type.as_ref(), (&name, &bytes));
         let mut prepared = prepared?;
-        exclude(options, &mut prepared.readings)?;
+        exclude(options, &name, &mut prepared.readings)?;
         prepared.readings.remarks.iter().for_each(|remark| output::say(remark));
         let asked = options.asked();
         let done = prepared.run(&asked, self.subject(), &self.previous)?;
@@ -460,10 +460,11 @@ fn previous(options: &Options) -> Result<Vec<CalibrationDocument>, Failure> {
     Ok(results)
 }
 
-fn exclude(options: &Options, readings: &mut Readings) -> Result<(), Failure> {
+fn exclude(options: &Options, name: &str, readings: &mut Readings) -> Result<(), Failure> {
     let reasons = exclusion::reasons(options.exclude.len(), &options.why)?;
     for (&(PositionIndex { i, j }, visit, cycle), why) in options.exclude.iter().zip(reasons) {
-        readings.exclude(Exclusion { i, j, visit, cycle, why }).map_err(Failure::unusable)?;
+        let excluded = readings.exclude(Exclusion { i, j, visit, cycle, why });
+        excluded.map_err(|words| Failure::unusable(format!("{}: {words}", printable(name))))?;
     }
     Ok(())
 }

@@ -10,8 +10,8 @@ use std::sync::LazyLock;
 const EXIT_CODES: &str = "\
 Exit codes:
   0  done, or the document is valid
-  1  a document or a result is refused
-  2  wrong usage, or a file that cannot be read or is not of the expected kind";
+  1  a document or a result is refused, or what should be a passport is not one
+  2  wrong usage, or another file that cannot be read or is of another kind";
 
 /// Two examples for each verb, one a line, without the name of the program.
 const EXAMPLES: &str = include_str!("examples.txt");

@@ -90,7 +90,7 @@ pub enum ListRefused {
     #[error("{}", .0.fault)]
     Malformed(Malformed),
     /// The text in the file of this name is not the one that was signed.
-    #[error("{}: {}", Printable(.0), .1)]
+    #[error("{}: {}; get the list from the issuer again", Printable(.0), .1)]
     Altered(String, SignatureError),
     /// The content breaks a rule.
     #[error(transparent)]
