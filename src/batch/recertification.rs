@@ -6,6 +6,7 @@
 
 use super::Outcome;
 use super::successors::FORKED;
+use crate::certification::remark::Remark;
 use crate::certification::{AngleReadings, Certification, Comparison, Header, certify, compare, predicted};
 use crate::files::{self, FileError, folder_of, leftovers};
 use crate::folder::archive::Superseded;
@@ -247,7 +248,10 @@ impl Recertification<'_> {
         let of_readings = |why: &dyn std::fmt::Display| refused(format!("{}: {why}", Printable(name)));
         let readings = AngleReadings::from_csv_without(name, bytes, &header.positions, self.excluded)?;
         let (readings, _) = predicted(header, &readings).map_err(|why| of_readings(&why))?;
-        let certification = certify(header, &readings).map_err(|why| of_readings(&why))?;
+        let mut certification = certify(header, &readings).map_err(|why| of_readings(&why))?;
+        if let (None, Some(until)) = (header.certificate.valid_until, old.certificate.valid_until) {
+            certification.add(Remark::NoExpiry(until));
+        }
         if certification.stand.check_number(old).is_err() || old.certificate.number == self.number {
             let number = self.number;
             return Err(refused(format!(

@@ -329,7 +329,8 @@ impl Run<'_> {
             State::Superseded | State::Moved if register.has_several(line) => {
                 return refused(format!("several files have its id, {}", line.why));
             }
-            State::Superseded | State::Moved => return skipped(format!("superseded {}", line.why)),
+            State::Superseded => return skipped(format!("superseded {}", line.why)),
+            State::Moved => return skipped(format!("moved: {}", line.why)),
             _ => {}
         }
         if self.is_for_another_site(line, at_the_site) {

@@ -296,6 +296,12 @@ fn differences(turns: &[Turn], readings: &AngleReadings) -> Vec<DVector<f64>> {
 }
 
 impl Certification {
+    /// Adds a remark, and its words.
+    pub(crate) fn add(&mut self, remark: Remark) {
+        self.warnings.push(remark.to_string());
+        self.remarks.push(remark);
+    }
+
     /// Returns the number of angles that Grubbs' test examines: an excluded reading has no residual, because the three angles
     /// of its position are predicted.
     pub(crate) fn tested_angles(&self) -> usize {

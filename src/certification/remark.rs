@@ -51,6 +51,8 @@ pub(crate) enum Remark {
     LittleScatter(f64),
     /// No day of the measurement.
     NotDated,
+    /// Expiry date of the last certificate, if this one has none.
+    NoExpiry(Date),
     Odd(Odd),
 }
 
@@ -159,6 +161,7 @@ impl Remark {
                 fill(texts::FAR_ANGLE, values! { angle, index, value, usual })
             }
             Self::NotDated => fill(texts::NOT_DATED, &[]),
+            Self::NoExpiry(until) => fill(texts::NO_EXPIRY, values! { until: day(*until) }),
             Self::Odd(Odd::Temperature { celsius, .. }) => fill(texts::TEMPERATURE, values! { value: exact(*celsius) }),
             Self::Odd(Odd::OldMeasurement { performed, issued }) => {
                 fill(texts::OLD_MEASUREMENT, values! { performed: day(*performed), issued: day(*issued) })
@@ -197,6 +200,7 @@ impl Remark {
             Self::SharedSetting(_) => "Measure again.".to_owned(),
             Self::BaseAxes(0) => "Therefore common_base_arcsec is absent.".to_owned(),
             Self::NotDated => "State performed in the header.".to_owned(),
+            Self::NoExpiry(_) => "State it with --valid-until.".to_owned(),
             Self::Rounding { .. } => "Record more digits.".to_owned(),
             _ => return None,
         })

@@ -114,8 +114,8 @@ texts! {
              устанавливать заново перед каждым положением."
     }
     FEW_RUNS {
-        en: "The common part of a run is estimated from {runs} runs with {freedom} degrees of freedom; its uncertainty \
-             has an uncertainty of {doubt} %. Five runs or more are recommended.",
+        en: "The common part is estimated from {runs} runs with {freedom} degrees of freedom; its relative uncertainty is \
+             {doubt} %. Five runs or more are recommended.",
         ru: "Общая составляющая серии оценена при числе серий {runs} и числе степеней свободы {freedom}; относительная \
              неопределённость этой оценки {doubt} %. Рекомендуется не менее пяти серий."
     }
@@ -158,6 +158,10 @@ texts! {
     NOT_DATED {
         en: "The date of measurement is not stated; the date of issue is taken for it.",
         ru: "Дата измерений не указана; вместо неё принята дата выдачи."
+    }
+    NO_EXPIRY {
+        en: "The previous certificate was valid until {until} (inclusive); this one has no expiry date.",
+        ru: "Предыдущий сертификат действовал по {until} включительно; срок действия нового не указан."
     }
     OLD_MEASUREMENT {
         en: "The stand was measured on {performed}, more than a year before the certificate was issued on {issued}.",

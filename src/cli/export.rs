@@ -192,7 +192,7 @@ impl Run<'_> {
         let Exported { path, verification, files, unread, line } = exported;
         let name = name_of(path);
         if !verification.valid() {
-            let failure = Failure::verdict("nothing was exported", &name, verification);
+            let failure = Failure::verdict(&format!("nothing was exported from {}", shown(path)), &name, verification);
             let failure = Failure { code: if *unread { UNUSABLE } else { REFUSED }, ..failure };
             return self.failed(name, failure, line.is_some());
         }

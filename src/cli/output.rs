@@ -132,7 +132,7 @@ static AFTER: Mutex<Vec<String>> = Mutex::new(Vec::new());
 
 /// Writes a message as [`say`] does, but after the result of the verb, whose verdict comes first.
 pub(super) fn say_after(words: &str) {
-    if !QUIET.load(Ordering::Relaxed) {
+    if !is_quiet() {
         complain_after(words);
     }
 }
@@ -163,9 +163,9 @@ pub(super) fn is_quiet() -> bool {
     QUIET.load(Ordering::Relaxed)
 }
 
-/// Writes a message about a result, unless only failures are reported.
+/// Writes a message about a result, unless only failures and warnings are reported.
 pub(super) fn say(words: &str) {
-    if !is_quiet() {
+    if !is_quiet() || words.contains("WARNING: ") {
         complain(words);
     }
 }

@@ -56,6 +56,9 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let folder = options.folder.as_ref().or(options.passports.as_ref());
     let folder = folder.ok_or_else(|| Failure::usage("missing DIR, the folder of passports"))?;
     refuse_file(folder)?;
+    if options.within.is_none() && options.state.iter().any(|state| state == State::Expiring.key()) {
+        return Err(Failure::usage("--state expiring needs --within DAYS, such as --within 90"));
+    }
     let (trust, question) = options.trust.load()?;
     let serial = question.serial.clone();
     let asked = Asked { question, within_days: options.within };

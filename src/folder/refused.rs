@@ -12,8 +12,8 @@ use std::path::PathBuf;
 pub enum FolderRefused {
     /// Existing passport of this name with other content, and the differences in words.
     #[error(
-        "{}: already exists with different content ({}); to issue the changes, use `reissue {}` with the changed \
-         --stand, --site or --valid-until",
+        "{}: already exists with different content ({}); if the changes are intended, issue them with `reissue {}` \
+         and the changed --stand, --site, --valid-until or --identity",
         shown(.0),
         .1,
         shown(.0)

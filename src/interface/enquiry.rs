@@ -221,7 +221,7 @@ pub(crate) fn time(text: &str) -> Result<Timestamp, String> {
     match text.parse::<Timestamp>() {
         Ok(time) if time.subsec_nanosecond() == 0 => Ok(time),
         Ok(_) => Err("expected whole seconds, such as 2026-11-02T09:30:00Z".to_owned()),
-        Err(_) if text.parse::<DateTime>().is_ok() => {
+        Err(_) if text.contains(':') && text.parse::<DateTime>().is_ok() => {
             Err("the time zone is missing; for UTC, write Z at the end, as in 2026-11-02T09:30:00Z".to_owned())
         }
         Err(_) => Err(TIME.to_owned()),

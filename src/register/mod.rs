@@ -82,7 +82,7 @@ pub struct Register {
     pub alarms: Vec<Alarm>,
     /// Number of passports, whether they match the question or not.
     #[serde(skip)]
-    files: usize,
+    pub(crate) files: usize,
     /// Alarms that make the state of passports unknown.
     #[serde(skip)]
     doubts: Vec<Alarm>,

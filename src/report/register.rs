@@ -26,11 +26,15 @@ impl State {
 pub(crate) fn text(register: &Register) -> String {
     let counts: Vec<String> =
         register.counts().into_iter().map(|(state, count)| format!("{count} {}", state.words())).collect();
-    let summary = if counts.is_empty() { "no passports".to_owned() } else { counts.join(", ") };
+    let summary = match (counts.as_slice(), register.files) {
+        ([], 0) => "no passports".to_owned(),
+        ([], files) => format!("no passport is selected, of {files}"),
+        (counts, _) => counts.join(", "),
+    };
     let is_good = !register.is_incomplete() && !register.needs_attention();
     let summary = format!("{summary}; alarms: {}", register.alarms.len());
     // A folder without passports may be the wrong one.
-    let is_empty = counts.is_empty() && register.alarms.is_empty();
+    let is_empty = register.files == 0 && register.alarms.is_empty();
     let mut out = style::marked((!is_empty).then_some(is_good), &summary) + "\n";
     if is_empty {
         out.push_str("The folder contains no passport; check its path.\n");

@@ -77,6 +77,7 @@ function said() {
         [...row.cells].map((cell) => ({ text: text(cell), values: [...cell.querySelectorAll("data")].map((data) => data.value) })),
       ),
     })),
+    both: document.querySelector(".second") !== null,
     days: all("time").map((time) => ({ value: time.dateTime, text: text(time) })),
     given: all(".given").map(text),
     codes: all("code").map(text),
@@ -141,6 +142,11 @@ function unfit() {
       return box.width > 0 && box.left >= 0 && box.right <= width;
     });
     if (!seen) found.push(`a decision out of sight: ${name(row)}`);
+  }
+  // The numbers beside the names fade only while a table is scrolled.
+  for (const name of document.querySelectorAll(".scroll th")) {
+    const { content, opacity } = getComputedStyle(name, "::after");
+    if (content !== "none" && opacity !== "0") found.push(`faded without scrolling: ${name.textContent}`);
   }
   // A table that has been scrolled to its end still shows the names of its rows, one after the other; on a phone, beside the strips
   // of several calibrations, the first ones.
@@ -211,6 +217,7 @@ async function cut(page) {
     await hide(true);
     if (!before.equals(await picture())) found.push(`table ${index + 1}`);
     await hide(false);
+    await page.evaluate((index) => { document.querySelectorAll(".scroll:has(tbody th)")[index].scrollLeft = 0; }, index);
   }
   return found;
 }

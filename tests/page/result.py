@@ -440,8 +440,8 @@ class Report:
                 self.wrong.append(f"{part}, {name}: {near} beside the name, and {line['guarded']} in the result")
             if not row[7]["text"].startswith(marks[line["guarded"]]):
                 self.wrong.append(f"{part}, {name}: {row[7]['text']}, and {line['guarded']} in the result")
-            # Without a statement there is no risk.
-            if not self.stated():
+            # Without a decision by simple acceptance there is no risk.
+            if not self.is_simple(part):
                 if row[8]["text"] != "–":
                     self.wrong.append(f"{part}, {name}: risk {row[8]['text']} without a statement")
                 continue
@@ -476,10 +476,14 @@ class Report:
             + (f"; несоответствие: {fails}." if fails else "."),
         }
         said = "".join(words["text"] for words in self.said["words"]).replace("\u00a0", " ")
-        # An uncertainty above every tolerance does not allow it.
-        shown = self.stated() and any(line["expanded_uncertainty"] <= line["tolerance"] for line in lines)
+        shown = self.is_simple(part)
         if shown != (due[self.said["lang"]] in said):
             self.wrong.append(f"{part}: {due[self.said['lang']]!r} is{'' if shown else ' not'} to be on the page")
+
+    def is_simple(self, part):
+        """Simple acceptance needs parameters that are valid, and an uncertainty that is not above every tolerance."""
+        lines = self.result[part]["parameters"]
+        return self.stated() and any(line["expanded_uncertainty"] <= line["tolerance"] for line in lines)
 
 
 def of_file(file):

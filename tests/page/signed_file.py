@@ -113,7 +113,7 @@ def main():
 
     for day in said["days"]:
         year, month, date = day["value"][:10].split("-")
-        if said["lang"] == "ru":
+        if said["lang"] == "ru" and not said["both"]:
             due = f"{date}.{month}.{year}"
         else:
             due = f"{year}-{month}-{date}"

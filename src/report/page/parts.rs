@@ -181,14 +181,19 @@ pub(crate) fn quantity(languages: &Languages, number: &Number, unit: Text) -> Ma
     html! { span.quantity { (number.markup(languages)) @if !close { (BLANK) } (languages.in_brackets(unit)) } }
 }
 
-/// Writes a date in the format of the page's first language.
+/// Returns the language in whose format the readers of all languages understand a date: year, month, day.
+fn of_dates(languages: &Languages) -> Language {
+    if languages.single() { languages.first() } else { Language::English }
+}
+
+/// Writes a date.
 pub(crate) fn date(languages: &Languages, date: Date) -> Markup {
-    html! { time datetime=(date) { (date_text(languages.first(), date)) } }
+    html! { time datetime=(date) { (date_text(of_dates(languages), date)) } }
 }
 
 /// Writes a time in UTC.
 pub(crate) fn time(languages: &Languages, time: Timestamp) -> Markup {
-    html! { time datetime=(time) { (unbroken(&time_text(languages.first(), time))) } }
+    html! { time datetime=(time) { (unbroken(&time_text(of_dates(languages), time))) } }
 }
 
 /// Returns a time in UTC in the format of `language`.

@@ -96,6 +96,12 @@ pub(super) fn counted(
     })
 }
 
+/// Returns `true` if simple acceptance means something: not of parameters that are not valid, nor with an uncertainty above
+/// every tolerance.
+fn has_simple(verdict: &Verdict) -> bool {
+    !verdict.withheld && verdict.too_uncertain().len() < verdict.parameters.len()
+}
+
 /// Writes the outcome of simple acceptance, a note on the risks in the table, which parameters no gyro could pass, and which
 /// would pass with the other sign.
 fn simple(verdict: &Verdict, note: Option<Text>, languages: &Languages) -> Markup {
@@ -105,11 +111,10 @@ fn simple(verdict: &Verdict, note: Option<Text>, languages: &Languages) -> Marku
     let of_opposite = listed(opposite.iter().map(|one| name_of(one.symbol())));
     languages.paragraph_with(|language| {
         html! {
-            // An uncertainty above every tolerance does not allow it.
-            @if too_uncertain.len() < verdict.parameters.len() {
+            @if has_simple(verdict) {
                 (counts(verdict, |row| row.simple, texts::PASSED_BY_SIMPLE, language)) "."
+                @if let Some(note) = note { " " (italic(&note.words(language))) }
             }
-            @if let Some(note) = note { " " (italic(&note.words(language))) }
             @if !too_uncertain.is_empty() { " " (texts::TOO_UNCERTAIN.marked_up(language, &[("names", names.clone())])) }
             @if !opposite.is_empty() { " " (texts::OPPOSITE.marked_up(language, &[("names", of_opposite.clone())])) }
         }
@@ -176,10 +181,9 @@ fn table(
             (parameter(row)) ", " (italic(languages.spoken(unit_at_type(row.parameter))))
         }
     };
-    // Of parameters that are not valid, a risk has no meaning.
-    let risk = |row: &ParameterVerdict| match verdict.withheld {
-        true => Cell::none(),
-        false => Cell::probability(row.specific_risk),
+    let risk = |row: &ParameterVerdict| match has_simple(verdict) {
+        true => Cell::probability(row.specific_risk),
+        false => Cell::none(),
     };
     let risks = column(languages, rows.iter().map(risk));
     let tolerance = |row: &ParameterVerdict| (Number::exact(row.tolerance), italic(languages.spoken(unit_of(row))));

@@ -23,7 +23,9 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
     let results = &page.document.results;
     html! {
         (table(page, languages))
-        @if results.iter().any(|result| result.from_least_squares.is_some()) { (languages.paragraph(texts::OFF_BY_NOTE)) }
+        @if has_least_squares(results) && results.iter().any(|result| result.from_least_squares.is_some()) {
+            (languages.paragraph(texts::OFF_BY_NOTE))
+        }
         @for result in results { (iteration(result, languages)) }
         @for (refused, refusal) in &page.calibration.refused {
             (languages.paragraph_with(|language| {
@@ -50,9 +52,13 @@ fn reason(refusal: &MethodRefusal, language: Language) -> String {
     }
 }
 
+/// Returns `true` if the values from which the others differ are among the results.
+fn has_least_squares(results: &[ResultDocument]) -> bool {
+    results.iter().any(|result| result.method == Method::LeastSquares.key())
+}
+
 fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
     let results = &page.document.results;
-    let has_least_squares = results.iter().any(|result| result.method == Method::LeastSquares.key());
     // The adopted result comes first: it is the last of the methods.
     let rows = results.iter().rev().flat_map(|result| {
         let [values, u] = values(result);
@@ -70,7 +76,7 @@ fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
         let found = cells(&|parameter| Number::measured(values[parameter.place()], u[parameter.place()]));
         let uncertainty = cells(&|parameter| Number::uncertainty(u[parameter.place()]));
         let mut rows = vec![(html! { strong { (name) } }, found), (symbol("u", ""), uncertainty)];
-        rows.extend(result.from_least_squares.filter(|_| has_least_squares).map(|off| {
+        rows.extend(result.from_least_squares.filter(|_| has_least_squares(results)).map(|off| {
             let cells = cells(&|parameter| Number::fixed(off[parameter.place()], 1));
             (languages.label(texts::OFF_BY), cells)
         }));

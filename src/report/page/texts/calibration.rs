@@ -331,10 +331,10 @@ texts! {
     PARAMETER { en: "Parameter", ru: "Параметр" }
     NOMINAL { en: "Nominal", ru: "Номин. значение" }
     PREVIOUS {
-        en: "Previous calibration: {day}, passport {passport}, currents {sha256}. Errors common to both, such as those of \
-             the stand, do not affect the change, so U is an upper bound.",
-        ru: "Предыдущая калибровка: {day}, паспорт {passport}, токи {sha256}. Погрешности, общие для обеих калибровок \
-             (например, погрешности стенда), в изменение не входят: U — оценка сверху."
+        en: "Previous calibration: {day}, passport {passport}, currents {sha256}. Errors common to both do not affect the \
+             change, so U is an upper bound.",
+        ru: "Предыдущая калибровка: {day}, паспорт {passport}, токи {sha256}. Погрешности, общие для обеих калибровок, \
+             в изменение не входят: U — оценка сверху."
     }
     NO_DAY_BUT_CURRENTS { en: "{number}, SHA-256 {sha256}…", ru: "№\u{a0}{number}, SHA-256 токов {sha256}…" }
     NO_DAY { en: "date not stated", ru: "дата не указана" }
@@ -346,13 +346,13 @@ texts! {
     FOUND { en: "Value", ru: "Значение" }
     FROM_GRAVITY {
         en: "Contribution of local g (standard uncertainty {u}) to U: {parts}. To reduce it, measure g.",
-        ru: "Вклад местного g, стандартная неопределённость которого {u}, в U: {parts}. Для его уменьшения следует измерить g."
+        ru: "Вклад местного g (u = {u}) в U: {parts}. Вклад уменьшают, измерив g."
     }
     FROM_UNKNOWN_HEIGHT {
         en: "Contribution of local g to U: {parts}. The height is not stated, so g is that at 0 m; its standard uncertainty, {u}, is the \
              r.m.s. error of this assumption for heights from 0 to 4000 m. To reduce it, state the height or measure g.",
         ru: "Вклад местного g в U: {parts}. Высота не указана, g вычислено для 0 м с u = {u} (среднее квадратическое отличие при \
-             высотах от 0 до 4000 м). Для его уменьшения следует указать высоту или измерить g."
+             высотах от 0 до 4000 м). Вклад уменьшают, указав высоту или измерив g."
     }
     FROM_GRAVITY_PART { en: "{gravity} for {parameter}", ru: "{gravity} для {parameter}" }
     FROM_TURN_ONS {
@@ -422,7 +422,7 @@ texts! {
     }
     ROWS_CORRELATED {
         en: "Successive readings of a visit are correlated ({r}), so their mean is less certain than their scatter shows, \
-             and the stated uncertainties are too small. Average the readings of each visit to one row.",
+             and the stated uncertainties are too small. Average the readings of each visit into one row.",
         ru: "Последовательные показания одной установки в положение коррелированы ({r}): их среднее менее точно, чем \
              следует из рассеяния, и указанные неопределённости занижены. Показания каждой установки в положение следует \
              заменить их средним."
@@ -478,7 +478,7 @@ texts! {
     }
     G_MATRIX { en: "Matrix of g-sensitive drift", ru: "Матрица дрейфа, зависящего от\u{a0}g" }
     MODEL_TEST {
-        en: "Test whether ω_g and ω_k alone are enough: F = {f} with {further} and {rest} degrees of freedom; probability of a larger value, {p}.",
+        en: "Adequacy of ω_g and ω_k alone: F = {f} with {further} and {rest} degrees of freedom; probability of a larger value, {p}.",
         ru: "Проверка достаточности ω_g и ω_k: F = {f} при {further} и {rest} степенях свободы; вероятность большего значения {p}."
     }
     CYCLES { en: "Turn-ons", ru: "Запуски" }
@@ -495,7 +495,7 @@ texts! {
     LAST_DIGIT {
         en: "The currents are recorded to {digit} mA. Rounding to this digit has a standard uncertainty of {u} mA, which \
              is larger than the stated floor of the meter and takes its place. To reduce it, record more digits.",
-        ru: "Токи записаны с точностью до {digit} мА. Стандартная неопределённость округления {u} мА больше указанной \
+        ru: "Токи записаны с шагом {digit} мА. Стандартная неопределённость округления {u} мА больше указанной \
              постоянной части погрешности измерителя и принята вместо неё. Для её уменьшения следует записывать больше \
              знаков."
     }

@@ -21,7 +21,7 @@ texts! {
         ru: "срок действия не указан; отзыв не\u{a0}проверялся"
     }
     WHERE { en: "Use within", ru: "Применять в пределах" }
-    AROUND { en: "of", ru: "от" }
+    AROUND { en: "from", ru: "от" }
     AROUND_PARALLEL { en: "north or south of latitude", ru: "к северу и югу от параллели" }
     WORD { en: "Based on certificate", ru: "На основании сертификата" }
     WITHOUT_UNCERTAINTY { en: "no uncertainty stated", ru: "неопределённость не указана" }
@@ -52,7 +52,7 @@ texts! {
     SHA256 { en: "SHA-256 of the signed file", ru: "SHA-256 подписанного файла" }
     CODE { en: "QR code with the SHA-256 of the signed file", ru: "QR-код с SHA-256 подписанного файла" }
     PAPER_IS_NOT_SIGNED {
-        en: "This page has no digital signature: only the file is authoritative, which the annex reproduces verbatim. Its SHA-256 \
+        en: "This page has no digital signature: only the file, reproduced verbatim in the annex, is authoritative. Its SHA-256 \
              must equal the value here and in the QR code. dtg-passport verify checks the file, ssh-keygen its signature alone.",
         ru: "Страница не имеет электронной подписи: силу имеет только файл, дословно приведённый в приложении. Его хеш \
              SHA-256 должен совпадать с указанным здесь и в QR-коде. Файл проверяют командой dtg-passport verify, одну лишь \
@@ -71,7 +71,7 @@ texts! {
     CERTIFICATE_NUMBER { en: "Number", ru: "Номер" }
     CERTIFICATE_ISSUED { en: "Date of issue", ru: "Дата выдачи" }
     PERFORMED { en: "Date of measurement", ru: "Дата измерений" }
-    RECEIVED { en: "Stand received", ru: "Дата поступления" }
+    RECEIVED { en: "Stand received", ru: "Дата поступления стенда" }
     VALID_UNTIL_BASIS { en: "Basis of validity period", ru: "Основание срока действия" }
     LABORATORY { en: "Laboratory", ru: "Лаборатория" }
     LABORATORY_OF_CERTIFICATE { en: "Laboratory of the certificate", ru: "Лаборатория, выдавшая сертификат" }
