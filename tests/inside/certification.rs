@@ -173,7 +173,7 @@ fn the_stand_file_reads_back() {
         "# Repeatability of one visit, from 3 runs",
         "# Means of 3 runs",
         "repeatability_degrees_of_freedom: ",
-        "# Warning: The common part of a run is estimated from 3 runs",
+        "# Warning: The common part is estimated from 3 runs",
     ] {
         assert!(text.contains(words), "no {words:?} in\n{text}");
     }
