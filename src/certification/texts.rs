@@ -82,8 +82,8 @@ texts! {
              из них — копия другой, или ошибка содержится в другой серии."
     }
     AXES_DIFFER {
-        en: "The variances about x, y and z differ (Bartlett’s test, {p}). The repeatability is pooled from all \
-             three, which is too large for one axis and too small for another.",
+        en: "The variances about x, y and z differ (Bartlett’s test, {p}). The repeatability, pooled from all \
+             three, is too large for one axis and too small for another.",
         ru: "Дисперсии вокруг x, y и z различаются (критерий Бартлетта, {p}). Указана повторяемость, объединённая по \
              трём осям: для одной оси она завышена, для другой занижена."
     }
@@ -301,10 +301,10 @@ texts! {
         ru: "Поворот одного положения на {position}″ вокруг оси корпуса был бы обнаружен с вероятностью 95 %."
     }
     TREATED_AS_EXACT {
-        en: "The certificate does not state the uncertainty of all angles; these were treated as exact, so differences \
-             appear more significant than they are.",
-        ru: "Неопределённость некоторых углов в сертификате не указана; эти углы приняты точными, поэтому значимость \
-             различий завышена."
+        en: "Angles for which the certificate states no uncertainty were treated as exact, so differences appear more \
+             significant than they are.",
+        ru: "Углы, неопределённость которых в сертификате не указана, приняты точными, поэтому значимость различий \
+             завышена."
     }
     TOO_CLOSE {
         en: "The readings agree with the certificate better than the repeatability of the stand allows; they may be those of \

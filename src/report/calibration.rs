@@ -29,6 +29,10 @@ use std::fmt::Write;
 const UNTESTED: &str = "The fit cannot be tested: there are as many unknowns as readings (0 degrees of freedom), so any \
                         readings would fit. Measure more positions.";
 
+/// What the columns of the decisions state.
+const DECISIONS: &str = "simple: within the tolerance, whatever U is; risk: probability that this decision is wrong; \
+                         guarded: pass or fail only if all of the interval ±U is within the tolerance or beyond it.";
+
 /// Least effect of a further visit that is worth the time, percent of the standard uncertainty.
 const LEAST_EFFECT_PERCENT: f64 = 1.0;
 
@@ -100,6 +104,9 @@ pub(crate) fn text(
         let _ = writeln!(out);
         columns::paragraph(&mut out, "", &words);
         verdict_table(&mut out, verdict, "deviation");
+        if !verdict.withheld {
+            columns::paragraph(&mut out, "  ", DECISIONS);
+        }
         let gravity = document.gravity_u_m_per_s2.and_then(|u| from_gravity(verdict, u, done.without_height));
         let turn_ons = calibration.mostly_from_turn_ons().map(|u| {
             let u = quantity(&columns::two_digits(u), "deg/h");

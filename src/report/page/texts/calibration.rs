@@ -155,7 +155,7 @@ texts! {
     MISTAKE_TOO_LARGE { en: "all currents are too large by a factor of {factor}", ru: "все токи завышены в {factor}" }
     MISTAKE_TOO_SMALL { en: "all currents are too small by a factor of {factor}", ru: "все токи занижены в {factor}" }
 
-    NO_CHANGE { en: "No change can be shown", ru: "Изменение установить нельзя" }
+    NO_CHANGE { en: "Change cannot be assessed", ru: "Изменение установить нельзя" }
     SAME_READINGS {
         en: "The previous result is from these same readings, so it does not show a change. Compare with the result of \
              an earlier calibration.",
@@ -378,7 +378,7 @@ texts! {
     }
     OPPOSITE {
         en: "With the other sign these would be within the tolerance: {names}. Check the sign convention.",
-        ru: "С противоположным знаком допуску соответствовало бы: {names}. Следует проверить правило знаков."
+        ru: "С противоположным знаком в допуске были бы: {names}. Следует проверить правило знаков."
     }
     RISK_NOTE {
         en: "Risk of error (specific risk): probability that the decision by simple acceptance is wrong.",

@@ -108,8 +108,8 @@ texts! {
     DEVIATIONS_U_NOTE {
         en: "u: own part of the standard uncertainty (k = 1) of the certified mean; ν: degrees of freedom, the smallest \
              of those of the three u (–: not stated).",
-        ru: "u — стандартная неопределённость (k = 1) среднего по сертификату, собственная составляющая положения; ν — \
-             число степеней свободы, наименьшее у трёх u (прочерк — не указано)."
+        ru: "u — собственная составляющая стандартной неопределённости (k = 1) среднего по сертификату; ν — число степеней \
+             свободы, наименьшее у трёх u (прочерк — не указано)."
     }
     DEVIATIONS_ROUNDED {
         en: "Uncertainties have two significant digits; values are rounded to the same decimal place.",
