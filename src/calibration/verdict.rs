@@ -265,6 +265,12 @@ impl Verdict {
         self.parameters.iter().filter(is_too_uncertain).map(|row| row.parameter).collect()
     }
 
+    /// Returns `true` if simple acceptance and its risks mean something: not of parameters that are not valid, nor with an
+    /// uncertainty above every tolerance.
+    pub(crate) fn has_simple(&self) -> bool {
+        !self.withheld && self.too_uncertain().len() < self.parameters.len()
+    }
+
     /// Returns the parameters that fail and would pass with the other sign: the type may count them in the other direction.
     pub(crate) fn opposite(&self) -> Vec<Parameter> {
         let is_opposite = |row: &&ParameterVerdict| {

@@ -215,7 +215,7 @@ impl Reporter {
         let text = self.reports.end();
         self.write(&text);
         self.complain();
-        self.told.lines().iter().for_each(|line| output::say(line));
+        self.told.lines(output::is_quiet()).iter().for_each(|line| output::complain(line));
         if let Some(failure) = self.unwritten {
             return Err(failure);
         }

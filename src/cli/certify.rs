@@ -112,7 +112,9 @@ fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
         let number = &certified.stand.certificate.number;
         if let Some(other) = numbered.earlier(number.clone(), &name) {
             let (name, number, other) = (Printable(&name), Printable(number), Printable(other));
-            output::say(&format!("{name}: WARNING: its certificate has the same number, {number}, as that of {other}"));
+            output::complain(&format!(
+                "{name}: WARNING: its certificate has the same number, {number}, as that of {other}"
+            ));
         }
         let stand = &certified.stand.stand;
         let path = folder.join(stand.model.as_str()).join(stand.serial.as_str()).join("stand.yaml");

@@ -163,9 +163,9 @@ pub(super) fn is_quiet() -> bool {
     QUIET.load(Ordering::Relaxed)
 }
 
-/// Writes a message about a result, unless only failures and warnings are reported.
+/// Writes a message about a result, unless only failures are reported.
 pub(super) fn say(words: &str) {
-    if !is_quiet() || words.contains("WARNING: ") {
+    if !is_quiet() {
         complain(words);
     }
 }

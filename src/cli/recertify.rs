@@ -141,7 +141,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     options.format.write(|| report::to_json(&found, dry_run), || report::text(&found, dry_run))?;
     let mut told = Told::default();
     found.passports.iter().filter_map(Outcome::remarks).for_each(|(id, remarks)| told.add_all(id, remarks));
-    told.lines().iter().for_each(|line| output::say(line));
+    told.lines(output::is_quiet()).iter().for_each(|line| output::complain(line));
     Ok(0)
 }
 

@@ -147,15 +147,14 @@ fn certificates(recorded: &[Recorded], remarks: &mut Vec<String>) -> Vec<PastCer
         if found[..place].iter().any(|other| other.stand.certificate.number == *number) {
             remarks.push(format!("certificate {number} has different contents in {}", first_few(&at.passports)));
         }
-        if at.stand.certificate.performed.is_none() {
-            remarks.push(format!(
-                "certificate {number} does not state the date of measurement; rates of drift are computed from its date of \
-                 issue"
-            ));
-        }
         if !at.counts {
             remarks.push(format!(
                 "all passports of certificate {number} were withdrawn; its deviations are not used for the drift"
+            ));
+        } else if at.stand.certificate.performed.is_none() {
+            remarks.push(format!(
+                "certificate {number} does not state the date of measurement; rates of drift are computed from its date of \
+                 issue"
             ));
         }
     }

@@ -285,6 +285,7 @@ mod tests {
             (r#"{"time": "tomorrow"}"#, "time: found \"tomorrow\"; expected a time such as"),
             (r#"{"time": "2026-02-30"}"#, "time: found \"2026-02-30\"; month 02 of 2026 has 28 days"),
             (r#"{"time": "2026-11-20T10:00:00"}"#, "the time zone is missing"),
+            (r#"{"time": "20261120"}"#, "time: found \"20261120\"; expected a time such as"),
             (r#"{"serial": 17}"#, "serial: found 17, expected text"),
             (r#"{"serial": " "}"#, "serial: found empty text"),
             (r#"{"issuer": ""}"#, "issuer: found empty text"),

@@ -29,7 +29,7 @@ use std::fmt::Write;
 const UNTESTED: &str = "The fit cannot be tested: there are as many unknowns as readings (0 degrees of freedom), so any \
                         readings would fit. Measure more positions.";
 
-/// What the columns of the decisions state.
+/// Meaning of the columns `simple`, `risk` and `guarded` of a comparison.
 const DECISIONS: &str = "simple: within the tolerance, whatever U is; risk: probability that this decision is wrong; \
                          guarded: pass or fail only if all of the interval ±U is within the tolerance or beyond it.";
 
@@ -104,7 +104,7 @@ pub(crate) fn text(
         let _ = writeln!(out);
         columns::paragraph(&mut out, "", &words);
         verdict_table(&mut out, verdict, "deviation");
-        if !verdict.withheld {
+        if verdict.has_simple() {
             columns::paragraph(&mut out, "  ", DECISIONS);
         }
         let gravity = document.gravity_u_m_per_s2.and_then(|u| from_gravity(verdict, u, done.without_height));

@@ -309,13 +309,14 @@ impl Told {
         remarks.warnings().into_iter().chain(missing).for_each(|words| self.add(id, words));
     }
 
-    /// Returns the remarks, one line each.
-    pub(crate) fn lines(&self) -> Vec<String> {
-        let told = self.remarks.iter().map(|(words, first, count)| match count {
+    /// Returns the remarks, one line each, or only the warnings among them.
+    pub(crate) fn lines(&self, only_warnings: bool) -> Vec<String> {
+        let told = self.remarks.iter().filter(|(words, ..)| !only_warnings || words.starts_with("WARNING: "));
+        let told = told.map(|(words, first, count)| match count {
             1 => format!("{first}: {words}"),
             count => format!("{first} and {} more: {words}", grouped(count - 1)),
         });
-        let others = (self.others > 0).then(|| format!("and {} other remarks", grouped(self.others)));
+        let others = (self.others > 0 && !only_warnings).then(|| format!("and {} other remarks", grouped(self.others)));
         told.chain(others).map(printable).collect()
     }
 }
@@ -368,10 +369,15 @@ mod tests {
             told.add(&number.to_string(), "the same".to_owned());
             told.add(&number.to_string(), format!("another, {number}"));
         }
-        let lines = told.lines();
+        let lines = told.lines(false);
         assert_eq!(lines[0], "0 and 999 more: the same");
         assert_eq!(lines[1], "0: another, 0");
         assert_eq!(lines.len(), REMARKS_TOLD + 1);
         assert_eq!(lines[REMARKS_TOLD], "and 951 other remarks");
+
+        let mut told = Told::default();
+        told.add("WARNING: a file", "a remark".to_owned());
+        told.add("a", "WARNING: near the pole".to_owned());
+        assert_eq!(told.lines(true), ["a: WARNING: near the pole"]);
     }
 }

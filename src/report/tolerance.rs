@@ -96,10 +96,9 @@ pub(super) fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str
     let rows = verdict.parameters.iter().map(|row| {
         let digits = columns::decimals(row.expanded_uncertainty);
         let places = columns::decimals(row.expanded_uncertainty_of_value());
-        // Of parameters that are not valid, neither says anything.
-        let [simple, risk] = match verdict.withheld {
-            true => ["–"; 2].map(str::to_owned),
-            false => [decided(Some(row.simple)), columns::probability(row.specific_risk)],
+        let [simple, risk] = match verdict.has_simple() {
+            true => [decided(Some(row.simple)), columns::probability(row.specific_risk)],
+            false => ["–"; 2].map(str::to_owned),
         };
         vec![
             row.parameter.symbol().to_owned(),

@@ -44,6 +44,9 @@ fn refuse_control_characters(name: &str, text: &str) -> Result<(), Unreadable> {
     Err(Unreadable::whole(name, at, format!("{kind} U+{:04X}", u32::from(c)), "text", "delete it"))
 }
 
+/// Words of the parser's error for several documents in one text.
+const SEVERAL: &str = "more than one document";
+
 fn unreadable_yaml(name: &str, text: &str, error: &serde_yaml::Error) -> Unreadable {
     let location = error.location().map(|at| Location { line: at.line(), column: at.column() });
     let mut words = error.to_string();
@@ -52,6 +55,13 @@ fn unreadable_yaml(name: &str, text: &str, error: &serde_yaml::Error) -> Unreada
     }
     if let Some(found) = location.and_then(|at| tab(text, at)) {
         return Unreadable::whole(name, location, found, "spaces", "replace the tab with spaces");
+    }
+    // The parser takes such a line for the beginning of another document.
+    let is_marked = text.lines().any(|line| line.starts_with("---"));
+    if let Some(line) = less_indented(text).filter(|_| words.contains(SEVERAL) && !is_marked) {
+        let (at, found) = (Location { line, column: 1 }, "a line that is indented less than the first one");
+        let advice = "begin every key of the file in column 1";
+        return Unreadable::whole(name, Some(at), found, "a plain YAML mapping", advice);
     }
     // The parser could read these constructs, but they are refused; the message describes what is in the file.
     let (found, advice) = match words.as_str() {
@@ -62,15 +72,7 @@ fn unreadable_yaml(name: &str, text: &str, error: &serde_yaml::Error) -> Unreada
             ("aliases (`*name`) that repeat too much content", "write out the content")
         }
         tag if tag.contains("invalid type: enum") => ("a tag (`!name`)", "delete it"),
-        several if several.contains("more than one document") => match less_indented(text) {
-            // The parser takes the line for the beginning of another document.
-            Some(line) if !text.lines().any(|line| line.starts_with("---")) => {
-                let (at, found) = (Location { line, column: 1 }, "a line that is indented less than the first one");
-                let advice = "begin every key of the file in column 1";
-                return Unreadable::whole(name, Some(at), found, "a plain YAML mapping", advice);
-            }
-            _ => ("several documents (`---`)", "keep one document"),
-        },
+        several if several.contains(SEVERAL) => ("several documents (`---`)", "keep one document"),
         _ => {
             let advice = "check the quotes, brackets and indentation of this line and the one before";
             return Unreadable::whole(name, location, format!("invalid YAML ({words})"), "a YAML mapping", advice);

@@ -8,15 +8,18 @@ use std::process::Command;
 
 const GYRO: &str = "docs/gvk-6.yaml";
 
+/// What `calibrate` writes for the file of currents, with `more` arguments.
+fn output(currents: &Path, more: &[&str]) -> String {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
+    command.current_dir(programs::project("")).args(["calibrate", "passports/SPS-2/0017/moscow-bmstu-1.yaml"]);
+    command.arg(currents).args(["--trust", "docs/allowed_signers", "--time", "2026-11-20T08:00:00Z"]);
+    command.args(["--laboratory", "docs/laboratory.yaml"]).args(more).env("COLUMNS", "200");
+    String::from_utf8(command.output().unwrap().stdout).unwrap()
+}
+
 /// The text, in one line, and the JSON of a calibration of a gyro of the type `gyro` on the file of currents.
 fn calibrated(currents: &Path, gyro: &Path) -> (String, Value) {
-    let run = |format: &str| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
-        command.current_dir(programs::project("")).args(["calibrate", "passports/SPS-2/0017/moscow-bmstu-1.yaml"]);
-        command.arg(currents).args(["--trust", "docs/allowed_signers", "--time", "2026-11-20T08:00:00Z", "--gyro"]);
-        command.arg(gyro).args(["--laboratory", "docs/laboratory.yaml", "--format", format]).env("COLUMNS", "200");
-        String::from_utf8(command.output().unwrap().stdout).unwrap()
-    };
+    let run = |format: &str| output(currents, &["--gyro", gyro.to_str().unwrap(), "--format", format]);
     (run("text").split_whitespace().collect::<Vec<_>>().join(" "), serde_json::from_str(&run("json")).unwrap())
 }
 
@@ -47,15 +50,15 @@ fn causes_that_make_the_readings_those_of_another_gyro_are_not_named() {
     let [jx, jy] = [cells[2] + 1e-4, cells[3]];
     std::fs::write(&wrong, right.replace(row, &format!("1,3,{jx:.7},{jy:.7}"))).unwrap();
     let (with_type, result) = calibrated(&wrong, Path::new(GYRO));
-    let mut without = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
-    without.current_dir(programs::project("")).args(["calibrate", "passports/SPS-2/0017/moscow-bmstu-1.yaml"]);
-    without.arg(&wrong).args(["--trust", "docs/allowed_signers", "--time", "2026-11-20T08:00:00Z"]);
-    without.args(["--laboratory", "docs/laboratory.yaml"]).env("COLUMNS", "200");
-    let without_type = String::from_utf8(without.output().unwrap().stdout).unwrap();
+    let without_type = output(&wrong, &[]);
     for (words, due) in [(with_type.as_str(), false), (result["hint"].as_str().unwrap(), false), (&without_type, true)]
     {
         assert!(words.contains("osition (1, 3) did not repeat"), "{words}");
         assert_eq!(words.contains("axis of the frame"), due, "{words}");
+    }
+    // Of parameters that are not valid, nothing is decided.
+    for row in result["verdict"]["parameters"].as_array().unwrap() {
+        assert_eq!([&row["simple"], &row["guarded"]], ["undecided", "undecided"], "{row}");
     }
 }
 

@@ -667,6 +667,9 @@ fn a_gyro_without_facts_or_result_has_no_certificate() {
         assert!(said.contains(&format!(" {key}: missing")), "{key}: {said}");
     }
     assert_eq!(said.matches(": missing").count(), missing.len(), "{said}");
+    for (option, count) in [("--date", 2), ("--temperature-c", 1)] {
+        assert_eq!(said.matches(&format!("add it, or use {option}")).count(), count, "{option}: {said}");
+    }
     let refused: [(&str, &str, &[&str], i32, &str); 6] = [
         ("", "", &["--no-verify"], 2, "--no-verify"),
         ("", "", &["--drift"], 2, "--drift"),

@@ -148,15 +148,13 @@ function unfit() {
     const { content, opacity } = getComputedStyle(name, "::after");
     if (content !== "none" && opacity !== "0") found.push(`faded without scrolling: ${name.textContent}`);
   }
-  // A table that has been scrolled to its end still shows the names of its rows, one after the other; on a phone, beside the strips
-  // of several calibrations, the first ones.
+  // A table that has been scrolled to its end still shows the names of its rows, one after the other.
   for (const table of document.querySelectorAll(".scroll:has(tbody th)")) {
     if (table.scrollWidth <= table.clientWidth || getComputedStyle(table).overflowX === "visible") continue;
     table.scrollLeft = table.scrollWidth;
     const left = table.getBoundingClientRect().left;
     for (const row of table.querySelectorAll("tbody tr")) {
-      const names = row.querySelectorAll(table.matches(":has(.past)") && width <= 640 ? "th:first-child" : "th");
-      const boxes = [...names].map((cell) => {
+      const boxes = [...row.querySelectorAll("th")].map((cell) => {
         const range = document.createRange();
         range.selectNodeContents(cell);
         return range.getBoundingClientRect();

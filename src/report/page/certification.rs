@@ -43,7 +43,7 @@ impl CertificationPage<'_> {
         let number = &self.certification.stand.certificate.number;
         let margins = Margins {
             top_left: texts::MARGIN.filled(languages.first(), values! { number }),
-            top_right: if self.dry_run { languages.plain(texts::DRAFT) } else { change::warning(self, languages) },
+            top_right: if self.dry_run { languages.plain(texts::DRAFT) } else { change::running_head(self, languages) },
             bottom_left: texts::MARGIN_SHA256.filled(languages.first(), values! { sha256: self.sha256() }),
         };
         let title = format!("{} {number}", languages.plain(texts::TITLE));

@@ -76,8 +76,8 @@ fn exchanged_positions_are_named() {
     assert!(right * 100 >= trials() * 90 && wrong * 100 <= trials(), "{right} {among} {nothing} {wrong}");
 }
 
-/// One reading with a reversed sign or exchanged currents, on stands of 10′. The currents differ by more than 20 µA from the
-/// right ones: the sign of a current near zero cannot be seen, nor an exchange of two that are nearly equal.
+/// Stands with deviations of 10′, on which one reading has a reversed sign or exchanged currents. It differs by more than 20 µA
+/// from the right one: the sign of a current near zero cannot be seen, nor an exchange of two that are nearly equal.
 #[test]
 fn a_slip_in_one_reading_is_named() {
     let [right, among, nothing, wrong] = counted(9, |stream| {

@@ -96,12 +96,6 @@ pub(super) fn counted(
     })
 }
 
-/// Returns `true` if simple acceptance means something: not of parameters that are not valid, nor with an uncertainty above
-/// every tolerance.
-fn has_simple(verdict: &Verdict) -> bool {
-    !verdict.withheld && verdict.too_uncertain().len() < verdict.parameters.len()
-}
-
 /// Writes the outcome of simple acceptance, a note on the risks in the table, which parameters no gyro could pass, and which
 /// would pass with the other sign.
 fn simple(verdict: &Verdict, note: Option<Text>, languages: &Languages) -> Markup {
@@ -111,7 +105,7 @@ fn simple(verdict: &Verdict, note: Option<Text>, languages: &Languages) -> Marku
     let of_opposite = listed(opposite.iter().map(|one| name_of(one.symbol())));
     languages.paragraph_with(|language| {
         html! {
-            @if has_simple(verdict) {
+            @if verdict.has_simple() {
                 (counts(verdict, |row| row.simple, texts::PASSED_BY_SIMPLE, language)) "."
                 @if let Some(note) = note { " " (italic(&note.words(language))) }
             }
@@ -181,7 +175,7 @@ fn table(
             (parameter(row)) ", " (italic(languages.spoken(unit_at_type(row.parameter))))
         }
     };
-    let risk = |row: &ParameterVerdict| match has_simple(verdict) {
+    let risk = |row: &ParameterVerdict| match verdict.has_simple() {
         true => Cell::probability(row.specific_risk),
         false => Cell::none(),
     };

@@ -49,8 +49,8 @@ pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup
     outcome_box(outcome, &headline, reasons)
 }
 
-/// Returns the headline of a stand that has changed, for the head of every sheet.
-pub(super) fn warning(page: &CertificationPage, languages: &Languages) -> String {
+/// Returns the headline of a stand that has changed, for the head of every sheet; otherwise nothing.
+pub(super) fn running_head(page: &CertificationPage, languages: &Languages) -> String {
     let comparison = page.change.as_ref().map(|(comparison, _)| *comparison);
     let changed = comparison.filter(|found| outcome_of(found, found.same_stand) == Outcome::Failed);
     changed.map_or_else(String::new, |found| {

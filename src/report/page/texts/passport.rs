@@ -21,7 +21,7 @@ texts! {
         ru: "срок действия не указан; отзыв не\u{a0}проверялся"
     }
     WHERE { en: "Use within", ru: "Применять в пределах" }
-    AROUND { en: "from", ru: "от" }
+    AROUND { en: "around", ru: "от" }
     AROUND_PARALLEL { en: "north or south of latitude", ru: "к северу и югу от параллели" }
     WORD { en: "Based on certificate", ru: "На основании сертификата" }
     WITHOUT_UNCERTAINTY { en: "no uncertainty stated", ru: "неопределённость не указана" }
