@@ -1,6 +1,6 @@
 //! Verb `calibrate`: the gyro's parameters from a passport and currents, or those of several gyros.
 
-use super::inputs::{self, AdministrativeFile};
+use super::inputs::{self, AdministrativeFile, Each};
 use super::render::languages;
 use super::show::{Read, Whom};
 use super::trust_options::{Enquiry, date};
@@ -20,10 +20,12 @@ use crate::document::sha256_hex;
 use crate::files;
 use crate::gyro::GyroType;
 use crate::interface::calibrated::{Done, Prepared};
+use crate::interface::{self, Failed};
 use crate::laboratory::{Laboratory, TEMPERATURES_C};
 use crate::passport::{Check, Verification};
 use crate::report::calibration as report;
 use crate::report::{CalibrationPage, Language, PassportPage, UsedPassport};
+use crate::report::{columns, issued};
 use crate::text::{Kind, Printable, name_of, printable, shown};
 use clap::{Args, ValueEnum};
 use jiff::Timestamp;
@@ -301,8 +303,7 @@ impl Bench<'_> {
         }
         let mut written = HashMap::new();
         let mut calibrated = Once::new();
-        let mut outcomes = HashMap::<String, usize>::new();
-        let mut all = 0;
+        let (mut outcomes, mut failed) = (Vec::new(), Vec::new());
         let calibrate = |path: &Path| {
             let found = self.calibrate(path)?;
             calibrated
@@ -314,11 +315,13 @@ impl Bench<'_> {
             let trials = found.uncertainty.monte_carlo.as_ref();
             let text = report::line(&found.currents.0, &found.done, trials, self.gyro_name());
             let result = serde_json::to_value(found.whole()).map_err(Failure::unusable)?;
-            *outcomes.entry(report::outcome(&found.done, self.gyro_name())).or_default() += 1;
+            outcomes.push(report::outcome(&found.done, self.gyro_name()));
             Ok(((Line { file: found.currents.0.clone(), result }, text), found.code()))
         };
         let code = inputs::each(&options.currents, Purpose::Tables, calibrate, |done| {
-            all += 1;
+            if let Each::Refused { refusal, .. } = &done {
+                failed.push(issued::outcome(refusal).to_owned());
+            }
             inputs::print(&done, options.format)
         })?;
         if let Some(folder) = options.out.as_ref().filter(|_| !written.is_empty()) {
@@ -328,12 +331,11 @@ impl Bench<'_> {
                 "wrote the result (.json) and the report (.html) of {count} gyro{plural} to {folder}"
             ));
         }
-        outcomes.insert("refused".to_owned(), all - outcomes.values().sum::<usize>());
-        if all > 1 {
-            let counted = report::OUTCOMES.iter().filter_map(|outcome| Some((outcomes.get(*outcome)?, outcome)));
-            let counts: Vec<String> =
-                counted.filter(|(count, _)| **count > 0).map(|(count, outcome)| format!("{count} {outcome}")).collect();
-            let words = format!("{all} gyros: {}", counts.join(", "));
+        outcomes.append(&mut failed);
+        if outcomes.len() > 1 {
+            let count = |outcome: &str| outcomes.iter().filter(|found| *found == outcome).count();
+            let counts = columns::counts(report::OUTCOMES.map(|outcome| (count(outcome), outcome)));
+            let words = format!("{} gyros: {counts}", outcomes.len());
             match options.format {
                 Format::Text => output::text(&format!("{words}\n"))?,
                 Format::Json => output::say(&words),
@@ -362,7 +364,7 @@ impl Bench<'_> {
                 shown(&json),
                 Printable(other)
             );
-            return Err(Failure::refused(words));
+            return Err(Failed::new(interface::EXISTS, words, Vec::new()).into());
         }
         let page = (named(".html"), self.page(found)?);
         let text = printable::json(&found.whole()).map_err(Failure::unusable)? + "\n";

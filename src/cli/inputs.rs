@@ -172,7 +172,7 @@ pub(super) fn json_line(value: &impl Serialize) -> Result<(), Failure> {
 pub(super) fn print<T: Serialize>(result: &Each<(T, String)>, format: Format) -> Result<(), Failure> {
     match (format, result) {
         (Format::Text, Each::Done((_, text))) => output::text(text),
-        (Format::Text, Each::Refused { file, .. }) => output::text(&issued::refused_line(file)),
+        (Format::Text, Each::Refused { file, refusal }) => output::text(&issued::failed_line(file, refusal)),
         (Format::Json, Each::Done((value, _))) => json_line(value),
         (Format::Json, refused @ Each::Refused { .. }) => json_line(refused),
     }

@@ -52,6 +52,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
             }
         }
     }
+    text += &verdict::summary(&verdicts, unread.len());
     let written = options.format.write(|| &verdicts, || text);
     unread.iter().for_each(|words| output::complain(words));
     written.map(|()| code)

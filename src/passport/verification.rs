@@ -311,13 +311,7 @@ impl Run {
             NotAuthorised::NotYetValid { .. } => Code::KeyNotYetValid,
             NotAuthorised::Expired { .. } => Code::KeyExpired,
         };
-        let remedy = match code {
-            Code::UnknownKey => {
-                "; ask the factory for its key, and compare the fingerprint by a channel other than that of the passport"
-            }
-            _ => "",
-        };
-        let detail = format!("{miss} (key {}, issuer {issuer}, issued {at}){remedy}", key.fingerprint());
+        let detail = miss.of_document(key, issuer, at);
         self.note(CheckName::Signer, code, detail);
         false
     }

@@ -206,8 +206,8 @@ pub(crate) fn line(file: &str, done: &Done, trials: Option<&MonteCarlo>, gyro_ty
     out
 }
 
-/// Outcomes for one of several gyros, in the order in which they are counted; no result is `refused`.
-pub(crate) const OUTCOMES: [&str; 6] = ["pass", "undecided", "fail", "calibrated", "invalid", "refused"];
+/// Outcomes for one of several gyros, in the order in which they are counted; the last two are of gyros without a result.
+pub(crate) const OUTCOMES: [&str; 7] = ["pass", "undecided", "fail", "calibrated", "invalid", "refused", "not written"];
 
 /// Returns the outcome for one of several gyros, one of [`OUTCOMES`].
 pub(crate) fn outcome(done: &Done, gyro_type: Option<&str>) -> String {

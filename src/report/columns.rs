@@ -317,6 +317,12 @@ pub(crate) fn grouped(number: u64) -> String {
     groups.join(",")
 }
 
+/// Returns the counts that are not zero, with their words.
+pub(crate) fn counts(counts: impl IntoIterator<Item = (usize, impl std::fmt::Display)>) -> String {
+    let counted = counts.into_iter().filter(|(count, _)| *count > 0);
+    counted.map(|(count, words)| format!("{count} {words}")).collect::<Vec<_>>().join(", ")
+}
+
 /// Formats a number with so many decimals; a zero that was rounded has no sign.
 pub(crate) fn fixed(value: f64, decimals: usize) -> String {
     let printed = format!("{value:.decimals$}");

@@ -10,6 +10,7 @@ use super::style;
 use crate::batch::{Failure, Outcome};
 use crate::calibration::prediction::NoiseGrowth;
 use crate::folder::Issued;
+use crate::interface::{self, Failed};
 use crate::passport::annotations::Absence;
 use crate::passport::issue::Remarks;
 use crate::text::printable::json;
@@ -165,9 +166,14 @@ fn line(report: &Report) -> String {
     format!("{state}  {}  {}\n", Printable(&report.id), Printable(file))
 }
 
-/// Returns the line of an input that was refused.
-pub(crate) fn refused_line(file: &str) -> String {
-    format!("{}  {}\n", marked(Some(false), REFUSED), Printable(file))
+/// Returns the line of an input without a result.
+pub(crate) fn failed_line(file: &str, failed: &Failed) -> String {
+    format!("{}  {}\n", marked(Some(false), &outcome(failed).to_uppercase()), Printable(file))
+}
+
+/// Returns the outcome for an input without a result: refused, unless only its files could not be written.
+pub(crate) fn outcome(failed: &Failed) -> &'static str {
+    if matches!(failed.code, interface::EXISTS | interface::UNWRITABLE) { "not written" } else { "refused" }
 }
 
 /// Number of orders for each outcome, in the order of [`State::ALL`], and of inputs that cannot be used.

@@ -24,12 +24,11 @@ impl State {
 /// Returns the number of passports in each state and of alarms, a line for each passport, and last the alarms, which a
 /// terminal then shows however long the list is.
 pub(crate) fn text(register: &Register) -> String {
-    let counts: Vec<String> =
-        register.counts().into_iter().map(|(state, count)| format!("{count} {}", state.words())).collect();
-    let summary = match (counts.as_slice(), register.files) {
-        ([], 0) => "no passports".to_owned(),
-        ([], files) => format!("no passport is selected, of {files}"),
-        (counts, _) => counts.join(", "),
+    let counts = register.counts().into_iter().map(|(state, count)| (count, state.words()));
+    let summary = match (columns::counts(counts), register.files) {
+        (counts, _) if !counts.is_empty() => counts,
+        (_, 0) => "no passports".to_owned(),
+        (_, files) => format!("no passport is selected, of {files}"),
     };
     let is_good = !register.is_incomplete() && !register.needs_attention();
     let summary = format!("{summary}; alarms: {}", register.alarms.len());

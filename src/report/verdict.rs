@@ -1,6 +1,6 @@
 //! Answer of `verify` as text.
 
-use super::style;
+use super::{columns, style};
 pub(crate) use crate::interface::Verdict;
 use crate::passport::{Check, CheckName, Code};
 use crate::text::Printable;
@@ -43,6 +43,17 @@ pub(crate) fn not_read(verdict: &Verdict) -> String {
 fn first_line(verdict: &Verdict) -> String {
     let id = verdict.id.as_deref().unwrap_or("(id not verified)");
     format!("{}  {id}  {}\n", answer(verdict.valid), Printable(&verdict.file))
+}
+
+/// Returns the counts of the answers for several files, of which `unread` could not be read; nothing for a single file.
+pub(crate) fn summary(verdicts: &[Verdict], unread: usize) -> String {
+    let all = verdicts.len();
+    if all < 2 {
+        return String::new();
+    }
+    let valid = verdicts.iter().filter(|verdict| verdict.valid).count();
+    let counts = columns::counts([(valid, "valid"), (all - valid - unread, "refused"), (unread, "not read")]);
+    style::marked(Some(valid == all), &format!("{all} files: {counts}")) + "\n"
 }
 
 /// Returns the answer in a word.

@@ -14,7 +14,7 @@ pub use series::{Series, SeriesAlarm};
 
 use crate::document::{self, Malformed, SignedText, Signer, SigningFailed, sha256_hex};
 use crate::text::{LARGEST_DOCUMENT_BYTES, Path, Printable, Problems, Unreadable, canonical, record};
-use crate::trust::{AllowedSigners, BadIdentity, NotAuthorised, RevokedKeys, SignatureError};
+use crate::trust::{AllowedSigners, BadIdentity, RevokedKeys, SignatureError};
 use jiff::Timestamp;
 
 pub(crate) const REVOCATION_FORMAT: &str = "dtg-revocation/1";
@@ -96,8 +96,13 @@ pub enum ListRefused {
     #[error(transparent)]
     Content(#[from] Unreadable),
     /// The key in the file of this name is not trusted for the issuer of the list.
-    #[error("{}: {}", Printable(.0), .1)]
-    NotAuthorised(String, NotAuthorised),
+    #[error("{}: {}", Printable(name), Printable(why))]
+    NotAuthorised {
+        /// File name.
+        name: String,
+        /// Reason why the key is not trusted, with its fingerprint.
+        why: String,
+    },
     /// The signing key was revoked.
     #[error("{}: its signing key was revoked: {}", Printable(name), Printable(why))]
     KeyRevoked {
@@ -201,7 +206,8 @@ impl RevocationList {
             Err(error) => return Err(ListRefused::Altered(name, error)),
         };
         if let Err(miss) = signers.authorise(text.key(), &list.issuer, REVOCATION_NAMESPACE, list.issued_at) {
-            return Err(ListRefused::NotAuthorised(name, miss));
+            let why = miss.of_document(text.key(), &list.issuer, list.issued_at);
+            return Err(ListRefused::NotAuthorised { name, why });
         }
         if let Some(why) = revoked_keys.iter().find_map(|keys| keys.revokes(text.key())) {
             return Err(ListRefused::KeyRevoked { name, why });
@@ -310,6 +316,6 @@ mod tests {
         let passports_only = format!("f namespaces=\"dtg-passport\" {}", key.public_key().to_openssh());
         let signers = AllowedSigners::parse("signers", passports_only.as_bytes()).unwrap();
         let refused = RevocationList::verify("list", text.as_bytes(), &signers, &[], now).unwrap_err();
-        assert!(matches!(refused, ListRefused::NotAuthorised(..)), "{refused}");
+        assert!(matches!(refused, ListRefused::NotAuthorised { .. }), "{refused}");
     }
 }

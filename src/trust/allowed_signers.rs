@@ -117,6 +117,15 @@ impl SignerLine {
 }
 
 impl NotAuthorised {
+    /// Returns the reason, whose signature it concerns, and what to do about an unknown key.
+    pub(crate) fn of_document(&self, key: &PublicKey, issuer: &str, issued_at: Timestamp) -> String {
+        let remedy = match self {
+            Self::UnknownKey => "; ask the factory for its key, and compare the fingerprint through another channel",
+            _ => "",
+        };
+        format!("{self} (key {}, issuer {issuer}, issued {issued_at}){remedy}", key.fingerprint())
+    }
+
     /// Returns the nearer of two misses, or merges two of the same kind.
     fn nearer(self, other: Self) -> Self {
         match (self, other) {
