@@ -215,11 +215,16 @@ impl<'a> Prepared<'a> {
         let calibration = calibration::calibrate(&setup, &readings, options);
         let name = printable::printable(&name);
         let mut calibration = calibration.map_err(|error| {
+            let unread: Vec<String> = readings.left_out.iter().map(ToString::to_string).collect();
             let remedy = match &error {
-                NoLeastSquares::Inseparable { .. } if options.model == Model::Paper => {
-                    "; read more positions (`plan` finds them)"
+                NoLeastSquares::Inseparable { .. } if options.model != Model::Paper => String::new(),
+                NoLeastSquares::Inseparable { .. } if unread.is_empty() => {
+                    "; read more positions (`plan` finds them)".to_owned()
                 }
-                _ => "",
+                NoLeastSquares::Inseparable { .. } => {
+                    format!("; read the other positions of the passport too: {}", unread.join(", "))
+                }
+                _ => String::new(),
             };
             Failed::refused(format!("{name}: {error}{remedy}"))
         })?;
