@@ -96,22 +96,24 @@ pub(super) fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str
     let rows = verdict.parameters.iter().map(|row| {
         let digits = columns::decimals(row.expanded_uncertainty);
         let places = columns::decimals(row.expanded_uncertainty_of_value());
-        let [simple, risk] = match verdict.has_simple() {
-            true => [decided(Some(row.simple)), columns::probability(row.specific_risk)],
-            false => ["–"; 2].map(str::to_owned),
-        };
-        vec![
+        let mut cells = vec![
             row.parameter.symbol().to_owned(),
             format!("{:.places$}", row.value),
             columns::signed(row.deviation, digits),
             format!("{:.digits$}", row.expanded_uncertainty),
             format!("{} {}", row.tolerance, unit_of(row).of(Language::English)),
-            simple,
-            risk,
-            decided(verdict.decision(row)),
-        ]
+        ];
+        if verdict.has_simple() {
+            cells.extend([decided(Some(row.simple)), columns::probability(row.specific_risk)]);
+        }
+        cells.push(decided(verdict.decision(row)));
+        cells
     });
-    columns::table(out, &["", "result", deviation, "U", "tolerance", "simple", "risk", "guarded"], rows);
+    let mut names = vec!["", "result", deviation, "U", "tolerance", "simple", "risk", "guarded"];
+    if !verdict.has_simple() {
+        names.drain(5..7);
+    }
+    columns::table(out, &names, rows);
     let overall = (!verdict.withheld).then_some(verdict.overall);
     let words = style::marked(Outcome::of(overall), &word(overall).to_uppercase());
     let _ = writeln!(out, "  Overall, by guarded acceptance: {words}");

@@ -224,6 +224,24 @@ fn a_record_says_whether_the_stand_has_changed() {
     }
 }
 
+/// Expected: the warnings in the JSON of the same certification.
+#[test]
+fn a_record_begins_with_the_number_of_warnings() {
+    for record in RECORDS {
+        let json = fs::read_to_string(CERTIFIED.folder.join(format!("{}.json", record.name))).unwrap();
+        let json: Value = serde_json::from_str(&json).unwrap();
+        let warnings = json["certification"]["warnings"].as_array().unwrap().len();
+        let verdicts = strings(&CERTIFIED.found[record.name]["said"]["verdicts"]).concat().replace('\u{a0}', " ");
+        let words = if record.languages[0] == English {
+            "Warnings of the program"
+        } else {
+            "Предупреждений программы"
+        };
+        let due = format!("{words}: {warnings};");
+        assert!(verdicts.contains(&due), "{}: {due} in {verdicts}", record.name);
+    }
+}
+
 /// Expected: by the probabilities and numbers of the JSON, with the limits of ISO 5725-2, 7.3.2.1: 5 % and 1 %.
 #[test]
 fn every_test_has_a_result_with_its_mark() {

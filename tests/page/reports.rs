@@ -235,6 +235,8 @@ fn a_front_says_what_its_result_depends_on() {
     };
     assert!(said("coarse-both", unit));
     assert!(said("coarse-both", "Значение meter.reading_percent лаборатории"));
+    let no_risk = "no risk of error is given (–)";
+    assert!(page("coarse-both").contains(no_risk) && !page("failed-en").contains(no_risk));
     assert!(page("repeated-en").contains(", and the temperature."));
     assert!(page("calibrated-en").contains("; withdrawal not checked"));
     for earlier in ["earlier", "older"] {

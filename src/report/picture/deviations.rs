@@ -19,6 +19,8 @@ const BARS: [f64; 2] = [13.0, 103.0];
 const BAR_HALF: f64 = 4.0;
 /// Length of a whisker from which its ends have marks.
 const SHORTEST_WITH_MARKS: f64 = 5.0;
+/// Length from which a whisker is seen beside the end of its bar.
+const SHORTEST_SEEN: f64 = 2.0;
 
 /// Largest value on an axis, arcsec: 180°. The uncertainties themselves have no limit.
 const LARGEST_ARCSEC: f64 = 648_000.0;
@@ -34,7 +36,8 @@ fn widened([low, high]: [f64; 2]) -> Scale {
 /// Bars of all deviations of a stand or of a passport, with their uncertainties if stated.
 pub(crate) struct Bars {
     scale: Scale,
-    stated: bool,
+    /// Largest uncertainty, if one is stated.
+    largest_u: Option<f64>,
 }
 
 impl Bars {
@@ -48,7 +51,7 @@ impl Bars {
         let (low, high) = ends.fold((0.0, 0.0), |(low, high), end| (f64::min(low, end), f64::max(high, end)));
         let (low, high) = (low.max(-LARGEST_ARCSEC), high.min(LARGEST_ARCSEC));
         let high = if high > low { high } else { 1.0 };
-        Self { scale: widened([low, high]), stated: all.clone().any(|(_, u)| u.is_some()) }
+        Self { scale: widened([low, high]), largest_u: all.filter_map(|(_, u)| u).reduce(f64::max) }
     }
 
     /// Draws a deviation.
@@ -77,7 +80,8 @@ impl Bars {
     /// Returns the heading of a column of bars, with the unit of their axis.
     pub(crate) fn heading(&self, languages: &Languages, name: &str) -> Markup {
         let unit = if self.is_in_degrees() { units::DEGREES } else { units::ARCSEC };
-        let drawn = html! { (symbol(name, "")) @if self.stated { (BLANK) "±" (BLANK) "2" (symbol("u", "")) } };
+        let drawn =
+            html! { (symbol(name, "")) @if self.largest_u.is_some() { (BLANK) "±" (BLANK) "2" (symbol("u", "")) } };
         symbol_and_unit(languages, &drawn, unit)
     }
 
@@ -89,7 +93,12 @@ impl Bars {
     pub(crate) fn key(&self, languages: &Languages) -> Markup {
         let bar = rectangle([2.0, 2.5], [26.0, 11.5], "bar", None);
         let whisker = whisker([2.0, 26.0], [true; 2], 7.0, 3.0);
-        let second = if self.stated { (whisker, texts::DEVIATION_WHISKER) } else { (html! {}, texts::DEVIATION_NO_U) };
+        let length = |u: f64| self.scale.place(COVERAGE_FACTOR * u) - self.scale.place(-COVERAGE_FACTOR * u);
+        let second = match self.largest_u.map(length) {
+            None => (html! {}, texts::DEVIATION_NO_U),
+            Some(length) if length < SHORTEST_SEEN => (html! {}, texts::DEVIATION_WHISKER_UNSEEN),
+            Some(_) => (whisker, texts::DEVIATION_WHISKER),
+        };
         legend(languages, &[(bar, texts::DEVIATION_BAR), second])
     }
 }

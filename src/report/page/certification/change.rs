@@ -58,17 +58,13 @@ pub(super) fn running_head(page: &CertificationPage, languages: &Languages) -> S
     })
 }
 
-/// Writes how many warnings the section of the tests has, if there is one.
+/// Writes how many warnings the section of the tests has.
 fn warnings(page: &CertificationPage, languages: &Languages) -> Markup {
     let count = page.certification.remarks.len();
-    html! {
-        @if count > 0 {
-            (languages.paragraph_with(|language| {
-                let words = texts::WARNINGS_COUNTED.filled(language, values! { count, section: texts::TESTS });
-                html! { (words) }
-            }))
-        }
-    }
+    languages.paragraph_with(|language| {
+        let words = texts::WARNINGS_COUNTED.filled(language, values! { count, section: texts::TESTS });
+        html! { (words) }
+    })
 }
 
 /// Writes the comparison with the last certificate, if there is one.

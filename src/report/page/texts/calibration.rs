@@ -49,9 +49,9 @@ texts! {
     UNDECIDED { en: "Conformity with gyro type {type} is undecided", ru: "Соответствие типу {type} не определено" }
     RULE {
         en: "Decision rule (JCGM 106, 8.3): pass if |deviation|\u{a0}+\u{a0}U ≤ tolerance, fail if |deviation|\u{a0}−\u{a0}U > tolerance, otherwise \
-             undecided.",
+             undecided; a smaller U can decide.",
         ru: "Правило принятия решения (JCGM 106, 8.3): соответствует при |отклонение|\u{a0}+\u{a0}U ≤ допуск, не соответствует при \
-             |отклонение|\u{a0}−\u{a0}U > допуск, иначе не определено."
+             |отклонение|\u{a0}−\u{a0}U > допуск, иначе не определено; решение возможно при меньшей U."
     }
     NOT_IN_U {
         en: "Inputs not included in U (u not stated, or stated as 0): {count} (section\u{a0}3){more}.",
@@ -380,6 +380,7 @@ texts! {
         en: "With the other sign these would be within the tolerance: {names}. Check the sign convention.",
         ru: "С противоположным знаком в допуске были бы: {names}. Следует проверить правило знаков."
     }
+    NO_RISK { en: "Therefore no risk of error is given (–).", ru: "Поэтому риск ошибки не приводится (–)." }
     RISK_NOTE {
         en: "Risk of error (specific risk): probability that the decision by simple acceptance is wrong.",
         ru: "Риск ошибки: вероятность того, что решение при простой приёмке неверно."
@@ -693,10 +694,10 @@ texts! {
     UPPER { en: "Upper end", ru: "Верхняя граница" }
     FIRST_ORDER { en: "Linear approximation valid", ru: "Линейное приближение применимо" }
     NOT_LINEAR {
-        en: "The linear approximation behind U is not valid for {names} (JCGM 101, 8): use the coverage intervals of the \
-             Monte Carlo method.",
-        ru: "Линейное приближение, по которому вычислена U, неприменимо для {names} (JCGM 101, 8): следует использовать \
-             интервалы охвата по методу Монте-Карло."
+        en: "The linear approximation behind U is not valid for {names} (JCGM 101, 8): U and decisions by U are \
+             unreliable. The coverage intervals of the Monte Carlo method (95\u{a0}%, at the local g) are reliable.",
+        ru: "Линейное приближение, по которому вычислена U, неприменимо для {names} (JCGM 101, 8): U и решения по ней \
+             недостоверны. Достоверны интервалы охвата по методу Монте-Карло (95\u{a0}%, при местном g)."
     }
     FIRST_ORDER_UNDECIDED {
         en: "◐: undecided; this needs more trials.",

@@ -50,6 +50,10 @@ texts! {
         en: "±2u, where u is the own part of the standard uncertainty",
         ru: "±2u, где u — собственная составляющая стандартной неопределённости"
     }
+    DEVIATION_WHISKER_UNSEEN {
+        en: "±2u is shorter than the lines are wide (u: own part of the standard uncertainty)",
+        ru: "±2u меньше толщины линий (u — собственная составляющая стандартной неопределённости)"
+    }
     DEVIATION_NO_U { en: "the certificate gives no uncertainty", ru: "неопределённость в сертификате не указана" }
 
     EARTH_RATE_DIFFERENCE { en: "ω_3: actual minus nominal, {unit}", ru: "Отличие ω_3, {unit}" }
