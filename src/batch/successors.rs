@@ -11,17 +11,18 @@ use crate::files::{self, FileError, folder_of};
 use crate::folder::{Folder, Issued, Superseding, search};
 use crate::interface::Enquiry;
 use crate::passport::checks::for_the_issuer;
+use crate::passport::content::passport_id;
 use crate::passport::issue::PreparedStand;
 use crate::passport::place::distant_correction;
 use crate::passport::reissue::{Order, ReissueRefused, Successor, successor};
-use crate::passport::{CheckName, Question, Trust, verify};
+use crate::passport::{Check, Question, Trust, Verification, verify};
 use crate::register::{Alarm, AlarmKind, Asked, Line, Register, State};
 use crate::site::Site;
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::io::BufRead;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Words for a passport whose predecessor has several successors.
 pub(super) const FORKED: &str = "its predecessor has several successors; list them with `register` and withdraw the \
@@ -39,9 +40,6 @@ pub(crate) struct Change<'a> {
     pub trust: Trust,
     /// Question by which the predecessors are verified.
     pub question: Question,
-    /// Register of a folder that shows which of the given files are superseded or withdrawn. These are re-issued with a
-    /// warning, because the successor may be what corrects them; in a given folder they are skipped.
-    pub workspace: Option<Enquiry>,
     /// Folder of the successors; `None` for the root that the path of each predecessor shows.
     pub folder: Option<Arc<Folder>>,
 }
@@ -70,15 +68,32 @@ enum Examined {
 const STAYS_IN_FORCE: &str = "stays in force next to the new passport; if the stand has left its site, use --moved, or \
                               withdraw it with `revoke`";
 
+/// Registers of the folders of stands, each read once: they show which of the given files are superseded or withdrawn.
+///
+/// These are re-issued with a warning, because the successor may be what corrects them; in a given folder they are skipped.
+#[derive(Default)]
+struct Registers(Mutex<HashMap<PathBuf, Arc<Option<Enquiry>>>>);
+
+impl Registers {
+    /// Returns the register of `folder`, or `None` if it cannot be read.
+    fn of(&self, folder: &Path, change: &Change) -> Arc<Option<Enquiry>> {
+        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let read = || {
+            let alone = Enquiry::of(change.trust.clone(), change.question.clone());
+            Arc::new(alone.with_register(folder).ok())
+        };
+        Arc::clone(known.entry(folder.to_owned()).or_insert_with(read))
+    }
+}
+
 /// Successor of a passport, to be issued.
 struct Following {
     /// Name of the predecessor's file.
     name: String,
     successor: Successor,
     folder: Arc<Folder>,
-    warnings: Vec<String>,
-    /// `true` if the predecessor stays in force beside the successor.
-    stays_in_force: bool,
+    /// Remarks for the case that it is issued.
+    remarks: Vec<String>,
 }
 
 impl Batch<'_> {
@@ -101,6 +116,7 @@ impl Batch<'_> {
             sites_missing,
             swept: Visited::default(),
             superseding: Superseding::default(),
+            registers: Registers::default(),
             candidates: Vec::new(),
         };
         for named in paths::named(passports, list) {
@@ -134,6 +150,7 @@ struct Run<'a> {
     /// Folders from which the leftovers of killed runs were removed.
     swept: Visited,
     superseding: Superseding,
+    registers: Registers,
     candidates: Vec<Result<Candidate, Failure>>,
 }
 
@@ -196,9 +213,6 @@ impl Run<'_> {
         let mut places: BTreeMap<(String, &str), Vec<usize>> = BTreeMap::new();
         for (index, examined) in examined.iter().enumerate() {
             if let Examined::Next(next) = examined {
-                next.warnings
-                    .iter()
-                    .for_each(|words| tell(Event::Remark { file: next.name.clone(), words: words.clone() }));
                 let successor = &next.successor;
                 let place = (successor.stand().stand.id(), successor.site.id.as_str());
                 places.entry(place).or_default().push(index);
@@ -213,9 +227,9 @@ impl Run<'_> {
             Examined::Done(outcome) => outcome,
             Examined::Next(next) => {
                 let outcome = settled.remove(&index).flatten();
-                if next.stays_in_force && matches!(outcome, Some(Outcome::There(_) | Outcome::Planned { .. })) {
-                    let words = STAYS_IN_FORCE.to_owned();
-                    tell(Event::Remark { file: next.name, words });
+                if matches!(outcome, Some(Outcome::There(_) | Outcome::Planned { .. })) {
+                    let Following { name, remarks, .. } = *next;
+                    remarks.into_iter().for_each(|words| tell(Event::Remark { file: name.clone(), words }));
                 }
                 outcome
             }
@@ -267,16 +281,16 @@ impl Run<'_> {
         }
         let folder = self.folder_for(path, &next)?;
         next.rival = self.rival(path, &folder, &next, trust);
-        let workspace = self.change.workspace.as_ref().filter(|_| candidate.found.is_none());
-        let mut warnings = workspace.map_or_else(Vec::new, |workspace| past(workspace, &name, &bytes));
+        let mut warnings = match candidate.found {
+            Some(_) => Vec::new(),
+            None => self.past(path, &folder, &next, (&verification, &bytes)),
+        };
         let stays_in_force = !next.supersedes() && verification.passport().is_some() && warnings.is_empty();
-        if warnings.is_empty() {
-            let uncertain = workspace.and_then(|workspace| workspace.register.as_ref()?.uncertain());
-            warnings.extend(uncertain.map(Alarm::reason));
-        }
+        let stays_in_force = stays_in_force.then(|| STAYS_IN_FORCE.to_owned());
         warnings.extend(verification.content_from_anyone().and_then(|old| distant_correction(old, &next.site)));
-        let warnings = warnings.into_iter().map(|words| format!("WARNING: {words}")).collect();
-        Ok(Examined::Next(Box::new(Following { name, successor: next, folder, warnings, stays_in_force })))
+        let warnings = warnings.into_iter().map(|words| format!("WARNING: {words}"));
+        let remarks = warnings.chain(stays_in_force).collect();
+        Ok(Examined::Next(Box::new(Following { name, successor: next, folder, remarks })))
     }
 
     fn folder_for(&self, path: &Path, next: &Successor) -> Result<Arc<Folder>, Failure> {
@@ -285,6 +299,36 @@ impl Run<'_> {
         }
         let root = Folder::root_of(path, &next.stand().stand).map_err(|why| Failure::unusable(path, why))?;
         Ok(Arc::new(Folder::new(root).with_durability(self.batch.durability)))
+    }
+
+    /// Returns why a given file is not for use, by the register of its folder and of that of the new passport: it is
+    /// superseded or withdrawn, or this is uncertain.
+    fn past(
+        &self,
+        old: &Path,
+        folder: &Folder,
+        next: &Successor,
+        (verification, bytes): (&Verification, &[u8]),
+    ) -> Vec<String> {
+        let stand = &next.stand().stand;
+        let new = folder.path_of(stand, &next.site.id, next.first_revision());
+        // Any other folder may be large, and is not one of passports.
+        let old_folder = Folder::root_of(old, stand).ok().map(|_| folder_of(old));
+        let folders: BTreeSet<&Path> = old_folder.into_iter().chain([folder_of(&new)]).collect();
+        let registers: Vec<_> = folders.into_iter().map(|folder| self.registers.of(folder, &self.change)).collect();
+        let registers = || registers.iter().filter_map(|register| Option::as_ref(register));
+        // What `next` is to correct is known, and so is that it is there already.
+        let by_itself = format!("superseded by {} (", passport_id(stand, &next.site.id, next.first_revision()));
+        let is_known = |check: &Check| {
+            verification.code(check.name).is_some_and(|code| code == check.code) || check.detail.starts_with(&by_itself)
+        };
+        let found = registers().map(|register| register.verification(&name_of(old), bytes));
+        let mut failed = found.flat_map(|found| {
+            let failed = found.checks().iter().filter(|check| check.passed() == Some(false) && !is_known(check));
+            failed.map(|check| for_the_issuer(&check.detail).to_owned()).collect::<Vec<_>>()
+        });
+        let uncertain = || registers().find_map(|register| register.register.as_ref()?.uncertain().map(Alarm::reason));
+        failed.next().or_else(uncertain).into_iter().collect()
     }
 
     /// Returns another passport that supersedes the same one, in its folder or in that of the new one.
@@ -371,14 +415,6 @@ impl Run<'_> {
         }
         Ok(order)
     }
-}
-
-/// Returns why a given file is not for use, if it is superseded or withdrawn.
-fn past(workspace: &Enquiry, name: &str, bytes: &[u8]) -> Vec<String> {
-    let verification = workspace.verification(name, bytes);
-    let failed = verification.checks().iter().filter(|check| check.passed() == Some(false));
-    let of_the_past = failed.filter(|check| check.name != CheckName::InForce);
-    of_the_past.map(|check| for_the_issuer(&check.detail).to_owned()).collect()
 }
 
 /// Returns the failure for a file that the register could not examine, or `None` for an alarm about examined passports.

@@ -1,7 +1,7 @@
 //! Verb `reissue`: successors of existing passports.
 
 use super::batch::BatchOptions;
-use super::trust_options::{self, TrustOptions, among};
+use super::trust_options::{self, TrustOptions};
 use super::{Code, Failure, defaults, inputs, output};
 use crate::batch::successors::Change;
 use crate::passport::issue::time_of_issue;
@@ -75,13 +75,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if let Some(public) = options.batch.public_key(signer.as_deref())? {
         options.batch.warn_unless_authorised(&trust.signers, &public, order.issued_at, "--trust");
     }
-    let workspace = defaults::workspace().and_then(|workspace| workspace.passports.as_deref());
-    // The register of a folder is its own.
-    let all_folders = options.passports.iter().all(|path| path.is_dir());
-    let workspace = workspace.filter(|folder| folder.is_dir() && !all_folders);
-    let workspace = workspace.map(|folder| among(trust.clone(), question.clone(), Some(folder))).transpose()?;
     let folder = options.out.as_deref().map(|out| Arc::new(options.batch.folder(out)));
-    let change = Change { order, stands: &options.stands, sites: &options.sites, trust, question, workspace, folder };
+    let change = Change { order, stands: &options.stands, sites: &options.sites, trust, question, folder };
     options.batch.run(signer.as_deref(), None, |batch, tell| {
         batch.reissue(&options.passports, &mut std::io::stdin().lock(), change, tell);
     })
