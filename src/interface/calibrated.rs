@@ -219,7 +219,8 @@ impl<'a> Prepared<'a> {
             let remedy = match &error {
                 NoLeastSquares::Inseparable { .. } if options.model != Model::Paper => String::new(),
                 NoLeastSquares::Inseparable { .. } if unread.is_empty() => {
-                    "; read more positions (`plan` finds them)".to_owned()
+                    "; check that each axis was recorded from its own channel, or read more positions (`plan` finds them)"
+                        .to_owned()
                 }
                 NoLeastSquares::Inseparable { .. } => {
                     format!("; read the other positions of the passport too: {}", unread.join(", "))

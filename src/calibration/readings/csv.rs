@@ -261,18 +261,27 @@ fn copies(table: &Table, readings: &[Reading], kept: &[PositionReadings]) -> Vec
     coincidences::copies(&numbers).into_iter().filter_map(problem).take(MOST_PROBLEMS).collect()
 }
 
-/// Returns a problem if the currents of an axis are all zero.
+/// Returns a problem if an axis has the same current in all positions, or both axes have the same currents, or opposite ones.
 fn without_current(readings: &[Reading]) -> Vec<Problem> {
-    if readings.is_empty() {
+    let Some(first) = readings.first() else {
         let (expected, advice) = ("a row for every reading", "add the rows with i, j, jx_ma and jy_ma");
         return vec![Problem::whole("no readings".to_owned(), expected, advice)];
-    }
-    let zero = |axis: usize| readings.iter().all(|row| row.current_ma[axis] == 0.0);
-    let (found, advice) = match (zero(0), zero(1)) {
-        (true, true) => ("currents that are all zero", "check that the gyro was running with its feedback loop closed"),
-        (true, false) => ("a current J_x that is zero in every position", "add the readings of both axes"),
-        (false, true) => ("a current J_y that is zero in every position", "add the readings of both axes"),
-        (false, false) => return Vec::new(),
     };
-    vec![Problem::whole(found.to_owned(), "currents of both axes", advice)]
+    let of_several = readings.iter().any(|row| row.index != first.index);
+    let all = |is_so: &dyn Fn(Vector2<f64>) -> bool| of_several && readings.iter().all(|row| is_so(row.current_ma));
+    let constant = |axis: usize| all(&|current| current[axis] == first.current_ma[axis]);
+    let channels = "check that each axis was recorded from its own channel in every position";
+    let of_axis =
+        |axis: usize, symbol: &str| format!("a current {symbol} of {} mA in every position", first.current_ma[axis]);
+    let (found, advice) = match (constant(0), constant(1)) {
+        (true, true) if first.current_ma == Vector2::zeros() => {
+            ("currents that are all zero".to_owned(), "check that the gyro was running with its feedback loop closed")
+        }
+        (true, _) => (of_axis(0, "J_x"), channels),
+        (_, true) => (of_axis(1, "J_y"), channels),
+        _ if all(&|current| current.x == current.y) => ("a current J_y that always equals J_x".to_owned(), channels),
+        _ if all(&|current| current.x == -current.y) => ("a current J_y that always equals −J_x".to_owned(), channels),
+        _ => return Vec::new(),
+    };
+    vec![Problem::whole(found, "currents of both axes", advice)]
 }
