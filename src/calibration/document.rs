@@ -25,12 +25,14 @@ pub(crate) use result::{ResidualDocument, ResultDocument, RowScatterDocument, fi
 
 use super::readings::Exclusion;
 use super::recorded::Digits;
+use super::verdict::change_in_uncertainties;
 use super::{
     Calibration, Found, Mistake, NotStated, Parameter, Scatter, Suspect, Verdict, against_earlier, against_type,
 };
 use crate::coefficients::PositionIndex;
 use crate::gyro::GyroType;
 use crate::stand::Certificate;
+use crate::statistics::distributions::normal_below;
 use crate::text::Unreadable;
 use crate::text::printable::printable;
 use jiff::civil::Date;
@@ -131,6 +133,9 @@ pub(crate) enum NoChange {
     /// The earlier readings did not fit the stand, or contained an error.
     EarlierNotValid,
 }
+
+/// Probability below which a change is not chance, for all parameters together.
+const CHANGED: f64 = 0.01;
 
 /// Returns a warning if one of the `earlier` results was compared with another type than `gyro_type`: it may be that of
 /// another gyro.
@@ -325,6 +330,21 @@ impl CalibrationDocument {
         } else {
             (!earlier.is_valid()).then_some(NoChange::EarlierNotValid)
         }
+    }
+
+    /// Returns the parameters whose change since `earlier` is larger than chance explains, if no type decides on it: the
+    /// smallest probability of all is below [`CHANGED`].
+    pub(crate) fn unexplained_change(&self, earlier: &Self) -> Vec<Parameter> {
+        let is_change = self.change.is_none() && self.is_valid() && self.no_change(earlier).is_none();
+        let Some((found, before)) = self.answer().zip(earlier.answer()).filter(|_| is_change) else {
+            return Vec::new();
+        };
+        let change = change_in_uncertainties(&found, &before);
+        let is_unexplained = |parameter: &Parameter| {
+            let probability = 2.0 * normal_below(-change[parameter.place()].abs());
+            probability * Parameter::EIGHT.len() as f64 <= CHANGED
+        };
+        Parameter::AS_IN_THE_PAPER.into_iter().filter(is_unexplained).collect()
     }
 
     /// Returns the comparison with the earlier result, if a statement is made on the change.

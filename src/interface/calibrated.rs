@@ -21,7 +21,7 @@ use crate::text::printable;
 use crate::uncertainty::Budget;
 #[cfg(feature = "monte-carlo")]
 use crate::uncertainty::{self, Engine, MonteCarlo, ReadingShape, Trials};
-use crate::wording::{Language, plain};
+use crate::wording::{Language, change, plain, values};
 use jiff::Timestamp;
 use std::collections::BTreeMap;
 
@@ -150,6 +150,8 @@ pub(crate) struct Done {
     pub earlier: Option<(Found, Option<NoChange>)>,
     /// Warning that the earlier result may be that of another gyro, because a serial number is missing.
     pub unknown_gyro: Option<String>,
+    /// Warning that parameters have changed more than chance explains, if no type decides on the change.
+    pub unexplained: Option<String>,
     /// Parameter that suffers most from positions without a reading, and the ratio of its uncertainty.
     pub cost_of_missing: Option<(Parameter, f64)>,
     /// Parameter whose uncertainty takes most of its tolerance, and the single visit that would reduce it most.
@@ -269,6 +271,12 @@ impl<'a> Prepared<'a> {
         document.remarks.extend(readings.remarks.iter().cloned().chain(of_others));
         document.verdict = gyro_type.and_then(|gyro_type| document.judged(gyro_type));
         document.change = last.zip(gyro_type).and_then(|(earlier, gyro_type)| document.changed(earlier, gyro_type));
+        let unexplained = last.map_or_else(Vec::new, |earlier| document.unexplained_change(earlier));
+        let unexplained = (!unexplained.is_empty()).then(|| {
+            let names = unexplained.iter().map(|parameter| parameter.symbol()).collect::<Vec<_>>().join(", ");
+            change::UNEXPLAINED.filled(Language::English, values! { names })
+        });
+        document.remarks.extend(unexplained.clone());
         let earlier = last.and_then(|earlier| Some((earlier.answer()?, document.no_change(earlier))));
         // With a type, the drifts are stated at its g: the local g is in their uncertainties.
         let of_gravity = |parameter| if document.verdict.is_some() { found.u_from_gravity(parameter) } else { 0.0 };
@@ -289,6 +297,7 @@ impl<'a> Prepared<'a> {
             document,
             earlier,
             unknown_gyro,
+            unexplained,
             cost_of_missing,
             further,
             warning,

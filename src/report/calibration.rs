@@ -149,7 +149,7 @@ fn conditions(Subject { gyro_serial, date, operator, temperature_c, .. }: &Subje
 
 /// Returns what makes the parameters or their uncertainties unusable or doubtful, a sentence each.
 pub(crate) fn warnings(done: &Done, trials: Option<&MonteCarlo>) -> Vec<String> {
-    let Done { calibration, document, warning, .. } = done;
+    let Done { calibration, document, warning, unexplained, .. } = done;
     let causes = calibration.hint.as_ref().map(Hint::each_cause).unwrap_or_default();
     let each = || causes.iter().map(|cause| format!("\n  - {}", capital(cause))).collect::<String>();
     let unusable = unusable(calibration, document.mistake.as_ref()).enumerate().map(|(place, words)| match place {
@@ -159,7 +159,7 @@ pub(crate) fn warnings(done: &Done, trials: Option<&MonteCarlo>) -> Vec<String> 
     });
     let of_scatter = scatter(calibration).into_iter().filter(|(weight, _)| *weight == Weight::Warning);
     let others = of_scatter.map(|(_, words)| words).chain(warning.as_ref().map(ToString::to_string));
-    let all = unusable.chain(others).chain(trials.and_then(not_linear));
+    let all = unusable.chain(others).chain(unexplained.clone()).chain(trials.and_then(not_linear));
     all.map(|words| format!("WARNING: {}", capital(&words))).collect()
 }
 

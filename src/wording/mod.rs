@@ -175,6 +175,18 @@ pub(crate) mod implausible {
     }
 }
 
+/// Change of a gyro of which no type was specified.
+pub(crate) mod change {
+    super::texts! {
+        UNEXPLAINED {
+            en: "Changed since the previous calibration by more than the uncertainties explain: {names}. Whether this is \
+                 permissible can be decided only with the gyro type.",
+            ru: "Изменение после предыдущей калибровки больше, чем объясняют неопределённости: {names}. Решить, допустимо \
+                 ли оно, можно только по типу гироскопа."
+        }
+    }
+}
+
 /// Returns a date in the format of `language`.
 pub(crate) fn date_text(language: Language, date: Date) -> String {
     match language {

@@ -56,6 +56,7 @@ fn done(setup: &Setup, readings: Readings, calibration: Calibration) -> Done {
         calibration,
         earlier: None,
         unknown_gyro: None,
+        unexplained: None,
         cost_of_missing: None,
         further: None,
         warning: None,

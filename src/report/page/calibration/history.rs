@@ -21,9 +21,9 @@ struct Past<'a> {
     verdict: Option<Verdict>,
 }
 
-/// Writes all calibrations if there are several earlier results; a single one is in the table of changes.
+/// Writes all calibrations if there are several earlier results; with a type, a single one is in the table of changes.
 pub(super) fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
-    if page.previous.len() < 2 {
+    if page.previous.len() < if page.gyro.is_some() { 2 } else { 1 } {
         return html! {};
     }
     let results = page.previous.iter().chain([page.document]);
@@ -87,7 +87,8 @@ fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
             gravity,
             if page.gyro.is_some() { 0.0 } else { page.document.gravity_u_m_per_s2.unwrap_or(0.0) },
         );
-        texts::HISTORY_CAPTION.filled(language, values! { of, g })
+        let marks = page.gyro.map(|_| texts::HISTORY_MARKS.words(language)).unwrap_or_default();
+        texts::HISTORY_CAPTION.filled(language, values! { of, g, marks })
     });
     let table = Table { caption: Some(caption), starts, class: "numbers result past", ..table };
     let verdicts: Vec<&Verdict> = all.iter().filter_map(|past| past.verdict.as_ref()).collect();

@@ -38,7 +38,7 @@ use crate::passport::Content;
 use crate::report::mistake;
 use crate::report::style::Outcome;
 use crate::uncertainty::{Budget, MonteCarlo};
-use crate::wording::date_text;
+use crate::wording::{change, date_text};
 use jiff::Timestamp;
 use maud::{Markup, html};
 
@@ -253,6 +253,7 @@ impl CalibrationPage<'_> {
         let Some((gyro, verdict)) = self.judged() else {
             let words = html! {
                 (languages.paragraph_with(|language| html! { (texts::NO_TYPE_WORDS.words(language)) (self.not_in_u(language)) }))
+                (self.unexplained_change(languages))
                 (self.not_linear(languages))
                 (self.implausible(languages))
             };
@@ -293,6 +294,16 @@ impl CalibrationPage<'_> {
             @if count > 0 { " " (italic(&texts::NOT_IN_U.filled(language, values! { count, more }))) }
             @if self.laboratory.is_none() { " " (texts::METER_IS_ASSUMED.words(language)) }
         }
+    }
+
+    /// Writes the parameters that have changed more than chance explains, if no type decides on the change.
+    fn unexplained_change(&self, languages: &Languages) -> Markup {
+        let changed = self.previous.last().map_or_else(Vec::new, |earlier| self.document.unexplained_change(earlier));
+        if changed.is_empty() {
+            return html! {};
+        }
+        let names = listed(changed.iter().map(|parameter| name_of(parameter.symbol())));
+        languages.paragraph_with(|language| change::UNEXPLAINED.marked_up(language, &[("names", names.clone())]))
     }
 
     /// Writes the parameters for which a Monte Carlo run shows that the linear approximation is not valid.

@@ -311,11 +311,12 @@ texts! {
     STUDENT { en: "{k}, Student’s t", ru: "{k}, коэффициент Стьюдента" }
     CHANGE { en: "Change since the previous calibration", ru: "Изменение после предыдущей калибровки" }
     HISTORY { en: "Calibrations compared", ru: "Сопоставляемые калибровки" }
+    HISTORY_MARKS { en: "; marks as in the comparison with the type", ru: "; отметки\u{a0}— как при сравнении с типом" }
     HISTORY_CAPTION {
         en: "Parameters of the earlier calibrations, in the order of their dates where stated, and of this one; expanded uncertainty U\u{a0}=\u{a0}2u \
-             (coverage factor k = 2; marks as in the comparison with the type); ω_g and ω_k refer to {of}\u{a0}{g} m/s²",
+             (coverage factor k = 2{marks}); ω_g and ω_k refer to {of}\u{a0}{g} m/s²",
         ru: "Параметры предыдущих калибровок (по датам, если они указаны) и этой; расширенная неопределённость U\u{a0}=\u{a0}2u \
-             (коэффициент охвата k = 2; отметки — как при сравнении с типом); ω_g и ω_k отнесены к {of}\u{a0}{g} м/с²"
+             (коэффициент охвата k = 2{marks}); ω_g и ω_k отнесены к {of}\u{a0}{g} м/с²"
     }
     OF_TYPE { en: "the g of the type, g_0\u{a0}=", ru: "g, заданному для типа, g_0\u{a0}=" }
     OF_PLACE { en: "local g,", ru: "местному g," }
