@@ -235,6 +235,13 @@ fn a_front_says_what_its_result_depends_on() {
     };
     assert!(said("coarse-both", unit));
     assert!(said("coarse-both", "Значение meter.reading_percent лаборатории"));
+    // Of the stand's certificate: who issued it, and to what it is traceable.
+    let passport = fs::read_to_string(programs::project("passports/SPS-2/0017/moscow-bmstu-1.yaml")).unwrap();
+    for key in ["laboratory", "traceability"] {
+        let (_, rest) = passport.split_once(&format!("\n  {key}: \"")).unwrap();
+        let (value, _) = rest.split_once('"').unwrap();
+        assert!(said("calibrated-en", value) && said("bad-both", value), "{key}: {value}");
+    }
     let no_risk = "no risk of error is given (–)";
     assert!(page("coarse-both").contains(no_risk) && !page("failed-en").contains(no_risk));
     assert!(page("repeated-en").contains(", and the temperature."));

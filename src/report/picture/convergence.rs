@@ -9,9 +9,9 @@ use crate::report::page::texts::pictures as texts;
 use maud::{Markup, html};
 
 const PANEL_PIXELS: u32 = 240;
-const SIZE: Point = [300.0, 166.0];
+const SIZE: Point = [300.0, 142.0];
 /// Plot area: left and upper, right and lower end.
-const FIELD: [Point; 2] = [[40.0, 22.0], [290.0, 126.0]];
+const FIELD: [Point; 2] = [[40.0, 22.0], [290.0, 102.0]];
 
 /// Largest number of decades of the axis below the limit. Smaller values, and zero, are drawn at its end.
 const MOST_DECADES: i32 = 12;

@@ -8,7 +8,7 @@ use crate::report::page::language::{Languages, values};
 use crate::report::page::number::Number;
 use crate::report::page::parts::{
     self, blank, boxed, date, field, fields, file_name, given, heading, marked, not_stated, outcome_box, quantity,
-    time, wide_field,
+    time, wide_field, wide_stated,
 };
 use crate::report::page::passport::checks::withdrawal_not_checked;
 use crate::report::page::passport::{accuracy, characteristics, checks};
@@ -73,6 +73,8 @@ pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
 fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
     let content = page.content();
     let stand = format!("{} №\u{a0}{}", content.stand.model, content.stand.serial);
+    let certificate = &content.certificate;
+    let laboratory = html! { (given(&certificate.laboratory)) ", " (date(languages, certificate.issued)) };
     let result = page.document;
     let subject = result.subject.as_ref();
     let celsius = |value: f64| quantity(languages, &Number::exact(value), units::CELSIUS);
@@ -99,6 +101,8 @@ fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
         field(languages, texts::STAND, Some(given(&stand))),
         field(languages, texts::CURRENTS, Some(given(file_name(page.currents.0)))),
         wide_field(languages, texts::SITE, Some(given(site))),
+        wide_field(languages, texts::CERTIFIED_BY, Some(laboratory)),
+        wide_stated(languages, passport_texts::TRACEABILITY, certificate.traceability.as_deref().map(given)),
         wide_field(languages, texts::CURRENTS_SHA256, Some(html! { code { (page.currents.1) } })),
     ])
 }

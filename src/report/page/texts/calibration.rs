@@ -294,11 +294,12 @@ texts! {
         ru: "метод применим только при модели с ω_g и ω_k, постоянном дрейфе и одинаковом наборе положений во всех \
              запусках"
     }
+    CERTIFIED_BY { en: "Stand certified by", ru: "Сертификат стенда выдан" }
     CONVERGENCE_CAPTION {
-        en: "Convergence: change in each step, relative to the limit at which the iteration stops. The first approximation \
-             counts as a step.",
-        ru: "Сходимость: изменение на каждом шаге относительно предела, при котором итерации прекращаются. Первое \
-             приближение считается шагом."
+        en: "Convergence: the larger of the two changes in each step, relative to its limit. The iteration stops when both \
+             are below the limit; the first approximation counts as a step.",
+        ru: "Сходимость: большее из двух изменений на каждом шаге, отнесённое к пределу. Итерации прекращаются, когда оба \
+             меньше предела; первое приближение считается шагом."
     }
 
     CONFORMITY { en: "Comparison with gyro type {type}", ru: "Сравнение с типом {type}" }

@@ -134,18 +134,9 @@ texts! {
     }
     CONVERGENCE_STEP { en: "step", ru: "шаг" }
     CONVERGENCE_SHARE { en: "change/limit", ru: "изменение/предел" }
-    CONVERGENCE_K {
-        en: "main scale factors, the larger change",
-        ru: "основные масштабные коэффициенты, большее из изменений"
-    }
-    CONVERGENCE_G {
-        en: "g-sensitive drifts, the larger change",
-        ru: "составляющие дрейфа, зависящие от g, большее из изменений"
-    }
-    CONVERGENCE_LIMIT {
-        en: "limit: the iteration stops when both are below it",
-        ru: "предел: итерации прекращаются, когда оба изменения меньше его"
-    }
+    CONVERGENCE_K { en: "main scale factors", ru: "основные масштабные коэффициенты" }
+    CONVERGENCE_G { en: "g-sensitive drifts", ru: "составляющие дрейфа, зависящие от g" }
+    CONVERGENCE_LIMIT { en: "limit", ru: "предел" }
     CONVERGENCE_IN_WORDS {
         en: "step {step}: {k} % and {g} °/(h·g)",
         ru: "шаг {step}: {k} % и {g} °/(ч·g)"
