@@ -12,6 +12,7 @@ use super::scatter::Repeats;
 use super::sensitivity::Sensitivity;
 use crate::attitude::ANGLES;
 use crate::coefficients::PositionIndex;
+use crate::wording::{Language, Text, values};
 use nalgebra::DMatrix;
 
 /// Uncertain input quantity. Axes are counted from 0.
@@ -57,7 +58,36 @@ pub enum Cause {
 }
 
 const XYZ: [&str; 3] = ["x", "y", "z"];
-const EAST_NORTH_UP: [&str; 3] = ["east", "north", "up"];
+
+/// Names of the causes.
+pub(crate) mod names {
+    crate::wording::texts! {
+        ANGLE { en: "certified angles", ru: "отклонения по сертификату" }
+        RETURN { en: "repeatability of positioning", ru: "повторяемость положений" }
+        READING { en: "meter, specification", ru: "измеритель, погрешность показания" }
+        FLOOR { en: "meter, floor", ru: "измеритель, постоянная часть" }
+        VISITS { en: "gyro, visits", ru: "гироскоп, установки в положение" }
+        DIFFERENCES { en: "differences between visits", ru: "разности между установками в положение" }
+        TURN_ON { en: "gyro, turn-ons about {axis}", ru: "гироскоп, среднее по запускам, ось {axis}" }
+        NOISE { en: "meter, noise", ru: "измеритель, шум показаний" }
+        PLATFORM { en: "platform about {axis}", ru: "платформа (общая составляющая), вокруг {axis}" }
+        SEAT { en: "gyro seat about {axis}", ru: "угол посадки гироскопа вокруг {axis}" }
+        BASE { en: "base of the stand about {axis}", ru: "основание (общая составляющая), вокруг {axis}" }
+        ABOUT_EAST { en: "east", ru: "направления на восток" }
+        ABOUT_NORTH { en: "north", ru: "направления на север" }
+        ABOUT_UP { en: "up", ru: "вертикали" }
+        LEVEL { en: "level of the base about {axis}", ru: "наклон основания вокруг {axis}" }
+        AZIMUTH { en: "azimuth of the base", ru: "азимут основания" }
+        MARK { en: "azimuth of the mark", ru: "азимут ориентирного пункта" }
+        LATITUDE { en: "latitude", ru: "широта" }
+        DEFLECTION { en: "deflection of the vertical", ru: "уклонение отвесной линии" }
+        GAIN { en: "meter, gain", ru: "измеритель, коэффициент преобразования" }
+        OFFSET { en: "meter, offset", ru: "измеритель, смещение нуля" }
+    }
+
+    // No letters of the base axes, because the frame's axis ξ may point to any azimuth.
+    pub(super) const ABOUT: [crate::wording::Text; 3] = [ABOUT_EAST, ABOUT_NORTH, ABOUT_UP];
+}
 
 impl Cause {
     /// Returns the name of the cause, including its position.
@@ -73,51 +103,54 @@ impl Cause {
         }
     }
 
-    /// Returns the kind without its axis, the source and the unit.
-    fn words(self) -> [&'static str; 3] {
+    /// Returns the kind, the source and the unit.
+    fn words(self) -> (Text, &'static str, &'static str) {
         match self {
-            Self::Angle(..) => {
-                ["certified angles", "certificate: u_alpha_arcsec, u_beta_arcsec, u_gamma_arcsec", "arcsec"]
-            }
-            Self::Return(..) => ["repeatability of positioning", "certificate: repeatability_arcsec", "arcsec"],
-            Self::Reading(..) => ["meter, specification", "laboratory: meter.reading_percent", "%"],
-            Self::Floor(..) => ["meter, floor", "laboratory: meter.floor_ma, or the last digit recorded", "mA"],
-            Self::Noise(..) => ["meter, noise", "laboratory: meter.noise_ma, or repeated rows", "mA"],
-            Self::Visits(..) => ["gyro, visits", "gyro type: noise.visit_deg_per_h, or repeated visits", "deg/h"],
-            Self::Differences(_) => ["differences between visits", "all of a visit", "1"],
-            Self::TurnOn(_) => ["gyro, turn-ons", "gyro type: noise.turn_on_deg_per_h, or repeated turn-ons", "deg/h"],
-            Self::Platform(_) => ["platform", "certificate: common_platform_arcsec", "arcsec"],
-            Self::Seat(_) => ["gyro seat", "laboratory: seating_arcsec", "arcsec"],
-            Self::Base(_) => ["base of the stand", "certificate: common_base_arcsec", "arcsec"],
-            Self::Level(_) => ["level of the base", "laboratory or site: level_arcsec", "arcsec"],
-            Self::Azimuth => ["azimuth of the base", "laboratory or site: azimuth_arcsec", "arcsec"],
-            Self::Mark => ["azimuth of the mark", "passport: earth.azimuth_u_arcsec", "arcsec"],
-            Self::Latitude => ["latitude", "site: uncertainty.latitude_arcsec", "arcsec"],
-            Self::Deflection => ["deflection of the vertical", "site: deflection_arcsec.u (10 if unknown)", "arcsec"],
-            Self::Gain => ["meter, gain", "laboratory: meter.gain_percent", "%"],
-            Self::Offset => ["meter, offset", "laboratory: meter.offset_ma", "mA"],
+            Self::Angle(..) => (names::ANGLE, "certificate: u_alpha_arcsec, u_beta_arcsec, u_gamma_arcsec", "arcsec"),
+            Self::Return(..) => (names::RETURN, "certificate: repeatability_arcsec", "arcsec"),
+            Self::Reading(..) => (names::READING, "laboratory: meter.reading_percent", "%"),
+            Self::Floor(..) => (names::FLOOR, "laboratory: meter.floor_ma, or the last digit recorded", "mA"),
+            Self::Noise(..) => (names::NOISE, "laboratory: meter.noise_ma, or repeated rows", "mA"),
+            Self::Visits(..) => (names::VISITS, "gyro type: noise.visit_deg_per_h, or repeated visits", "deg/h"),
+            Self::Differences(_) => (names::DIFFERENCES, "all of a visit", "1"),
+            Self::TurnOn(_) => (names::TURN_ON, "gyro type: noise.turn_on_deg_per_h, or repeated turn-ons", "deg/h"),
+            Self::Platform(_) => (names::PLATFORM, "certificate: common_platform_arcsec", "arcsec"),
+            Self::Seat(_) => (names::SEAT, "laboratory: seating_arcsec", "arcsec"),
+            Self::Base(_) => (names::BASE, "certificate: common_base_arcsec", "arcsec"),
+            Self::Level(_) => (names::LEVEL, "laboratory or site: level_arcsec", "arcsec"),
+            Self::Azimuth => (names::AZIMUTH, "laboratory or site: azimuth_arcsec", "arcsec"),
+            Self::Mark => (names::MARK, "passport: earth.azimuth_u_arcsec", "arcsec"),
+            Self::Latitude => (names::LATITUDE, "site: uncertainty.latitude_arcsec", "arcsec"),
+            Self::Deflection => (names::DEFLECTION, "site: deflection_arcsec.u (10 if unknown)", "arcsec"),
+            Self::Gain => (names::GAIN, "laboratory: meter.gain_percent", "%"),
+            Self::Offset => (names::OFFSET, "laboratory: meter.offset_ma", "mA"),
         }
     }
 
     /// Returns the name of the kind of cause, which is the name of its line in a budget.
     pub(crate) fn kind(self) -> String {
-        let [kind, ..] = self.words();
-        match self {
-            Self::TurnOn(axis) | Self::Platform(axis) | Self::Seat(axis) => format!("{kind} about {}", XYZ[axis]),
-            Self::Base(axis) | Self::Level(axis) => format!("{kind} about {}", EAST_NORTH_UP[axis]),
-            _ => kind.to_owned(),
-        }
+        self.kind_in(Language::English)
+    }
+
+    /// Returns the [kind](Self::kind) in `language`.
+    pub(crate) fn kind_in(self, language: Language) -> String {
+        let axis = match self {
+            Self::TurnOn(axis) | Self::Platform(axis) | Self::Seat(axis) => XYZ[axis],
+            Self::Base(axis) | Self::Level(axis) => names::ABOUT[axis].of(language),
+            _ => "",
+        };
+        self.words().0.filled(language, values! { axis })
     }
 
     /// Returns the file that states the uncertainty, and the key.
     pub(crate) fn source(self) -> &'static str {
-        self.words()[1]
+        self.words().1
     }
 
     /// Returns the unit in which the uncertainty is shown: arcsec, %, mA or deg/h; 1 for differences in units of their
     /// own uncertainty.
     pub(crate) fn unit(self) -> &'static str {
-        self.words()[2]
+        self.words().2
     }
 
     /// Returns `true` if both causes are of the same [kind](Self::kind): those of single positions, whatever the position,

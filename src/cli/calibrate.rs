@@ -299,7 +299,7 @@ impl Bench<'_> {
         let options = self.options;
         let certificate = &self.passport.content.certificate;
         if let Some(warning) = TemperatureOutside::of(certificate, &self.subject(), Some(&self.laboratory)) {
-            output::complain(&format!("WARNING: {warning}"));
+            output::warn(&warning.to_string());
         }
         let mut written = HashMap::new();
         let mut calibrated = Once::new();

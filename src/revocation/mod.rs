@@ -96,7 +96,7 @@ pub enum ListRefused {
     #[error(transparent)]
     Content(#[from] Unreadable),
     /// The key in the file of this name is not trusted for the issuer of the list.
-    #[error("{}: {}", Printable(name), Printable(why))]
+    #[error("{}: this list of withdrawn passports is not trusted: {}", Printable(name), Printable(why))]
     NotAuthorised {
         /// File name.
         name: String,

@@ -33,6 +33,7 @@ pub(crate) const TABLES: &[(&str, &[(&str, Text)])] = &[
     ("remarks", crate::certification::texts::ALL),
     ("compass", crate::wording::compass::ALL),
     ("implausible", crate::wording::implausible::ALL),
+    ("causes", crate::calibration::causes::names::ALL),
     ("change", crate::wording::change::ALL),
     ("absences", absences::ALL),
     ("calibration", calibration::ALL),

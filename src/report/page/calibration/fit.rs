@@ -2,6 +2,7 @@
 
 use super::CalibrationPage;
 use crate::calibration::Calibration;
+use crate::calibration::causes::names;
 use crate::calibration::chi_square::FEW_DEGREES;
 use crate::calibration::diagnosis::{ALARM, Explanation, Hint, numbering};
 use crate::calibration::document::{ResidualDocument, ResultDocument};
@@ -242,14 +243,14 @@ fn explained(explanation: &Explanation, language: Language) -> String {
 /// Returns the name of an input without a stated uncertainty.
 pub(crate) fn not_stated(what: NotStated) -> Text {
     match what {
-        NotStated::Angles => texts::CAUSE_ANGLE,
-        NotStated::Return => texts::CAUSE_RETURN,
+        NotStated::Angles => names::ANGLE,
+        NotStated::Return => names::RETURN,
         NotStated::Platform => texts::NOT_STATED_PLATFORM,
         NotStated::Base => texts::NOT_STATED_BASE,
-        NotStated::Latitude => texts::CAUSE_LATITUDE,
-        NotStated::Deflection => texts::CAUSE_DEFLECTION,
-        NotStated::Azimuth => texts::CAUSE_AZIMUTH,
-        NotStated::Mark => texts::CAUSE_MARK,
+        NotStated::Latitude => names::LATITUDE,
+        NotStated::Deflection => names::DEFLECTION,
+        NotStated::Azimuth => names::AZIMUTH,
+        NotStated::Mark => names::MARK,
         NotStated::Level => texts::NOT_STATED_LEVEL,
         NotStated::Seat => texts::NOT_STATED_SEAT,
         NotStated::Gain => texts::NOT_STATED_GAIN,

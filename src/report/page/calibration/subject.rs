@@ -100,7 +100,7 @@ fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
         field(languages, texts::MEASURED_TEMPERATURE, temperature),
         field(languages, texts::STAND, Some(given(&stand))),
         field(languages, texts::CURRENTS, Some(given(file_name(page.currents.0)))),
-        wide_field(languages, texts::SITE, Some(given(site))),
+        wide_field(languages, record::SITE, Some(given(site))),
         wide_field(languages, texts::CERTIFIED_BY, Some(laboratory)),
         wide_stated(languages, passport_texts::TRACEABILITY, certificate.traceability.as_deref().map(given)),
         wide_field(languages, texts::CURRENTS_SHA256, Some(html! { code { (page.currents.1) } })),
@@ -159,7 +159,7 @@ fn laboratory(page: &CalibrationPage, languages: &Languages) -> Markup {
             laboratory.name.as_deref().map(|name| field(languages, passport_texts::NAME, Some(given(name)))).unwrap_or_default(),
             field(languages, passport_texts::ADDRESS, None),
             field(languages, texts::PROCEDURE, None),
-            field(languages, texts::GRAVITY, Some(characteristics::gravity(g, u, languages))),
+            field(languages, passport_texts::GRAVITY, Some(characteristics::gravity(g, u, languages))),
         ].into_iter().chain(angles).chain([field(languages, texts::METER_IDENTITY, None), meter])))
         @if page.laboratory.is_none() { div.statement { (languages.paragraph(texts::METER_ASSUMED)) } }
     }

@@ -71,7 +71,7 @@ fn sentences(remedy: &Dominant, worst: Text, languages: &Languages) -> Markup {
         let known = [("parameter", name_of(line.parameter.symbol())), ("u", u)];
         html! {
             (worst.marked_up(language, &known)) " "
-            (italic(&share.filled(language, values! { share: percent, source: cause(first.cause, language) }))) " "
+            (italic(&share.filled(language, values! { share: percent, source: first.cause.kind_in(language) }))) " "
             (italic(&effect))
         }
     })
@@ -114,7 +114,7 @@ fn shares(page: &CalibrationPage, budget: &Budget, languages: &Languages) -> Mar
     let names = lines.iter().map(name).collect();
     let table = Table::of(vec![languages.label(texts::PARAMETER)], names, &columns);
     let table = Table { class: "numbers shares", ..table };
-    let names = named.iter().map(|kind| languages.label_with(|language| cause(kind.cause, language)));
+    let names = named.iter().map(|kind| languages.label_with(|language| kind.cause.kind_in(language)));
     let names: Vec<Markup> =
         at_type.then(|| languages.label(texts::SHARE_OF_GRAVITY)).into_iter().chain(names).collect();
     let samples: Vec<Markup> = (0..names.len()).map(|place| strips::sample(Some(place))).collect();
@@ -188,7 +188,7 @@ fn budget_table(page: &CalibrationPage, budget: &Budget, languages: &Languages) 
         (parameters(languages, rows).captioned(languages, texts::BUDGET_CAPTION))
         (languages.paragraph_with(|language| {
             let means = page.document.scatter.map(|_| texts::BUDGET_MEANS.words(language));
-            let names: Vec<String> = small.iter().map(|kind| cause(kind.cause, language)).collect();
+            let names: Vec<String> = small.iter().map(|kind| kind.cause.kind_in(language)).collect();
             let not_shown = texts::BUDGET_NOT_SHOWN.filled(language, values! { names: names.join("; ") });
             let not_shown = (!small.is_empty()).then_some(not_shown);
             let said = std::iter::once(texts::BUDGET_DASH.words(language)).chain(means).chain(not_shown);
@@ -214,7 +214,7 @@ fn kinds(budget: &Budget) -> Vec<&Contribution> {
 /// Writes a kind of input and its uncertainty: the largest if there are several inputs.
 fn input(part: &Contribution, languages: &Languages) -> Markup {
     languages.label_with(|language| {
-        let name = capital(&cause(part.cause, language));
+        let name = capital(&part.cause.kind_in(language));
         // The number stands once.
         if language != languages.first() {
             return name;
@@ -236,37 +236,6 @@ fn of_input(cause: Cause, u: f64, language: Language) -> String {
         _ => (units::ARCSEC, ""),
     };
     format!("{}{blank}{}", Number::scientific(u, 2).text(language), unit.of(language))
-}
-
-fn cause(cause: Cause, language: Language) -> String {
-    let about = |text: Text, axis: &str| text.filled(language, values! { axis });
-    let case = |axis: usize| ["x", "y", "z"].get(axis).copied().unwrap_or_default();
-    // No letters of the base axes, because the frame's axis ξ may point to any azimuth.
-    let base = |axis: usize| {
-        let axes = [texts::ABOUT_EAST, texts::ABOUT_NORTH, texts::ABOUT_UP];
-        axes.get(axis).map_or("", |axis| axis.of(language))
-    };
-    let plain = |text: Text| text.words(language);
-    match cause {
-        Cause::Angle(..) => plain(texts::CAUSE_ANGLE),
-        Cause::Return(..) => plain(texts::CAUSE_RETURN),
-        Cause::Reading(..) => plain(texts::CAUSE_READING),
-        Cause::Floor(..) => plain(texts::CAUSE_FLOOR),
-        Cause::Noise(..) => plain(texts::CAUSE_NOISE),
-        Cause::Visits(..) => plain(texts::CAUSE_VISITS),
-        Cause::Differences(_) => plain(texts::CAUSE_DIFFERENCES),
-        Cause::TurnOn(axis) => about(texts::CAUSE_TURN_ON, case(axis)),
-        Cause::Platform(axis) => about(texts::CAUSE_PLATFORM, case(axis)),
-        Cause::Seat(axis) => about(texts::CAUSE_SEAT, case(axis)),
-        Cause::Base(axis) => about(texts::CAUSE_BASE, base(axis)),
-        Cause::Level(axis) => about(texts::CAUSE_LEVEL, base(axis)),
-        Cause::Azimuth => plain(texts::CAUSE_AZIMUTH),
-        Cause::Mark => plain(texts::CAUSE_MARK),
-        Cause::Latitude => plain(texts::CAUSE_LATITUDE),
-        Cause::Deflection => plain(texts::CAUSE_DEFLECTION),
-        Cause::Gain => plain(texts::CAUSE_GAIN),
-        Cause::Offset => plain(texts::CAUSE_OFFSET),
-    }
 }
 
 pub(super) fn monte_carlo(found: &MonteCarlo, languages: &Languages) -> Markup {
@@ -301,25 +270,5 @@ pub(super) fn monte_carlo(found: &MonteCarlo, languages: &Languages) -> Markup {
         (table.markup(languages.spoken(texts::MONTE_CARLO)))
         @if (1..found.parameters.len()).contains(&decided) { (languages.paragraph(texts::FIRST_ORDER_UNDECIDED)) }
         @if !found.stable { (languages.paragraph(texts::NOT_STABLE)) }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::coefficients::PositionIndex;
-
-    /// Expected: the names in a terminal and in JSON.
-    #[test]
-    fn an_input_has_one_name_in_english() {
-        let index = PositionIndex { i: 1, j: 2 };
-        let of_a_position = [Cause::Angle, Cause::Return, Cause::Reading, Cause::Floor, Cause::Noise, Cause::Visits]
-            .map(|of| of(index, 0));
-        let about_an_axis = [Cause::TurnOn, Cause::Platform, Cause::Seat, Cause::Base, Cause::Level];
-        let others = [Cause::Azimuth, Cause::Mark, Cause::Latitude, Cause::Deflection, Cause::Gain, Cause::Offset];
-        let each = of_a_position.into_iter().chain(others).chain([Cause::Differences(0)]);
-        for one in each.chain((0..3).flat_map(|axis| about_an_axis.map(|about| about(axis)))) {
-            assert_eq!(cause(one, Language::English), one.kind());
-        }
     }
 }

@@ -12,7 +12,7 @@ use crate::report::page::parts::{
 };
 use crate::report::page::spacing::BLANK;
 use crate::report::page::symbols::italic;
-use crate::report::page::texts::{certification as texts, checks, pictures, units};
+use crate::report::page::texts::{calibration, certification as texts, checks, pictures, units};
 use crate::report::picture::residuals::{Bars, key_of};
 use crate::report::style::Outcome;
 use crate::wording::number::LEAST_PROBABILITY;
@@ -144,11 +144,11 @@ fn table(changes: &[NumberDifference], caption: Markup, languages: &Languages) -
     let bars = Bars::over(changes.iter().filter_map(change));
     let drawn = changes.iter().map(|at| change(at).map_or_else(|| html! { "–" }, |change| bars.bar(change)));
     let drawn_within =
-        languages.label_with(|language| format!("{}{BLANK}± 2u,{BLANK}″", texts::DIFFERENCE.words(language)));
+        languages.label_with(|language| format!("{}{BLANK}± 2u,{BLANK}″", calibration::CHANGED_BY.words(language)));
     let columns = [
         of(texts::OLD, |at| at.a),
         of(texts::NEW, |at| at.b),
-        of(texts::DIFFERENCE, NumberDifference::difference),
+        of(calibration::CHANGED_BY, NumberDifference::difference),
         Column::new(symbol_and_unit(languages, &symbol("u", ""), units::ARCSEC), column(languages, us)),
         Column::named(languages, texts::DIFFERENCE_IN_U, column(languages, ratios)),
         Column { heading: drawn_within, cells: drawn.collect(), foot: bars.axis(languages, None) },

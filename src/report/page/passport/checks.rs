@@ -130,8 +130,7 @@ pub(crate) fn table(page: &PassportPage, languages: &Languages) -> Markup {
             };
             languages.label_with(|language| words(language).join(between))
         };
-        let word = if not_asked.len() > 1 { texts::SEVERAL_NOT_ASKED } else { texts::NOT_ASKED };
-        rows.push(vec![joined(name, ", "), marked(None, &languages.label(word)), joined(absent, "; ")]);
+        rows.push(vec![joined(name, ", "), marked(None, &languages.label(texts::NOT_ASKED)), joined(absent, "; ")]);
     }
     let table = Table {
         headings: [texts::CHECK, texts::RESULT, texts::FOUND].map(|text| languages.label(text)).into(),

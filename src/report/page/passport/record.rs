@@ -34,7 +34,7 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
         (form(
             texts::MOVEMENT,
             "form dated third",
-            &[texts::INSTALLED, texts::WHERE, texts::REMOVED, texts::WHY_REMOVED, texts::WHO],
+            &[texts::INSTALLED, texts::SITE, texts::REMOVED, texts::WHY_REMOVED, texts::WHO],
             empty(2, 5),
         ))
         (form(

@@ -177,7 +177,6 @@ texts! {
     REPORT_NUMBER { en: "Report number", ru: "Номер отчёта" }
     PROCEDURE { en: "Procedure and deviations from it", ru: "Методика и отступления от неё" }
     STAND { en: "Stand", ru: "Стенд" }
-    SITE { en: "Site", ru: "Место установки" }
     VERIFIED_NOT_WITHDRAWAL {
         en: "Passport {id}, verified as of {time}; withdrawal not checked",
         ru: "Паспорт {id} проверен на\u{a0}{time}; отзыв не\u{a0}проверялся"
@@ -228,7 +227,6 @@ texts! {
              {high} °C. Влияние этого в U не учтено: решения верны, только если оно пренебрежимо \
              мало."
     }
-    GRAVITY { en: "Gravity g, local", ru: "Ускорение g, местное" }
 
     PARAMETERS { en: "Parameters", ru: "Параметры" }
     RESULT { en: "Result", ru: "Результат" }
@@ -662,27 +660,6 @@ texts! {
     EFFECTIVE_FREEDOM { en: "Effective degrees of freedom", ru: "Эффективное число степеней свободы" }
     INPUT { en: "{input}: u = {u}", ru: "{input}: u = {u}" }
     INPUTS { en: "{input}: u ≤ {u}", ru: "{input}: u ≤ {u}" }
-    CAUSE_ANGLE { en: "certified angles", ru: "отклонения по сертификату" }
-    CAUSE_RETURN { en: "repeatability of positioning", ru: "повторяемость положений" }
-    CAUSE_READING { en: "meter, specification", ru: "измеритель, погрешность показания" }
-    CAUSE_FLOOR { en: "meter, floor", ru: "измеритель, постоянная часть" }
-    CAUSE_VISITS { en: "gyro, visits", ru: "гироскоп, установки в положение" }
-    CAUSE_DIFFERENCES { en: "differences between visits", ru: "разности между установками в положение" }
-    CAUSE_TURN_ON { en: "gyro, turn-ons about {axis}", ru: "гироскоп, среднее по запускам, ось {axis}" }
-    CAUSE_NOISE { en: "meter, noise", ru: "измеритель, шум показаний" }
-    CAUSE_PLATFORM { en: "platform about {axis}", ru: "платформа (общая составляющая), вокруг {axis}" }
-    CAUSE_SEAT { en: "gyro seat about {axis}", ru: "угол посадки гироскопа вокруг {axis}" }
-    CAUSE_BASE { en: "base of the stand about {axis}", ru: "основание (общая составляющая), вокруг {axis}" }
-    ABOUT_EAST { en: "east", ru: "направления на восток" }
-    ABOUT_NORTH { en: "north", ru: "направления на север" }
-    ABOUT_UP { en: "up", ru: "вертикали" }
-    CAUSE_LEVEL { en: "level of the base about {axis}", ru: "наклон основания вокруг {axis}" }
-    CAUSE_AZIMUTH { en: "azimuth of the base", ru: "азимут основания" }
-    CAUSE_MARK { en: "azimuth of the mark", ru: "азимут ориентирного пункта" }
-    CAUSE_LATITUDE { en: "latitude", ru: "широта" }
-    CAUSE_DEFLECTION { en: "deflection of the vertical", ru: "уклонение отвесной линии" }
-    CAUSE_GAIN { en: "meter, gain", ru: "измеритель, коэффициент преобразования" }
-    CAUSE_OFFSET { en: "meter, offset", ru: "измеритель, смещение нуля" }
 
     MONTE_CARLO { en: "Monte Carlo method", ru: "Метод Монте-Карло" }
     MONTE_CARLO_CAPTION {

@@ -212,7 +212,6 @@ texts! {
     ANGLE { en: "Angle", ru: "Угол" }
     OLD { en: "Before", ru: "Предыдущее" }
     NEW { en: "Now", ru: "Новое" }
-    DIFFERENCE { en: "Change", ru: "Изменение" }
     DIFFERENCE_IN_U { en: "Change/u", ru: "Изменение/u" }
     ALL_TOGETHER { en: "All positions, F (ν)", ru: "Все положения, F (ν)" }
     COMMON_TURN { en: "Common rotation, F (ν)", ru: "Общий поворот, F (ν)" }

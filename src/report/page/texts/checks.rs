@@ -11,7 +11,6 @@ texts! {
     FAILED { en: "FAILED", ru: "НЕ\u{a0}ПРОЙДЕНО" }
 
     NOT_ASKED { en: "not asked", ru: "не запрошено" }
-    SEVERAL_NOT_ASKED { en: "not asked", ru: "не запрошено" }
     COUNTED {
         en: "Checks as of {time}: {passed} passed, {not_asked} not asked.",
         ru: "Проверки по состоянию на\u{a0}{time}: пройдено\u{a0}{passed}, не\u{a0}запрошено\u{a0}{not_asked}."

@@ -70,7 +70,7 @@ texts! {
 
     MOVEMENT { en: "Relocation in use", ru: "Движение изделия в эксплуатации" }
     INSTALLED { en: "Date installed", ru: "Дата установки" }
-    WHERE { en: "Site", ru: "Место установки" }
+    SITE { en: "Site", ru: "Место установки" }
     REMOVED { en: "Date removed", ru: "Дата снятия" }
     WHY_REMOVED { en: "Reason for removal", ru: "Причина снятия" }
 
