@@ -87,7 +87,7 @@ static void misuse(void) {
 
 static void misuse_of(dtg_passport *passport) {
     char *text = NULL;
-    double numbers[8] = {1, 1, 0.1, 0.1, 1, 2, 0.1, 0.1};
+    double numbers[8] = {1, 1, 0.1, 0.2, 1, 2, 0.3, 0.1};
     uint32_t ij[2];
     EXPECT(dtg_matrix(passport, "Delta", numbers) == DTG_UNUSABLE);
     EXPECT(dtg_matrix(passport, "delta", NULL) == DTG_UNUSABLE);
