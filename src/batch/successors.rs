@@ -327,8 +327,12 @@ impl Run<'_> {
             let failed = found.checks().iter().filter(|check| check.passed() == Some(false) && !is_known(check));
             failed.map(|check| for_the_issuer(&check.detail).to_owned()).collect::<Vec<_>>()
         });
+        let certificate = &next.stand().certificate.number;
+        let replaced = registers().filter_map(|register| register.register.as_ref());
+        let replaced = replaced.flat_map(|register| register.against_certificate(&stand.id(), certificate));
+        let replaced: Vec<String> = replaced.filter(|_| !next.supersedes()).collect();
         let uncertain = || registers().find_map(|register| register.register.as_ref()?.uncertain().map(Alarm::reason));
-        failed.next().or_else(uncertain).into_iter().collect()
+        failed.next().or_else(uncertain).into_iter().chain(replaced).collect()
     }
 
     /// Returns another passport that supersedes the same one, in its folder or in that of the new one.

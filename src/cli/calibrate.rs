@@ -417,10 +417,17 @@ impl Options {
             ("--report", self.report.is_some()),
             ("--dcc", self.dcc.is_some()),
             ("--budget-svg", self.uncertainty.budget_svg.is_some()),
+            // Their lines have no room for it.
+            ("--budget", self.uncertainty.budget && self.out.is_none() && self.format == Format::Text),
         ];
         let Some((option, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };
+        if self.out.is_some() {
+            let advice = "use --report FILE.html for the report, --format json for the result";
+            return Err(Failure::usage(format!("{option} is for one gyro, but --out for several; {advice}")));
+        }
         let advice = match option {
             "--report" => "; --out DIR writes the reports of several",
+            "--budget" => "; --out DIR or --format json states the budget of each",
             _ => "; calibrate this file alone",
         };
         Err(Failure::usage(format!("{option} is for one file of currents, but several are given{advice}")))

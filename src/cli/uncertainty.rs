@@ -23,7 +23,7 @@ const LONG: Duration = Duration::from_secs(10);
 pub(super) struct UncertaintyOptions {
     /// Uncertainty budget: contribution of every input to every parameter
     #[arg(long)]
-    budget: bool,
+    pub budget: bool,
     /// Write a picture of the budget
     #[arg(long, value_name = "FILE.svg", value_parser = output::path_of("svg"), requires = "budget")]
     pub budget_svg: Option<PathBuf>,

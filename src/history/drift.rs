@@ -161,6 +161,11 @@ impl Drift {
         changed.max_by(|a, b| chi_square(a).total_cmp(&chi_square(b)))
     }
 
+    /// Returns `true` if any deviation has drifted or jumped, by itself or relative to the others.
+    pub(crate) fn has_changed(&self) -> bool {
+        self.series.iter().any(Series::has_changed) || self.hidden_change().is_some()
+    }
+
     /// Returns whether any deviation drifts steadily, by itself or relative to the others, or `None` if none was tested.
     pub(crate) fn drifts(&self) -> Option<bool> {
         (self.tested() > 0).then(|| self.series.iter().chain(self.hidden_change()).any(Series::is_drift))

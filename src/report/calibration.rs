@@ -440,6 +440,8 @@ fn change(out: &mut String, Done { document, earlier, unknown_gyro, .. }: &Done)
     columns::paragraph(out, "  ", &(words.join(", ") + "."));
     if let Some(words) = unknown_gyro {
         columns::paragraph(out, "  ", &format!("WARNING: {}.", capital(words)));
+    } else if document.gyro_serial().is_none() {
+        columns::paragraph(out, "  ", texts::SAME_GYRO_NOT_SHOWN.of(Language::English));
     }
     if let Some(why) = no_change {
         columns::paragraph(out, "  ", &format!("WARNING: {}", why_no_change(*why).of(Language::English)));

@@ -202,9 +202,9 @@ fn answer(drift: &Drift) -> String {
     let least = drift.most_significant().and_then(|worst| worst.corrected_probability);
     let (outcome, word) = match drift.drifts() {
         None => (Outcome::NotAsked, "NOT TESTED"),
-        Some(true) => (Outcome::Failed, "CHANGED"),
-        Some(false) if least.is_some_and(|p| p < SUSPECTED) => (Outcome::Undecided, "SUSPECTED"),
-        Some(false) => (Outcome::Passed, "NO DRIFT"),
+        Some(_) if drift.has_changed() => (Outcome::Failed, "CHANGED"),
+        Some(_) if least.is_some_and(|p| p < SUSPECTED) => (Outcome::Undecided, "SUSPECTED"),
+        Some(_) => (Outcome::Passed, "NO DRIFT"),
     };
     style::marked(outcome, word)
 }
