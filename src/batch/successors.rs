@@ -203,6 +203,8 @@ impl Run<'_> {
 
     fn chunk(&mut self, tell: Listener) {
         let candidates = std::mem::take(&mut self.candidates);
+        // However many stands there are, the registers of one chunk are held.
+        self.registers = Registers::default();
         let examined = parallel::map(&candidates, self.batch.threads, |candidate| match candidate {
             Ok(candidate) => {
                 self.examine(candidate).unwrap_or_else(|failure| Examined::Done(Some(Outcome::Failed(failure))))
