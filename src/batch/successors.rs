@@ -72,17 +72,15 @@ const STAYS_IN_FORCE: &str = "stays in force next to the new passport; if the st
 ///
 /// These are re-issued with a warning, because the successor may be what corrects them; in a given folder they are skipped.
 #[derive(Default)]
-struct Registers(Mutex<HashMap<PathBuf, Arc<Option<Enquiry>>>>);
+struct Registers(Mutex<HashMap<PathBuf, Option<Arc<Enquiry>>>>);
 
 impl Registers {
     /// Returns the register of `folder`, or `None` if it cannot be read.
-    fn of(&self, folder: &Path, change: &Change) -> Arc<Option<Enquiry>> {
+    fn of(&self, folder: &Path, change: &Change) -> Option<Arc<Enquiry>> {
         let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let read = || {
-            let alone = Enquiry::of(change.trust.clone(), change.question.clone());
-            Arc::new(alone.with_register(folder).ok())
-        };
-        Arc::clone(known.entry(folder.to_owned()).or_insert_with(read))
+        let alone = || Enquiry::of(change.trust.clone(), change.question.clone());
+        let read = || alone().with_register(folder).ok().map(Arc::new);
+        known.entry(folder.to_owned()).or_insert_with(read).clone()
     }
 }
 
@@ -203,7 +201,7 @@ impl Run<'_> {
 
     fn chunk(&mut self, tell: Listener) {
         let candidates = std::mem::take(&mut self.candidates);
-        // However many stands there are, the registers of one chunk are held.
+        // The registers of one chunk are kept, so memory does not grow with the number of stands.
         self.registers = Registers::default();
         let examined = parallel::map(&candidates, self.batch.threads, |candidate| match candidate {
             Ok(candidate) => {
@@ -317,23 +315,23 @@ impl Run<'_> {
         // Any other folder may be large, and is not one of passports.
         let old_folder = Folder::root_of(old, stand).ok().map(|_| folder_of(old));
         let folders: BTreeSet<&Path> = old_folder.into_iter().chain([folder_of(&new)]).collect();
-        let registers: Vec<_> = folders.into_iter().map(|folder| self.registers.of(folder, &self.change)).collect();
-        let registers = || registers.iter().filter_map(|register| Option::as_ref(register));
+        let registers = folders.into_iter().filter_map(|folder| self.registers.of(folder, &self.change));
+        let registers: Vec<Arc<Enquiry>> = registers.collect();
         // What `next` is to correct is known, and so is that it is there already.
         let by_itself = format!("superseded by {} (", passport_id(stand, &next.site.id, next.first_revision()));
         let is_known = |check: &Check| {
             verification.code(check.name).is_some_and(|code| code == check.code) || check.detail.starts_with(&by_itself)
         };
-        let found = registers().map(|register| register.verification(&name_of(old), bytes));
-        let mut failed = found.flat_map(|found| {
+        let mut failed = registers.iter().flat_map(|register| {
+            let found = register.verification(&name_of(old), bytes);
             let failed = found.checks().iter().filter(|check| check.passed() == Some(false) && !is_known(check));
             failed.map(|check| for_the_issuer(&check.detail).to_owned()).collect::<Vec<_>>()
         });
+        let registers = || registers.iter().filter_map(|enquiry| enquiry.register.as_ref());
+        let uncertain = || registers().find_map(Register::uncertain).map(Alarm::reason);
         let certificate = &next.stand().certificate.number;
-        let replaced = registers().filter_map(|register| register.register.as_ref());
+        let replaced = registers().filter(|_| !next.supersedes());
         let replaced = replaced.flat_map(|register| register.against_certificate(&stand.id(), certificate));
-        let replaced: Vec<String> = replaced.filter(|_| !next.supersedes()).collect();
-        let uncertain = || registers().find_map(|register| register.register.as_ref()?.uncertain().map(Alarm::reason));
         failed.next().or_else(uncertain).into_iter().chain(replaced).collect()
     }
 

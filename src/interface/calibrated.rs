@@ -218,16 +218,12 @@ impl<'a> Prepared<'a> {
         let name = printable::printable(&name);
         let mut calibration = calibration.map_err(|error| {
             let unread: Vec<String> = readings.left_out.iter().map(ToString::to_string).collect();
-            let remedy = match &error {
-                NoLeastSquares::Inseparable { .. } if options.model != Model::Paper => String::new(),
-                NoLeastSquares::Inseparable { .. } if unread.is_empty() => {
-                    "; check that each axis was recorded from its own channel, or read more positions (`plan` finds them)"
-                        .to_owned()
-                }
-                NoLeastSquares::Inseparable { .. } => {
-                    format!("; read the other positions of the passport too: {}", unread.join(", "))
-                }
-                _ => String::new(),
+            let is_remediable = matches!(error, NoLeastSquares::Inseparable { .. }) && options.model == Model::Paper;
+            let remedy = match unread.as_slice() {
+                _ if !is_remediable => String::new(),
+                [] => "; check that each axis was recorded from its own channel, or read more positions (`plan` finds them)"
+                    .to_owned(),
+                unread => format!("; read the other positions of the passport too: {}", unread.join(", ")),
             };
             Failed::refused(format!("{name}: {error}{remedy}"))
         })?;

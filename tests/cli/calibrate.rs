@@ -8,7 +8,7 @@ use std::process::Command;
 
 const GYRO: &str = "docs/gvk-6.yaml";
 
-/// What `calibrate` writes for the file of currents, with `more` arguments.
+/// The output of `calibrate` for a file of currents, with further options.
 fn output(currents: &Path, more: &[&str]) -> String {
     let mut command = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
     command.current_dir(programs::project("")).args(["calibrate", "passports/SPS-2/0017/moscow-bmstu-1.yaml"]);

@@ -380,7 +380,10 @@ texts! {
         en: "With the other sign these would be within the tolerance: {names}. Check the sign convention.",
         ru: "С противоположным знаком в допуске были бы: {names}. Следует проверить правило знаков."
     }
-    NO_RISK { en: "Therefore no risk of error is given (–).", ru: "Поэтому риск ошибки не приводится (–)." }
+    NO_RISK {
+        en: "U exceeds every tolerance, so no risk of error is given (–).",
+        ru: "U больше всех допусков, поэтому риск ошибки не приводится (–)."
+    }
     RISK_NOTE {
         en: "Risk of error (specific risk): probability that the decision by simple acceptance is wrong.",
         ru: "Риск ошибки: вероятность того, что решение при простой приёмке неверно."
