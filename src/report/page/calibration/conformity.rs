@@ -110,7 +110,7 @@ fn simple(verdict: &Verdict, note: Option<Text>, languages: &Languages) -> Marku
                 @if let Some(note) = note { " " (italic(&note.words(language))) }
             }
             @if !too_uncertain.is_empty() { " " (texts::TOO_UNCERTAIN.marked_up(language, &[("names", names.clone())])) }
-            @if !verdict.has_simple() { " " (texts::NO_RISK.words(language)) }
+            @if !verdict.has_simple() { " " (italic(&texts::NO_RISK.words(language))) }
             @if !opposite.is_empty() { " " (texts::OPPOSITE.marked_up(language, &[("names", of_opposite.clone())])) }
         }
     })
