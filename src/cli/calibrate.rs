@@ -24,8 +24,9 @@ use crate::interface::{self, Failed};
 use crate::laboratory::{Laboratory, TEMPERATURES_C};
 use crate::passport::{Check, Verification};
 use crate::report::calibration as report;
+use crate::report::style::Outcome;
 use crate::report::{CalibrationPage, Language, PassportPage, UsedPassport};
-use crate::report::{columns, issued};
+use crate::report::{issued, style};
 use crate::text::{Kind, Printable, name_of, printable, shown};
 use clap::{Args, ValueEnum};
 use jiff::Timestamp;
@@ -303,7 +304,7 @@ impl Bench<'_> {
         }
         let mut written = HashMap::new();
         let mut calibrated = Once::new();
-        let (mut outcomes, mut failed) = (Vec::new(), Vec::new());
+        let (mut answers, mut failed) = (Vec::new(), Vec::new());
         let calibrate = |path: &Path| {
             let found = self.calibrate(path)?;
             calibrated
@@ -315,12 +316,12 @@ impl Bench<'_> {
             let trials = found.uncertainty.monte_carlo.as_ref();
             let text = report::line(&found.currents.0, &found.done, trials, self.gyro_name());
             let result = serde_json::to_value(found.whole()).map_err(Failure::unusable)?;
-            outcomes.push(report::outcome(&found.done, self.gyro_name()));
+            answers.push(report::outcome(&found.done, self.gyro_name()));
             Ok(((Line { file: found.currents.0.clone(), result }, text), found.code()))
         };
         let code = inputs::each(&options.currents, Purpose::Tables, calibrate, |done| {
             if let Each::Refused { refusal, .. } = &done {
-                failed.push(issued::outcome(refusal).to_owned());
+                failed.push((Outcome::Failed, issued::outcome(refusal).to_owned()));
             }
             inputs::print(&done, options.format)
         })?;
@@ -331,15 +332,12 @@ impl Bench<'_> {
                 "wrote the result (.json) and the report (.html) of {count} gyro{plural} to {folder}"
             ));
         }
-        outcomes.append(&mut failed);
-        if outcomes.len() > 1 {
-            let count = |outcome: &str| outcomes.iter().filter(|found| *found == outcome).count();
-            let counts = columns::counts(report::OUTCOMES.map(|outcome| (count(outcome), outcome)));
-            let words = format!("{} gyros: {counts}", outcomes.len());
-            match options.format {
-                Format::Text => output::text(&format!("{words}\n"))?,
-                Format::Json => output::say(&words),
-            }
+        answers.append(&mut failed);
+        let words = report::summary(&answers);
+        match options.format {
+            Format::Text => output::text(&words)?,
+            Format::Json if words.is_empty() => (),
+            Format::Json => output::say_verdict(&style::plain(&words)),
         }
         Ok(code)
     }
@@ -430,7 +428,9 @@ impl Options {
             "--budget" => "; --out DIR or --format json states the budget of each",
             _ => "; calibrate this file alone",
         };
-        Err(Failure::usage(format!("{option} is for one file of currents, but several are given{advice}")))
+        Err(Failure::usage(format!(
+            "{option} is for one file of currents, not for several, a pattern or a folder{advice}"
+        )))
     }
 
     /// Returns how the library shall calibrate.

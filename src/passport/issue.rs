@@ -98,7 +98,7 @@ pub enum IssueRefused {
     /// The passport would be valid longer than its certificate.
     #[error(
         "the passport would be valid until {passport}, but the certificate only until {certificate}; specify an \
-             earlier date"
+             earlier date (--valid-until)"
     )]
     BeyondCertificate {
         /// Requested expiry date of the passport.
@@ -110,7 +110,7 @@ pub enum IssueRefused {
     #[error(
         "issued_at {issued_at} is later than the expiry date of the {}, {last}; {}",
         document.word(),
-        if *document == Dated::Certificate { "have the stand recertified" } else { "specify a later date" }
+        if *document == Dated::Certificate { "have the stand recertified" } else { "specify a later one (--valid-until)" }
     )]
     AlreadyExpired {
         /// Time of issue.

@@ -44,8 +44,8 @@ pub enum ReissueRefused {
     OldDoesNotHold(&'static str, String),
     /// The predecessor can only be referenced because of this check, and the factory's files were not given.
     #[error(
-        "the predecessor can be referenced but not used as input ({0}: {1}); pass the factory's files with \
-         --stand and --site (for many passports: --sites)"
+        "the numbers of the predecessor cannot be used ({0}: {1}); pass the factory's files with --stand and --site (for \
+         many passports: --sites)"
     )]
     NeedsFactoryFiles(&'static str, String),
     /// The stand file is for another stand.

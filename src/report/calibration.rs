@@ -1,7 +1,7 @@
 //! Result of a calibration as text: the decision, the parameters and the fit come first, the evidence below.
 
 use super::scatter::{Weight, correlated, scatter};
-use super::tolerance::{coverage_factor, decided, from_gravity, headline, verdict_table};
+use super::tolerance::{Answer, coverage_factor, decided, from_gravity, headline, verdict_table};
 use super::uncertainty::not_linear;
 use crate::calibration::chi_square::FEW_DEGREES;
 use crate::calibration::diagnosis::INCONSISTENT;
@@ -17,8 +17,9 @@ use crate::report::page::calibration::why_no_change;
 use crate::report::page::language::{Language, capital, values};
 use crate::report::page::texts::calibration as texts;
 use crate::report::picture::tolerances::unit_at_type;
+use crate::report::style::Outcome;
 use crate::report::verdict::counts_with_names;
-use crate::report::{columns, mistake, recorded, style};
+use crate::report::{columns, issued, mistake, recorded, style};
 use crate::text::printable;
 use crate::uncertainty::MonteCarlo;
 use crate::units::{printed, quantity};
@@ -49,8 +50,8 @@ pub(crate) fn text(
     let Done { calibration, document, readings, .. } = done;
     let verdict = gyro_type.zip(document.verdict.as_ref());
     let mut out = String::new();
-    let [outcome, reasons] = headline(document, gyro_type, 0);
-    let _ = writeln!(out, "{outcome}  {reasons}");
+    let ((outcome, word), reasons) = headline(document, gyro_type);
+    let _ = writeln!(out, "{}  {reasons}", style::marked(outcome, &word));
     for warning in warnings(done, trials) {
         for line in warning.lines() {
             let words = line.trim_start_matches(' ');
@@ -189,14 +190,14 @@ pub(crate) fn remarks(calibration: &Calibration, readings: &Readings, mistake: O
 pub(crate) fn line(file: &str, done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&str>) -> String {
     let Done { calibration, document, .. } = done;
     let file = printable(file);
-    let [outcome, mut reasons] = headline(document, gyro_type, 9);
+    let ((outcome, word), mut reasons) = headline(document, gyro_type);
     if document.hint.is_some() {
         reasons += "; for the cause, calibrate this file alone";
     } else if gyro_type.is_none() && document.is_valid() {
         let fit = calibration.answer().map(|answer| columns::probability(answer.chi_square.probability));
         reasons = fit.map_or_else(String::new, |p| format!("probability of a larger chi-square {p}"));
     }
-    let mut out = format!("{outcome}  {file}  {reasons}");
+    let mut out = format!("{}  {file}  {reasons}", issued::of_input(outcome, &word));
     let mistake = document.mistake.iter().map(|mistake| plain(&mistake::words(mistake, Language::English)));
     let of_scatter = scatter(calibration).into_iter().filter(|(weight, _)| *weight == Weight::Warning);
     for words in mistake.chain(of_scatter.map(|(_, words)| words)).chain(trials.and_then(not_linear)) {
@@ -206,13 +207,22 @@ pub(crate) fn line(file: &str, done: &Done, trials: Option<&MonteCarlo>, gyro_ty
     out
 }
 
-/// Outcomes for one of several gyros, in the order in which they are counted; the last two are of gyros without a result.
-pub(crate) const OUTCOMES: [&str; 7] = ["pass", "undecided", "fail", "calibrated", "invalid", "refused", "not written"];
+/// Returns the outcome for one of several gyros.
+pub(crate) fn outcome(done: &Done, gyro_type: Option<&str>) -> Answer {
+    headline(&done.document, gyro_type).0
+}
 
-/// Returns the outcome for one of several gyros, one of [`OUTCOMES`].
-pub(crate) fn outcome(done: &Done, gyro_type: Option<&str>) -> String {
-    let [outcome, _] = headline(&done.document, gyro_type, 0);
-    style::plain(&outcome).trim_start_matches(|c: char| !c.is_alphabetic()).to_lowercase()
+/// Returns the counts of the outcomes for several gyros, with the mark of the worst; nothing for a single one.
+pub(crate) fn summary(answers: &[Answer]) -> String {
+    if answers.len() < 2 {
+        return String::new();
+    }
+    let count = |word: &str| answers.iter().filter(|(_, found)| found == word).count();
+    const WORDS: [&str; 7] = ["PASS", "UNDECIDED", "FAIL", "CALIBRATED", "INVALID", "REFUSED", "NOT WRITTEN"];
+    let counts = columns::counts(WORDS.map(|word| (count(word), word.to_lowercase())));
+    let has = |outcome: &Outcome| answers.iter().any(|(found, _)| found == outcome);
+    let worst = [Outcome::Failed, Outcome::Undecided, Outcome::NotAsked].into_iter().find(has);
+    style::marked(worst.unwrap_or(Outcome::Passed), &format!("{} gyros: {counts}", answers.len())) + "\n"
 }
 
 /// Writes which visits and positions were left out, and what that cost.
@@ -392,9 +402,9 @@ fn chi_square(out: &mut String, answer: &MethodResult) {
     let chi_square = &answer.chi_square;
     let _ = writeln!(
         out,
-        "\nFit: chi-square {} with {} degrees of freedom; the probability of a larger value is {}",
+        "\nFit: chi-square {} with {}; the probability of a larger value is {}",
         columns::chi_square(chi_square.value),
-        chi_square.degrees_of_freedom,
+        columns::freedom(chi_square.degrees_of_freedom),
         columns::probability(chi_square.probability)
     );
     if chi_square.of_uncertainties < FEW_DEGREES {

@@ -6,7 +6,7 @@ use crate::certification::rotated_runs::{FEWEST_RUNS, FEWEST_RUNS_OF_A_MOVE, Pat
 use crate::certification::suspects::{AXES, OUTLIER};
 use crate::certification::{Certification, Comparison, NotCertified, Test};
 use crate::report::style::Outcome;
-use crate::report::{columns, deviations, style};
+use crate::report::{columns, deviations, issued, style};
 use crate::stand::ActsOn;
 use crate::text::record::File;
 use crate::text::{Field, Node, Printable};
@@ -105,7 +105,7 @@ fn certification_json(found: &Certification) -> Value {
 pub(crate) fn line(found: &Certification, file: &str) -> String {
     let (stand, runs) = (&found.stand, found.runs.len());
     let certificate = Printable(&stand.certificate.number);
-    let certified = style::marked(outcome_of_certification(found), "certified");
+    let certified = issued::of_input(outcome_of_certification(found), "certified");
     let mut out = format!(
         "{certified}  {}  {}  certificate {certificate}, {} positions, {runs} runs\n",
         stand.stand.id(),
@@ -173,9 +173,9 @@ fn components(out: &mut String, found: &Certification) {
     let components = &found.components;
     let own = components.own_arcsec2.map(|variance| columns::two_digits(variance.value.sqrt()) + "″");
     let words = format!(
-        "Repeatability of one visit: {}″ per axis ({} degrees of freedom); about x, y, z: {}",
+        "Repeatability of one visit: {}″ per axis ({}); about x, y, z: {}",
         columns::two_digits(components.pooled_arcsec2.value.sqrt()),
-        columns::degrees_of_freedom(components.pooled_arcsec2.degrees_of_freedom),
+        columns::freedom(columns::degrees_of_freedom(components.pooled_arcsec2.degrees_of_freedom)),
         own.join(", ")
     );
     let _ = writeln!(out);
@@ -217,9 +217,9 @@ fn tests(out: &mut String, found: &Certification) {
     for (what, test) in [("positions", &found.suspects.positions), ("axes", &found.suspects.axes)] {
         let Some(test) = test else { continue };
         let words = format!(
-            "Bartlett's test for equal variances of {what}: {:.2} with {} degrees of freedom, probability {}",
+            "Bartlett's test for equal variances of {what}: {:.2} with {}, probability {}",
             test.statistic,
-            test.degrees_of_freedom,
+            columns::freedom(test.degrees_of_freedom),
             columns::probability(test.probability)
         );
         columns::paragraph(out, "", &words);

@@ -336,6 +336,13 @@ pub(crate) fn degrees_of_freedom(value: f64) -> String {
     printed.strip_suffix(".0").map_or_else(|| printed.clone(), str::to_owned)
 }
 
+/// Returns the number of degrees of freedom with its noun.
+pub(crate) fn freedom(number: impl std::fmt::Display) -> String {
+    let number = number.to_string();
+    let plural = if number == "1" { "" } else { "s" };
+    format!("{number} degree{plural} of freedom")
+}
+
 /// Formats a probability with two digits, or as `< 10⁻⁶`.
 pub(crate) fn probability(p: f64) -> String {
     if p < 1e-6 {

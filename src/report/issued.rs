@@ -166,14 +166,19 @@ fn line(report: &Report) -> String {
     format!("{state}  {}  {}\n", Printable(&report.id), Printable(file))
 }
 
-/// Returns the line of an input without a result.
-pub(crate) fn failed_line(file: &str, failed: &Failed) -> String {
-    format!("{}  {}\n", marked(Some(false), &outcome(failed).to_uppercase()), Printable(file))
+/// Returns the word for the outcome of one of several inputs as [`marked`] does; the longest is `NOT WRITTEN`.
+pub(super) fn of_input(outcome: impl Into<style::Outcome>, word: &str) -> String {
+    style::marked(outcome, &format!("{word:<11}"))
 }
 
-/// Returns the outcome for an input without a result: refused, unless only its files could not be written.
+/// Returns the line of an input without a result.
+pub(crate) fn failed_line(file: &str, failed: &Failed) -> String {
+    format!("{}  {}\n", of_input(Some(false), outcome(failed)), Printable(file))
+}
+
+/// Returns the word for an input without a result: refused, unless only its files could not be written.
 pub(crate) fn outcome(failed: &Failed) -> &'static str {
-    if matches!(failed.code, interface::EXISTS | interface::UNWRITABLE) { "not written" } else { "refused" }
+    if matches!(failed.code, interface::EXISTS | interface::UNWRITABLE) { "NOT WRITTEN" } else { REFUSED }
 }
 
 /// Number of orders for each outcome, in the order of [`State::ALL`], and of inputs that cannot be used.

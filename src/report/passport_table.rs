@@ -133,7 +133,7 @@ fn positions(out: &mut String, content: &Content) {
 
 /// Returns degrees of freedom to print after an uncertainty, or nothing if they are `None`.
 fn with_freedom(degrees_of_freedom: Option<f64>) -> String {
-    degrees_of_freedom.map_or_else(String::new, |known| format!(" ({known} degrees of freedom)"))
+    degrees_of_freedom.map_or_else(String::new, |known| format!(" ({})", columns::freedom(known)))
 }
 
 /// Returns a standard uncertainty to print after its value, or nothing if it is `None`.

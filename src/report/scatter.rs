@@ -23,7 +23,6 @@ pub(super) fn scatter(calibration: &Calibration) -> Vec<(Weight, String)> {
     let mut say = |words: String, weight: Weight| said.push((weight, words));
     let of = |found: &Scatter| if found.agreement() == Agreement::AsStated { Weight::Usual } else { Weight::Remark };
     if let Some(rows) = &calibration.row_scatter {
-        let (deviation, freedom) = (rows.standard_deviation_ma * 1000.0, rows.degrees_of_freedom);
         match &rows.against_stated {
             Some(stated) => {
                 let words = agreement("Readings of a visit", stated, "check whether they are copies of one reading");
@@ -31,9 +30,10 @@ pub(super) fn scatter(calibration: &Calibration) -> Vec<(Weight, String)> {
             }
             None => {
                 let words = format!(
-                    "Readings of a visit have a standard deviation of {} µA ({freedom} degrees of freedom), \
-                     which was used as the noise of the meter, because noise_ma is not stated.",
-                    columns::two_digits(deviation)
+                    "Readings of a visit have a standard deviation of {} µA ({}), which was used as the noise of \
+                     the meter, because noise_ma is not stated.",
+                    columns::two_digits(rows.standard_deviation_ma * 1000.0),
+                    columns::freedom(rows.degrees_of_freedom)
                 );
                 say(words, Weight::Usual);
             }
@@ -60,9 +60,9 @@ pub(super) fn scatter(calibration: &Calibration) -> Vec<(Weight, String)> {
     let each = [("visit to visit", &calibration.visit_noise), ("turn-on to turn-on", &calibration.turn_on_noise)];
     for (between, noise) in each.into_iter().filter(|(_, noise)| noise.source == NoiseSource::Estimated) {
         let words = format!(
-            "Noise of the gyro from {between}, estimated: {} °/h ({} degrees of freedom).",
+            "Noise of the gyro from {between}, estimated: {} °/h ({}).",
             columns::two_digits(noise.deg_per_h),
-            noise.degrees_of_freedom
+            columns::freedom(noise.degrees_of_freedom)
         );
         say(words, Weight::Remark);
     }
@@ -129,9 +129,9 @@ fn agreement(what: &str, found: &Scatter, less: &str) -> String {
         Agreement::Less => format!("less than stated; {less}"),
     };
     format!(
-        "{what} scatter with a chi-square of {} ({} degrees of freedom; probability of a larger value: {}): {verdict}.",
+        "{what} scatter with a chi-square of {} ({}; probability of a larger value: {}): {verdict}.",
         columns::chi_square(found.chi_square),
-        found.degrees_of_freedom,
+        columns::freedom(found.degrees_of_freedom),
         columns::probability(found.probability)
     )
 }

@@ -88,6 +88,7 @@ pub(crate) fn convergence(found: &Convergence) -> String {
         ]
     });
     columns::table(&mut out, &["limit, °", "angles", "mean", "95th perc.", "maximum", "not converged, %", ""], rows);
+    out.push_str("  mean, 95th percentile, maximum: of the stands that converged\n");
     out.push_str("  ±: standard uncertainty; < and >: limit at 95 %, where all stands converged or none did\n");
     out
 }

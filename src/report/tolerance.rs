@@ -12,9 +12,12 @@ use crate::text::printable;
 use crate::units::quantity;
 use std::fmt::Write;
 
-/// Returns the outcome of a calibration in one word, padded to `width` and with its mark, and the reasons: which
-/// parameters pass, fail and are undecided by their values and by their change, or why no statement is made.
-pub(super) fn headline(document: &CalibrationDocument, gyro_type: Option<&str>, width: usize) -> [String; 2] {
+/// Outcome of a calibration, and the word for it.
+pub(crate) type Answer = (Outcome, String);
+
+/// Returns the outcome of a calibration and the reasons: which parameters pass, fail and are undecided by their values and
+/// by their change, or why no statement is made.
+pub(super) fn headline(document: &CalibrationDocument, gyro_type: Option<&str>) -> (Answer, String) {
     let judged = gyro_type.zip(document.verdict.as_ref());
     let change = document.stated_change();
     let because = |text: Text| text.of(Language::English).to_owned();
@@ -36,7 +39,7 @@ pub(super) fn headline(document: &CalibrationDocument, gyro_type: Option<&str>, 
     } else if let Some(change) = change {
         words = format!("{words}. {}", counted(change, texts::CHANGE_PASSED));
     }
-    [style::marked(outcome, &format!("{word:<width$}")), words]
+    ((outcome, word), words)
 }
 
 /// Returns how many parameters pass by guarded acceptance, in the words of `passed`, and which are undecided or fail.
