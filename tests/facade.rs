@@ -3,6 +3,7 @@
 use dtg_passport::calibration::Parameter;
 use dtg_passport::calibration::{Options, Readings, Setup, calibrate};
 use dtg_passport::earth::Place;
+use dtg_passport::interface;
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::passport::{CheckName, Code, Question, Trust, verify};
 use dtg_passport::trust::AllowedSigners;
@@ -85,4 +86,75 @@ fn readings_in_the_laboratory_give_the_parameters() {
     let result = calibration.answer().unwrap();
     let (k_x, u) = (result.value(Parameter::Kx).unwrap(), result.standard_uncertainty(Parameter::Kx).unwrap());
     assert!((k_x - 95.0).abs() < 3.0 * u && u < 0.02, "{k_x}, u {u}");
+}
+
+/// Expected: the gyro of docs/currents.csv conforms to its type, so no single mistyped current makes it fail; and of two
+/// visits the one with the mistake is named, because the readings fit the stand without it.
+#[test]
+fn one_wrong_visit_does_not_fail_a_gyro() {
+    let answer = verify("good", &read("passports/SPS-2/0017/moscow-bmstu-1.yaml"), &trust(), &question());
+    let passport = answer.passport().unwrap();
+    let time = question().time;
+    let order = serde_json::json!({
+        "gyro": {
+            "format": "dtg-gyro/1",
+            "type": "GVK-6",
+            "nominal": {
+                "k_deg_per_h_per_ma": [[95, 9.5], [9.5, 95]],
+                "omega0_deg_per_h": [20, 20],
+                "omega_g_deg_per_h_per_g": 10,
+                "omega_k_deg_per_h_per_g": 10,
+            },
+            "tolerance": {
+                "k_main_percent": 0.05,
+                "k_cross_percent": 0.5,
+                "omega0_deg_per_h": 0.01,
+                "omega_g_deg_per_h_per_g": 0.01,
+                "omega_k_deg_per_h_per_g": 0.01,
+            },
+        },
+        "laboratory": {
+            "format": "dtg-laboratory/1",
+            "name": "Gyro laboratory",
+            "meter": {"range_ma": 1.0, "reading_percent": 0.0087, "gain_percent": 0.0, "offset_ma": 0.0, "floor_ma": 1e-6},
+            "seating_arcsec": {"about_x": 5.0, "about_y": 5.0, "about_z": 10.0},
+            "base": {"azimuth_arcsec": 10.0, "level_arcsec": 3.0},
+        },
+    });
+    let order = order.to_string().parse().unwrap();
+    let currents = String::from_utf8(read("docs/currents.csv")).unwrap();
+    let rows: Vec<Vec<f64>> = currents
+        .lines()
+        .filter(|line| line.starts_with(['1', '2']))
+        .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
+        .collect();
+    // Visits differ by up to 1 nA; the last one to `place` is off by 10 µA along `axis`.
+    let run = |visits: usize, place: usize, axis: usize, error_ma: f64| {
+        let mut text = "i,j,jx_ma,jy_ma\n".to_owned();
+        for visit in 1..=visits {
+            for (at, row) in rows.iter().enumerate() {
+                let is_wrong = (visit, at) == (visits, place);
+                let current = |of: usize| {
+                    let noise_ma = 1e-6 * ((29 * visit + 17 * at + 11 * of) % 13) as f64 / 6.0 - 1e-6;
+                    row[2 + of] + noise_ma + if is_wrong && of == axis { error_ma } else { 0.0 }
+                };
+                text += &format!("{},{},{:.7},{:.7}\n", row[0], row[1], current(0), current(1));
+            }
+        }
+        text
+    };
+    for visits in [2, 3] {
+        for (place, row) in rows.iter().enumerate() {
+            for (axis, error_ma) in [(0, 0.01), (0, -0.01), (1, 0.01), (1, -0.01)] {
+                let text = run(visits, place, axis, error_ma);
+                let found = interface::calibrate(passport.content(), Some(time), ("run.csv", text.as_bytes()), &order);
+                let found: serde_json::Value = serde_json::from_str(&found.unwrap().json).unwrap();
+                let case = format!("{visits} visits, {error_ma} mA in row {place}, axis {axis}: {found}");
+                let suspect = &found["suspects"][0];
+                assert_eq!((&suspect["i"], &suspect["j"]), (&(row[0] as u32).into(), &(row[1] as u32).into()));
+                assert_eq!((&suspect["visit"], &suspect["one_of_two"]), (&visits.into(), &false.into()), "{case}");
+                assert_ne!(found["verdict"]["overall"], "fail", "{case}");
+            }
+        }
+    }
 }

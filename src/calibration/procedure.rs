@@ -58,7 +58,7 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
         possible.clone()?;
     }
     let observation = Observation::new(setup, readings, options.model, options.drift)?;
-    let suspects = suspect::all(setup, readings, &observation);
+    let suspects = suspect::all(setup, readings, &observation, options);
     let Observation { data, fit, seen, .. } = observation;
     let evaluation = Evaluation::new(Propagation::new(setup, &data, &fit));
     let hint = diagnosis::hint(setup, &data, fit.of, &evaluation.chi_square);

@@ -5,10 +5,14 @@
 //! [Stefansky's test](crate::bibliography::Bibliography::Stefansky72). The probability is Bonferroni's bound for as many
 //! comparisons as there are visits or rows.
 
+use super::chi_square::chi_square;
 use super::data::{Data, Observation};
+use super::diagnosis::ALARM;
 use super::offsets::{Differences, VisitRow, VisitRows};
+use super::propagation::Propagation;
+use super::readings::Exclusion;
 use super::scatter::{IMPROBABLE, VisitErrors};
-use super::{NoiseSource, Readings, RowScatter, Setup};
+use super::{NoiseSource, Options, Readings, RowScatter, Setup};
 use crate::coefficients::PositionIndex;
 use crate::statistics::student::f_larger;
 use nalgebra::{Matrix2, Vector2};
@@ -35,7 +39,7 @@ pub struct Suspect {
     /// Number of the row within the visit; absent if the visit as a whole is meant.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub row: Option<usize>,
-    /// `true` if there are only two, so that the other one may be wrong instead.
+    /// `true` if there are only two and the other one may be wrong instead: the fit does not tell which.
     pub one_of_two: bool,
     /// Difference of the currents (J_x, J_y) from what the others predict, mA.
     pub difference_ma: [f64; 2],
@@ -46,6 +50,42 @@ pub struct Suspect {
 impl Suspect {
     pub(crate) fn index(&self) -> PositionIndex {
         PositionIndex { i: self.i, j: self.j }
+    }
+
+    /// Returns the readings without the visit and, if the other one may be wrong instead, without that one; nothing for a
+    /// row, which cannot be left out.
+    pub(crate) fn left_out(&self, readings: &Readings) -> Vec<Readings> {
+        let without = |suspect: Self| {
+            let Self { i, j, cycle, visit, .. } = suspect;
+            let mut rest = readings.clone();
+            rest.exclude(Exclusion { i, j, visit, cycle: Some(cycle), why: String::new() }).ok().map(|()| rest)
+        };
+        let visits = [Some(*self), self.other(readings)];
+        visits.into_iter().flatten().filter(|visit| visit.row.is_none()).filter_map(without).collect()
+    }
+
+    /// Returns the other of two visits, with the opposite difference.
+    fn other(&self, readings: &Readings) -> Option<Self> {
+        let at = readings.positions().iter().find(|at| self.one_of_two && at.index == self.index())?;
+        let other = at.visits.iter().find(|visit| (visit.cycle, visit.number) != (self.cycle, self.visit))?;
+        let difference_ma = self.difference_ma.map(|difference| -difference);
+        Some(Self { cycle: other.cycle, visit: other.number, difference_ma, ..*self })
+    }
+
+    /// Returns which of two visits is wrong, if the readings fit the stand only without it.
+    fn by_fit(self, setup: &Setup, readings: &Readings, options: &Options) -> Self {
+        let fits = |rest: &Readings| {
+            let Observation { data, fit, .. } = Observation::new(setup, rest, options.model, options.drift).ok()?;
+            let found = chi_square(&Propagation::new(setup, &data, &fit));
+            found.judges().then_some(found.probability >= ALARM)
+        };
+        let fitting: Vec<_> = self.left_out(readings).iter().map(fits).collect();
+        let known = Self { one_of_two: false, ..self };
+        match (fitting.as_slice(), self.other(readings)) {
+            ([Some(true), Some(false)], _) => known,
+            ([Some(false), Some(true)], Some(other)) => Self { one_of_two: false, ..other },
+            _ => self,
+        }
     }
 }
 
@@ -59,7 +99,7 @@ struct Deletion {
 }
 
 /// Returns the row and the visit that chance does not explain, as far as there are any.
-pub(crate) fn all(setup: &Setup, readings: &Readings, observation: &Observation) -> Vec<Suspect> {
+pub(crate) fn all(setup: &Setup, readings: &Readings, observation: &Observation, options: &Options) -> Vec<Suspect> {
     let Observation { data: Data { repeats, .. }, fit, seen, differences } = observation;
     let meter = &setup.uncertainty().meter;
     let least_ma = readings.recorded.rounding_ma(meter).max(meter.noise_ma);
@@ -71,7 +111,7 @@ pub(crate) fn all(setup: &Setup, readings: &Readings, observation: &Observation)
         let stated = if repeats.visit.source == NoiseSource::Estimated { 0.0 } else { repeats.visit.deg_per_h };
         let explained = |place, visit| errors.with_noise(place, visit, stated).trace() / of_visit(place, visit).trace();
         let k = &fit.unknowns.parameters.k_deg_per_h_per_ma;
-        of_visits(readings, differences, k, of_visit, explained)
+        Some(of_visits(readings, differences, k, of_visit, explained)?.by_fit(setup, readings, options))
     });
     row.into_iter().chain(visit).collect()
 }

@@ -285,6 +285,14 @@ impl Verdict {
         change.map_or(self.overall, |change| self.overall.max(change.overall))
     }
 
+    /// Returns the parameters that are not decided, whatever U is, because the decision depends on a suspect visit.
+    pub(crate) fn dependent(&self) -> Vec<Parameter> {
+        let is_dependent = |row: &&ParameterVerdict| {
+            row.guarded != decide(row.deviation, row.expanded_uncertainty, row.tolerance).1 && !self.withheld
+        };
+        self.parameters.iter().filter(is_dependent).map(|row| row.parameter).collect()
+    }
+
     /// Returns the decision on a parameter, or `None` if the result does not have it.
     pub(crate) fn parameter(&self, parameter: Parameter) -> Option<&ParameterVerdict> {
         self.parameters.iter().find(|row| row.parameter == parameter)
@@ -293,6 +301,16 @@ impl Verdict {
     /// Returns the decision on a parameter by guarded acceptance, or `None` if no statement is made.
     pub(crate) fn decision(&self, row: &ParameterVerdict) -> Option<Decision> {
         (!self.withheld).then_some(row.guarded)
+    }
+
+    /// Returns the comparison without the decisions that differ from those of `other`, a comparison of the same gyro.
+    pub(crate) fn agreed(mut self, other: Self) -> Self {
+        for row in &mut self.parameters {
+            if other.parameter(row.parameter).is_none_or(|other| other.guarded != row.guarded) {
+                row.guarded = Decision::Undecided;
+            }
+        }
+        Self { withheld: self.withheld, ..Self::of(self.gravity_m_per_s2, self.parameters) }
     }
 
     /// Returns the comparison with nothing decided, for parameters that are not valid.

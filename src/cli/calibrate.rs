@@ -12,7 +12,7 @@ use crate::calibration::iterative::StopRule;
 use crate::calibration::readings::Exclusion;
 use crate::calibration::stated::TemperatureOutside;
 use crate::calibration::{
-    CalibrationDocument, Decision, Method, Model, Options as CalibrationOptions, Readings, Verdict,
+    CalibrationDocument, Decision, Method, Model, NotStated, Options as CalibrationOptions, Readings, Verdict,
 };
 use crate::coefficients::PositionIndex;
 use crate::dcc::{self, Calibrated};
@@ -305,6 +305,7 @@ impl Bench<'_> {
         let mut written = HashMap::new();
         let mut calibrated = Once::new();
         let (mut answers, mut failed) = (Vec::new(), Vec::new());
+        let mut common: Option<(CalibrationDocument, Vec<NotStated>)> = None;
         let calibrate = |path: &Path| {
             let found = self.calibrate(path)?;
             calibrated
@@ -317,6 +318,11 @@ impl Bench<'_> {
             let text = report::line(&found.currents.0, &found.done, trials, self.gyro_name());
             let result = serde_json::to_value(found.whole()).map_err(Failure::unusable)?;
             answers.push(report::outcome(&found.done, self.gyro_name()));
+            let missing = &found.done.missing;
+            common
+                .get_or_insert_with(|| (found.done.document.clone(), missing.clone()))
+                .1
+                .retain(|what| missing.contains(what));
             Ok(((Line { file: found.currents.0.clone(), result }, text), found.code()))
         };
         let code = inputs::each(&options.currents, Purpose::Tables, calibrate, |done| {
@@ -335,7 +341,11 @@ impl Bench<'_> {
         answers.append(&mut failed);
         let words = report::summary(&answers);
         match options.format {
-            Format::Text => output::text(&words)?,
+            Format::Text => {
+                let common = common
+                    .map(|(one, missing)| report::common(&one, self.checks(), options.laboratory.is_none(), &missing));
+                output::text(&(words + &common.unwrap_or_default()))?;
+            }
             Format::Json if words.is_empty() => (),
             Format::Json => output::say_verdict(&style::plain(&words)),
         }

@@ -6,7 +6,10 @@
 use super::failure::Failure;
 use super::help;
 use crate::files;
-use crate::text::shown;
+use crate::interface;
+use crate::site::Site;
+use crate::stand::Stand;
+use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, printable, shown};
 use crate::workspace::{NoWorkspace, WORKSPACE_FILE, Workspace};
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::parser::ValueSource;
@@ -146,30 +149,56 @@ fn lacks(command: &Command, matches: &ArgMatches, option: &str) -> bool {
 
 /// Parser of the path of a stand file; in a workspace also `MODEL/SERIAL`.
 pub(super) fn stand() -> impl TypedValueParser<Value = PathBuf> {
-    PathBufValueParser::new().map(|path| named(path, |workspace, name| workspace.stand(name)))
+    PathBufValueParser::new().try_map(|path| named(path, |workspace, name| workspace.stand(name), id_of_stand))
 }
 
 /// Parser of the path of a site file; in a workspace also the identifier of the site.
 pub(super) fn site() -> impl TypedValueParser<Value = PathBuf> {
-    PathBufValueParser::new().map(|path| named(path, |workspace, name| workspace.site(name)))
+    let id = |name: &str, bytes: &[u8]| Some(Site::from_yaml(name, bytes).ok()?.id.to_string());
+    PathBufValueParser::new().try_map(move |path| named(path, |workspace, name| workspace.site(name), id))
 }
 
 /// Parser of the path of a passport; in a workspace also its identifier.
 pub(super) fn passport() -> impl TypedValueParser<Value = PathBuf> {
-    PathBufValueParser::new().map(|path| named(path, |workspace, name| workspace.passport(name)))
+    PathBufValueParser::new().try_map(|path| named(path, |workspace, name| workspace.passport(name), id_of_passport))
 }
 
 /// Parser of the path of a stand file or of a passport; in a workspace also what names one of them.
 pub(super) fn certified() -> impl TypedValueParser<Value = PathBuf> {
     let find = |workspace: &Workspace, name: &str| workspace.stand(name).or_else(|| workspace.passport(name));
-    PathBufValueParser::new().map(move |path| named(path, find))
+    let id = |name: &str, bytes: &[u8]| id_of_stand(name, bytes).or_else(|| id_of_passport(name, bytes));
+    PathBufValueParser::new().try_map(move |path| named(path, find, id))
+}
+
+fn id_of_stand(name: &str, bytes: &[u8]) -> Option<String> {
+    Some(Stand::from_yaml(name, bytes).ok()?.stand.id())
+}
+
+fn id_of_passport(name: &str, bytes: &[u8]) -> Option<String> {
+    Some(interface::unverified(name, bytes).ok()?.0.passport.id)
 }
 
 /// Returns the file that a name means in the workspace, or the name as a path if that exists or the name means none.
 ///
 /// The file need not exist: the message then names the nearest one of the workspace.
-fn named(path: PathBuf, find: fn(&Workspace, &str) -> Option<PathBuf>) -> PathBuf {
+///
+/// # Errors
+/// Returns a message if the file, whose identifier is that of `id_of`, is for something else than its name says.
+fn named(
+    path: PathBuf,
+    find: fn(&Workspace, &str) -> Option<PathBuf>,
+    id_of: fn(&str, &[u8]) -> Option<String>,
+) -> Result<PathBuf, String> {
     let begins_here = path.components().next().is_some_and(|first| Path::new(&first).symlink_metadata().is_ok());
     let found = || find(workspace()?, path.to_str()?).filter(|found| found.exists() || !begins_here);
-    if path == Path::new("-") || path.symlink_metadata().is_ok() { path } else { found().unwrap_or(path) }
+    if path == Path::new("-") || path.symlink_metadata().is_ok() {
+        return Ok(path);
+    }
+    let Some(found) = found() else { return Ok(path) };
+    // What cannot be read is refused where it is used.
+    let bytes = files::read(&found, LARGEST_DOCUMENT_BYTES).unwrap_or_default();
+    match id_of(&name_of(&found), &bytes).filter(|id| path.as_os_str() != OsStr::new(id)) {
+        Some(id) => Err(format!("found {} in {}; correct the file or its name", printable(&id), shown(&found))),
+        None => Ok(found),
+    }
 }

@@ -10,8 +10,8 @@ use crate::calibration::prediction::{FurtherVisit, best_further_visit, cost_of_m
 use crate::calibration::stated::TemperatureOutside;
 use crate::calibration::verdict::without_nominal;
 use crate::calibration::{
-    self, Calibration, CalibrationDocument, Found, Method, Mistake, Model, NoLeastSquares, NotStated, Options,
-    Parameter, Readings, Setup, Verdict,
+    self, Calibration, CalibrationDocument, Method, Mistake, Model, NoLeastSquares, NotStated, Options, Parameter,
+    Readings, Setup, Verdict,
 };
 use crate::document::sha256_hex;
 use crate::gyro::GyroType;
@@ -147,7 +147,7 @@ pub(crate) struct Done {
     /// Result as `calibrate` writes it, with the verdict and the change.
     pub document: CalibrationDocument,
     /// Earlier result with which this one was compared, and the reason why the difference is not a change.
-    pub earlier: Option<(Found, Option<NoChange>)>,
+    pub earlier: Option<(CalibrationDocument, Option<NoChange>)>,
     /// Warning that the earlier result may be that of another gyro, because a serial number is missing.
     pub unknown_gyro: Option<String>,
     /// Warning that parameters have changed more than chance explains, if no type decides on the change.
@@ -233,12 +233,17 @@ impl<'a> Prepared<'a> {
         }
         let gravity = (content.earth.gravity_m_per_s2, content.site.gravity_u_m_per_s2());
         let verified = subject.passport_verified_as_of.is_some();
-        let mut document = CalibrationDocument::new(&content.passport.id, verified, gravity, &calibration, &missing);
+        let documented = |readings: &Readings, calibration: &Calibration| {
+            let id = &content.passport.id;
+            let mut document = CalibrationDocument::new(id, verified, gravity, calibration, &missing);
+            let budget =
+                calibration.answer().and_then(|answer| Budget::new(&setup, readings, answer.method, options).ok());
+            document.degrees_of_freedom = budget.map_or_else(BTreeMap::new, |budget| budget.degrees_of_freedom());
+            document
+        };
+        let mut document = documented(&readings, &calibration);
         document.subject = Some(subject);
         (document.excluded, document.left_out) = (readings.exclusions.clone(), readings.left_out.clone());
-        let budget =
-            calibration.answer().and_then(|answer| Budget::new(&setup, &readings, answer.method, options).ok());
-        document.degrees_of_freedom = budget.map_or_else(BTreeMap::new, |budget| budget.degrees_of_freedom());
         let Some(found) = document.answer() else {
             let words = calibration.refused.iter().map(|(method, why)| format!("{}: {why}", method.key()));
             return Err(Failed::refused(words.collect::<Vec<_>>().join("\n")));
@@ -265,15 +270,25 @@ impl<'a> Prepared<'a> {
             warning.map(|warning| warning.to_string()).into_iter().chain(of_files.map(|words| plain(&words)));
         let of_others = of_conditions.chain(early).chain(another_type(previous, gyro_type)).chain(unknown_gyro.clone());
         document.remarks.extend(readings.remarks.iter().cloned().chain(of_others));
-        document.verdict = gyro_type.and_then(|gyro_type| document.judged(gyro_type));
-        document.change = last.zip(gyro_type).and_then(|(earlier, gyro_type)| document.changed(earlier, gyro_type));
+        // No decision may rest on a visit that is probably wrong.
+        let without = calibration.suspects.iter().flat_map(|suspect| suspect.left_out(&readings));
+        let without: Vec<_> = without
+            .filter_map(|rest| Some(documented(&rest, &calibration::calibrate(&setup, &rest, options).ok()?)))
+            .collect();
+        let agreed = |judged: &dyn Fn(&CalibrationDocument) -> Option<Verdict>| {
+            Some(without.iter().filter_map(judged).fold(judged(&document)?, Verdict::agreed))
+        };
+        let verdict = gyro_type.and_then(|gyro_type| agreed(&|found| found.judged(gyro_type)));
+        let change = last.zip(gyro_type);
+        let change = change.and_then(|(earlier, gyro_type)| agreed(&|found| found.changed(earlier, gyro_type)));
+        (document.verdict, document.change) = (verdict, change);
         let unexplained = last.map_or_else(Vec::new, |earlier| document.unexplained_change(earlier));
         let unexplained = (!unexplained.is_empty()).then(|| {
             let names = unexplained.iter().map(|parameter| parameter.symbol()).collect::<Vec<_>>().join(", ");
             change::UNEXPLAINED.filled(Language::English, values! { names })
         });
         document.remarks.extend(unexplained.clone());
-        let earlier = last.and_then(|earlier| Some((earlier.answer()?, document.no_change(earlier))));
+        let earlier = last.map(|earlier| (earlier.clone(), document.no_change(earlier)));
         // With a type, the drifts are stated at its g: the local g is in their uncertainties.
         let of_gravity = |parameter| if document.verdict.is_some() { found.u_from_gravity(parameter) } else { 0.0 };
         let cost_of_missing = cost_of_missing(&setup, &readings, &found.parameters, of_gravity);

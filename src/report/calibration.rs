@@ -5,12 +5,14 @@ use super::tolerance::{Answer, coverage_factor, decided, from_gravity, headline,
 use super::uncertainty::not_linear;
 use crate::calibration::chi_square::FEW_DEGREES;
 use crate::calibration::diagnosis::INCONSISTENT;
-use crate::calibration::document::{ResultDocument, Subject};
+use crate::calibration::document::{CalibrationDocument, ResultDocument, Subject};
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::prediction::FurtherVisit;
 use crate::calibration::readings::Exclusion;
 use crate::calibration::verdict::{BEYOND, change_in_uncertainties};
-use crate::calibration::{Calibration, Hint, MethodResult, Mistake, Model, NotStated, Parameter, Readings, Verdict};
+use crate::calibration::{
+    Calibration, Hint, Method, MethodResult, Mistake, Model, NotStated, Parameter, Readings, Verdict,
+};
 use crate::interface::calibrated::Done;
 use crate::passport::Check;
 use crate::report::page::calibration::why_no_change;
@@ -62,12 +64,7 @@ pub(crate) fn text(
     if let Some(words) = subject.and_then(conditions) {
         columns::paragraph(&mut out, "", &words);
     }
-    let verified_as_of = subject.and_then(|subject| subject.passport_verified_as_of);
-    let state = verified_as_of.map_or_else(
-        || "NOT VERIFIED".to_owned(),
-        |time| format!("verified as of {time}: {}", counts_with_names(checks)),
-    );
-    columns::paragraph(&mut out, "", &format!("Passport {}, {state}", document.passport_id));
+    columns::paragraph(&mut out, "", &passport(document, checks));
     let gravity = match (document.gravity_m_per_s2, document.gravity_u_m_per_s2) {
         (gravity, Some(u)) => format!("{gravity:.0$} m/s² (u = {u:.0$} m/s²)", columns::decimals(u)),
         (gravity, None) => format!("{gravity} m/s²"),
@@ -150,7 +147,7 @@ fn conditions(Subject { gyro_serial, date, operator, temperature_c, .. }: &Subje
 
 /// Returns what makes the parameters or their uncertainties unusable or doubtful, a sentence each.
 pub(crate) fn warnings(done: &Done, trials: Option<&MonteCarlo>) -> Vec<String> {
-    let Done { calibration, document, warning, unexplained, .. } = done;
+    let Done { calibration, document, warning, earlier, unexplained, .. } = done;
     let causes = calibration.hint.as_ref().map(Hint::each_cause).unwrap_or_default();
     let each = || causes.iter().map(|cause| format!("\n  - {}", capital(cause))).collect::<String>();
     let unusable = unusable(calibration, document.mistake.as_ref()).enumerate().map(|(place, words)| match place {
@@ -160,7 +157,8 @@ pub(crate) fn warnings(done: &Done, trials: Option<&MonteCarlo>) -> Vec<String> 
     });
     let of_scatter = scatter(calibration).into_iter().filter(|(weight, _)| *weight == Weight::Warning);
     let others = of_scatter.map(|(_, words)| words).chain(warning.as_ref().map(ToString::to_string));
-    let all = unusable.chain(others).chain(unexplained.clone()).chain(trials.and_then(not_linear));
+    let why = earlier.as_ref().and_then(|(_, why)| Some(why_no_change((*why)?).of(Language::English).to_owned()));
+    let all = unusable.chain(why).chain(others).chain(unexplained.clone()).chain(trials.and_then(not_linear));
     all.map(|words| format!("WARNING: {}", capital(&words))).collect()
 }
 
@@ -276,7 +274,11 @@ fn parameters(out: &mut String, calibration: &Calibration, verdict: Option<&Verd
 /// Writes the values of the other methods next to the adopted ones.
 fn comparison(out: &mut String, answer: &MethodResult, others: &[&MethodResult]) {
     let mut names = vec!["", answer.method.key()];
-    names.extend(others.iter().flat_map(|other| [other.method.key(), columns::OFF]));
+    let compares = answer.method == Method::LeastSquares;
+    for other in others {
+        names.push(other.method.key());
+        names.extend(compares.then_some(columns::OFF));
+    }
     let row = |parameter: Parameter| {
         let (value, u) = (answer.value(parameter)?, answer.standard_uncertainty(parameter)?);
         let digits = columns::decimals(u);
@@ -284,13 +286,16 @@ fn comparison(out: &mut String, answer: &MethodResult, others: &[&MethodResult])
         for other in others {
             row.push(other.value(parameter).map_or_else(String::new, |value| columns::fixed(value, digits)));
             let off = other.from_least_squares.and_then(|all| all.get(parameter.place()).copied());
-            row.push(off.map_or_else(String::new, |off| columns::signed(off, 1)));
+            row.extend(compares.then(|| off.map_or_else(String::new, |off| columns::signed(off, 1))));
         }
         Some(row)
     };
     columns::table(out, &names, in_paper_order(answer).into_iter().filter_map(row));
-    let words = "diff. / u: difference from the first column, in units of the standard uncertainty of that difference.";
-    columns::paragraph(out, "  ", words);
+    if compares {
+        let words =
+            "diff. / u: difference from least squares, in units of the standard uncertainty of that difference.";
+        columns::paragraph(out, "  ", words);
+    }
 }
 
 /// Writes ω_0 of each turn-on, the drift in time, and the test of whether a larger model is needed.
@@ -390,12 +395,43 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
     for (_, words) in scatter(calibration).into_iter().filter(|(weight, _)| *weight != Weight::Warning) {
         columns::paragraph(out, "  ", &words);
     }
+    not_stated(out, missing);
+}
+
+/// Returns which passport was used, and whether it was verified.
+fn passport(document: &CalibrationDocument, checks: &[Check]) -> String {
+    let verified_as_of = document.subject.as_ref().and_then(|subject| subject.passport_verified_as_of);
+    let state = verified_as_of.map_or_else(
+        || "NOT VERIFIED".to_owned(),
+        |time| format!("verified as of {time}: {}", counts_with_names(checks)),
+    );
+    format!("Passport {}, {state}", document.passport_id)
+}
+
+fn not_stated(out: &mut String, missing: &[NotStated]) {
     if !missing.is_empty() {
         let missing: Vec<&str> = missing.iter().map(|what| what.words()).collect();
         let words =
             format!("u not stated, or stated as 0, and not included in any uncertainty: {}.", missing.join("; "));
         columns::paragraph(out, "", &words);
     }
+}
+
+/// Returns what the results of several gyros have in common, whose lines do not say it: the passport, an assumed meter, and
+/// the inputs without a stated uncertainty, `missing`. `document` is one of the results.
+pub(crate) fn common(
+    document: &CalibrationDocument,
+    checks: &[Check],
+    meter_assumed: bool,
+    missing: &[NotStated],
+) -> String {
+    let mut out = String::new();
+    columns::paragraph(&mut out, "", &passport(document, checks));
+    if meter_assumed {
+        columns::paragraph(&mut out, "", texts::METER_ASSUMED.of(Language::English));
+    }
+    not_stated(&mut out, missing);
+    out
 }
 
 fn chi_square(out: &mut String, answer: &MethodResult) {
@@ -435,8 +471,9 @@ fn residuals(out: &mut String, calibration: &Calibration) {
 
 /// Writes the change since the earlier result, and the verdict on it, if there is one.
 fn change(out: &mut String, Done { document, earlier, unknown_gyro, .. }: &Done) {
-    let Some(((earlier, no_change), found)) = earlier.as_ref().zip(document.answer()) else { return };
-    let change = change_in_uncertainties(&found, earlier);
+    let Some((earlier, _)) = earlier else { return };
+    let Some((before, found)) = earlier.answer().zip(document.answer()) else { return };
+    let change = change_in_uncertainties(&found, &before);
     let each = Parameter::in_paper_order(Parameter::EIGHT.into_iter().zip(change), |(parameter, _)| *parameter);
     let words: Vec<String> = each
         .into_iter()
@@ -453,9 +490,10 @@ fn change(out: &mut String, Done { document, earlier, unknown_gyro, .. }: &Done)
     } else if document.gyro_serial().is_none() {
         columns::paragraph(out, "  ", texts::SAME_GYRO_NOT_SHOWN.of(Language::English));
     }
-    if let Some(why) = no_change {
-        columns::paragraph(out, "  ", &format!("WARNING: {}", why_no_change(*why).of(Language::English)));
-    }
+    let day = earlier.date().map_or_else(|| texts::NO_DAY.of(Language::English).to_owned(), |day| day.to_string());
+    let sha256 = earlier.currents_sha256().map_or("–", |sha256| sha256.get(..8).unwrap_or(sha256));
+    let values = values! { day, passport: printable(&earlier.passport_id), sha256 };
+    columns::paragraph(out, "  ", &texts::PREVIOUS.filled(Language::English, values));
     if let Some(verdict) = &document.change {
         let _ =
             writeln!(out, "Change compared with the tolerance of the type, which the paper states as an instability:");

@@ -29,8 +29,13 @@ pub(super) fn headline(document: &CalibrationDocument, gyro_type: Option<&str>) 
             (Outcome::NotAsked, "CALIBRATED".to_owned(), because(texts::NOT_VERIFIED))
         }
         Some((name, verdict)) => {
-            let worst = verdict.with_change(change);
-            let words = format!("gyro type {}: {}", printable(name), counted(verdict, texts::PASSED));
+            let not_assessed = document.change.is_some() && change.is_none();
+            let worst =
+                verdict.with_change(change).max(if not_assessed { Decision::Undecided } else { Decision::Pass });
+            let mut words = format!("gyro type {}: {}", printable(name), counted(verdict, texts::PASSED));
+            if not_assessed {
+                words += ". Change since the previous calibration: not assessed";
+            }
             (worst.into(), word(Some(worst)).to_uppercase(), words)
         }
     };
@@ -124,15 +129,15 @@ pub(super) fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str
     if close && verdict.overall == Decision::Undecided {
         columns::paragraph(out, "  ", "undecided: the uncertainty does not permit a decision.");
     }
-    let too_uncertain: Vec<&str> = verdict.too_uncertain().into_iter().map(Parameter::symbol).collect();
-    if !too_uncertain.is_empty() && !verdict.withheld {
-        let words = texts::TOO_UNCERTAIN.filled(Language::English, &[("names", &too_uncertain.join(", "))]);
-        columns::paragraph(out, "  ", &words);
-    }
-    let opposite: Vec<&str> = verdict.opposite().into_iter().map(Parameter::symbol).collect();
-    if !opposite.is_empty() && !verdict.withheld {
-        let words = texts::OPPOSITE.filled(Language::English, &[("names", &opposite.join(", "))]);
-        columns::paragraph(out, "  ", &words);
+    for (text, which) in [
+        (texts::TOO_UNCERTAIN, verdict.too_uncertain()),
+        (texts::OPPOSITE, verdict.opposite()),
+        (texts::DEPENDENT, verdict.dependent()),
+    ] {
+        if !which.is_empty() && !verdict.withheld {
+            let names = which.into_iter().map(Parameter::symbol).collect::<Vec<_>>().join(", ");
+            columns::paragraph(out, "  ", &text.filled(Language::English, values! { names }));
+        }
     }
     if let Some(not_found) = not_found(verdict) {
         columns::paragraph(out, "  ", &format!("{not_found}."));

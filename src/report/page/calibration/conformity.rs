@@ -96,22 +96,23 @@ pub(super) fn counted(
     })
 }
 
-/// Writes the outcome of simple acceptance, a note on the risks in the table, which parameters no gyro could pass, and which
-/// would pass with the other sign.
+/// Writes the outcome of simple acceptance, a note on the risks in the table, which parameters no gyro could pass, which
+/// would pass with the other sign, and on which the decision depends on a suspect visit.
 fn simple(verdict: &Verdict, note: Option<Text>, languages: &Languages) -> Markup {
-    let too_uncertain = verdict.too_uncertain();
-    let names = listed(too_uncertain.iter().map(|one| name_of(one.symbol())));
-    let opposite = verdict.opposite();
-    let of_opposite = listed(opposite.iter().map(|one| name_of(one.symbol())));
+    let about = |text: Text, which: &[Parameter], language: Language| {
+        let names = listed(which.iter().map(|one| name_of(one.symbol())));
+        html! { @if !which.is_empty() { " " (text.marked_up(language, &[("names", names)])) } }
+    };
     languages.paragraph_with(|language| {
         html! {
             @if verdict.has_simple() {
                 (counts(verdict, |row| row.simple, texts::PASSED_BY_SIMPLE, language)) "."
                 @if let Some(note) = note { " " (italic(&note.words(language))) }
             }
-            @if !too_uncertain.is_empty() { " " (texts::TOO_UNCERTAIN.marked_up(language, &[("names", names.clone())])) }
+            (about(texts::TOO_UNCERTAIN, &verdict.too_uncertain(), language))
             @if !verdict.has_simple() { " " (italic(&texts::NO_RISK.words(language))) }
-            @if !opposite.is_empty() { " " (texts::OPPOSITE.marked_up(language, &[("names", of_opposite.clone())])) }
+            (about(texts::OPPOSITE, &verdict.opposite(), language))
+            (about(texts::DEPENDENT, &verdict.dependent(), language))
         }
     })
 }

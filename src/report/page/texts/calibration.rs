@@ -380,6 +380,10 @@ texts! {
         en: "With the other sign these would be within the tolerance: {names}. Check the sign convention.",
         ru: "С противоположным знаком в допуске были бы: {names}. Следует проверить правило знаков."
     }
+    DEPENDENT {
+        en: "No decision is made on {names}: it depends on a visit that is probably wrong.",
+        ru: "Решение не принято для {names}: оно зависит от установки, которая, вероятно, ошибочна."
+    }
     NO_RISK {
         en: "U exceeds every tolerance, so no risk of error is given (–).",
         ru: "U больше всех допусков, поэтому риск ошибки не приводится (–)."
