@@ -257,9 +257,9 @@ class Passport(Frozen):
         """Calibrate a gyro from its currents in every position.
 
         Args:
-            currents: Path of a CSV file, a DataFrame or a mapping of columns (`i`, `j`, `jx_ma`, `jy_ma`, and if
-                present `cycle`, `visit`, `time_s`, `theta_deg`, `phi_deg`), or an array of shape (N, 4) with rows i, j,
-                jx_ma, jy_ma. Currents in mA.
+            currents: Path of a CSV file; a table (of pandas, Polars or Arrow, a mapping, or a structured array) with
+                the columns `i`, `j`, `jx_ma`, `jy_ma`, and if present `cycle`, `visit`, `time_s`, `theta_deg`,
+                `phi_deg`; or an array of shape (N, 4) with rows i, j, jx_ma, jy_ma. Currents in mA.
             laboratory: Laboratory, `dtg-laboratory/1`: path of the file, or a mapping. Default: the paper's meter,
                 0.015 %.
             gyro: Gyro type, `dtg-gyro/1`, for the verdict: path of the file, or a mapping.
@@ -418,11 +418,16 @@ def _csv(currents: object) -> _dtg_passport._File:
         return currents
     if currents is None or isinstance(currents, (bytes, Set)):
         found = type(currents).__name__
-        raise TypeError(f"currents: found {found}, expected a path, a DataFrame, a mapping or an array")
-    if hasattr(currents, "reset_index"):  # a DataFrame; i and j may be its index, as in `to_dataframe`
-        frame: Any = currents
-        frame = frame if "i" in frame else frame.reset_index()
-        currents = {name: frame[name] for name in frame if name != "index"}
+        raise TypeError(f"currents: found {found}, expected a path, a table, a mapping or an array")
+    if not isinstance(currents, Mapping):
+        table: Any = currents
+        if hasattr(table, "reset_index"):  # pandas: columns may be in the index, as in `to_dataframe`
+            table = table.reset_index([name for name in table.index.names if name is not None and name not in table])
+        # Of Arrow; of pandas and Polars; of an array with names.
+        of_array = getattr(getattr(table, "dtype", None), "names", None)
+        names = (getattr(table, "column_names", None), getattr(table, "columns", None), of_array)
+        names = next((found for found in names if found is not None), None)
+        currents = table if names is None else {name: table[name] for name in names}
     if isinstance(currents, Mapping):
         known = [name for name in _COLUMNS if name in currents]
         columns = {name: _column(name, currents[name]) for name in known}
@@ -449,7 +454,12 @@ def _column(name: str, values: Any) -> list[str]:
     if np.iscomplexobj(values):
         raise TypeError(f"currents: {name}: found complex numbers, expected real ones")
     try:
-        numbers = np.asarray(values).astype(np.float64).ravel().tolist()
+        cells = np.asarray(values)
+        if name == "time_s" and cells.dtype.kind in "mM":  # durations, or times of day and date
+            cells = (cells - cells[:1] if cells.dtype.kind == "M" else cells) / np.timedelta64(1, "s")
+        if cells.dtype.kind in "mM":
+            raise TypeError(f"found {cells.dtype}, expected numbers")
+        numbers = cells.astype(np.float64).ravel().tolist()
     except (TypeError, ValueError) as error:
         raise ValueError(f"currents: {name}: {error}") from None
     return [str(int(number)) if number.is_integer() and abs(number) < 2**53 else repr(number) for number in numbers]

@@ -21,7 +21,7 @@ use crate::report::page::texts::calibration as texts;
 use crate::report::picture::tolerances::unit_at_type;
 use crate::report::style::Outcome;
 use crate::report::verdict::counts_with_names;
-use crate::report::{columns, issued, mistake, recorded, style};
+use crate::report::{columns, mistake, recorded, style};
 use crate::text::printable;
 use crate::uncertainty::MonteCarlo;
 use crate::units::{printed, quantity};
@@ -195,7 +195,7 @@ pub(crate) fn line(file: &str, done: &Done, trials: Option<&MonteCarlo>, gyro_ty
         let fit = calibration.answer().map(|answer| columns::probability(answer.chi_square.probability));
         reasons = fit.map_or_else(String::new, |p| format!("probability of a larger chi-square {p}"));
     }
-    let mut out = format!("{}  {file}  {reasons}", issued::of_input(outcome, &word));
+    let mut out = format!("{}  {file}  {reasons}", style::of_input(outcome, &word));
     let mistake = document.mistake.iter().map(|mistake| plain(&mistake::words(mistake, Language::English)));
     let of_scatter = scatter(calibration).into_iter().filter(|(weight, _)| *weight == Weight::Warning);
     for words in mistake.chain(of_scatter.map(|(_, words)| words)).chain(trials.and_then(not_linear)) {

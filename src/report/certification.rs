@@ -6,7 +6,7 @@ use crate::certification::rotated_runs::{FEWEST_RUNS, FEWEST_RUNS_OF_A_MOVE, Pat
 use crate::certification::suspects::{AXES, OUTLIER};
 use crate::certification::{Certification, Comparison, NotCertified, Test};
 use crate::report::style::Outcome;
-use crate::report::{columns, deviations, issued, style};
+use crate::report::{columns, deviations, style};
 use crate::stand::ActsOn;
 use crate::text::record::File;
 use crate::text::{Field, Node, Printable};
@@ -105,7 +105,7 @@ fn certification_json(found: &Certification) -> Value {
 pub(crate) fn line(found: &Certification, file: &str) -> String {
     let (stand, runs) = (&found.stand, found.runs.len());
     let certificate = Printable(&stand.certificate.number);
-    let certified = issued::of_input(outcome_of_certification(found), "certified");
+    let certified = style::of_input(outcome_of_certification(found), "certified");
     let mut out = format!(
         "{certified}  {}  {}  certificate {certificate}, {} positions, {runs} runs\n",
         stand.stand.id(),

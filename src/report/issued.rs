@@ -166,14 +166,9 @@ fn line(report: &Report) -> String {
     format!("{state}  {}  {}\n", Printable(&report.id), Printable(file))
 }
 
-/// Returns the word for the outcome of one of several inputs as [`marked`] does; the longest is `NOT WRITTEN`.
-pub(super) fn of_input(outcome: impl Into<style::Outcome>, word: &str) -> String {
-    style::marked(outcome, &format!("{word:<11}"))
-}
-
 /// Returns the line of an input without a result.
 pub(crate) fn failed_line(file: &str, failed: &Failed) -> String {
-    format!("{}  {}\n", of_input(Some(false), outcome(failed)), Printable(file))
+    format!("{}  {}\n", style::of_input(Some(false), outcome(failed)), Printable(file))
 }
 
 /// Returns the word for an input without a result: refused, unless only its files could not be written.

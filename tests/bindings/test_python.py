@@ -461,6 +461,45 @@ def test_currents_come_in_every_form() -> None:
         passport.calibrate(CURRENTS, laboratory=CURRENTS)
 
 
+def test_columns_are_found_by_their_names() -> None:
+    """Of a table of any kind, in any order, and of an index of pandas."""
+    import pandas
+    import polars
+    import pyarrow
+
+    passport, frame = load(), pandas.read_csv(CURRENTS, comment="#")
+    due = passport.calibrate(CURRENTS).K.tolist()
+    turned = frame[["jy_ma", "j", "jx_ma", "i"]]
+    tables = (turned, polars.from_pandas(turned), pyarrow.Table.from_pandas(turned), turned.to_records(index=False))
+    for table in (*tables, turned.to_xarray(), turned.set_index(["j", "i"]), turned.set_index("jx_ma"), turned.to_records()):
+        assert passport.calibrate(table).K.tolist() == due, type(table)
+    wrong = turned.rename(columns={"jx_ma": "jx_ua"})
+    for table in (wrong, polars.from_pandas(wrong), pyarrow.Table.from_pandas(wrong), wrong.to_records(index=False)):
+        with pytest.raises(ValueError, match="jx_ma"):
+            passport.calibrate(table)
+    # What the visits and turn-ons are is in the index of a group, too.
+    run = pandas.read_csv(RUN, comment="#")
+    of_file = passport.calibrate(RUN)
+    for table in (run.set_index(["cycle", "visit"]), run.set_index("time_s"), run.groupby("cycle")[list(run)].apply(lambda one: one)):
+        found = passport.calibrate(table)
+        assert found.K.tolist() == of_file.K.tolist() and found.document["results"] == of_file.document["results"]
+
+
+def test_times_may_be_dates_or_durations() -> None:
+    import pandas
+    import polars
+
+    passport, run = load(), pandas.read_csv(RUN, comment="#")
+    due = passport.calibrate(RUN, drift=True).document["results"]
+    seconds = pandas.to_timedelta(run.time_s, unit="s")
+    start = pandas.Timestamp("2026-11-20 09:00")
+    for times in (seconds, seconds.astype("timedelta64[ms]"), start + seconds, (start + seconds).astype("datetime64[ms]")):
+        for table in (run.assign(time_s=times), polars.from_pandas(run.assign(time_s=times))):
+            assert passport.calibrate(table, drift=True).document["results"] == due, times.dtype
+    with pytest.raises((TypeError, ValueError), match="jx_ma: found timedelta64"):
+        passport.calibrate(run.assign(jx_ma=seconds))
+
+
 def test_remarks_are_handed_on() -> None:
     import pandas
 
