@@ -9,8 +9,8 @@ function text = dtg_run(verb, words, signers, options, known, files)
         name = char(name);  % also strings of MATLAB, in double quotes
         if ~ismember(name, known)
             error('dtg:option', 'unknown option %s, expected one of: %s', name, strjoin(known, ', '));
-        elseif strcmp(name, 'at') && isnumeric(value)
-            value = sprintf('%.10f,%.10f', value);
+        elseif any(strcmp(name, {'at', 'temperature-c'})) && isnumeric(value)
+            value = strjoin(strsplit(strtrim(sprintf('%.10f ', value))), ',');
         elseif islogical(value)
             if value
                 words{end + 1} = ['--', name];
@@ -23,7 +23,13 @@ function text = dtg_run(verb, words, signers, options, known, files)
     end
     files = cellfun(@char, files, 'UniformOutput', false);
     words = cellfun(@quoted, [words, {['--trust=', char(signers)], '--'}, files], 'UniformOutput', false);
-    [status, text] = system(['dtg-passport ', verb, ' --format=json ', strjoin(words, ' ')]);
+    % MATLAB would put the messages on standard error into the JSON.
+    messages = tempname();
+    remove = onCleanup(@() delete(messages));
+    [status, text] = system(['dtg-passport ', verb, ' --format=json ', strjoin(words, ' '), ' 2>', quoted(messages)]);
+    if isempty(text)
+        text = fileread(messages);
+    end
     if status == 1 && strcmp(verb, 'calibrate') && any(strfind(text, '"passport_id"'))
         status = 0;  % the gyro fails its type; the result says so
     end

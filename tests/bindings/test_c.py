@@ -259,8 +259,14 @@ def test_a_passport_in_memory_gets_the_answer_of_its_file(corpus: Corpus) -> Non
 
 
 def octave(script: Path) -> str:
+    # MATLAB's `system` returns what the command writes to standard error too, unlike that of Octave.
+    (script.parent / "system.m").write_text("""
+        function [status, text] = system(command)
+            [status, text] = builtin('system', ['{ ', command, '; } 2>&1']);
+        end
+    """)
     path = f"{Path(os.environ['DTG_PASSPORT']).parent}:{os.environ['PATH']}"
-    command = ["octave-cli", "--norc", "--quiet", str(script)]
+    command = ["octave-cli", "--norc", "--quiet", "--path", str(script.parent), str(script)]
     done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "PATH": path})
     assert done.returncode == 0, done.stderr
     return done.stdout
@@ -316,9 +322,9 @@ def test_octave_and_matlab_functions(tmp_path: Path) -> None:
         g = dtg_calibrate('{PASSPORT}', '{SIGNERS}', '{RUN}', 'time', '{TIME}', 'model', 'general', 'drift', false);
         printf('%.17g ', g.G', g.u.G'); printf('\\n'); disp(isfield(g, 'omega_g'));
         d = dtg_calibrate('{PASSPORT}', '{SIGNERS}', '{RUN}', 'time', '{TIME}', 'laboratory', '{PROJECT}/docs/laboratory.yaml', ...
-            'gyro', '{PROJECT}/docs/gvk-6.yaml', 'drift', true, 'exclude', '2,4,1,3', 'why', 'door opened');
+            'gyro', '{PROJECT}/docs/gvk-6.yaml', 'drift', true, 'temperature-c', 21.5, 'exclude', '2,4,1,3', 'why', 'door opened');
         printf('%.17g ', d.K', d.u.omega_g, d.document.results.drift_deg_per_h_per_h); printf('\\n');
-        disp(d.document.verdict.overall); disp(d.document.excluded.why);
+        disp(d.document.verdict.overall); disp(d.document.excluded.why); disp(d.document.subject.temperature_c);
     """)
     loaded, found, *refused = octave(script).splitlines()
     ulp = lambda printed, numbers: np.testing.assert_array_max_ulp(np.array(printed.split(), dtype=float), np.array(numbers), 1)
@@ -331,9 +337,9 @@ def test_octave_and_matlab_functions(tmp_path: Path) -> None:
     assert re.fullmatch(r"exit code 1: \d+ km from moscow-bmstu; .*", refused[8])
     assert refused[9:11] == ["dtg:inconsistent", "dtg:mistake"] and "too small by a factor of 1000" in refused[11]
     general, drift = (json.loads(calibrated(tmp_path, *ORDERS[name])) for name in ("general", "drift"))
-    [due], printed, absent, of_the_run, verdict, why = general["results"], *refused[12:]
+    [due], printed, absent, of_the_run, verdict, why, celsius = general["results"], *refused[12:]
     ulp(printed, np.ravel([due["g_matrix_deg_per_h_per_g"], due["standard_uncertainty"]["g_matrix_deg_per_h_per_g"]]))
     [due] = drift["results"]
     ulp(of_the_run, [*np.ravel(due["k_deg_per_h_per_ma"]), due["standard_uncertainty"]["omega_g_deg_per_h_per_g"],
                      *due["drift_deg_per_h_per_h"]])  # fmt: skip
-    assert (absent, verdict, why) == ("0", drift["verdict"]["overall"], "door opened")
+    assert (absent, verdict, why, celsius) == ("0", drift["verdict"]["overall"], "door opened", "21.500")
