@@ -9,11 +9,20 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Computes K = B (J_1 - J_2 delta)^-1, eq. (13), from one reading of each position; returns 0 if one has none or several. */
+/* Computes K = B (J_1 - J_2 delta)^-1, eq. (13), from one reading of each position; returns 0 if one has none or several, or
+ * if the columns do not begin with i, j, J_x, J_y. */
 static int paper_k(const dtg_passport *passport, const char *csv, double k[2][2]) {
     double b[4], delta[4], j[2][4][2], m[2][2];
     unsigned read = 0; /* a bit for each of the eight positions */
-    for (const char *line = csv; line != NULL; line = strchr(line, '\n'), line += line != NULL) {
+    const char *header = csv;
+    while (header != NULL && *header == '#') {
+        header = strchr(header, '\n');
+        header += header != NULL;
+    }
+    if (header == NULL || strncmp(header, "i,j,jx_ma,jy_ma", 15) != 0) {
+        return 0;
+    }
+    for (const char *line = header; line != NULL; line = strchr(line, '\n'), line += line != NULL) {
         unsigned frame, platform;
         double x, y;
         if (sscanf(line, "%u ,%u ,%lf ,%lf", &frame, &platform, &x, &y) == 4 && frame - 1 < 2 && platform - 1 < 4) {
@@ -72,13 +81,14 @@ int main(int argc, char **argv) {
     code = dtg_calibrate_csv(passport, csv, argc == 5 ? argv[4] : NULL, &result);
     puts(result);
     double value[8], u[8]; /* K_x, K_xy, K_yx, K_y, omega_0x, omega_0y, omega_g, omega_k */
-    if (code == DTG_OK && dtg_parameters(result, value, u) == DTG_REFUSED) {
+    int usable = code == DTG_OK && dtg_parameters(result, value, u) == DTG_OK;
+    if (code == DTG_OK && !usable) {
         fputs("WARNING: do not use these parameters; the remarks of the result say why\n", stderr);
     }
     dtg_string_free(result);
 
     double k[2][2];
-    if (code == DTG_OK && paper_k(passport, csv, k)) {
+    if (usable && argc == 4 && paper_k(passport, csv, k)) { /* an order may exclude visits */
         printf("%.6f %.6f %.6f %.6f deg/(h*mA)\n", k[0][0], k[0][1], k[1][0], k[1][1]);
     }
     dtg_free(passport);

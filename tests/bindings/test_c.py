@@ -102,6 +102,11 @@ def test_the_example_reads_every_row_or_none(tmp_path: Path) -> None:
     # Without one of the eight positions there is no K by equation (13).
     seven = "".join(line for line in rows.splitlines(keepends=True) if not line.startswith("2,4,"))
     assert "deg/(h*mA)" not in run(example, PASSPORT, SIGNERS, QUESTION, given=seven)
+    # Nor from columns in another order, nor from readings that do not fit the stand.
+    turned = re.sub(r"(?m)^(\w+),(\w+),([^,]+),([^,\n]+)$", r"\1,\2,\4,\3", rows)
+    for other in (turned, rows.replace("1,3,-0.18", "1,3,0.18")):
+        printed = run(example, PASSPORT, SIGNERS, QUESTION, given=other)
+        assert "deg/(h*mA)" not in printed and '"results"' in printed
 
 
 def test_the_example_in_c_plus_plus(tmp_path: Path) -> None:

@@ -34,7 +34,7 @@ print(json.dumps([heights, lines]))
 def outputs() -> list[list[nbformat.NotebookNode]]:
     notebook = nbformat.read(NOTEBOOK, as_version=4)
     notebook.cells.append(nbformat.v4.new_code_cell(DRAWN))
-    nbclient.NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(PROJECT)}}).execute()
+    nbclient.NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(PROJECT / "docs")}}).execute()
     return [cell.outputs for cell in notebook.cells if cell.cell_type == "code"]
 
 

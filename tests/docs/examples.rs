@@ -218,7 +218,7 @@ fn documented_programs_refuse_another_issuer() {
 }
 
 #[test]
-fn documented_least_squares_takes_each_position_once() {
+fn documented_least_squares_refuses_unusable_currents() {
     let passport = programs::project("passports/SPS-2/0017/moscow-bmstu-1.yaml");
     let csv = String::from_utf8(read("docs/currents.csv")).unwrap();
     let last = csv.lines().last().unwrap();
@@ -228,6 +228,14 @@ fn documented_least_squares_takes_each_position_once() {
         ("other numbers for a position", format!("{csv}2,4,0.1,0.1\n"), "a second row for position (2, 4)"),
         ("a row less", csv.replace(last, ""), "not those of the passport"),
         ("another position", format!("{csv}3,1,0.1,0.1\n"), "not those of the passport"),
+        ("semicolons", csv.replace(',', ";"), "expected the header i,j,jx_ma,jy_ma"),
+        ("decimal commas", csv.replace("0.2003831", "\"0,2003831\""), "decimal points"),
+        ("a sign", csv.replace("1,3,-0.18", "1,3,0.18"), "do not fit this stand"),
+        (
+            "two positions exchanged",
+            csv.replace("1,1,", "0,").replace("1,2,", "1,1,").replace("\n0,", "\n1,2,"),
+            "do not fit",
+        ),
     ] {
         fs::write(&table, altered).unwrap();
         let output = documented(&[], "docs/least_squares.py", &[&passport, &table, &signers(), Path::new(ISSUER)]);
