@@ -7,7 +7,9 @@ use crate::workspace::WORKSPACE_FILE;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, FromArgMatches};
+use std::collections::BTreeSet;
 use std::ffi::OsString;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// The arguments as parsed, and whether a failure is also reported as JSON.
@@ -32,7 +34,17 @@ pub(super) fn parse(mut arguments: Vec<OsString>) -> Result<Parsed, ExitCode> {
         Ok((Cli::from_arg_matches(&matches)?, asks_for_json(&matches)))
     };
     let error: clap::Error = match parsed(&arguments) {
-        Ok((cli, json)) => return Ok(Parsed { cli, json, added }),
+        Ok((cli, json)) => match named_twice(&arguments) {
+            None => return Ok(Parsed { cli, json, added }),
+            Some(path) => {
+                let words = format!(
+                    "{}: is specified twice, so that with --force the new file could replace one that is read; give the \
+                     new file another name",
+                    shown(&path)
+                );
+                return Err(Failure::usage(words).report(json));
+            }
+        },
         Err(error) => error,
     };
     let printed: Vec<OsString> =
@@ -56,6 +68,18 @@ pub(super) fn parse(mut arguments: Vec<OsString>) -> Result<Parsed, ExitCode> {
         None => output::complain(&printable(error)),
     }
     Err(ExitCode::from(UNUSABLE))
+}
+
+/// Returns an existing file that two arguments name, if `--force` permits that one of them replaces it.
+fn named_twice(arguments: &[OsString]) -> Option<PathBuf> {
+    let path = |argument: &OsString| {
+        let value = argument.to_str().filter(|text| text.starts_with("--")).and_then(|text| text.split_once('='));
+        let path = value.map_or_else(|| PathBuf::from(argument), |(_, value)| PathBuf::from(value));
+        Some((path.canonicalize().ok().filter(|path| path.is_file())?, path))
+    };
+    let mut seen = BTreeSet::new();
+    let mut twice = arguments.iter().skip(1).filter_map(path).filter(|(file, _)| !seen.insert(file.clone()));
+    twice.next().filter(|_| arguments.iter().any(|argument| argument == "--force")).map(|(_, path)| path)
 }
 
 /// Returns clap's message without its mark and its last line feed.
