@@ -230,7 +230,8 @@ fn by_type(found: &Found, used: &EarthRate, gyro_type: &GyroType) -> Option<Mist
     candidates.sort_by(|(one, _), (other, _)| one.total_cmp(other));
     let &(best, mistake) = candidates.first()?;
     let second = candidates.get(1).map_or(as_read, |(second, _)| second.min(as_read));
-    (second >= CLEARLY * best.max(1.0)).then_some(mistake)
+    // An error that leaves a gyro far outside its tolerances explains nothing: it may be in the file of the type.
+    (best < FAR_OUT && second >= CLEARLY * best.max(1.0)).then_some(mistake)
 }
 
 /// Returns the distance of a result from its type: the largest deviation of a parameter, in units of its tolerance plus

@@ -12,7 +12,7 @@ pub(crate) mod walk;
 
 pub(crate) use platform::{is_closed_pipe, sync_folder, wait_for_turn};
 
-use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, shown};
+use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, large_file, name_of, shown};
 use std::collections::BTreeSet;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Write};
@@ -33,7 +33,7 @@ pub enum FileError {
     #[error("{}: found a pipe, a device or a socket, expected a file; save its output to a file first", shown(.0))]
     Special(PathBuf),
     /// File that exceeds this limit, in bytes.
-    #[error("{}: more than {} bytes; check that this is the right file", shown(.0), .1)]
+    #[error("{}: more than {} bytes; {}", shown(.0), .1, large_file(&name_of(.0)))]
     TooLarge(PathBuf, usize),
     /// Existing file that is not replaced.
     #[error("{}: already exists, not overwritten{}", shown(path), if *replaceable { "; to replace it, use --force" } else { "" })]

@@ -46,3 +46,13 @@ pub(crate) use words::{first_few, word_of_a_key, words};
 ///
 /// A stand with a thousand positions needs a fifth of it; a larger file is not a document of this project.
 pub const LARGEST_DOCUMENT_BYTES: usize = 1 << 20;
+
+/// Returns the advice on a file that is too large; `name` is that of a file, or the word for currents that are not in one.
+pub(crate) fn large_file(name: &str) -> &'static str {
+    match name == "currents" || name.to_lowercase().ends_with(".csv") {
+        true => {
+            "check that this is the right file; of a long record of readings, give the means, for example of each second"
+        }
+        false => "check that this is the right file",
+    }
+}

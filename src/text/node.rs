@@ -1,7 +1,7 @@
 //! Documents as trees: every key is kept in order, including duplicates. Trees are serialised as JSON. And destinations of
 //! a document, written value by value: a text in canonical form, or a tree.
 
-use super::{Field, LARGEST_DOCUMENT_BYTES, Location, Path, Unreadable};
+use super::{Field, LARGEST_DOCUMENT_BYTES, Location, Path, Unreadable, large_file};
 use serde::de::{self, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::{Serialize, Serializer};
 use std::cell::Cell;
@@ -89,7 +89,7 @@ fn text_of<'a>(name: &str, bytes: &'a [u8], signed: Option<&str>) -> Result<&'a 
     }
     if bytes.len() > LARGEST_DOCUMENT_BYTES {
         let found = format!("more than {LARGEST_DOCUMENT_BYTES} bytes");
-        return refuse(None, &found, "a file of dtg-passport", "check that this is the right file");
+        return refuse(None, &found, "fewer", large_file(name));
     }
     if is_utf16(bytes) {
         return refuse(None, "UTF-16", "UTF-8", resaved);

@@ -73,10 +73,11 @@ texts! {
     MISTAKE { en: "These are not the parameters of this gyro", ru: "Параметры не относятся к данному гироскопу" }
     MISTAKE_CURRENTS {
         en: "The readings fit, but the parameters do not match this gyro. This explains it: {causes}. Check the torquer \
-             cables, the signs and unit of the currents, and the gyro seat; then calibrate again.",
+             cables, the signs and unit of the currents, the gyro seat, and the values of the gyro type; then calibrate \
+             again.",
         ru: "Показания согласуются с моделью, но параметры не соответствуют данному гироскопу. Это объясняется так: \
-             {causes}. Следует проверить кабели датчиков момента, знаки и единицу токов, установку гироскопа и повторить \
-             калибровку."
+             {causes}. Следует проверить кабели датчиков момента, знаки и единицу токов, установку гироскопа, значения для \
+             типа и повторить калибровку."
     }
     MISTAKE_PLACE {
         en: "The readings fit, but the parameters do not match this gyro. One error explains this: the passport is for \
