@@ -235,10 +235,9 @@ texts! {
         ru: "Различия положений несколько больше случайных; требуется ещё одна серия."
     }
     ROTATED {
-        en: "All positions have rotated together: a datum surface has changed (gyro seat, level or azimuth), not single \
-             positions.",
-        ru: "Все положения повернулись одинаково: изменились не отдельные положения, а базовая поверхность (посадочная, \
-             для горизонтирования или ориентирования)."
+        en: "All positions have rotated together: a datum surface has changed (gyro seat, level or azimuth).",
+        ru: "Все положения повернулись одинаково: изменилась базовая поверхность (посадочная, для горизонтирования или \
+             ориентирования)."
     }
     ROTATED_SLIGHTLY {
         en: "The common rotation of all positions is slightly larger than chance explains; more runs are needed.",

@@ -199,7 +199,7 @@ pub(crate) fn line(file: &str, done: &Done, trials: Option<&MonteCarlo>, gyro_ty
     let mistake = document.mistake.iter().map(|mistake| plain(&mistake::words(mistake, Language::English)));
     let of_scatter = scatter(calibration).into_iter().filter(|(weight, _)| *weight == Weight::Warning);
     for words in mistake.chain(of_scatter.map(|(_, words)| words)).chain(trials.and_then(not_linear)) {
-        let _ = write!(out, "; WARNING: {words}");
+        let _ = write!(out, "; WARNING: {}", capital(&words));
     }
     out.push('\n');
     out

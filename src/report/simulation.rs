@@ -42,6 +42,14 @@ pub(crate) fn accuracy(found: &Accuracy, options: &AccuracyOptions) -> String {
         options.current_percent
     );
     columns::paragraph(&mut out, "", &words);
+    let as_in_the_paper = options.within_tolerance && options.current_error == CurrentError::Common;
+    if !bounded.is_empty() && !as_in_the_paper {
+        columns::paragraph(
+            &mut out,
+            "",
+            "The paper's bounds are reached with --within-tolerance --current-error common.",
+        );
+    }
     let rows = found.rows.iter().map(|row| {
         // NaN if no trial gave a result.
         let three_digits = |value: f64| match value {

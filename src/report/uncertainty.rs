@@ -61,7 +61,7 @@ pub(crate) fn budget(budget: &Budget, sentence: Option<&str>, document: &Calibra
 }
 
 /// Width of a terminal that has room for the number of inputs of each kind.
-const WITH_COUNTS: usize = 90;
+const WITH_COUNTS: usize = 80;
 
 fn parameter(out: &mut String, line: &ParameterBudget) {
     let u = line.standard_uncertainty;
