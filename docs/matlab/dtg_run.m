@@ -27,9 +27,7 @@ function text = dtg_run(verb, words, signers, options, known, files)
     messages = tempname();
     remove = onCleanup(@() delete(messages));
     [status, text] = system(['dtg-passport ', verb, ' --format=json ', strjoin(words, ' '), ' 2>', quoted(messages)]);
-    if isempty(text)
-        text = fileread(messages);
-    end
+    if isempty(text), text = fileread(messages); end
     if status == 1 && strcmp(verb, 'calibrate') && any(strfind(text, '"passport_id"'))
         status = 0;  % the gyro fails its type; the result says so
     end

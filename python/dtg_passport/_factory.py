@@ -95,7 +95,7 @@ def issue(
     """
     if not accuracy and (gyro is not None or laboratory is not None):
         raise ValueError("gyro and laboratory are those of the accuracy; give accuracy=True too")
-    issued = _dtg_passport.issue(
+    return Issued(*_dtg_passport.issue(
         (given("stand", stand), given("site", site)),
         asked(identity=identity, issued_at=issued_at, valid_until=valid_until, allow_uncalibratable=allow_uncalibratable),
         pair(gyro, laboratory) if accuracy else None,
@@ -103,8 +103,7 @@ def issue(
         os.environ.get("DTG_PASSPORT_PASSPHRASE") if passphrase is None else passphrase,
         None if trust is None else signers(trust),
         out,
-    )
-    return Issued(*issued)
+    ))  # fmt: skip
 
 
 def plan(
@@ -152,5 +151,4 @@ def plan(
     found = json.loads(_dtg_passport.plan(*files, question))
     u, paper = found["standard_uncertainty"], found.get("paper")
     paper_u = None if paper is None else parameters(paper["standard_uncertainty"])
-    order = frozen(found["order"], -1, 2)
-    return Plan(order, parameters(u), paper_u, found["frame_axis_azimuth_deg"], found["value"], found)
+    return Plan(frozen(found["order"], -1, 2), parameters(u), paper_u, found["frame_axis_azimuth_deg"], found["value"], found)

@@ -42,9 +42,7 @@ def signers(trust: Path | bytes) -> _dtg_passport._File:
     return ("trust", trust) if isinstance(trust, bytes) else trust
 
 
-def _each(
-    paths: Iterable[Path], enquiry: _dtg_passport.Enquiry, threads: int
-) -> Iterator[tuple[str, _dtg_passport._Answer]]:
+def _each(paths: Iterable[Path], enquiry: _dtg_passport.Enquiry, threads: int) -> Iterator[tuple[str, _dtg_passport._Answer]]:
     names = (os.fspath(path) for path in paths)
     while chunk := list(itertools.islice(names, CHUNK)):
         for name, answer in zip(chunk, enquiry.verify_files(chunk, threads)):

@@ -288,18 +288,9 @@ class Passport(Frozen):
             >>> found.verdict["overall"]
             'undecided'
         """
-        order = asked(
-            method=method,
-            model=model,
-            anisoelasticity=anisoelasticity,
-            drift=drift,
-            exclude=exclude,
-            gyro_serial=gyro_serial,
-            operator=operator,
-            date=date,
-            temperature_c=temperature_c,
-            previous=previous,
-        )
+        order = asked(method=method, model=model, anisoelasticity=anisoelasticity, drift=drift, exclude=exclude,
+                      gyro_serial=gyro_serial, operator=operator, date=date, temperature_c=temperature_c,
+                      previous=previous)  # fmt: skip
         text, covariance, distributions = self._content.calibrate(_csv(currents), order, pair(gyro, laboratory))
         document = json.loads(text)
         found = Calibration(document, document["results"][0], array(covariance, 8, 8), distributions)
@@ -417,16 +408,13 @@ def _csv(currents: object) -> _dtg_passport._File:
     if isinstance(currents, (str, os.PathLike)):
         return currents
     if currents is None or isinstance(currents, (bytes, Set)):
-        found = type(currents).__name__
-        raise TypeError(f"currents: found {found}, expected a path, a table, a mapping or an array")
+        raise TypeError(f"currents: found {type(currents).__name__}, expected a path, a table, a mapping or an array")
     if not isinstance(currents, Mapping):
         table: Any = currents
-        if hasattr(table, "reset_index"):  # pandas: columns may be in the index, as in `to_dataframe`
+        if hasattr(table, "reset_index"):  # of pandas; columns may be in the index, as in `to_dataframe`
             table = table.reset_index([name for name in table.index.names if name is not None and name not in table])
-        # Of Arrow; of pandas and Polars; of an array with names.
-        of_array = getattr(getattr(table, "dtype", None), "names", None)
-        names = (getattr(table, "column_names", None), getattr(table, "columns", None), of_array)
-        names = next((found for found in names if found is not None), None)
+        of_frame = getattr(table, "column_names", getattr(table, "columns", None))  # of Arrow; of pandas and Polars
+        names = getattr(getattr(table, "dtype", None), "names", None) if of_frame is None else of_frame
         currents = table if names is None else {name: table[name] for name in names}
     if isinstance(currents, Mapping):
         known = [name for name in _COLUMNS if name in currents]
@@ -455,10 +443,10 @@ def _column(name: str, values: Any) -> list[str]:
         raise TypeError(f"currents: {name}: found complex numbers, expected real ones")
     try:
         cells = np.asarray(values)
-        if name == "time_s" and cells.dtype.kind in "mM":  # durations, or times of day and date
-            cells = (cells - cells[:1] if cells.dtype.kind == "M" else cells) / np.timedelta64(1, "s")
-        if cells.dtype.kind in "mM":
+        if cells.dtype.kind in "mM" and name != "time_s":
             raise TypeError(f"found {cells.dtype}, expected numbers")
+        cells = cells - cells[:1] if cells.dtype.kind == "M" else cells
+        cells = cells / np.timedelta64(1, "s") if cells.dtype.kind == "m" else cells
         numbers = cells.astype(np.float64).ravel().tolist()
     except (TypeError, ValueError) as error:
         raise ValueError(f"currents: {name}: {error}") from None
