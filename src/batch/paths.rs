@@ -5,7 +5,6 @@ use crate::files::walk::{Entry, LINK, SPECIAL, Walk};
 use crate::files::{FileError, reason};
 use crate::folder::search;
 use crate::text::{Printable, shown};
-use glob::MatchOptions;
 use std::ffi::OsStr;
 use std::io::{self, BufRead};
 use std::path::{Path, PathBuf};
@@ -112,13 +111,19 @@ fn pattern(argument: &Path) -> Option<&str> {
     argument.symlink_metadata().is_err().then_some(text)
 }
 
-/// Returns the files and folders that match, as in a shell: a leading dot must be in the pattern.
+/// Returns the files and folders that match, as in a shell: a leading dot must be in the pattern. Names that are not UTF-8
+/// do not match.
 fn matches(pattern: &str) -> Paths<'static> {
     let failed = |why: String| failed(Failure::unusable(Path::new(pattern), format!("{}: {why}", Printable(pattern))));
-    let options = MatchOptions { require_literal_leading_dot: true, ..MatchOptions::new() };
-    let paths = match glob::glob_with(pattern, options) {
+    // With its own option for a leading dot, `glob` panics at a name that is not UTF-8.
+    let hidden = |path: &Path| {
+        let dots = |name: &[u8]| name.starts_with(b".") && name.iter().any(|byte| *byte != b'.');
+        path.iter().filter(|name| dots(name.as_encoded_bytes())).count()
+    };
+    let most = hidden(Path::new(pattern));
+    let paths = match glob::glob(pattern) {
         Err(error) => return failed(format!("invalid pattern: {error}")),
-        Ok(paths) => paths,
+        Ok(paths) => paths.filter(move |path| path.as_ref().map_or(true, |path| hidden(path) <= most)),
     };
     let mut paths = paths.peekable();
     if paths.peek().is_none() {

@@ -2,14 +2,18 @@
 
 use super::trust_options::TrustAmong;
 use super::{Code, Failure, Format, REFUSED, UNUSABLE, defaults, output};
+use crate::batch::paths;
 use crate::files::{self, FileError};
 use crate::passport::verification::unreadable;
 use crate::report::verdict;
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
 use clap::Args;
+use std::io;
 use std::path::PathBuf;
 
 /// Check that a passport is valid for this stand, place and time
+///
+/// PASSPORT is a file or a quoted pattern; a - reads a list of paths from standard input.
 #[derive(Args)]
 pub(super) struct Options {
     /// Passport files; in a workspace also their identifiers
@@ -26,24 +30,26 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let enquiry = options.trust.load()?;
     let mut code = 0;
     let (mut verdicts, mut text, mut unread) = (Vec::new(), String::new(), Vec::new());
-    for path in &options.passports {
-        let name = name_of(path);
+    for path in paths::named(&options.passports, &mut io::stdin().lock()) {
+        let read = path.map_err(|failed| (failed.what.clone(), Failure::input(&failed).failed.message));
         // One byte above the size limit is enough to show that the file is not a passport; the result is a normal
         // verdict.
-        match files::read_first(path, LARGEST_DOCUMENT_BYTES + 1) {
-            Ok(bytes) => {
+        let read = read.and_then(|path| match files::read_first(&path, LARGEST_DOCUMENT_BYTES + 1) {
+            Ok(bytes) => Ok((name_of(&path), bytes)),
+            Err(error @ FileError::Folder(_)) => {
+                Err((name_of(&path), format!("{error}; list its passports with `register`, or give the files")))
+            }
+            Err(error) => Err((name_of(&path), Failure::from(error).failed.message)),
+        });
+        match read {
+            Ok((name, bytes)) => {
                 let verification = enquiry.verification(&name, &bytes);
                 code = code.max(if verification.valid() { 0 } else { REFUSED });
                 let verdict = verdict::Verdict::of(&name, &verification);
                 text += &verdict::text(&verdict);
                 verdicts.push(verdict);
             }
-            Err(error) => {
-                let advice = "list its passports with `register`, or give the files";
-                let words = match error {
-                    FileError::Folder(_) => format!("{error}; {advice}"),
-                    error => Failure::from(error).failed.message,
-                };
+            Err((name, words)) => {
                 code = code.max(UNUSABLE);
                 let refused = verdict::Verdict::of(&name, &unreadable(&words, &enquiry.question));
                 text += &verdict::not_read(&refused);
