@@ -59,6 +59,8 @@ pub(crate) struct Recertification<'a> {
     pub header: Option<Header>,
     pub number: &'a str,
     pub issued: Date,
+    /// Date on which the readings were taken; that of the header if `None`.
+    pub performed: Option<Date>,
     /// Expiry date of the new certificate (inclusive); that of the header if `None`.
     pub valid_until: Option<Date>,
     /// Places that get a new passport; all in force if empty.
@@ -205,9 +207,13 @@ impl Recertification<'_> {
                  number of the new certificate, such as C-2027-0009"
             )));
         }
-        match self.valid_until.filter(|until| *until < issued) {
-            Some(until) => Err(NotRecertified::Order(format!(
-                "--valid-until {until} is before --issued {issued}; check the years"
+        if let Some(until) = self.valid_until.filter(|until| *until < issued) {
+            let words = format!("--valid-until {until} is before --issued {issued}; check the years");
+            return Err(NotRecertified::Order(words));
+        }
+        match self.performed.filter(|performed| *performed > issued) {
+            Some(performed) => Err(NotRecertified::Order(format!(
+                "--performed {performed} is after --issued {issued}; check the dates"
             ))),
             None => Ok(()),
         }
@@ -238,6 +244,7 @@ impl Recertification<'_> {
         }
         self.number.clone_into(&mut header.certificate.number);
         header.certificate.issued = self.issued;
+        header.certificate.performed = self.performed.or(header.certificate.performed);
         header.certificate.valid_until = self.valid_until.or(header.certificate.valid_until);
         Ok(header)
     }

@@ -199,7 +199,7 @@ impl Remark {
             ),
             Self::SharedSetting(_) => "Measure again.".to_owned(),
             Self::BaseAxes(0) => "Therefore common_base_arcsec is absent.".to_owned(),
-            Self::NotDated => "State performed in the header.".to_owned(),
+            Self::NotDated => "State performed in the header, or --performed of `recertify`.".to_owned(),
             Self::NoExpiry(_) => "State it with --valid-until.".to_owned(),
             Self::Rounding { .. } => "Record more digits.".to_owned(),
             _ => return None,

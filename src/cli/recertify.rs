@@ -40,6 +40,9 @@ pub(super) struct Options {
     /// Date of issue of the new certificate
     #[arg(long, value_name = "DATE", value_parser = trust_options::date)]
     issued: Date,
+    /// Date on which the readings were taken [default: that of --header]
+    #[arg(long, value_name = "DATE", value_parser = trust_options::date)]
+    performed: Option<Date>,
     /// Site that gets a new passport: a site file, or the id of a site (repeatable) [default: every site with a passport
     /// in force in the folder of the passport]
     #[arg(long = "site", value_name = "SITE")]
@@ -111,6 +114,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         header: header.transpose()?,
         number: &options.number,
         issued: options.issued,
+        performed: options.performed,
         valid_until: options.valid_until,
         sites: &sites,
         reason: &options.reason,

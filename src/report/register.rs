@@ -11,6 +11,11 @@ impl State {
         if self == Self::Broken { "BROKEN".to_owned() } else { self.key().replace('_', " ") }
     }
 
+    /// Returns `true` for a passport without a successor that has expired, or will do so soon.
+    pub(crate) fn is_running_out(self) -> bool {
+        matches!(self, Self::Expired | Self::Expiring)
+    }
+
     /// Returns whether the passport may be used.
     fn outcome(self) -> Outcome {
         match self {
@@ -34,7 +39,12 @@ pub(crate) fn text(register: &Register) -> String {
     let summary = format!("{summary}; alarms: {}", register.alarms.len());
     // A folder without passports may be the wrong one.
     let is_empty = register.files == 0 && register.alarms.is_empty();
-    let mut out = style::marked((!is_empty).then_some(is_good), &summary) + "\n";
+    let outcome = match is_good {
+        _ if is_empty => Outcome::NotAsked,
+        true if register.passports.iter().any(|line| line.state.is_running_out()) => Outcome::Undecided,
+        is_good => Some(is_good).into(),
+    };
+    let mut out = style::marked(outcome, &summary) + "\n";
     if is_empty {
         out.push_str("The folder contains no passport; check its path.\n");
     }

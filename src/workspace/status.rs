@@ -216,6 +216,16 @@ impl Status {
     /// Returns the status as text: one line for each number, and below it what needs attention.
     pub(crate) fn text(&self) -> String {
         let alarms = self.passports.as_ref().map_or(0, |passports| passports.alarms.len());
+        let of_stands = self.stands.iter().filter(|stand| stand.expired).count();
+        let of_passports = self.passports.iter().flat_map(|passports| &passports.counts);
+        let of_passports: usize =
+            of_passports.filter(|(state, _)| state.is_running_out()).map(|(_, number)| *number).sum();
+        let runs_out = of_stands + of_passports > 0;
+        let outcome = match self.needs_attention() {
+            true => Outcome::Failed,
+            false if runs_out => Outcome::Undecided,
+            false => Outcome::Passed,
+        };
         let verdict = match self.needs_attention() {
             true => {
                 let broken = self.passports.as_ref().map_or(0, |passports| passports.broken.len());
@@ -224,12 +234,14 @@ impl Status {
                     self.remarks.len()
                 )
             }
+            false if runs_out => format!(
+                "NO ALARMS  expired or expiring passports: {of_passports}; expired certificates of stands: {of_stands}"
+            ),
             false => "NO ALARMS".to_owned(),
         };
-        let mut out = style::marked(Some(!self.needs_attention()), &verdict) + "\n";
+        let mut out = style::marked(outcome, &verdict) + "\n";
         let _ = writeln!(out, "Workspace  {}, {}", Printable(&self.workspace), self.time);
-        let expired = self.stands.iter().filter(|stand| stand.expired).count();
-        let _ = writeln!(out, "Stands     {}{}", self.stands.len(), count(expired, "with an expired certificate"));
+        let _ = writeln!(out, "Stands     {}{}", self.stands.len(), count(of_stands, "with an expired certificate"));
         let expired = self.stands.iter().filter(|stand| stand.expired).map(|stand| {
             let until = stand.valid_until.map_or_else(String::new, |day| format!(", valid until {day} (inclusive)"));
             format!("{}  certificate {}{until}", stand.id, Printable(&stand.certificate))
