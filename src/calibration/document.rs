@@ -132,6 +132,8 @@ pub(crate) enum NoChange {
     SameReadings,
     /// The earlier readings did not fit the stand, or contained an error.
     EarlierNotValid,
+    /// A visit or a row of the earlier readings is probably wrong.
+    EarlierSuspect,
 }
 
 /// Probability below which a change is not chance, for all parameters together.
@@ -328,7 +330,8 @@ impl CalibrationDocument {
         if same_file || same_result() {
             Some(NoChange::SameReadings)
         } else {
-            (!earlier.is_valid()).then_some(NoChange::EarlierNotValid)
+            let suspect = (!earlier.suspects.is_empty()).then_some(NoChange::EarlierSuspect);
+            if earlier.is_valid() { suspect } else { Some(NoChange::EarlierNotValid) }
         }
     }
 

@@ -212,6 +212,19 @@ impl Readings {
         Ok(())
     }
 
+    /// Leaves a row of a visit out, or returns `None` if there is no such row, or no other one.
+    pub(crate) fn leave_out_row(&mut self, index: PositionIndex, visit: (u32, u32), row: usize) -> Option<()> {
+        let at = self.positions.iter_mut().find(|at| at.index == index)?;
+        let found = at.visits.iter_mut().find(|found| (found.cycle, found.number) == visit)?;
+        if found.each_ma.len() < 2 || row >= found.each_ma.len() {
+            return None;
+        }
+        found.each_ma.remove(row);
+        found.mean_ma = mean(found.each_ma.iter());
+        *at = PositionReadings::new(index, std::mem::take(&mut at.visits));
+        Some(())
+    }
+
     /// Returns the readings of every position, in the order of the coefficients.
     pub fn positions(&self) -> &[PositionReadings] {
         &self.positions

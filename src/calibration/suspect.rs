@@ -52,27 +52,35 @@ impl Suspect {
         PositionIndex { i: self.i, j: self.j }
     }
 
-    /// Returns the readings without the visit and, if the other one may be wrong instead, without that one; nothing for a
-    /// row, which cannot be left out.
+    /// Returns the readings without the visit or row and, if the other one may be wrong instead, without that one.
     pub(crate) fn left_out(&self, readings: &Readings) -> Vec<Readings> {
-        let without = |suspect: Self| {
-            let Self { i, j, cycle, visit, .. } = suspect;
-            let mut rest = readings.clone();
-            rest.exclude(Exclusion { i, j, visit, cycle: Some(cycle), why: String::new() }).ok().map(|()| rest)
-        };
-        let visits = [Some(*self), self.other(readings)];
-        visits.into_iter().flatten().filter(|visit| visit.row.is_none()).filter_map(without).collect()
+        let each = [Some(*self), self.other(readings)];
+        each.into_iter().flatten().filter_map(|one| one.removed(readings)).collect()
     }
 
-    /// Returns the other of two visits, with the opposite difference.
+    fn removed(&self, readings: &Readings) -> Option<Readings> {
+        let Self { i, j, cycle, visit, row, .. } = *self;
+        let mut rest = readings.clone();
+        match row {
+            Some(row) => rest.leave_out_row(self.index(), (cycle, visit), row.checked_sub(1)?)?,
+            None => rest.exclude(Exclusion { i, j, visit, cycle: Some(cycle), why: String::new() }).ok()?,
+        }
+        Some(rest)
+    }
+
+    /// Returns the other of two visits or rows, with the opposite difference.
     fn other(&self, readings: &Readings) -> Option<Self> {
         let at = readings.positions().iter().find(|at| self.one_of_two && at.index == self.index())?;
+        if let Some(row) = self.row {
+            let difference_ma = self.difference_ma.map(|difference| -difference);
+            return Some(Self { row: Some(3_usize.checked_sub(row)?), difference_ma, ..*self });
+        }
         let other = at.visits.iter().find(|visit| (visit.cycle, visit.number) != (self.cycle, self.visit))?;
         let difference_ma = self.difference_ma.map(|difference| -difference);
         Some(Self { cycle: other.cycle, visit: other.number, difference_ma, ..*self })
     }
 
-    /// Returns which of two visits is wrong, if the readings fit the stand only without it.
+    /// Returns which of two visits or rows is wrong, if the readings fit the stand only without it.
     fn by_fit(self, setup: &Setup, readings: &Readings, options: &Options) -> Self {
         let fits = |rest: &Readings| {
             let Observation { data, fit, .. } = Observation::new(setup, rest, options.model, options.drift).ok()?;
@@ -111,9 +119,9 @@ pub(crate) fn all(setup: &Setup, readings: &Readings, observation: &Observation,
         let stated = if repeats.visit.source == NoiseSource::Estimated { 0.0 } else { repeats.visit.deg_per_h };
         let explained = |place, visit| errors.with_noise(place, visit, stated).trace() / of_visit(place, visit).trace();
         let k = &fit.unknowns.parameters.k_deg_per_h_per_ma;
-        Some(of_visits(readings, differences, k, of_visit, explained)?.by_fit(setup, readings, options))
+        of_visits(readings, differences, k, of_visit, explained)
     });
-    row.into_iter().chain(visit).collect()
+    row.into_iter().chain(visit).map(|suspect| suspect.by_fit(setup, readings, options)).collect()
 }
 
 /// Returns the visit that agrees least with the others.

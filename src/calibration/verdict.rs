@@ -303,10 +303,12 @@ impl Verdict {
         (!self.withheld).then_some(row.guarded)
     }
 
-    /// Returns the comparison without the decisions that differ from those of `other`, a comparison of the same gyro.
-    pub(crate) fn agreed(mut self, other: Self) -> Self {
+    /// Returns the comparison without the decisions that differ from those of `other`, a comparison of the same gyro, or
+    /// without any if that is not possible.
+    pub(crate) fn agreed(mut self, other: Option<Self>) -> Self {
         for row in &mut self.parameters {
-            if other.parameter(row.parameter).is_none_or(|other| other.guarded != row.guarded) {
+            let decision = other.as_ref().and_then(|other| other.parameter(row.parameter)).map(|other| other.guarded);
+            if decision != Some(row.guarded) {
                 row.guarded = Decision::Undecided;
             }
         }

@@ -62,6 +62,29 @@ pub fn calibrate(
     Ok(Calibrated { json: json(&done.document), covariance, remarks: done.document.remarks })
 }
 
+/// Largest number of results without suspects: of several that are wrong, each is found only without the others.
+const MOST_WITHOUT: usize = 16;
+
+/// Returns the results without each visit or row that is probably wrong, and without each that is suspect then: no decision
+/// may rest on one of them. A result is `None` if it cannot be found.
+fn without_suspects(
+    calibration: &Calibration,
+    readings: &Readings,
+    calibrate: impl Fn(&Readings) -> Option<(CalibrationDocument, Calibration)>,
+) -> Vec<Option<CalibrationDocument>> {
+    let left_out = |of: &Calibration, from: &Readings| -> Vec<Readings> {
+        of.suspects.iter().flat_map(|suspect| suspect.left_out(from)).collect()
+    };
+    let mut found = Vec::new();
+    let mut rests = left_out(calibration, readings);
+    while let Some(rest) = rests.pop() {
+        let result = if found.len() < MOST_WITHOUT { calibrate(&rest) } else { None };
+        rests.extend(result.iter().flat_map(|(_, calibration)| left_out(calibration, &rest)));
+        found.push(result.map(|(document, _)| document));
+    }
+    found
+}
+
 /// Reads the currents, and leaves out the visits that `order` names.
 fn prepared<'a>(content: &'a Content, currents: (&str, &[u8]), order: &'a Order) -> Result<Prepared<'a>, Failed> {
     let mut prepared = Prepared::new(content, &order.laboratory, order.gyro.as_ref(), currents)?;
@@ -270,13 +293,15 @@ impl<'a> Prepared<'a> {
             warning.map(|warning| warning.to_string()).into_iter().chain(of_files.map(|words| plain(&words)));
         let of_others = of_conditions.chain(early).chain(another_type(previous, gyro_type)).chain(unknown_gyro.clone());
         document.remarks.extend(readings.remarks.iter().cloned().chain(of_others));
-        // No decision may rest on a visit that is probably wrong.
-        let without = calibration.suspects.iter().flat_map(|suspect| suspect.left_out(&readings));
-        let without: Vec<_> = without
-            .filter_map(|rest| Some(documented(&rest, &calibration::calibrate(&setup, &rest, options).ok()?)))
-            .collect();
+        let without = without_suspects(&calibration, &readings, |rest| {
+            // Without a visit, the paper's methods may not have a result.
+            let methods = vec![Method::LeastSquares];
+            let found = calibration::calibrate(&setup, rest, &Options { methods, ..options.clone() }).ok()?;
+            Some((documented(rest, &found), found))
+        });
         let agreed = |judged: &dyn Fn(&CalibrationDocument) -> Option<Verdict>| {
-            Some(without.iter().filter_map(judged).fold(judged(&document)?, Verdict::agreed))
+            let others = without.iter().map(|found| found.as_ref().and_then(judged));
+            Some(others.fold(judged(&document)?, Verdict::agreed))
         };
         let verdict = gyro_type.and_then(|gyro_type| agreed(&|found| found.judged(gyro_type)));
         let change = last.zip(gyro_type);

@@ -324,6 +324,7 @@ pub(crate) fn why_no_change(why: NoChange) -> Text {
     match why {
         NoChange::SameReadings => texts::SAME_READINGS,
         NoChange::EarlierNotValid => texts::EARLIER_NOT_VALID,
+        NoChange::EarlierSuspect => texts::EARLIER_SUSPECT,
     }
 }
 

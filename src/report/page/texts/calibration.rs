@@ -169,6 +169,12 @@ texts! {
         ru: "Предыдущий результат недействителен: его показания не согласуются со стендом или содержат ошибку. Следует \
              сравнить с действительным результатом."
     }
+    EARLIER_SUSPECT {
+        en: "A reading of the previous result is probably wrong, so it does not show a change. Repeat that calibration \
+             without it.",
+        ru: "Одно из показаний предыдущего результата, вероятно, ошибочно, и изменения он не показывает. Следует \
+             повторить ту калибровку без этого показания."
+    }
     SUBJECT { en: "Object, place and equipment of the calibration", ru: "Объект, место и средства калибровки" }
     TYPE { en: "Type", ru: "Тип" }
     SERIAL { en: "Serial number of the gyro", ru: "Заводской номер гироскопа" }
@@ -382,8 +388,8 @@ texts! {
         ru: "С противоположным знаком в допуске были бы: {names}. Следует проверить правило знаков."
     }
     DEPENDENT {
-        en: "No decision is made on {names}: it depends on a visit that is probably wrong.",
-        ru: "Решение не принято для {names}: оно зависит от установки, которая, вероятно, ошибочна."
+        en: "No decision is made on {names}: it depends on a reading that is probably wrong.",
+        ru: "Решение не принято для {names}: оно зависит от показания, которое, вероятно, ошибочно."
     }
     NO_RISK {
         en: "U exceeds every tolerance, so no risk of error is given (–).",
