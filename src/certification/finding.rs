@@ -39,6 +39,8 @@ pub(crate) enum Finding {
     /// Significant differences of all positions together, of none alone.
     ChangedTogether,
     Slightly,
+    /// Position that repeats, but differs from the others by more than chance explains in most checks.
+    Straggler(ComparedPosition),
     Rotated,
     RotatedSlightly,
     RotatedRuns(RotatedRuns),
@@ -98,9 +100,11 @@ impl Finding {
     pub(crate) fn words(&self, language: Language) -> String {
         let fill = |text: Text, values: Values| text.filled(language, values);
         match self {
-            Self::Changed(ComparedPosition { index, turn_arcsec, u_arcsec, .. }) => {
+            Self::Changed(ComparedPosition { index, turn_arcsec, u_arcsec, .. })
+            | Self::Straggler(ComparedPosition { index, turn_arcsec, u_arcsec, .. }) => {
                 let [x, y, z] = std::array::from_fn(|axis| Number::measured(turn_arcsec[axis], u_arcsec[axis]));
-                fill(texts::POSITION_CHANGED, values! { index, x, y, z })
+                let text = if self.is_change() { texts::POSITION_CHANGED } else { texts::POSITION_STRAGGLES };
+                fill(text, values! { index, x, y, z })
             }
             Self::ScattersMore { of_check_arcsec, certified_arcsec, probability } => {
                 let [found, certified] =
@@ -250,6 +254,11 @@ pub(super) fn findings(
     let suspect: Vec<Finding> = again.map_or_else(Vec::new, |again| suspect(again, positions));
     let explained = |at: &ComparedPosition| suspect.iter().chain(&misplaced).any(|found| found.explains(at));
     findings.retain(|found| !matches!(found, Finding::Changed(at) if explained(at)));
+    let all_repeat = positions.iter().all(|at| at.repeats);
+    if all_repeat && findings.is_empty() && suspect.is_empty() && misplaced.is_empty() {
+        let straggles = |at: &&ComparedPosition| at.test.probability * (positions.len() as f64) < STRAGGLER;
+        findings.extend(positions.iter().filter(straggles).copied().map(Finding::Straggler));
+    }
     // A run during which the stand moved changes all positions of the check.
     if suspect.iter().any(|found| matches!(found, Finding::SplitRun(_))) {
         findings.clear();

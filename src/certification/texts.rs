@@ -226,6 +226,12 @@ texts! {
         en: "Position {index} has changed relative to the other positions: {x}″, {y}″, {z}″ about x, y, z.",
         ru: "Положение {index} изменилось относительно остальных: поворот на {x}″, {y}″, {z}″ вокруг x, y, z."
     }
+    POSITION_STRAGGLES {
+        en: "Position {index} differs from the others by {x}″, {y}″, {z}″ about x, y, z, slightly more than chance \
+             explains; measure it again.",
+        ru: "Положение {index} отличается от остальных на {x}″, {y}″, {z}″ вокруг x, y, z — несколько больше случайного; \
+             следует измерить его ещё раз."
+    }
     CHANGED_TOGETHER {
         en: "The positions have changed by more than the stated uncertainties explain; no single position stands out.",
         ru: "Изменения положений больше, чем объясняют указанные неопределённости; ни одно положение не выделяется."

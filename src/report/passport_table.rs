@@ -274,6 +274,15 @@ fn expected(out: &mut String, content: &Content) {
         vec![parameter.symbol().to_owned(), unit, u, percent, limit]
     });
     columns::table(out, &["", "unit", "u", "u, %", "tolerance"], rows);
+    let (gravity, type_gravity) = (content.earth.gravity_m_per_s2, gyro.gravity());
+    let Some(u_gravity) = content.site.gravity_u_m_per_s2().filter(|_| gravity != type_gravity) else { return };
+    let [of_g, of_k] = [Parameter::OmegaG, Parameter::OmegaK]
+        .map(|parameter| columns::two_digits(nominal[parameter.place()].abs() * u_gravity / gravity));
+    let words = format!(
+        "ω_g and ω_k refer to local g. A comparison with their tolerances, at the g of the type, adds its uncertainty: \
+         u = {of_g} °/(h·g) for ω_g, {of_k} °/(h·g) for ω_k."
+    );
+    columns::paragraph(out, "  ", &words);
 }
 
 fn self_check(out: &mut String, content: &Content) {
