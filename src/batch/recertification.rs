@@ -207,16 +207,12 @@ impl Recertification<'_> {
                  number of the new certificate, such as C-2027-0009"
             )));
         }
-        if let Some(until) = self.valid_until.filter(|until| *until < issued) {
-            let words = format!("--valid-until {until} is before --issued {issued}; check the years");
-            return Err(NotRecertified::Order(words));
-        }
-        match self.performed.filter(|performed| *performed > issued) {
-            Some(performed) => Err(NotRecertified::Order(format!(
-                "--performed {performed} is after --issued {issued}; check the dates"
-            ))),
-            None => Ok(()),
-        }
+        let words = match (self.valid_until, self.performed) {
+            (Some(until), _) if until < issued => format!("--valid-until {until} is before --issued {issued}"),
+            (_, Some(performed)) if performed > issued => format!("--performed {performed} is after --issued {issued}"),
+            _ => return Ok(()),
+        };
+        Err(NotRecertified::Order(format!("{words}; check the years")))
     }
 
     fn header(&self, old: &Stand) -> Result<Header, NotRecertified> {

@@ -329,9 +329,10 @@ impl CalibrationDocument {
         let same_result = || self.answer().zip(earlier.answer()).is_some_and(|(here, there)| here.is_same(&there));
         if same_file || same_result() {
             Some(NoChange::SameReadings)
+        } else if !earlier.is_valid() {
+            Some(NoChange::EarlierNotValid)
         } else {
-            let suspect = (!earlier.suspects.is_empty()).then_some(NoChange::EarlierSuspect);
-            if earlier.is_valid() { suspect } else { Some(NoChange::EarlierNotValid) }
+            (!earlier.suspects.is_empty()).then_some(NoChange::EarlierSuspect)
         }
     }
 

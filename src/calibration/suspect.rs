@@ -70,28 +70,27 @@ impl Suspect {
 
     /// Returns the other of two visits or rows, with the opposite difference.
     fn other(&self, readings: &Readings) -> Option<Self> {
+        let other = Self { difference_ma: self.difference_ma.map(|difference| -difference), ..*self };
         let at = readings.positions().iter().find(|at| self.one_of_two && at.index == self.index())?;
         if let Some(row) = self.row {
-            let difference_ma = self.difference_ma.map(|difference| -difference);
-            return Some(Self { row: Some(3_usize.checked_sub(row)?), difference_ma, ..*self });
+            return Some(Self { row: Some(3_usize.checked_sub(row)?), ..other });
         }
-        let other = at.visits.iter().find(|visit| (visit.cycle, visit.number) != (self.cycle, self.visit))?;
-        let difference_ma = self.difference_ma.map(|difference| -difference);
-        Some(Self { cycle: other.cycle, visit: other.number, difference_ma, ..*self })
+        let visit = at.visits.iter().find(|visit| (visit.cycle, visit.number) != (self.cycle, self.visit))?;
+        Some(Self { cycle: visit.cycle, visit: visit.number, ..other })
     }
 
     /// Returns which of two visits or rows is wrong, if the readings fit the stand only without it.
     fn by_fit(self, setup: &Setup, readings: &Readings, options: &Options) -> Self {
-        let fits = |rest: &Readings| {
-            let Observation { data, fit, .. } = Observation::new(setup, rest, options.model, options.drift).ok()?;
+        let Some(other) = self.other(readings) else { return self };
+        let fits_without = |one: &Self| {
+            let rest = one.removed(readings)?;
+            let Observation { data, fit, .. } = Observation::new(setup, &rest, options.model, options.drift).ok()?;
             let found = chi_square(&Propagation::new(setup, &data, &fit));
             found.judges().then_some(found.probability >= ALARM)
         };
-        let fitting: Vec<_> = self.left_out(readings).iter().map(fits).collect();
-        let known = Self { one_of_two: false, ..self };
-        match (fitting.as_slice(), self.other(readings)) {
-            ([Some(true), Some(false)], _) => known,
-            ([Some(false), Some(true)], Some(other)) => Self { one_of_two: false, ..other },
+        match [fits_without(&self), fits_without(&other)] {
+            [Some(true), Some(false)] => Self { one_of_two: false, ..self },
+            [Some(false), Some(true)] => Self { one_of_two: false, ..other },
             _ => self,
         }
     }

@@ -285,11 +285,10 @@ impl Verdict {
         change.map_or(self.overall, |change| self.overall.max(change.overall))
     }
 
-    /// Returns the parameters that are not decided, whatever U is, because the decision depends on a suspect visit.
+    /// Returns the parameters that are not decided, whatever U is, because the decision depends on a suspect reading.
     pub(crate) fn dependent(&self) -> Vec<Parameter> {
-        let is_dependent = |row: &&ParameterVerdict| {
-            row.guarded != decide(row.deviation, row.expanded_uncertainty, row.tolerance).1 && !self.withheld
-        };
+        let is_dependent =
+            |row: &&ParameterVerdict| row.guarded != decide(row.deviation, row.expanded_uncertainty, row.tolerance).1;
         self.parameters.iter().filter(is_dependent).map(|row| row.parameter).collect()
     }
 

@@ -72,14 +72,16 @@ pub(super) fn parse(mut arguments: Vec<OsString>) -> Result<Parsed, ExitCode> {
 
 /// Returns an existing file that two arguments name, if `--force` permits that one of them replaces it.
 fn named_twice(arguments: &[OsString]) -> Option<PathBuf> {
+    if !arguments.iter().any(|argument| argument == "--force") {
+        return None;
+    }
     let path = |argument: &OsString| {
         let value = argument.to_str().filter(|text| text.starts_with("--")).and_then(|text| text.split_once('='));
         let path = value.map_or_else(|| PathBuf::from(argument), |(_, value)| PathBuf::from(value));
         Some((path.canonicalize().ok().filter(|path| path.is_file())?, path))
     };
     let mut seen = BTreeSet::new();
-    let mut twice = arguments.iter().skip(1).filter_map(path).filter(|(file, _)| !seen.insert(file.clone()));
-    twice.next().filter(|_| arguments.iter().any(|argument| argument == "--force")).map(|(_, path)| path)
+    arguments.iter().skip(1).filter_map(path).find_map(|(file, path)| (!seen.insert(file)).then_some(path))
 }
 
 /// Returns clap's message without its mark and its last line feed.

@@ -12,7 +12,7 @@ use crate::calibration::iterative::StopRule;
 use crate::calibration::readings::Exclusion;
 use crate::calibration::stated::TemperatureOutside;
 use crate::calibration::{
-    CalibrationDocument, Decision, Method, Model, NotStated, Options as CalibrationOptions, Readings, Verdict,
+    CalibrationDocument, Decision, Method, Model, Options as CalibrationOptions, Readings, Verdict,
 };
 use crate::coefficients::PositionIndex;
 use crate::dcc::{self, Calibrated};
@@ -24,7 +24,7 @@ use crate::interface::{self, Failed};
 use crate::laboratory::{Laboratory, TEMPERATURES_C};
 use crate::passport::{Check, Verification};
 use crate::report::calibration as report;
-use crate::report::style::Outcome;
+use crate::report::gyros::{self, Gyros};
 use crate::report::{CalibrationPage, Language, PassportPage, UsedPassport};
 use crate::report::{issued, style};
 use crate::text::{Kind, Printable, name_of, printable, shown};
@@ -304,8 +304,7 @@ impl Bench<'_> {
         }
         let mut written = HashMap::new();
         let mut calibrated = Once::new();
-        let (mut answers, mut failed) = (Vec::new(), Vec::new());
-        let mut common: Option<(CalibrationDocument, Vec<NotStated>)> = None;
+        let (mut all, mut failed) = (Gyros::default(), Vec::new());
         let calibrate = |path: &Path| {
             let found = self.calibrate(path)?;
             calibrated
@@ -315,19 +314,14 @@ impl Bench<'_> {
                 self.write(folder, path, &found, &mut written)?;
             }
             let trials = found.uncertainty.monte_carlo.as_ref();
-            let text = report::line(&found.currents.0, &found.done, trials, self.gyro_name());
+            let text = gyros::line(&found.currents.0, &found.done, trials, self.gyro_name());
             let result = serde_json::to_value(found.whole()).map_err(Failure::unusable)?;
-            answers.push(report::outcome(&found.done, self.gyro_name()));
-            let missing = &found.done.missing;
-            common
-                .get_or_insert_with(|| (found.done.document.clone(), missing.clone()))
-                .1
-                .retain(|what| missing.contains(what));
+            all.add(&found.done, self.gyro_name(), self.checks());
             Ok(((Line { file: found.currents.0.clone(), result }, text), found.code()))
         };
         let code = inputs::each(&options.currents, Purpose::Tables, calibrate, |done| {
             if let Each::Refused { refusal, .. } = &done {
-                failed.push((Outcome::Failed, issued::outcome(refusal).to_owned()));
+                failed.push(issued::outcome(refusal));
             }
             inputs::print(&done, options.format)
         })?;
@@ -338,16 +332,11 @@ impl Bench<'_> {
                 "wrote the result (.json) and the report (.html) of {count} gyro{plural} to {folder}"
             ));
         }
-        answers.append(&mut failed);
-        let words = report::summary(&answers);
-        match options.format {
-            Format::Text => {
-                let common = common
-                    .map(|(one, missing)| report::common(&one, self.checks(), options.laboratory.is_none(), &missing));
-                output::text(&(words + &common.unwrap_or_default()))?;
-            }
-            Format::Json if words.is_empty() => (),
-            Format::Json => output::say_verdict(&style::plain(&words)),
+        failed.into_iter().for_each(|word| all.add_failed(word));
+        match (options.format, all.summary()) {
+            (Format::Text, _) => output::text(&all.text(options.laboratory.is_none()))?,
+            (Format::Json, words) if words.is_empty() => (),
+            (Format::Json, words) => output::say_verdict(&style::plain(&words)),
         }
         Ok(code)
     }

@@ -293,20 +293,21 @@ impl<'a> Prepared<'a> {
             warning.map(|warning| warning.to_string()).into_iter().chain(of_files.map(|words| plain(&words)));
         let of_others = of_conditions.chain(early).chain(another_type(previous, gyro_type)).chain(unknown_gyro.clone());
         document.remarks.extend(readings.remarks.iter().cloned().chain(of_others));
-        let without = without_suspects(&calibration, &readings, |rest| {
-            // Without a visit, the paper's methods may not have a result.
-            let methods = vec![Method::LeastSquares];
-            let found = calibration::calibrate(&setup, rest, &Options { methods, ..options.clone() }).ok()?;
-            Some((documented(rest, &found), found))
-        });
-        let agreed = |judged: &dyn Fn(&CalibrationDocument) -> Option<Verdict>| {
-            let others = without.iter().map(|found| found.as_ref().and_then(judged));
-            Some(others.fold(judged(&document)?, Verdict::agreed))
-        };
-        let verdict = gyro_type.and_then(|gyro_type| agreed(&|found| found.judged(gyro_type)));
-        let change = last.zip(gyro_type);
-        let change = change.and_then(|(earlier, gyro_type)| agreed(&|found| found.changed(earlier, gyro_type)));
-        (document.verdict, document.change) = (verdict, change);
+        if let Some(gyro_type) = gyro_type {
+            let without = without_suspects(&calibration, &readings, |rest| {
+                // Without a visit, the paper's methods may not have a result.
+                let methods = vec![Method::LeastSquares];
+                let found = calibration::calibrate(&setup, rest, &Options { methods, ..options.clone() }).ok()?;
+                Some((documented(rest, &found), found))
+            });
+            let agreed = |judged: &dyn Fn(&CalibrationDocument) -> Option<Verdict>| {
+                let others = without.iter().map(|found| found.as_ref().and_then(judged));
+                Some(others.fold(judged(&document)?, Verdict::agreed))
+            };
+            let verdict = agreed(&|found| found.judged(gyro_type));
+            let change = last.and_then(|earlier| agreed(&|found| found.changed(earlier, gyro_type)));
+            (document.verdict, document.change) = (verdict, change);
+        }
         let unexplained = last.map_or_else(Vec::new, |earlier| document.unexplained_change(earlier));
         let unexplained = (!unexplained.is_empty()).then(|| {
             let names = unexplained.iter().map(|parameter| parameter.symbol()).collect::<Vec<_>>().join(", ");

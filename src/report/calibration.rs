@@ -1,7 +1,7 @@
 //! Result of a calibration as text: the decision, the parameters and the fit come first, the evidence below.
 
 use super::scatter::{Weight, correlated, scatter};
-use super::tolerance::{Answer, coverage_factor, decided, from_gravity, headline, verdict_table};
+use super::tolerance::{coverage_factor, decided, from_gravity, headline, verdict_table};
 use super::uncertainty::not_linear;
 use crate::calibration::chi_square::FEW_DEGREES;
 use crate::calibration::diagnosis::INCONSISTENT;
@@ -19,7 +19,6 @@ use crate::report::page::calibration::why_no_change;
 use crate::report::page::language::{Language, capital, values};
 use crate::report::page::texts::calibration as texts;
 use crate::report::picture::tolerances::unit_at_type;
-use crate::report::style::Outcome;
 use crate::report::verdict::counts_with_names;
 use crate::report::{columns, mistake, recorded, style};
 use crate::text::printable;
@@ -181,46 +180,6 @@ pub(crate) fn remarks(calibration: &Calibration, readings: &Readings, mistake: O
     );
     remarks.extend(without_reading(readings).map(|words| words + "."));
     remarks
-}
-
-/// Returns the result for one of several gyros in one line: the decision for the type of this name, or the fit if there is
-/// none.
-pub(crate) fn line(file: &str, done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&str>) -> String {
-    let Done { calibration, document, .. } = done;
-    let file = printable(file);
-    let ((outcome, word), mut reasons) = headline(document, gyro_type);
-    if document.hint.is_some() {
-        reasons += "; for the cause, calibrate this file alone";
-    } else if gyro_type.is_none() && document.is_valid() {
-        let fit = calibration.answer().map(|answer| columns::probability(answer.chi_square.probability));
-        reasons = fit.map_or_else(String::new, |p| format!("probability of a larger chi-square {p}"));
-    }
-    let mut out = format!("{}  {file}  {reasons}", style::of_input(outcome, &word));
-    let mistake = document.mistake.iter().map(|mistake| plain(&mistake::words(mistake, Language::English)));
-    let of_scatter = scatter(calibration).into_iter().filter(|(weight, _)| *weight == Weight::Warning);
-    for words in mistake.chain(of_scatter.map(|(_, words)| words)).chain(trials.and_then(not_linear)) {
-        let _ = write!(out, "; WARNING: {}", capital(&words));
-    }
-    out.push('\n');
-    out
-}
-
-/// Returns the outcome for one of several gyros.
-pub(crate) fn outcome(done: &Done, gyro_type: Option<&str>) -> Answer {
-    headline(&done.document, gyro_type).0
-}
-
-/// Returns the counts of the outcomes for several gyros, with the mark of the worst; nothing for a single one.
-pub(crate) fn summary(answers: &[Answer]) -> String {
-    if answers.len() < 2 {
-        return String::new();
-    }
-    let count = |word: &str| answers.iter().filter(|(_, found)| found == word).count();
-    const WORDS: [&str; 7] = ["PASS", "UNDECIDED", "FAIL", "CALIBRATED", "INVALID", "REFUSED", "NOT WRITTEN"];
-    let counts = columns::counts(WORDS.map(|word| (count(word), word.to_lowercase())));
-    let has = |outcome: &Outcome| answers.iter().any(|(found, _)| found == outcome);
-    let worst = [Outcome::Failed, Outcome::Undecided, Outcome::NotAsked].into_iter().find(has);
-    style::marked(worst.unwrap_or(Outcome::Passed), &format!("{} gyros: {counts}", answers.len())) + "\n"
 }
 
 /// Writes which visits and positions were left out, and what that cost.
@@ -399,7 +358,7 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
 }
 
 /// Returns which passport was used, and whether it was verified.
-fn passport(document: &CalibrationDocument, checks: &[Check]) -> String {
+pub(super) fn passport(document: &CalibrationDocument, checks: &[Check]) -> String {
     let verified_as_of = document.subject.as_ref().and_then(|subject| subject.passport_verified_as_of);
     let state = verified_as_of.map_or_else(
         || "NOT VERIFIED".to_owned(),
@@ -408,30 +367,13 @@ fn passport(document: &CalibrationDocument, checks: &[Check]) -> String {
     format!("Passport {}, {state}", document.passport_id)
 }
 
-fn not_stated(out: &mut String, missing: &[NotStated]) {
+pub(super) fn not_stated(out: &mut String, missing: &[NotStated]) {
     if !missing.is_empty() {
         let missing: Vec<&str> = missing.iter().map(|what| what.words()).collect();
         let words =
             format!("u not stated, or stated as 0, and not included in any uncertainty: {}.", missing.join("; "));
         columns::paragraph(out, "", &words);
     }
-}
-
-/// Returns what the results of several gyros have in common, whose lines do not say it: the passport, an assumed meter, and
-/// the inputs without a stated uncertainty, `missing`. `document` is one of the results.
-pub(crate) fn common(
-    document: &CalibrationDocument,
-    checks: &[Check],
-    meter_assumed: bool,
-    missing: &[NotStated],
-) -> String {
-    let mut out = String::new();
-    columns::paragraph(&mut out, "", &passport(document, checks));
-    if meter_assumed {
-        columns::paragraph(&mut out, "", texts::METER_ASSUMED.of(Language::English));
-    }
-    not_stated(&mut out, missing);
-    out
 }
 
 fn chi_square(out: &mut String, answer: &MethodResult) {

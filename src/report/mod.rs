@@ -7,6 +7,7 @@
 //! * `deviations`: the certified deviations, drawn in block characters.
 //! * `difference`: differences of two passports.
 //! * `exported`: a verified passport as JSON, with what its verification found.
+//! * `gyros`: the results of several gyros on one stand.
 //! * `history`: one stand over the years.
 //! * `mistake`: the explanation of a result that is not the gyro's.
 //! * `issued`: the outcomes of the orders of a batch.
@@ -31,6 +32,7 @@ pub(crate) mod columns;
 pub(crate) mod deviations;
 pub(crate) mod difference;
 pub(crate) mod exported;
+pub(crate) mod gyros;
 pub(crate) mod history;
 #[cfg(feature = "factory")]
 pub(crate) mod issued;

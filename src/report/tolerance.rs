@@ -12,14 +12,10 @@ use crate::text::printable;
 use crate::units::quantity;
 use std::fmt::Write;
 
-/// Outcome of a calibration, and the word for it.
-pub(crate) type Answer = (Outcome, String);
-
-/// Returns the outcome of a calibration and the reasons: which parameters pass, fail and are undecided by their values and
+/// Returns the outcome of a calibration with its word, and the reasons: which parameters pass, fail and are undecided by their values and
 /// by their change, or why no statement is made.
-pub(super) fn headline(document: &CalibrationDocument, gyro_type: Option<&str>) -> (Answer, String) {
+pub(super) fn headline(document: &CalibrationDocument, gyro_type: Option<&str>) -> ((Outcome, String), String) {
     let judged = gyro_type.zip(document.verdict.as_ref());
-    let change = document.stated_change();
     let because = |text: Text| text.of(Language::English).to_owned();
     let (outcome, word, mut words) = match judged {
         _ if document.hint.is_some() => (Outcome::Failed, "INVALID".to_owned(), because(texts::DOES_NOT_FIT)),
@@ -29,20 +25,19 @@ pub(super) fn headline(document: &CalibrationDocument, gyro_type: Option<&str>) 
             (Outcome::NotAsked, "CALIBRATED".to_owned(), because(texts::NOT_VERIFIED))
         }
         Some((name, verdict)) => {
-            let not_assessed = document.change.is_some() && change.is_none();
-            let worst =
-                verdict.with_change(change).max(if not_assessed { Decision::Undecided } else { Decision::Pass });
-            let mut words = format!("gyro type {}: {}", printable(name), counted(verdict, texts::PASSED));
-            if not_assessed {
-                words += ". Change since the previous calibration: not assessed";
-            }
+            // Nothing is decided on a change that is not assessed.
+            let worst = verdict.with_change(document.change.as_ref());
+            let of_change = match document.change.as_ref() {
+                Some(change) if change.withheld => ". Change since the previous calibration: not assessed".to_owned(),
+                Some(change) => format!(". {}", counted(change, texts::CHANGE_PASSED)),
+                None => String::new(),
+            };
+            let words = format!("gyro type {}: {}{of_change}", printable(name), counted(verdict, texts::PASSED));
             (worst.into(), word(Some(worst)).to_uppercase(), words)
         }
     };
     if let Some((name, _)) = judged.filter(|(_, verdict)| verdict.withheld) {
         words = format!("{words}. {}", texts::NO_STATEMENT.filled(Language::English, &[("type", &printable(name))]));
-    } else if let Some(change) = change {
-        words = format!("{words}. {}", counted(change, texts::CHANGE_PASSED));
     }
     ((outcome, word), words)
 }

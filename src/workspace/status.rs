@@ -220,24 +220,19 @@ impl Status {
         let of_passports = self.passports.iter().flat_map(|passports| &passports.counts);
         let of_passports: usize =
             of_passports.filter(|(state, _)| state.is_running_out()).map(|(_, number)| *number).sum();
-        let runs_out = of_stands + of_passports > 0;
-        let outcome = match self.needs_attention() {
-            true => Outcome::Failed,
-            false if runs_out => Outcome::Undecided,
-            false => Outcome::Passed,
-        };
-        let verdict = match self.needs_attention() {
-            true => {
+        let (outcome, verdict) = match (self.needs_attention(), of_stands + of_passports) {
+            (true, _) => {
                 let broken = self.passports.as_ref().map_or(0, |passports| passports.broken.len());
-                format!(
-                    "NEEDS ATTENTION  broken passports: {broken}; alarms: {alarms}; remarks: {}",
-                    self.remarks.len()
-                )
+                let remarks = self.remarks.len();
+                let words =
+                    format!("NEEDS ATTENTION  broken passports: {broken}; alarms: {alarms}; remarks: {remarks}");
+                (Outcome::Failed, words)
             }
-            false if runs_out => format!(
-                "NO ALARMS  expired or expiring passports: {of_passports}; expired certificates of stands: {of_stands}"
-            ),
-            false => "NO ALARMS".to_owned(),
+            (false, 0) => (Outcome::Passed, "NO ALARMS".to_owned()),
+            (false, _) => {
+                let counts = format!("passports: {of_passports}; expired certificates of stands: {of_stands}");
+                (Outcome::Undecided, format!("NO ALARMS  expired or expiring {counts}"))
+            }
         };
         let mut out = style::marked(outcome, &verdict) + "\n";
         let _ = writeln!(out, "Workspace  {}, {}", Printable(&self.workspace), self.time);

@@ -97,7 +97,7 @@ pub(super) fn counted(
 }
 
 /// Writes the outcome of simple acceptance, a note on the risks in the table, which parameters no gyro could pass, which
-/// would pass with the other sign, and on which the decision depends on a suspect visit.
+/// would pass with the other sign, and on which the decision depends on a suspect reading.
 fn simple(verdict: &Verdict, note: Option<Text>, languages: &Languages) -> Markup {
     let about = |text: Text, which: &[Parameter], language: Language| {
         let names = listed(which.iter().map(|one| name_of(one.symbol())));

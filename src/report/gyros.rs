@@ -1,0 +1,89 @@
+//! Results of several gyros on one stand as text: a line for each, and what they have in common.
+
+use super::calibration::{not_stated, passport};
+use super::scatter::{Weight, scatter};
+use super::style::Outcome;
+use super::tolerance::headline;
+use super::uncertainty::not_linear;
+use crate::calibration::NotStated;
+use crate::interface::calibrated::Done;
+use crate::passport::Check;
+use crate::report::page::language::{Language, capital};
+use crate::report::page::texts::calibration as texts;
+use crate::report::{columns, mistake, style};
+use crate::text::printable;
+use crate::uncertainty::MonteCarlo;
+use crate::wording::plain;
+use std::fmt::Write;
+
+/// Words for the outcomes, in the order in which they are counted; the last two are of gyros without a result.
+const WORDS: [&str; 7] = ["PASS", "UNDECIDED", "FAIL", "CALIBRATED", "INVALID", "REFUSED", "NOT WRITTEN"];
+
+/// Returns the result for one of several gyros in one line: the decision for the type of this name, or the fit if there is
+/// none.
+pub(crate) fn line(file: &str, done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&str>) -> String {
+    let Done { calibration, document, .. } = done;
+    let file = printable(file);
+    let ((outcome, word), mut reasons) = headline(document, gyro_type);
+    if document.hint.is_some() {
+        reasons += "; for the cause, calibrate this file alone";
+    } else if gyro_type.is_none() && document.is_valid() {
+        let fit = calibration.answer().map(|answer| columns::probability(answer.chi_square.probability));
+        reasons = fit.map_or_else(String::new, |p| format!("probability of a larger chi-square {p}"));
+    }
+    let mut out = format!("{}  {file}  {reasons}", style::of_input(outcome, &word));
+    let mistake = document.mistake.iter().map(|mistake| plain(&mistake::words(mistake, Language::English)));
+    let of_scatter = scatter(calibration).into_iter().filter(|(weight, _)| *weight == Weight::Warning);
+    for words in mistake.chain(of_scatter.map(|(_, words)| words)).chain(trials.and_then(not_linear)) {
+        let _ = write!(out, "; WARNING: {}", capital(&words));
+    }
+    out.push('\n');
+    out
+}
+
+/// Outcomes of several gyros, and what the lines do not say because all have it in common.
+#[derive(Default)]
+pub(crate) struct Gyros {
+    outcomes: Vec<(Outcome, String)>,
+    /// Passport, and the inputs without a stated uncertainty.
+    common: Option<(String, Vec<NotStated>)>,
+}
+
+impl Gyros {
+    /// Adds the result of a gyro with a passport on which these `checks` were made.
+    pub(crate) fn add(&mut self, done: &Done, gyro_type: Option<&str>, checks: &[Check]) {
+        self.outcomes.push(headline(&done.document, gyro_type).0);
+        let first = || (passport(&done.document, checks), done.missing.clone());
+        let (_, missing) = self.common.get_or_insert_with(first);
+        missing.retain(|what| done.missing.contains(what));
+    }
+
+    /// Adds a gyro without a result; `word` is one of [`WORDS`].
+    pub(crate) fn add_failed(&mut self, word: &str) {
+        self.outcomes.push((Outcome::Failed, word.to_owned()));
+    }
+
+    /// Returns the counts of the outcomes with the mark of the worst; nothing for a single gyro.
+    pub(crate) fn summary(&self) -> String {
+        if self.outcomes.len() < 2 {
+            return String::new();
+        }
+        let count = |word: &str| self.outcomes.iter().filter(|(_, found)| found == word).count();
+        let counts = columns::counts(WORDS.map(|word| (count(word), word.to_lowercase())));
+        let has = |outcome: &Outcome| self.outcomes.iter().any(|(found, _)| found == outcome);
+        let worst = [Outcome::Failed, Outcome::Undecided, Outcome::NotAsked].into_iter().find(has);
+        style::marked(worst.unwrap_or(Outcome::Passed), &format!("{} gyros: {counts}", self.outcomes.len())) + "\n"
+    }
+
+    /// Returns the counts, the passport, whether the meter was assumed, and the inputs without a stated uncertainty.
+    pub(crate) fn text(&self, meter_assumed: bool) -> String {
+        let mut out = self.summary();
+        let Some((passport, missing)) = &self.common else { return out };
+        columns::paragraph(&mut out, "", passport);
+        if meter_assumed {
+            columns::paragraph(&mut out, "", texts::METER_ASSUMED.of(Language::English));
+        }
+        not_stated(&mut out, missing);
+        out
+    }
+}
