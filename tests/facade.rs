@@ -189,8 +189,34 @@ fn one_wrong_visit_does_not_fail_a_gyro() {
                 assert_eq!((&suspect["cycle"], &suspect["visit"]), (&turn_ons.into(), &visits.into()), "{case}");
                 assert_eq!(suspect.get("row").is_some(), count > 1, "{case}");
                 assert!(count == 1 || suspect["row"] == count, "{case}");
-                assert_eq!(suspect["one_of_two"], false, "{case}");
+                assert_eq!(suspect["one_of_several"], false, "{case}");
             }
+        }
+    }
+}
+
+/// Expected: without either of the two visits of a second turn-on the readings agree, so both are named if one is wrong; and
+/// so is a wrong visit of the first turn-on.
+#[test]
+fn the_wrong_visit_is_among_those_named_if_a_turn_on_has_two_positions() {
+    let order = order("least-squares", &[]);
+    for positions in [[0, 1], [2, 5], [3, 7], [6, 4]] {
+        for (wrong, error_ma) in (0..4).flat_map(|wrong| ERRORS_MA.map(|error_ma| (wrong, error_ma))) {
+            let (turn_on, position) = (wrong / 2, positions[wrong % 2]);
+            let all = run([2, 2, 1], |at| if at == [turn_on, 0, 0, position] { error_ma } else { [0.0, 0.0] });
+            // The header, two visits in the first turn-on, and one to each of the two positions in the second.
+            let kept = |at: usize| at <= 16 || (at <= 24 && positions.contains(&((at - 1) % 8)));
+            let lines = all.lines().enumerate().filter(|(at, _)| kept(*at)).map(|(_, line)| line.to_owned() + "\n");
+            let found = calibrated(&lines.collect::<String>(), &order);
+            let case = format!("{positions:?}: {error_ma:?} mA in turn-on {turn_on}, position {position}: {found}");
+            assert_ne!(found["verdict"]["overall"], "fail", "{case}");
+            let suspects = found["suspects"].as_array().unwrap();
+            let named = |suspect: &serde_json::Value| {
+                let index = [position / 4 + 1, position % 4 + 1, turn_on + 1, 1];
+                ["i", "j", "cycle", "visit"].iter().zip(index).all(|(key, number)| suspect[*key] == number)
+            };
+            assert!(suspects.iter().any(named), "{case}");
+            assert!(suspects.iter().all(|suspect| suspect["one_of_several"] == (suspects.len() > 1)), "{case}");
         }
     }
 }

@@ -39,8 +39,8 @@ pub struct Suspect {
     /// Number of the row within the visit; absent if the visit as a whole is meant.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub row: Option<usize>,
-    /// `true` if there are only two and the other one may be wrong instead: the fit does not tell which.
-    pub one_of_two: bool,
+    /// `true` if another suspect may be wrong instead: the readings do not tell which.
+    pub one_of_several: bool,
     /// Difference of the currents (J_x, J_y) from what the others predict, mA.
     pub difference_ma: [f64; 2],
     /// Probability that any visit, or any row, differs as much by chance.
@@ -52,13 +52,8 @@ impl Suspect {
         PositionIndex { i: self.i, j: self.j }
     }
 
-    /// Returns the readings without the visit or row and, if the other one may be wrong instead, without that one.
-    pub(crate) fn left_out(&self, readings: &Readings) -> Vec<Readings> {
-        let each = [Some(*self), self.other(readings)];
-        each.into_iter().flatten().filter_map(|one| one.removed(readings)).collect()
-    }
-
-    fn removed(&self, readings: &Readings) -> Option<Readings> {
+    /// Returns the readings without the visit or row.
+    pub(crate) fn left_out(&self, readings: &Readings) -> Option<Readings> {
         let Self { i, j, cycle, visit, row, .. } = *self;
         let mut rest = readings.clone();
         match row {
@@ -67,33 +62,22 @@ impl Suspect {
         }
         Some(rest)
     }
+}
 
-    /// Returns the other of two visits or rows, with the opposite difference.
-    fn other(&self, readings: &Readings) -> Option<Self> {
-        let other = Self { difference_ma: self.difference_ma.map(|difference| -difference), ..*self };
-        let at = readings.positions().iter().find(|at| self.one_of_two && at.index == self.index())?;
-        if let Some(row) = self.row {
-            return Some(Self { row: Some(3_usize.checked_sub(row)?), ..other });
-        }
-        let visit = at.visits.iter().find(|visit| (visit.cycle, visit.number) != (self.cycle, self.visit))?;
-        Some(Self { cycle: visit.cycle, visit: visit.number, ..other })
-    }
-
-    /// Returns which of two visits or rows is wrong, if the readings fit the stand only without it.
-    fn by_fit(self, setup: &Setup, readings: &Readings, options: &Options) -> Self {
-        let Some(other) = self.other(readings) else { return self };
-        let fits_without = |one: &Self| {
-            let rest = one.removed(readings)?;
-            let Observation { data, fit, .. } = Observation::new(setup, &rest, options.model, options.drift).ok()?;
-            let found = chi_square(&Propagation::new(setup, &data, &fit));
-            found.judges().then_some(found.probability >= ALARM)
-        };
-        match [fits_without(&self), fits_without(&other)] {
-            [Some(true), Some(false)] => Self { one_of_two: false, ..self },
-            [Some(false), Some(true)] => Self { one_of_two: false, ..other },
-            _ => self,
-        }
-    }
+/// Returns those of several visits or rows, of which one is wrong, without which the readings fit the stand; all if that
+/// does not tell which.
+fn by_fit(setup: &Setup, readings: &Readings, options: &Options, several: Vec<Suspect>) -> Vec<Suspect> {
+    let fits_without = |one: &Suspect| {
+        let rest = one.left_out(readings)?;
+        let Observation { data, fit, .. } = Observation::new(setup, &rest, options.model, options.drift).ok()?;
+        let found = chi_square(&Propagation::new(setup, &data, &fit));
+        found.judges().then_some(found.probability >= ALARM)
+    };
+    let fits: Option<Vec<bool>> = several.iter().map(fits_without).collect();
+    let Some(fits) = fits.filter(|fits| fits.contains(&true)) else { return several };
+    let one_of_several = fits.iter().filter(|fits| **fits).count() > 1;
+    let rest = several.into_iter().zip(fits).filter(|(_, fits)| *fits);
+    rest.map(|(one, _)| Suspect { one_of_several, ..one }).collect()
 }
 
 /// Residual of a visit or row: the place where it is, and what its removal takes from the sum of squares.
@@ -120,10 +104,11 @@ pub(crate) fn all(setup: &Setup, readings: &Readings, observation: &Observation,
         let k = &fit.unknowns.parameters.k_deg_per_h_per_ma;
         of_visits(readings, differences, k, of_visit, explained)
     });
-    row.into_iter().chain(visit).map(|suspect| suspect.by_fit(setup, readings, options)).collect()
+    let each = [row, visit].into_iter().flatten();
+    each.flat_map(|several| by_fit(setup, readings, options, several)).collect()
 }
 
-/// Returns the visit that agrees least with the others.
+/// Returns the visit that agrees least with the others; several, if each of them agrees as little.
 ///
 /// `k` is K, °/(h·mA), and `covariance` returns the covariance of the errors of a visit, (°/h)², by the indices of
 /// position and visit. Its scale is that of the scatter, but not less than the share that `explained` returns. The result
@@ -134,7 +119,7 @@ pub(crate) fn of_visits(
     k: &Matrix2<f64>,
     covariance: impl Fn(usize, usize) -> Matrix2<f64>,
     explained: impl Fn(usize, usize) -> f64,
-) -> Option<Suspect> {
+) -> Option<Vec<Suspect>> {
     let k_inverse = k.try_inverse()?;
     let VisitRows { design, rates, each } = differences.rows(k, covariance)?;
     // B = L⁻¹ A' for the normal equations A'A = L L': B'B projects onto what x explains.
@@ -157,9 +142,9 @@ pub(crate) fn of_visits(
     largest(readings, deletions, each.len(), residuals.norm_squared(), freedom, least)
 }
 
-/// Returns the row that agrees least with the other rows of its visit, given the scatter of all rows; `least_ma` is the
-/// scatter that a reading has in any case, from its rounding or its stated noise.
-fn of_rows(readings: &Readings, scatter: &RowScatter, least_ma: f64) -> Option<Suspect> {
+/// Returns the row that agrees least with the other rows of its visit, or both of two, given the scatter of all rows;
+/// `least_ma` is the scatter that a reading has in any case, from its rounding or its stated noise.
+fn of_rows(readings: &Readings, scatter: &RowScatter, least_ma: f64) -> Option<Vec<Suspect>> {
     let freedom = scatter.degrees_of_freedom;
     let squares = scatter.standard_deviation_ma.powi(2) * freedom as f64;
     let visits = readings
@@ -180,8 +165,8 @@ fn of_rows(readings: &Readings, scatter: &RowScatter, least_ma: f64) -> Option<S
     largest(readings, deletions, count, squares, freedom, least_ma.powi(2))
 }
 
-/// Returns the largest of `count` deletions if chance does not explain it, given the sum of squares of all residuals,
-/// its degrees of freedom, and the least variance that one of them has.
+/// Returns the largest of `count` deletions, and each that is equal to it, if chance does not explain it, given the sum of
+/// squares of all residuals, its degrees of freedom, and the least variance that one of them has.
 fn largest(
     readings: &Readings,
     deletions: impl Iterator<Item = Deletion>,
@@ -189,28 +174,26 @@ fn largest(
     all_squares: f64,
     degrees_of_freedom: usize,
     least_variance: f64,
-) -> Option<Suspect> {
+) -> Option<Vec<Suspect>> {
     let rest = degrees_of_freedom.checked_sub(2).filter(|rest| *rest > 0)? as f64;
-    let mut largest: Option<Deletion> = None;
-    for deletion in deletions {
-        // Of two that are equal, the first is named.
-        if largest.as_ref().is_none_or(|known| deletion.squares > known.squares * (1.0 + EQUAL)) {
-            largest = Some(deletion);
-        }
-    }
-    let Deletion { place, visit, row, squares, difference_ma } = largest?;
+    let mut deletions: Vec<Deletion> = deletions.collect();
+    let squares = deletions.iter().map(|deletion| deletion.squares).fold(f64::NAN, f64::max);
     let variance = ((all_squares - squares).max(0.0) / rest).max(least_variance);
     let probability = (count as f64 * f_larger(squares / 2.0 / variance, 2, rest)).min(1.0);
-    let at = &readings.positions()[place];
-    let found = &at.visits[visit];
-    (probability < IMPROBABLE).then(|| Suspect {
-        i: at.index.i,
-        j: at.index.j,
-        cycle: found.cycle,
-        visit: found.number,
-        row: row.map(|row| row + 1),
-        one_of_two: if row.is_some() { found.each_ma.len() } else { at.visits.len() } == 2,
-        difference_ma: difference_ma.into(),
-        probability,
-    })
+    deletions.retain(|deletion| deletion.squares * (1.0 + EQUAL) > squares);
+    let suspect = |Deletion { place, visit, row, difference_ma, .. }: &Deletion| {
+        let at = &readings.positions()[*place];
+        let found = &at.visits[*visit];
+        Suspect {
+            i: at.index.i,
+            j: at.index.j,
+            cycle: found.cycle,
+            visit: found.number,
+            row: row.map(|row| row + 1),
+            one_of_several: deletions.len() > 1,
+            difference_ma: (*difference_ma).into(),
+            probability,
+        }
+    };
+    (probability < IMPROBABLE).then(|| deletions.iter().map(suspect).collect())
 }

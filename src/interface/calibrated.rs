@@ -73,7 +73,7 @@ fn without_suspects(
     calibrate: impl Fn(&Readings) -> Option<(CalibrationDocument, Calibration)>,
 ) -> Vec<Option<CalibrationDocument>> {
     let left_out = |of: &Calibration, from: &Readings| -> Vec<Readings> {
-        of.suspects.iter().flat_map(|suspect| suspect.left_out(from)).collect()
+        of.suspects.iter().filter_map(|suspect| suspect.left_out(from)).collect()
     };
     let mut found = Vec::new();
     let mut rests = left_out(calibration, readings);

@@ -6,6 +6,7 @@ use super::page::language::{Language, Text, values};
 use super::page::texts::calibration as texts;
 use crate::calibration::result::DriftTest;
 use crate::calibration::{Agreement, Calibration, NoiseSource, Scatter, Suspect};
+use crate::text::number;
 use crate::wording::number::Probability;
 use crate::wording::plain;
 
@@ -95,19 +96,19 @@ fn suspicion(suspect: &Suspect) -> String {
         None => format!("{of_visit} differs from the other visits"),
         Some(row) => format!("row {row} of {of_visit} differs from the other rows of the visit"),
     };
-    let either =
-        if suspect.one_of_two { format!(" {}", texts::EITHER_OF_TWO.of(Language::English)) } else { String::new() };
-    let [jx, jy] = suspect.difference_ma.map(|difference| with_sign(1000.0 * difference));
+    let either = if suspect.one_of_several {
+        format!(" {}", texts::ONE_OF_SEVERAL.of(Language::English))
+    } else {
+        String::new()
+    };
+    let difference_ua = suspect.difference_ma.map(|difference| 1000.0 * difference);
+    let decimals = number::decimals(difference_ua[0].abs().max(difference_ua[1].abs()));
+    let [jx, jy] = difference_ua.map(|difference| number::signed(difference, decimals));
     format!(
         "{what} by ({jx}, {jy}) µA (probability of so large a difference by chance: {}).{either} Look for the cause; if there is one, \
          leave the visit out with --exclude {i},{j},{visit},{cycle} and --why.",
         columns::probability(suspect.probability)
     )
-}
-
-/// Formats a value with two significant digits and its sign.
-fn with_sign(value: f64) -> String {
-    if value > 0.0 { format!("+{}", columns::two_digits(value)) } else { columns::two_digits(value) }
 }
 
 /// Returns the sentence on a drift that the residuals show.

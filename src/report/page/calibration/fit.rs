@@ -131,13 +131,10 @@ fn suspicion(suspect: &Suspect, languages: &Languages) -> Markup {
     let [jx, jy] = difference_ua.map(|difference| Number::to_place(difference, place));
     let Suspect { cycle, visit, .. } = *suspect;
     let (index, row) = (suspect.index(), suspect.row.unwrap_or(0));
-    let (text, other) = match suspect.row {
-        Some(_) => (texts::SUSPECT_ROW, texts::EITHER_OF_TWO),
-        None => (texts::SUSPECT_VISIT, texts::EITHER_OF_TWO_VISITS),
-    };
+    let text = if suspect.row.is_some() { texts::SUSPECT_ROW } else { texts::SUSPECT_VISIT };
     languages.paragraph_with(|language| {
         let words = text.filled(language, values! { row, visit, cycle, index, jx, jy });
-        let either = suspect.one_of_two.then(|| other.words(language));
+        let either = suspect.one_of_several.then(|| texts::ONE_OF_SEVERAL.words(language));
         html! { (words) @if let Some(either) = either { " " (either) } }
     })
 }

@@ -467,13 +467,9 @@ texts! {
              установки на {jx} мкА по x и {jy} мкА по y; случайностью это не объяснить (вероятность меньше 0,001). Оно \
              учтено в результате."
     }
-    EITHER_OF_TWO {
-        en: "There are only two, so the other one may be wrong instead.",
-        ru: "Их всего два, поэтому ошибочно может быть и другое."
-    }
-    EITHER_OF_TWO_VISITS {
-        en: "There are only two, so the other one may be wrong instead.",
-        ru: "Их всего две, поэтому ошибочной может быть и другая."
+    ONE_OF_SEVERAL {
+        en: "Either this or another one named here is wrong; the readings do not tell which.",
+        ru: "Ошибка здесь или в другом названном месте; по показаниям это не установить."
     }
     DRIFTS {
         en: "The residuals show a trend in ω_0, ({x}, {y}) °/h per hour ({p}), which is not fitted. Fit it with \
