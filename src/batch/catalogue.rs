@@ -6,7 +6,6 @@ use crate::files;
 use crate::passport::issue::PreparedStand;
 use crate::site::Site;
 use crate::stand::Stand;
-use crate::text::placeholder::filled_in;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, first_few, name_of, shown};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -38,7 +37,7 @@ impl Listed for PreparedStand {
     const NAME: &str = "stand";
 
     fn parse(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        filled_in(name, bytes, Stand::from_yaml).map(Self::new)
+        Stand::from_yaml(name, bytes).map(Self::new)
     }
 
     fn id(&self) -> String {
@@ -56,7 +55,7 @@ impl Listed for Site {
     const NAME: &str = "site";
 
     fn parse(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        filled_in(name, bytes, Self::from_yaml)
+        Self::from_yaml(name, bytes)
     }
 
     fn id(&self) -> String {

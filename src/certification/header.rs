@@ -3,7 +3,7 @@
 use crate::coefficients::PositionIndex;
 use crate::stand::{self, Certificate, CertifiedPosition, Datum, Identity, Stand};
 use crate::text::record::Document;
-use crate::text::{Path, Problems, Unreadable, placeholder, record, yaml};
+use crate::text::{Path, Problems, Unreadable, record, yaml};
 
 record! {
     /// Position to be certified, with its nominal angles only.
@@ -90,14 +90,6 @@ impl Header {
         })?;
         header.positions.sort_by_key(NominalPosition::index);
         Ok(header)
-    }
-
-    /// Reads a header to certify from it, as [`Header::from_yaml`] does, and refuses the placeholders of the template.
-    ///
-    /// # Errors
-    /// Returns the errors of [`Header::from_yaml`], and every placeholder at its line, column and field.
-    pub(crate) fn filled_in(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        placeholder::filled_in(name, bytes, Self::from_yaml)
     }
 }
 

@@ -135,7 +135,7 @@ fn header_of(headers: &Path, readings: &Path) -> Result<Header, Failure> {
         let (path, readings) = (shown(&path), shown(readings));
         return Err(Failure::unusable(format!("{path}: missing, expected the header of {readings}; {advice}")));
     }
-    inputs::document(&path, inputs::HEADER, Header::filled_in)
+    inputs::document(&path, inputs::HEADER, Header::from_yaml)
 }
 
 /// Writes a certified stand; a stand file that it supersedes is kept. Certificates of `known` stands, and of the one that
@@ -159,7 +159,7 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
     files::check_distinct(options.output.iter().chain(&options.report))?;
     let against = options.against.as_deref().map(|path| certified(path, &options.trust)).transpose()?;
     let header = match (&options.stand, &against) {
-        (Some(path), _) => inputs::document(path, inputs::HEADER, Header::filled_in)?,
+        (Some(path), _) => inputs::document(path, inputs::HEADER, Header::from_yaml)?,
         (None, Some(stand)) => Header::from(stand),
         (None, None) => return Err(Failure::unusable("missing --stand or --against")),
     };

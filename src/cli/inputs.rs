@@ -11,7 +11,6 @@ use crate::laboratory::Laboratory;
 use crate::report::issued;
 use crate::site::Site;
 use crate::stand::Stand;
-use crate::text::placeholder::filled_in;
 use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, Printable, Problems, Unreadable, name_of, printable, shown};
 use crate::wording::{Language, plain};
 use serde::Serialize;
@@ -44,16 +43,7 @@ pub(super) fn stand(path: &Path) -> Result<Stand, Failure> {
 
 /// Reads a site file, and remarks on a file that has not the name of its site.
 pub(super) fn site(path: &Path) -> Result<Site, Failure> {
-    site_by(path, Site::from_yaml)
-}
-
-/// Reads a site file to issue for it: without placeholders of the template.
-pub(super) fn site_to_issue(path: &Path) -> Result<Site, Failure> {
-    site_by(path, Site::parse)
-}
-
-fn site_by(path: &Path, reader: impl FnOnce(&str, &[u8]) -> Result<Site, Unreadable>) -> Result<Site, Failure> {
-    let site = document(path, Kind::Site.words(), reader)?;
+    let site = document(path, Kind::Site.words(), Site::from_yaml)?;
     if let Some(words) = site.remark(path) {
         output::say(&format!("{}: {words}", shown(path)));
     }
@@ -69,8 +59,7 @@ pub(super) fn gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
 /// Reads a laboratory file, or returns the paper's meter without a path.
 pub(super) fn laboratory(path: Option<&Path>) -> Result<Laboratory, Failure> {
     let Some(path) = path else { return Ok(Laboratory::paper()) };
-    let laboratory =
-        document(path, Kind::Laboratory.words(), |name, bytes| filled_in(name, bytes, Laboratory::from_yaml))?;
+    let laboratory = document(path, Kind::Laboratory.words(), Laboratory::from_yaml)?;
     laboratory.remarks(Language::English).iter().for_each(|words| output::warn(&plain(words)));
     Ok(laboratory)
 }
@@ -98,7 +87,7 @@ impl AdministrativeFile {
         };
         let name = name_of(path);
         let bytes = bytes(path, Kind::Dcc.words())?;
-        let content = filled_in(&name, &bytes, Administrative::from_yaml)?;
+        let content = Administrative::from_yaml(&name, &bytes)?;
         let text = String::from_utf8_lossy(&bytes);
         let text = text.strip_prefix('\u{FEFF}').unwrap_or(&text).to_owned();
         Ok(Self { name, text, content: Some(content) })

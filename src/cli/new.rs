@@ -12,8 +12,8 @@ use std::path::{Path, PathBuf};
 
 /// Write a commented template of a file
 ///
-/// Lines with CHANGE need a value that only you know. Every template has a valid form, but `certify`, `issue` and
-/// `calibrate` refuse a value that is still CHANGE.
+/// Lines with CHANGE need a value that only you know. Every template has a valid form, but no command accepts a value that
+/// is still CHANGE.
 #[derive(Args)]
 pub(super) struct Options {
     /// Kind of file
@@ -84,7 +84,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         Kind::Stand => template::stand(&positions),
         Kind::Header => template::header(&positions),
         Kind::Readings => template::readings(&positions, options.runs.unwrap_or(5)),
-        Kind::Currents => template::currents(&positions).map_err(Failure::refused)?,
+        Kind::Currents => template::currents(&positions),
         Kind::Gyro => template::GYRO.to_owned(),
         Kind::Laboratory => template::LABORATORY.to_owned(),
         Kind::Dcc => template::DCC.to_owned(),

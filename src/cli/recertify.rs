@@ -101,7 +101,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if let Some(other) = mistaken(&name, &first, expected, |kind| kind == Kind::Passport) {
         return Err(Failure::from(other));
     }
-    let header = options.header.as_ref().map(|path| inputs::document(path, inputs::HEADER, Header::filled_in));
+    let header = options.header.as_ref().map(|path| inputs::document(path, inputs::HEADER, Header::from_yaml));
     let (name, bytes) = (name_of(&options.readings), inputs::bytes(&options.readings, Kind::Angles.words())?);
     let sites = options.sites.iter().map(|path| at_site(path)).collect::<Result<Vec<_>, _>>()?;
     // Nothing is written if the record cannot be.
@@ -169,6 +169,6 @@ fn at_site(path: &Path) -> Result<AtSite, Failure> {
     let id = path.to_str().filter(|id| !path.is_file() && Identifier::new(id).is_ok());
     match id {
         Some(id) => Ok(AtSite::Id(id.to_owned())),
-        None => inputs::site_to_issue(path).map(|site| AtSite::File(Box::new(site))),
+        None => inputs::site(path).map(|site| AtSite::File(Box::new(site))),
     }
 }

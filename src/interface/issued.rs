@@ -11,7 +11,6 @@ use crate::signing::{Signer, own_trust};
 use crate::site::Site;
 use crate::stand::Stand;
 use crate::text::Field;
-use crate::text::placeholder::filled_in;
 use jiff::Timestamp;
 use std::path::Path;
 
@@ -39,8 +38,8 @@ pub fn issue(
     out: &Path,
     now: Timestamp,
 ) -> Result<(Issued, Vec<String>), Failed> {
-    let stand = PreparedStand::new(filled_in(stand.0, stand.1, Stand::from_yaml)?);
-    let site = filled_in(site.0, site.1, Site::from_yaml)?;
+    let stand = PreparedStand::new(Stand::from_yaml(stand.0, stand.1)?);
+    let site = Site::from_yaml(site.0, site.1)?;
     let now = Timestamp::from_second(now.as_second()).unwrap_or(now);
     let order = Issue { accuracy: accuracy.map(stated).transpose()?, ..ordered(order, now)? };
     let trust = signers.map(|signers| trust(signers, &[], now)).transpose()?.map(|(trust, _)| trust);
@@ -79,7 +78,7 @@ fn ordered(order: &str, now: Timestamp) -> Result<Issue, Failed> {
 pub(super) fn stated([gyro, laboratory]: [Option<File>; 2]) -> Result<Stated, Failed> {
     let gyro = gyro.map_or_else(|| Ok(GyroType::gvk_6()), |(name, bytes)| GyroType::from_yaml(name, bytes))?;
     let paper = || Ok(Laboratory::paper());
-    let laboratory = laboratory.map_or_else(paper, |(name, bytes)| filled_in(name, bytes, Laboratory::from_yaml))?;
+    let laboratory = laboratory.map_or_else(paper, |(name, bytes)| Laboratory::from_yaml(name, bytes))?;
     Ok(Stated { gyro, laboratory })
 }
 

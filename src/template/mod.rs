@@ -1,15 +1,13 @@
-//! Commented templates of the hand-written files, which their own readers accept as they are.
-//!
-//! A line with `CHANGE` has a value that the program cannot know.
+//! Commented templates of the hand-written files, which their own readers accept but for `CHANGE`: a value that the program
+//! cannot know.
 
 mod positions;
 
 use crate::certification::NominalPosition;
-use crate::coefficients::{EarthRate, PositionIndex, SingularPositions, StandGeometry};
+use crate::coefficients::PositionIndex;
 use crate::earth::{
     NORMAL_GRAVITY_U_M_PER_S2, NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2, Place, normal_gravity_m_per_s2,
 };
-use crate::gyro::GyroType;
 pub(crate) use positions::Positions;
 use std::fmt::Write;
 
@@ -49,12 +47,10 @@ pub(crate) fn header(positions: &Positions) -> String {
     )
 }
 
-/// Returns a table of angles for `certify`. They are arbitrary and scatter from run to run far more than any stand, so
-/// that `certify` reports one that was not replaced as an outlier.
+/// Returns a table of angles for `certify`.
 pub(crate) fn readings(positions: &Positions, runs: u32) -> String {
     let mut text = String::from(
-        "# Angles for `certify`: deviation of the actual from the nominal orientation, in arcseconds.\n\
-         # Replace every angle: these are arbitrary, and scatter so much that a forgotten one is found.\n\
+        "# Angles for `certify`: deviation of the actual from the nominal orientation, in arcseconds. Replace every CHANGE.\n\
          # Measure every position in every run, and move the platform away and back between the runs.\n\
          i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec\n",
     );
@@ -65,34 +61,22 @@ pub(crate) fn readings(positions: &Positions, runs: u32) -> String {
         }
     }
     for run in 1..=runs {
-        for (place, PositionIndex { i, j }) in (0..).zip(&order) {
-            let [x, y, z] = [0, 1, 2].map(|axis: u32| (37 * run + 17 * place + 29 * axis) % 101);
+        for PositionIndex { i, j } in &order {
             // Writing into a string cannot fail.
-            let _ = writeln!(text, "{i},{j},{run},{x},{y},{z}");
+            let _ = writeln!(text, "{i},{j},{run},CHANGE,CHANGE,CHANGE");
         }
     }
     text
 }
 
-/// Latitude at which the currents of the template are computed, degrees.
-const EXAMPLE_LATITUDE_DEG: f64 = 45.0;
-
-/// Returns a table of currents for `calibrate`, with those of the paper's gyro on an ideal stand at 45° latitude.
-///
-/// # Errors
-/// Returns [`SingularPositions`] if the positions have no coefficients; those of [`Positions`] have.
-pub(crate) fn currents(positions: &Positions) -> Result<String, SingularPositions> {
-    let all: Vec<_> = positions.nominal().iter().map(|at| at.with_angles([0.0; 3]).to_model()).collect();
-    let mut earth = EarthRate::at_astronomic_latitude(EXAMPLE_LATITUDE_DEG);
-    let azimuth_deg = positions.frame_axis_azimuth_deg();
-    earth.frame_axis_azimuth_deg = azimuth_deg.unwrap_or(earth.frame_axis_azimuth_deg);
-    let gyro = GyroType::gvk_6().nominal.to_model();
+/// Returns a table of currents for `calibrate`.
+pub(crate) fn currents(positions: &Positions) -> String {
     let mut text = String::from(
-        "# Currents for `calibrate`, in milliamperes: mean of each axis in each position.\n\
-         # Replace every current: these are the exact ones of the paper's gyro on an ideal stand at 45 degrees.\n\
+        "# Currents for `calibrate`, in milliamperes: mean of each axis in each position. Replace every CHANGE.\n\
          # Further columns, if you have them: cycle (turn-on of the gyro), visit (arrival at the position), time_s.\n\
          # Read a position again in further rows; give them another visit if the stand was moved in between.\n",
     );
+    let azimuth_deg = positions.frame_axis_azimuth_deg();
     if let Some(azimuth_deg) = azimuth_deg {
         let _ = writeln!(
             text,
@@ -100,19 +84,15 @@ pub(crate) fn currents(positions: &Positions) -> Result<String, SingularPosition
         );
     }
     text.push_str(if azimuth_deg.is_some() { "i,j,visit,jx_ma,jy_ma\n" } else { "i,j,jx_ma,jy_ma\n" });
-    let coefficients = StandGeometry::new(&all)?.at(earth);
     let mut visited: Vec<PositionIndex> = Vec::new();
     for index in positions.visits().iter().map(NominalPosition::index) {
         visited.push(index);
         let visit = visited.iter().filter(|at| **at == index).count();
         let visit = if azimuth_deg.is_some() { format!("{visit},") } else { String::new() };
-        let current = coefficients.positions.iter().find(|at| at.index == index).and_then(|at| gyro.currents_ma(at));
-        if let Some(current) = current {
-            let PositionIndex { i, j } = index;
-            let _ = writeln!(text, "{i},{j},{visit}{:.7},{:.7}", current.x, current.y);
-        }
+        let PositionIndex { i, j } = index;
+        let _ = writeln!(text, "{i},{j},{visit}CHANGE,CHANGE");
     }
-    Ok(text)
+    text
 }
 
 /// Place of the example site, if none is given: that of the paper.

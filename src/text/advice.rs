@@ -1,6 +1,7 @@
 //! Advice on what a person or a program wrote where a number belongs, and on unknown names that are known ones in letters of
 //! another alphabet, or in another unit.
 
+use super::placeholder::{self, is_placeholder};
 use super::scalar::{STRAIGHT_QUOTES, latin, typographic_quote};
 use super::{Node, Path};
 
@@ -47,7 +48,9 @@ pub(super) fn on_yaml(node: &Node, at: &Path) -> &'static str {
 
 /// Returns how to write the number that a cell of CSV in a column of this name seems to mean, or `None` if it means none.
 pub(super) fn on_cell(text: &str, column: &str) -> Option<&'static str> {
-    if text.contains(';') {
+    if is_placeholder(text) {
+        Some(placeholder::ADVICE)
+    } else if text.contains(';') {
         Some("separate columns by commas")
     } else if column.ends_with("_arcsec") && is_in_parts(text) {
         Some(ARCSECONDS)

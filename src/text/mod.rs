@@ -20,7 +20,6 @@ pub(crate) mod excerpt;
 pub(crate) mod kind;
 pub(crate) mod node;
 pub(crate) mod number;
-#[cfg(feature = "factory")]
 pub(crate) mod placeholder;
 pub(crate) mod printable;
 pub(crate) mod problem;

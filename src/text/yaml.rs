@@ -3,6 +3,7 @@
 
 use super::kind::mistaken;
 use super::node::{Builder, MOST_BRACKETS, REPEATED, hand_written_text, location_of};
+use super::placeholder;
 use super::problem::Step;
 use super::record::File;
 use super::{Document, Field, Kind, Location, Node, Path, Problems, Unreadable, canonical};
@@ -235,6 +236,7 @@ fn parse<T: Document>(name: &str, bytes: &[u8], check: impl FnOnce(&T, &mut Prob
     let value = File::<T>::read(&node, &Path::Root, &mut problems).map(|File(value)| value);
     if let Some(value) = &value {
         check(value, &mut problems);
+        placeholder::check(&node, &mut problems);
     }
     value.filter(|_| problems.is_empty()).ok_or_else(|| problems.refuse(name, &text))
 }

@@ -181,7 +181,8 @@ impl Stage {
     fn run(&self, command: &str) -> String {
         let built = || Path::new(env!("CARGO_BIN_EXE_dtg-passport")).parent().unwrap().to_owned();
         let program = std::env::var_os(FOLDER).map_or_else(built, PathBuf::from);
-        let path = std::env::join_paths([program.as_path(), Path::new("/usr/bin"), Path::new("/bin")]).unwrap();
+        let own = programs::project("tests/cmd/bin");
+        let path = std::env::join_paths([&program, &own, Path::new("/usr/bin"), Path::new("/bin")]).unwrap();
         let output = Command::new("sh")
             .args(["-c", command])
             .current_dir(self.folder.path())

@@ -1,4 +1,4 @@
-//! Templates of hand-written files: the readers of all of them accept them.
+//! Templates of hand-written files: the readers of all of them accept them but for `CHANGE`.
 
 use crate::calibration::Readings;
 use crate::certification::{AngleReadings, Header};
@@ -9,23 +9,38 @@ use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::site::Site;
 use crate::stand::{CertifiedPosition, Stand};
-use crate::template::{DCC, GYRO, LABORATORY, Positions, currents, header, readings, site, stand};
+use crate::template::{self, DCC, GYRO, LABORATORY, Positions, currents, header, readings, stand};
 
 const EACH: [(Positions, usize); 3] = [(Positions::Four, 4), (Positions::Eight, 8), (Positions::TwentyFour, 24)];
+
+/// Fills in what is `CHANGE`, cells of a table with different numbers.
+fn filled(template: &str) -> String {
+    let mut number = 0;
+    let mut cell = |cell: &str| {
+        number += 1;
+        if cell == "CHANGE" { format!("0.{number:03}") } else { cell.to_owned() }
+    };
+    let mut line = |line: &str| line.split(',').map(&mut cell).collect::<Vec<_>>().join(",") + "\n";
+    template.lines().map(&mut line).collect::<String>().replace("\"CHANGE", "\"entered")
+}
+
+fn site(id: &str, place: Option<Place>, height_m: Option<f64>) -> String {
+    filled(&template::site(id, place, height_m))
+}
 
 #[test]
 fn stand_header_readings_and_currents_pass_their_readers() {
     for (set, count) in &EACH {
         let count = *count;
-        let stand = Stand::from_yaml("stand.yaml", stand(set).as_bytes()).unwrap();
-        let header = Header::from_yaml("header.yaml", header(set).as_bytes()).unwrap();
+        let stand = Stand::from_yaml("stand.yaml", filled(&stand(set)).as_bytes()).unwrap();
+        let header = Header::from_yaml("header.yaml", filled(&header(set)).as_bytes()).unwrap();
         assert_eq!((stand.positions.len(), header.positions.len()), (count, count));
-        let readings = readings(set, 5);
+        let readings = filled(&readings(set, 5));
         let read = AngleReadings::from_csv("readings.csv", readings.as_bytes(), &header.positions).unwrap();
         assert_eq!((read.runs, read.each_arcsec.len()), (vec![1, 2, 3, 4, 5], count));
         let positions: Vec<_> = stand.positions.iter().map(CertifiedPosition::to_model).collect();
         let coefficients = StandGeometry::new(&positions).unwrap().at(EarthRate::at_astronomic_latitude(45.0));
-        let currents = currents(set).unwrap();
+        let currents = filled(&currents(set));
         let read = Readings::from_csv("currents.csv", currents.as_bytes(), &coefficients, 1.0).unwrap();
         assert_eq!(read.positions().len(), count);
     }
@@ -34,8 +49,8 @@ fn stand_header_readings_and_currents_pass_their_readers() {
 #[test]
 fn gyro_laboratory_and_site_pass_their_readers() {
     assert_eq!(GyroType::from_yaml("gyro.yaml", GYRO.as_bytes()).unwrap().nominal, GyroType::gvk_6().nominal);
-    Laboratory::from_yaml("laboratory.yaml", LABORATORY.as_bytes()).unwrap();
-    Administrative::from_yaml("dcc.yaml", DCC.as_bytes()).unwrap();
+    Laboratory::from_yaml("laboratory.yaml", filled(LABORATORY).as_bytes()).unwrap();
+    Administrative::from_yaml("dcc.yaml", filled(DCC).as_bytes()).unwrap();
     let read = |text: &str| Site::from_yaml("here.yaml", text.as_bytes()).unwrap();
     read(&site("here", None, None));
     // Expected: normal gravity of WGS 84 at 45° on the ellipsoid (NIMA TR8350.2, Somigliana), 9.80619769 m/s².
@@ -65,9 +80,9 @@ fn what_is_a_comment_is_right_too() {
     let text = uncommented(&site);
     assert!(text.contains("\ndeflection_arcsec") && text.contains("\ngravity_m_per_s2"), "{text}");
     Site::from_yaml("here.yaml", text.as_bytes()).unwrap();
-    Laboratory::from_yaml("laboratory.yaml", uncommented(LABORATORY).as_bytes()).unwrap();
+    Laboratory::from_yaml("laboratory.yaml", filled(&uncommented(LABORATORY)).as_bytes()).unwrap();
     GyroType::from_yaml("gyro.yaml", uncommented(GYRO).as_bytes()).unwrap();
-    let dcc = uncommented(DCC);
+    let dcc = filled(&uncommented(DCC));
     let read = Administrative::from_yaml("dcc.yaml", dcc.as_bytes()).unwrap();
     assert!(read.traceable == Some(true) && read.issued.is_some(), "{dcc}");
 }
