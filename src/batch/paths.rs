@@ -32,7 +32,11 @@ pub(crate) fn named<'a>(
         if argument.as_os_str() == "-"
             && let Some(list) = list.take()
         {
-            return Box::new(List { list: Some(list), separator: None });
+            let mut listed = List { list: Some(list), separator: None }.peekable();
+            let nothing =
+                "-: found no path on standard input, expected one per line; check the command that writes the list";
+            let empty = || Failure::unusable(Path::new("-"), nothing.to_owned());
+            return if listed.peek().is_none() { failed(empty()) } else { Box::new(listed) };
         }
         match pattern(argument) {
             Some(pattern) => matches(pattern),

@@ -12,14 +12,14 @@ use crate::report::style::{self, Outcome};
 use crate::signing::{self, KeyFileError};
 use crate::site::Site;
 use crate::stand::Stand;
-use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, Unreadable, name_of, shown};
+use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, Unreadable, name_of, printable, shown};
 use crate::trust::PublicKey;
 use jiff::Timestamp;
 use jiff::civil::Date;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Number of days before the expiry date from which a passport or certificate is listed as expiring.
 const SOON_DAYS: u32 = 90;
@@ -137,18 +137,23 @@ fn stands(workspace: &Workspace, time: Timestamp, remarks: &mut Vec<String>) -> 
         valid_until: stand.certificate.valid_until,
         expired: stand.certificate.valid_until.is_some_and(|last| last < today),
     };
-    read_each(Walk::deep(folder, is_stand), Stand::from_yaml, line, remarks)
+    let place = |stand: &Stand| (stand.stand.id(), workspace.stand(&stand.stand.id()));
+    read_each(Walk::deep(folder, is_stand), Stand::from_yaml, place, line, remarks)
 }
 
 fn sites(workspace: &Workspace, remarks: &mut Vec<String>) -> Result<Vec<SiteLine>, FileError> {
     let Some(folder) = &workspace.sites else { return Ok(Vec::new()) };
     let line = |file, site: Site| SiteLine { id: site.id.to_string(), file, latitude_deg: site.geodetic_deg() };
-    read_each(Walk::flat(folder, is_yaml), Site::from_yaml, line, remarks)
+    let place = |site: &Site| (site.id.to_string(), workspace.site(site.id.as_str()));
+    read_each(Walk::flat(folder, is_yaml), Site::from_yaml, place, line, remarks)
 }
 
+/// Returns a line for each file; `place` returns the identifier in it, and the file that this name means in the workspace.
+/// Next to that file, another one with the same identifier does not count.
 fn read_each<T, L>(
     walk: Walk,
     read: impl Fn(&str, &[u8]) -> Result<T, Unreadable>,
+    place: impl Fn(&T) -> (String, Option<PathBuf>),
     line: impl Fn(String, T) -> L,
     remarks: &mut Vec<String>,
 ) -> Result<Vec<L>, FileError> {
@@ -156,9 +161,24 @@ fn read_each<T, L>(
     for entry in walk {
         let Entry::File(path) = entry? else { continue };
         let name = name_of(&path);
-        match read(&name, &files::read(&path, LARGEST_DOCUMENT_BYTES)?) {
-            Ok(found) => lines.push(line(name, found)),
-            Err(refused) => remarks.push(refused.to_string()),
+        let found = match read(&name, &files::read(&path, LARGEST_DOCUMENT_BYTES)?) {
+            Ok(found) => found,
+            Err(refused) => {
+                remarks.push(refused.to_string());
+                continue;
+            }
+        };
+        let (id, expected) = place(&found);
+        let expected = expected.filter(|expected| *expected != path);
+        let is_copy = expected.as_ref().is_some_and(|expected| expected.exists());
+        // A folder may be ordered in another way, with other levels.
+        let levels = |path: &Path| path.components().count();
+        if let Some(expected) = expected.filter(|expected| is_copy || levels(expected) == levels(&path)) {
+            let (path, id, expected) = (shown(&path), printable(&id), shown(&expected));
+            remarks.push(format!("{path}: found {id}, expected in {expected}; correct the file or its name"));
+        }
+        if !is_copy {
+            lines.push(line(name, found));
         }
     }
     Ok(lines)
