@@ -37,6 +37,11 @@ pub struct DriftNoise {
 }
 
 impl DriftNoise {
+    /// Returns `true` if the gyro has a noise that is estimated from its readings.
+    pub(crate) fn is_estimated(&self) -> bool {
+        self.source == NoiseSource::Estimated && self.deg_per_h > 0.0
+    }
+
     pub(crate) fn stated(deg_per_h: Option<f64>) -> Self {
         let source = if deg_per_h.is_some() { NoiseSource::Stated } else { NoiseSource::NotStated };
         Self { deg_per_h: deg_per_h.unwrap_or(0.0), source, degrees_of_freedom: f64::INFINITY }

@@ -5,9 +5,8 @@
 //! [Stefansky's test](crate::bibliography::Bibliography::Stefansky72). The probability is Bonferroni's bound for as many
 //! comparisons as there are visits or rows.
 
-use super::chi_square::chi_square;
+use super::chi_square::{ChiSquare, chi_square};
 use super::data::{Data, Observation};
-use super::diagnosis::ALARM;
 use super::offsets::{Differences, VisitRow, VisitRows};
 use super::propagation::Propagation;
 use super::readings::Exclusion;
@@ -64,20 +63,40 @@ impl Suspect {
     }
 }
 
-/// Returns those of several visits or rows, of which one is wrong, without which the readings fit the stand; all if that
-/// does not tell which.
+/// Returns those of several visits or rows, of which one is wrong, that may be the wrong one: if the readings fit the stand
+/// far better without another of them, one is not.
+///
+/// That is again Fisher's F, in units of the residuals of the best fit. It tells whether any of them is wrong if their
+/// probability is not known, because there is nothing else to compare them with.
 fn by_fit(setup: &Setup, readings: &Readings, options: &Options, several: Vec<Suspect>) -> Vec<Suspect> {
-    let fits_without = |one: &Suspect| {
+    let without = |one: &Suspect| {
         let rest = one.left_out(readings)?;
         let Observation { data, fit, .. } = Observation::new(setup, &rest, options.model, options.drift).ok()?;
-        let found = chi_square(&Propagation::new(setup, &data, &fit));
-        found.judges().then_some(found.probability >= ALARM)
+        Some(chi_square(&Propagation::new(setup, &data, &fit))).filter(ChiSquare::judges)
     };
-    let fits: Option<Vec<bool>> = several.iter().map(fits_without).collect();
-    let Some(fits) = fits.filter(|fits| fits.contains(&true)) else { return several };
-    let one_of_several = fits.iter().filter(|fits| **fits).count() > 1;
-    let rest = several.into_iter().zip(fits).filter(|(_, fits)| *fits);
-    rest.map(|(one, _)| Suspect { one_of_several, ..one }).collect()
+    let each: Option<Vec<ChiSquare>> = several.iter().map(without).collect();
+    let best = each.iter().flatten().copied().min_by(|one, other| one.value.total_cmp(&other.value));
+    let probabilities: Vec<f64> = best
+        .iter()
+        .flat_map(|best| {
+            let freedom = (best.degrees_of_freedom as f64).min(best.of_uncertainties);
+            let variance = (best.value / best.degrees_of_freedom as f64).max(1.0);
+            let count = several.len() as f64;
+            let probability =
+                move |fit: &ChiSquare| count * f_larger((fit.value - best.value) / 2.0 / variance, 2, freedom);
+            each.iter().flatten().map(probability)
+        })
+        .collect();
+    let refuted = probabilities.iter().copied().filter(|probability| *probability < IMPROBABLE).reduce(f64::max);
+    let Some(refuted) = refuted else {
+        return several.into_iter().filter(|one| one.probability < IMPROBABLE).collect();
+    };
+    let rest = several.into_iter().zip(probabilities).filter(|(_, probability)| *probability >= IMPROBABLE);
+    let mut rest: Vec<Suspect> =
+        rest.map(|(one, _)| Suspect { probability: one.probability.min(refuted), ..one }).collect();
+    let one_of_several = rest.len() > 1;
+    rest.iter_mut().for_each(|one| one.one_of_several = one_of_several);
+    rest
 }
 
 /// Residual of a visit or row: the place where it is, and what its removal takes from the sum of squares.
@@ -166,7 +185,8 @@ fn of_rows(readings: &Readings, scatter: &RowScatter, least_ma: f64) -> Option<V
 }
 
 /// Returns the largest of `count` deletions, and each that is equal to it, if chance does not explain it, given the sum of
-/// squares of all residuals, its degrees of freedom, and the least variance that one of them has.
+/// squares of all residuals, its degrees of freedom, and the least variance that one of them has. Without other residuals
+/// its probability is 1, and is not known.
 fn largest(
     readings: &Readings,
     deletions: impl Iterator<Item = Deletion>,
@@ -175,11 +195,12 @@ fn largest(
     degrees_of_freedom: usize,
     least_variance: f64,
 ) -> Option<Vec<Suspect>> {
-    let rest = degrees_of_freedom.checked_sub(2).filter(|rest| *rest > 0)? as f64;
+    let rest = degrees_of_freedom.checked_sub(2)? as f64;
     let mut deletions: Vec<Deletion> = deletions.collect();
     let squares = deletions.iter().map(|deletion| deletion.squares).fold(f64::NAN, f64::max);
     let variance = ((all_squares - squares).max(0.0) / rest).max(least_variance);
-    let probability = (count as f64 * f_larger(squares / 2.0 / variance, 2, rest)).min(1.0);
+    let alone = rest == 0.0;
+    let probability = if alone { 1.0 } else { (count as f64 * f_larger(squares / 2.0 / variance, 2, rest)).min(1.0) };
     deletions.retain(|deletion| deletion.squares * (1.0 + EQUAL) > squares);
     let suspect = |Deletion { place, visit, row, difference_ma, .. }: &Deletion| {
         let at = &readings.positions()[*place];
@@ -195,5 +216,5 @@ fn largest(
             probability,
         }
     };
-    (probability < IMPROBABLE).then(|| deletions.iter().map(suspect).collect())
+    (probability < IMPROBABLE || alone).then(|| deletions.iter().map(suspect).collect())
 }

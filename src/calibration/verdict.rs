@@ -280,6 +280,21 @@ impl Verdict {
         self.parameters.iter().filter(is_opposite).map(|row| row.parameter).collect()
     }
 
+    /// Returns the ratio of the scale factors to those of the type, if all four fail and would be within tolerance and
+    /// uncertainty but for this factor, and no drift fails.
+    pub(crate) fn common_factor(&self) -> Option<f64> {
+        let (k, drifts): (Vec<_>, Vec<_>) = self.parameters.iter().partition(|row| row.parameter.place() < 4);
+        let sum = |of: fn(&ParameterVerdict) -> f64| k.iter().map(|row| of(row) * row.reference_value).sum::<f64>();
+        let factor = sum(|row| row.value) / sum(|row| row.reference_value);
+        let is_explained = |row: &&ParameterVerdict| {
+            let (difference, rest) = (row.value - row.reference_value, row.value / factor - row.reference_value);
+            let largest = row.tolerance + row.expanded_uncertainty / factor;
+            row.guarded == Decision::Fail && (row.deviation * rest / difference).abs() <= largest
+        };
+        let is_common = factor > 0.0 && k.iter().all(is_explained);
+        (is_common && drifts.iter().all(|row| row.guarded != Decision::Fail)).then_some(factor)
+    }
+
     /// Returns the worse of the decisions of this verdict and on a change since an earlier result.
     pub(crate) fn with_change(&self, change: Option<&Self>) -> Decision {
         change.map_or(self.overall, |change| self.overall.max(change.overall))

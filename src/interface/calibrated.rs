@@ -21,7 +21,8 @@ use crate::text::printable;
 use crate::uncertainty::Budget;
 #[cfg(feature = "monte-carlo")]
 use crate::uncertainty::{self, Engine, MonteCarlo, ReadingShape, Trials};
-use crate::wording::{Language, change, plain, values};
+use crate::wording::number::Number;
+use crate::wording::{Language, comparison, plain, values};
 use jiff::Timestamp;
 use std::collections::BTreeMap;
 
@@ -175,6 +176,8 @@ pub(crate) struct Done {
     pub unknown_gyro: Option<String>,
     /// Warning that parameters have changed more than chance explains, if no type decides on the change.
     pub unexplained: Option<String>,
+    /// Warning that all scale factors are wrong by one factor.
+    pub common_factor: Option<String>,
     /// Parameter that suffers most from positions without a reading, and the ratio of its uncertainty.
     pub cost_of_missing: Option<(Parameter, f64)>,
     /// Parameter whose uncertainty takes most of its tolerance, and the single visit that would reduce it most.
@@ -311,9 +314,16 @@ impl<'a> Prepared<'a> {
         let unexplained = last.map_or_else(Vec::new, |earlier| document.unexplained_change(earlier));
         let unexplained = (!unexplained.is_empty()).then(|| {
             let names = unexplained.iter().map(|parameter| parameter.symbol()).collect::<Vec<_>>().join(", ");
-            change::UNEXPLAINED.filled(Language::English, values! { names })
+            comparison::UNEXPLAINED.filled(Language::English, values! { names })
         });
-        document.remarks.extend(unexplained.clone());
+        let of_verdict = document.verdict.as_ref().filter(|verdict| !verdict.withheld);
+        let common_factor = of_verdict.and_then(Verdict::common_factor).map(|factor| {
+            plain(
+                &comparison::COMMON_FACTOR
+                    .filled(Language::English, values! { factor: Number::significant(factor, 3) }),
+            )
+        });
+        document.remarks.extend(unexplained.iter().chain(&common_factor).cloned());
         let earlier = last.map(|earlier| (earlier.clone(), document.no_change(earlier)));
         // With a type, the drifts are stated at its g: the local g is in their uncertainties.
         let of_gravity = |parameter| if document.verdict.is_some() { found.u_from_gravity(parameter) } else { 0.0 };
@@ -335,6 +345,7 @@ impl<'a> Prepared<'a> {
             earlier,
             unknown_gyro,
             unexplained,
+            common_factor,
             cost_of_missing,
             further,
             warning,

@@ -1,6 +1,6 @@
 //! Result of a calibration as text: the decision, the parameters and the fit come first, the evidence below.
 
-use super::scatter::{Weight, correlated, scatter};
+use super::scatter::{Weight, correlated, scatter, too_small};
 use super::tolerance::{coverage_factor, decided, from_gravity, headline, verdict_table};
 use super::uncertainty::not_linear;
 use crate::calibration::chi_square::FEW_DEGREES;
@@ -146,7 +146,7 @@ fn conditions(Subject { gyro_serial, date, operator, temperature_c, .. }: &Subje
 
 /// Returns what makes the parameters or their uncertainties unusable or doubtful, a sentence each.
 pub(crate) fn warnings(done: &Done, trials: Option<&MonteCarlo>) -> Vec<String> {
-    let Done { calibration, document, warning, earlier, unexplained, .. } = done;
+    let Done { calibration, document, warning, earlier, unexplained, common_factor, .. } = done;
     let causes = calibration.hint.as_ref().map(Hint::each_cause).unwrap_or_default();
     let each = || causes.iter().map(|cause| format!("\n  - {}", capital(cause))).collect::<String>();
     let unusable = unusable(calibration, document.mistake.as_ref()).enumerate().map(|(place, words)| match place {
@@ -157,7 +157,11 @@ pub(crate) fn warnings(done: &Done, trials: Option<&MonteCarlo>) -> Vec<String> 
     let of_scatter = scatter(calibration).into_iter().filter(|(weight, _)| *weight == Weight::Warning);
     let others = of_scatter.map(|(_, words)| words).chain(warning.as_ref().map(ToString::to_string));
     let why = earlier.as_ref().and_then(|(_, why)| Some(why_no_change((*why)?).of(Language::English).to_owned()));
-    let all = unusable.chain(why).chain(others).chain(unexplained.clone()).chain(trials.and_then(not_linear));
+    let all = unusable
+        .chain(why)
+        .chain(others)
+        .chain(unexplained.iter().chain(common_factor).cloned())
+        .chain(trials.and_then(not_linear));
     all.map(|words| format!("WARNING: {}", capital(&words))).collect()
 }
 
@@ -344,8 +348,8 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
         let _ = writeln!(out);
         columns::paragraph(out, "", UNTESTED);
     }
-    if calibration.fits_too_well() {
-        columns::paragraph(out, "  ", texts::TOO_SMALL.of(Language::English));
+    if let Some(why) = too_small(calibration) {
+        columns::paragraph(out, "  ", why.of(Language::English));
     }
     beyond_the_paper(out, answer);
     for words in calibration.digits.iter().flat_map(|digits| recorded::words(digits, Language::English)) {
@@ -387,8 +391,8 @@ fn chi_square(out: &mut String, answer: &MethodResult) {
     );
     if chi_square.of_uncertainties < FEW_DEGREES {
         let words = format!(
-            "The input uncertainties have {:.0} degrees of freedom, which the probability takes into account.",
-            chi_square.of_uncertainties
+            "The input uncertainties have {}, which the probability takes into account.",
+            columns::freedom(format!("{:.0}", chi_square.of_uncertainties))
         );
         columns::paragraph(out, "  ", &words);
     } else if chi_square.is_changed_by_estimates() {

@@ -26,7 +26,8 @@ pub(super) fn scatter(calibration: &Calibration) -> Vec<(Weight, String)> {
     if let Some(rows) = &calibration.row_scatter {
         match &rows.against_stated {
             Some(stated) => {
-                let words = agreement("Readings of a visit", stated, "check whether they are copies of one reading");
+                let words =
+                    agreement("Readings of a visit", stated, false, "check whether they are copies of one reading");
                 say(words, of(stated));
             }
             None => {
@@ -47,12 +48,17 @@ pub(super) fn scatter(calibration: &Calibration) -> Vec<(Weight, String)> {
     let of_visits =
         "if these readings were taken without leaving the position, give them the same number in the column visit";
     let each = [
-        ("Visits to a position", &calibration.scatter, of_visits),
-        ("Turn-ons", &calibration.turn_on_scatter, "check the noise that the gyro type states"),
+        ("Visits to a position", &calibration.scatter, &calibration.visit_noise, of_visits),
+        (
+            "Turn-ons",
+            &calibration.turn_on_scatter,
+            &calibration.turn_on_noise,
+            "check the noise that the gyro type states",
+        ),
     ];
-    for (what, found, less) in each {
+    for (what, found, noise, less) in each {
         if let Some(found) = found {
-            say(agreement(what, found, less), of(found));
+            say(agreement(what, found, noise.is_estimated(), less), of(found));
         }
     }
     for suspect in &calibration.suspects {
@@ -76,8 +82,7 @@ pub(super) fn scatter(calibration: &Calibration) -> Vec<(Weight, String)> {
         say(plain(&drift(texts::DRIFTS, &test, Language::English)), Weight::Warning);
     }
     if let Some(test) = calibration.drift_in_order.filter(|test| test.is_significant()) {
-        let words = plain(&drift(texts::DRIFTS_IN_ORDER, &test, Language::English));
-        say(format!("{words} State them as time_s, and use --drift."), Weight::Warning);
+        say(plain(&drift(texts::DRIFTS_IN_ORDER, &test, Language::English)), Weight::Warning);
     }
     said
 }
@@ -118,14 +123,23 @@ pub(super) fn drift(text: Text, test: &DriftTest, language: Language) -> String 
     text.filled(language, values! { x, y, p, option: "--drift" })
 }
 
-/// Returns a sentence that compares an observed scatter with the stated uncertainty; `less` is the advice if the
-/// scatter is smaller.
-fn agreement(what: &str, found: &Scatter, less: &str) -> String {
+/// Returns why chi-square is much smaller than expected, if it is.
+pub(in crate::report) fn too_small(calibration: &Calibration) -> Option<Text> {
+    let why = if calibration.visit_noise.is_estimated() { texts::TOO_SMALL_BY_NOISE } else { texts::TOO_SMALL };
+    calibration.fits_too_well().then_some(why)
+}
+
+/// Returns a sentence that compares an observed scatter with the stated uncertainty. If `has_noise`, the noise of the gyro
+/// is estimated from it; `less` is the advice if the scatter is smaller.
+fn agreement(what: &str, found: &Scatter, has_noise: bool, less: &str) -> String {
     let verdict = match found.agreement() {
         Agreement::More if found.variance_factor > 1.0 => {
             format!("more than stated, so the variance was multiplied by {:.1}", found.variance_factor)
         }
         Agreement::More => "more than stand and meter explain; the rest is taken as noise of the gyro".to_owned(),
+        Agreement::AsStated if has_noise => {
+            "not clearly more than stand and meter explain; the rest is taken as noise of the gyro".to_owned()
+        }
         Agreement::AsStated => "as stated".to_owned(),
         Agreement::Less => format!("less than stated; {less}"),
     };

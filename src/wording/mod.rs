@@ -175,9 +175,15 @@ pub(crate) mod implausible {
     }
 }
 
-/// Change of a gyro of which no type was specified.
-pub(crate) mod change {
+/// What a comparison shows besides its decisions.
+pub(crate) mod comparison {
     super::texts! {
+        COMMON_FACTOR {
+            en: "All scale factors are the expected ones multiplied by {factor}, and no drift fails. Check the range, the gain \
+                 and the unit of the meter.",
+            ru: "Все масштабные коэффициенты равны ожидаемым, умноженным на {factor}, а дрейфы в допусках. Следует проверить \
+                 предел и коэффициент преобразования измерителя и единицу тока."
+        }
         UNEXPLAINED {
             en: "Changed since the previous calibration by more than the uncertainties explain: {names}. Whether this is \
                  permissible can be decided only with the gyro type.",

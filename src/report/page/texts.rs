@@ -34,7 +34,7 @@ pub(crate) const TABLES: &[(&str, &[(&str, Text)])] = &[
     ("compass", crate::wording::compass::ALL),
     ("implausible", crate::wording::implausible::ALL),
     ("causes", crate::calibration::causes::names::ALL),
-    ("change", crate::wording::change::ALL),
+    ("comparison", crate::wording::comparison::ALL),
     ("absences", absences::ALL),
     ("calibration", calibration::ALL),
     ("certification", certification::ALL),

@@ -17,7 +17,7 @@ use crate::report::picture::accuracy::unit;
 use crate::report::picture::tolerances::{BESIDE_DECISIONS, decision, key, printed, unit_at_type, unit_of};
 use crate::report::style::Outcome;
 use crate::report::tolerance::{coverage_factor, gravity_contributes};
-use crate::wording::date_text;
+use crate::wording::{comparison, date_text};
 use maud::{Markup, html};
 
 pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
@@ -112,6 +112,9 @@ fn simple(verdict: &Verdict, note: Option<Text>, languages: &Languages) -> Marku
             (about(texts::TOO_UNCERTAIN, &verdict.too_uncertain(), language))
             @if !verdict.has_simple() { " " (italic(&texts::NO_RISK.words(language))) }
             (about(texts::OPPOSITE, &verdict.opposite(), language))
+            @if let Some(factor) = verdict.common_factor() {
+                " " (italic(&comparison::COMMON_FACTOR.filled(language, values! { factor: Number::significant(factor, 3) })))
+            }
             (about(texts::DEPENDENT, &verdict.dependent(), language))
         }
     })

@@ -17,7 +17,7 @@ use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::residuals::{AXES, Bars, key};
 use crate::report::recorded;
-use crate::report::scatter::drift;
+use crate::report::scatter::{drift, too_small};
 use crate::wording::spacing::spaced;
 use maud::{Markup, html};
 
@@ -35,7 +35,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
                 @if page.calibration.answer().is_some_and(|found| found.chi_square.is_changed_by_estimates()) {
                     (languages.paragraph(texts::OF_ESTIMATES))
                 }
-                @if page.calibration.fits_too_well() { (languages.paragraph(texts::TOO_SMALL)) }
+                @if let Some(why) = too_small(page.calibration) { (languages.paragraph(why)) }
                 (scatter(page, languages))
                 (table(result, languages))
                 (key(languages))

@@ -38,7 +38,7 @@ use crate::passport::Content;
 use crate::report::mistake;
 use crate::report::style::Outcome;
 use crate::uncertainty::{Budget, MonteCarlo};
-use crate::wording::{change, date_text};
+use crate::wording::{comparison, date_text};
 use jiff::Timestamp;
 use maud::{Markup, html};
 
@@ -303,7 +303,7 @@ impl CalibrationPage<'_> {
             return html! {};
         }
         let names = listed(changed.iter().map(|parameter| name_of(parameter.symbol())));
-        languages.paragraph_with(|language| change::UNEXPLAINED.marked_up(language, &[("names", names.clone())]))
+        languages.paragraph_with(|language| comparison::UNEXPLAINED.marked_up(language, &[("names", names.clone())]))
     }
 
     /// Writes the parameters for which a Monte Carlo run shows that the linear approximation is not valid.

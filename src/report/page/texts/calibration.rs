@@ -380,8 +380,8 @@ texts! {
         ru: "Простая приёмка, без защитной полосы: соответствие допускам у {passed} из {all} параметров"
     }
     TOO_UNCERTAIN {
-        en: "No gyro can pass by guarded acceptance: U exceeds the tolerance of {names}.",
-        ru: "При приёмке с защитной полосой подтвердить соответствие невозможно: U больше допуска для {names}."
+        en: "No value can pass by guarded acceptance: U exceeds the tolerance of {names}.",
+        ru: "Приёмка с защитной полосой невозможна: U больше допуска для {names}."
     }
     OPPOSITE {
         en: "With the other sign these would be within the tolerance: {names}. Check the sign convention.",
@@ -414,6 +414,12 @@ texts! {
         en: "Chi-square is much smaller than expected: the stated uncertainties are too large for these readings, or the \
              readings were computed, not measured.",
         ru: "Хи-квадрат значительно меньше ожидаемого: указанные неопределённости завышены либо показания получены расчётом."
+    }
+    TOO_SMALL_BY_NOISE {
+        en: "Chi-square is much smaller than expected: visits to all positions differ by the same amount, as after another \
+             turn-on or by a drift. State the turn-on and the time of each reading (cycle, time_s).",
+        ru: "Хи-квадрат значительно меньше ожидаемого: установки во все положения отличаются одинаково, как при новом запуске \
+             или при дрейфе. Следует указать запуск и время каждого показания."
     }
     OF_UNCERTAINTIES {
         en: "Degrees of freedom of the input uncertainties (taken into account)",
@@ -479,9 +485,10 @@ texts! {
     }
     DRIFTS_IN_ORDER {
         en: "In the order of the rows the residuals show a trend in ω_0, ({x}, {y}) °/h per visit ({p}), which is not fitted \
-             and enlarges u. To fit it, state the time of each reading.",
+             and enlarges u. To fit it, state the time of each reading as time_s, and use {option}.",
         ru: "В порядке строк остатки обнаруживают изменение ω_0 на ({x}; {y}) °/ч от установки к установке ({p}). Модель \
-             его не содержит, и оно увеличивает u. Чтобы оценить его, следует указать время каждого показания."
+             его не содержит, и оно увеличивает u. Чтобы учесть его, следует указать время каждого показания; \
+             затем {option}."
     }
     DRIFT_OR_NOISE {
         en: "A drift in time was not tested, because the repeated visits cannot tell it from the noise of the gyro.",
