@@ -75,6 +75,10 @@ fn unreadable_yaml(name: &str, text: &str, error: &serde_yaml::Error) -> Unreada
         tag if tag.contains("invalid type: enum") => ("a tag (`!name`)", "delete it"),
         several if several.contains(SEVERAL) => ("several documents (`---`)", "keep one document"),
         _ => {
+            if let Some((at, opened)) = unclosed(text, location.map_or(usize::MAX, |at| at.line)) {
+                let found = format!("a {opened} that is not closed in its line, in invalid YAML ({words})");
+                return Unreadable::whole(name, Some(at), found, "a YAML mapping", format!("close the {opened}"));
+            }
             let advice = "check the quotes, brackets and indentation of this line and the one before";
             return Unreadable::whole(name, location, format!("invalid YAML ({words})"), "a YAML mapping", advice);
         }
@@ -89,6 +93,45 @@ fn less_indented(text: &str) -> Option<usize> {
         (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty() && !line.trim_start().starts_with('#'));
     let (_, first) = lines.next()?;
     lines.find(|(_, line)| indent(line) < indent(first)).map(|(number, _)| number)
+}
+
+/// Returns the place and the kind of the first quote that is not closed in its line, or else of the last bracket that is
+/// still open at the end of line `last`. The parser reports only where it no longer understands the text, often many lines
+/// below.
+fn unclosed(text: &str, last: usize) -> Option<(Location, &'static str)> {
+    let mut brackets = Vec::new();
+    for (line, words) in (1..=last).zip(text.lines()) {
+        let mut chars = (1..).zip(words.chars()).peekable();
+        // A quote or a bracket begins a value only there; elsewhere it is one of its characters.
+        let (mut begins, mut before) = (true, ' ');
+        while let Some((column, c)) = chars.next() {
+            let at = Location { line, column };
+            match c {
+                '#' if before == ' ' => break,
+                '"' | '\'' if begins => loop {
+                    match chars.next() {
+                        None => return Some((at, "quote")),
+                        Some((_, '\\')) if c == '"' => drop(chars.next()),
+                        // In a text in single quotes, two are one.
+                        Some((_, end)) if end == c && chars.next_if(|(_, next)| c == '\'' && *next == c).is_none() => {
+                            break;
+                        }
+                        Some(_) => {}
+                    }
+                },
+                '[' | '{' if begins => brackets.push((at, "bracket")),
+                ']' | '}' => drop(brackets.pop()),
+                _ => {}
+            }
+            begins = match c {
+                ' ' => begins || ":-".contains(before),
+                ',' => !brackets.is_empty(),
+                _ => "[{".contains(c),
+            };
+            before = c;
+        }
+    }
+    brackets.pop()
 }
 
 /// Describes a tab that indents the line at `at` or is the character there, or returns `None` if there is none.
