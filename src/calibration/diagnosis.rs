@@ -117,10 +117,13 @@ fn either(angle_arcsec: f64, current_ua: &Vector2<f64>) -> String {
     let rounded = |error: f64| format!("{:.decimals$}", (error * scale).round() / scale + 0.0);
     let [x, y] = [current_ua.x, current_ua.y].map(rounded);
     let currents = format!("its currents are wrong by {x} µA in J_x and {y} µA in J_y");
-    if angle_arcsec < GROSS_ARCSEC {
-        format!("its angle changed by {}″, or {currents}", two_digits(angle_arcsec))
-    } else {
-        format!("{currents}, or its angle changed by {}°", two_digits(angle_arcsec / ARCSECONDS_PER_DEGREE))
+    match angle_arcsec / ARCSECONDS_PER_DEGREE {
+        _ if angle_arcsec < GROSS_ARCSEC => {
+            format!("its angle changed by {}″, or {currents}", two_digits(angle_arcsec))
+        }
+        // No stand turns so far by itself.
+        angle_deg if angle_deg > 90.0 => currents,
+        angle_deg => format!("{currents}, or its angle changed by {}°", two_digits(angle_deg)),
     }
 }
 

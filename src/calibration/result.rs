@@ -100,7 +100,7 @@ impl Calibration {
     /// parameters have no meaning.
     pub(crate) fn meaningless(&self) -> Option<String> {
         let why = "no parameters are given, because the readings differ too much from those of any gyro on this stand";
-        let hint = self.hint.as_ref().map_or_else(String::new, |hint| format!("; {hint}"));
+        let hint = self.hint.as_ref().map_or_else(String::new, |hint| format!("; {}", hint.causes()));
         (!self.settled).then(|| format!("{why}{hint}"))
     }
 }

@@ -49,7 +49,11 @@ pub(super) fn parse(mut arguments: Vec<OsString>) -> Result<Parsed, ExitCode> {
     };
     let printed: Vec<OsString> =
         arguments.iter().map(|argument| printable(argument.to_string_lossy()).into()).collect();
-    let refused = parsed(&printed).err();
+    let mut refused = parsed(&printed).err();
+    if let Some(refused) = &mut refused {
+        // That an argument may be meant as a file, after `--`, is hardly ever true.
+        refused.remove(ContextKind::Suggested);
+    }
     if let Some(help) = refused.as_ref().filter(|error| !error.use_stderr()) {
         let written = output::own(&help::fitted(&help.render().ansi().to_string()));
         return Err(written.map_or_else(|failure| ExitCode::from(failure.code), |()| ExitCode::SUCCESS));

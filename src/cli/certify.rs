@@ -34,7 +34,7 @@ pub(super) struct Options {
     readings: Vec<PathBuf>,
     /// Stand file (dtg-stand/1) whose positions have no angles yet [default: that of --against]; for several stands, the
     /// folder of these files
-    #[arg(long, value_name = "HEADER.yaml", required_unless_present = "against")]
+    #[arg(long, alias = "header", value_name = "HEADER.yaml", required_unless_present = "against")]
     stand: Option<PathBuf>,
     /// Write the certified stand file of one stand
     #[arg(

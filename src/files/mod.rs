@@ -13,6 +13,7 @@ pub(crate) mod walk;
 pub(crate) use platform::{is_closed_pipe, sync_folder, wait_for_turn};
 
 use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, large_file, name_of, shown};
+use std::cmp::Reverse;
 use std::collections::BTreeSet;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Write};
@@ -103,8 +104,9 @@ fn nearest(path: &Path) -> Option<PathBuf> {
         // Of a name of one or two letters every other one is near.
         let length = name.chars().count();
         let most = if length < 3 { 0 } else { length / 6 + 1 };
-        let (_, nearest) =
-            names.map(|other| (distance(&other), other)).filter(|(distance, _)| *distance <= most).min()?;
+        // Of equally near ones it is the last, such as the latest revision.
+        let (_, Reverse(nearest)) =
+            names.map(|other| (distance(&other), Reverse(other))).filter(|(distance, _)| *distance <= most).min()?;
         let found = there.join(nearest).join(parts.as_path());
         // Without a remainder, `join` would add a separator to the name of a file.
         let found: PathBuf = found.components().collect();

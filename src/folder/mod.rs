@@ -30,6 +30,7 @@ use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, name_of};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use names::{Names, Of};
+use std::cmp::Reverse;
 use std::collections::BTreeSet;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -166,9 +167,10 @@ impl Folder {
         };
         let files = Walk::deep(&self.root, search::is_numbered).files();
         let ids = files.take(MOST_FILES).filter_map(id_of);
-        let near = ids.map(|other| (strsim::damerau_levenshtein(&other, id), other));
+        let near = ids.map(|other| (strsim::damerau_levenshtein(&other, id), Reverse(other)));
         let most = id.chars().count() / 3;
-        near.filter(|(distance, _)| *distance <= most).min().map(|(_, id)| id)
+        // Of equally near ones it is the last, such as the latest revision.
+        near.filter(|(distance, _)| *distance <= most).min().map(|(_, Reverse(id))| id)
     }
 
     /// Returns remarks on a further passport from the certificate of `stand`: the certificate was replaced, or another

@@ -328,8 +328,9 @@ impl<'a> Prepared<'a> {
         // With a type, the drifts are stated at its g: the local g is in their uncertainties.
         let of_gravity = |parameter| if document.verdict.is_some() { found.u_from_gravity(parameter) } else { 0.0 };
         let cost_of_missing = cost_of_missing(&setup, &readings, &found.parameters, of_gravity);
-        let least_certain =
-            document.verdict.as_ref().filter(|verdict| !verdict.withheld).and_then(Verdict::least_certain);
+        // A further visit is of no use as long as one is suspect.
+        let sound = of_verdict.filter(|_| calibration.suspects.is_empty());
+        let least_certain = sound.and_then(Verdict::least_certain);
         let further = least_certain.and_then(|row| {
             let result = (&calibration, &found.parameters);
             let visit = best_further_visit(&setup, &readings, result, (row.parameter, options))?;

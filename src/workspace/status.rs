@@ -311,10 +311,12 @@ impl Status {
             let trusted = match (key.trusted, &key.why) {
                 (Some(true), _) => style::marked(Outcome::Passed, "trusted"),
                 (_, Some(why)) => format!("{}: {why}", style::marked(Outcome::Failed, "NOT USABLE")),
-                _ => style::marked(
-                    Outcome::NotAsked,
-                    "not checked: state `identity` and `trust` in the file of the workspace",
-                ),
+                _ => {
+                    let missing = [("`identity`", key.identity.is_none()), ("`trust`", self.keys.is_empty())];
+                    let missing: Vec<_> = missing.iter().filter(|(_, is)| *is).map(|(name, _)| *name).collect();
+                    let words = format!("not checked: state {} in {WORKSPACE_FILE}", missing.join(" and "));
+                    style::marked(Outcome::NotAsked, &words)
+                }
             };
             let identity = key.identity.as_deref().unwrap_or("(no identity)");
             let _ = writeln!(out, "Signs with {}  {}  {trusted}", Printable(&key.file), Printable(identity));
