@@ -13,7 +13,7 @@ use crate::interface::calibrated::Done;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
 use crate::report::Languages;
-use crate::report::page::calibration::not_stated;
+use crate::report::page::calibration::{not_stated, suspicion};
 use crate::report::page::language::{Text, values};
 use crate::report::page::texts::calibration as texts;
 use crate::text::Problems;
@@ -117,6 +117,18 @@ fn statements(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
         let visit = format!("{i}, {j}, {visit}, {}: {why}", cycle.unwrap_or(1));
         parts::statement(texts::EXCLUDED, Some(&visit), languages)
     });
+    let suspects = calibrated.done.document.suspects.iter().map(|suspect| {
+        let declaration = languages
+            .iter()
+            .map(|language| Element::text("dcc:content", suspicion(suspect, language)).with("lang", language.tag()));
+        parts::statement(words::SUSPECT, None, languages).and(Element::new("dcc:declaration").and(declaration))
+    });
+    let dependent = calibrated.judged.map_or_else(Vec::new, |(_, verdict)| verdict.dependent());
+    let dependent = (!dependent.is_empty()).then(|| {
+        let names = dependent.iter().map(|one| one.symbol()).collect::<Vec<_>>().join(", ");
+        let declaration = filled("dcc:declaration", texts::DEPENDENT, values! { names }, languages);
+        parts::statement(words::CONFORMITY_OPEN, None, languages).and(declaration)
+    });
     let missing = calibrated.done.missing.iter().map(|what| {
         let what = in_words("dcc:declaration", not_stated(*what), languages);
         parts::statement(words::NOT_STATED, None, languages).and(what)
@@ -128,7 +140,15 @@ fn statements(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
         let declaration = filled("dcc:declaration", texts::TEMPERATURE_OUTSIDE, values, languages);
         parts::statement(texts::TEMPERATURE_IS_OUTSIDE, None, languages).and(declaration)
     });
-    conformity.into_iter().chain([currents]).chain(excluded).chain(outside).chain(missing).collect()
+    conformity
+        .into_iter()
+        .chain([currents])
+        .chain(excluded)
+        .chain(suspects)
+        .chain(dependent)
+        .chain(outside)
+        .chain(missing)
+        .collect()
 }
 
 fn passes(row: &ParameterVerdict) -> bool {

@@ -93,6 +93,8 @@ texts! {
     }
     LOWER_LIMIT { en: "Lower limit of the tolerance", ru: "Нижняя граница допуска" }
     UPPER_LIMIT { en: "Upper limit of the tolerance", ru: "Верхняя граница допуска" }
+    SUSPECT { en: "Reading that is probably wrong", ru: "Показание, вероятно, ошибочно" }
+    CONFORMITY_OPEN { en: "Conformity not decided", ru: "Решение о соответствии не принято" }
     NOT_STATED {
         en: "Uncertainty not stated, or stated as 0, and not included",
         ru: "Неопределённость не указана (или равна 0) и не учтена"

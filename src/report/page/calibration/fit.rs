@@ -112,7 +112,7 @@ fn scatter(page: &CalibrationPage, languages: &Languages) -> Markup {
             (agreement(turn_ons, texts::TURN_ON_SCATTER, languages))
         }
         @for suspect in &calibration.suspects {
-            (suspicion(suspect, languages))
+            (languages.paragraph_with(|language| html! { (suspicion(suspect, language)) }))
         }
         (noise(calibration, languages))
         @for (text, test) in [(texts::DRIFTS, calibration.drift_test), (texts::DRIFTS_IN_ORDER, calibration.drift_in_order)] {
@@ -124,19 +124,19 @@ fn scatter(page: &CalibrationPage, languages: &Languages) -> Markup {
     }
 }
 
-/// Writes that a reading differs from the others.
-fn suspicion(suspect: &Suspect, languages: &Languages) -> Markup {
+/// Returns the sentences on a reading that differs from the others.
+pub(crate) fn suspicion(suspect: &Suspect, language: Language) -> String {
     let difference_ua = suspect.difference_ma.map(|difference| 1000.0 * difference);
     let place = Number::place_of(difference_ua[0].abs().max(difference_ua[1].abs()));
     let [jx, jy] = difference_ua.map(|difference| Number::to_place(difference, place));
     let Suspect { cycle, visit, .. } = *suspect;
     let (index, row) = (suspect.index(), suspect.row.unwrap_or(0));
     let text = if suspect.row.is_some() { texts::SUSPECT_ROW } else { texts::SUSPECT_VISIT };
-    languages.paragraph_with(|language| {
-        let words = text.filled(language, values! { row, visit, cycle, index, jx, jy });
-        let either = suspect.one_of_several.then(|| texts::ONE_OF_SEVERAL.words(language));
-        html! { (words) @if let Some(either) = either { " " (either) } }
-    })
+    let words = text.filled(language, values! { row, visit, cycle, index, jx, jy });
+    match suspect.one_of_several {
+        true => format!("{words} {}", texts::ONE_OF_SEVERAL.words(language)),
+        false => words,
+    }
 }
 
 /// Writes the noise of the gyro that the uncertainties contain.

@@ -18,7 +18,7 @@ mod parameters;
 mod subject;
 mod uncertainty;
 
-pub(crate) use fit::not_stated;
+pub(crate) use fit::{not_stated, suspicion};
 
 use self::parameters::name_of;
 use super::language::{Language, Languages, Text, values};
