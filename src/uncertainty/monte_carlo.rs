@@ -11,6 +11,7 @@ use super::engine::{BLOCK, Engine, PAIRS, PARAMETERS, pair};
 use crate::calibration::{Method, Model, Options, Parameter};
 use crate::parallel;
 use crate::statistics::bins::{quantile, shortest};
+use crate::statistics::student::student_factor;
 use crate::statistics::wide_random::WideRandom;
 use crate::text::number::exponent_as_printed;
 use nalgebra::DMatrix;
@@ -24,7 +25,11 @@ const DIGITS: i32 = 2;
 /// Share of that tolerance within which the Monte Carlo itself must be stable to validate first order (JCGM 101, 8.2).
 const SHARE_OF_TOLERANCE: f64 = 0.2;
 
-/// Number of blocks in the first wave; the digits are tested after each wave.
+/// Probability that a difference is beyond the tolerance only by the errors of the Monte Carlo, in any of the 16 ends of
+/// intervals, below which first order is not valid.
+const BY_CHANCE: f64 = 0.001;
+
+/// Number of blocks in the first wave; the digits are tested after each wave. Fewer do not show how far they are stable.
 const FIRST_BLOCKS: u64 = 10;
 const MOST_BLOCKS_IN_A_WAVE: u64 = 512;
 
@@ -156,7 +161,7 @@ pub fn monte_carlo(engine: &Engine, budget: &Budget, run: &Trials) -> MonteCarlo
         let wave = (due - series.blocks).min(MOST_BLOCKS_IN_A_WAVE);
         series.wave(engine, wave, run);
         let ratio = series.instability(budget);
-        stable = ratio <= 1.0;
+        stable = ratio <= 1.0 && series.blocks >= FIRST_BLOCKS;
         if asked.is_none() && !stable {
             // Twice the standard deviation falls with the root of the trials; add a tenth, and at most quadruple the
             // blocks.
@@ -297,6 +302,7 @@ impl Series {
             let symmetric = [0.5 - COVERAGE / 2.0, 0.5 + COVERAGE / 2.0].map(|share| value(quantile(counts, share)));
             let standard_uncertainty = self.standard_deviation(place);
             let numerical = self.numerical(place);
+            let errors = [numerical[2], numerical[3]].map(|twice| twice / 2.0);
             Distribution {
                 parameter: line.parameter,
                 mean: value(self.sums[place] / self.count.max(1) as f64),
@@ -305,7 +311,7 @@ impl Series {
                 symmetric,
                 shortest: shortest(counts, COVERAGE).map(value),
                 numerical,
-                first_order: FirstOrder::new(line, symmetric, [numerical[2], numerical[3]]),
+                first_order: FirstOrder::new(line, symmetric, errors, self.blocks),
             }
         };
         MonteCarlo {
@@ -321,27 +327,29 @@ impl Series {
 }
 
 impl FirstOrder {
-    /// Compares first order with Monte Carlo; `numerical` is the numerical uncertainty of each end of the symmetric
-    /// interval.
-    fn new(line: &ParameterBudget, symmetric: [f64; 2], numerical: [f64; 2]) -> Self {
+    /// Compares first order with Monte Carlo; `errors` are the standard deviations of the ends of the symmetric interval,
+    /// from so many blocks.
+    fn new(line: &ParameterBudget, symmetric: [f64; 2], errors: [f64; 2], blocks: u64) -> Self {
         let half = line.expanded_uncertainty();
         let interval = [line.value - half, line.value + half];
         let differences = [0, 1].map(|end: usize| (interval[end] - symmetric[end]).abs());
         let tolerance = tolerance(line.standard_uncertainty);
-        let valid = valid(differences, tolerance, numerical);
+        let valid = valid(differences, tolerance, errors, blocks);
         Self { standard_uncertainty: line.standard_uncertainty, interval, differences, tolerance, valid }
     }
 }
 
-/// Returns `true` if both differences are within the tolerance for every Monte Carlo error within `numerical`, `false`
-/// if one exceeds it for every such error, otherwise `None`. JCGM 101, 8.2 requires a fifth of the tolerance, which
-/// decides all but close cases.
-fn valid(differences: [f64; 2], tolerance: f64, numerical: [f64; 2]) -> Option<bool> {
-    let mut ends = differences.into_iter().zip(numerical);
-    if ends.clone().any(|(difference, off)| difference - off > tolerance) {
+/// Returns `true` if both differences are within the tolerance for every Monte Carlo error with a probability of 95 %,
+/// `false` if one is beyond it for all but improbable errors, otherwise `None`. The errors have Student's distribution,
+/// because few blocks may agree by chance. JCGM 101, 8.2 requires a fifth of the tolerance, which decides all but close cases.
+fn valid(differences: [f64; 2], tolerance: f64, errors: [f64; 2], blocks: u64) -> Option<bool> {
+    let freedom = blocks.checked_sub(1).filter(|freedom| *freedom > 0)? as f64;
+    let [usual, largest] = [1.0 - COVERAGE, BY_CHANCE / 16.0].map(|beyond| student_factor(beyond, freedom));
+    let mut ends = differences.into_iter().zip(errors);
+    if ends.clone().any(|(difference, error)| difference - largest * error > tolerance) {
         return Some(false);
     }
-    ends.all(|(difference, off)| difference + off <= tolerance).then_some(true)
+    ends.all(|(difference, error)| difference + usual * error <= tolerance).then_some(true)
 }
 
 /// Returns δ = ½ · 10ˡ for u = c · 10ˡ with c of two digits (JCGM 101, 7.9.2), or infinity if u is not positive.
@@ -358,11 +366,14 @@ mod tests {
 
     #[test]
     fn what_cannot_be_told_yet_is_not_told() {
-        assert_eq!(valid([1.0, 2.0], 5.0, [1.0, 1.0]), Some(true));
-        assert_eq!(valid([1.0, 8.0], 5.0, [1.0, 1.0]), Some(false));
-        assert_eq!(valid([1.0, 5.5], 5.0, [1.0, 1.0]), None);
-        assert_eq!(valid([1.0, 4.5], 5.0, [1.0, 1.0]), None);
-        assert_eq!(valid([1.0, 8.0], 5.0, [f64::INFINITY; 2]), None);
+        // Student's t with 9 degrees of freedom: 2.26 for 95 % (tables), 7.01 for 1 − 0.001/16 (its density, integrated).
+        assert_eq!(valid([1.0, 2.7], 5.0, [1.0, 1.0], 10), Some(true));
+        assert_eq!(valid([1.0, 2.8], 5.0, [1.0, 1.0], 10), None);
+        assert_eq!(valid([1.0, 11.9], 5.0, [1.0, 1.0], 10), None);
+        assert_eq!(valid([1.0, 12.1], 5.0, [1.0, 1.0], 10), Some(false));
+        // Two blocks can agree by chance; one tells nothing.
+        assert_eq!(valid([1.0, 11.6], 5.0, [0.1, 0.1], 2), None);
+        assert_eq!(valid([1.0, 8.0], 5.0, [0.0, 0.0], 1), None);
     }
 
     /// Expected: the examples of JCGM 101, 7.9.2: u = 0.25 mg gives δ = 0.005 mg; u = 2 K with one digit would give 0.5.
