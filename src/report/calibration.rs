@@ -144,25 +144,27 @@ fn conditions(Subject { gyro_serial, date, operator, temperature_c, .. }: &Subje
     (!said.is_empty()).then(|| capital(&said.join(", ")))
 }
 
-/// Returns what makes the parameters or their uncertainties unusable or doubtful, a sentence each.
+/// Returns what makes the parameters or their uncertainties unusable or doubtful. Several possible causes are a line each.
 pub(crate) fn warnings(done: &Done, trials: Option<&MonteCarlo>) -> Vec<String> {
+    let causes = done.calibration.hint.as_ref().map(Hint::each_cause).filter(|causes| causes.len() > 1);
+    let each = |causes: Vec<String>| causes.iter().map(|cause| format!("\n  - {}", capital(cause))).collect::<String>();
+    let first = causes.map(|causes| format!("WARNING: {}. Possible causes:{}", capital(INCONSISTENT), each(causes)));
+    let rest = doubts(done, trials).skip(first.iter().len());
+    first.clone().into_iter().chain(rest).collect()
+}
+
+/// Returns what makes the parameters or their uncertainties unusable or doubtful, a line each.
+pub(super) fn doubts(done: &Done, trials: Option<&MonteCarlo>) -> impl Iterator<Item = String> {
     let Done { calibration, document, warning, earlier, unexplained, common_factor, .. } = done;
-    let causes = calibration.hint.as_ref().map(Hint::each_cause).unwrap_or_default();
-    let each = || causes.iter().map(|cause| format!("\n  - {}", capital(cause))).collect::<String>();
-    let unusable = unusable(calibration, document.mistake.as_ref()).enumerate().map(|(place, words)| match place {
-        // Several causes are a line each.
-        0 if causes.len() > 1 => format!("{INCONSISTENT}. Possible causes:{}", each()),
-        _ => words,
-    });
     let of_scatter = scatter(calibration).into_iter().filter(|(weight, _)| *weight == Weight::Warning);
     let others = of_scatter.map(|(_, words)| words).chain(warning.as_ref().map(ToString::to_string));
     let why = earlier.as_ref().and_then(|(_, why)| Some(why_no_change((*why)?).of(Language::English).to_owned()));
-    let all = unusable
+    let all = unusable(calibration, document.mistake.as_ref())
         .chain(why)
         .chain(others)
         .chain(unexplained.iter().chain(common_factor).cloned())
         .chain(trials.and_then(not_linear));
-    all.map(|words| format!("WARNING: {}", capital(&words))).collect()
+    all.map(|words| format!("WARNING: {}", capital(&words)))
 }
 
 /// Returns what makes the parameters unusable: readings that do not fit, or those of another gyro.
@@ -358,7 +360,7 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
     for (_, words) in scatter(calibration).into_iter().filter(|(weight, _)| *weight != Weight::Warning) {
         columns::paragraph(out, "  ", &words);
     }
-    not_stated(out, missing);
+    not_stated(out, NOT_STATED, missing);
 }
 
 /// Returns which passport was used, and whether it was verified.
@@ -371,12 +373,13 @@ pub(super) fn passport(document: &CalibrationDocument, checks: &[Check]) -> Stri
     format!("Passport {}, {state}", document.passport_id)
 }
 
-pub(super) fn not_stated(out: &mut String, missing: &[NotStated]) {
+/// Beginning of the list of inputs that no uncertainty includes.
+pub(super) const NOT_STATED: &str = "u not stated, or stated as 0, and not included in any uncertainty";
+
+pub(super) fn not_stated(out: &mut String, what: &str, missing: &[NotStated]) {
     if !missing.is_empty() {
         let missing: Vec<&str> = missing.iter().map(|what| what.words()).collect();
-        let words =
-            format!("u not stated, or stated as 0, and not included in any uncertainty: {}.", missing.join("; "));
-        columns::paragraph(out, "", &words);
+        columns::paragraph(out, "", &format!("{what}: {}.", missing.join("; ")));
     }
 }
 

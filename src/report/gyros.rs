@@ -1,19 +1,16 @@
 //! Results of several gyros on one stand as text: a line for each, and what they have in common.
 
-use super::calibration::{not_stated, passport};
-use super::scatter::{Weight, scatter};
+use super::calibration::{NOT_STATED, doubts, not_stated, passport};
 use super::style::Outcome;
 use super::tolerance::headline;
-use super::uncertainty::not_linear;
 use crate::calibration::NotStated;
 use crate::interface::calibrated::Done;
 use crate::passport::Check;
-use crate::report::page::language::{Language, capital};
+use crate::report::page::language::Language;
 use crate::report::page::texts::calibration as texts;
-use crate::report::{columns, mistake, style};
+use crate::report::{columns, style};
 use crate::text::printable;
 use crate::uncertainty::MonteCarlo;
-use crate::wording::plain;
 use std::fmt::Write;
 
 /// Words for the outcomes, in the order in which they are counted; the last two are of gyros without a result.
@@ -25,37 +22,43 @@ pub(crate) fn line(file: &str, done: &Done, trials: Option<&MonteCarlo>, gyro_ty
     let Done { calibration, document, .. } = done;
     let file = printable(file);
     let ((outcome, word), mut reasons) = headline(document, gyro_type);
-    if document.hint.is_some() {
-        reasons += "; for the cause, calibrate this file alone";
+    if let Some(hint) = &calibration.hint {
+        reasons += &format!("; {}", hint.causes());
     } else if gyro_type.is_none() && document.is_valid() {
         let fit = calibration.answer().map(|answer| columns::probability(answer.chi_square.probability));
         reasons = fit.map_or_else(String::new, |p| format!("probability of a larger chi-square {p}"));
     }
     let mut out = format!("{}  {file}  {reasons}", style::of_input(outcome, &word));
-    let mistake = document.mistake.iter().map(|mistake| plain(&mistake::words(mistake, Language::English)));
-    let of_scatter = scatter(calibration).into_iter().filter(|(weight, _)| *weight == Weight::Warning);
-    for words in mistake.chain(of_scatter.map(|(_, words)| words)).chain(trials.and_then(not_linear)) {
-        let _ = write!(out, "; WARNING: {}", capital(&words));
+    // That the readings do not fit is said already.
+    for words in doubts(done, trials).skip(calibration.hint.iter().len()) {
+        let _ = write!(out, "; {words}");
     }
     out.push('\n');
     out
 }
 
-/// Outcomes of several gyros, and what the lines do not say because all have it in common.
+/// Outcomes of several gyros, and what the lines do not say because all or many have it in common.
 #[derive(Default)]
 pub(crate) struct Gyros {
     outcomes: Vec<(Outcome, String)>,
-    /// Passport, and the inputs without a stated uncertainty.
-    common: Option<(String, Vec<NotStated>)>,
+    passport: Option<String>,
+    results: usize,
+    /// Inputs without a stated uncertainty, and the number of results that do not include it.
+    missing: Vec<(NotStated, usize)>,
 }
 
 impl Gyros {
     /// Adds the result of a gyro with a passport on which these `checks` were made.
     pub(crate) fn add(&mut self, done: &Done, gyro_type: Option<&str>, checks: &[Check]) {
         self.outcomes.push(headline(&done.document, gyro_type).0);
-        let first = || (passport(&done.document, checks), done.missing.clone());
-        let (_, missing) = self.common.get_or_insert_with(first);
-        missing.retain(|what| done.missing.contains(what));
+        self.passport.get_or_insert_with(|| passport(&done.document, checks));
+        self.results += 1;
+        for what in &done.missing {
+            match self.missing.iter_mut().find(|(known, _)| known == what) {
+                Some((_, number)) => *number += 1,
+                None => self.missing.push((*what, 1)),
+            }
+        }
     }
 
     /// Adds a gyro without a result; `word` is one of [`WORDS`].
@@ -78,12 +81,15 @@ impl Gyros {
     /// Returns the counts, the passport, whether the meter was assumed, and the inputs without a stated uncertainty.
     pub(crate) fn text(&self, meter_assumed: bool) -> String {
         let mut out = self.summary();
-        let Some((passport, missing)) = &self.common else { return out };
+        let Some(passport) = &self.passport else { return out };
         columns::paragraph(&mut out, "", passport);
         if meter_assumed {
             columns::paragraph(&mut out, "", texts::METER_ASSUMED.of(Language::English));
         }
-        not_stated(&mut out, missing);
+        let (of_all, of_some): (Vec<_>, Vec<_>) = self.missing.iter().partition(|(_, number)| *number == self.results);
+        let [of_all, of_some] = [of_all, of_some].map(|of| of.into_iter().map(|(what, _)| what).collect::<Vec<_>>());
+        not_stated(&mut out, NOT_STATED, &of_all);
+        not_stated(&mut out, "Not included for some of the gyros either", &of_some);
         out
     }
 }

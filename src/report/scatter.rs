@@ -125,7 +125,13 @@ pub(super) fn drift(text: Text, test: &DriftTest, language: Language) -> String 
 
 /// Returns why chi-square is much smaller than expected, if it is.
 pub(in crate::report) fn too_small(calibration: &Calibration) -> Option<Text> {
-    let why = if calibration.visit_noise.is_estimated() { texts::TOO_SMALL_BY_NOISE } else { texts::TOO_SMALL };
+    let drifts = [calibration.drift_test, calibration.drift_in_order];
+    let turn_ons = calibration.answer().map_or(1, |answer| answer.cycles.len());
+    let why = match calibration.visit_noise.is_estimated() {
+        true if drifts.iter().flatten().any(DriftTest::is_significant) => texts::TOO_SMALL_BY_TREND,
+        true if turn_ons < 2 => texts::TOO_SMALL_OR_TURN_ONS,
+        _ => texts::TOO_SMALL,
+    };
     calibration.fits_too_well().then_some(why)
 }
 

@@ -415,11 +415,16 @@ texts! {
              readings were computed, not measured.",
         ru: "Хи-квадрат значительно меньше ожидаемого: указанные неопределённости завышены либо показания получены расчётом."
     }
-    TOO_SMALL_BY_NOISE {
-        en: "Chi-square is much smaller than expected: visits to all positions differ by the same amount, as after another \
-             turn-on or by a drift. State the turn-on and the time of each reading (cycle, time_s).",
-        ru: "Хи-квадрат значительно меньше ожидаемого: установки во все положения отличаются одинаково, как при новом запуске \
-             или при дрейфе. Следует указать запуск и время каждого показания."
+    TOO_SMALL_BY_TREND {
+        en: "Chi-square is much smaller than expected: the trend enlarges the scatter of the visits, and so the uncertainties.",
+        ru: "Хи-квадрат значительно меньше ожидаемого: изменение ω_0 увеличивает рассеяние между установками, а с ним и \
+             неопределённости."
+    }
+    TOO_SMALL_OR_TURN_ONS {
+        en: "Chi-square is much smaller than expected: the stated uncertainties are too large for these readings, or the \
+             visits to all positions differ alike, as after another turn-on that is not stated as such.",
+        ru: "Хи-квадрат значительно меньше ожидаемого: указанные неопределённости завышены либо установки во все положения \
+             отличаются одинаково, как при новом запуске, который не указан."
     }
     OF_UNCERTAINTIES {
         en: "Degrees of freedom of the input uncertainties (taken into account)",
