@@ -26,11 +26,11 @@ pub(super) struct Options {
     #[arg(long, value_name = "SITE", value_parser = defaults::site())]
     site: Option<PathBuf>,
     /// Site files, each for the passports of that site: files, folders, patterns (repeatable)
-    #[arg(long = "sites", value_name = "SITE", conflicts_with_all = ["site", "moved"])]
+    #[arg(long = "sites", value_name = "SITE", conflicts_with_all = ["site", "moved"], value_parser = defaults::site())]
     sites: Vec<PathBuf>,
     /// Corrected stand files, each for the passports of that stand: files, folders, patterns (repeatable) [default:
     /// that of the predecessor]
-    #[arg(long = "stand", value_name = "STAND")]
+    #[arg(long = "stand", value_name = "STAND", value_parser = defaults::stand())]
     stands: Vec<PathBuf>,
     /// The stand has left the previous site; supersede the predecessor
     #[arg(long)]

@@ -228,7 +228,12 @@ impl Folder {
         let path = self.path_of(&stand.stand, &site.id, order.revision);
         match self.existing(&path)? {
             Some(there) if same(&there.content, draft.content()) => Ok(Next::There(there.left(&draft))),
-            Some(there) => Err(there.refuse(stand, site, draft.content())),
+            Some(there) => {
+                let latest = self.sites.later(&path, order.revision);
+                let latest =
+                    latest.map(|last| self.existing(&self.path_of(&stand.stand, &site.id, last))).transpose()?;
+                Err(latest.flatten().unwrap_or(there).refuse(stand, site, draft.content()))
+            }
             None => match self.sites.later(&path, order.revision) {
                 Some(last) => Err(FolderRefused::Gap { path, later: self.path_of(&stand.stand, &site.id, last) }),
                 None => Ok(Next::New { path, draft }),
@@ -268,7 +273,8 @@ impl Folder {
             }
             let predecessor = there.content.passport.reissued_from.as_ref();
             if predecessor.is_some_and(|predecessor| predecessor.sha256 == successor.old_sha256()) {
-                return Err(FolderRefused::OtherSuccessor(there.path));
+                let latest = self.sites.later(&path, revision).map_or(there.path, path_of);
+                return Err(FolderRefused::OtherSuccessor(latest));
             }
             // At the predecessor's site only one revision can be the next one; at another site, try the next free
             // revision.
@@ -418,7 +424,7 @@ impl Existing {
         Issued { id, path: self.path, sha256: self.sha256, new: false, remarks: draft.remarks() }
     }
 
-    /// Returns the refusal of `new`, which differs from the existing passport.
+    /// Returns the refusal of `new`, which differs from the existing passport, or from an earlier revision of it.
     fn refuse(self, stand: &Stand, site: &Site, new: &Content) -> FolderRefused {
         let there = &self.content.passport;
         let day = |day: Option<Date>| day.map_or_else(|| "none".to_owned(), |day| day.to_string());
@@ -428,8 +434,12 @@ impl Existing {
             .then(|| "issued with other --accuracy, --gyro or --laboratory".to_owned());
         let reissued = there.reissued_from.as_ref().map(|predecessor| format!("re-issued from {}", predecessor.id));
         let changed = changes(&self.content, stand, site, &new.passport.issuer);
-        if accuracy.is_some() && valid_until.is_none() && reissued.is_none() && changed == NO_CHANGES {
-            return FolderRefused::OtherAccuracy(self.path);
+        if valid_until.is_none() && changed == NO_CHANGES {
+            match (accuracy.is_some(), reissued.is_some()) {
+                (true, false) => return FolderRefused::OtherAccuracy(self.path),
+                (false, _) if there.revision > new.passport.revision => return FolderRefused::Done(self.path),
+                _ => {}
+            }
         }
         let mut words: Vec<String> = [valid_until, accuracy, reissued].into_iter().flatten().collect();
         if changed != NO_CHANGES || words.is_empty() {

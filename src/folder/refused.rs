@@ -19,6 +19,9 @@ pub enum FolderRefused {
         shown(.0)
     )]
     OtherContent(PathBuf, String),
+    /// Last revision for this site, which has the content of the one to be issued.
+    #[error("{}: has this content already; it is the last revision for this site, and nothing is left to issue", shown(.0))]
+    Done(PathBuf),
     /// Existing passport of this name that states another expected uncertainty.
     #[error(
         "{}: already exists with other values of --accuracy, --gyro or --laboratory; repeat the options with which it was \

@@ -126,7 +126,11 @@ pub(crate) fn unusable(root: &Path, trust: &Trust, time: Timestamp, threads: usi
     let lines = register(root, trust.clone(), &Asked::at(time), threads).map(|(register, _)| register.passports);
     let unusable = lines.unwrap_or_default().into_iter().filter(|line| !line.is_usable());
     unusable
-        .map(|Line { sha256, why, .. }| (sha256, format!("WARNING: this passport may not be used: {why}")))
+        .map(|Line { sha256, why, .. }| {
+            // Next to its state, the reason of a superseded passport is only its successor.
+            let superseded = if why.starts_with("by ") { "superseded " } else { "" };
+            (sha256, format!("WARNING: this passport may not be used: {superseded}{why}"))
+        })
         .collect()
 }
 

@@ -271,7 +271,8 @@ fn row(series: &Series) -> Option<Vec<String>> {
             let decimals = columns::decimals(line.u_slope);
             let p = series.corrected_probability?;
             let mark = if p < DRIFTS {
-                style::marked(Outcome::Failed, "DRIFTS")
+                // Two certificates do not show whether it is a drift.
+                style::marked(Outcome::Failed, if line.degrees_of_freedom == 0 { "CHANGED" } else { "DRIFTS" })
             } else if p < SUSPECTED {
                 style::marked(Outcome::Undecided, "suspected")
             } else {
