@@ -250,7 +250,8 @@ impl Verdict {
     /// Returns the parameter whose uncertainty takes most of its tolerance.
     pub(crate) fn least_certain(&self) -> Option<&ParameterVerdict> {
         let share = |line: &&ParameterVerdict| line.expanded_uncertainty / line.tolerance;
-        self.parameters.iter().max_by(|one, other| share(one).total_cmp(&share(other)))
+        let with_tolerance = self.parameters.iter().filter(|line| line.tolerance > 0.0);
+        with_tolerance.max_by(|one, other| share(one).total_cmp(&share(other)))
     }
 
     /// Returns the parameters with a tolerance that were not found, because the general model does not have them.

@@ -20,6 +20,7 @@ pub(crate) use superseding::Superseding;
 use crate::document::{SignedText, Signer, sha256_hex};
 use crate::files::walk::{Visited, Walk};
 use crate::files::{self, Access, or_here};
+use crate::passport::checks::for_the_issuer;
 use crate::passport::issue::{Draft, Issue, PreparedStand, Remarks};
 use crate::passport::reissue::{NO_CHANGES, Successor, changes};
 use crate::passport::{Content, NAMESPACE, Question, Trust, content, verify};
@@ -398,7 +399,9 @@ fn check_verifiable(path: &Path, text: &str, draft: &Draft, trust: &Trust) -> Re
     let verification = verify(&name_of(path), text.as_bytes(), trust, &question);
     match verification.checks().iter().find(|check| check.passed() != Some(true)) {
         None => Ok(()),
-        Some(failed) => Err(FolderRefused::NotVerifiable(failed.name.as_str(), failed.detail.clone())),
+        Some(failed) => {
+            Err(FolderRefused::NotVerifiable(failed.name.as_str(), for_the_issuer(&failed.detail).to_owned()))
+        }
     }
 }
 

@@ -87,7 +87,9 @@ pub enum FolderRefused {
     #[error("{}: {}", shown(.0), .1)]
     NumberInUse(PathBuf, NumberInUse),
     /// New passport that fails verification with the given trust: the check that failed and its detail.
-    #[error("the new passport failed verification ({0}: {1}); nothing was written")]
+    #[error(
+        "the new passport failed verification ({0}: {1}); nothing was written; check --key, --identity and --trust"
+    )]
     NotVerifiable(&'static str, String),
     /// Passport that cannot be issued.
     #[error(transparent)]

@@ -2,6 +2,7 @@
 
 use crate::text::printable;
 use crate::text::words;
+use crate::trust::allowed_signers::ASK_FOR_THE_KEY;
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use std::fmt::Display;
 
@@ -107,7 +108,7 @@ pub(super) const REQUEST_FROM_THE_ISSUER: &str = "request a new passport from th
 
 /// Returns the detail of a check for the issuer: without the request to ask the issuer.
 pub(crate) fn for_the_issuer(detail: &str) -> &str {
-    let requests = [ASK_THE_ISSUER, REQUEST_FROM_THE_ISSUER];
+    let requests = [ASK_THE_ISSUER, REQUEST_FROM_THE_ISSUER, ASK_FOR_THE_KEY];
     let without = |request| detail.strip_suffix(request)?.strip_suffix("; ");
     requests.into_iter().find_map(without).unwrap_or(detail)
 }

@@ -116,12 +116,16 @@ impl SignerLine {
     }
 }
 
+/// Request of a laboratory at the end of the words on an unknown key.
+pub(crate) const ASK_FOR_THE_KEY: &str =
+    "ask the factory for its key, and compare the fingerprint through another channel";
+
 impl NotAuthorised {
     /// Returns the reason, whose signature it concerns, and what to do about an unknown key.
     pub(crate) fn of_document(&self, key: &PublicKey, issuer: &str, issued_at: Timestamp) -> String {
         let remedy = match self {
-            Self::UnknownKey => "; ask the factory for its key, and compare the fingerprint through another channel",
-            _ => "",
+            Self::UnknownKey => format!("; {ASK_FOR_THE_KEY}"),
+            _ => String::new(),
         };
         format!("{self} (key {}, issuer {issuer}, issued {issued_at}){remedy}", key.fingerprint())
     }

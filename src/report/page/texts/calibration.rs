@@ -380,8 +380,8 @@ texts! {
         ru: "Простая приёмка, без защитной полосы: соответствие допускам у {passed} из {all} параметров"
     }
     TOO_UNCERTAIN {
-        en: "No value can pass by guarded acceptance: U exceeds the tolerance of {names}.",
-        ru: "Приёмка с защитной полосой невозможна: U больше допуска для {names}."
+        en: "Whatever their value, these cannot pass by guarded acceptance, because U exceeds the tolerance: {names}.",
+        ru: "При любом значении приёмка с защитной полосой невозможна, так как U больше допуска: {names}."
     }
     OPPOSITE {
         en: "With the other sign these would be within the tolerance: {names}. Check the sign convention.",
