@@ -296,12 +296,7 @@ fn parameters_that_no_gyro_can_pass_are_named_with_the_reason() {
     let text = terminal.args([VERIFIED, LABORATORY, GYRO].concat()).output().unwrap().stdout;
     let text = String::from_utf8(text).unwrap();
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(
-        text.contains(
-            "Whatever their value, these cannot pass by guarded acceptance, because U exceeds the tolerance: ω_g, ω_k."
-        ),
-        "{text}"
-    );
+    assert!(text.contains("No value of ω_g, ω_k can pass by guarded acceptance: U exceeds the tolerance."), "{text}");
     assert!(
         text.contains(
             "The height is not stated, so g is that at 0 m; its standard uncertainty, 0.0071 m/s², is the r.m.s. error"
@@ -309,8 +304,7 @@ fn parameters_that_no_gyro_can_pass_are_named_with_the_reason() {
         "{text}"
     );
     let page = page.replace('\u{a0}', " ");
-    for words in
-        ["these cannot pass by guarded acceptance", "приёмка с защитной полосой невозможна", "The height is not stated"]
+    for words in ["can pass by guarded acceptance", "приёмка с защитной полосой невозможна", "The height is not stated"]
     {
         assert!(page.contains(words), "{words}");
     }

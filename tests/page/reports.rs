@@ -60,7 +60,7 @@ const REPORTS: &[Report] = &[
     Report {
         name: "coarse-both",
         languages: &[English, Russian],
-        asked: &[USUAL, CURRENTS, &["--laboratory", "@coarse.yaml", "--monte-carlo", "--trials", "4000000"], GYRO],
+        asked: &[USUAL, CURRENTS, &["--laboratory", "@coarse.yaml", "--monte-carlo", "--trials", "400000"], GYRO],
     },
     // Neither type nor laboratory, one method alone.
     Report { name: "plain-ru", languages: &[Russian], asked: &[USUAL, CURRENTS, &["--method", "iterative"]] },

@@ -380,8 +380,8 @@ texts! {
         ru: "Простая приёмка, без защитной полосы: соответствие допускам у {passed} из {all} параметров"
     }
     TOO_UNCERTAIN {
-        en: "Whatever their value, these cannot pass by guarded acceptance, because U exceeds the tolerance: {names}.",
-        ru: "При любом значении приёмка с защитной полосой невозможна, так как U больше допуска: {names}."
+        en: "No value of {names} can pass by guarded acceptance: U exceeds the tolerance.",
+        ru: "При любом значении {names} приёмка с защитной полосой невозможна: U больше допуска."
     }
     OPPOSITE {
         en: "With the other sign these would be within the tolerance: {names}. Check the sign convention.",
