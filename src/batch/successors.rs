@@ -9,7 +9,7 @@ use crate::document::sha256_hex;
 use crate::files::walk::Visited;
 use crate::files::{self, FileError, folder_of};
 use crate::folder::{Folder, Issued, Superseding, search};
-use crate::interface::Enquiry;
+use crate::interface::{Enquiry, unverified};
 use crate::passport::checks::for_the_issuer;
 use crate::passport::content::passport_id;
 use crate::passport::issue::PreparedStand;
@@ -55,8 +55,10 @@ struct Searched {
     /// Trust, including the revocation lists that apply to the folder.
     trust: Trust,
     register: Register,
-    /// Stands with a passport for the site of the order, which a corrected site concerns alone.
+    /// Stands that have or had a passport for the site of the order.
     at_the_site: BTreeSet<String>,
+    /// `true` if one of these passports states that site in another way: the site of the order is a corrected one.
+    is_corrected: bool,
 }
 
 enum Examined {
@@ -185,12 +187,17 @@ impl Run<'_> {
         for failure in register.alarms.iter().filter_map(not_looked_at) {
             self.push(Err(failure), tell);
         }
-        let id = self.change.order.site.as_ref().map(|site| site.id.as_str());
-        let there = |line: &&Line| {
-            id.is_some() && line.site.as_deref() == id && (line.is_usable() || line.state == State::Expired)
+        let site = self.change.order.site.as_ref().filter(|_| !self.change.order.moved);
+        let is_there = |line: &&Line| site.is_some_and(|site| line.site.as_deref() == Some(site.id.as_str()));
+        let there: Vec<&Line> = register.passports.iter().filter(is_there).collect();
+        let states_another = |line: &&Line| {
+            let bytes = files::read(Path::new(&line.file), LARGEST_DOCUMENT_BYTES).ok();
+            let there = bytes.and_then(|bytes| unverified(&line.file, &bytes).ok());
+            there.is_some_and(|(content, _)| Some(&content.site) != site)
         };
-        let at_the_site = register.passports.iter().filter(there).filter_map(|line| line.stand.clone()).collect();
-        let searched = Arc::new(Searched { trust, register, at_the_site });
+        let is_corrected = there.iter().any(states_another);
+        let at_the_site = there.iter().filter_map(|line| line.stand.clone()).collect();
+        let searched = Arc::new(Searched { trust, register, at_the_site, is_corrected });
         for (path, index) in here {
             self.push(Ok(Candidate { path, found: Some((Arc::clone(&searched), index)) }), tell);
             if self.batch.cancelled() {
@@ -350,9 +357,10 @@ impl Run<'_> {
     fn settled_by_folder(
         &self,
         path: &Path,
-        Searched { register, at_the_site, .. }: &Searched,
+        searched: &Searched,
         line: &Line,
     ) -> Result<Option<Option<Outcome>>, Failure> {
+        let register = &searched.register;
         let refused = |why: String| Err(Failure::refused(path, why));
         let of_another_stand = |stand: &String| !self.change.stands.is_empty() && !self.stands.has(stand);
         if line.stand.as_ref().is_some_and(of_another_stand) {
@@ -381,18 +389,21 @@ impl Run<'_> {
             State::Moved => return skipped(format!("moved: {}", line.why)),
             _ => {}
         }
-        if self.is_for_another_site(line, at_the_site) {
+        if self.is_for_another_site(line, searched) {
             return skipped("for another site, which the change does not concern".to_owned());
         }
         if register.is_of_a_fork(&line.sha256) { refused(FORKED.to_owned()) } else { Ok(None) }
     }
 
     /// Returns `true` if only passports for other sites are to be re-issued: a corrected site concerns its own.
-    fn is_for_another_site(&self, line: &Line, at_the_site: &BTreeSet<String>) -> bool {
+    fn is_for_another_site(&self, line: &Line, searched: &Searched) -> bool {
         let Change { order, stands, sites, .. } = &self.change;
         let (Some(stand), Some(site)) = (&line.stand, &line.site) else { return false };
         match &order.site {
-            Some(new) => !order.moved && new.id.as_str() != site && at_the_site.contains(stand),
+            Some(new) => {
+                let is_for_its_own = searched.is_corrected || searched.at_the_site.contains(stand);
+                !order.moved && new.id.as_str() != site && is_for_its_own
+            }
             // A new certificate concerns the passports for all sites.
             None => stands.is_empty() && !sites.is_empty() && !self.sites_missing && !self.sites.has(site),
         }

@@ -13,12 +13,16 @@ use super::readings::Exclusion;
 use super::scatter::{IMPROBABLE, VisitErrors};
 use super::{NoiseSource, Options, Readings, RowScatter, Setup};
 use crate::coefficients::PositionIndex;
+use crate::statistics::distributions::chi_square_larger;
 use crate::statistics::student::f_larger;
 use nalgebra::{Matrix2, Vector2};
 use serde::{Deserialize, Serialize};
 
 /// Determinant of the part of its covariance that the residual of a visit keeps, below which nothing is kept but rounding.
 const ALONE: f64 = 1e-9;
+
+/// Probability of a larger scatter from which one is as stated.
+const AS_STATED: f64 = 0.05;
 
 /// Relative difference of two sums of squares that are equal but for rounding.
 const EQUAL: f64 = 1e-6;
@@ -66,8 +70,9 @@ impl Suspect {
 /// Returns those of several visits or rows, of which one is wrong, that may be the wrong one: if the readings fit the stand
 /// far better without another of them, one is not.
 ///
-/// That is again Fisher's F, in units of the residuals of the best fit. It tells whether any of them is wrong if their
-/// probability is not known, because there is nothing else to compare them with.
+/// That is again Fisher's F, in units of the residuals of the best fit, or chi-square if the noise of the gyro is stated and
+/// that fit agrees with it. It tells whether any of them is wrong if their probability is not known, because there is nothing
+/// else to compare them with.
 fn by_fit(setup: &Setup, readings: &Readings, options: &Options, several: Vec<Suspect>) -> Vec<Suspect> {
     let without = |one: &Suspect| {
         let rest = one.left_out(readings)?;
@@ -79,7 +84,9 @@ fn by_fit(setup: &Setup, readings: &Readings, options: &Options, several: Vec<Su
     let probabilities: Vec<f64> = best
         .iter()
         .flat_map(|best| {
-            let freedom = (best.degrees_of_freedom as f64).min(best.of_uncertainties);
+            let is_known = setup.uncertainty().visit_deg_per_h.is_some() && best.probability >= AS_STATED;
+            let of_residuals = if is_known { f64::INFINITY } else { best.degrees_of_freedom as f64 };
+            let freedom = of_residuals.min(best.of_uncertainties);
             let variance = (best.value / best.degrees_of_freedom as f64).max(1.0);
             let count = several.len() as f64;
             let probability =
@@ -158,7 +165,9 @@ pub(crate) fn of_visits(
     });
     let freedom = differences.degrees_of_freedom();
     let least = each.iter().map(|row| explained(row.place, row.visit)).fold(1.0, f64::min);
-    largest(readings, deletions, each.len(), residuals.norm_squared(), freedom, least)
+    let spread =
+        Spread { squares: residuals.norm_squared(), degrees_of_freedom: freedom, least, is_stated: least >= 1.0 };
+    largest(readings, deletions, each.len(), spread)
 }
 
 /// Returns the row that agrees least with the other rows of its visit, or both of two, given the scatter of all rows;
@@ -181,26 +190,40 @@ fn of_rows(readings: &Readings, scatter: &RowScatter, least_ma: f64) -> Option<V
         })
     });
     let count = several.map(|(_, _, found)| found.each_ma.len()).sum();
-    largest(readings, deletions, count, squares, freedom, least_ma.powi(2))
+    let spread = Spread { squares, degrees_of_freedom: freedom, least: least_ma.powi(2), is_stated: false };
+    largest(readings, deletions, count, spread)
 }
 
-/// Returns the largest of `count` deletions, and each that is equal to it, if chance does not explain it, given the sum of
-/// squares of all residuals, its degrees of freedom, and the least variance that one of them has. Without other residuals
-/// its probability is 1, and is not known.
+/// Scatter of the residuals of all visits or rows.
+struct Spread {
+    /// Sum of the squares of all residuals.
+    squares: f64,
+    degrees_of_freedom: usize,
+    /// Variance that a residual has in any case.
+    least: f64,
+    /// `true` if that is the whole variance as it is stated.
+    is_stated: bool,
+}
+
+/// Returns the largest of `count` deletions, and each that is equal to it, if chance does not explain it. Without other
+/// residuals its probability is 1, and is not known.
 fn largest(
     readings: &Readings,
     deletions: impl Iterator<Item = Deletion>,
     count: usize,
-    all_squares: f64,
-    degrees_of_freedom: usize,
-    least_variance: f64,
+    spread: Spread,
 ) -> Option<Vec<Suspect>> {
-    let rest = degrees_of_freedom.checked_sub(2)? as f64;
+    let rest = spread.degrees_of_freedom.checked_sub(2)?;
     let mut deletions: Vec<Deletion> = deletions.collect();
     let squares = deletions.iter().map(|deletion| deletion.squares).fold(f64::NAN, f64::max);
-    let variance = ((all_squares - squares).max(0.0) / rest).max(least_variance);
-    let alone = rest == 0.0;
-    let probability = if alone { 1.0 } else { (count as f64 * f_larger(squares / 2.0 / variance, 2, rest)).min(1.0) };
+    let others = (spread.squares - squares).max(0.0);
+    let variance = (others / rest as f64).max(spread.least);
+    let alone = rest == 0;
+    // Of a noise that is stated, and with which the others agree, the variance is known.
+    let is_known = spread.is_stated && chi_square_larger(others / spread.least, rest) >= AS_STATED;
+    let freedom = if is_known { f64::INFINITY } else { rest as f64 };
+    let probability =
+        if alone { 1.0 } else { (count as f64 * f_larger(squares / 2.0 / variance, 2, freedom)).min(1.0) };
     deletions.retain(|deletion| deletion.squares * (1.0 + EQUAL) > squares);
     let suspect = |Deletion { place, visit, row, difference_ma, .. }: &Deletion| {
         let at = &readings.positions()[*place];
