@@ -93,6 +93,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         output::saved_too(path, &picture::plan(&found, site.id.as_str()), options.force)?;
     }
     let of_site = site.frame_axis_azimuth_deg();
-    options.format.write(|| &found, || report::text(&found, site.id.as_str(), of_site))?;
+    let assumed = [options.gyro.is_none(), options.laboratory.is_none()];
+    let as_text = || report::text(&found, (site.id.as_str(), of_site), &gyro.r#type, assumed);
+    options.format.write(|| &found, as_text)?;
     Ok(0)
 }

@@ -8,6 +8,7 @@ use crate::plan::criterion::Criterion;
 use crate::plan::sensitivity::{CommonError, Effect};
 use crate::plan::{Plan, Visited};
 use crate::text::number::decimal;
+use crate::text::printable;
 use crate::units::{printed, quantity};
 use std::fmt::Write;
 
@@ -18,21 +19,24 @@ const DRIFT_DEG_PER_H: f64 = 0.01;
 const LARGE_GRAVITY_SHARE: f64 = 0.1;
 
 /// Returns the plan: positions, order, uncertainties next to those of the paper's eight, and what it cannot see.
-/// `site` is the identifier of the site, and `site_azimuth_deg` its azimuth of the frame's axis.
-pub(crate) fn text(plan: &Plan, site: &str, site_azimuth_deg: f64) -> String {
+/// `site` is the identifier of the site, and `site_azimuth_deg` its azimuth of the frame's axis. `assumed` says whether the
+/// gyro type and the laboratory were assumed.
+pub(crate) fn text(plan: &Plan, (site, site_azimuth_deg): (&str, f64), gyro_type: &str, assumed: [bool; 2]) -> String {
+    let gyro_type = printable(gyro_type);
     let mut out = String::new();
     let readings: u32 = plan.readings.iter().map(|at| at.visits).sum();
     let how = match plan.exhaustive {
         true => "the best of all choices",
         false => "the best found by exchanging positions (not all choices were compared)",
     };
-    if let Some(sentence) = no_gyro_can_pass(plan) {
+    if let Some(sentence) = no_gyro_can_pass(plan, &gyro_type) {
         columns::paragraph(&mut out, "", &style::marked(Outcome::Failed, &sentence));
     }
     if gravity_prevents_a_pass(plan) {
         let sentence = format!(
-            "No gyro can pass by guarded acceptance at this site: the uncertainty of local g alone makes U (k = 2) of ω_g or \
-             ω_k {} % of the tolerance at the g of the type. To reduce it, state the height of the site, or measure g.",
+            "No gyro of type {gyro_type} can pass by guarded acceptance at this site: the uncertainty of local g alone makes \
+             U (k = 2) of ω_g or ω_k {} % of the tolerance at the g of the type. To reduce it, state the height of the site, \
+             or measure g.",
             percent(COVERAGE_FACTOR * plan.gravity_over_tolerance)
         );
         columns::paragraph(&mut out, "", &style::marked(Outcome::Failed, &sentence));
@@ -44,6 +48,11 @@ pub(crate) fn text(plan: &Plan, site: &str, site_azimuth_deg: f64) -> String {
         plan.candidates,
         azimuth(plan.frame_axis_azimuth_deg)
     );
+    let [gyro, meter] = assumed;
+    let gyro = if gyro { " (assumed; --gyro states another)" } else { "" };
+    let meter =
+        if meter { ", and a meter with an error within ±0.015 % (assumed; --laboratory states another)" } else { "" };
+    columns::paragraph(&mut out, "", &format!("For gyro type {gyro_type}{gyro}{meter}."));
     let value = plan.evaluation.value;
     let mut words = format!("Criterion {}: {}, {how}.", of_criterion(plan.criterion), significant(value));
     if let Some(paper) = &plan.paper {
@@ -199,7 +208,7 @@ pub(crate) fn percent(share: f64) -> String {
 type Named = fn(&Effect) -> bool;
 
 /// Returns the parameters of which no value can be found within the tolerance, in a sentence, if there are any.
-fn no_gyro_can_pass(plan: &Plan) -> Option<String> {
+fn no_gyro_can_pass(plan: &Plan, gyro_type: &str) -> Option<String> {
     let of_tolerance = |parameter: &Parameter| {
         plan.evaluation.standard_uncertainty[parameter.place()] / plan.tolerance[parameter.place()]
     };
@@ -209,8 +218,8 @@ fn no_gyro_can_pass(plan: &Plan) -> Option<String> {
     let no_other = if plan.exhaustive { "; no other choice of as many readings is better" } else { "" };
     (!beyond.is_empty()).then(|| {
         format!(
-            "No gyro can pass by guarded acceptance with these readings, because 2 u is larger than the tolerance of \
-             {}{no_other}.",
+            "No gyro of type {gyro_type} can pass by guarded acceptance with these readings, because 2 u is larger than the \
+             tolerance of {}{no_other}.",
             beyond.join(", ")
         )
     })

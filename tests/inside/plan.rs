@@ -634,7 +634,7 @@ fn the_uncertainty_of_the_local_g_is_stated() {
         let site = fixtures::site(&text);
         let found = plan(&question(&noise, &site)).unwrap();
         assert!((found.gravity_over_tolerance / due - 1.0).abs() < 2e-3, "{}", found.gravity_over_tolerance);
-        let said = dtg_passport::report::plan::text(&found, "moscow", EAST);
+        let said = dtg_passport::report::plan::text(&found, ("moscow", EAST), "GVK-6", [false, false]);
         let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
         assert_eq!(said.contains("uncertainty of local g alone"), words.is_some(), "{said}");
         assert!(words.is_none_or(|words| said.contains(words)), "{said}");
