@@ -8,6 +8,7 @@ use super::{Batch, Event, Failure, Listener, Outcome, Purpose, fail, parallel, p
 use crate::document::sha256_hex;
 use crate::files::walk::Visited;
 use crate::files::{self, FileError, folder_of};
+use crate::folder::refused::THE_ONE_IN_FORCE;
 use crate::folder::{Folder, Issued, Superseding, search};
 use crate::interface::{Enquiry, unverified};
 use crate::passport::checks::for_the_issuer;
@@ -87,6 +88,15 @@ impl Registers {
 }
 
 /// Successor of a passport, to be issued.
+/// Beginning of a remark that is a warning.
+const WARNING: &str = "WARNING: ";
+
+/// Returns the identifier of the passport in force that a warning about its predecessor names.
+fn id_in_force(remark: &str) -> Option<&str> {
+    let by = remark.strip_prefix(WARNING)?.strip_prefix("superseded by ")?;
+    if by.contains("neither is in force") { None } else { by.split(" (").next() }
+}
+
 struct Following {
     /// Name of the predecessor's file.
     name: String,
@@ -248,13 +258,20 @@ impl Run<'_> {
     /// Issues a successor; every successor of a batch is made here.
     fn follow(&self, examined: &Examined) -> Option<Outcome> {
         let Examined::Next(next) = examined else { return None };
-        let Following { name, successor, folder, .. } = &**next;
+        let Following { name, successor, folder, remarks } = &**next;
         if self.batch.seal.is_some() {
             sweep(&self.swept, folder.root());
             let path = folder.path_of(&successor.stand().stand, &successor.site.id, successor.first_revision());
             sweep(&self.swept, folder_of(&path));
         }
-        Some(self.batch.settle(folder, || name.clone(), || folder.next_successor(successor)))
+        let mut outcome = self.batch.settle(folder, || name.clone(), || folder.next_successor(successor));
+        if let Outcome::Failed(failure) = &mut outcome
+            && failure.why.ends_with(THE_ONE_IN_FORCE)
+            && let Some(id) = remarks.iter().find_map(|remark| id_in_force(remark))
+        {
+            failure.why += &format!(", {id}");
+        }
+        Some(outcome)
     }
 
     fn examine(&self, candidate: &Candidate) -> Result<Examined, Failure> {
@@ -295,7 +312,7 @@ impl Run<'_> {
         let stays_in_force = !next.supersedes() && verification.passport().is_some() && warnings.is_empty();
         let stays_in_force = stays_in_force.then(|| STAYS_IN_FORCE.to_owned());
         warnings.extend(verification.content_from_anyone().and_then(|old| distant_correction(old, &next.site)));
-        let warnings = warnings.into_iter().map(|words| format!("WARNING: {words}"));
+        let warnings = warnings.into_iter().map(|words| format!("{WARNING}{words}"));
         let remarks = warnings.chain(stays_in_force).collect();
         Ok(Examined::Next(Box::new(Following { name, successor: next, folder, remarks })))
     }

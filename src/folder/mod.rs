@@ -8,7 +8,7 @@
 pub(crate) mod archive;
 mod claim;
 mod names;
-mod refused;
+pub(crate) mod refused;
 pub(crate) mod search;
 mod superseding;
 

@@ -6,6 +6,9 @@ use crate::stand::number::NumberInUse;
 use crate::text::shown;
 use std::path::PathBuf;
 
+/// End of a refusal, after which the identifier of that passport may follow.
+pub(crate) const THE_ONE_IN_FORCE: &str = "the passport that is in force";
+
 /// Reason why no new passport was written to a folder.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -31,13 +34,13 @@ pub enum FolderRefused {
     OtherAccuracy(PathBuf),
     /// Existing successor of the predecessor for this site, with different content.
     #[error(
-        "{}: is already a successor of this passport for this site, with different content; re-issue that successor",
+        "{}: is already a successor of this passport for this site, with different content; re-issue {THE_ONE_IN_FORCE}",
         shown(.0)
     )]
     OtherSuccessor(PathBuf),
     /// Existing passport that supersedes the predecessor for another site or in another folder.
     #[error(
-        "{}: already supersedes this passport; re-issue that successor, because a second one would be a fork",
+        "{}: already supersedes this passport, and a second successor would be a fork; re-issue {THE_ONE_IN_FORCE}",
         shown(.0)
     )]
     Fork(PathBuf),

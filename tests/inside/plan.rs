@@ -625,7 +625,7 @@ fn the_uncertainty_of_the_local_g_is_stated() {
             "",
             0.7233,
             Some(
-                "No gyro can pass by guarded acceptance at this site: the uncertainty of local g alone makes U (k = 2) of ω_g or ω_k 145 % of the tolerance at the g of the type. To reduce it, state the height",
+                "No gyro of type GVK-6 can pass by guarded acceptance at this site: the uncertainty of local g alone makes U (k = 2) of ω_g or ω_k 145 % of the tolerance at the g of the type. To reduce it, state the height",
             ),
         ),
         ("gravity_m_per_s2: 9.8156\ngravity_u_m_per_s2: 1.0e-5\n", 0.00102, None),
