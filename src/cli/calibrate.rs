@@ -28,6 +28,7 @@ use crate::report::gyros::{self, Gyros};
 use crate::report::{CalibrationPage, Language, PassportPage, UsedPassport};
 use crate::report::{issued, style};
 use crate::text::{Kind, Printable, name_of, printable, shown};
+use crate::wording::plain;
 use clap::{Args, ValueEnum};
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -284,7 +285,7 @@ impl Bench<'_> {
         let trials = found.uncertainty.monte_carlo.as_ref();
         match options.format {
             Format::Json => {
-                report::warnings(done, trials).iter().for_each(|warning| output::complain(warning));
+                report::warnings(done, trials).iter().for_each(|warning| output::complain(&plain(warning)));
                 output::json(&found.whole())?;
             }
             Format::Text => {

@@ -182,7 +182,7 @@ pub(crate) fn remarks(calibration: &Calibration, readings: &Readings, mistake: O
     remarks.extend((!tested).then(|| UNTESTED.to_owned()));
     remarks.extend(calibration.digits.iter().flat_map(|digits| recorded::words(digits, Language::English)));
     remarks.extend(
-        scatter(calibration).into_iter().filter(|(weight, _)| *weight != Weight::Usual).map(|(_, words)| words),
+        scatter(calibration).into_iter().filter(|(weight, _)| *weight != Weight::Usual).map(|(_, words)| plain(&words)),
     );
     remarks.extend(without_reading(readings).map(|words| words + "."));
     remarks

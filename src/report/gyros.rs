@@ -11,6 +11,7 @@ use crate::report::page::texts::calibration as texts;
 use crate::report::{columns, style};
 use crate::text::printable;
 use crate::uncertainty::MonteCarlo;
+use crate::wording::plain;
 use std::fmt::Write;
 
 /// Words for the outcomes, in the order in which they are counted; the last two are of gyros without a result.
@@ -31,7 +32,7 @@ pub(crate) fn line(file: &str, done: &Done, trials: Option<&MonteCarlo>, gyro_ty
     let mut out = format!("{}  {file}  {reasons}", style::of_input(outcome, &word));
     // That the readings do not fit is said already.
     for words in doubts(done, trials).skip(calibration.hint.iter().len()) {
-        let _ = write!(out, "; {words}");
+        let _ = write!(out, "; {}", plain(&words));
     }
     out.push('\n');
     out

@@ -8,7 +8,7 @@ use crate::calibration::result::DriftTest;
 use crate::calibration::{Agreement, Calibration, NoiseSource, Scatter, Suspect};
 use crate::text::number;
 use crate::wording::number::Probability;
-use crate::wording::plain;
+use crate::wording::{Value, plain};
 
 /// Weight of a sentence. Programs show remarks and warnings with the parameters.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -110,9 +110,9 @@ fn suspicion(suspect: &Suspect) -> String {
     let decimals = number::decimals(difference_ua[0].abs().max(difference_ua[1].abs()));
     let [jx, jy] = difference_ua.map(|difference| number::signed(difference, decimals));
     format!(
-        "{what} by ({jx}, {jy}) µA (probability of so large a difference by chance: {}).{either} Look for the cause; if there is one, \
-         leave the visit out with --exclude {i},{j},{visit},{cycle} and --why.",
-        columns::probability(suspect.probability)
+        "{what} by ({jx}, {jy}) µA ({}).{either} Look for the cause; if there is one, leave the visit out with \
+         --exclude {i},{j},{visit},{cycle} and --why.",
+        Probability(suspect.probability).said(Language::English)
     )
 }
 
