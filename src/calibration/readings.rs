@@ -273,6 +273,13 @@ fn mean<'a>(each: impl ExactSizeIterator<Item = &'a Vector2<f64>>) -> Vector2<f6
     each.sum::<Vector2<f64>>() / count
 }
 
+/// Returns `true` if numbered visits seem to be in the order in which they were made: those of a position are, and the rows
+/// are not sorted by position.
+fn rise_with_the_rows(rows: &[Reading], visits: &BTreeMap<PositionIndex, Vec<Visit>>) -> bool {
+    let stretches = rows.chunk_by(|one, next| one.index == next.index).count();
+    stretches > visits.len() && visits.values().all(|each| each.is_sorted_by_key(|visit| (visit.cycle, visit.number)))
+}
+
 /// Returns the visits of each position, in the order of their first rows.
 fn visits(rows: &[Reading]) -> BTreeMap<PositionIndex, Vec<Visit>> {
     let mut visits: BTreeMap<PositionIndex, Vec<Visit>> = BTreeMap::new();
@@ -292,8 +299,7 @@ fn visits(rows: &[Reading]) -> BTreeMap<PositionIndex, Vec<Visit>> {
         let place = *places.entry((index, cycle, number)).or_insert(here.len());
         if place == here.len() {
             let (each_ma, mean_ma, time_s) = (Vec::new(), Vector2::zeros(), Some(0.0));
-            let before = row.visit.is_none().then_some(total);
-            here.push(Visit { cycle, number, each_ma, mean_ma, time_s, before });
+            here.push(Visit { cycle, number, each_ma, mean_ma, time_s, before: Some(total) });
             total += 1;
         }
         here[place].each_ma.push(row.current_ma);
@@ -301,8 +307,9 @@ fn visits(rows: &[Reading]) -> BTreeMap<PositionIndex, Vec<Visit>> {
         here[place].time_s = here[place].time_s.zip(row.time_s).map(|(sum, time_s)| sum + time_s);
     }
     let once = total == visits.len();
+    let told = rows.iter().all(|row| row.visit.is_none()) || rise_with_the_rows(rows, &visits);
     for visit in visits.values_mut().flatten() {
-        visit.before = visit.before.filter(|_| !once);
+        visit.before = visit.before.filter(|_| !once && told);
         visit.mean_ma = mean(visit.each_ma.iter());
         visit.time_s = visit.time_s.map(|sum| sum / visit.each_ma.len() as f64);
     }

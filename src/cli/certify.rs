@@ -143,8 +143,12 @@ fn header_of(headers: &Path, readings: &Path) -> Result<Header, Failure> {
 fn write(path: &Path, certified: &Certification, known: &[&Stand], force: bool) -> Result<(), Failure> {
     // An existing output file need not be a stand file; --force replaces it in any case.
     let there = inputs::stand(path).ok();
-    for stand in known.iter().copied().chain(&there) {
+    for stand in known {
         certified.stand.check_number(stand).map_err(Failure::refused)?;
+    }
+    if let Some(there) = &there {
+        let in_use = |used| format!("{}: {used}; or delete this file, if no passport was issued from it", shown(path));
+        certified.stand.check_number(there).map_err(|used| Failure::refused(in_use(used)))?;
     }
     let text = certified.to_yaml(&name_of(path)).map_err(Failure::refused)?;
     let superseded = Superseded::of(path, text.as_bytes())?.filter(|_| force);

@@ -45,16 +45,16 @@ pub(super) fn scatter(calibration: &Calibration) -> Vec<(Weight, String)> {
     if let Some(words) = correlated(calibration).filter(|_| calibration.hint.is_none()) {
         say(words, Weight::Warning);
     }
-    let of_visits =
-        "if these readings were taken without leaving the position, give them the same number in the column visit";
+    const CHECK: &str = "check the noise that the gyro type states";
+    let of_visits = match calibration.answer().map_or(1, |answer| answer.cycles.len()) {
+        0 | 1 => {
+            "if these readings were taken without leaving the position, give them the same number in the column visit"
+        }
+        _ => CHECK,
+    };
     let each = [
         ("Visits to a position", &calibration.scatter, &calibration.visit_noise, of_visits),
-        (
-            "Turn-ons",
-            &calibration.turn_on_scatter,
-            &calibration.turn_on_noise,
-            "check the noise that the gyro type states",
-        ),
+        ("Turn-ons", &calibration.turn_on_scatter, &calibration.turn_on_noise, CHECK),
     ];
     for (what, found, noise, less) in each {
         if let Some(found) = found {
@@ -127,9 +127,11 @@ pub(super) fn drift(text: Text, test: &DriftTest, language: Language) -> String 
 pub(in crate::report) fn too_small(calibration: &Calibration) -> Option<Text> {
     let drifts = [calibration.drift_test, calibration.drift_in_order];
     let turn_ons = calibration.answer().map_or(1, |answer| answer.cycles.len());
-    let why = match calibration.visit_noise.is_estimated() {
+    let is_multiplied = calibration.scatter.is_some_and(|scatter| scatter.variance_factor > 1.0);
+    let is_enlarged = is_multiplied || calibration.visit_noise.is_estimated();
+    let why = match is_enlarged {
         true if drifts.iter().flatten().any(DriftTest::is_significant) => texts::TOO_SMALL_BY_TREND,
-        true if turn_ons < 2 => texts::TOO_SMALL_OR_TURN_ONS,
+        true if turn_ons < 2 || is_multiplied => texts::TOO_SMALL_OR_TURN_ONS,
         _ => texts::TOO_SMALL,
     };
     calibration.fits_too_well().then_some(why)

@@ -421,10 +421,10 @@ texts! {
              неопределённости."
     }
     TOO_SMALL_OR_TURN_ONS {
-        en: "Chi-square is much smaller than expected: the stated uncertainties are too large for these readings, or the \
-             visits to all positions differ alike, as after another turn-on that is not stated as such.",
-        ru: "Хи-квадрат значительно меньше ожидаемого: указанные неопределённости завышены либо установки во все положения \
-             отличаются одинаково, как при новом запуске, который не указан."
+        en: "Chi-square is much smaller than expected: the visits to all positions differ alike, as after another turn-on that \
+             is not stated as such, and this enlarges the uncertainties; or the stated ones are too large.",
+        ru: "Хи-квадрат значительно меньше ожидаемого: установки во все положения отличаются одинаково, как при новом запуске, \
+             который не указан, и это увеличивает неопределённости; либо указанные завышены."
     }
     OF_UNCERTAINTIES {
         en: "Degrees of freedom of the input uncertainties (taken into account)",
