@@ -346,15 +346,13 @@ impl Recertification<'_> {
             }
         }
         if let Some(line) = given.filter(|given| !counts(given) && chosen.done.is_empty()) {
-            let why = for_the_issuer(&line.why);
-            // The reason of a superseded passport is its successor.
-            let state = if why.starts_with("by ") { "superseded " } else { "" };
-            let in_force = lines.iter().filter(|line| counts(line)).filter_map(|line| line.id.as_deref());
-            let in_force: Vec<&str> = in_force.collect();
+            let why = line.reason();
+            let in_force: Vec<&str> = lines.iter().filter_map(|line| line.id.as_deref()).collect();
             let in_force = if in_force.is_empty() { "none is".to_owned() } else { in_force.join(", ") };
             let words = format!(
-                "{}: the passport is not in force: {state}{why}; give one that is in force ({in_force})",
-                shown(self.passport)
+                "{}: the passport is not in force: {}; give one that is in force ({in_force})",
+                shown(self.passport),
+                for_the_issuer(&why)
             );
             return Err(refused(words));
         }

@@ -87,7 +87,6 @@ impl Registers {
     }
 }
 
-/// Successor of a passport, to be issued.
 /// Beginning of a remark that is a warning.
 const WARNING: &str = "WARNING: ";
 
@@ -97,6 +96,7 @@ fn id_in_force(remark: &str) -> Option<&str> {
     if by.contains("neither is in force") { None } else { by.split(" (").next() }
 }
 
+/// Successor of a passport, to be issued.
 struct Following {
     /// Name of the predecessor's file.
     name: String,
@@ -402,7 +402,7 @@ impl Run<'_> {
             State::Superseded | State::Moved if register.has_several(line) => {
                 return refused(format!("several files have its id, {}", line.why));
             }
-            State::Superseded => return skipped(format!("superseded {}", line.why)),
+            State::Superseded => return skipped(line.reason()),
             State::Moved => return skipped(format!("moved: {}", line.why)),
             _ => {}
         }

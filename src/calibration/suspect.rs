@@ -70,30 +70,24 @@ impl Suspect {
 /// Returns those of several visits or rows, of which one is wrong, that may be the wrong one: if the readings fit the stand
 /// far better without another of them, one is not.
 ///
-/// That is again Fisher's F, in units of the residuals of the best fit, or chi-square if the noise of the gyro is stated and
-/// that fit agrees with it. It tells whether any of them is wrong if their probability is not known, because there is nothing
-/// else to compare them with.
+/// The fits without each of them are compared by Fisher's F, in units of the residuals of the best fit; by chi-square if the
+/// noise of the gyro is stated and that fit agrees with it. If there is nothing else to compare them with, this also tells
+/// whether any of them is wrong.
 fn by_fit(setup: &Setup, readings: &Readings, options: &Options, several: Vec<Suspect>) -> Vec<Suspect> {
     let without = |one: &Suspect| {
         let rest = one.left_out(readings)?;
         let Observation { data, fit, .. } = Observation::new(setup, &rest, options.model, options.drift).ok()?;
         Some(chi_square(&Propagation::new(setup, &data, &fit))).filter(ChiSquare::judges)
     };
-    let each: Option<Vec<ChiSquare>> = several.iter().map(without).collect();
-    let best = each.iter().flatten().copied().min_by(|one, other| one.value.total_cmp(&other.value));
-    let probabilities: Vec<f64> = best
-        .iter()
-        .flat_map(|best| {
-            let is_known = setup.uncertainty().visit_deg_per_h.is_some() && best.probability >= AS_STATED;
-            let of_residuals = if is_known { f64::INFINITY } else { best.degrees_of_freedom as f64 };
-            let freedom = of_residuals.min(best.of_uncertainties);
-            let variance = (best.value / best.degrees_of_freedom as f64).max(1.0);
-            let count = several.len() as f64;
-            let probability =
-                move |fit: &ChiSquare| count * f_larger((fit.value - best.value) / 2.0 / variance, 2, freedom);
-            each.iter().flatten().map(probability)
-        })
-        .collect();
+    let fits: Vec<ChiSquare> = several.iter().map_while(without).collect();
+    let best = fits.iter().min_by(|one, other| one.value.total_cmp(&other.value));
+    let probabilities: Vec<f64> = best.filter(|_| fits.len() == several.len()).map_or_else(Vec::new, |best| {
+        let is_known = setup.uncertainty().visit_deg_per_h.is_some() && best.probability >= AS_STATED;
+        let of_residuals = if is_known { f64::INFINITY } else { best.degrees_of_freedom as f64 };
+        let freedom = of_residuals.min(best.of_uncertainties);
+        let variance = (best.value / best.degrees_of_freedom as f64).max(1.0);
+        fits.iter().map(|fit| by_chance(several.len(), fit.value - best.value, variance, freedom)).collect()
+    });
     let refuted = probabilities.iter().copied().filter(|probability| *probability < IMPROBABLE).reduce(f64::max);
     let Some(refuted) = refuted else {
         return several.into_iter().filter(|one| one.probability < IMPROBABLE).collect();
@@ -104,6 +98,12 @@ fn by_fit(setup: &Setup, readings: &Readings, options: &Options, several: Vec<Su
     let one_of_several = rest.len() > 1;
     rest.iter_mut().for_each(|one| one.one_of_several = one_of_several);
     rest
+}
+
+/// Returns Bonferroni's bound for the probability that one of `count` sums of two squares is as large by chance, given the
+/// variance and its degrees of freedom.
+fn by_chance(count: usize, squares: f64, variance: f64, degrees_of_freedom: f64) -> f64 {
+    (count as f64 * f_larger(squares / 2.0 / variance, 2, degrees_of_freedom)).min(1.0)
 }
 
 /// Residual of a visit or row: the place where it is, and what its removal takes from the sum of squares.
@@ -222,8 +222,7 @@ fn largest(
     // Of a noise that is stated, and with which the others agree, the variance is known.
     let is_known = spread.is_stated && chi_square_larger(others / spread.least, rest) >= AS_STATED;
     let freedom = if is_known { f64::INFINITY } else { rest as f64 };
-    let probability =
-        if alone { 1.0 } else { (count as f64 * f_larger(squares / 2.0 / variance, 2, freedom)).min(1.0) };
+    let probability = if alone { 1.0 } else { by_chance(count, squares, variance, freedom) };
     deletions.retain(|deletion| deletion.squares * (1.0 + EQUAL) > squares);
     let suspect = |Deletion { place, visit, row, difference_ma, .. }: &Deletion| {
         let at = &readings.positions()[*place];

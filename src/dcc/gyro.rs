@@ -118,10 +118,8 @@ fn statements(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
         parts::statement(texts::EXCLUDED, Some(&visit), languages)
     });
     let suspects = calibrated.done.document.suspects.iter().map(|suspect| {
-        let declaration = languages
-            .iter()
-            .map(|language| Element::text("dcc:content", suspicion(suspect, language)).with("lang", language.tag()));
-        parts::statement(words::SUSPECT, None, languages).and(Element::new("dcc:declaration").and(declaration))
+        let declaration = parts::said("dcc:declaration", |language| suspicion(suspect, language), languages);
+        parts::statement(words::SUSPECT, None, languages).and(declaration)
     });
     let dependent = calibrated.judged.map_or_else(Vec::new, |(_, verdict)| verdict.dependent());
     let dependent = (!dependent.is_empty()).then(|| {

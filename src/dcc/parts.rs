@@ -5,7 +5,7 @@ use super::facts::{Facts, stated};
 use super::words;
 use super::xml::Element;
 use crate::report::Languages;
-use crate::report::page::language::{Text, Values};
+use crate::report::page::language::{Language, Text, Values};
 
 const SCHEMA_VERSION: &str = "3.3.0";
 
@@ -32,9 +32,12 @@ pub(super) fn in_words(name: &'static str, text: Text, languages: &Languages) ->
 
 /// Returns an element with a text in every language of the DCC, with values in it.
 pub(super) fn filled(name: &'static str, text: Text, values: Values, languages: &Languages) -> Element {
-    let content = |language: crate::report::Language| {
-        Element::text("dcc:content", text.filled(language, values)).with("lang", language.tag())
-    };
+    said(name, |language| text.filled(language, values), languages)
+}
+
+/// Returns an element with the words that `words` returns for every language of the DCC.
+pub(super) fn said(name: &'static str, words: impl Fn(Language) -> String, languages: &Languages) -> Element {
+    let content = |language: Language| Element::text("dcc:content", words(language)).with("lang", language.tag());
     Element::new(name).and(languages.iter().map(content))
 }
 

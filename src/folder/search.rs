@@ -125,13 +125,8 @@ pub fn register(root: &Path, trust: Trust, asked: &Asked, threads: usize) -> Res
 pub(crate) fn unusable(root: &Path, trust: &Trust, time: Timestamp, threads: usize) -> BTreeMap<String, String> {
     let lines = register(root, trust.clone(), &Asked::at(time), threads).map(|(register, _)| register.passports);
     let unusable = lines.unwrap_or_default().into_iter().filter(|line| !line.is_usable());
-    unusable
-        .map(|Line { sha256, why, .. }| {
-            // Next to its state, the reason of a superseded passport is only its successor.
-            let superseded = if why.starts_with("by ") { "superseded " } else { "" };
-            (sha256, format!("WARNING: this passport may not be used: {superseded}{why}"))
-        })
-        .collect()
+    let words = |line: &Line| format!("WARNING: this passport may not be used: {}", line.reason());
+    unusable.map(|line| (line.sha256.clone(), words(&line))).collect()
 }
 
 /// Returns the register of a folder as [`register`] does, but if a `stand`, `<model>/<serial>`, is given, without the

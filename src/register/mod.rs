@@ -211,6 +211,12 @@ fn in_force(content: Option<&Content>, time: Timestamp, within_days: Option<u32>
 }
 
 impl Line {
+    /// Returns the reason for the state, to be read without the state; that of a superseded passport is its successor alone.
+    pub(crate) fn reason(&self) -> String {
+        let state = if self.why.starts_with("by ") { "superseded " } else { "" };
+        format!("{state}{}", self.why)
+    }
+
     /// Returns `true` if only other files can prevent the use of the passport.
     pub(crate) fn is_usable(&self) -> bool {
         matches!(self.state, State::InForce | State::Expiring)

@@ -149,8 +149,8 @@ pub(crate) fn warnings(done: &Done, trials: Option<&MonteCarlo>) -> Vec<String> 
     let causes = done.calibration.hint.as_ref().map(Hint::each_cause).filter(|causes| causes.len() > 1);
     let each = |causes: Vec<String>| causes.iter().map(|cause| format!("\n  - {}", capital(cause))).collect::<String>();
     let first = causes.map(|causes| format!("WARNING: {}. Possible causes:{}", capital(INCONSISTENT), each(causes)));
-    let rest = doubts(done, trials).skip(first.iter().len());
-    first.clone().into_iter().chain(rest).collect()
+    let said = first.iter().len();
+    first.into_iter().chain(doubts(done, trials).skip(said)).collect()
 }
 
 /// Returns what makes the parameters or their uncertainties unusable or doubtful, a line each.

@@ -12,8 +12,8 @@ use crate::text::printable;
 use crate::units::quantity;
 use std::fmt::Write;
 
-/// Returns the outcome of a calibration with its word, and the reasons: which parameters pass, fail and are undecided by their values and
-/// by their change, or why no statement is made.
+/// Returns the outcome of a calibration with its word, and the reasons: which parameters pass, fail and are undecided by
+/// their values and by their change, or why no statement is made.
 pub(super) fn headline(document: &CalibrationDocument, gyro_type: Option<&str>) -> ((Outcome, String), String) {
     let judged = gyro_type.zip(document.verdict.as_ref());
     let because = |text: Text| text.of(Language::English).to_owned();

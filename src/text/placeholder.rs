@@ -6,7 +6,7 @@ use super::{Node, Path, Problems};
 /// Word that a template contains instead of a value.
 const PLACEHOLDER: &str = "CHANGE";
 
-/// What to do with a placeholder.
+/// Advice on a value that is still a placeholder.
 pub(super) const ADVICE: &str = "replace the word from the template";
 
 /// Returns `true` if `text` is a placeholder: the word alone, or the word, a colon and what is to be written.

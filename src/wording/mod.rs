@@ -175,7 +175,7 @@ pub(crate) mod implausible {
     }
 }
 
-/// What a comparison shows besides its decisions.
+/// Findings of a comparison that are warnings, not decisions.
 pub(crate) mod comparison {
     super::texts! {
         COMMON_FACTOR {

@@ -351,8 +351,8 @@ fn good_readings_are_hardly_ever_suspect() {
     }
 }
 
-/// One or two positions are visited again at the end, and nothing else: a visit is compared with the fit, or with the noise
-/// that is stated. If none is stated, the scatter of the residuals is that of the gyro all the same.
+/// Only one or two positions are visited twice. Their visits are compared with the fit of all readings, or with the stated
+/// noise. Without a stated noise, the residuals of the fit show that of the gyro.
 #[test]
 fn a_closing_visit_is_compared_with_the_fit() {
     const RUNS: u32 = 2000;
