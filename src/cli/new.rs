@@ -12,8 +12,7 @@ use std::path::{Path, PathBuf};
 
 /// Write a commented template of a file
 ///
-/// Lines with CHANGE need a value that only you know. Every template has a valid form, but no command accepts a value that
-/// is still CHANGE.
+/// CHANGE stands for a value that only you know. No command accepts a value that is still CHANGE.
 #[derive(Args)]
 pub(super) struct Options {
     /// Kind of file

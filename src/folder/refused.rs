@@ -28,7 +28,7 @@ pub enum FolderRefused {
     /// Existing passport of this name that states another expected uncertainty.
     #[error(
         "{}: already exists with other values of --accuracy, --gyro or --laboratory; repeat the options with which it was \
-         issued, or issue to another folder with --out",
+         issued, or withdraw it with `revoke` and issue the new one to another folder with --out",
         shown(.0)
     )]
     OtherAccuracy(PathBuf),

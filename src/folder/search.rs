@@ -125,7 +125,16 @@ pub fn register(root: &Path, trust: Trust, asked: &Asked, threads: usize) -> Res
 pub(crate) fn unusable(root: &Path, trust: &Trust, time: Timestamp, threads: usize) -> BTreeMap<String, String> {
     let lines = register(root, trust.clone(), &Asked::at(time), threads).map(|(register, _)| register.passports);
     let unusable = lines.unwrap_or_default().into_iter().filter(|line| !line.is_usable());
-    let words = |line: &Line| format!("WARNING: this passport may not be used: {}", line.reason());
+    let words = |line: &Line| {
+        let reason = line.reason();
+        let advice = match reason.starts_with("superseded by ") {
+            true => {
+                "; use that passport, or re-issue it with --site and --moved if the stand has returned to this site"
+            }
+            false => "",
+        };
+        format!("WARNING: this passport may not be used: {reason}{advice}")
+    };
     unusable.map(|line| (line.sha256.clone(), words(&line))).collect()
 }
 

@@ -311,7 +311,9 @@ impl Register {
         if let Some(by) = self.successors.by(&line.sha256, &file.series, file.revision) {
             line.state = if by.series == file.series { State::Superseded } else { State::Moved };
             let what = if line.state == State::Moved { "superseded " } else { "" };
-            line.why = format!("{what}by {} ({})", by.id, by.file);
+            // The next successor explains the state; the last one is the passport to use.
+            let last = self.successors.last(&line.sha256, &file.series, file.revision).unwrap_or(by);
+            line.why = format!("{what}by {} ({})", last.id, last.file);
         } else if let Some(other) = line.id.as_deref().and_then(|id| self.other_original(id, &line.sha256)) {
             line.state = State::Superseded;
             line.why = format!("another file has the same id ({other}); withdraw all but one");

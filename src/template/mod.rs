@@ -6,7 +6,8 @@ mod positions;
 use crate::certification::NominalPosition;
 use crate::coefficients::PositionIndex;
 use crate::earth::{
-    NORMAL_GRAVITY_U_M_PER_S2, NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2, Place, normal_gravity_m_per_s2,
+    NORMAL_GRAVITY_U_M_PER_S2, NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2, Place, STANDARD_GRAVITY_M_PER_S2,
+    normal_gravity_m_per_s2,
 };
 pub(crate) use positions::Positions;
 use std::fmt::Write;
@@ -17,12 +18,12 @@ const STAND: &str = include_str!("certificate.yaml");
 /// Type B components and datum of both.
 const TYPE_B_AND_DATUM: &str = include_str!("datum.yaml");
 
-/// Returns a stand file with all deviations 0.
+/// Returns a stand file.
 pub(crate) fn stand(positions: &Positions) -> String {
-    let rest = ", alpha_arcsec: 0.0, beta_arcsec: 0.0, gamma_arcsec: 0.0";
+    let rest = ", alpha_arcsec: CHANGE, beta_arcsec: CHANGE, gamma_arcsec: CHANGE";
     format!(
         "# Certified stand (dtg-stand/1). `certify` writes such a file from readings; write one by hand only if the\n\
-         # deviations were found otherwise. Replace every CHANGE and every 0.0; delete the lines that do not apply.\n\
+         # deviations were found otherwise. Replace every CHANGE; delete the lines that do not apply.\n\
          {STAND}  \
          # repeatability_arcsec: 1.5        # standard deviation of one visit to a position, per axis\n  \
          # common_platform_arcsec: 0.8      # uncertainty shared by all positions, per axis of the platform\n  \
@@ -95,22 +96,21 @@ pub(crate) fn currents(positions: &Positions) -> String {
     text
 }
 
-/// Place of the example site, if none is given: that of the paper.
-const EXAMPLE: Place = Place { latitude_deg: 55.7658, longitude_deg: 37.6856 };
-
 /// Returns a site file with the identifier `id`; `place` and `height_m` (above the ellipsoid) are filled in if known.
 pub(crate) fn site(id: &str, place: Option<Place>, height_m: Option<f64>) -> String {
-    let Place { latitude_deg, longitude_deg } = place.unwrap_or(EXAMPLE);
+    let coordinate =
+        |of: fn(Place) -> f64| place.map_or_else(|| "CHANGE".to_owned(), |place| format!("{:?}", of(place)));
     let (height, u, at_height) = match height_m {
         Some(height) => (format!("height_m: {height:?}"), NORMAL_GRAVITY_U_M_PER_S2, "this height"),
         None => ("# height_m: 150.0".to_owned(), NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2, "0 m"),
     };
-    let gravity = normal_gravity_m_per_s2(latitude_deg, height_m.unwrap_or(0.0));
+    let gravity = place.map_or(STANDARD_GRAVITY_M_PER_S2, |place| {
+        normal_gravity_m_per_s2(place.latitude_deg, height_m.unwrap_or(0.0))
+    });
     let values = [
         ("{id}", id.to_owned()),
-        ("{latitude_deg}", format!("{latitude_deg:?}")),
-        ("{longitude_deg}", format!("{longitude_deg:?}")),
-        ("{change}", if place.is_some() { "" } else { "CHANGE; " }.to_owned()),
+        ("{latitude_deg}", coordinate(|place| place.latitude_deg)),
+        ("{longitude_deg}", coordinate(|place| place.longitude_deg)),
         ("{height}", height),
         ("{at_height}", at_height.to_owned()),
         ("{gravity}", format!("{gravity:.5}")),

@@ -15,11 +15,11 @@ pub(super) fn is_placeholder(text: &str) -> bool {
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(':'))
 }
 
-/// Reports every placeholder in a hand-written document.
+/// Reports every placeholder in a hand-written document: here, unless it was reported as something else before.
 #[cfg(feature = "factory")]
 pub(crate) fn check(node: &Node, problems: &mut Problems) {
     node.each_text(&Path::Root, &mut |at, text| {
-        if is_placeholder(text) {
+        if is_placeholder(text) && !problems.advise(at, ADVICE) {
             problems.at(at, format!("{text:?}"), "your value", ADVICE);
         }
     });

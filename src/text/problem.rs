@@ -160,6 +160,14 @@ impl Problems {
         self.more
     }
 
+    /// Gives another advice on the error in the value at `at` itself; returns `false` if none was recorded.
+    #[cfg(feature = "factory")]
+    pub(crate) fn advise(&mut self, at: &Path, advice: &str) -> bool {
+        let steps = at.steps();
+        let recorded = self.found.iter_mut().find(|(of, _)| *of == steps);
+        recorded.map(|(_, problem)| problem.advice = advice.to_owned()).is_some()
+    }
+
     /// Records that the value at `at` is `found` instead of `expected`.
     pub(crate) fn at(
         &mut self,

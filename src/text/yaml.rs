@@ -279,8 +279,8 @@ fn parse<T: Document>(name: &str, bytes: &[u8], check: impl FnOnce(&T, &mut Prob
     let value = File::<T>::read(&node, &Path::Root, &mut problems).map(|File(value)| value);
     if let Some(value) = &value {
         check(value, &mut problems);
-        placeholder::check(&node, &mut problems);
     }
+    placeholder::check(&node, &mut problems);
     value.filter(|_| problems.is_empty()).ok_or_else(|| problems.refuse(name, &text))
 }
 

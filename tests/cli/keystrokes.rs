@@ -81,11 +81,11 @@ impl Way {
         self.types(&format!("{key} --no-passphrase"));
         self.types("dtg-passport new header header.yaml");
         let header = [
-            ("CHANGE\"", "Example Stand Works\""),
-            ("\"MODEL\"", "\"SPS-2\""),
-            ("\"0000\"", "\"0017\""),
-            ("\"C-0000\"", "\"C-2026-0142\""),
-            ("\"2026-01-01\"", "\"2026-11-02\""),
+            ("\"CHANGE\"", "\"Example Stand Works\""),
+            ("\"CHANGE\"", "\"SPS-2\""),
+            ("\"CHANGE\"", "\"0017\""),
+            ("\"CHANGE\"", "\"C-2026-0142\""),
+            ("\"CHANGE\"", "\"2026-11-02\""),
             ("\"CHANGE\"", "\"Angle laboratory\""),
             ("CHANGE: instruments, set-up, number of runs", "two autocollimators, five runs"),
             ("CHANGE: certificates of the instruments", "A-17, A-18"),

@@ -21,7 +21,9 @@ fn filled(template: &str) -> String {
         if cell == "CHANGE" { format!("0.{number:03}") } else { cell.to_owned() }
     };
     let mut line = |line: &str| line.split(',').map(&mut cell).collect::<Vec<_>>().join(",") + "\n";
-    template.lines().map(&mut line).collect::<String>().replace("\"CHANGE", "\"entered")
+    let filled =
+        template.lines().map(&mut line).collect::<String>().replace("issued: \"CHANGE", "issued: \"2026-01-31");
+    filled.replace("\"CHANGE", "\"entered").replace(": CHANGE", ": 12.5")
 }
 
 fn site(id: &str, place: Option<Place>, height_m: Option<f64>) -> String {
@@ -52,12 +54,17 @@ fn gyro_laboratory_and_site_pass_their_readers() {
     Laboratory::from_yaml("laboratory.yaml", filled(LABORATORY).as_bytes()).unwrap();
     Administrative::from_yaml("dcc.yaml", filled(DCC).as_bytes()).unwrap();
     let read = |text: &str| Site::from_yaml("here.yaml", text.as_bytes()).unwrap();
+    // A place that nobody entered is refused, and each coordinate is named once.
+    let unknown = template::site("here", None, None).replace("\"CHANGE", "\"entered");
+    let refused = Site::from_yaml("here.yaml", unknown.as_bytes()).unwrap_err().to_string();
+    let told = "found \"CHANGE\", expected a number in degrees; replace the word from the template";
+    assert_eq!(refused.matches(told).count(), 2, "{refused}");
     read(&site("here", None, None));
     // Expected: normal gravity of WGS 84 at 45° on the ellipsoid (NIMA TR8350.2, Somigliana), 9.80619769 m/s².
     let place = Place { latitude_deg: 45.0, longitude_deg: -0.5 };
     let on_the_ellipsoid = site("here", Some(place), Some(0.0));
-    assert!(on_the_ellipsoid.contains("9.80620 m/s2"), "{on_the_ellipsoid}");
-    assert!(!on_the_ellipsoid.contains("CHANGE; "));
+    assert!(on_the_ellipsoid.contains("gravity_m_per_s2: 9.80620"), "{on_the_ellipsoid}");
+    assert!(!on_the_ellipsoid.contains("_deg: CHANGE"));
     let read = read(&on_the_ellipsoid);
     assert_eq!((read.latitude_deg, read.longitude_deg, read.height_m), (Some(45.0), Some(-0.5), Some(0.0)));
     assert_eq!(read.id.as_str(), "here");
@@ -76,7 +83,8 @@ fn what_is_a_comment_is_right_too() {
         });
         lines.collect::<String>()
     };
-    let site = site("here", None, None);
+    let place = Place { latitude_deg: 45.0, longitude_deg: -0.5 };
+    let site = site("here", Some(place), None);
     let text = uncommented(&site);
     assert!(text.contains("\ndeflection_arcsec") && text.contains("\ngravity_m_per_s2"), "{text}");
     Site::from_yaml("here.yaml", text.as_bytes()).unwrap();
