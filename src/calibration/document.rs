@@ -35,6 +35,7 @@ use crate::stand::Certificate;
 use crate::statistics::distributions::normal_below;
 use crate::text::Unreadable;
 use crate::text::printable::printable;
+use crate::wording::{Language, Text, comparison, values};
 use jiff::civil::Date;
 use jiff::tz::TimeZone;
 use jiff::{SignedDuration, Timestamp};
@@ -99,6 +100,10 @@ result! {
         /// Comparison with an earlier result.
         #[serde(deserialize_with = "left_aside")]
         pub(crate) change: Option<Verdict> = default,
+        /// What the noise of the drift from visit to visit adds to the standard uncertainties of a result with one visit to
+        /// each position; absent unless only this result or the earlier one includes that noise.
+        #[serde(skip)]
+        pub(crate) u_of_single_visits: Option<[f64; 8]>,
         /// Keys that are added to a result outside this type; they are accepted and ignored on reading.
         #[serde(skip_serializing, default)]
         budget: IgnoredAny,
@@ -302,10 +307,73 @@ impl CalibrationDocument {
 
     /// Returns the adopted result: least squares if present, otherwise the last method; `None` if there is no result.
     pub fn answer(&self) -> Option<Found> {
-        let best = self.results.iter().find(|result| result.method == "least-squares").or(self.results.last())?;
+        let best = self.best()?;
         let of = |parameter: Parameter| self.degrees_of_freedom.get(parameter.key()).copied();
         let degrees_of_freedom = Parameter::EIGHT.map(|parameter| of(parameter).unwrap_or(f64::INFINITY));
         Some(Found { degrees_of_freedom, ..best.found(self.gravity_m_per_s2, self.gravity_u_m_per_s2) })
+    }
+
+    fn best(&self) -> Option<&ResultDocument> {
+        self.results.iter().find(|result| result.method == "least-squares").or(self.results.last())
+    }
+
+    /// Returns the noise of the drift from visit to visit, °/h, if only this result or `earlier` includes it.
+    pub(crate) fn visits_of_one(&self, earlier: &Self) -> Option<f64> {
+        let mut noises = self.noises_of_one(earlier).into_iter();
+        noises.find(|(what, ..)| *what == NotStated::Visits).map(|(_, _, (deg_per_h, _))| deg_per_h)
+    }
+
+    /// Returns the noises that only this result or `earlier` includes: its standard deviation, °/h, and degrees of freedom,
+    /// and the place of the result that does not include it, 0 for this one and 1 for the earlier.
+    fn noises_of_one(&self, earlier: &Self) -> Vec<(NotStated, usize, (f64, f64))> {
+        // Results of earlier versions do not say.
+        let noises = |one: &Self| Some(one.best()?.noise.as_ref()?.each());
+        let Some((now, before)) = noises(self).zip(noises(earlier)) else { return Vec::new() };
+        let of_one = |((what, now), before)| match (now, before) {
+            (None, Some(noise)) => Some((what, 0, noise)),
+            (Some(noise), None) => Some((what, 1, noise)),
+            _ => None,
+        };
+        let each = [NotStated::Visits, NotStated::TurnOns].into_iter().zip(now).zip(before);
+        each.filter_map(of_one).filter(|(_, _, (deg_per_h, _))| *deg_per_h > 0.0).collect()
+    }
+
+    /// Returns what limits a comparison with `earlier`, in words with the inputs that they are about: noise of the gyro that
+    /// only one of the results includes, and inputs that only the earlier one leaves out.
+    pub(crate) fn limits_of_change(&self, earlier: &Self) -> impl Iterator<Item = (Text, Vec<NotStated>)> {
+        let noises: Vec<NotStated> = self.noises_of_one(earlier).into_iter().map(|(what, ..)| what).collect();
+        let left_out = |one: &Self, what: &NotStated| one.not_stated.iter().any(|words| words == what.words());
+        let only_before = |what: &NotStated| left_out(earlier, what) && !left_out(self, what) && !noises.contains(what);
+        let before = NotStated::ALL.into_iter().filter(only_before).collect();
+        [(comparison::NOISE_OF_ONE, noises), (comparison::LEFT_OUT_BEFORE, before)]
+            .into_iter()
+            .filter(|(_, inputs)| !inputs.is_empty())
+    }
+
+    /// Returns the limits of a comparison with `earlier` in words, a sentence each.
+    pub(crate) fn limits_in_words(&self, earlier: &Self) -> Vec<String> {
+        let sentence = |(words, inputs): (Text, Vec<NotStated>)| {
+            let names = inputs.into_iter().map(NotStated::words).collect::<Vec<_>>().join("; ");
+            words.filled(Language::English, values! { names })
+        };
+        self.limits_of_change(earlier).map(sentence).collect()
+    }
+
+    /// Returns this result and `earlier` for comparison. A noise of the gyro that only one of them includes is added to the
+    /// other, which does not include it because it has a single turn-on, or a single visit to each position.
+    pub(crate) fn with_earlier(&self, earlier: &Self) -> Option<[Found; 2]> {
+        let mut both = [self.answer()?, earlier.answer()?];
+        for (what, other, (deg_per_h, degrees_of_freedom)) in self.noises_of_one(earlier) {
+            for parameter in Parameter::EIGHT {
+                let u = match (what, parameter) {
+                    (NotStated::Visits, _) => self.u_of_single_visits.map_or(0.0, |each| each[parameter.place()]),
+                    (_, Parameter::Omega0x | Parameter::Omega0y) => deg_per_h,
+                    _ => 0.0,
+                };
+                both[other].add(parameter, (u, degrees_of_freedom));
+            }
+        }
+        Some(both)
     }
 
     /// Returns the comparison of the adopted result with a gyro type; `None` if there is no result. Nothing is
@@ -317,7 +385,8 @@ impl CalibrationDocument {
     /// Returns the comparison of the adopted result with that of `earlier`, within the tolerance of a gyro type, as
     /// `judged` does. Nothing is decided if the results are not two measurements of the gyro.
     pub(crate) fn changed(&self, earlier: &Self, gyro_type: &GyroType) -> Option<Verdict> {
-        let change = against_earlier(&self.answer()?, &earlier.answer()?, gyro_type);
+        let [found, before] = self.with_earlier(earlier)?;
+        let change = against_earlier(&found, &before, gyro_type);
         Some(if self.no_change(earlier).is_some() { change.undecided() } else { self.withheld(change) })
     }
 
@@ -340,7 +409,7 @@ impl CalibrationDocument {
     /// smallest probability of all is below [`CHANGED`].
     pub(crate) fn unexplained_change(&self, earlier: &Self) -> Vec<Parameter> {
         let is_change = self.change.is_none() && self.is_valid() && self.no_change(earlier).is_none();
-        let Some((found, before)) = self.answer().zip(earlier.answer()).filter(|_| is_change) else {
+        let Some([found, before]) = self.with_earlier(earlier).filter(|_| is_change) else {
             return Vec::new();
         };
         let change = change_in_uncertainties(&found, &before);

@@ -48,6 +48,26 @@ pub(crate) fn cost_of_missing(
     Parameter::EIGHT.into_iter().filter_map(ratio).max_by(|(_, one), (_, other)| one.total_cmp(other))
 }
 
+/// Returns what a noise of the drift from visit to visit, °/h, adds to the standard uncertainty of each parameter, in the
+/// order of [`Parameter::EIGHT`], if every position with readings is visited once; `None` if no result can be predicted.
+pub(crate) fn u_of_single_visits(
+    setup: &Setup,
+    readings: &Readings,
+    gyro: &GyroParameters,
+    deg_per_h: f64,
+) -> Option<[f64; 8]> {
+    let setup = setup.of_readings(readings);
+    let with = |noise| {
+        predicted(&setup.clone().into_owned().with(|u| u.visit_deg_per_h = Some(noise)), gyro, Method::LeastSquares)
+    };
+    let (with, without) = (with(deg_per_h)?, with(0.0)?);
+    let of = |result: &MethodResult, parameter| result.standard_uncertainty(parameter).unwrap_or(f64::NAN);
+    Some(Parameter::EIGHT.map(|parameter| {
+        let (with, without) = (of(&with, parameter), of(&without, parameter));
+        (with * with - without * without).max(0.0).sqrt()
+    }))
+}
+
 /// Single further visit that would reduce the uncertainty of a parameter most.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct FurtherVisit {

@@ -184,6 +184,14 @@ impl Found {
         value.abs() * self.gravity_u_m_per_s2 / self.gravity_m_per_s2
     }
 
+    /// Adds a part to the standard uncertainty of a parameter: an independent standard uncertainty with its degrees of freedom.
+    pub(crate) fn add(&mut self, parameter: Parameter, part: (f64, f64)) {
+        let place = parameter.place();
+        let both = [(self.standard_uncertainty[place], self.degrees_of_freedom[place]), part];
+        self.standard_uncertainty[place] = libm::hypot(both[0].0, part.0);
+        self.degrees_of_freedom[place] = effective_degrees_of_freedom(&both);
+    }
+
     /// Returns the result with an exact local g if `other` has the same local g, because the change then does not
     /// depend on it.
     fn under_the_same_gravity(&self, other: &Self) -> Self {

@@ -6,7 +6,7 @@ use crate::calibration::diagnosis::INCONSISTENT;
 use crate::calibration::diagnosis::other_numberings;
 use crate::calibration::document::{NoChange, Subject, another_type};
 use crate::calibration::mistake::narrow_by_type;
-use crate::calibration::prediction::{FurtherVisit, best_further_visit, cost_of_missing};
+use crate::calibration::prediction::{FurtherVisit, best_further_visit, cost_of_missing, u_of_single_visits};
 use crate::calibration::stated::TemperatureOutside;
 use crate::calibration::verdict::without_nominal;
 use crate::calibration::{
@@ -259,12 +259,16 @@ impl<'a> Prepared<'a> {
         }
         let gravity = (content.earth.gravity_m_per_s2, content.site.gravity_u_m_per_s2());
         let verified = subject.passport_verified_as_of.is_some();
+        let last = previous.last();
         let documented = |readings: &Readings, calibration: &Calibration| {
             let id = &content.passport.id;
             let mut document = CalibrationDocument::new(id, verified, gravity, calibration, &missing);
             let budget =
                 calibration.answer().and_then(|answer| Budget::new(&setup, readings, answer.method, options).ok());
             document.degrees_of_freedom = budget.map_or_else(BTreeMap::new, |budget| budget.degrees_of_freedom());
+            let noise = last.and_then(|earlier| document.visits_of_one(earlier)).zip(document.answer());
+            document.u_of_single_visits =
+                noise.and_then(|(noise, found)| u_of_single_visits(&setup, readings, &found.parameters, noise));
             document
         };
         let mut document = documented(&readings, &calibration);
@@ -274,7 +278,6 @@ impl<'a> Prepared<'a> {
             let words = calibration.refused.iter().map(|(method, why)| format!("{}: {why}", method.key()));
             return Err(Failed::refused(words.collect::<Vec<_>>().join("\n")));
         };
-        let last = previous.last();
         // Without a type or a valid earlier result, the nominal values of the paper's gyro still reveal an error by a
         // factor of a thousand.
         let usual = last.filter(|earlier| earlier.is_valid()).and_then(CalibrationDocument::answer);
@@ -324,6 +327,8 @@ impl<'a> Prepared<'a> {
             )
         });
         document.remarks.extend(unexplained.iter().chain(&common_factor).cloned());
+        let limits = last.map_or_else(Vec::new, |earlier| document.limits_in_words(earlier));
+        document.remarks.extend(limits);
         let earlier = last.map(|earlier| (earlier.clone(), document.no_change(earlier)));
         // With a type, the drifts are stated at its g: the local g is in their uncertainties.
         let of_gravity = |parameter| if document.verdict.is_some() { found.u_from_gravity(parameter) } else { 0.0 };
@@ -375,6 +380,7 @@ mod tests {
     use super::*;
     #[cfg(feature = "report")]
     use crate::calibration::diagnosis::INCONSISTENT;
+    use crate::gyro::GyroNoise;
     use crate::passport::content::PositionCurrents;
     use crate::passport::content_from_anyone;
 
@@ -424,6 +430,42 @@ mod tests {
         let json: serde_json::Value = serde_json::from_str(&found.json).unwrap();
         assert_eq!((&json["consistent"], &json["verdict"]["overall"]), (&true.into(), &"pass".into()));
         assert_eq!((&json["adopted"], found.remarks), (&"least-squares".into(), Vec::new()));
+    }
+
+    /// Expected: the uncertainties of a change between two results that both include the noise. The small differences come from
+    /// the weights of the result without noise.
+    #[test]
+    fn a_noise_that_only_one_result_includes_counts_in_both() {
+        let content = content_from_anyone("p", PASSPORT).unwrap();
+        let first = include_str!("../../docs/currents.csv");
+        let second = first.replace("-0.2003831", "-0.2003841");
+        let noisy = GyroNoise { visit_deg_per_h: Some(0.001), turn_on_deg_per_h: Some(0.005) };
+        let calibrated = |currents: &str, noise: Option<&GyroNoise>, previous: Option<&str>| {
+            let previous = previous.map(|json| CalibrationDocument::from_json("r", json.as_bytes()).unwrap());
+            let gyro = Some(GyroType { noise: noise.cloned(), ..GyroType::gvk_6() });
+            let options = Options { methods: vec![Method::LeastSquares], ..Options::default() };
+            let order = Order { gyro, options, previous: previous.into_iter().collect(), ..default() };
+            calibrate(&content, None, ("c", currents.as_bytes()), &order).unwrap()
+        };
+        let change = |now: Option<&GyroNoise>, before: Option<&GyroNoise>| {
+            let previous = calibrated(first, before, None).json;
+            let found = calibrated(&second, now, Some(&previous));
+            let json: serde_json::Value = serde_json::from_str(&found.json).unwrap();
+            let parameters = json["change"]["parameters"].as_array().unwrap();
+            let u = parameters.iter().map(|line| line["standard_uncertainty"].as_f64().unwrap()).collect::<Vec<_>>();
+            let said = found.remarks.iter().filter(|words| words.starts_with("Only one of the two")).count();
+            (u, said)
+        };
+        let (both, said) = change(Some(&noisy), Some(&noisy));
+        let (neither, _) = change(None, None);
+        assert_eq!((said, both.len()), (0, 8));
+        assert!(both[4] > 1.5 * neither[4], "{both:?} {neither:?}");
+        for one in [change(Some(&noisy), None), change(None, Some(&noisy))] {
+            assert_eq!(one.1, 1);
+            for (one, both) in one.0.iter().zip(&both) {
+                assert!((one / both - 1.0).abs() < 1e-4, "{one:?} {both:?}");
+            }
+        }
     }
 
     #[test]

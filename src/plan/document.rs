@@ -121,6 +121,7 @@ impl Serialize for Plan {
         keys.serialize_entry("common_errors", &common_errors(&self.evaluation, self.paper.as_ref()))?;
         keys.serialize_entry("drift_over_tolerance_per_deg_per_h", &self.order.largest_over_tolerance)?;
         keys.serialize_entry("gravity_over_tolerance", &self.gravity_over_tolerance)?;
+        keys.serialize_entry("turn_on_over_tolerance", &self.turn_on_over_tolerance)?;
         keys.serialize_entry("beyond_range", &self.beyond_range)?;
         keys.serialize_entry("exhaustive", &self.exhaustive)?;
         keys.serialize_entry("not_stated", &self.not_stated().collect::<Vec<_>>())?;

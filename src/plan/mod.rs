@@ -136,6 +136,8 @@ pub(crate) struct Plan {
     pub tolerance: [f64; 8],
     /// Standard uncertainty that the local g adds to ω_g or ω_k at the g of the type, the larger in units of its tolerance.
     pub gravity_over_tolerance: f64,
+    /// Noise of the gyro between turn-ons, of which the plan has one, in units of the tolerance of ω_0.
+    pub turn_on_over_tolerance: f64,
     pub candidates: usize,
     /// Number of positions that are not candidates, because the meter cannot read the currents of the gyro in them.
     pub beyond_range: usize,
@@ -187,6 +189,7 @@ pub(crate) fn plan(question: &Question) -> Result<Plan, NoPlan> {
         paper: paper(question)?,
         tolerance: candidates.tolerance,
         gravity_over_tolerance: gravity_over_tolerance(question, &candidates.tolerance),
+        turn_on_over_tolerance: candidates.turn_on.sqrt(),
         candidates: candidates.len(),
         beyond_range: candidates.beyond_range,
         exhaustive: found.exhaustive,

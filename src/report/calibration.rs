@@ -421,7 +421,7 @@ fn residuals(out: &mut String, calibration: &Calibration) {
 /// Writes the change since the earlier result, and the verdict on it, if there is one.
 fn change(out: &mut String, Done { document, earlier, unknown_gyro, .. }: &Done) {
     let Some((earlier, _)) = earlier else { return };
-    let Some((before, found)) = earlier.answer().zip(document.answer()) else { return };
+    let Some([found, before]) = document.with_earlier(earlier) else { return };
     let change = change_in_uncertainties(&found, &before);
     let each = Parameter::in_paper_order(Parameter::EIGHT.into_iter().zip(change), |(parameter, _)| *parameter);
     let words: Vec<String> = each
@@ -443,6 +443,7 @@ fn change(out: &mut String, Done { document, earlier, unknown_gyro, .. }: &Done)
     let sha256 = earlier.currents_sha256().map_or("–", |sha256| sha256.get(..8).unwrap_or(sha256));
     let values = values! { day, passport: printable(&earlier.passport_id), sha256 };
     columns::paragraph(out, "  ", &texts::PREVIOUS.filled(Language::English, values));
+    document.limits_in_words(earlier).iter().for_each(|words| columns::paragraph(out, "  ", words));
     if let Some(verdict) = &document.change {
         let _ =
             writeln!(out, "Change compared with the tolerance of the type, which the paper states as an instability:");

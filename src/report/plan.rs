@@ -15,8 +15,8 @@ use std::fmt::Write;
 /// Rise of ω_0 during the run for which the text states its effect, °/h.
 const DRIFT_DEG_PER_H: f64 = 0.01;
 
-/// Share of the tolerance from which the text states the uncertainty of the local g.
-const LARGE_GRAVITY_SHARE: f64 = 0.1;
+/// Share of the tolerance from which the text states an uncertainty that no reading reduces.
+const LARGE_SHARE: f64 = 0.1;
 
 /// Returns the plan: positions, order, uncertainties next to those of the paper's eight, and what it cannot see.
 /// `site` is the identifier of the site, and `site_azimuth_deg` its azimuth of the frame's axis. `assumed` says whether the
@@ -29,8 +29,10 @@ pub(crate) fn text(plan: &Plan, (site, site_azimuth_deg): (&str, f64), gyro_type
         true => "the best of all choices",
         false => "the best found by exchanging positions (not all choices were compared)",
     };
+    let mut turn_ons = turn_ons(plan);
     if let Some(sentence) = no_gyro_can_pass(plan, &gyro_type) {
         columns::paragraph(&mut out, "", &style::marked(Outcome::Failed, &sentence));
+        turn_ons.take().iter().for_each(|sentence| columns::paragraph(&mut out, "", sentence));
     }
     if gravity_prevents_a_pass(plan) {
         let sentence = format!(
@@ -70,7 +72,7 @@ pub(crate) fn text(plan: &Plan, (site, site_azimuth_deg): (&str, f64), gyro_type
     uncertainties(&mut out, plan);
     common_errors(&mut out, plan);
     out.push('\n');
-    for sentence in remarks(plan, site_azimuth_deg) {
+    for sentence in turn_ons.into_iter().chain(remarks(plan, site_azimuth_deg)) {
         columns::paragraph(&mut out, "", &sentence);
     }
     out
@@ -145,12 +147,12 @@ fn uncertainties(out: &mut String, plan: &Plan) {
         row
     };
     columns::table(out, &names, Parameter::AS_IN_THE_PAPER.map(row));
-    columns::paragraph(
-        out,
-        "  ",
-        "u: standard uncertainty (k = 1) from errors of single readings, drifts at local g; `calibrate` adds the errors below, \
-         as far as they are stated.",
+    let turn_on = if plan.turn_on_over_tolerance > 0.0 { " and of a single turn-on" } else { "" };
+    let words = format!(
+        "u: standard uncertainty (k = 1) from errors of single readings{turn_on}, drifts at local g; `calibrate` adds the \
+         errors below, as far as they are stated."
     );
+    columns::paragraph(out, "  ", &words);
 }
 
 /// Formats a value with four significant digits.
@@ -239,10 +241,21 @@ fn gravity(plan: &Plan) -> String {
     )
 }
 
+/// Returns what the noise between turn-ons contributes, if it is much.
+fn turn_ons(plan: &Plan) -> Option<String> {
+    (plan.turn_on_over_tolerance > LARGE_SHARE).then(|| {
+        format!(
+            "The gyro noise between turn-ons alone makes u of ω_0 {} % of the tolerance. More readings do not reduce it; \
+             several turn-ons do.",
+            percent(plan.turn_on_over_tolerance)
+        )
+    })
+}
+
 /// Returns what a user of the plan must know besides the numbers.
 fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<String> {
     let mut remarks = Vec::new();
-    if plan.gravity_over_tolerance > LARGE_GRAVITY_SHARE && !gravity_prevents_a_pass(plan) {
+    if plan.gravity_over_tolerance > LARGE_SHARE && !gravity_prevents_a_pass(plan) {
         remarks.push(gravity(plan));
     }
     if plan.beyond_range > 0 {

@@ -184,6 +184,14 @@ pub(crate) mod comparison {
             ru: "Все масштабные коэффициенты равны ожидаемым, умноженным на {factor}, а дрейфы в допусках. Следует проверить \
                  предел и коэффициент преобразования измерителя и единицу тока."
         }
+        NOISE_OF_ONE {
+            en: "Only one of the two calibrations includes this: {names}. For the change it is added to the other.",
+            ru: "Только одна из двух калибровок учитывает: {names}. Для изменения это добавлено и к другой."
+        }
+        LEFT_OUT_BEFORE {
+            en: "Not included in the uncertainties of the previous calibration: {names}.",
+            ru: "В неопределённостях предыдущей калибровки не учтено: {names}."
+        }
         UNEXPLAINED {
             en: "Changed since the previous calibration by more than the uncertainties explain: {names}. Whether this is \
                  permissible can be decided only with the gyro type.",

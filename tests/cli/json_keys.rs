@@ -179,7 +179,7 @@ fn a_plan_has_its_keys() {
     assert_eq!(
         found.names(),
         "criterion value frame_axis_azimuth_deg readings order standard_uncertainty paper worse has_matrices \
-         has_general_model common_errors drift_over_tolerance_per_deg_per_h gravity_over_tolerance \
+         has_general_model common_errors drift_over_tolerance_per_deg_per_h gravity_over_tolerance turn_on_over_tolerance \
          beyond_range exhaustive not_stated"
     );
     assert!(found.at("readings").items().iter().all(|at| at.names() == "theta_deg phi_deg visits"));

@@ -86,6 +86,16 @@ result! {
 }
 
 impl NoiseDocument {
+    /// Returns the noise from visit to visit, and that between turn-ons: standard deviation, °/h, and degrees of freedom, or
+    /// `None` if it is not known.
+    pub(super) fn each(&self) -> [Option<(f64, f64)>; 2] {
+        let freedom = |limited: Option<f64>| limited.unwrap_or(f64::INFINITY);
+        [
+            self.visit_deg_per_h.map(|noise| (noise, freedom(self.visit_degrees_of_freedom))),
+            self.turn_on_deg_per_h.map(|noise| (noise, freedom(self.turn_on_degrees_of_freedom))),
+        ]
+    }
+
     fn new(calibration: &Calibration) -> Self {
         let known = |noise: &DriftNoise| (noise.source != NoiseSource::NotStated).then_some(noise.deg_per_h);
         let (visit, turn_on) = (&calibration.visit_noise, &calibration.turn_on_noise);

@@ -2,7 +2,8 @@
 //! its change since an earlier result.
 
 use super::parameters::{self, name_of};
-use super::{CalibrationPage, history, subject};
+use super::{CalibrationPage, history, not_stated, subject};
+use crate::calibration::NotStated;
 use crate::calibration::document::CalibrationDocument;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
@@ -65,7 +66,14 @@ fn previous(page: &CalibrationPage, earlier: &CalibrationDocument, language: Lan
     let beginning = |sha256: &str| html! { code { (sha256.chars().take(8).collect::<String>()) } };
     let sha256 = earlier.currents_sha256().map_or_else(|| html! { "–" }, beginning);
     let values = [("day", html! { (day) }), ("passport", given(&earlier.passport_id)), ("sha256", sha256)];
-    html! { (texts::PREVIOUS.marked_up(language, &values)) (gyro_not_confirmed(page, language)) }
+    let names =
+        |inputs: Vec<NotStated>| listed(inputs.into_iter().map(|what| html! { (not_stated(what).words(language)) }));
+    html! {
+        (texts::PREVIOUS.marked_up(language, &values)) (gyro_not_confirmed(page, language))
+        @for (words, inputs) in page.document.limits_of_change(earlier) {
+            " " (words.marked_up(language, &[("names", names(inputs))]))
+        }
+    }
 }
 
 /// Writes, after a sentence, that no serial number shows the previous calibration to be that of this gyro; nothing if one does.

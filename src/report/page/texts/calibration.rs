@@ -338,10 +338,10 @@ texts! {
     PARAMETER { en: "Parameter", ru: "Параметр" }
     NOMINAL { en: "Nominal", ru: "Номин. значение" }
     PREVIOUS {
-        en: "Previous calibration: {day}, passport {passport}, currents {sha256}. Errors common to both do not affect the \
-             change, so U is an upper bound.",
-        ru: "Предыдущая калибровка: {day}, паспорт {passport}, токи {sha256}. Погрешности, общие для обеих калибровок, \
-             в изменение не входят: U — оценка сверху."
+        en: "Previous calibration: {day}, passport {passport}, currents {sha256}. U also includes errors common to both, \
+             which do not affect the change.",
+        ru: "Предыдущая калибровка: {day}, паспорт {passport}, токи {sha256}. U включает и погрешности, общие для \
+             обеих калибровок, хотя в изменение они не входят."
     }
     NO_DAY_BUT_CURRENTS { en: "{number}, SHA-256 {sha256}…", ru: "№\u{a0}{number}, SHA-256 токов {sha256}…" }
     NO_DAY { en: "date not stated", ru: "дата не указана" }
