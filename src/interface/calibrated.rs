@@ -7,7 +7,7 @@ use crate::calibration::diagnosis::other_numberings;
 use crate::calibration::document::{NoChange, Subject, another_type};
 use crate::calibration::mistake::narrow_by_type;
 use crate::calibration::prediction::{FurtherVisit, best_further_visit, cost_of_missing, u_of_single_visits};
-use crate::calibration::stated::TemperatureOutside;
+use crate::calibration::stated::{TemperatureOutside, temperature_c};
 use crate::calibration::verdict::without_nominal;
 use crate::calibration::{
     self, Calibration, CalibrationDocument, Method, Mistake, Model, NoLeastSquares, NotStated, Options, Parameter,
@@ -184,6 +184,8 @@ pub(crate) struct Done {
     pub further: Option<(Parameter, FurtherVisit)>,
     /// Warning on the conditions in the laboratory.
     pub warning: Option<TemperatureOutside>,
+    /// Range of temperatures for which the deviations are certified, °C, if the temperature of the readings is not stated.
+    pub unchecked_range_c: Option<[f64; 2]>,
     /// `true` if local g is normal gravity at 0 m, because the height of the site is unknown.
     pub without_height: bool,
 }
@@ -341,6 +343,8 @@ impl<'a> Prepared<'a> {
             let visit = best_further_visit(&setup, &readings, result, (row.parameter, options))?;
             Some((row.parameter, FurtherVisit { ratio: row.ratio_with_gravity(visit.ratio), ..visit }))
         });
+        let stated_c = document.subject.as_ref().and_then(|subject| temperature_c(subject, Some(laboratory)));
+        let unchecked_range_c = content.certificate.temperature_range_c.filter(|_| stated_c.is_none());
         let without_height = content.site.is_gravity_without_height();
         Ok(Done {
             setup,
@@ -355,6 +359,7 @@ impl<'a> Prepared<'a> {
             cost_of_missing,
             further,
             warning,
+            unchecked_range_c,
             without_height,
         })
     }

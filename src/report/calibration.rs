@@ -81,6 +81,13 @@ pub(crate) fn text(
     left_out(&mut out, readings, done.cost_of_missing);
     parameters(&mut out, calibration, verdict.map(|(_, verdict)| verdict));
     fit(&mut out, calibration, &done.missing);
+    if let Some([low, high]) = done.unchecked_range_c {
+        let words = format!(
+            "The temperature is not stated (--temperature-c), and was not compared with the certified range, {low}\u{a0}to\u{a0}\
+             {high}\u{a0}°C."
+        );
+        columns::paragraph(&mut out, "", &words);
+    }
     if meter_assumed {
         columns::paragraph(&mut out, "", texts::METER_ASSUMED.of(Language::English));
     }
@@ -204,7 +211,7 @@ fn left_out(out: &mut String, readings: &Readings, cost: Option<(Parameter, f64)
 }
 
 /// Returns a sentence on the positions without a reading, without a full stop.
-fn without_reading(readings: &Readings) -> Option<String> {
+pub(super) fn without_reading(readings: &Readings) -> Option<String> {
     let positions: Vec<String> = readings.left_out.iter().map(ToString::to_string).collect();
     (!positions.is_empty()).then(|| format!("Positions without a reading: {}", positions.join(", ")))
 }

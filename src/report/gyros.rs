@@ -1,6 +1,6 @@
 //! Results of several gyros on one stand as text: a line for each, and what they have in common.
 
-use super::calibration::{NOT_STATED, doubts, not_stated, passport};
+use super::calibration::{NOT_STATED, doubts, not_stated, passport, without_reading};
 use super::style::Outcome;
 use super::tolerance::headline;
 use crate::calibration::NotStated;
@@ -8,7 +8,7 @@ use crate::interface::calibrated::Done;
 use crate::passport::Check;
 use crate::report::page::language::Language;
 use crate::report::page::texts::calibration as texts;
-use crate::report::{columns, style};
+use crate::report::{columns, recorded, style};
 use crate::text::printable;
 use crate::uncertainty::MonteCarlo;
 use crate::wording::plain;
@@ -20,7 +20,7 @@ const WORDS: [&str; 7] = ["PASS", "UNDECIDED", "FAIL", "CALIBRATED", "INVALID", 
 /// Returns the result for one of several gyros in one line: the decision for the type of this name, or the fit if there is
 /// none.
 pub(crate) fn line(file: &str, done: &Done, trials: Option<&MonteCarlo>, gyro_type: Option<&str>) -> String {
-    let Done { calibration, document, .. } = done;
+    let Done { calibration, document, readings, .. } = done;
     let file = printable(file);
     let ((outcome, word), mut reasons) = headline(document, gyro_type);
     if let Some(hint) = &calibration.hint {
@@ -32,6 +32,10 @@ pub(crate) fn line(file: &str, done: &Done, trials: Option<&MonteCarlo>, gyro_ty
     let mut out = format!("{}  {file}  {reasons}", style::of_input(outcome, &word));
     // That the readings do not fit is said already.
     for words in doubts(done, trials).skip(calibration.hint.iter().len()) {
+        let _ = write!(out, "; {}", plain(&words));
+    }
+    let digits = calibration.digits.iter().flat_map(|digits| recorded::words(digits, Language::English));
+    for words in without_reading(readings).into_iter().chain(digits) {
         let _ = write!(out, "; {}", plain(&words));
     }
     out.push('\n');

@@ -202,11 +202,19 @@ fn answer(drift: &Drift) -> String {
     let least = drift.most_significant().and_then(|worst| worst.corrected_probability);
     let (outcome, word) = match drift.drifts() {
         None => (Outcome::NotAsked, "NOT TESTED"),
+        Some(true) if drift.jumps().next().is_none() && drift.series.iter().any(is_steady) => {
+            (Outcome::Failed, "DRIFTS")
+        }
         Some(_) if drift.has_changed() => (Outcome::Failed, "CHANGED"),
         Some(_) if least.is_some_and(|p| p < SUSPECTED) => (Outcome::Undecided, "SUSPECTED"),
         Some(_) => (Outcome::Passed, "NO DRIFT"),
     };
     style::marked(outcome, word)
+}
+
+/// Returns `true` if more than two certificates show a drift of a deviation; two do not show whether it is a jump.
+fn is_steady(series: &Series) -> bool {
+    series.is_drift() && series.line.as_ref().is_some_and(|line| line.degrees_of_freedom > 0)
 }
 
 /// Returns the date of an instant, in UTC.
@@ -271,8 +279,7 @@ fn row(series: &Series) -> Option<Vec<String>> {
             let decimals = columns::decimals(line.u_slope);
             let p = series.corrected_probability?;
             let mark = if p < DRIFTS {
-                // Two certificates do not show whether it is a drift.
-                style::marked(Outcome::Failed, if line.degrees_of_freedom == 0 { "CHANGED" } else { "DRIFTS" })
+                style::marked(Outcome::Failed, if is_steady(series) { "DRIFTS" } else { "CHANGED" })
             } else if p < SUSPECTED {
                 style::marked(Outcome::Undecided, "suspected")
             } else {

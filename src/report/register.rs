@@ -19,8 +19,8 @@ impl State {
     /// Returns whether the passport may be used.
     fn outcome(self) -> Outcome {
         match self {
-            Self::InForce | Self::Expiring => Outcome::Passed,
-            Self::Unknown => Outcome::Undecided,
+            Self::InForce => Outcome::Passed,
+            Self::Expiring | Self::Unknown => Outcome::Undecided,
             _ => Outcome::Failed,
         }
     }

@@ -23,7 +23,7 @@ pub(crate) fn accuracy(found: &Accuracy, options: &AccuracyOptions) -> String {
         let (within, all) = (bounded.iter().filter(|within| **within).count(), bounded.len());
         let words = match all - within {
             0 => format!("WITHIN  all {all} worst errors are within the paper's bounds"),
-            beyond => format!("BEYOND  {beyond} of {all} worst errors exceed the paper's bounds"),
+            beyond => format!("BEYOND  the paper's bounds are exceeded by {beyond} of {all} worst errors"),
         };
         let _ = writeln!(out, "{}", style::marked(Some(within == all), &words));
     }

@@ -61,6 +61,7 @@ fn done(setup: &Setup, readings: Readings, calibration: Calibration) -> Done {
         cost_of_missing: None,
         further: None,
         warning: None,
+        unchecked_range_c: None,
         without_height: false,
     }
 }
