@@ -33,16 +33,29 @@ pub(crate) fn named<'a>(
             && let Some(list) = list.take()
         {
             let mut listed = List { list: Some(list), separator: None }.peekable();
-            let nothing =
-                "-: found no path on standard input, expected one per line; check the command that writes the list";
-            let empty = || Failure::unusable(Path::new("-"), nothing.to_owned());
-            return if listed.peek().is_none() { failed(empty()) } else { Box::new(listed) };
+            let refused = |found: &str, advice: &str| {
+                let words = format!("-: found {found} on standard input, expected one path per line; {advice}");
+                failed(Failure::unusable(Path::new("-"), words))
+            };
+            return match listed.peek() {
+                None => refused("no path", "check the command that writes the list"),
+                Some(Ok(first)) if is_of_a_file(first) => {
+                    refused("the content of a file", "specify the file by its path")
+                }
+                Some(_) => Box::new(listed),
+            };
         }
         match pattern(argument) {
             Some(pattern) => matches(pattern),
             None => Box::new(std::iter::once(Ok(argument.clone()))),
         }
     })
+}
+
+/// Returns `true` if a line is not a path, but the first line of a file of this project.
+fn is_of_a_file(line: &Path) -> bool {
+    let text = line.to_string_lossy();
+    (text.starts_with("# ") || text.starts_with("format: ") || text.starts_with("i,j,")) && !line.exists()
 }
 
 /// Returns the files specified by the user, and those in specified folders that fit the purpose.

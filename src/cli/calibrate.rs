@@ -29,6 +29,7 @@ use crate::report::{CalibrationPage, Language, PassportPage, UsedPassport};
 use crate::report::{issued, style};
 use crate::text::{Kind, Printable, name_of, printable, shown};
 use crate::wording::plain;
+use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueEnum};
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -89,7 +90,7 @@ pub(super) struct Options {
     #[arg(long, value_name = "TEXT", requires = "exclude")]
     why: Vec<String>,
     /// Serial number of the gyro; --previous then refuses the result of another one
-    #[arg(long, value_name = "SERIAL")]
+    #[arg(long, value_name = "SERIAL", value_parser = NonEmptyStringValueParser::new())]
     gyro_serial: Option<String>,
     /// Person who took the readings
     #[arg(long, value_name = "NAME")]

@@ -164,7 +164,7 @@ pub(crate) fn warnings(done: &Done, trials: Option<&MonteCarlo>) -> Vec<String> 
 pub(super) fn doubts(done: &Done, trials: Option<&MonteCarlo>) -> impl Iterator<Item = String> {
     let Done { calibration, document, warning, earlier, unexplained, common_factor, .. } = done;
     let of_scatter = scatter(calibration).into_iter().filter(|(weight, _)| *weight == Weight::Warning);
-    let others = of_scatter.map(|(_, words)| words).chain(warning.as_ref().map(ToString::to_string));
+    let others = of_scatter.map(|(_, words)| words).chain(warning.as_ref().map(|warning| format!("{warning}.")));
     let why = earlier.as_ref().and_then(|(_, why)| Some(why_no_change((*why)?).of(Language::English).to_owned()));
     let all = unusable(calibration, document.mistake.as_ref())
         .chain(why)
