@@ -17,6 +17,8 @@ words! {
     pub enum NotStated: pub words {
         /// Certified angles, own part.
         Angles = "certified angles (u_alpha_arcsec, u_beta_arcsec, u_gamma_arcsec)",
+        /// Own part of some of the certified angles.
+        SomeAngles = "some of the certified angles (u_alpha_arcsec, u_beta_arcsec, u_gamma_arcsec)",
         /// Repeatability of positioning.
         Return = "repeatability of positioning (repeatability_arcsec)",
         /// Common part of the platform.
@@ -100,6 +102,12 @@ impl Setup {
             visit_deg_per_h: None,
             turn_on_deg_per_h: None,
         };
+        if uncertainty.angles_rad.iter().flatten().any(|u| *u > 0.0) {
+            missing
+                .iter_mut()
+                .filter(|what| **what == NotStated::Angles)
+                .for_each(|what| *what = NotStated::SomeAngles);
+        }
         let others = [
             (uncertainty.meter.gain, NotStated::Gain),
             (uncertainty.meter.offset_ma, NotStated::Offset),

@@ -10,6 +10,7 @@ use super::worse_groups::WorseGroup;
 use crate::attitude::ANGLE_SYMBOLS;
 use crate::calibration::recorded::rounding_of;
 use crate::stand::remarks::Odd;
+use crate::statistics::outlier::Bartlett;
 use crate::text::number::decimals;
 use crate::wording::number::{Number, Probability};
 use crate::wording::{Language, Text, Values, date_text, plain, values};
@@ -31,6 +32,9 @@ pub(crate) enum Remark {
     Twins(u32, u32),
     /// Variances about x, y and z that differ, with the probability of Bartlett's test.
     AxesDiffer(f64),
+    /// Variances of the positions that differ although no position is known to scatter more, with the probability of
+    /// Bartlett's test.
+    PositionsDiffer(f64),
     RunAxesDiffer(UnequalAxis),
     SharedSetting(SharedSetting),
     FewRuns {
@@ -79,8 +83,10 @@ impl Remark {
             remarks.push(Self::NotCompared);
         }
         remarks.extend(suspects.twins.iter().map(|(one, other)| Self::Twins(*one, *other)));
-        let axes = suspects.axes.filter(|test| test.probability < OUTLIER);
-        remarks.extend(axes.map(|test| Self::AxesDiffer(test.probability)));
+        let differs = |test: &Option<Bartlett>| test.map(|test| test.probability).filter(|p| *p < OUTLIER);
+        let no_position = suspects.worse.is_empty() && suspects.group.is_none();
+        remarks.extend(differs(&suspects.positions).filter(|_| no_position).map(Self::PositionsDiffer));
+        remarks.extend(differs(&suspects.axes).map(Self::AxesDiffer));
         remarks
     }
 
@@ -132,6 +138,7 @@ impl Remark {
             Self::NotCompared => fill(texts::NOT_COMPARED, &[]),
             Self::Twins(one, other) => fill(texts::TWINS, values! { one, other }),
             Self::AxesDiffer(p) => fill(texts::AXES_DIFFER, values! { p: Probability(*p) }),
+            Self::PositionsDiffer(p) => fill(texts::POSITIONS_DIFFER, values! { p: Probability(*p) }),
             Self::RunAxesDiffer(at) => {
                 let text = if at.axis.is_of_the_base() { texts::BASE_AXES_DIFFER } else { texts::PLATFORM_AXES_DIFFER };
                 let [own, others, missing] = [at.deviation_arcsec, at.others_arcsec, at.missing_arcsec].map(arcsec);

@@ -87,6 +87,12 @@ texts! {
         ru: "Дисперсии вокруг x, y и z различаются (критерий Бартлетта, {p}). Указана повторяемость, объединённая по \
              трём осям: для одной оси она завышена, для другой занижена."
     }
+    POSITIONS_DIFFER {
+        en: "The variances of the positions differ (Bartlett’s test, {p}), although none is much larger than the others. The \
+             repeatability, pooled from all positions, is too large for some and too small for others.",
+        ru: "Дисперсии положений различаются (критерий Бартлетта, {p}), хотя ни одна не намного больше остальных. Указана \
+             повторяемость, объединённая по всем положениям: для одних она завышена, для других занижена."
+    }
     PLATFORM_AXES_DIFFER {
         en: "From run to run the standard deviation of the platform’s rotation is {own}″ about {axis} and {others}″ \
              about its other two axes (Cochran’s test, {p}). The common part is pooled from all three and is too small about {axis} unless a \

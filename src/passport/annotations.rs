@@ -3,7 +3,7 @@
 
 use super::content::Content;
 use crate::attitude::PAPER_FRAME_AXIS_AZIMUTH_DEG;
-use crate::site::{LATITUDE_MARGIN_ARCSEC, UNKNOWN_DEFLECTION_U_ARCSEC};
+use crate::site::{LATITUDE_MARGIN_ARCSEC, SiteUncertainty, UNKNOWN_DEFLECTION_U_ARCSEC};
 use crate::stand::{Certificate, CertifiedPosition, Datum, Stand};
 use crate::text::{canonical, number};
 use crate::{earth, units};
@@ -38,6 +38,16 @@ pub(crate) fn payload_with(content: &Content, of_stand: &str) -> String {
 pub(crate) enum Absence {
     #[error("The certificate gives no uncertainty of the deviations (u_alpha_arcsec etc.); it cannot be stated.")]
     Uncertainty,
+    #[error(
+        "The certificate gives no uncertainty of {missing} of the {all} deviations (u_alpha_arcsec etc.), which count as \
+         exact."
+    )]
+    SomeUncertainty {
+        /// Number of deviations without an uncertainty.
+        missing: usize,
+        /// Number of all deviations.
+        all: usize,
+    },
     #[error("The certificate gives no repeatability; the uncertainty that positioning adds is unknown.")]
     Repeatability,
     #[error("The certificate does not give the uncertainty common to all positions for both platform and base.")]
@@ -76,6 +86,12 @@ pub(crate) enum Absence {
     Height,
     #[error("The uncertainties of the latitude, azimuth and level of the base are not stated for this site.")]
     BaseUncertainty,
+    #[error("The uncertainty of the latitude is not stated for this site.")]
+    LatitudeUncertainty,
+    #[error("The uncertainty of the azimuth of the base is not stated for this site.")]
+    AzimuthUncertainty,
+    #[error("The uncertainty of the level of the base is not stated for this site.")]
+    LevelUncertainty,
     #[error("No azimuth mark is given; the north direction must be determined in another way.")]
     AzimuthMark,
 }
@@ -105,11 +121,13 @@ fn absent_of_certificate(
     datum: Option<&Datum>,
     has_matrices: bool,
 ) -> Vec<Absence> {
-    let uncertain = positions.iter().flat_map(CertifiedPosition::u_arcsec).any(|u| u.is_none());
+    let all = 3 * positions.len();
+    let missing = positions.iter().flat_map(CertifiedPosition::u_arcsec).filter(Option::is_none).count();
     let common = certificate.common_platform_arcsec.is_none() || certificate.common_base_arcsec.is_none();
     let temperature = certificate.temperature_c.is_none() && certificate.temperature_range_c.is_none();
     let absences = [
-        (uncertain, Absence::Uncertainty),
+        (missing == all, Absence::Uncertainty),
+        (missing > 0 && missing < all, Absence::SomeUncertainty { missing, all }),
         (certificate.repeatability_arcsec.is_none(), Absence::Repeatability),
         (common, Absence::CommonPart),
         (certificate.traceability.is_none(), Absence::Traceability),
@@ -126,12 +144,17 @@ fn of_the_site(content: &Content) -> Vec<Absence> {
     let u_deg = UNKNOWN_DEFLECTION_U_ARCSEC / units::ARCSECONDS_PER_DEGREE;
     let cost_deg_per_h = earth::rotation_deg_per_h() * units::radians_from_degrees(u_deg);
     let no_deflection = site.deflection_arcsec.is_none() && site.astronomic_latitude_deg.is_none();
+    let of_base =
+        |part: fn(&SiteUncertainty) -> Option<f64>| site.uncertainty.as_ref().is_some_and(|u| part(u).is_none());
     let absences = [
         (no_deflection, Absence::Deflection { cost_deg_per_h }),
         (site.longitude_deg.is_none(), Absence::Longitude),
         (site.geodetic_is_uncertain(), Absence::GeodeticLatitude),
         (site.gravity_m_per_s2.is_none() && site.height_m.is_none(), Absence::Height),
         (site.uncertainty.is_none(), Absence::BaseUncertainty),
+        (of_base(|u| u.latitude_arcsec), Absence::LatitudeUncertainty),
+        (of_base(|u| u.azimuth_arcsec), Absence::AzimuthUncertainty),
+        (of_base(|u| u.level_arcsec), Absence::LevelUncertainty),
         (site.azimuth_mark.is_none(), Absence::AzimuthMark),
     ];
     those_that_are(absences)

@@ -182,7 +182,8 @@ impl Candidates {
         let site = Site { frame_axis_azimuth_deg: Some(azimuth_deg), ..question.site.clone() };
         let (setup, missing) = Setup::stated(&stand.certificate, positions, &site, question.laboratory)?;
         let models: Vec<_> = positions.iter().map(CertifiedPosition::to_model).collect();
-        let of_positions = |input: &NotStated| matches!(input, NotStated::Angles | NotStated::Return);
+        let of_positions =
+            |input: &NotStated| matches!(input, NotStated::Angles | NotStated::SomeAngles | NotStated::Return);
         let not_stated = missing.into_iter().filter(of_positions).collect();
         Ok(Self { certified: true, not_stated, ..Self::of(question, setup, &models, azimuth_deg)? })
     }

@@ -24,7 +24,10 @@ const BAD: [(&str, &[&str]); 48] = [
     ("i,j,jx_ma\n1,1,0.1\n", &["c.csv:1:1", "no column jy_ma"]),
     ("i,j,Jx (mA),Jy (mA)\n", &["no columns jx_ma, jy_ma", "\"Jx (mA)\", \"Jy (mA)\" is meant"]),
     ("Gyro 12,,,\ni,j,jx_ma,jy_ma\n", &["c.csv:1:1", "no columns i, j, jx_ma, jy_ma", "put # before the lines"]),
-    ("i,j,jx_ma,jy_ma,time_s\n1,1,0.1,0.2,45000.1\n1,2,0.1,0.2,45000.2\n", &["2 visits within 0.10 s", "in days"]),
+    (
+        "i,j,jx_ma,jy_ma,time_s\n1,1,0.1,0.2,45000.1\n1,2,0.1,0.2,45000.2\n",
+        &["1 moves to another position within 0.10 s", "in days"],
+    ),
     ("j,jx_ua,jy_ma\n", &["c.csv:1:3", "name it jx_ma", "found no column i, expected the header"]),
     ("i,j,jx_ua,jy_ma\n", &["c.csv:1:5", "\"jx_ua\"", "convert the numbers from µA to mA, then name it jx_ma"]),
     ("i,j,jx_ma,jy_ma,Cycles\n", &["c.csv:1:17", "\"Cycles\"", "did you mean cycle?"]),
@@ -317,7 +320,7 @@ fn visits_and_cycles_that_cannot_be() {
 }
 
 /// Expected: eight positions two minutes apart, counted in seconds, in minutes and in milliseconds; over three days between
-/// two turn-ons, which are no moves; hours and days are refused.
+/// two turn-ons, which are no moves; hours and days are refused. A position that is read again is moved to again.
 #[test]
 fn times_that_may_be_in_another_unit_are_named() {
     let setup = paper();
@@ -341,4 +344,8 @@ fn times_that_may_be_in_another_unit_are_named() {
     let milliseconds = remarks(120_000.0, 1, 0.0).unwrap();
     assert!(milliseconds[0].contains("in milliseconds") && milliseconds[0].ends_with("1000 times too small"));
     assert!(remarks(120.0 / 3600.0, 1, 0.0).unwrap_err().contains("seconds"));
+    let rounds = (0..3).flat_map(|_| good.lines().skip(1)).enumerate();
+    let rows: String = rounds.map(|(row, line)| format!("{line},{}\n", 5 * row)).collect();
+    let minutes = read(&setup, &format!("i,j,jx_ma,jy_ma,time_s\n{rows}")).unwrap().remarks.join(" ");
+    assert!(minutes.contains("23 moves to another position within 120 s, 5.0 s for each"), "{minutes}");
 }

@@ -251,6 +251,7 @@ fn a_remark_says_the_same_in_both_languages() {
         Remark::BaseAxes(2),
         Remark::Rounding { angles: 15, of: 24, step_arcsec: 1.0 },
         Remark::SmallAngles(0.42),
+        Remark::PositionsDiffer(0.0095),
         Remark::Odd(Odd::FarAngle { angle: 0, index, arcsec: 67833.0, usual_arcsec: 64.3 }),
         Remark::Odd(Odd::Temperature { key: "temperature_c", celsius: 293.15 }),
         Remark::Odd(Odd::OutsideRange { celsius: 25.5, range: [18.0, 22.0] }),

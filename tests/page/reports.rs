@@ -23,6 +23,18 @@ struct Report {
 /// The usual passport, verified; its gyro's currents, its laboratory, its type.
 const USUAL: &[&str] =
     &["passports/SPS-2/0017/moscow-bmstu-1.yaml", "--trust", "docs/allowed_signers", "--time", "2026-11-20T08:00:00Z"];
+/// A passport for a site of known height, whose currents are those of its self-check but for ω_0x.
+const SURVEYED: &[&str] = &[
+    "@issued/SPS-2/0017/braunschweig-ptb-1.yaml",
+    "--trust",
+    "@allowed_signers",
+    "--time",
+    "2026-11-20T08:00:00Z",
+    "--gyro-serial",
+    "G-0042",
+    "--date",
+    "2026-11-19",
+];
 const CURRENTS: &[&str] = &["docs/currents.csv"];
 const LABORATORY: &[&str] = &["--laboratory", "docs/laboratory.yaml"];
 const GYRO: &[&str] = &["--gyro", "docs/gvk-6.yaml"];
@@ -56,6 +68,8 @@ const REPORTS: &[Report] = &[
         languages: &[English],
         asked: &[USUAL, CURRENTS, LABORATORY, &["--gyro", "@other-type.yaml"]],
     },
+    // The longest words of a decision beside the numbers with most digits: g is known here.
+    Report { name: "failed-ru", languages: &[Russian], asked: &[SURVEYED, &["@failed.csv"], LABORATORY, GYRO] },
     // A meter so coarse that the parameters do not follow its errors linearly.
     Report {
         name: "coarse-both",
@@ -180,6 +194,24 @@ fn files(folder: &Path) {
     write("warm.yaml", &(seat + "temperature_c: 35.5\n"));
     let other = example("docs/gvk-6.yaml").replace("GVK-6", HOSTILE_TYPE).replace("[[95, 9.5]", "[[95.2, 9.5]");
     write("other-type.yaml", &other);
+
+    let program = |words: &[&str]| {
+        let mut program = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
+        program.current_dir(folder).args(words);
+        programs::output(program)
+    };
+    let [stand, site] = ["passports/SPS-2/0017/stand.yaml", "sites/braunschweig-ptb.yaml"].map(programs::project);
+    program(&["keygen", "key", "--identity", "f", "--allowed-signers", "allowed_signers", "--no-passphrase"]);
+    let [stand, site] = [&stand, &site].map(|path| path.to_str().unwrap());
+    let when = ["--issued-at", "2026-11-10", "--out", "issued"];
+    program(&[&["issue", stand, "--site", site, "--key", "key", "--identity", "f"], &when[..]].concat());
+    let passport = "issued/SPS-2/0017/braunschweig-ptb-1.yaml";
+    let shown = program(&["show", passport, "--trust", "allowed_signers", "--time", "2026-11-20", "--format", "json"]);
+    let shown: Value = serde_json::from_str(&shown).unwrap();
+    let currents = shown["self_check"]["currents"].as_array().unwrap();
+    let row =
+        |at: &Value| format!("{},{},{},{}\n", at["i"], at["j"], at["jx_ma"].as_f64().unwrap() - 5e-4, at["jy_ma"]);
+    write("failed.csv", &format!("i,j,jx_ma,jy_ma\n{}", currents.iter().map(row).collect::<String>()));
 
     // Twenty-four positions, with the currents of the gyro of the self-check.
     let many = cases::all().into_iter().find(|case| case.name == "many-en").unwrap();

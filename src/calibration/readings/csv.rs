@@ -16,6 +16,9 @@ pub(crate) const COLUMNS: [&str; 4] = ["i", "j", "jx_ma", "jy_ma"];
 /// Advice on a cell without a number.
 const NOT_TAKEN: &str = "omit the whole row of a reading that was not taken";
 
+/// Advice on a row without a time, whose currents are as good as those of the others.
+const NOT_TIMED: &str = "add the time; if some times are unknown, remove the column";
+
 pub(crate) const OPTIONAL_COLUMNS: [&str; 5] = ["cycle", "visit", "time_s", ANGLE_COLUMNS[0], ANGLE_COLUMNS[1]];
 
 /// Columns of the nominal angles of a row, which must be those of its position.
@@ -63,7 +66,7 @@ impl Readings {
             let y = current(&table, row, 3, range_ma, &mut problems);
             let mut whole = |column: Option<usize>| column.and_then(|column| table.index(row, column, &mut problems));
             let (cycle, visit) = (whole(cycle).unwrap_or(1), whole(visit));
-            let time_s = time.and_then(|column| table.number(row, column, NOT_TAKEN, &mut problems));
+            let time_s = time.and_then(|column| table.number(row, column, NOT_TIMED, &mut problems));
             if let (Some(index), Some(x), Some(y)) = (index, x, y) {
                 readings.push(Reading { index, current_ma: Vector2::new(x, y), cycle, visit, time_s });
             }

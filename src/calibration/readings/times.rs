@@ -92,19 +92,28 @@ fn on_fall(before_s: f64, time_s: f64, otherwise: &'static str) -> &'static str 
     }
 }
 
+/// Returns the number of moves to another position within the turn-ons, and the time that these took, s. Without times or
+/// moves, and if all times of a turn-on are the same, which says nothing, it returns `None`.
+fn moves(readings: &[Reading]) -> Option<(usize, f64)> {
+    let mut rows: Vec<(u32, f64, PositionIndex)> =
+        readings.iter().map(|reading| Some((reading.cycle, reading.time_s?, reading.index))).collect::<Option<_>>()?;
+    rows.sort_by(|one, other| one.0.cmp(&other.0).then(one.1.total_cmp(&other.1)));
+    let (mut moves, mut span_s) = (0, 0.0);
+    for turn_on in rows.chunk_by(|one, other| one.0 == other.0) {
+        moves += turn_on.windows(2).filter(|pair| pair[0].2 != pair[1].2).count();
+        span_s += turn_on[turn_on.len() - 1].1 - turn_on[0].1;
+    }
+    (moves > 0 && span_s > 0.0).then_some((moves, span_s))
+}
+
 /// Returns a problem if the times leave less than a second for each move to another position: spreadsheets count days, and
 /// loggers may count hours.
 pub(super) fn times_in_another_unit(readings: &[Reading]) -> Vec<Problem> {
-    let mut times = readings.iter().filter_map(|reading| reading.time_s);
-    let Some(first) = times.next() else { return Vec::new() };
-    let (least, most) = times.fold((first, first), |(least, most), time| (least.min(time), most.max(time)));
-    let stays: BTreeSet<(u32, PositionIndex)> = readings.iter().map(|reading| (reading.cycle, reading.index)).collect();
-    let span_s = most - least;
-    // Times that are all the same say nothing, and have words of their own.
-    if span_s == 0.0 || span_s >= stays.len() as f64 - 1.0 {
+    let Some((moves, span_s)) = moves(readings) else { return Vec::new() };
+    if span_s >= moves as f64 {
         return Vec::new();
     }
-    let found = format!("time_s: {} visits within {} s", stays.len(), two_digits(span_s));
+    let found = format!("time_s: {moves} moves to another position within {} s", two_digits(span_s));
     vec![Problem::whole(found, "seconds", "convert the times to seconds; dates of a spreadsheet are in days")]
 }
 
@@ -133,19 +142,9 @@ const USUAL_MOVE_S: [f64; 2] = [10.0, 4.0 * SECONDS_PER_HOUR];
 /// Returns a remark if the moves to other positions within a turn-on are so fast or so slow that the times may be in another
 /// unit: the currents fit as well with it, but a drift in time has the wrong size.
 pub(super) fn doubtful_times(readings: &[Reading]) -> Option<String> {
-    let mut cycles: BTreeMap<u32, (f64, f64, BTreeSet<PositionIndex>)> = BTreeMap::new();
-    for reading in readings {
-        let time_s = reading.time_s?;
-        let (least, most, positions) = cycles.entry(reading.cycle).or_insert((time_s, time_s, BTreeSet::new()));
-        (*least, *most) = (least.min(time_s), most.max(time_s));
-        positions.insert(reading.index);
-    }
-    let span_s: f64 = cycles.values().map(|(least, most, _)| most - least).sum();
-    let moves: usize = cycles.values().map(|(_, _, positions)| positions.len() - 1).sum();
+    let (moves, span_s) = moves(readings)?;
     let each_s = span_s / moves as f64;
     let (unit, factor) = match USUAL_MOVE_S {
-        // Times that are all the same, or no moves, say nothing.
-        _ if moves == 0 || span_s == 0.0 => return None,
         [least, _] if each_s < least => ("minutes", "60 times too large"),
         [_, most] if each_s > most => ("milliseconds", "1000 times too small"),
         _ => return None,

@@ -105,7 +105,7 @@ pub(crate) fn strip([width, height]: Point, drawing: &Markup) -> Markup {
 
 /// Draws the axis below the strips of a column: round values with their numbers.
 pub(crate) fn strip_axis(languages: &Languages, scale: &Scale, width: f64) -> Markup {
-    const HALF_LETTER: f64 = 3.2;
+    const HALF_LETTER: f64 = 4.1;
     let drawing = html! {
         @for (value, text) in Ticks::along(scale, languages.first()).marks(languages.first()) {
             @let x = scale.place(value);
@@ -383,9 +383,11 @@ pub(crate) struct Ticks {
 }
 
 impl Ticks {
-    /// Creates at most about `most` values between `low` and `high`.
+    /// Creates at most about `most` values between `low` and `high`, but if possible two, because one is no scale.
     pub(crate) fn between(low: f64, high: f64, most: usize) -> Self {
-        Self::of_step(low, high, round_step((high - low) / most.max(1) as f64))
+        let most = most.max(1);
+        let of = |number: usize| Self::of_step(low, high, round_step((high - low) / number as f64));
+        (most..=2 * most).map(of).find(|ticks| ticks.values.len() > 1).unwrap_or_else(|| of(most))
     }
 
     fn of_step(low: f64, high: f64, (step, exponent): (f64, i32)) -> Self {
@@ -481,6 +483,8 @@ mod tests {
         assert_eq!(ticks.values.len(), 3);
         assert_eq!(ticks.marks(Language::Russian)[0].1, "\u{2212}0,002");
         assert_eq!(Ticks::between(0.0, 0.0, 4).values, [0.0]);
+        // A step of 5 would leave 0 alone.
+        assert_eq!(Ticks::between(-4.6, 4.6, 4).values, [-4.0, -2.0, 0.0, 2.0, 4.0]);
     }
 
     #[test]

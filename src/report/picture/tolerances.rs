@@ -10,11 +10,11 @@ use crate::report::page::texts::{pictures as texts, units};
 use maud::{Markup, html};
 
 const HEIGHT: f64 = 17.0;
-/// Between the mark of a value beyond the axis, which stands outside the tolerance, and the end of the axis.
-const ROOM_FOR_ARROW: f64 = 15.0;
+/// Beside the ends of the axis, for the arrow from the mark of a value that is beyond one of them.
+const ROOM_FOR_ARROW: f64 = 16.0;
 
-/// The axis of every strip, in tolerances: to both limits and half as far again, so that strips of all reports compare. An
-/// arrow points to what is beyond it.
+/// The axis of every strip, in tolerances: to both limits and half as far again, so that strips of all reports compare. The
+/// mark of a value beyond it stands at its end, with an arrow outwards.
 const AXIS: [f64; 2] = [-1.5, 1.5];
 
 /// Strips of a table, by their width.
@@ -41,7 +41,7 @@ fn reaches(row: &ParameterVerdict, deviation: f64) -> bool {
 impl Strips {
     /// Returns the axis, in units of which the tolerance has `tolerance`.
     fn scale(self, tolerance: f64) -> Scale {
-        Scale { values: AXIS.map(|value| tolerance * value), places: [7.0, self.width - 7.0] }
+        Scale { values: AXIS.map(|value| tolerance * value), places: [ROOM_FOR_ARROW, self.width - ROOM_FOR_ARROW] }
     }
 
     /// Draws the axis of the strips, in percent of the tolerance.
@@ -52,16 +52,10 @@ impl Strips {
     /// Draws a parameter of a verdict: only the limits if its tolerance is 0.
     pub(crate) fn of_parameter(self, verdict: &Verdict, row: &ParameterVerdict) -> Markup {
         let scale = self.scale(1.0);
-        let [left, right] = scale.places;
         let decision = verdict.decision(row);
         let (y, guarded) = (0.5 * HEIGHT, row.tolerance - row.expanded_uncertainty);
         let share = |value: f64| scale.clamped(value / row.tolerance);
-        // An arrow marks a value beyond the axis, because a mark at its end would be misplaced.
-        let beyond = match row.deviation / row.tolerance {
-            share if share < AXIS[0] => Some((left, 1.0)),
-            share if share > AXIS[1] => Some((right, -1.0)),
-            _ => None,
-        };
+        let (x, outwards) = (share(row.deviation), row.deviation.signum() * (ROOM_FOR_ARROW - 1.0));
         let limits = [-1.0, 1.0].map(|limit| scale.place(limit));
         let drawing = html! {
             @if row.tolerance > 0.0 {
@@ -71,18 +65,14 @@ impl Strips {
             // Below the marks: a value close to a limit is on one side of it.
             @for x in limits { (line([x, 0.0], [x, HEIGHT], "limit")) }
             @if row.tolerance > 0.0 {
-                @if let Some((end, inwards)) = beyond {
-                    (arrow([end + inwards * ROOM_FOR_ARROW, y], [end, y], "meridian"))
-                    (decided([end + inwards * ROOM_FOR_ARROW, y], decision))
-                } @else {
-                    @let ends = ends(row);
-                    @let within = ends.map(|end| reaches(row, end));
-                    (whisker(ends.map(share), within, y, 4.0))
-                    @for end in ends.iter().zip(within).filter(|(_, within)| !within).map(|(end, _)| share(*end)) {
-                        (arrow([share(row.deviation), y], [end, y], "meridian"))
-                    }
-                    (decided([share(row.deviation), y], decision))
+                @let ends = ends(row);
+                @let within = ends.map(|end| reaches(row, end));
+                (whisker(ends.map(share), within, y, 4.0))
+                @for end in ends.iter().zip(within).filter(|(_, within)| !within).map(|(end, _)| share(*end)) {
+                    (arrow([x, y], [end, y], "meridian"))
                 }
+                @if !reaches(row, row.deviation) { (arrow([x, y], [x + outwards, y], "meridian")) }
+                (decided([x, y], decision))
             }
         };
         strip([self.width, HEIGHT], &drawing)

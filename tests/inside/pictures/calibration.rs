@@ -1,6 +1,6 @@
 //! Pictures of a calibration.
 
-use crate::inside::picture::{Axis, both, end, english, number, of_class, svgs, tip, whole};
+use crate::inside::picture::{Axis, both, end, english, number, of_class, reach, svgs, tip, whole};
 use dtg_passport::calibration::Parameter;
 use dtg_passport::calibration::document::{CalibrationDocument, ResultDocument};
 use dtg_passport::calibration::verdict::{Decision, ParameterVerdict, Verdict};
@@ -93,20 +93,30 @@ fn an_interval_beyond_the_axis_has_arrows_at_its_ends() {
     assert!(!whisker.attribute("d").unwrap().contains('V'), "{drawn:?}");
 }
 
-/// Ten tolerances off to the right, and nine to the left, where the axis ends at one and a half.
+/// Ten tolerances off to the right, and nine to the left, where the axis ends at one and a half; then 1.59 ± 0.63 tolerances,
+/// whose interval begins within the axis and in the tolerance.
 #[test]
-fn an_arrow_points_to_what_the_axis_does_not_reach() {
+fn an_arrow_points_outwards_from_a_value_that_the_axis_does_not_reach() {
     let (drawn, axis) = strips(vec![
         row(Parameter::Kx, 0.5, 0.02, 0.05, Decision::Fail),
         row(Parameter::Ky, -0.45, 0.02, 0.05, Decision::Fail),
+        row(Parameter::Omega0x, 0.0159, 0.0063, 0.01, Decision::Undecided),
     ]);
     let axis = Document::parse(&axis).unwrap();
     let axis = Axis::along_x(axis.root_element());
-    for (text, due) in drawn.iter().zip([150.0, -150.0]) {
+    let due = [(150.0, 150.0, "mark"), (-150.0, -150.0, "mark"), (96.0, 150.0, "site")];
+    for (text, (from, to, class)) in drawn.iter().zip(due) {
         let page = Document::parse(text).unwrap();
         let [arrow] = of_class(page.root(), "meridian")[..] else { panic!("{text}") };
-        axis.says(tip(arrow)[0], due);
-        assert!(of_class(page.root(), "whisker").is_empty());
+        let (start, tip) = (number(arrow.first_element_child().unwrap(), "x1"), tip(arrow)[0]);
+        axis.says(start, to);
+        assert!((tip - start) * to > 0.0 && (1.0..=139.0).contains(&tip), "{text}");
+        let [low, high] = reach(of_class(page.root(), "whisker")[0]);
+        axis.says(low, from);
+        axis.says(high, to);
+        let caps = of_class(page.root(), "whisker")[0].attribute("d").unwrap().matches('V').count();
+        assert_eq!(caps, usize::from(from != to));
+        assert_eq!(of_class(page.root(), class).len(), 1, "{text}");
     }
 }
 

@@ -241,6 +241,7 @@ fn explained(explanation: &Explanation, language: Language) -> String {
 pub(crate) fn not_stated(what: NotStated) -> Text {
     match what {
         NotStated::Angles => names::ANGLE,
+        NotStated::SomeAngles => texts::NOT_STATED_SOME_ANGLES,
         NotStated::Return => names::RETURN,
         NotStated::Platform => texts::NOT_STATED_PLATFORM,
         NotStated::Base => texts::NOT_STATED_BASE,

@@ -128,6 +128,10 @@ pub(crate) fn plain(absence: Absence, language: Language) -> String {
 fn sentence(absence: Absence) -> (Text, Vec<(&'static str, Number)>) {
     match absence {
         Absence::Uncertainty => (absences::UNCERTAINTY, vec![]),
+        Absence::SomeUncertainty { missing, all } => (
+            absences::SOME_UNCERTAINTY,
+            vec![("missing", Number::exact(missing as f64)), ("all", Number::exact(all as f64))],
+        ),
         Absence::Repeatability => (absences::REPEATABILITY, vec![]),
         Absence::CommonPart => (absences::COMMON_PART, vec![]),
         Absence::Traceability => (absences::TRACEABILITY, vec![]),
@@ -145,6 +149,9 @@ fn sentence(absence: Absence) -> (Text, Vec<(&'static str, Number)>) {
         }
         Absence::Height => (absences::HEIGHT, vec![("slope", Number::exact(GRAVITY_SLOPE_M_PER_S2_PER_M))]),
         Absence::BaseUncertainty => (absences::BASE_UNCERTAINTY, vec![]),
+        Absence::LatitudeUncertainty => (absences::LATITUDE_UNCERTAINTY, vec![]),
+        Absence::AzimuthUncertainty => (absences::AZIMUTH_UNCERTAINTY, vec![]),
+        Absence::LevelUncertainty => (absences::LEVEL_UNCERTAINTY, vec![]),
         Absence::AzimuthMark => (absences::AZIMUTH_MARK, vec![]),
     }
 }

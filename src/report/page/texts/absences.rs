@@ -7,6 +7,11 @@ texts! {
         en: "The certificate gives no uncertainty of the deviations; it cannot be stated.",
         ru: "Неопределённость отклонений в сертификате не указана и не может быть приведена."
     }
+    SOME_UNCERTAINTY {
+        en: "The certificate gives no uncertainty of {missing} of the {all} deviations, which count as exact.",
+        ru: "Неопределённость отклонений в сертификате указана не для всех: без неё {missing} из {all}, эти отклонения \
+             приняты точными."
+    }
     REPEATABILITY {
         en: "The certificate gives no repeatability; the uncertainty that positioning adds is unknown.",
         ru: "Повторяемость положений в сертификате не указана; вклад повторяемости в неопределённость неизвестен."
@@ -61,6 +66,18 @@ texts! {
     BASE_UNCERTAINTY {
         en: "The uncertainties of the latitude, azimuth and level of the base are not stated for this site.",
         ru: "Неопределённости широты, азимута и наклона основания для этого места установки не указаны."
+    }
+    LATITUDE_UNCERTAINTY {
+        en: "The uncertainty of the latitude is not stated for this site.",
+        ru: "Неопределённость широты для этого места установки не указана."
+    }
+    AZIMUTH_UNCERTAINTY {
+        en: "The uncertainty of the azimuth of the base is not stated for this site.",
+        ru: "Неопределённость азимута основания для этого места установки не указана."
+    }
+    LEVEL_UNCERTAINTY {
+        en: "The uncertainty of the level of the base is not stated for this site.",
+        ru: "Неопределённость наклона основания для этого места установки не указана."
     }
     AZIMUTH_MARK {
         en: "No azimuth mark is given; the north direction must be determined in another way.",

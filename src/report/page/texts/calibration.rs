@@ -609,6 +609,7 @@ texts! {
     NOT_STATED_BASE { en: "common part of the base of the stand", ru: "общая составляющая основания стенда" }
     NOT_STATED_GAIN { en: "gain of the meter", ru: "коэффициент преобразования измерителя" }
     NOT_STATED_OFFSET { en: "offset of the meter", ru: "смещение нуля измерителя" }
+    NOT_STATED_SOME_ANGLES { en: "some of the certified angles", ru: "часть отклонений по сертификату" }
     NOT_STATED_VISITS { en: "gyro noise from visit to visit", ru: "шум гироскопа между установками" }
     NOT_STATED_TURN_ONS { en: "gyro noise from turn-on to turn-on", ru: "шум гироскопа от запуска к запуску" }
     NOT_STATED_GRAVITY { en: "gravity", ru: "местное ускорение g" }
