@@ -41,6 +41,24 @@ fn lines(sheet: &str) -> Vec<&str> {
     sheet.lines().filter(|line| !line.trim().is_empty()).collect()
 }
 
+/// Chromium makes all type smaller if anything is wider than the sheet. The numbers of tables are of 8 pt, and poppler takes
+/// 1.1165 em for the height of their font.
+#[test]
+fn no_sheet_is_made_smaller() {
+    for page in all_pages() {
+        let mut pdftotext = programs::on_path("pdftotext");
+        pdftotext.arg("-bbox").arg(page.pdf()).arg("-");
+        let words = programs::output(pdftotext);
+        let at = |line: &str, key: &str| {
+            let (_, rest) = line.split_once(&format!("{key}=\""))?;
+            rest.split_once('"')?.0.parse::<f64>().ok()
+        };
+        let height = |line: &str| Some(at(line, "yMax")? - at(line, "yMin")?);
+        let is_whole = |height: f64| (height - 1.1165 * 8.0).abs() < 0.005;
+        assert!(words.lines().filter_map(height).any(is_whole), "{}", page.name);
+    }
+}
+
 #[test]
 fn six_sheets_of_a4_at_most_in_one_language() {
     for page in all_pages() {

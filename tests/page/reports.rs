@@ -69,7 +69,11 @@ const REPORTS: &[Report] = &[
         asked: &[USUAL, CURRENTS, LABORATORY, &["--gyro", "@other-type.yaml"]],
     },
     // The longest words of a decision beside the numbers with most digits: g is known here.
-    Report { name: "failed-ru", languages: &[Russian], asked: &[SURVEYED, &["@failed.csv"], LABORATORY, GYRO] },
+    Report {
+        name: "failed-ru",
+        languages: &[Russian],
+        asked: &[SURVEYED, &["@failed.csv", "--gyro", "@surveyed-type.yaml"], LABORATORY],
+    },
     // A meter so coarse that the parameters do not follow its errors linearly.
     Report {
         name: "coarse-both",
@@ -208,9 +212,17 @@ fn files(folder: &Path) {
     let passport = "issued/SPS-2/0017/braunschweig-ptb-1.yaml";
     let shown = program(&["show", passport, "--trust", "allowed_signers", "--time", "2026-11-20", "--format", "json"]);
     let shown: Value = serde_json::from_str(&shown).unwrap();
-    let currents = shown["self_check"]["currents"].as_array().unwrap();
-    let row =
-        |at: &Value| format!("{},{},{},{}\n", at["i"], at["j"], at["jx_ma"].as_f64().unwrap() - 5e-4, at["jy_ma"]);
+    let check = &shown["self_check"];
+    let keys = ["k_deg_per_h_per_ma", "omega0_deg_per_h", "omega_g_deg_per_h_per_g", "omega_k_deg_per_h_per_g"];
+    let nominal = keys.map(|key| format!("{key}: {}", check[key])).join(", ");
+    let surveyed = example("docs/gvk-6.yaml");
+    let line = surveyed.lines().find(|line| line.starts_with("nominal")).unwrap();
+    write("surveyed-type.yaml", &surveyed.replace(line, &format!("nominal: {{{nominal}}}")));
+    let currents = check["currents"].as_array().unwrap();
+    let row = |at: &Value| {
+        let [jx, jy] = ["jx_ma", "jy_ma"].map(|key| at[key].as_f64().unwrap());
+        format!("{},{},{},{}\n", at["i"], at["j"], jx - 5e-4, jy - 2e-5)
+    };
     write("failed.csv", &format!("i,j,jx_ma,jy_ma\n{}", currents.iter().map(row).collect::<String>()));
 
     // Twenty-four positions, with the currents of the gyro of the self-check.

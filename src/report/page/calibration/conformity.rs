@@ -9,7 +9,7 @@ use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::gyro::GyroType;
 use crate::report::page::language::{Language, Languages, Text, values};
-use crate::report::page::number::{Cell, Number, column, column_with_units};
+use crate::report::page::number::{Number, column, column_with_units, probability};
 use crate::report::page::parts::{Column, Table, given, heading, listed, mark, marked, quantity, symbol_and_unit};
 use crate::report::page::spacing::BLANK;
 use crate::report::page::symbols::italic;
@@ -188,11 +188,11 @@ fn table(
             (parameter(row)) ", " (italic(languages.spoken(unit_at_type(row.parameter))))
         }
     };
+    // One digit stands before every decimal mark, so that these align where the numbers begin at one place.
     let risk = |row: &ParameterVerdict| match verdict.has_simple() {
-        true => Cell::probability(row.specific_risk),
-        false => Cell::none(),
+        true => probability(languages, row.specific_risk),
+        false => html! { "–" },
     };
-    let risks = column(languages, rows.iter().map(risk));
     let tolerance = |row: &ParameterVerdict| (Number::exact(row.tolerance), italic(languages.spoken(unit_of(row))));
     let tolerances = column_with_units(languages, rows.iter().map(tolerance));
     let mut columns = vec![
@@ -207,7 +207,7 @@ fn table(
             ..each(texts::IN_TOLERANCE, &|row| BESIDE_DECISIONS.of_parameter(verdict, row))
         },
         each(texts::GUARDED, &|row| decided(languages, verdict.decision(row))),
-        Column::named(languages, texts::RISK, risks),
+        each(texts::RISK, &risk),
     ];
     if !with_u {
         columns.remove(1);
