@@ -59,7 +59,7 @@ pub(super) struct Options {
     trust: OptionalTrust,
     #[command(flatten)]
     exclusions: ExclusionOptions,
-    /// Write a printable record of the certification: readings, tests, uncertainty, signature lines
+    /// Write a printable record of the certification: readings, tests, uncertainty, signature lines. It needs two runs or more
     #[arg(long, value_name = "FILE.html", value_parser = output::path_of("html"))]
     report: Option<PathBuf>,
     /// Languages of the record; the first sets the number format

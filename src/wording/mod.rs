@@ -185,8 +185,8 @@ pub(crate) mod comparison {
                  предел и коэффициент преобразования измерителя и единицу тока."
         }
         NOISE_OF_ONE {
-            en: "Only one of the two calibrations includes this: {names}. For the change it is added to the other.",
-            ru: "Только одна из двух калибровок учитывает: {names}. Для изменения это добавлено и к другой."
+            en: "Only one of the two calibrations includes {names}; in the change it counts for both.",
+            ru: "Только одна из двух калибровок учитывает {names}; в изменении это учтено для обеих."
         }
         LEFT_OUT_BEFORE {
             en: "Not included in the uncertainties of the previous calibration: {names}.",

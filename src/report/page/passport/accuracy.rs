@@ -36,7 +36,7 @@ pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
 
 fn stated_for(accuracy: &Accuracy, languages: &Languages) -> Markup {
     let (gyro, laboratory) = (&accuracy.gyro, &accuracy.laboratory);
-    let gravity = gyro.gravity_m_per_s2.map(|g| quantity(languages, &Number::exact(g), units::M_PER_S2));
+    let gravity = Some(quantity(languages, &Number::exact(gyro.gravity()), units::M_PER_S2));
     let temperature = laboratory.temperature_c.map(|t| quantity(languages, &Number::exact(t), units::CELSIUS));
     let each = [
         (texts::GYRO_TYPE, Some(given(&gyro.r#type))),

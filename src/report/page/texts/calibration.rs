@@ -49,7 +49,7 @@ texts! {
     UNDECIDED { en: "Conformity with gyro type {type} is undecided", ru: "Соответствие типу {type} не определено" }
     RULE {
         en: "Decision rule (JCGM 106, 8.3): pass if |deviation|\u{a0}+\u{a0}U ≤ tolerance, fail if |deviation|\u{a0}−\u{a0}U > tolerance, otherwise \
-             undecided; a smaller U can decide.",
+             undecided; a smaller U could decide it.",
         ru: "Правило принятия решения (JCGM 106, 8.3): соответствует при |отклонение|\u{a0}+\u{a0}U ≤ допуск, не соответствует при \
              |отклонение|\u{a0}−\u{a0}U > допуск, иначе не определено; решение возможно при меньшей U."
     }
@@ -363,8 +363,8 @@ texts! {
     }
     FROM_GRAVITY_PART { en: "{gravity} for {parameter}", ru: "{gravity} для {parameter}" }
     FROM_TURN_ONS {
-        en: "The turn-on noise contributes {u} to the standard uncertainty of ω_0x and ω_0y, most of it. To reduce this, take \
-             more turn-ons.",
+        en: "The turn-on noise contributes {u}, most of the standard uncertainty of ω_0x and ω_0y. To reduce this, take more \
+             turn-ons.",
         ru: "Вклад шума от запуска к запуску, {u}, составляет большую часть стандартной неопределённости ω_0x и ω_0y. Для \
              его уменьшения следует увеличить число запусков."
     }

@@ -14,7 +14,7 @@ texts! {
         en: "inclusive; withdrawal not checked",
         ru: "включительно; отзыв не\u{a0}проверялся"
     }
-    PERIOD { en: "validity period ends on {day} (inclusive)", ru: "срок действия по {day} включительно" }
+    PERIOD { en: "validity period: until {day} (inclusive)", ru: "срок действия по {day} включительно" }
     NO_END { en: "no expiry date is stated", ru: "срок действия не указан" }
     NO_END_NOT_CHECKED {
         en: "no expiry date is stated; withdrawal not checked",
