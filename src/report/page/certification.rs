@@ -104,7 +104,10 @@ impl CertificationPage<'_> {
         // The limits stand in the section of the uncertainty.
         let number = 1 + sections.iter().position(|(id, ..)| *id == UNCERTAINTY).unwrap_or_default();
         let is_few = [of_platform, of_base].into_iter().flatten().any(|freedom| freedom < evidence::FEW_DEGREES);
-        let common = [certificate.common_platform_arcsec, certificate.common_base_arcsec].map(u);
+        let common = [certificate.common_platform_arcsec, certificate.common_base_arcsec];
+        // An estimate of 0 is no proof that there is nothing.
+        let is_zero = common.contains(&Some(0.0));
+        let common = common.map(u);
         let on = |name: Text, day| html! { p { (languages.inline(name)) ": " (date(languages, day)) } };
         band(
             languages,
@@ -135,6 +138,7 @@ impl CertificationPage<'_> {
                                 " (" (languages.inline_with(|language| texts::FEW.filled(language, values! { number }))) ")"
                             }
                         }
+                        @if is_zero { p { (languages.label_with(|language| texts::ZERO.filled(language, values! { number }))) } }
                     },
                 ),
             ],

@@ -45,6 +45,10 @@ texts! {
     }
     COMMON_PARTS { en: "Common parts, per axis: platform; base", ru: "Общие составляющие: платформа; основание" }
     FEW { en: "few: see section\u{a0}{number}", ru: "мало: см. раздел\u{a0}{number}" }
+    ZERO {
+        en: "0: upper limit in section\u{a0}{number}",
+        ru: "0: верхняя граница в разделе\u{a0}{number}"
+    }
     STANDARD { en: "standard uncertainty (k = 1)", ru: "стандартная неопределённость (k = 1)" }
 
     UNCERTAINTY { en: "Uncertainty", ru: "Неопределённость" }
