@@ -6,7 +6,7 @@ use crate::batch::paths;
 use crate::files::{self, FileError};
 use crate::passport::verification::unreadable;
 use crate::report::verdict;
-use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
+use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, name_of};
 use clap::Args;
 use std::io;
 use std::path::PathBuf;
@@ -39,7 +39,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
             Err(error @ FileError::Folder(_)) => {
                 Err((name_of(&path), format!("{error}; list its passports with `register`, or give the files")))
             }
-            Err(error) => Err((name_of(&path), Failure::from(error).failed.message)),
+            Err(error) => Err((name_of(&path), Failure::of_file(error, Some(Kind::Passport.words())).failed.message)),
         });
         match read {
             Ok((name, bytes)) => {
