@@ -294,7 +294,7 @@ impl Recertification<'_> {
             Err(error) => Err(error.into()),
             Ok(bytes) => {
                 let there = Stand::from_yaml(&name_of(path), &bytes)?;
-                new.stand.check_number(&there).map_err(|why| refused(format!("{}: {why}", shown(path))))
+                new.stand.check_number_of_file(&there).map_err(|why| refused(format!("{}: {why}", shown(path))))
             }
         }
     }

@@ -139,6 +139,8 @@ pub(crate) enum NoChange {
     EarlierNotValid,
     /// A visit or a row of the earlier readings is probably wrong.
     EarlierSuspect,
+    /// The passport of the earlier result was not verified.
+    EarlierNotVerified,
 }
 
 /// Probability below which a change is not chance, for all parameters together.
@@ -400,6 +402,8 @@ impl CalibrationDocument {
             Some(NoChange::SameReadings)
         } else if !earlier.is_valid() {
             Some(NoChange::EarlierNotValid)
+        } else if !earlier.passport_verified {
+            Some(NoChange::EarlierNotVerified)
         } else {
             (!earlier.suspects.is_empty()).then_some(NoChange::EarlierSuspect)
         }

@@ -182,6 +182,10 @@ pub struct ModelTest {
     pub degrees_of_freedom: [usize; 2],
     /// Probability of a larger ratio if the paper's parameters are enough.
     pub probability: f64,
+    /// `true` if the paper's model does not fit with the uncertainties as they are, but the larger one does. With few degrees of
+    /// freedom of the rest the ratio may be far from significant even so.
+    #[serde(skip)]
+    pub(crate) only_larger_fits: bool,
 }
 
 impl ModelTest {
@@ -194,12 +198,14 @@ impl ModelTest {
             return None;
         }
         let f = (paper.value - larger.value).max(0.0) / further as f64 / (larger.value / rest as f64);
-        Some(Self { f, degrees_of_freedom, probability: f_larger(f, further, rest as f64) })
+        let probability = f_larger(f, further, rest as f64);
+        let only_larger_fits = paper.probability < ALARM && larger.probability >= ALARM;
+        Some(Self { f, degrees_of_freedom, probability, only_larger_fits })
     }
 
     /// Returns `true` if the further parameters are needed.
     pub(crate) fn is_significant(&self) -> bool {
-        self.probability < SIGNIFICANT
+        self.probability < SIGNIFICANT || self.only_larger_fits
     }
 }
 

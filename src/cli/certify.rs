@@ -148,7 +148,7 @@ fn write(path: &Path, certified: &Certification, known: &[&Stand], force: bool) 
     }
     if let Some(there) = &there {
         let in_use = |used| format!("{}: {used}; or delete this file, if no passport was issued from it", shown(path));
-        certified.stand.check_number(there).map_err(|used| Failure::refused(in_use(used)))?;
+        certified.stand.check_number_of_file(there).map_err(|used| Failure::refused(in_use(used)))?;
     }
     let text = certified.to_yaml(&name_of(path)).map_err(Failure::refused)?;
     let superseded = Superseded::of(path, text.as_bytes())?.filter(|_| force);

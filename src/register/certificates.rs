@@ -45,15 +45,9 @@ impl Certificates {
         self.0.iter().filter_map(|(stand, known)| known.alarm(stand)).collect()
     }
 
-    /// Returns the objections to a new passport of a stand under the certificate `number`.
-    pub(super) fn against(&self, stand: &str, number: &str) -> Vec<String> {
-        let Some(known) = self.0.get(stand) else { return Vec::new() };
-        let replaced = known.replaced.get(number).map(|by| replaced(number, by));
-        let others = known.in_force.iter().filter(|(other, _)| *other != number);
-        let others = others.map(|(other, passports)| {
-            format!("the stand is also in force under certificate {other}: {}", ids(passports))
-        });
-        replaced.into_iter().chain(others).collect()
+    /// Returns which certificate replaced the one of a stand with this `number`, in words, or `None` if none did.
+    pub(super) fn replacement(&self, stand: &str, number: &str) -> Option<String> {
+        Some(replaced(number, self.0.get(stand)?.replaced.get(number)?))
     }
 }
 

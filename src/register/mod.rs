@@ -12,7 +12,7 @@ use crate::document::sha256_hex;
 use crate::passport::checks::ASK_THE_ISSUER;
 use crate::passport::{Check, CheckName, Code, Content, Question, Trust, Verification, verify};
 use crate::revocation::Series;
-use crate::text::words;
+use crate::text::{first_few, words};
 use alarm::{absent_predecessors, duplicate_ids, gaps, misplaced};
 use certificates::{Certificates, fingerprint};
 use jiff::Timestamp;
@@ -386,7 +386,18 @@ impl Register {
     /// Returns the objections to issuing from the certificate `number` of a stand: that it was replaced, or that the
     /// stand is in force under another one.
     pub(crate) fn against_certificate(&self, stand: &str, number: &str) -> Vec<String> {
-        self.certificates.against(stand, number)
+        let mut others: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+        let in_force = |line: &&Line| matches!(line.state, State::InForce | State::Expiring | State::Unknown);
+        for line in self.passports.iter().filter(in_force).filter(|line| line.stand.as_deref() == Some(stand)) {
+            let other = line.certificate.as_deref().filter(|other| *other != number);
+            if let Some((other, id)) = other.zip(line.id.as_deref()) {
+                others.entry(other).or_default().push(id);
+            }
+        }
+        let others = others
+            .into_iter()
+            .map(|(other, ids)| format!("the stand is also in force under certificate {other}: {}", first_few(&ids)));
+        self.certificates.replacement(stand, number).into_iter().chain(others).collect()
     }
 
     /// Returns `true` if the register needs attention: it has an alarm, or a passport that failed verification.

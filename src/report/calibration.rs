@@ -292,10 +292,10 @@ fn beyond_the_paper(out: &mut String, answer: &MethodResult) {
     }
     if let Some(test) = &answer.model_test {
         let [further, rest] = test.degrees_of_freedom;
-        let verdict = if test.is_significant() {
-            "the paper's model is not enough for this gyro"
-        } else {
-            "the readings are consistent with the paper's model"
+        let verdict = match (test.only_larger_fits, test.is_significant()) {
+            (true, _) => "the paper's model does not fit the readings, and this model does",
+            (false, true) => "the paper's model is not enough for this gyro",
+            (false, false) => "the further parameters are not significant",
         };
         let words = format!(
             "Test of the further parameters: F = {:.2} with {further} and {rest} degrees of freedom (probability of a \

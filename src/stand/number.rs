@@ -23,10 +23,7 @@ impl Stand {
     /// Returns [`NumberInUse`] if it does.
     pub(crate) fn check_number(&self, there: &Self) -> Result<(), NumberInUse> {
         let number = &self.certificate.number;
-        // The same file with other exclusions gives other angles.
-        let of = |stand: &Self| stand.certificate.evidence.clone();
-        let same_readings = of(there).is_some() && of(there) == of(self);
-        if *number != there.certificate.number || same_readings {
+        if *number != there.certificate.number {
             return Ok(());
         }
         let kept = |at: &CertifiedPosition, among: &[CertifiedPosition]| {
@@ -37,5 +34,15 @@ impl Stand {
             Some(at) => Err(NumberInUse { number: number.clone(), index: at.index() }),
             None => Ok(()),
         }
+    }
+    /// Checks the number as [`Self::check_number`] does, against that of a stand file from which nothing need have been issued:
+    /// from the same readings it may be certified anew, because other exclusions give other angles.
+    ///
+    /// # Errors
+    /// Returns [`NumberInUse`] if other readings gave other angles.
+    pub(crate) fn check_number_of_file(&self, there: &Self) -> Result<(), NumberInUse> {
+        let evidence = |stand: &Self| stand.certificate.evidence.clone();
+        let same_readings = evidence(there).is_some() && evidence(there) == evidence(self);
+        if same_readings { Ok(()) } else { self.check_number(there) }
     }
 }

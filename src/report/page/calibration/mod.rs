@@ -325,6 +325,7 @@ pub(crate) fn why_no_change(why: NoChange) -> Text {
         NoChange::SameReadings => texts::SAME_READINGS,
         NoChange::EarlierNotValid => texts::EARLIER_NOT_VALID,
         NoChange::EarlierSuspect => texts::EARLIER_SUSPECT,
+        NoChange::EarlierNotVerified => texts::EARLIER_NOT_VERIFIED,
     }
 }
 

@@ -175,6 +175,12 @@ texts! {
         ru: "Одно из показаний предыдущего результата, вероятно, ошибочно, и изменения он не показывает. Следует \
              повторить ту калибровку без этого показания."
     }
+    EARLIER_NOT_VERIFIED {
+        en: "The passport of the previous result was not verified, so no statement is made on the change. Repeat that \
+             calibration with a verified passport.",
+        ru: "Паспорт предыдущего результата не проверен, поэтому заключение об изменении не приводится. Следует повторить ту \
+             калибровку с проверенным паспортом."
+    }
     SUBJECT { en: "Object, place and equipment of the calibration", ru: "Объект, место и средства калибровки" }
     TYPE { en: "Type", ru: "Тип" }
     SERIAL { en: "Serial number of the gyro", ru: "Заводской номер гироскопа" }
