@@ -88,6 +88,11 @@ pub enum Explanation {
         /// Azimuth of the frame's axis that explains the readings, degrees clockwise from north, to a tenth.
         frame_axis_azimuth_deg: f64,
     },
+    /// A gyro with other g-sensitive drifts than those of the paper's model.
+    #[error(
+        "the gyro has g-sensitive drifts that the paper's model does not describe; --model general fits the readings"
+    )]
+    OtherModel,
     /// A position that did not repeat, or whose reading is wrong.
     #[error("position {index} did not repeat: {}", either(*angle_arcsec, current_ua))]
     DidNotRepeat {
@@ -202,6 +207,7 @@ pub(crate) fn hint(setup: &Setup, data: &Data, model: Model, chi_square: &ChiSqu
         .filter_map(|(i, j, places)| possibility(setup, &data.at(&places), model, Explanation::Renumbered { i, j }));
     let of_all = renumbered.chain(other_axes(setup, data, model));
     possible.extend(of_all.filter(|found| found.score + WORSE <= chi_square.value));
+    possible.extend(other_model(setup, data, model));
     possible.sort_by(|one, other| one.score.total_cmp(&other.score));
     let best = possible.first().map_or(0.0, |found| found.score);
     possible.retain(|found| found.score <= best + WORSE);
@@ -320,6 +326,14 @@ fn other_axes(setup: &Setup, data: &Data, model: Model) -> Vec<Possible> {
         Some(Possible { score: found.score + price, ..found })
     });
     possible.collect()
+}
+
+/// Returns the general model, if the readings fit with it but not with the paper's.
+fn other_model(setup: &Setup, data: &Data, model: Model) -> Option<Possible> {
+    const FURTHER_NUMBERS: f64 = 4.0;
+    let found = Some(model).filter(|model| *model == Model::Paper);
+    let found = found.and_then(|_| possibility(setup, data, Model::General, Explanation::OtherModel))?;
+    Some(Possible { score: found.score + FURTHER_NUMBERS * PRICE_OF_ONE_NUMBER, ..found })
 }
 
 /// Returns an explanation if the readings fit with it: `setup` and `data` are those that it states.

@@ -221,6 +221,7 @@ fn explained(explanation: &Explanation, language: Language) -> String {
         Explanation::Renumbered { i, j } => {
             texts::HINT_RENUMBERED.filled(language, values! { numbers: spaced(&numbering(i, j)) })
         }
+        Explanation::OtherModel => texts::HINT_OTHER_MODEL.words(language),
         Explanation::OtherAxis { frame_axis_azimuth_deg } => {
             texts::HINT_OTHER_AXIS.filled(language, &[("azimuth", frame_axis_azimuth_deg)])
         }

@@ -568,6 +568,10 @@ texts! {
         en: "The axis of the frame may point to an azimuth of about {azimuth}°, not to that of the passport.",
         ru: "Возможно, ось рамки стенда направлена по азимуту около {azimuth}°, а не по указанному в паспорте."
     }
+    HINT_OTHER_MODEL {
+        en: "The gyro may have g-sensitive drifts that the paper’s model does not describe; the general model fits the readings.",
+        ru: "Возможно, дрейф гироскопа, зависящий от\u{a0}g, не описывается моделью статьи; общая модель с показаниями согласуется."
+    }
     HINT_OTHER_STAND {
         en: "The passport may be that of another stand.",
         ru: "Возможно, паспорт относится к другому стенду."
