@@ -76,6 +76,29 @@ fn exchanged_positions_are_named() {
     assert!(right * 100 >= trials() * 90 && wrong * 100 <= trials(), "{right} {among} {nothing} {wrong}");
 }
 
+/// Gyros with 0.05 °/(h·g) along the spin axis, which the paper's model does not have, on stands of 10′.
+#[test]
+fn drift_along_the_spin_axis_names_the_general_model() {
+    let [right, among, nothing, wrong] = counted(9, |stream| {
+        let setup = setup(&drawn_stand(stream, 10.0 / 60.0), LATITUDE_DEG);
+        let gyro = gvk_6();
+        let inverse = gyro.k_deg_per_h_per_ma.try_inverse().unwrap();
+        let further = inverse * Vector2::new(0.05, -0.05);
+        let mut currents = currents(&setup, &gyro);
+        for (current, at) in currents.iter_mut().zip(&setup.coefficients().positions) {
+            *current -= further * at.specific_force_z_g;
+        }
+        let currents = noisy(stream, &currents);
+        let options = Options { model: Model::General, ..least_squares_only() };
+        let general = calibrate(&setup, &readings(&setup, &currents), &options).unwrap();
+        // Four degrees of freedom are left, and the F test alone finds it only in some.
+        assert!(general.answer().unwrap().model_test.unwrap().is_significant());
+        outcome(&solve(&setup, &currents), |found| *found == Explanation::OtherModel)
+    });
+    println!("spin axis: right {right}, among several {among}, nothing {nothing}, wrong {wrong}");
+    assert!((right + among) * 100 >= trials() * 95, "{right} {among} {nothing} {wrong}");
+}
+
 /// Stands with deviations of 10′, on which one reading has a reversed sign or exchanged currents. It differs by more than 20 µA
 /// from the right one: the sign of a current near zero cannot be seen, nor an exchange of two that are nearly equal.
 #[test]
