@@ -328,11 +328,13 @@ fn other_axes(setup: &Setup, data: &Data, model: Model) -> Vec<Possible> {
     possible.collect()
 }
 
-/// Returns the general model, if the readings fit with it but not with the paper's.
+/// Returns the general model as an explanation if the readings, which do not fit the paper's model, fit with it.
 fn other_model(setup: &Setup, data: &Data, model: Model) -> Option<Possible> {
     const FURTHER_NUMBERS: f64 = 4.0;
-    let found = Some(model).filter(|model| *model == Model::Paper);
-    let found = found.and_then(|_| possibility(setup, data, Model::General, Explanation::OtherModel))?;
+    if model != Model::Paper {
+        return None;
+    }
+    let found = possibility(setup, data, Model::General, Explanation::OtherModel)?;
     Some(Possible { score: found.score + FURTHER_NUMBERS * PRICE_OF_ONE_NUMBER, ..found })
 }
 

@@ -100,8 +100,8 @@ result! {
         /// Comparison with an earlier result.
         #[serde(deserialize_with = "left_aside")]
         pub(crate) change: Option<Verdict> = default,
-        /// What the noise of the drift from visit to visit adds to the standard uncertainties of a result with one visit to
-        /// each position; absent unless only this result or the earlier one includes that noise.
+        /// Standard uncertainty of each parameter from the noise of the drift between visits, with one visit to each position.
+        /// It is present if only one of this result and the earlier one includes that noise.
         #[serde(skip)]
         pub(crate) u_of_single_visits: Option<[f64; 8]>,
         /// Keys that are added to a result outside this type; they are accepted and ignored on reading.

@@ -3,7 +3,7 @@
 //! whose certificate states other angles in one passport than in another. A certificate with the same angles for two
 //! stands is a copy with another serial number.
 
-use super::{Alarm, AlarmKind, Examined, State};
+use super::{Alarm, AlarmKind, Examined};
 use crate::stand::CertifiedPosition;
 use crate::text::first_few;
 use std::collections::{BTreeMap, HashMap};
@@ -55,7 +55,7 @@ impl Certificates {
 /// the same deviations, so one of them has those of the other.
 pub(super) fn shared(files: &[Examined]) -> Vec<Alarm> {
     let mut known: BTreeMap<(&str, u64), BTreeMap<&str, Vec<String>>> = BTreeMap::new();
-    for file in files.iter().filter(|file| file.counts && file.is_in_force()) {
+    for file in files.iter().filter(|file| file.counts && file.line.may_be_in_force()) {
         let stands = known.entry((file.certificate(), file.angles)).or_default();
         stands.entry(file.line.stand.as_deref().unwrap_or("")).or_default().push(file.line.file.clone());
     }
@@ -89,7 +89,7 @@ impl OfStand {
                 known.replaced.remove(number);
                 known.replaced.insert((*old).to_owned(), (number.to_owned(), id.clone()));
             }
-            if file.is_in_force() {
+            if file.line.may_be_in_force() {
                 let in_force = InForce { id, file: file.line.file.clone(), angles: file.angles };
                 known.in_force.entry(number.to_owned()).or_default().push(in_force);
             }
@@ -134,10 +134,6 @@ fn replaced(number: &str, (by, id): &(String, String)) -> String {
 }
 
 impl Examined {
-    fn is_in_force(&self) -> bool {
-        matches!(self.line.state, State::InForce | State::Expiring | State::Unknown)
-    }
-
     fn certificate(&self) -> &str {
         self.line.certificate.as_deref().unwrap_or("")
     }

@@ -217,6 +217,11 @@ impl Line {
         format!("{state}{}", self.why)
     }
 
+    /// Returns `true` if the passport is in force, or if this is unknown.
+    fn may_be_in_force(&self) -> bool {
+        self.is_usable() || self.state == State::Unknown
+    }
+
     /// Returns `true` if only other files can prevent the use of the passport.
     pub(crate) fn is_usable(&self) -> bool {
         matches!(self.state, State::InForce | State::Expiring)
@@ -387,8 +392,8 @@ impl Register {
     /// stand is in force under another one.
     pub(crate) fn against_certificate(&self, stand: &str, number: &str) -> Vec<String> {
         let mut others: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
-        let in_force = |line: &&Line| matches!(line.state, State::InForce | State::Expiring | State::Unknown);
-        for line in self.passports.iter().filter(in_force).filter(|line| line.stand.as_deref() == Some(stand)) {
+        let of_stand = |line: &&Line| line.may_be_in_force() && line.stand.as_deref() == Some(stand);
+        for line in self.passports.iter().filter(of_stand) {
             let other = line.certificate.as_deref().filter(|other| *other != number);
             if let Some((other, id)) = other.zip(line.id.as_deref()) {
                 others.entry(other).or_default().push(id);

@@ -35,6 +35,7 @@ impl Stand {
             None => Ok(()),
         }
     }
+
     /// Checks the number as [`Self::check_number`] does, against that of a stand file from which nothing need have been issued:
     /// from the same readings it may be certified anew, because other exclusions give other angles.
     ///

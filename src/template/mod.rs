@@ -18,7 +18,7 @@ const STAND: &str = include_str!("certificate.yaml");
 /// Type B components and datum of both.
 const TYPE_B_AND_DATUM: &str = include_str!("datum.yaml");
 
-/// Returns a stand file.
+/// Returns a stand file, whose deviations are to be entered.
 pub(crate) fn stand(positions: &Positions) -> String {
     let rest = ", alpha_arcsec: CHANGE, beta_arcsec: CHANGE, gamma_arcsec: CHANGE";
     format!(

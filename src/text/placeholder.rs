@@ -15,7 +15,7 @@ pub(super) fn is_placeholder(text: &str) -> bool {
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(':'))
 }
 
-/// Reports every placeholder in a hand-written document: here, unless it was reported as something else before.
+/// Reports every placeholder in a hand-written document. A value with an error already, such as no number, gets the advice.
 #[cfg(feature = "factory")]
 pub(crate) fn check(node: &Node, problems: &mut Problems) {
     node.each_text(&Path::Root, &mut |at, text| {

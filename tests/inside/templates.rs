@@ -54,7 +54,7 @@ fn gyro_laboratory_and_site_pass_their_readers() {
     Laboratory::from_yaml("laboratory.yaml", filled(LABORATORY).as_bytes()).unwrap();
     Administrative::from_yaml("dcc.yaml", filled(DCC).as_bytes()).unwrap();
     let read = |text: &str| Site::from_yaml("here.yaml", text.as_bytes()).unwrap();
-    // A place that nobody entered is refused, and each coordinate is named once.
+    // A site without a place is refused, with one error for each coordinate.
     let unknown = template::site("here", None, None).replace("\"CHANGE", "\"entered");
     let refused = Site::from_yaml("here.yaml", unknown.as_bytes()).unwrap_err().to_string();
     let told = "found \"CHANGE\", expected a number in degrees; replace the word from the template";
