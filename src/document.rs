@@ -6,12 +6,20 @@
 use crate::text::canonical;
 use crate::text::kind::mistaken;
 pub(crate) use crate::text::scalar::sha256_hex;
-use crate::text::{Field, Printable, Problems, rule};
-use crate::text::{Kind, LARGEST_DOCUMENT_BYTES};
-use crate::text::{Location, Unreadable};
+use crate::text::{Field, Kind, Limits, Location, Printable, Problems, Unreadable, rule};
 use crate::trust::{AllowedSigners, KeyPoint, Message, PublicKey, Signature, SignatureError};
 #[cfg(feature = "factory")]
 use crate::trust::{KeyError, SigningKey};
+
+/// Kind of signed document.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Form {
+    /// Namespace of its signatures.
+    pub namespace: &'static str,
+    pub limits: Limits,
+    /// Noun phrase of what was expected instead of another file.
+    pub expected: &'static str,
+}
 
 /// Line that ends the payload.
 const SIGNATURE_LINE: &str = "signature: |\n";
@@ -94,10 +102,6 @@ pub struct Malformed {
     pub other_namespace: Option<String>,
 }
 
-fn expected(namespace: &str) -> &'static str {
-    if namespace == "dtg-passport" { "a passport, which `issue` makes and signs" } else { "a signed document" }
-}
-
 /// Form of the signature in a document.
 const BLOCK: &str = "a signature block of OpenSSH, indented by two spaces, and nothing after it";
 
@@ -123,22 +127,23 @@ fn found_and_expected(error: SignatureError) -> (String, &'static str) {
 
 impl<'a> SignedText<'a> {
     /// Checks the text rule, splits the file and checks the form of the signature, in this order.
-    pub(crate) fn split(name: &str, bytes: &'a [u8], namespace: &str) -> Result<Self, Malformed> {
+    pub(crate) fn split(name: &str, bytes: &'a [u8], form: &Form) -> Result<Self, Malformed> {
+        let Form { namespace, limits, .. } = *form;
         // An unsigned file of another kind is named as what it is.
         let other = || {
-            let is_signed = |kind| matches!(kind, Kind::Passport | Kind::RevocationList);
-            let mistaken = || mistaken(name, bytes, expected(namespace), is_signed);
+            let is_signed = |kind| matches!(kind, Kind::Passport | Kind::Register);
+            let mistaken = || mistaken(name, bytes, form.expected, is_signed);
             signature_line(bytes).is_none().then(mistaken).flatten()
         };
         let malformed = |fault| Malformed { fault: other().unwrap_or(fault), other_namespace: None };
-        if bytes.len() > LARGEST_DOCUMENT_BYTES {
-            rule::check(name, bytes).map_err(malformed)?;
+        if bytes.len() > limits.bytes {
+            rule::check(name, bytes, limits.bytes).map_err(malformed)?;
         }
         // The payload must obey the text rule, and the armor has only one valid form, so the file cannot contain any
         // other text.
         let payload_end = signature_line(bytes);
         let payload_bytes = &bytes[..payload_end.unwrap_or(bytes.len())];
-        let payload = rule::check(name, payload_bytes).map_err(malformed)?;
+        let payload = rule::check(name, payload_bytes, limits.bytes).map_err(malformed)?;
         let Some(payload_end) = payload_end else {
             let location = Some(Location { line: payload.lines().count() + 1, column: 1 });
             let advice = "the file is unsigned, or may be truncated; get it from the issuer again";
@@ -193,8 +198,13 @@ impl<'a> SignedText<'a> {
 ///
 /// # Errors
 /// Returns the first line that is not in canonical form, or every rule that the content breaks.
-pub(crate) fn parse<T: Field>(name: &str, payload: &str, check: impl Fn(&T, &mut Problems)) -> Result<T, Unreadable> {
-    let content: T = canonical::read(payload).map_err(|problem| Unreadable::of(name, vec![problem]))?;
+pub(crate) fn parse<T: Field>(
+    name: &str,
+    payload: &str,
+    limits: Limits,
+    check: impl Fn(&T, &mut Problems),
+) -> Result<T, Unreadable> {
+    let content: T = canonical::read(payload, limits).map_err(|problem| Unreadable::of(name, vec![problem]))?;
     let mut problems = Problems::default();
     check(&content, &mut problems);
     if problems.is_empty() { Ok(content) } else { Err(problems.refuse_by_field(name)) }
@@ -237,7 +247,8 @@ pub(crate) fn join(payload: &str, signature: &Signature) -> String {
 mod tests {
     use super::*;
 
-    const NAMESPACE: &str = "dtg-passport";
+    const FORM: Form = Form { namespace: "dtg-passport", limits: Limits::DOCUMENT, expected: "a passport" };
+    const NAMESPACE: &str = FORM.namespace;
 
     fn signed(payload: &str) -> String {
         let key = SigningKey::generate().unwrap();
@@ -247,7 +258,7 @@ mod tests {
     #[test]
     fn what_was_joined_is_split_again() {
         let text = signed("a: 1\n");
-        let split = SignedText::split("x", text.as_bytes(), NAMESPACE).unwrap();
+        let split = SignedText::split("x", text.as_bytes(), &FORM).unwrap();
         assert_eq!(split.signed_payload(None).unwrap(), "a: 1\n");
     }
 
@@ -270,9 +281,9 @@ mod tests {
             good.replace("a: 1\n", "a: 1\nsignature: |\n"),
         ];
         for text in bad {
-            assert!(SignedText::split("x", text.as_bytes(), NAMESPACE).is_err(), "{text}");
+            assert!(SignedText::split("x", text.as_bytes(), &FORM).is_err(), "{text}");
         }
-        let other = SignedText::split("x", good.as_bytes(), "dtg-revocation").unwrap_err();
+        let other = SignedText::split("x", good.as_bytes(), &Form { namespace: "dtg-register", ..FORM }).unwrap_err();
         assert_eq!(other.other_namespace.as_deref(), Some(NAMESPACE));
     }
 
@@ -285,7 +296,7 @@ mod tests {
             let altered = payload.replacen(from, to, 1);
             assert_ne!(altered, payload, "{from}");
             let line = altered.lines().zip(payload.lines()).take_while(|(a, b)| a == b).count() + 1;
-            let read = parse("p.yaml", &altered, crate::passport::content::Content::check);
+            let read = parse("p.yaml", &altered, Limits::DOCUMENT, crate::passport::content::Content::check);
             (read.unwrap_err().to_string(), line)
         };
         let other_form = |from: &str, to: &str, expected: &str| {

@@ -1,23 +1,21 @@
-//! Batch that issues revision 1 of every stand at every site.
+//! Batch that issues revision 1 of every stand at every site, with one new register for each stand.
 
 use super::catalogue::{Catalogue, Listed};
 use super::{Batch, Event, Failure, Listener, Outcome, Purpose, fail, parallel, paths, sweep};
 use crate::files::folder_of;
 use crate::files::walk::Visited;
-use crate::folder::{Folder, search};
-use crate::passport::Trust;
+use crate::folder::{Folder, StandFolder};
 use crate::passport::content::passport_id;
 use crate::passport::issue::{Issue, PreparedStand};
 use crate::site::Site;
-use jiff::Timestamp;
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::io::BufRead;
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Numbers of stands and sites that are in memory at a time, beyond those that a catalogue keeps.
-const STANDS_AT_ONCE: usize = 64;
+const STANDS_AT_ONCE: usize = 16;
 const SITES_AT_ONCE: usize = 1024;
 
 /// Input and destination of a batch.
@@ -30,12 +28,14 @@ pub(crate) struct Job<'a> {
     pub sites: &'a [PathBuf],
     /// Order that all passports have in common.
     pub order: &'a Issue,
-    /// Trust and time by which existing passports are verified; `None` to skip that.
-    pub known: Option<(&'a Trust, Timestamp)>,
 }
 
-/// Stand and site of one passport to be issued.
-type Pair = (Arc<PreparedStand>, Arc<Site>);
+/// Stand whose passports are being issued. Their outcomes are reported once its register lists them.
+struct Work<'a> {
+    folder: StandFolder<'a>,
+    stand: Arc<PreparedStand>,
+    outcomes: Vec<Option<Outcome>>,
+}
 
 impl Batch<'_> {
     /// Issues a passport of every stand for every site.
@@ -51,8 +51,9 @@ impl Batch<'_> {
         fail(bad_stands, all_sites, tell);
         fail(bad_sites, stands.len() as u64, tell);
         tell(Event::Planned(self.shard.share((stands.len() * sites.len()) as u64)));
-        let mut run = Run { batch: self, job, swept: Visited::default(), pairs: Vec::new(), unusable: BTreeMap::new() };
-        if self.seal.is_some() {
+        let names = sites.ids().map(|id| format!("{id}-{}.yaml", job.order.revision)).collect();
+        let run = Run { batch: self, job, swept: Visited::default(), names };
+        if !self.is_dry() {
             sweep(&run.swept, job.folder.root());
         }
         run.all(&stands, &sites, tell);
@@ -64,59 +65,79 @@ struct Run<'a> {
     job: &'a Job<'a>,
     /// Folders from which the leftovers of killed runs were removed.
     swept: Visited,
-    pairs: Vec<Pair>,
-    /// Passports that may not be used, by folder and SHA-256: each folder is read once, and only if something was there.
-    unusable: BTreeMap<PathBuf, BTreeMap<String, String>>,
+    /// Names of all files that this run writes into the folder of each stand.
+    names: BTreeSet<String>,
 }
 
-impl Run<'_> {
-    /// Issues stand by stand, and site by site for each; if there are too many sites for the memory, in groups of both.
-    fn all(&mut self, stands: &Catalogue<PreparedStand>, sites: &Catalogue<Site>, tell: Listener) {
-        for some_stands in ranges(stands.len(), STANDS_AT_ONCE) {
-            let loaded_stands = self.load(stands, some_stands, sites.len(), tell);
-            let loaded_stands = self.without_contradictions(loaded_stands, sites.len(), tell);
+impl<'a> Run<'a> {
+    fn all(&self, stands: &Catalogue<PreparedStand>, sites: &Catalogue<Site>, tell: Listener) {
+        // The outcomes of stands are kept until their registers are written.
+        let at_once = if sites.len() > SITES_AT_ONCE { 1 } else { STANDS_AT_ONCE };
+        for some_stands in ranges(stands.len(), at_once) {
+            let mut stands = self.load(stands, some_stands, sites.len(), tell);
+            stands.retain(|stand| self.batch.shard.has(&stand.stand().stand.id()));
+            let mut works = self.open(stands, sites.len(), tell);
             for some_sites in ranges(sites.len(), SITES_AT_ONCE) {
-                let loaded_sites = self.load(sites, some_sites, loaded_stands.len(), tell);
-                for stand in &loaded_stands {
-                    let id = stand.stand().stand.id();
-                    for site in loaded_sites.iter().filter(|site| self.batch.shard.has(&id, site.id.as_str())) {
-                        self.pairs.push((Arc::clone(stand), Arc::clone(site)));
-                        if self.pairs.len() == self.batch.chunk() {
-                            self.chunk(tell);
-                        }
-                        if self.batch.cancelled() {
-                            return;
+                let sites = self.load(sites, some_sites, works.len(), tell);
+                let pairs: Vec<(usize, &Site)> =
+                    (0..works.len()).flat_map(|work| sites.iter().map(move |site| (work, &**site))).collect();
+                for chunk in pairs.chunks(self.batch.chunk()) {
+                    if self.batch.cancelled() {
+                        break;
+                    }
+                    let done =
+                        parallel::map(chunk, self.batch.threads, |(work, site)| self.one(&works[*work], site));
+                    for ((work, _), outcome) in chunk.iter().zip(done) {
+                        match self.batch.is_dry() {
+                            true => tell(Event::Done(Some(outcome))),
+                            false => works[*work].outcomes.push(Some(outcome)),
                         }
                     }
                 }
             }
+            self.finish(works, tell);
+            if self.batch.cancelled() {
+                return;
+            }
         }
-        self.chunk(tell);
     }
 
-    /// Returns the stands whose existing passports do not contradict their certificates; the others are refused. Reports
-    /// the other certificates from which stands have passports.
-    fn without_contradictions(
-        &self,
-        stands: Vec<Arc<PreparedStand>>,
-        each_costs: usize,
-        tell: Listener,
-    ) -> Vec<Arc<PreparedStand>> {
-        let Some((trust, time)) = self.job.known else { return stands };
-        let found =
-            parallel::map(&stands, self.batch.threads, |stand| self.job.folder.against_certificate(stand, trust, time));
-        let mut good = Vec::new();
-        for (stand, found) in stands.into_iter().zip(found) {
+    /// Examines the folders of stands; those that contradict their certificates, or whose register is not accepted, are
+    /// refused. Reports the other certificates from which stands have passports.
+    fn open(&self, stands: Vec<Arc<PreparedStand>>, each_costs: usize, tell: Listener) -> Vec<Work<'a>> {
+        let opened = parallel::map(&stands, self.batch.threads, |stand| {
+            let (folder, authority) = (self.job.folder, &self.batch.authority);
             let id = stand.stand().stand.id();
-            match found {
-                Ok(remarks) => {
+            let folder = StandFolder::open(folder, &id, authority, |name| self.names.contains(name))?;
+            folder.against_certificate(stand).map(|remarks| (folder, remarks))
+        });
+        let mut works = Vec::new();
+        for (stand, opened) in stands.into_iter().zip(opened) {
+            let id = stand.stand().stand.id();
+            match opened {
+                Ok((folder, remarks)) => {
                     remarks.into_iter().for_each(|words| tell(Event::Remark { file: id.clone(), words }));
-                    good.push(stand);
+                    works.push(Work { folder, stand, outcomes: Vec::new() });
                 }
                 Err(why) => self.lost(Failure::of(id, why.to_string(), why.is_unusable()), each_costs, tell),
             }
         }
-        good
+        works
+    }
+
+    /// Writes the registers, and reports the outcomes.
+    fn finish(&self, works: Vec<Work>, tell: Listener) {
+        let (folders, mut outcomes): (Vec<_>, Vec<_>) =
+            works.into_iter().map(|work| (work.folder, work.outcomes)).unzip();
+        let written: Vec<&Outcome> = outcomes.iter().flatten().flatten().collect();
+        let synced = self.batch.sync(written);
+        let listed = parallel::map(&folders, self.batch.threads, |folder| self.batch.list(folder, &synced));
+        for (outcomes, listed) in outcomes.iter_mut().zip(listed) {
+            if let Err(failure) = listed {
+                outcomes.iter_mut().flatten().for_each(|outcome| outcome.not_listed(&failure));
+            }
+        }
+        outcomes.into_iter().flatten().for_each(|outcome| tell(Event::Done(outcome)));
     }
 
     /// Reports a failure that costs passports already counted as planned.
@@ -143,37 +164,18 @@ impl Run<'_> {
         good
     }
 
-    fn chunk(&mut self, tell: Listener) {
-        let done = parallel::map(&self.pairs, self.batch.threads, |pair| Some(self.one(pair)));
-        self.pairs.clear();
-        for outcome in done.iter().flatten() {
-            self.remark_on_unusable(outcome, tell);
-        }
-        self.batch.tell(done, tell);
-    }
-
     /// Issues a single passport; every passport of a batch is made here.
-    fn one(&self, (stand, site): &Pair) -> Outcome {
-        let Job { folder, order, .. } = self.job;
-        if self.batch.seal.is_some() {
-            sweep(&self.swept, folder_of(&folder.path_of(&stand.stand().stand, &site.id, order.revision)));
+    fn one(&self, Work { folder, stand, .. }: &Work, site: &Site) -> Outcome {
+        let order = self.job.order;
+        if !self.batch.is_dry() {
+            sweep(&self.swept, folder_of(&folder.path_of(site.id.as_str(), order.revision)));
         }
+        let settled = match self.batch.is_dry() {
+            false => folder.issue(stand, site, order).map(Outcome::There),
+            true => folder.next_first(stand, site, order).map(Outcome::from),
+        };
         let id = || passport_id(&stand.stand().stand, &site.id, order.revision);
-        self.batch.settle(folder, id, || folder.next_first(stand, site, order))
-    }
-
-    /// Reports a passport that was there already and may not be used.
-    fn remark_on_unusable(&mut self, outcome: &Outcome, tell: Listener) {
-        let (Outcome::There(there), Some((trust, time))) = (outcome, self.job.known) else { return };
-        if there.new {
-            return;
-        }
-        let folder = folder_of(&there.path);
-        let read = || search::unusable(folder, trust, time, self.batch.threads);
-        let unusable = self.unusable.entry(folder.to_owned()).or_insert_with(read);
-        if let Some(words) = unusable.get(&there.sha256) {
-            tell(Event::Remark { file: there.id.clone(), words: words.clone() });
-        }
+        settled.unwrap_or_else(|why| Outcome::Failed(Failure::of(id(), why.to_string(), why.is_unusable())))
     }
 }
 

@@ -25,7 +25,7 @@ use shard::Shard;
 
 use crate::files::walk::Visited;
 use crate::files::{Durability, FileError, leftovers};
-use crate::folder::{self, Folder, FolderRefused, Issued, Next, Seal};
+use crate::folder::{self, Authority, Issued, Next, StandFolder};
 use crate::parallel;
 use crate::passport::issue::Remarks;
 use crate::text::{Unreadable, name_of};
@@ -56,8 +56,8 @@ pub(crate) enum Purpose {
 pub(crate) struct Batch<'a> {
     /// Durability of reported passports after a power failure.
     pub durability: Durability,
-    /// Signer; `None` for a dry run, which computes and checks everything and writes nothing.
-    pub seal: Option<Seal<'a>>,
+    /// Issuer; without a signer the batch is a dry run, which computes and checks everything and writes nothing.
+    pub authority: Authority<'a>,
     /// Part of the job to do.
     pub shard: Shard,
     /// Number of threads; 0 and 1 have the same effect.
@@ -99,13 +99,21 @@ impl From<Next> for Outcome {
     fn from(next: Next) -> Self {
         let id = next.id().to_owned();
         match next {
-            Next::There(issued) => Self::There(issued),
-            Next::New { path, draft } => Self::Planned { id, path, remarks: draft.remarks() },
+            Next::There { issued, .. } => Self::There(issued),
+            Next::New { path, draft, .. } => Self::Planned { id, path, remarks: draft.remarks() },
         }
     }
 }
 
 impl Outcome {
+    /// Turns the outcome of a passport into the failure of its register: it exists, but does not count.
+    fn not_listed(&mut self, failure: &Failure) {
+        if let Self::There(issued) = self {
+            let why = format!("{}: not listed in the register, so it does not count: {}", issued.id, failure.why);
+            *self = Self::Failed(Failure { what: issued.id.clone(), why, ..failure.clone() });
+        }
+    }
+
     /// Returns the id of a passport that is new, or would be without the dry run, and the remarks on it. The remarks on an
     /// existing one were printed when it was issued.
     pub(crate) fn remarks(&self) -> Option<(&str, &Remarks)> {
@@ -166,35 +174,26 @@ impl Batch<'_> {
         (CHUNK_PER_THREAD * self.threads.max(1)).min(LARGEST_CHUNK)
     }
 
-    /// Signs and writes what `next` returns, or in a dry run returns what would be written.
-    fn settle(
-        &self,
-        folder: &Folder,
-        id: impl Fn() -> String,
-        next: impl Fn() -> Result<Next, FolderRefused>,
-    ) -> Outcome {
-        let there = match self.seal {
-            Some(seal) => folder.settle(next, seal).map(Outcome::There),
-            None => next().map(Outcome::from),
-        };
-        there.unwrap_or_else(|why| Outcome::Failed(Failure::of(id(), why.to_string(), why.is_unusable())))
+    fn is_dry(&self) -> bool {
+        self.authority.signer.is_none()
     }
 
-    /// Reports outcomes after the names of all written passports have been synced to disk.
-    fn tell(&self, mut outcomes: Vec<Option<Outcome>>, tell: Listener) {
-        let written = outcomes.iter().flatten().filter_map(|outcome| match outcome {
-            Outcome::There(issued) => Some(issued.path.as_path()),
+    /// Syncs the names of all written passports to disk, before a register lists them.
+    fn sync(&self, outcomes: Vec<&Outcome>) -> Result<(), Failure> {
+        let written = outcomes.into_iter().filter_map(|outcome| match outcome {
+            Outcome::There(issued) if issued.new => Some(issued.path.as_path()),
             _ => None,
         });
-        if let Err(error) = folder::sync_names(self.durability, written) {
-            let why = error.to_string();
-            for outcome in outcomes.iter_mut().flatten() {
-                if let Outcome::There(issued) = outcome {
-                    *outcome = Outcome::Failed(Failure::of(issued.id.clone(), why.clone(), true));
-                }
-            }
+        folder::sync_names(self.durability, written).map_err(Failure::file)
+    }
+
+    /// Writes the register of a stand, once its passports are `synced`.
+    fn list(&self, folder: &StandFolder, synced: &Result<(), Failure>) -> Result<(), Failure> {
+        synced.clone()?;
+        if self.is_dry() {
+            return Ok(());
         }
-        outcomes.into_iter().for_each(|outcome| tell(Event::Done(outcome)));
+        folder.list().map_err(|why| Failure::of(folder.stand().to_owned(), why.to_string(), why.is_unusable()))
     }
 }
 

@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 /// Part `number` of `parts` of a job.
 ///
-/// The part of a passport depends only on its stand and site. The parts are therefore disjoint and together complete,
+/// The part of a passport depends only on its stand, so that one machine writes its register. The parts are therefore disjoint and together complete,
 /// on any machine and in any order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Shard {
@@ -39,9 +39,9 @@ impl Shard {
         orders.div_ceil(u64::from(self.parts))
     }
 
-    /// Returns `true` if the passports of a stand (`<model>/<serial>`) for a site are in this part.
-    pub(crate) fn has(self, stand: &str, site: &str) -> bool {
-        self.parts == 1 || self.has_key(&format!("{stand}/{site}"))
+    /// Returns `true` if a stand, `<model>/<serial>`, is in this part, with all of its passports and its register.
+    pub(crate) fn has(self, stand: &str) -> bool {
+        self.parts == 1 || self.has_key(stand)
     }
 
     /// Returns `true` if a passport's file is in this part, by its path `<model>/<serial>/<site>-<revision>.yaml`.
@@ -51,10 +51,9 @@ impl Shard {
         }
         // On another machine the same file may be given relative to another folder.
         let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-        let mut names: Vec<_> = path.iter().rev().take(3).map(|name| name.to_string_lossy()).collect();
+        let mut names: Vec<_> = path.iter().rev().skip(1).take(2).map(|name| name.to_string_lossy()).collect();
         names.reverse();
-        let name = names.join("/");
-        self.has_key(name.rsplit_once('-').map_or(name.as_str(), |(site, _revision)| site))
+        self.has_key(&names.join("/"))
     }
 
     /// Returns `true` if the first eight bytes of the key's SHA-256, modulo the number of parts, give this part.
@@ -74,13 +73,13 @@ mod tests {
         for parts in [1, 2, 3, 7] {
             let shards: Vec<Shard> = (1..=parts).map(|number| format!("{number}/{parts}").parse().unwrap()).collect();
             let mut sizes = vec![0; shards.len()];
-            for site in 0..3000 {
-                let (stand, site) = ("SPS-2/0017", format!("site-{site}"));
-                let having: Vec<usize> = (0..shards.len()).filter(|&index| shards[index].has(stand, &site)).collect();
+            for serial in 0..3000 {
+                let stand = format!("SPS-2/{serial:04}");
+                let having: Vec<usize> = (0..shards.len()).filter(|&index| shards[index].has(&stand)).collect();
                 assert_eq!(having.len(), 1);
                 sizes[having[0]] += 1;
                 // Files of all revisions of a passport are in the same part.
-                let file = format!("any/where/{stand}/{site}-12.yaml");
+                let file = format!("any/where/{stand}/here-12.yaml");
                 assert!(shards[having[0]].has_file(Path::new(&file)));
             }
             let even = 3000 / sizes.len();
@@ -92,9 +91,9 @@ mod tests {
 
     #[test]
     fn a_part_depends_on_the_name_alone_for_ever() {
-        // printf SPS-2/0017/here | sha256sum | cut -c1-16, modulo 4: computed with sha256sum and bc.
-        let part = (1..=4).find(|number| format!("{number}/4").parse::<Shard>().unwrap().has("SPS-2/0017", "here"));
-        assert_eq!(part, Some(3));
+        // printf SPS-2/0017 | sha256sum | cut -c1-16, modulo 4: computed with sha256sum and bc.
+        let part = (1..=4).find(|number| format!("{number}/4").parse::<Shard>().unwrap().has("SPS-2/0017"));
+        assert_eq!(part, Some(1));
     }
 
     #[test]

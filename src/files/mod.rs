@@ -220,6 +220,18 @@ pub(crate) fn write_new_as(path: &Path, bytes: &[u8], access: Access, durability
     write(path, bytes, access, durability, persist, false)
 }
 
+/// Replaces a file as a whole, or creates it: its old or its new content is there at every moment. A link is replaced, not
+/// followed.
+pub(crate) fn replace(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    replace_as(path, bytes, Durability::Named)
+}
+
+/// Replaces a file as [`replace`] does, with the given `durability`.
+pub(crate) fn replace_as(path: &Path, bytes: &[u8], durability: Durability) -> Result<(), FileError> {
+    let persist = |temporary: NamedTempFile| temporary.persist(path);
+    write(path, bytes, Access::Shared, durability, persist, true)
+}
+
 /// Checks that no file is in the way of [`write_replaceable`], so that none of several is written if one cannot be.
 ///
 /// # Errors
@@ -257,7 +269,7 @@ pub(crate) fn check_distinct<'a>(paths: impl IntoIterator<Item = &'a PathBuf>) -
 
 /// Writes a file as [`write_new`] does, and replaces an existing file if `force` is set.
 ///
-/// Passports, lists of withdrawn passports and private keys are never replaced. Nor is anything but a regular file,
+/// Passports, registers and private keys are never replaced. Nor is anything but a regular file,
 /// because renaming a new file to the name of a device would remove the device.
 pub(crate) fn write_replaceable(path: &Path, bytes: &[u8], force: bool) -> Result<(), FileError> {
     check_replaceable([path], force)?;
@@ -268,9 +280,9 @@ pub(crate) fn write_replaceable(path: &Path, bytes: &[u8], force: bool) -> Resul
     write(path, bytes, Access::Shared, Durability::Named, persist, true)
 }
 
-/// Returns `true` if a file is a passport, a list of withdrawn passports or a private key, by its content.
+/// Returns `true` if a file is a passport, a register or a private key, by its content.
 fn is_irreplaceable(path: &Path) -> bool {
-    const DOCUMENTS: [&[u8]; 2] = [b"format: \"dtg-passport/", b"format: \"dtg-revocation/"];
+    const DOCUMENTS: [&[u8]; 2] = [b"format: \"dtg-passport/", b"format: \"dtg-register/"];
     let bytes = read_first(path, LARGEST_DOCUMENT_BYTES).unwrap_or_default();
     let mut lines = bytes.split(|&byte| byte == b'\n');
     let key = lines.clone().next().is_some_and(|line| line.trim_ascii_end().ends_with(b"PRIVATE KEY-----"));

@@ -11,11 +11,11 @@ pub(crate) fn write_replaceable_together<B: AsRef<[u8]>>(files: &[(PathBuf, B)],
     if force { write_together(&[], files) } else { write_together(files, &[]) }
 }
 
-/// Writes several new files, and then those of `last`, which may replace others: all of them or none.
+/// Writes several new files, and then those of `last` in their order, which may replace others: all of them or none.
 ///
 /// All are first written and synced under temporary names, so that only their renaming, which needs no space, remains.
-/// If one cannot be renamed, the new ones renamed before are removed. A kill between two renames can leave some of the
-/// new files, each of them whole.
+/// If one cannot be renamed, the new ones renamed before are removed, unless one of `last` has replaced another already,
+/// because it may reference them. A kill between two renames can leave some of the new files, each of them whole.
 ///
 /// # Errors
 /// Returns [`FileError::Exists`] if a name of a new file is already used, or [`FileError::Write`].
@@ -42,19 +42,27 @@ pub(crate) fn write_together<B: AsRef<[u8]>>(new: &[(PathBuf, B)], last: &[(Path
         written.push(path);
         Ok(())
     });
+    let mut is_replaced = false;
     let published = named.and_then(|()| {
+        // The names of the new files are durable before another file references them.
+        new.iter().try_for_each(|(path, _)| sync_folder(folder_of(path)).map_err(failed(path)))?;
         last.iter().zip(staged_last).try_for_each(|((path, _), temporary)| {
-            temporary.persist(path).map(drop).map_err(|error| failed(path)(error.error))
+            temporary.persist(path).map_err(|error| failed(path)(error.error))?;
+            is_replaced = true;
+            Ok(())
         })
     });
     if let Err(error) = published {
+        if is_replaced {
+            return Err(error);
+        }
         // Nobody has seen these files, which were written a moment ago.
         for path in &written {
             let _ = fs::remove_file(path);
         }
         return Err(error);
     }
-    for (path, _) in new.iter().chain(last) {
+    for (path, _) in last {
         sync_folder(folder_of(path)).map_err(failed(path))?;
     }
     Ok(())

@@ -1,60 +1,81 @@
-//! Folder of passports: the place of each passport, existing passports, and new ones, which are written completely and
-//! never replace another file.
+//! Folder of passports: the place of each passport and of each register. Passports are written completely and never
+//! replace another file; a register is replaced as a whole.
 //!
-//! * `search`: the files in a folder, their register, and the history of one stand.
+//! * `stand`: the folder of one stand, examined once, and what a command adds to it.
+//! * `registers`: registers as readers of passports ask them, and the memory of a workspace.
+//! * `overview`: the registers of all stands, compared with the files.
+//! * `renewal`: registers signed again, first registers, and withdrawals.
 //! * `archive`: stand files that a new certificate supersedes.
-//! * `refused`: reasons why a passport is not written.
+//! * `refused`: reasons why a passport or a register is not written.
 
 pub(crate) mod archive;
-mod claim;
 mod names;
+pub(crate) mod overview;
 pub(crate) mod refused;
-pub(crate) mod search;
-mod superseding;
+pub(crate) mod registers;
+pub(crate) mod renewal;
+pub(crate) mod stand;
 
 pub use crate::files::{Durability, FileError};
 pub use refused::FolderRefused;
-pub use search::register;
-pub(crate) use superseding::Superseding;
+pub(crate) use registers::{Memory, Registers};
+pub(crate) use stand::{Listing, StandFolder};
 
-use crate::document::{SignedText, Signer, sha256_hex};
-use crate::files::walk::{Visited, Walk};
-use crate::files::{self, Access, or_here};
+use crate::document::Signer;
+use crate::files::walk::Visited;
+use crate::files::{self, or_here};
 use crate::passport::checks::for_the_issuer;
 use crate::passport::issue::{Draft, Issue, PreparedStand, Remarks};
 use crate::passport::reissue::{NO_CHANGES, Successor, changes};
-use crate::passport::{Content, NAMESPACE, Question, Trust, content, verify};
-use crate::register::{Asked, Line, State};
+use crate::passport::{Content, Question, Trust, verify};
+use crate::register::State;
 use crate::site::Site;
 use crate::stand::{Identity, Stand};
-use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, name_of};
+use crate::text::{Identifier, name_of};
 use jiff::Timestamp;
 use jiff::civil::Date;
-use names::{Names, Of};
-use std::cmp::Reverse;
+use names::Names;
 use std::collections::BTreeSet;
-use std::io;
 use std::path::{Path, PathBuf};
 
-/// Folder of passports: `<model>/<serial>/<site id>-<revision>.yaml`.
+/// Folder of passports: `<model>/<serial>/<site id>-<revision>.yaml`, with a register in the folder of each stand.
 #[derive(Debug)]
 pub struct Folder {
     root: PathBuf,
     durability: Durability,
     /// Folders of stands that were checked.
     checked: Visited,
-    /// Names of models and serial numbers; `sites` has the names of sites.
+    /// Names of models and serial numbers; `files` has those of files that are not passports.
     folders: Names,
-    sites: Names,
+    files: Names,
 }
 
-/// Signer, with the trust by which a new passport must pass verification before it is written.
+/// Issuer of passports and registers: its keys, its trust, and its clock.
 #[derive(Clone, Copy)]
-pub struct Seal<'a> {
-    /// Signer of the passport.
-    pub signer: &'a (dyn Signer + Sync),
-    /// Trust of the future verifiers; `None` to skip the verification.
-    pub trust: Option<&'a Trust>,
+pub struct Authority<'a> {
+    /// Issuer: a principal of allowed_signers.
+    pub issuer: &'a str,
+    /// Trust by which what exists is believed, and by which what is new must pass verification before it is written.
+    pub trust: &'a Trust,
+    /// Signer of passports; `None` in a dry run.
+    pub signer: Option<&'a (dyn Signer + Sync)>,
+    /// Signer of registers; `None` to leave them to a second person. The passports then do not count yet.
+    pub register_signer: Option<&'a (dyn Signer + Sync)>,
+    /// Clock, by which registers are dated.
+    pub clock: fn() -> Timestamp,
+    /// Last accepted register of each stand, in a workspace.
+    pub(crate) memory: Option<&'a Memory>,
+}
+
+impl<'a> Authority<'a> {
+    /// Creates an authority that signs passports and registers with one key.
+    pub fn new(issuer: &'a str, signer: &'a (dyn Signer + Sync), trust: &'a Trust, clock: fn() -> Timestamp) -> Self {
+        Self { issuer, trust, signer: Some(signer), register_signer: Some(signer), clock, memory: None }
+    }
+
+    fn now(&self) -> Timestamp {
+        (self.clock)()
+    }
 }
 
 /// Result of an order: a passport that exists now.
@@ -75,16 +96,16 @@ pub struct Issued {
 /// Next step for an order.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Next {
-    /// Equal passport that already exists.
-    There(Issued),
-    /// New passport, computed and checked, which is yet to be signed and written.
-    New { path: PathBuf, draft: Box<Draft> },
+    /// Equal passport that already exists, and its entry if the register does not list it.
+    There { issued: Issued, listing: Option<Listing> },
+    /// New passport, computed and checked, which is yet to be signed and written, and the one that it supersedes.
+    New { path: PathBuf, draft: Box<Draft>, superseded: Option<(String, State)> },
 }
 
 impl Next {
     pub(crate) fn id(&self) -> &str {
         match self {
-            Self::There(issued) => &issued.id,
+            Self::There { issued, .. } => &issued.id,
             Self::New { draft, .. } => &draft.content().passport.id,
         }
     }
@@ -99,18 +120,17 @@ pub(crate) struct Sealed {
     pub text: Option<String>,
 }
 
-/// Number of times that an order is tried; each retry means that another run has just written a passport.
-const ATTEMPTS: usize = 8;
-
-/// Number of files among which the nearest id is looked for.
-const MOST_FILES: usize = 10_000;
-
 impl Folder {
     /// Creates the handle of the folder `root`, which need not exist yet. Every file is synced as soon as it is
     /// written.
     pub fn new(root: impl Into<PathBuf>) -> Self {
-        let (folders, sites) = (Names::new(Of::Folders), Names::new(Of::Passports));
-        Self { root: root.into(), durability: Durability::Named, checked: Visited::default(), folders, sites }
+        Self {
+            root: root.into(),
+            durability: Durability::Named,
+            checked: Visited::default(),
+            folders: Names::folders(),
+            files: Names::files(),
+        }
     }
 
     /// Returns the handle with another `durability` of the files written to the folder.
@@ -143,226 +163,72 @@ impl Folder {
         })
     }
 
+    /// Returns the folder of a stand.
+    pub(crate) fn of_stand(&self, stand: &Identity) -> PathBuf {
+        self.root.join(stand.model.as_str()).join(stand.serial.as_str())
+    }
+
     /// Returns the path of the passport of a stand for a site.
     pub fn path_of(&self, stand: &Identity, site: &Identifier, revision: u32) -> PathBuf {
-        let folder = self.root.join(stand.model.as_str()).join(stand.serial.as_str());
-        folder.join(format!("{site}-{revision}.yaml"))
+        self.of_stand(stand).join(format!("{site}-{revision}.yaml"))
     }
 
-    /// Returns the path of the passport with this id, or `None` if the text is not an id.
-    pub(crate) fn path_of_id(&self, id: &str) -> Option<PathBuf> {
-        let parts: Vec<&str> = id.split('/').collect();
-        let [model, serial, site, revision] = parts.as_slice() else { return None };
-        let names = [model, serial, site].map(|name| Identifier::new(name).ok());
-        let [Some(model), Some(serial), Some(site)] = names else { return None };
-        let revision: u32 = revision.parse().ok()?;
-        Some(self.root.join(model.as_str()).join(serial.as_str()).join(format!("{site}-{revision}.yaml")))
+    /// Returns the path of the file of a stand.
+    pub(crate) fn stand_file(&self, stand: &Identity) -> PathBuf {
+        self.of_stand(stand).join("stand.yaml")
     }
 
-    /// Returns the id nearest to `id` among those that the names of the files show, or `None` if none is near.
-    pub(crate) fn nearest_id(&self, id: &str) -> Option<String> {
-        let id_of = |path: PathBuf| {
-            let name = path.strip_prefix(&self.root).ok()?.to_str()?.strip_suffix(".yaml")?.replace('\\', "/");
-            let (site, revision) = name.rsplit_once('-')?;
-            Some(format!("{site}/{revision}"))
-        };
-        let files = Walk::deep(&self.root, search::is_numbered).files();
-        let ids = files.take(MOST_FILES).filter_map(id_of);
-        let near = ids.map(|other| (strsim::damerau_levenshtein(&other, id), Reverse(other)));
-        let most = id.chars().count() / 3;
-        // Of equally near ones it is the last, such as the latest revision.
-        near.filter(|(distance, _)| *distance <= most).min().map(|(_, Reverse(id))| id)
-    }
-
-    /// Returns remarks on a further passport from the certificate of `stand`: the certificate was replaced, or another
-    /// one is in force. Only existing passports of the stand that are authentic by `trust` and not withdrawn are
-    /// considered.
+    /// Issues revision 1 of a stand for a site, and lists it in the register of the stand.
+    ///
+    /// An equal passport (apart from its time, program and signature) that is authentic and current is left unchanged; a
+    /// different one of that name is never replaced.
     ///
     /// # Errors
-    /// Returns [`FolderRefused::NumberInUse`] if one of them states other angles under the number of the certificate.
-    pub(crate) fn against_certificate(
-        &self,
-        stand: &PreparedStand,
-        trust: &Trust,
-        time: Timestamp,
-    ) -> Result<Vec<String>, FolderRefused> {
-        let (text, stand) = (stand.text(), stand.stand());
-        let folder = self.root.join(stand.stand.model.as_str()).join(stand.stand.serial.as_str());
-        if !superseding::may_contradict(&folder, text) {
-            return Ok(Vec::new());
-        }
-        let Ok((register, _)) = search::register(&folder, trust.clone(), &Asked::at(time), 1) else {
-            return Ok(Vec::new());
-        };
-        let number = &stand.certificate.number;
-        let valid = |line: &&Line| !matches!(line.state, State::Broken | State::Revoked);
-        for line in register.passports.iter().filter(valid).filter(|line| line.certificate.as_ref() == Some(number)) {
-            let path = PathBuf::from(&line.file);
-            let there = Existing::of(&path, &files::read(&path, LARGEST_DOCUMENT_BYTES)?)?;
-            let unlike = stand.check_number(&there.content.to_stand());
-            unlike.map_err(|error| FolderRefused::NumberInUse(path, error))?;
-        }
-        Ok(register.against_certificate(&stand.stand.id(), number))
-    }
-
-    /// Issues revision 1 of a stand for a site.
-    ///
-    /// An equal passport (apart from its time, program and signature) is left unchanged; a different one of that name
-    /// is never replaced.
-    ///
-    /// # Errors
-    /// Returns [`FolderRefused`] if the passport cannot be issued or written; no file is then replaced.
+    /// Returns [`FolderRefused`] if the passport cannot be issued, written or listed; no passport is then replaced.
     pub fn issue(
         &self,
         stand: &PreparedStand,
         site: &Site,
         order: &Issue,
-        seal: Seal,
+        authority: &Authority,
     ) -> Result<Issued, FolderRefused> {
-        self.settle(|| self.next_first(stand, site, order), seal)
+        let name = format!("{}-{}.yaml", site.id, order.revision);
+        let folder = StandFolder::open(self, &stand.stand().stand.id(), authority, |other| other == name)?;
+        let issued = folder.issue(stand, site, order)?;
+        folder.list().map(|()| issued)
     }
 
-    /// Returns the next step of [`Self::issue`]; nothing is signed or written.
-    pub(crate) fn next_first(&self, stand: &PreparedStand, site: &Site, order: &Issue) -> Result<Next, FolderRefused> {
-        let draft = Box::new(stand.draft(site, order)?);
-        let stand = stand.stand();
-        let path = self.path_of(&stand.stand, &site.id, order.revision);
-        match self.existing(&path)? {
-            Some(there) if same(&there.content, draft.content()) => Ok(Next::There(there.left(&draft))),
-            Some(there) => {
-                let latest = self.sites.later(&path, order.revision);
-                let latest =
-                    latest.map(|last| self.existing(&self.path_of(&stand.stand, &site.id, last))).transpose()?;
-                Err(latest.flatten().unwrap_or(there).refuse(stand, site, draft.content()))
-            }
-            None => match self.sites.later(&path, order.revision) {
-                Some(last) => Err(FolderRefused::Gap { path, later: self.path_of(&stand.stand, &site.id, last) }),
-                None => Ok(Next::New { path, draft }),
-            },
-        }
-    }
-
-    /// Issues the successor of a passport.
+    /// Issues the successor of a passport, and lists it in the register of the stand.
     ///
     /// # Errors
-    /// Returns [`FolderRefused`] if the successor cannot be issued or written; no file is then replaced.
-    pub fn reissue(&self, successor: &Successor, seal: Seal) -> Result<Issued, FolderRefused> {
-        self.settle(|| self.next_successor(successor), seal)
+    /// Returns [`FolderRefused`] if the successor cannot be issued, written or listed; no passport is then replaced.
+    pub fn reissue(&self, successor: &Successor, authority: &Authority) -> Result<Issued, FolderRefused> {
+        let folder = StandFolder::open(self, &successor.stand().stand.id(), authority, |_| false)?;
+        let issued = folder.reissue(successor)?;
+        folder.list().map(|()| issued)
     }
 
-    /// Returns the next step of [`Self::reissue`]; nothing is signed or written.
-    pub(crate) fn next_successor(&self, successor: &Successor) -> Result<Next, FolderRefused> {
-        let mut revision = successor.first_revision();
-        loop {
-            let draft = Box::new(successor.draft(revision)?);
-            let path_of = |revision| self.path_of(&successor.stand().stand, &successor.site.id, revision);
-            let path = path_of(revision);
-            let Some(there) = self.existing(&path)? else {
-                return match (successor.rival.as_deref(), self.sites.later(&path, revision)) {
-                    (Some(rival), _) => Err(FolderRefused::Fork(rival.to_owned())),
-                    (None, Some(last)) if successor.same_site => Err(FolderRefused::Gap { path, later: path_of(last) }),
-                    // In one step, however high the number in the name of a file is.
-                    (None, Some(last)) => {
-                        revision = last;
-                        continue;
-                    }
-                    (None, None) => Ok(Next::New { path, draft }),
-                };
-            };
-            if same(&there.content, draft.content()) {
-                return Ok(Next::There(there.left(&draft)));
-            }
-            let predecessor = there.content.passport.reissued_from.as_ref();
-            if predecessor.is_some_and(|predecessor| predecessor.sha256 == successor.old_sha256()) {
-                let latest = self.sites.later(&path, revision).map_or(there.path, path_of);
-                return Err(FolderRefused::OtherSuccessor(latest));
-            }
-            // At the predecessor's site only one revision can be the next one; at another site, try the next free
-            // revision.
-            let Some(next) = revision.checked_add(1).filter(|_| !successor.same_site) else {
-                return Err(FolderRefused::LaterRevision(there.path));
-            };
-            revision = next;
-        }
-    }
-
-    /// Signs the next passport and verifies it with the trust of `seal`, but does not write it, so that several can be
-    /// written together with [`files::together::write_together`].
-    pub(crate) fn seal(&self, next: Next, seal: Seal) -> Result<Sealed, FolderRefused> {
-        match next {
-            Next::There(issued) => Ok(Sealed { issued, text: None }),
-            Next::New { path, draft } => {
-                let text = draft.sign(seal.signer)?;
-                if let Some(trust) = seal.trust {
-                    check_verifiable(&path, &text, &draft, trust)?;
-                }
-                let (id, sha256) = (draft.content().passport.id.clone(), sha256_hex(text.as_bytes()));
-                let issued = Issued { id, path, sha256, new: true, remarks: draft.remarks() };
-                Ok(Sealed { issued, text: Some(text) })
-            }
-        }
-    }
-
-    /// Signs and writes the next passport. If another run writes a file of that name first, the next step is determined
-    /// again.
-    pub(crate) fn settle(
-        &self,
-        next: impl Fn() -> Result<Next, FolderRefused>,
-        seal: Seal,
-    ) -> Result<Issued, FolderRefused> {
-        let settle_once = || {
-            let Sealed { issued, text } = self.seal(next()?, seal)?;
-            if let Some(text) = text {
-                files::write_new_as(&issued.path, text.as_bytes(), Access::Shared, self.durability)?;
-            }
-            Ok(issued)
-        };
-        for _ in 1..ATTEMPTS {
-            match settle_once() {
-                Err(FolderRefused::File(FileError::Exists { .. })) => {}
-                settled => return settled,
-            }
-        }
-        settle_once()
-    }
-
-    /// Checks that the path from the root to the folder of a stand has no link, and that no other name beside its two
-    /// folders differs from model or serial number only in case; once for all its passports.
-    fn check_folder(&self, stand: &Path) -> Result<(), FolderRefused> {
-        self.checked.visit(stand, || {
-            let mut way = stand.ancestors().take_while(|folder| *folder != self.root);
-            if let Some(link) = way.find(|folder| folder.is_symlink()) {
-                return Err(FolderRefused::Link(link.to_owned()));
-            }
-            check_case(&self.folders, files::folder_of(stand))?;
-            check_case(&self.folders, stand)?;
-            Ok(stand.is_dir())
+    /// Checks the path from the root to the folder of a file: none of the folders is a link, and no other name next to one
+    /// of them differs from it only in case. This is done once for all files in that folder.
+    fn check_folder(&self, last: &Path) -> Result<(), FolderRefused> {
+        self.checked.visit(last, || {
+            let way: Vec<&Path> = last.ancestors().take_while(|folder| or_here(folder) != self.root()).collect();
+            way.iter().try_for_each(|folder| check_link(folder))?;
+            way.iter().rev().try_for_each(|folder| check_case(&self.folders, folder))?;
+            Ok(last.is_dir())
         })
     }
 
-    /// Returns the existing passport at a path, or `None` if there is no file.
-    fn existing(&self, path: &Path) -> Result<Option<Existing>, FolderRefused> {
-        self.check_folder(files::folder_of(path))?;
-        check_case(&self.sites, path)?;
-        let found = match path.symlink_metadata() {
-            Ok(found) => found,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(FileError::Read(path.to_owned(), error).into()),
-        };
-        if found.is_symlink() {
-            return Err(FolderRefused::Link(path.to_owned()));
-        }
-        // Opening a pipe of that name could block indefinitely.
-        if !found.is_file() && !found.is_dir() {
-            let reason = "a pipe, a device or a socket".to_owned();
-            return Err(FolderRefused::NotComparable(path.to_owned(), reason));
-        }
-        match files::read(path, LARGEST_DOCUMENT_BYTES) {
-            Err(error) if error.is_missing() => Ok(None),
-            Err(error) => Err(error.into()),
-            Ok(bytes) => Existing::of(path, &bytes).map(Some),
-        }
+    /// Checks the path at which a file of another kind is to be written, as that of a passport is checked.
+    pub(crate) fn check_place(&self, file: &Path) -> Result<(), FolderRefused> {
+        self.check_folder(files::folder_of(file))?;
+        check_link(file)?;
+        check_case(&self.files, file)
     }
+}
+
+fn check_link(path: &Path) -> Result<(), FolderRefused> {
+    if path.is_symlink() { Err(FolderRefused::Link(path.to_owned())) } else { Ok(()) }
 }
 
 /// Checks that no other name in the same folder differs from that of `path` only in case.
@@ -397,7 +263,7 @@ pub(crate) fn sync_names<'a>(
 fn check_verifiable(path: &Path, text: &str, draft: &Draft, trust: &Trust) -> Result<(), FolderRefused> {
     let question = Question::at(draft.content().passport.issued_at);
     let verification = verify(&name_of(path), text.as_bytes(), trust, &question);
-    match verification.checks().iter().find(|check| check.passed() != Some(true)) {
+    match verification.failed() {
         None => Ok(()),
         Some(failed) => {
             Err(FolderRefused::NotVerifiable(failed.name.as_str(), for_the_issuer(&failed.detail).to_owned()))
@@ -412,16 +278,6 @@ struct Existing {
 }
 
 impl Existing {
-    fn of(path: &Path, bytes: &[u8]) -> Result<Self, FolderRefused> {
-        let name = name_of(path);
-        let incomparable = |reason: String| FolderRefused::NotComparable(path.to_owned(), reason);
-        let text = SignedText::split(&name, bytes, NAMESPACE)
-            .map_err(|malformed| incomparable(malformed.fault.to_string()))?;
-        let payload = text.signed_payload(None).map_err(|error| incomparable(error.to_string()))?;
-        let content = content::read(&name, payload).map_err(|error| incomparable(error.to_string()))?;
-        Ok(Self { path: path.to_owned(), sha256: sha256_hex(bytes), content })
-    }
-
     fn left(self, draft: &Draft) -> Issued {
         let id = self.content.passport.id.clone();
         Issued { id, path: self.path, sha256: self.sha256, new: false, remarks: draft.remarks() }
@@ -450,12 +306,13 @@ impl Existing {
         }
         FolderRefused::OtherContent(self.path, words.join("; "))
     }
-}
 
-/// Returns `true` if two passports are equal apart from the time of issue and the program that wrote them.
-fn same(there: &Content, new: &Content) -> bool {
-    let mut there = there.clone();
-    there.passport.issued_at = new.passport.issued_at;
-    there.passport.issued_with.clone_from(&new.passport.issued_with);
-    there == *new
+    /// Returns `true` if this passport and a new one are equal apart from the time of issue and the program that wrote
+    /// them.
+    fn is_same(&self, new: &Content) -> bool {
+        let mut there = self.content.clone();
+        there.passport.issued_at = new.passport.issued_at;
+        there.passport.issued_with.clone_from(&new.passport.issued_with);
+        there == *new
+    }
 }

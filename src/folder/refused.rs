@@ -2,12 +2,10 @@
 
 use crate::files::FileError;
 use crate::passport::issue::IssueRefused;
+use crate::register::{Contradiction, Entry, NoRegister, RegisterRefused, State};
 use crate::stand::number::NumberInUse;
 use crate::text::shown;
 use std::path::PathBuf;
-
-/// End of a refusal, after which the identifier of that passport may follow.
-pub(crate) const THE_ONE_IN_FORCE: &str = "the passport that is in force";
 
 /// Reason why no new passport was written to a folder.
 #[derive(Debug, thiserror::Error)]
@@ -34,16 +32,103 @@ pub enum FolderRefused {
     OtherAccuracy(PathBuf),
     /// Existing successor of the predecessor for this site, with different content.
     #[error(
-        "{}: is already a successor of this passport for this site, with different content; re-issue {THE_ONE_IN_FORCE}",
+        "{}: is already a successor of this passport for this site, with different content; re-issue the passport that is current",
         shown(.0)
     )]
     OtherSuccessor(PathBuf),
-    /// Existing passport that supersedes the predecessor for another site or in another folder.
+    /// Passport that is listed as superseded, moved or withdrawn, and how, in words.
+    #[error("{}: listed in the register as {}", shown(.0), .1)]
+    Ended(PathBuf, String),
+    /// Existing passport with the wanted content, while the register lists another file under its identifier.
     #[error(
-        "{}: already supersedes this passport, and a second successor would be a fork; re-issue {THE_ONE_IN_FORCE}",
+        "{}: the register lists another file with this identifier; restore that file from the backup",
         shown(.0)
     )]
-    Fork(PathBuf),
+    OtherFile(PathBuf),
+    /// Passport that is listed in the register, but whose file is missing.
+    #[error("{}: missing, but listed in the register; restore the file from the backup, or withdraw it with `revoke`", shown(.0))]
+    Lost(PathBuf),
+    /// Existing passport of a signer who is not trusted: fingerprint and reason.
+    #[error(
+        "{}: already exists, signed by {fingerprint}, which --trust does not accept ({why}); nothing was written; find out \
+         who put it there, and move it to another folder",
+        shown(path)
+    )]
+    Foreign {
+        /// Path of the passport.
+        path: PathBuf,
+        /// Fingerprint of the signing key.
+        fingerprint: String,
+        /// Check that failed, in words.
+        why: String,
+    },
+    /// Successor that would say the same as its predecessor.
+    #[error(
+        "nothing would change, because stand, site, issuer and expiry date are those of this passport; give the corrected \
+         file with --site or --stand, or use --same-content to sign the same content again"
+    )]
+    NothingChanges,
+    /// Passports without a register.
+    #[error(
+        "{}: has passports, such as {}, but no register; make it with `register DIR --renew`, or restore it from the \
+         backup",
+        shown(folder),
+        shown(passport)
+    )]
+    NoRegister {
+        /// Folder of the stand.
+        folder: PathBuf,
+        /// First passport in it.
+        passport: PathBuf,
+    },
+    /// Register that is not accepted.
+    #[error("{0}")]
+    Register(#[from] RegisterRefused),
+    /// Register that cannot be issued.
+    #[error(transparent)]
+    NoNewRegister(#[from] NoRegister),
+    /// Register whose key has expired or was revoked, its SHA-256, and why it is not accepted.
+    #[error(
+        "{}: {why}; if this is the last register, take it over with --adopt {sha256}; otherwise restore the last one from \
+         the backup",
+        shown(path)
+    )]
+    Outdated {
+        /// Path of the register.
+        path: PathBuf,
+        /// SHA-256 of the register.
+        sha256: String,
+        /// Reason why it is not accepted.
+        why: String,
+    },
+    /// Register of another stand.
+    #[error("{}: is the register of {stand}; restore that of this stand from the backup", shown(path))]
+    OtherStand {
+        /// Path of the register.
+        path: PathBuf,
+        /// Stand that it states.
+        stand: String,
+    },
+    /// Register that is older than the last one of the workspace.
+    #[error("{}: older than register {last}, the last one of this workspace; restore it from the backup", shown(path))]
+    OlderRegister {
+        /// Path of the register.
+        path: PathBuf,
+        /// Sequence number of the last one.
+        last: u64,
+    },
+    /// Register that contradicts the last one of the workspace.
+    #[error("{}: {}", shown(.0), .1)]
+    Contradicted(PathBuf, Contradiction),
+    /// Register whose number is too high to be accepted without a person, in words.
+    #[error("{}: {}", shown(.0), .1)]
+    Unconfirmed(PathBuf, String),
+    /// Register that another run has kept locked.
+    #[error("{}: another run has kept the register locked for 30 s; wait for it, and run the command again", shown(.0))]
+    Locked(PathBuf),
+    /// Order without a signing key.
+    #[error("no key was given to sign with")]
+    NoSigner,
     /// Existing next revision that was re-issued from another passport.
     #[error(
         "{}: is already the next revision for this site, re-issued from another passport; re-issue that revision",
@@ -107,8 +192,23 @@ impl FolderRefused {
     pub(crate) fn is_unusable(&self) -> bool {
         match self {
             Self::File(FileError::Exists { .. }) => false,
-            Self::File(_) | Self::Issue(IssueRefused::Signing(_) | IssueRefused::Identity(_)) => true,
+            Self::File(_)
+            | Self::Locked(_)
+            | Self::NoSigner
+            | Self::Issue(IssueRefused::Signing(_) | IssueRefused::Identity(_))
+            | Self::NoNewRegister(NoRegister::Signing(_) | NoRegister::Identity(_)) => true,
             _ => false,
         }
+    }
+
+    /// Returns the refusal of a passport whose entry is not current.
+    pub(crate) fn ended(path: PathBuf, entry: &Entry) -> Self {
+        let since = entry.since.map_or_else(String::new, |since| format!(" since {since}"));
+        let words = match (entry.state, &entry.by, &entry.reason) {
+            (State::Withdrawn, _, Some(reason)) => format!("withdrawn{since}: {reason}"),
+            (state, Some(by), _) => format!("{}{since} by {by}; re-issue that passport", state.key()),
+            (state, ..) => format!("{}{since}", state.key()),
+        };
+        Self::Ended(path, words)
     }
 }

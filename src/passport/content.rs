@@ -1,6 +1,6 @@
 //! Content of a passport (`dtg-passport/1`), and the numbers in it that are computed from the stand and the site.
 
-use super::NAMESPACE;
+use super::FORM;
 use super::accuracy::Accuracy;
 use crate::calibration::{Model, analytic, least_squares};
 use crate::coefficients::{
@@ -418,7 +418,7 @@ impl Content {
 
 /// Parses the payload of a passport, step 5 of verification: see [`document::parse`].
 pub(crate) fn read(name: &str, payload: &str) -> Result<Content, Unreadable> {
-    document::parse(name, payload, Content::check)
+    document::parse(name, payload, FORM.limits, Content::check)
 }
 
 /// Parses the content of a passport file without verifying its signature: anyone may have written it.
@@ -426,7 +426,7 @@ pub(crate) fn read(name: &str, payload: &str) -> Result<Content, Unreadable> {
 /// # Errors
 /// Returns an error if the file does not have the form of a passport, or if its content breaks a rule.
 pub fn content_from_anyone(name: &str, bytes: &[u8]) -> Result<Content, Unreadable> {
-    let text = SignedText::split(name, bytes, NAMESPACE).map_err(|malformed| malformed.fault)?;
+    let text = SignedText::split(name, bytes, &FORM).map_err(|malformed| malformed.fault)?;
     read(name, text.unverified_payload())
 }
 

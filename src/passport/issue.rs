@@ -322,7 +322,7 @@ fn check_dates(content: &Content) -> Result<(), IssueRefused> {
 /// Reads the written text with the verifier's reader and compares its content with the original.
 fn read_back(payload: &str, content: &Content) -> Result<Content, IssueRefused> {
     const NAME: &str = "the new passport";
-    rule::check(NAME, payload.as_bytes()).map_err(IssueRefused::ReadBack)?;
+    rule::check(NAME, payload.as_bytes(), LARGEST_DOCUMENT_BYTES).map_err(IssueRefused::ReadBack)?;
     let read = content::read(NAME, payload).map_err(IssueRefused::ReadBack)?;
     if read != *content {
         let fault = Unreadable::whole(NAME, None, "other content", "the content that was written", "");

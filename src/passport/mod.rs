@@ -27,7 +27,9 @@ pub(crate) mod recomputed;
 pub mod reissue;
 pub(crate) mod verification;
 
+use crate::document::Form;
 pub use crate::document::Malformed;
+use crate::text::Limits;
 pub use accuracy::{Accuracy, NoAccuracy, Stated};
 pub use checks::{Check, CheckName, Code};
 pub use content::{
@@ -38,3 +40,7 @@ pub use verification::{Question, Trust, Verification, VerifiedPassport, verify};
 
 /// Namespace of the signatures of passports.
 pub const NAMESPACE: &str = "dtg-passport";
+
+/// Form of passports as signed documents.
+pub(crate) const FORM: Form =
+    Form { namespace: NAMESPACE, limits: Limits::DOCUMENT, expected: "a passport, which `issue` makes and signs" };

@@ -6,7 +6,7 @@
 
 use super::checks::{ASK_THE_ISSUER, Check, CheckName, Code, NO_LIST, REQUEST_FROM_THE_ISSUER};
 use super::content::{Content, Dated, PASSPORT_FORMAT};
-use super::{NAMESPACE, content, place, recomputed};
+use super::{FORM, NAMESPACE, content, place, recomputed};
 use crate::coefficients::Coefficients;
 use crate::document::sha256_hex;
 use crate::document::{Malformed, SignedText};
@@ -245,7 +245,7 @@ impl Run {
     }
 
     fn grammar<'a>(&mut self, name: &str, bytes: &'a [u8]) -> Option<SignedText<'a>> {
-        let split = SignedText::split(name, bytes, NAMESPACE);
+        let split = SignedText::split(name, bytes, &FORM);
         let good = "all programs read it alike; it ends with a signature";
         match &split {
             Ok(_) => self.note(CheckName::Grammar, Code::Ok, good),

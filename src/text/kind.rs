@@ -16,7 +16,8 @@ words! {
         Laboratory = "a laboratory file (dtg-laboratory/1)",
         Dcc = "an administrative file (dtg-dcc/1)",
         Passport = "a passport (dtg-passport/1)",
-        RevocationList = "a list of withdrawn passports (dtg-revocation/1)",
+        Register = "a register of a stand (dtg-register/1)",
+        RevocationList = "a list of withdrawn passports of an earlier version (dtg-revocation/1)",
         Angles = "a table of angles (CSV)",
         Currents = "a table of currents (CSV)",
         Result = "the result of a calibration (JSON)",
@@ -31,13 +32,14 @@ words! {
     }
 }
 
-pub(crate) const FORMATS: [(&str, Kind); 7] = [
+pub(crate) const FORMATS: [(&str, Kind); 8] = [
     ("dtg-stand/1", Kind::Stand),
     ("dtg-site/1", Kind::Site),
     ("dtg-gyro/1", Kind::Gyro),
     ("dtg-laboratory/1", Kind::Laboratory),
     ("dtg-dcc/1", Kind::Dcc),
     ("dtg-passport/1", Kind::Passport),
+    ("dtg-register/1", Kind::Register),
     ("dtg-revocation/1", Kind::RevocationList),
 ];
 
@@ -98,7 +100,11 @@ impl Kind {
 
     fn advice(self) -> &'static str {
         match self {
-            Self::RevocationList | Self::KeyRevocationList => "give this file with --revoked",
+            Self::Register => "give this file with --register",
+            Self::RevocationList => {
+                "the register of each stand replaces these lists; make the registers with `register DIR --renew`, which asks for each passport in the list"
+            }
+            Self::KeyRevocationList => "give this file with --revoked",
             Self::AllowedSigners => "give this file with --trust",
             Self::PrivateKey => "give this file with --key, and keep it secret",
             Self::Gyro => "give this file to a command with --gyro, such as `calibrate`",

@@ -46,6 +46,19 @@ pub(crate) use words::{first_few, word_of_a_key, words};
 /// A stand with a thousand positions needs a fifth of it; a larger file is not a document of this project.
 pub const LARGEST_DOCUMENT_BYTES: usize = 1 << 20;
 
+/// Largest size of a signed text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Limits {
+    pub bytes: usize,
+    /// Opening brackets, including those in strings.
+    pub brackets: usize,
+}
+
+impl Limits {
+    /// Limits of a passport; one of the largest size has about 18,000 brackets.
+    pub(crate) const DOCUMENT: Self = Self { bytes: LARGEST_DOCUMENT_BYTES, brackets: 25_000 };
+}
+
 /// Returns the advice on a file that is too large; `name` is that of a file, or the word for currents that are not in one.
 pub(crate) fn large_file(name: &str) -> &'static str {
     match name == "currents" || name.to_lowercase().ends_with(".csv") {

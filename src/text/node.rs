@@ -67,19 +67,21 @@ impl Node {
     }
 }
 
-/// Maximum number of opening brackets, including those in strings; a passport of the largest size has about 18,000.
-pub(super) const MOST_BRACKETS: usize = 25_000;
-
 /// Returns the bytes of a signed document as text if they are UTF-8 without a byte order mark and have LF line endings
 /// only.
-pub(crate) fn plain_text<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable> {
+pub(crate) fn plain_text<'a>(name: &str, bytes: &'a [u8], largest_bytes: usize) -> Result<&'a str, Unreadable> {
     let advice = "get the file from the issuer again, because saving it in another form changes what was signed";
-    text_of(name, bytes, Some(advice))
+    text_of(name, bytes, largest_bytes, Some(advice))
 }
 
 /// Returns the bytes as text, as [`plain_text`] does. `signed` is the advice on a document in another encoding, or `None` if
 /// its author can save it again.
-fn text_of<'a>(name: &str, bytes: &'a [u8], signed: Option<&str>) -> Result<&'a str, Unreadable> {
+fn text_of<'a>(
+    name: &str,
+    bytes: &'a [u8],
+    largest_bytes: usize,
+    signed: Option<&str>,
+) -> Result<&'a str, Unreadable> {
     let resaved = signed.unwrap_or("save the file as UTF-8");
     let refuse = |location, found: &str, expected: &str, advice: &str| {
         Err(Unreadable::whole(name, location, found, expected, advice))
@@ -87,8 +89,8 @@ fn text_of<'a>(name: &str, bytes: &'a [u8], signed: Option<&str>) -> Result<&'a 
     if bytes.is_empty() {
         return refuse(None, "an empty file", "a document", "the file may be truncated; copy it again");
     }
-    if bytes.len() > LARGEST_DOCUMENT_BYTES {
-        let found = format!("more than {LARGEST_DOCUMENT_BYTES} bytes");
+    if bytes.len() > largest_bytes {
+        let found = format!("more than {largest_bytes} bytes");
         return refuse(None, &found, "fewer", large_file(name));
     }
     if is_utf16(bytes) {
@@ -130,7 +132,7 @@ pub(crate) fn hand_written_text(name: &str, bytes: &[u8]) -> Result<String, Unre
     let bytes = without_byte_order_mark(bytes);
     if bytes.len() > LARGEST_DOCUMENT_BYTES {
         // It is refused, and no copy is made of it.
-        return text_of(name, bytes, None).map(str::to_owned);
+        return text_of(name, bytes, LARGEST_DOCUMENT_BYTES, None).map(str::to_owned);
     }
     let mut plain = Vec::with_capacity(bytes.len());
     for (index, &byte) in bytes.iter().enumerate() {
@@ -138,7 +140,7 @@ pub(crate) fn hand_written_text(name: &str, bytes: &[u8]) -> Result<String, Unre
             plain.push(byte);
         }
     }
-    text_of(name, &plain, None).map(str::to_owned)
+    text_of(name, &plain, LARGEST_DOCUMENT_BYTES, None).map(str::to_owned)
 }
 
 /// Returns `true` if the bytes are UTF-16, with or without a byte order mark: other text does not have NUL as exactly
@@ -172,6 +174,10 @@ pub(crate) trait Sink: Sized {
     fn list<T: Field>(&mut self, items: &[T]);
     /// Writes a mapping. `entries` writes each key and its value; if `empty` is `true`, it writes none.
     fn mapping(&mut self, empty: bool, entries: impl FnOnce(&mut Self));
+    /// Writes a mapping on the line of its key.
+    fn one_line(&mut self, value: impl FnOnce(&mut Self)) {
+        value(self);
+    }
     /// Writes the key of the next value; returns `false` if both are to be omitted.
     fn key(&mut self, key: &str) -> bool;
 }
@@ -307,10 +313,10 @@ mod tests {
     #[test]
     fn a_file_may_be_as_large_as_stated_and_no_larger() {
         let of = |bytes: usize| format!("a\r\n{}", "b".repeat(bytes - 3));
-        assert!(plain_text("f", of(1_048_576).replace('\r', "b").as_bytes()).is_ok());
+        assert!(plain_text("f", of(1_048_576).replace('\r', "b").as_bytes(), LARGEST_DOCUMENT_BYTES).is_ok());
         assert_eq!(hand_written_text("f", of(1_048_576).as_bytes()).map(|text| text.len()), Ok(1_048_575));
         for refused in [
-            plain_text("f", of(1_048_577).replace('\r', "b").as_bytes()).map(str::len),
+            plain_text("f", of(1_048_577).replace('\r', "b").as_bytes(), LARGEST_DOCUMENT_BYTES).map(str::len),
             hand_written_text("f", of(1_048_577).as_bytes()).map(|text| text.len()),
         ] {
             assert!(refused.unwrap_err().to_string().contains("found more than 1048576 bytes"));

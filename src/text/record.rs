@@ -315,6 +315,51 @@ impl Field for u32 {
     }
 }
 
+/// Largest whole number that a JSON reader with binary64 numbers reads exactly.
+pub(crate) const LARGEST_EXACT_INTEGER: u64 = (1 << 53) - 1;
+
+impl Field for u64 {
+    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
+        let value = if let Node::Integer(value) = node { Self::try_from(*value).ok() } else { None };
+        value.filter(|value| *value <= LARGEST_EXACT_INTEGER).or_else(|| refuse(node, at, "", problems))
+    }
+
+    fn expected(_: &str) -> String {
+        format!("a whole number up to {LARGEST_EXACT_INTEGER}")
+    }
+
+    fn emit<S: Sink>(&self, sink: &mut S) {
+        sink.integer(i64::try_from(*self).unwrap_or(i64::MAX));
+    }
+}
+
+/// Record that a signed text has on one line, `{key: value, …}`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(transparent))]
+pub struct OneLine<T>(pub T);
+
+impl<T: Record> Field for OneLine<T> {
+    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
+        T::read(node, at, problems).map(Self)
+    }
+
+    fn expected(key: &str) -> String {
+        T::expected(key)
+    }
+
+    fn is_mapping(&self) -> bool {
+        true
+    }
+
+    fn emit<S: Sink>(&self, sink: &mut S) {
+        sink.one_line(|sink| self.0.emit(sink));
+    }
+
+    fn scan(scanner: &mut Scanner) -> Option<Self> {
+        scanner.on_the_line(T::scan).map(Self)
+    }
+}
+
 impl Field for bool {
     fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
         match node {
@@ -439,6 +484,7 @@ impl<T: Field, const N: usize> Field for [T; N] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::text::Limits;
 
     /// Returns the value, and what the message says about it.
     fn read<T: Field>(node: Node) -> (Option<T>, Option<String>) {
@@ -505,9 +551,9 @@ mod tests {
             assert_eq!(place.open && place.remark.is_some(), length == 5);
             assert_eq!(place.write(), Some(tree));
             assert_eq!(crate::text::canonical::write_bare(&place), written);
-            assert_eq!(crate::text::canonical::read(&written), Ok(place));
+            assert_eq!(crate::text::canonical::read(&written, Limits::DOCUMENT), Ok(place));
             let unnamed = written.replacen("a \\\"b\\\" \\\\ c", "", 1);
-            assert!(unnamed.starts_with("name: \"\"\n") && crate::text::canonical::read::<Place>(&unnamed).is_err());
+            assert!(unnamed.starts_with("name: \"\"\n") && crate::text::canonical::read::<Place>(&unnamed, Limits::DOCUMENT).is_err());
         }
     }
 

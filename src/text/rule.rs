@@ -62,8 +62,8 @@ pub(super) fn write_quoted(text: &str, mut push: impl FnMut(&str)) {
 pub(super) const NOT_CANONICAL: &str = "this is not the canonical form; get the file from the issuer again";
 
 /// Checks the bytes against the rule before anything is parsed, and returns the text.
-pub(crate) fn check<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable> {
-    let text = plain_text(name, bytes)?;
+pub(crate) fn check<'a>(name: &str, bytes: &'a [u8], largest_bytes: usize) -> Result<&'a str, Unreadable> {
+    let text = plain_text(name, bytes, largest_bytes)?;
     if !text.ends_with('\n') {
         let (at, advice) = (location_of(bytes), "the file may be truncated; get it from the issuer again");
         return Err(Unreadable::whole(name, Some(at), "no line feed at the end", "a line feed", advice));

@@ -2,11 +2,11 @@
 //! are read back once written.
 
 use super::kind::mistaken;
-use super::node::{Builder, MOST_BRACKETS, REPEATED, hand_written_text, location_of};
+use super::node::{Builder, REPEATED, hand_written_text, location_of};
 use super::placeholder;
 use super::problem::Step;
 use super::record::File;
-use super::{Document, Field, Kind, Location, Node, Path, Problems, Unreadable, canonical};
+use super::{Document, Field, Kind, Limits, Location, Node, Path, Problems, Unreadable, canonical};
 use serde::de::{self, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use std::cell::Cell;
 use std::fmt;
@@ -158,7 +158,7 @@ const DEEPEST: usize = 64;
 /// one value for every six bytes; a file with more values than the limit is not a document of this project.
 const MOST_VALUES: (usize, usize) = (25_000, 5);
 
-/// Refuses brackets nested deeper than [`DEEPEST`] outside strings and comments, more than [`MOST_BRACKETS`] brackets
+/// Refuses brackets nested deeper than [`DEEPEST`] outside strings and comments, too many brackets
 /// in total, and more than [`MOST_VALUES`] values.
 ///
 /// The parser examines every open bracket at every token, so a million of them would occupy it for minutes. It keeps
@@ -198,8 +198,8 @@ fn refuse_deep(name: &str, text: &str) -> Result<(), Unreadable> {
             if depth > DEEPEST {
                 return refuse(index, column, format!("more than {DEEPEST} nested brackets"));
             }
-            if opened > MOST_BRACKETS {
-                return refuse(index, column, format!("more than {MOST_BRACKETS} brackets"));
+            if opened > Limits::DOCUMENT.brackets {
+                return refuse(index, column, format!("more than {} brackets", Limits::DOCUMENT.brackets));
             }
             if values > most_values {
                 return refuse(index, column, format!("more than {most_values} values in {} bytes", text.len()));

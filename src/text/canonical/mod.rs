@@ -11,7 +11,7 @@ pub(crate) use scanner::Scanner;
 pub(crate) use writer::write_bare;
 pub(crate) use writer::{write, write_some};
 
-use super::{Field, Location, Problem, rule};
+use super::{Field, Limits, Location, Problem, rule};
 
 /// Reads a text in canonical form, ignoring comments and empty lines.
 ///
@@ -19,8 +19,8 @@ use super::{Field, Location, Problem, rule};
 ///
 /// # Errors
 /// Returns the first place that is not in canonical form, and what was found there, up to the end of its line.
-pub(crate) fn read<T: Field>(text: &str) -> Result<T, Problem> {
-    let document = scanner::scan::<T>(text)?;
+pub(crate) fn read<T: Field>(text: &str, limits: Limits) -> Result<T, Problem> {
+    let document = scanner::scan::<T>(text, limits)?;
     if writer::is_written(&document, text) {
         return Ok(document);
     }
@@ -89,6 +89,7 @@ mod tests {
         let text = "# lists\nlists: [[1, 23], []]\n# inner\ninner:\n  # inner.value\n  value: 4\n";
         assert_eq!(write(&document, &|path| vec![path.to_owned()]), text);
         assert_eq!(write_bare(&document), bare);
+        let read = |text| read(text, Limits::DOCUMENT);
         assert_eq!((read(text), read(bare)), (Ok(document.clone()), Ok(document)));
         let empty = Document { lists: None, inner: None };
         assert_eq!((write_bare(&empty), read("")), (String::new(), Ok(empty)));
@@ -96,7 +97,7 @@ mod tests {
 
     #[test]
     fn a_text_may_have_as_many_bytes_and_brackets_as_stated() {
-        let lists = |text: &str| read::<Document>(text).ok().and_then(|read| read.lists).map(|lists| lists.len());
+        let lists = |text: &str| read::<Document>(text, Limits::DOCUMENT).ok().and_then(|read| read.lists).map(|lists| lists.len());
         let brackets = |inner: usize| format!("lists: [{}]\n", vec!["[]"; inner].join(", "));
         assert_eq!((lists(&brackets(24_999)), lists(&brackets(25_000))), (Some(24_999), None));
         let bytes = |bytes: usize| format!("lists: [[1], [2]]\n#{}\n", "x".repeat(bytes - 20));

@@ -1,18 +1,18 @@
 //! Scanner of the canonical form, which accepts no other form.
 
 use super::after_comments;
-use crate::text::node::{MOST_BRACKETS, Node, location_of};
-use crate::text::{Field, LARGEST_DOCUMENT_BYTES, Problem, rule};
+use crate::text::node::{Node, location_of};
+use crate::text::{Field, Limits, Problem, rule};
 
 /// Reads a text. It may accept a number in another form, so check the result with [`super::is_written()`].
 ///
 /// # Errors
 /// Returns the place at which the scanner stopped.
-pub(super) fn scan<T: Field>(text: &str) -> Result<T, Problem> {
+pub(super) fn scan<T: Field>(text: &str, limits: Limits) -> Result<T, Problem> {
     // Count the brackets only if the text is long enough to contain too many.
     let brackets = |text: &str| text.bytes().filter(|byte| b"[{".contains(byte)).count();
     let too_large =
-        text.len() > LARGEST_DOCUMENT_BYTES || (text.len() > MOST_BRACKETS && brackets(text) > MOST_BRACKETS);
+        text.len() > limits.bytes || (text.len() > limits.brackets && brackets(text) > limits.brackets);
     let mut scanner = Scanner { rest: text, depth: 0, inline: false, first: true };
     let document = if too_large { None } else { T::scan(&mut scanner) };
     let rest = scanner.after_comments();
@@ -96,7 +96,7 @@ impl<'t> Scanner<'t> {
     }
 
     /// Reads a value on the line of its key, and the end of that line.
-    fn on_the_line<T>(&mut self, read: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
+    pub(crate) fn on_the_line<T>(&mut self, read: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
         if self.inline {
             return read(self);
         }

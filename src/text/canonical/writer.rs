@@ -164,6 +164,10 @@ impl<O: Output> Sink for Writer<'_, O> {
         });
     }
 
+    fn one_line(&mut self, value: impl FnOnce(&mut Self)) {
+        self.on_the_line(value);
+    }
+
     fn mapping(&mut self, empty: bool, entries: impl FnOnce(&mut Self)) {
         if self.inline > 0 || (empty && self.depth > 0) {
             return self.on_the_line(|writer| {

@@ -1,0 +1,195 @@
+//! Registers in folders, as readers of passports ask them: the register of a stand is one file, and nothing else is opened.
+//!
+//! A workspace remembers the last accepted register of each stand outside its folder of passports, so that an older one is
+//! recognised.
+
+use crate::files::{self, FileError};
+use crate::passport::{Question, Trust, Verification};
+use crate::register::{Doubt, FILE_NAME, FORM, RegisterRefused, VerifiedRegister};
+use crate::text::{name_of, shown};
+use jiff::Timestamp;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Largest step of the sequence number since the last accepted register that needs no confirmation by a person.
+const LARGEST_STEP: u64 = 1000;
+
+/// Folder in which the last accepted register of each stand is kept: `<model>/<serial>.yaml`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Memory(PathBuf);
+
+/// Register that was found, and whether it counts.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Found {
+    pub register: VerifiedRegister,
+    pub doubt: Option<Doubt>,
+    /// Remark on the remembered register, for the user.
+    pub remark: Option<String>,
+}
+
+type Answer = Arc<Result<Found, RegisterRefused>>;
+
+/// Registers under a path: a register, or a folder of passports. Each is read and verified once.
+#[derive(Debug)]
+pub(crate) struct Registers {
+    path: PathBuf,
+    trust: Trust,
+    now: Timestamp,
+    memory: Option<Memory>,
+    known: Mutex<HashMap<String, Answer>>,
+}
+
+impl Memory {
+    pub(crate) fn new(folder: PathBuf) -> Self {
+        Self(folder)
+    }
+
+    pub(crate) fn path_of(&self, stand: &str) -> PathBuf {
+        self.0.join(format!("{stand}.yaml"))
+    }
+
+    /// Returns the last accepted register of a stand, and a remark if one is set aside because its key was revoked or is
+    /// no longer trusted.
+    ///
+    /// # Errors
+    /// Returns an error if the remembered file is damaged.
+    pub(crate) fn last(
+        &self,
+        stand: &str,
+        trust: &Trust,
+        now: Timestamp,
+    ) -> Result<(Option<VerifiedRegister>, Option<String>), RegisterRefused> {
+        let path = self.path_of(stand);
+        match read(&path, trust, now) {
+            Ok(last) => Ok((Some(last), None)),
+            Err(RegisterRefused::Missing(_)) => Ok((None, None)),
+            Err(refused @ (RegisterRefused::KeyRevoked { .. } | RegisterRefused::NotAuthorised { .. })) => {
+                let remark = format!("the remembered register is set aside: {refused}");
+                Ok((None, Some(remark)))
+            }
+            Err(refused) => Err(refused),
+        }
+    }
+
+    /// Keeps the bytes of an accepted register of a stand.
+    pub(crate) fn keep(&self, stand: &str, bytes: &[u8]) -> Result<(), FileError> {
+        let path = self.path_of(stand);
+        match files::read(&path, FORM.limits.bytes) {
+            Ok(there) if there == bytes => Ok(()),
+            _ => files::replace(&path, bytes),
+        }
+    }
+
+    /// Returns `true` if no register of a stand was accepted so far.
+    pub(crate) fn is_empty_for(&self, stand: &str) -> bool {
+        !self.path_of(stand).exists()
+    }
+}
+
+/// Reads and verifies the register at a path. Links are not followed.
+///
+/// # Errors
+/// Returns [`RegisterRefused`] if there is no such file, if it cannot be read, or if it is not accepted.
+pub(crate) fn read(path: &Path, trust: &Trust, now: Timestamp) -> Result<VerifiedRegister, RegisterRefused> {
+    VerifiedRegister::verify(&name_of(path), &bytes(path)?, trust, now)
+}
+
+/// Reads the bytes of a register. Links are not followed, and nothing but a regular file is opened.
+pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, RegisterRefused> {
+    let refused = |why: String| RegisterRefused::Unreadable(format!("{}: {why}", shown(path)));
+    match path.symlink_metadata() {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            return Err(RegisterRefused::Missing(shown(path).to_string()));
+        }
+        Err(error) => return Err(refused(files::reason(&error))),
+        Ok(found) if found.is_symlink() => return Err(refused("is a link, which is not followed".to_owned())),
+        Ok(found) if !found.is_file() => return Err(refused("is not a file".to_owned())),
+        Ok(_) => {}
+    }
+    files::read(path, FORM.limits.bytes).map_err(|error| RegisterRefused::Unreadable(error.to_string()))
+}
+
+impl Registers {
+    /// Creates the registers under `path`: a register, or a folder that has the register of each stand as
+    /// `<model>/<serial>/register.yaml`, or of one stand as `register.yaml`.
+    pub(crate) fn new(path: &Path, trust: Trust, now: Timestamp, memory: Option<Memory>) -> Self {
+        Self { path: path.to_owned(), trust, now, memory, known: Mutex::default() }
+    }
+
+    /// Adds the answer of the register of its stand to the verification of a passport.
+    pub(crate) fn asked(&self, verification: Verification, question: &Question) -> Verification {
+        let Some(stand) = verification.content_from_anyone().map(|content| content.stand.id()) else {
+            return verification.with_register(Err(&RegisterRefused::Missing(String::new())), question);
+        };
+        match &*self.of(&stand) {
+            Ok(found) => verification.with_register(Ok((&found.register, found.doubt.as_ref())), question),
+            Err(refused) => verification.with_register(Err(refused), question),
+        }
+    }
+
+    /// Returns the remarks on the registers that were read.
+    pub(crate) fn remarks(&self) -> Vec<String> {
+        let known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut remarks: Vec<String> =
+            known.values().filter_map(|found| found.as_ref().as_ref().ok()?.remark.clone()).collect();
+        remarks.sort();
+        remarks
+    }
+
+    /// Returns the register of a stand, `<model>/<serial>`.
+    pub(crate) fn of(&self, stand: &str) -> Answer {
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        Arc::clone(known.entry(stand.to_owned()).or_insert_with(|| Arc::new(self.found(stand))))
+    }
+
+    fn found(&self, stand: &str) -> Result<Found, RegisterRefused> {
+        let bytes = self.bytes_of(stand)?;
+        let register = VerifiedRegister::verify(&name_of(&self.path), &bytes, &self.trust, self.now)?;
+        let Some(memory) = self.memory.as_ref().filter(|_| register.header().stand == stand) else {
+            return Ok(Found { register, doubt: None, remark: None });
+        };
+        let (last, remark) = memory.last(stand, &self.trust, self.now)?;
+        let doubt = last.and_then(|last| doubt(&register, &last));
+        let kept = if doubt.is_none() { memory.keep(stand, &bytes).err() } else { None };
+        let remark = remark.or_else(|| kept.map(|error| format!("the register is not remembered: {error}")));
+        Ok(Found { register, doubt, remark })
+    }
+
+    fn bytes_of(&self, stand: &str) -> Result<Vec<u8>, RegisterRefused> {
+        if !self.path.is_dir() {
+            return bytes(&self.path);
+        }
+        let of_stand = self.path.join(stand);
+        let way = [of_stand.parent().unwrap_or(&self.path), &of_stand];
+        if let Some(link) = way.into_iter().find(|folder| folder.is_symlink()) {
+            let why = format!("{}: is a link, which is not followed", shown(link));
+            return Err(RegisterRefused::Unreadable(why));
+        }
+        match bytes(&of_stand.join(FILE_NAME)) {
+            Err(missing @ RegisterRefused::Missing(_)) => {
+                bytes(&self.path.join(FILE_NAME)).map_err(|other| match other {
+                    RegisterRefused::Missing(_) => missing,
+                    other => other,
+                })
+            }
+            found => found,
+        }
+    }
+}
+
+/// Returns why a register does not count, given the last one accepted; `None` if it does.
+pub(crate) fn doubt(register: &VerifiedRegister, last: &VerifiedRegister) -> Option<Doubt> {
+    if let Err(contradiction) = register.agree(last) {
+        return Some(Doubt::Contradicted(Box::new(contradiction)));
+    }
+    let (number, known) = (register.header().sequence, last.header().sequence);
+    match number {
+        _ if number < known => Some(Doubt::Older(known)),
+        _ if number - known > LARGEST_STEP => Some(Doubt::Unconfirmed(format!(
+            "register {number} follows {known}, the last one accepted, by more than {LARGEST_STEP}; ask the issuer, and if \
+             this is right, remove the remembered register"
+        ))),
+        _ => None,
+    }
+}
