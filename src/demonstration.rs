@@ -13,7 +13,7 @@ use crate::passport::reissue::{Order, successor};
 use crate::passport::{CheckName, Question, Trust, Verification, verify};
 use crate::report::columns::decimals;
 use crate::report::style::marked;
-use crate::report::verdict::counts_with_names;
+use crate::report::verdict::{self, counts_with_names};
 use crate::report::{Language, Languages, PassportPage};
 use crate::signing::allowed_signers_line;
 use crate::simulation::draw::CurrentError;
@@ -256,10 +256,14 @@ impl Stage<'_> {
 
     /// Writes the answer: valid, or the first check that failed; and records whether it was the expected one.
     fn answer(&mut self, answer: &Verification, expected: Option<CheckName>) -> Result<()> {
-        let failed = answer.checks().iter().find(|check| check.passed() == Some(false));
+        let failed = answer.failed();
         self.as_expected &= failed.map(|check| check.name) == expected;
         match failed {
-            None => self.line(&format!("   {}: {}", marked(Some(true), "VALID"), counts_with_names(answer.checks()))),
+            None => self.line(&format!(
+                "   {}: {}",
+                verdict::answer(true, answer.checks()),
+                counts_with_names(answer.checks())
+            )),
             Some(check) => {
                 self.line(&format!("   {}: {}: {}", marked(Some(false), "REFUSED"), check.name.as_str(), check.detail))
             }

@@ -41,9 +41,11 @@ export interface Order {
 export interface Verdict {
     valid: boolean;
     id: string | null;
+    /** Names of the checks that the question did not request. */
+    not_asked: string[];
+    /** Alarms of the revocation lists, such as ALARM: two of them contradict. */
+    remarks: string[];
     checks: { name: string; passed: boolean | null; code: string; detail: string }[];
-    /** What there is to know about the revocation lists, such as ALARM: two of them contradict. */
-    remarks?: string[];
 }
 
 /**

@@ -41,8 +41,8 @@ pub struct dtg_passport {
 /// Returns DTG_OK and the passport in `*out`, to be freed with dtg_free; DTG_REFUSED if a check failed; DTG_UNUSABLE if
 /// an argument, the question or a file cannot be used. `*out` is NULL unless DTG_OK is returned.
 ///
-/// `report_json`, unless NULL, receives a text to be freed with dtg_string_free: `{"file", "valid", "id", "checks":
-/// [{"name", "passed", "code", "detail"}, …], "remarks": [sentence, …]}`, without remarks if there are none, or after
+/// `report_json`, unless NULL, receives a text to be freed with dtg_string_free: `{"file", "valid", "id", "not_asked": [name
+/// of a check, …], "remarks": [sentence, …], "checks": [{"name", "passed", "code", "detail"}, …]}`, or after
 /// DTG_UNUSABLE `{"error": {"code", "message", "problems": [{"file", "line", "column", "message"}, …]}}`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dtg_load(

@@ -12,7 +12,6 @@ use crate::files::{self, FileError};
 use crate::interface::Failed;
 use crate::parallel;
 use crate::passport::export::{site_file, stand_file};
-use crate::passport::verification::unreadable;
 use crate::passport::{Content, Verification};
 use crate::report::{Language, exported};
 use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, name_of, printable, shown};
@@ -148,7 +147,7 @@ impl Run<'_> {
                 let verification = self.enquiry.verification(&name, &bytes);
                 (bytes, verification, false)
             }
-            Err(error) => (Vec::new(), unreadable(&error.to_string(), &self.enquiry.question), true),
+            Err(error) => (Vec::new(), self.enquiry.unreadable(&error.to_string()), true),
         };
         let to = |form: Form| self.options.to.contains(&form);
         let json = || {

@@ -107,7 +107,7 @@ impl Failure {
 
     /// Creates the failure for the passport `name`, which did not pass every check; `words` follow its verdict.
     pub(super) fn verdict(words: &str, name: &str, verification: &Verification) -> Self {
-        let verdict = verdict::Verdict::of(name, verification);
+        let verdict = verdict::Verdict::of(name, verification, &[]);
         let failed: Vec<_> = verdict.checks.iter().filter(|check| check.passed() == Some(false)).collect();
         let kind = failed.first().map_or(interface::REFUSED, |check| check.code.as_str());
         let place = |check: &&Check| Place::file(name.to_owned(), format!("{}: {}", check.name.as_str(), check.detail));

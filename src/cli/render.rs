@@ -53,13 +53,13 @@ pub(super) fn languages(written: &[Language]) -> Languages {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let Enquiry { trust, question, register, .. } = options.trust.load()?;
+    let Enquiry { trust, question, register, remarks } = options.trust.load()?;
     let write = |passport: &Path, output: Option<&Path>| {
         let bytes = inputs::bytes(passport, Kind::Passport.words())?;
         let name = name_of(passport);
         let page = PassportPage::verified(&name, &bytes, &trust, &question, register.as_ref())
             .map_err(|refused| Failure::verdict("no page was written", &name, &refused))?;
-        let verdict = verdict::Verdict::of(&name, &page.verification);
+        let verdict = verdict::Verdict::of(&name, &page.verification, &remarks);
         let in_folder = || {
             let path = Folder::new(options.out.as_deref()?).path_of_id(verdict.id.as_deref()?)?;
             Some(path.with_extension("html"))

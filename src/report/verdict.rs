@@ -1,6 +1,6 @@
 //! Answer of `verify` as text.
 
-use super::{columns, style};
+use super::{columns, style, style::Outcome};
 pub(crate) use crate::interface::Verdict;
 use crate::passport::{Check, CheckName, Code};
 use crate::text::Printable;
@@ -20,14 +20,13 @@ pub(crate) fn text(verdict: &Verdict) -> String {
         let words = words.replace('\n', "\n                           ");
         let _ = writeln!(text, "{}", format!("  {result}  {name:<10}  {words}").trim_end());
     };
-    let run = checks.iter().filter(|check| check.was_asked());
-    for (check, passed) in run.filter_map(|check| Some((check, check.passed()?))) {
+    for (check, passed) in checks.iter().filter_map(|check| Some((check, check.passed()?))) {
         row(Some(passed), if passed { "passed" } else { "FAILED" }, check.name.as_str(), &check.detail);
     }
     if let not_run @ [_, ..] = &*not_run(checks) {
         row(None, "not run", &format!("{}: an earlier check failed", not_run.join(", ")), "");
     }
-    let with_option = |name: CheckName| Some(format!("{} ({})", name.as_str(), option(name)?));
+    let with_option = |name: CheckName| Some(format!("{} ({})", name.as_str(), name.option()?));
     let not_asked: Vec<String> = not_asked(checks).filter_map(with_option).collect();
     if !not_asked.is_empty() {
         row(None, "not asked", &not_asked.join(", "), "");
@@ -42,7 +41,7 @@ pub(crate) fn not_read(verdict: &Verdict) -> String {
 
 fn first_line(verdict: &Verdict) -> String {
     let id = verdict.id.as_deref().unwrap_or("(id not verified)");
-    format!("{}  {id}  {}\n", answer(verdict.valid), Printable(&verdict.file))
+    format!("{}  {id}  {}\n", answer(verdict.valid, &verdict.checks), Printable(&verdict.file))
 }
 
 /// Returns the counts of the answers for several files, of which `unread` could not be read; nothing for a single file.
@@ -51,41 +50,43 @@ pub(crate) fn summary(verdicts: &[Verdict], unread: usize) -> String {
     if all < 2 {
         return String::new();
     }
-    let valid = verdicts.iter().filter(|verdict| verdict.valid).count();
-    let counts = columns::counts([(valid, "valid"), (all - valid - unread, "refused"), (unread, "not read")]);
-    style::marked(Some(valid == all), &format!("{all} files: {counts}")) + "\n"
+    let outcomes: Vec<_> = verdicts.iter().map(|verdict| outcome(verdict.valid, &verdict.checks)).collect();
+    let count = |outcome| outcomes.iter().filter(|(found, _)| *found == outcome).count();
+    let [valid, so_far, failed] = [Outcome::Passed, Outcome::Undecided, Outcome::Failed].map(count);
+    let counts = [(valid, "valid"), (so_far, "valid so far"), (failed - unread, "refused"), (unread, "not read")];
+    let worst = match (failed, so_far) {
+        (0, 0) => Outcome::Passed,
+        (0, _) => Outcome::Undecided,
+        _ => Outcome::Failed,
+    };
+    style::marked(worst, &format!("{all} files: {}", columns::counts(counts))) + "\n"
 }
 
-/// Returns the answer in a word.
-pub(crate) fn answer(valid: bool) -> String {
-    style::marked(Some(valid), if valid { "VALID" } else { "REFUSED" })
+/// Returns the answer in words.
+pub(crate) fn answer(valid: bool, checks: &[Check]) -> String {
+    let (outcome, words) = outcome(valid, checks);
+    style::marked(outcome, words)
+}
+
+/// Returns the answer of a verification: undecided if everything passed, but a question on which it depends whether the
+/// passport may be used on this stand, here and now was not asked.
+fn outcome(valid: bool, checks: &[Check]) -> (Outcome, &'static str) {
+    let needed = [CheckName::Stand, CheckName::Place, CheckName::Register];
+    match not_asked(checks).any(|name| needed.contains(&name)) {
+        _ if !valid => (Outcome::Failed, "REFUSED"),
+        true => (Outcome::Undecided, "VALID SO FAR"),
+        false => (Outcome::Passed, "VALID"),
+    }
 }
 
 /// Returns the names of the checks that an earlier failure prevented.
 fn not_run(checks: &[Check]) -> Vec<&'static str> {
-    checks
-        .iter()
-        .filter(|check| check.was_asked() && check.passed().is_none())
-        .map(|check| check.name.as_str())
-        .collect()
+    checks.iter().filter(|check| check.code == Code::NotRun).map(|check| check.name.as_str()).collect()
 }
 
-/// Returns the checks for which there was no question: those on request are absent.
+/// Returns the checks that were not requested.
 fn not_asked(checks: &[Check]) -> impl Iterator<Item = CheckName> {
-    let asked = |name: &CheckName| checks.iter().any(|check| check.name == *name && check.was_asked());
-    CheckName::ALL.into_iter().filter(move |name| !asked(name))
-}
-
-/// Returns the option that asks for a check, or `None` for one that is always made.
-fn option(name: CheckName) -> Option<&'static str> {
-    Some(match name {
-        CheckName::Revocation => "--revoked",
-        CheckName::Issuer => "--issuer",
-        CheckName::Stand => "--serial",
-        CheckName::Place => "--at",
-        CheckName::Register => "--register",
-        _ => return None,
-    })
+    checks.iter().filter(|check| !check.was_asked()).map(|check| check.name)
 }
 
 /// Returns which checks failed, and how many were made, were not run, or were not asked for.
@@ -93,7 +94,7 @@ fn counts(checks: &[Check]) -> String {
     let failed: Vec<&str> =
         checks.iter().filter(|check| check.passed() == Some(false)).map(|check| check.name.as_str()).collect();
     let failed = if failed.is_empty() { String::new() } else { format!("failed: {}; ", failed.join(", ")) };
-    let checked = checks.iter().filter(|check| check.was_asked() && check.passed().is_some()).count();
+    let checked = checks.iter().filter(|check| check.passed().is_some()).count();
     let others = [(not_run(checks).len(), "not run"), (not_asked(checks).count(), "not asked")];
     let others = others.into_iter().filter(|(count, _)| *count > 0).map(|(count, word)| format!(", {count} {word}"));
     format!("{failed}{checked} checked{}", others.collect::<String>())

@@ -12,12 +12,9 @@ use crate::report::page::texts::{checks as texts, units};
 use crate::wording::date_text;
 use maud::{Markup, html};
 
-/// Returns whether the check `name` passed; `None` if it was not asked. Without any list, nothing was asked about a
-/// withdrawal.
+/// Returns whether the check `name` passed; `None` if it was not asked.
 fn passed(page: &PassportPage, name: CheckName) -> Option<bool> {
-    let check = page.verification.checks().iter().find(|check| check.name == name);
-    let passed = check.and_then(Check::passed);
-    passed.filter(|passed| !(*passed && name == CheckName::Revocation && !page.trust.has_lists()))
+    page.verification.checks().iter().find(|check| check.name == name).and_then(Check::passed)
 }
 
 fn word(passed: Option<bool>) -> Text {
@@ -89,7 +86,7 @@ pub(crate) fn warning(page: &PassportPage, languages: &Languages) -> String {
 }
 
 fn failed<'a>(page: &'a PassportPage) -> impl Iterator<Item = &'a Check> {
-    page.verification.checks().iter().filter(|check| check.code != Code::Ok)
+    page.verification.checks().iter().filter(|check| check.passed() == Some(false))
 }
 
 fn reason(code: Code) -> Text {
