@@ -7,9 +7,9 @@ use crate::text::canonical;
 use crate::text::kind::mistaken;
 pub(crate) use crate::text::scalar::sha256_hex;
 use crate::text::{Field, Kind, Limits, Location, Printable, Problems, Unreadable, rule};
-use crate::trust::{AllowedSigners, KeyPoint, Message, PublicKey, Signature, SignatureError};
+use crate::trust::{AllowedSigners, Message, PublicKey, Signature, SignatureError};
 #[cfg(feature = "factory")]
-use crate::trust::{KeyError, SigningKey};
+use crate::trust::{KeyError, KeyPoint, SigningKey};
 
 /// Kind of signed document.
 #[derive(Debug, Clone, Copy)]
@@ -27,6 +27,7 @@ const SIGNATURE_LINE: &str = "signature: |\n";
 /// Indentation of the armor.
 const INDENT: &str = "  ";
 
+#[cfg(feature = "factory")]
 /// Signer of documents: a key in memory, or a program that has access to one.
 pub trait Signer {
     /// Signs `message` for `namespace`.
@@ -56,6 +57,7 @@ pub trait Signer {
 }
 
 /// Reason why there is no signature.
+#[cfg(feature = "factory")]
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{}", Printable(.0))]
 pub struct SigningFailed(pub String);
@@ -221,6 +223,7 @@ fn unindented(text: &str) -> Option<String> {
     text.split_inclusive('\n').map(|line| line.strip_prefix(INDENT)).collect()
 }
 
+#[cfg(feature = "factory")]
 /// Signs a payload, verifies the new signature, and returns the whole file.
 ///
 /// # Errors
@@ -235,6 +238,7 @@ where
     Ok(join(payload, &signature))
 }
 
+#[cfg(feature = "factory")]
 /// Joins payload and signature into the file that [`SignedText::split`] separates.
 pub(crate) fn join(payload: &str, signature: &Signature) -> String {
     let mut text = String::with_capacity(payload.len() + 2 * signature.armor().len());

@@ -59,10 +59,9 @@
 //! | `selftest` | the reference cases of the mathematics, found again on the user's own machine | `monte-carlo` |
 //! | [`trust`] | signatures, allowed signers, revocation: bytes and time in, a verdict out; private keys with `factory` | |
 //! | `document` | a signed text: split, checked, parsed, joined | |
-//! | [`revocation`] | the signed list of withdrawn passports | |
 //! | [`passport`] | content and verification; issue and re-issue with `factory` | |
-//! | [`register`] | what is in force among many | |
-//! | `history` | one stand over the years, and whether its deviations drift | |
+//! | [`register`] | the signed register of a stand: which passport counts | |
+//! | `history` | one stand over the years, and whether its deviations drift | `factory` |
 //! | [`certification`] | readings of the angles to a stand, and whether it is still the same one | `factory` |
 //! | `plan` | the best positions to certify or to read, and their order | `factory` and `monte-carlo` |
 //! | `files`, [`signing`], [`folder`] | whole or not at all; key files and agents; a folder of passports | `factory` |
@@ -116,6 +115,7 @@ pub(crate) mod files;
 #[cfg(feature = "factory")]
 pub mod folder;
 pub mod gyro;
+#[cfg(feature = "factory")]
 pub(crate) mod history;
 pub mod interface;
 pub mod laboratory;
@@ -126,7 +126,6 @@ pub(crate) mod plan;
 pub mod register;
 #[cfg(feature = "report")]
 pub mod report;
-pub mod revocation;
 #[cfg(feature = "cli")]
 pub(crate) mod schema;
 #[cfg(feature = "monte-carlo")]

@@ -3,6 +3,7 @@
 pub use crate::document::{Signer, SigningFailed};
 use crate::files::{self, FileError};
 use crate::passport::{NAMESPACE, Trust};
+use crate::register;
 use crate::text::{Printable, Unreadable, name_of, shown};
 use crate::trust::{
     AllowedSigners, BadIdentity, KeyError, LARGEST_TRUST_FILE_BYTES, PublicKey, Signature, SigningKey, check_identity,
@@ -231,13 +232,17 @@ pub(crate) fn protection_remark(path: &Path) -> Option<String> {
 /// Returns [`BadIdentity`] if the identity could be read as a pattern of several identities.
 pub fn allowed_signers_line(identity: &str, key: &PublicKey) -> Result<String, BadIdentity> {
     check_identity(identity)?;
-    Ok(format!("{identity} namespaces=\"{NAMESPACE},dtg-revocation\" {}", key.to_openssh()))
+    Ok(format!("{identity} namespaces=\"{NAMESPACE},{}\" {}", register::NAMESPACE, key.to_openssh()))
 }
 
-/// Returns the trust of an issuer in what its own key signs, or `None` for an identity that no list can contain.
-pub(crate) fn own_trust(identity: &str, key: &PublicKey) -> Option<Trust> {
-    let line = allowed_signers_line(identity, key).ok()?;
-    AllowedSigners::parse("own key", line.as_bytes()).ok().map(Trust::of)
+/// Returns the trust of an issuer in what its own keys sign, or `None` for an identity that no list can contain.
+/// `register_key` signs registers in place of `key`.
+pub(crate) fn own_trust(identity: &str, key: &PublicKey, register_key: Option<&PublicKey>) -> Option<Trust> {
+    let mut lines = allowed_signers_line(identity, key).ok()?;
+    if let Some(other) = register_key {
+        lines += &format!("\n{identity} namespaces=\"{}\" {}", register::NAMESPACE, other.to_openssh());
+    }
+    AllowedSigners::parse("own key", lines.as_bytes()).ok().map(Trust::of)
 }
 
 /// Reason why no line was appended to the allowed signers.

@@ -109,6 +109,10 @@ impl<T: Listed> Catalogue<T> {
         draft.finished()
     }
 
+    pub(crate) fn ids(&self) -> impl Iterator<Item = &str> {
+        self.by_id.keys().map(String::as_str)
+    }
+
     pub(crate) fn len(&self) -> usize {
         self.files.len()
     }
@@ -151,7 +155,7 @@ impl<T: Listed> File<T> {
 }
 
 /// Reads a file; returns its document and its SHA-256.
-fn read<T: Listed>(path: &Path) -> Result<(T, [u8; 32]), Failure> {
+pub(super) fn read<T: Listed>(path: &Path) -> Result<(T, [u8; 32]), Failure> {
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
     let value = T::parse(&name_of(path), &bytes);
     let value = value.map_err(|error| Failure::unreadable(path, error))?;

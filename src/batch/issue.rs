@@ -85,8 +85,7 @@ impl<'a> Run<'a> {
                     if self.batch.cancelled() {
                         break;
                     }
-                    let done =
-                        parallel::map(chunk, self.batch.threads, |(work, site)| self.one(&works[*work], site));
+                    let done = parallel::map(chunk, self.batch.threads, |(work, site)| self.one(&works[*work], site));
                     for ((work, _), outcome) in chunk.iter().zip(done) {
                         match self.batch.is_dry() {
                             true => tell(Event::Done(Some(outcome))),

@@ -1,13 +1,19 @@
 //! Paths in the arguments of a user: files, folders, patterns, and a list on standard input.
 
 use super::{Failure, Purpose};
+use crate::files;
+use crate::files::leftovers::is_lasting;
 use crate::files::walk::{Entry, LINK, SPECIAL, Walk};
 use crate::files::{FileError, reason};
-use crate::folder::search;
+use crate::folder::stand::numbered;
+use crate::text::Kind;
 use crate::text::{Printable, shown};
 use std::ffi::OsStr;
 use std::io::{self, BufRead};
 use std::path::{Path, PathBuf};
+
+/// Number of first bytes by which a file is recognised as a passport.
+const BEGINNING_BYTES: usize = 4096;
 
 /// Longest path in a list, in bytes; no system allows a longer one.
 const LONGEST_PATH: usize = 1 << 16;
@@ -75,13 +81,23 @@ fn in_folder(folder: &Path, purpose: Purpose) -> Paths<'static> {
         Purpose::Stands => (Box::new(Walk::deep(folder, is_stand).map(found)), "stand.yaml"),
         Purpose::Sites => (Box::new(Walk::flat(folder, is_yaml).map(found)), "*.yaml"),
         Purpose::Tables => (Box::new(Walk::flat(folder, |name| has_extension(name, &["csv"])).map(found)), "*.csv"),
-        Purpose::Passports => match search::passports(folder) {
-            Err(error) => return failed(Failure::file(error)),
-            Ok(found) => (Box::new(found.into_iter().map(|path| path.map_err(Failure::file))), "passport"),
-        },
+        Purpose::Passports => (Box::new(Walk::deep(folder, is_lasting).filter_map(passport)), "passport"),
     };
     let mut found = found.peekable();
     if found.peek().is_none() { failed(contains_no(folder, what)) } else { Box::new(found) }
+}
+
+/// Returns the entry of a walk if it is named like a passport, or has the content of one, or cannot be read.
+fn passport(entry: Result<Entry, FileError>) -> Option<Result<PathBuf, Failure>> {
+    let is_named = |path: &Path| path.file_name().and_then(numbered).is_some();
+    match entry {
+        Ok(Entry::File(path)) => match files::read_first(&path, BEGINNING_BYTES) {
+            Ok(bytes) => (is_named(&path) || Kind::of(&bytes) == Some(Kind::Passport)).then_some(Ok(path)),
+            Err(error) => Some(Err(Failure::file(error))),
+        },
+        Ok(Entry::Link(path) | Entry::Special(path)) if !is_named(&path) => None,
+        entry => Some(found(entry)),
+    }
 }
 
 /// Returns the failure of a folder without a file of the kind `what`.

@@ -5,18 +5,18 @@
 //! second run with the same input completes a run that was killed in between, and changes nothing otherwise.
 
 use super::Outcome;
-use super::successors::FORKED;
 use crate::certification::remark::Remark;
 use crate::certification::{AngleReadings, Certification, Comparison, Header, certify, compare, predicted};
+use crate::document::sha256_hex;
 use crate::files::{self, FileError, folder_of, leftovers};
 use crate::folder::archive::Superseded;
-use crate::folder::{Folder, FolderRefused, Next, Seal, Sealed, Superseding, search};
+use crate::folder::{Authority, Folder, FolderRefused, Next, Sealed, StandFolder};
 use crate::passport::checks::for_the_issuer;
 use crate::passport::difference::{NumberDifference, of_deviations};
 use crate::passport::issue::PreparedStand;
 use crate::passport::reissue::{Order, successor};
 use crate::passport::{Code, Content, Question, Trust, Verification, verify};
-use crate::register::{Asked, Line, Register, State};
+use crate::register::{Entry, Row, State, VerifiedRegister};
 use crate::site::Site;
 use crate::stand::{Excluded, Stand};
 use crate::text::scalar::day;
@@ -66,10 +66,9 @@ pub(crate) struct Recertification<'a> {
     /// Places that get a new passport; all in force if empty.
     pub sites: &'a [AtSite],
     pub reason: &'a str,
-    pub issuer: &'a str,
+    /// Issuer; without a signer it is a dry run, which computes and checks everything and writes nothing.
+    pub authority: Authority<'a>,
     pub issued_at: Timestamp,
-    /// Trust in the predecessors, by which the successors are verified too.
-    pub trust: Trust,
     /// Question by which the passport is verified.
     pub question: Question,
     /// Root of the new files; that of the passport's path if `None`.
@@ -90,7 +89,7 @@ pub(crate) struct Recertified {
     /// Deviations of the old and the new certificate.
     pub changes: Vec<NumberDifference>,
     /// Passports that an earlier run issued, which were in force before this one.
-    pub done: Vec<Line>,
+    pub done: Vec<Row>,
     /// Successors that exist now, or that would be issued without the dry run.
     pub passports: Vec<Outcome>,
     /// Passports of the stand that stay in force under the old certificate.
@@ -142,11 +141,11 @@ struct Old {
 }
 
 impl Recertification<'_> {
-    /// Recertifies the stand. Without `seal` it is a dry run, which computes and checks everything and writes nothing.
-    pub(crate) fn run(&self, seal: Option<Seal>) -> Result<Recertified, NotRecertified> {
+    /// Recertifies the stand.
+    pub(crate) fn run(&self) -> Result<Recertified, NotRecertified> {
         self.check()?;
         let bytes = files::read(self.passport, LARGEST_DOCUMENT_BYTES)?;
-        let old = content(self.passport, &bytes, &self.trust, &self.question)?;
+        let old = content(self.passport, &bytes, self.authority.trust, &self.question)?;
         let old_stand = old.to_stand();
         let header = self.header(&old_stand)?;
         let (certification, comparison) = self.measured(&old_stand, &header)?;
@@ -156,32 +155,37 @@ impl Recertification<'_> {
         let stand_file = stands.join(new.stand.model.as_str()).join(new.stand.serial.as_str()).join("stand.yaml");
         let text = certification.to_yaml(&name_of(&stand_file))?;
         self.check_there(&stand_file, &certification)?;
-        let (found, trust) = search::register(
-            folder_of(self.passport),
-            self.trust.clone(),
-            &Asked::at(self.question.time),
-            crate::parallel::processors(),
-        )?;
-        let chosen = self.chosen(&found, &old_stand, &new, &trust)?;
-        let folder = Folder::new(root);
+        let failed = |refused| NotRecertified::Folder(old_stand.stand.id(), refused);
+        let source = match Folder::root_of(self.passport, &old_stand.stand) {
+            Ok(above) => Folder::new(above),
+            Err(_) => Folder::new(&root),
+        };
+        let folder = Folder::new(&root);
+        let from = StandFolder::open(&source, &old_stand.stand.id(), &self.authority, |_| false).map_err(failed)?;
+        let to = (source.root() != folder.root())
+            .then(|| StandFolder::open(&folder, &old_stand.stand.id(), &self.authority, |_| false))
+            .transpose()
+            .map_err(failed)?;
+        let chosen = self.chosen(&from, &old_stand, &new)?;
+        let to = to.as_ref().unwrap_or(&from);
         let prepared = Arc::new(PreparedStand::new(new.clone()));
         let mut next = Vec::new();
         for predecessor in &chosen.predecessors {
-            next.push(self.next(predecessor, &folder, &prepared, &trust)?);
+            next.push(self.next(predecessor, to, &prepared)?);
         }
         let superseded = Superseded::of(&stand_file, text.as_bytes())?;
-        let passports = match seal {
+        let passports = match self.authority.signer {
             None => next.into_iter().map(Outcome::from).collect(),
-            Some(seal) => {
+            Some(_) => {
                 let sealed = next.into_iter().map(|next| {
                     let id = next.id().to_owned();
-                    folder.seal(next, seal).map_err(|refused| NotRecertified::Folder(id, refused))
+                    to.seal(next).map_err(|refused| NotRecertified::Folder(id, refused))
                 });
                 let sealed = sealed.collect::<Result<Vec<_>, _>>()?;
                 if self.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed)) {
                     return Err(refused("interrupted"));
                 }
-                write(&sealed, &stand_file, &text, superseded.as_ref())?;
+                write(to, &sealed, (&stand_file, &text), superseded.as_ref())?;
                 sealed.into_iter().map(|sealed| Outcome::There(sealed.issued)).collect()
             }
         };
@@ -299,36 +303,33 @@ impl Recertification<'_> {
         }
     }
 
-    /// Selects the passports that get a successor.
-    fn chosen(&self, found: &Register, old: &Stand, new: &Stand, trust: &Trust) -> Result<Chosen, NotRecertified> {
-        let id = old.stand.id();
-        if let Some(alarm) = found.uncertain().or_else(|| found.doubt(&id)) {
-            // Of a list that will count later no file is damaged or missing.
-            let advice = match alarm.concern {
-                Some(_) => "; get the damaged or missing file again, and list the folder with `register`",
-                None => "",
-            };
-            return Err(refused(format!("it is unknown which passports are in force: {}{advice}", alarm.reason())));
-        }
-        let of_stand = |line: &&Line| line.stand.as_deref() == Some(id.as_str());
-        let of_stand = || found.passports.iter().filter(of_stand);
-        let given = of_stand().find(|line| same_file(Path::new(&line.file), self.passport));
-        let expired = given.filter(|given| given.state == State::Expired).map(|given| given.valid_until);
-        let counts =
-            |line: &&Line| line.is_usable() || line.state == State::Expired && Some(line.valid_until) == expired;
-        let lines: Vec<&Line> = of_stand().filter(counts).collect();
+    /// Selects the passports that get a successor: the current ones in the register.
+    fn chosen(&self, from: &StandFolder, old: &Stand, new: &Stand) -> Result<Chosen, NotRecertified> {
+        let entries = from.register().map_or(&[][..], VerifiedRegister::entries);
+        let time = self.question.time;
+        let given = entries.iter().find(|entry| same_file(&from.path_of_entry(entry), self.passport));
+        let Some(given) = given else {
+            let words = format!("{}: not listed in the register of {}", shown(self.passport), old.stand.id());
+            return Err(refused(words));
+        };
+        // Passports that expired with the given one are replaced too.
+        let expired = given.is_expired(time).then_some(given.valid_until);
+        let counts = |entry: &&Entry| {
+            entry.state == State::Current && (!entry.is_expired(time) || Some(entry.valid_until) == expired)
+        };
+        let current: Vec<&Entry> = entries.iter().filter(counts).collect();
         let mut chosen = Chosen::default();
-        for line in &lines {
-            let site = line.site.as_deref().unwrap_or_default();
+        for entry in &current {
+            let site = entry.site_and_revision().0;
             let asked = self.sites.iter().find(|asked| asked.id() == site);
-            let path = PathBuf::from(&line.file);
+            let path = from.path_of_entry(entry);
             let bytes = files::read(&path, LARGEST_DOCUMENT_BYTES)?;
-            let content = content(&path, &bytes, trust, &Question::at(self.question.time))?;
-            if found.is_of_a_fork(&line.sha256) {
-                return Err(refused(format!("{}: {FORKED}", shown(&path))));
+            if sha256_hex(&bytes) != entry.sha256 {
+                return Err(refused(format!("{}: is not the listed file; restore it from the backup", shown(&path))));
             }
+            let content = content(&path, &bytes, self.authority.trust, &Question::at(time))?;
             if content.to_stand() == *new {
-                chosen.done.push(Line::clone(line));
+                chosen.done.push(Row { file: Some(name_of(&path)), ..Row::of(entry, time) });
             } else if content.certificate.number == new.certificate.number {
                 let number = &new.certificate.number;
                 return Err(refused(format!(
@@ -345,29 +346,30 @@ impl Recertification<'_> {
                 chosen.remaining.push(content.passport.id);
             }
         }
-        if let Some(line) = given.filter(|given| !counts(given) && chosen.done.is_empty()) {
-            let why = line.reason();
-            let in_force: Vec<&str> = lines.iter().filter_map(|line| line.id.as_deref()).collect();
+        if !counts(&given) && chosen.done.is_empty() {
+            let row = Row::of(given, time);
+            let in_force: Vec<&str> = current.iter().map(|entry| entry.id.as_str()).collect();
             let in_force = if in_force.is_empty() { "none is".to_owned() } else { in_force.join(", ") };
             let words = format!(
-                "{}: the passport is not in force: {}; give one that is in force ({in_force})",
+                "{}: the passport is not in force: {} {}; give one that is in force ({in_force})",
                 shown(self.passport),
-                for_the_issuer(&why)
+                row.words(),
+                row.why()
             );
             return Err(refused(words));
         }
-        self.check_sites(&chosen, &lines)?;
+        self.check_sites(&chosen, &current)?;
         Ok(chosen)
     }
 
-    /// Checks that every requested place is among those of the passports in force.
-    fn check_sites(&self, chosen: &Chosen, lines: &[&Line]) -> Result<(), NotRecertified> {
+    /// Checks that every requested place is among those of the current passports.
+    fn check_sites(&self, chosen: &Chosen, current: &[&Entry]) -> Result<(), NotRecertified> {
         let there: Vec<&str> = chosen.predecessors.iter().map(|old| old.content.site.id.as_str()).collect();
         for asked in self.sites {
             let site = asked.id();
-            let done = chosen.done.iter().any(|line| line.site.as_deref() == Some(site));
+            let done = chosen.done.iter().any(|row| row.site == site);
             if !there.contains(&site) && !done {
-                let in_force: Vec<&str> = lines.iter().filter_map(|line| line.site.as_deref()).collect();
+                let in_force: Vec<&str> = current.iter().map(|entry| entry.site_and_revision().0).collect();
                 return Err(refused(format!(
                     "no passport of the stand is in force for site {site}; found {}",
                     first_few(&in_force)
@@ -378,30 +380,23 @@ impl Recertification<'_> {
     }
 
     /// Returns the next step for the successor of one passport.
-    fn next(
-        &self,
-        old: &Old,
-        folder: &Folder,
-        stand: &Arc<PreparedStand>,
-        trust: &Trust,
-    ) -> Result<Next, NotRecertified> {
+    fn next(&self, old: &Old, to: &StandFolder, stand: &Arc<PreparedStand>) -> Result<Next, NotRecertified> {
         let order = Order {
             stand: Some(Arc::clone(stand)),
             site: old.site.clone(),
             moved: false,
             reason: self.reason.to_owned(),
-            issuer: self.issuer.to_owned(),
+            issuer: self.authority.issuer.to_owned(),
             issued_at: self.issued_at,
             valid_until: None,
             allow_uncalibratable: old.content.self_check.is_none(),
+            same_content: false,
         };
-        let verification = before_expiry(&old.path, &old.bytes, trust, &Question::at(self.question.time));
-        let mut next = successor(&old.bytes, &verification, &order)
+        let verification =
+            before_expiry(&old.path, &old.bytes, self.authority.trust, &Question::at(self.question.time));
+        let next = successor(&old.bytes, &verification, &order)
             .map_err(|why| refused(format!("{}: {why}", shown(&old.path))))?;
-        let path = folder.path_of(&next.stand().stand, &next.site.id, next.first_revision());
-        let asked = Asked::at(self.question.time);
-        next.rival = Superseding::default().of(folder_of(&path), next.old_sha256(), &path, trust, &asked);
-        folder.next_successor(&next).map_err(|why| NotRecertified::Folder(old.content.passport.id.clone(), why))
+        to.next_successor(&next).map_err(|why| NotRecertified::Folder(old.content.passport.id.clone(), why))
     }
 }
 
@@ -432,7 +427,7 @@ fn before_expiry(path: &Path, bytes: &[u8], trust: &Trust, question: &Question) 
 struct Chosen {
     predecessors: Vec<Old>,
     /// Passports that an earlier run has already issued.
-    done: Vec<Line>,
+    done: Vec<Row>,
     /// Ids of the passports that were not requested.
     remaining: Vec<String>,
 }
@@ -444,11 +439,11 @@ fn same_file(one: &Path, other: &Path) -> bool {
     }
 }
 
-/// Writes the superseded stand file under its new name, then all passports and the new stand file together.
+/// Writes the superseded stand file under its new name, then all passports, the register and the new stand file together.
 fn write(
+    to: &StandFolder,
     sealed: &[Sealed],
-    stand_file: &Path,
-    text: &str,
+    (stand_file, text): (&Path, &str),
     superseded: Option<&Superseded>,
 ) -> Result<(), NotRecertified> {
     let paths = sealed.iter().map(|sealed| sealed.issued.path.as_path()).chain([stand_file]);
@@ -462,11 +457,14 @@ fn write(
     if let Some(superseded) = superseded {
         superseded.keep()?;
     }
-    let written = files::together::write_together(&new, &[(stand_file.to_owned(), text.as_bytes().to_vec())]);
+    let written = to.list_together(&new, (stand_file.to_owned(), text.as_bytes().to_vec()));
     if written.is_err()
         && let Some(superseded) = superseded.filter(|superseded| !superseded.kept)
     {
         let _ = std::fs::remove_file(&superseded.path);
     }
-    Ok(written?)
+    written.map_err(|refused| match refused {
+        FolderRefused::File(error) => NotRecertified::File(error),
+        refused => NotRecertified::Folder(to.stand().to_owned(), refused),
+    })
 }

@@ -98,7 +98,8 @@ impl Batch<'_> {
         // The stand or site of an unreadable file is unknown, and so is the number of its passports.
         fail(bad_stands, 0, tell);
         fail(bad_sites, 0, tell);
-        let mut run = Run { batch: self, change, stands, sites, sites_missing, swept: Visited::default(), jobs: Vec::new() };
+        let mut run =
+            Run { batch: self, change, stands, sites, sites_missing, swept: Visited::default(), jobs: Vec::new() };
         for named in paths::named(passports, list) {
             match named {
                 Err(failure) => run.failed(failure, tell),
@@ -152,7 +153,8 @@ impl Run<'_> {
             Err(error) => return self.failed(Failure::file(error), tell),
         };
         let site = self.change.order.site.as_ref().filter(|_| !self.change.order.moved);
-        let is_corrected = site.is_some_and(|site| stands.iter().any(|(above, id)| states_another(&above.join(id), site)));
+        let is_corrected =
+            site.is_some_and(|site| stands.iter().any(|(above, id)| states_another(&above.join(id), site)));
         let mut folders: BTreeMap<PathBuf, Arc<Folder>> = BTreeMap::new();
         for (above, stand) in stands {
             if !self.batch.shard.has(&stand) {
@@ -170,7 +172,8 @@ impl Run<'_> {
 
     /// Adds a given file to the job of its stand.
     fn file(&mut self, path: PathBuf, tell: Listener) {
-        let read = files::read(&path, LARGEST_DOCUMENT_BYTES).map_err(|error| Failure::unusable(&path, error.with_nearest()));
+        let read =
+            files::read(&path, LARGEST_DOCUMENT_BYTES).map_err(|error| Failure::unusable(&path, error.with_nearest()));
         let content = read.and_then(|bytes| {
             content_from_anyone(&name_of(&path), &bytes).map_err(|error| Failure::refused(&path, error.to_string()))
         });
@@ -277,7 +280,10 @@ impl Run<'_> {
         }
         let synced = self.batch.sync(outcomes.iter().filter_map(|(outcome, ..)| outcome.as_ref()).collect());
         if let Err(failure) = self.batch.list(&to, &synced) {
-            outcomes.iter_mut().filter_map(|(outcome, ..)| outcome.as_mut()).for_each(|outcome| outcome.not_listed(&failure));
+            outcomes
+                .iter_mut()
+                .filter_map(|(outcome, ..)| outcome.as_mut())
+                .for_each(|outcome| outcome.not_listed(&failure));
         }
         Ok(outcomes)
     }
@@ -290,7 +296,10 @@ impl Run<'_> {
             false => to.reissue(successor).map(Outcome::There),
             true => to.next_successor(successor).map(Outcome::from),
         };
-        Some(settled.unwrap_or_else(|why| Outcome::Failed(Failure::of(name.clone(), why.to_string(), why.is_unusable()))))
+        Some(
+            settled
+                .unwrap_or_else(|why| Outcome::Failed(Failure::of(name.clone(), why.to_string(), why.is_unusable()))),
+        )
     }
 
     fn examine(&self, candidate: &Candidate, job: &Job, from: &StandFolder) -> Result<Examined, Failure> {
@@ -416,15 +425,15 @@ fn warnings(verification: &Verification, next: &Successor, from: &StandFolder) -
     let check = verification.checks().iter().find(|check| check.name == CheckName::Register);
     let failed = check.filter(|check| check.passed() == Some(false) && check.code != Code::RegisterStale);
     let ended = failed.map(|check| for_the_issuer(&check.detail).to_owned());
-    let replaced = if next.supersedes() { Vec::new() } else { from.against_certificate(next.prepared()).unwrap_or_default() };
+    let replaced =
+        if next.supersedes() { Vec::new() } else { from.against_certificate(next.prepared()).unwrap_or_default() };
     ended.into_iter().chain(replaced).collect()
 }
 
 /// Returns `true` if a passport for a site, in the folder of a stand, states that site in another way.
 fn states_another(folder: &Path, site: &Site) -> bool {
-    let is_there = |path: &PathBuf| {
-        path.file_name().and_then(numbered).is_some_and(|(other, _)| other == site.id.as_str())
-    };
+    let is_there =
+        |path: &PathBuf| path.file_name().and_then(numbered).is_some_and(|(other, _)| other == site.id.as_str());
     let files = Walk::flat(folder, |name| numbered(name).is_some()).files().filter(is_there);
     files.into_iter().any(|path| {
         let bytes = files::read(&path, LARGEST_DOCUMENT_BYTES).ok();

@@ -62,14 +62,19 @@ pub struct Authority<'a> {
     /// Signer of registers; `None` to leave them to a second person. The passports then do not count yet.
     pub register_signer: Option<&'a (dyn Signer + Sync)>,
     /// Clock, by which registers are dated.
-    pub clock: fn() -> Timestamp,
+    pub clock: &'a (dyn Fn() -> Timestamp + Sync),
     /// Last accepted register of each stand, in a workspace.
     pub(crate) memory: Option<&'a Memory>,
 }
 
 impl<'a> Authority<'a> {
     /// Creates an authority that signs passports and registers with one key.
-    pub fn new(issuer: &'a str, signer: &'a (dyn Signer + Sync), trust: &'a Trust, clock: fn() -> Timestamp) -> Self {
+    pub fn new(
+        issuer: &'a str,
+        signer: &'a (dyn Signer + Sync),
+        trust: &'a Trust,
+        clock: &'a (dyn Fn() -> Timestamp + Sync),
+    ) -> Self {
         Self { issuer, trust, signer: Some(signer), register_signer: Some(signer), clock, memory: None }
     }
 

@@ -8,9 +8,10 @@ use crate::document::sha256_hex;
 use crate::files::leftovers::is_lasting;
 use crate::files::walk::{Entry as Listed, LINK, SPECIAL, Walk};
 use crate::files::{self, FileError};
+use crate::history::{History, Recorded};
 use crate::parallel;
 use crate::passport::{Content, Question, Trust, verify};
-use crate::register::{Doubt, Entry, FILE_NAME, State, VerifiedRegister};
+use crate::register::{Doubt, Entry, FILE_NAME, Row, State, VerifiedRegister};
 use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, Printable, first_few, name_of, words};
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -31,26 +32,6 @@ pub(crate) struct Query<'a> {
     /// `true` if listed passports may be absent, as in a laboratory.
     pub may_lack: bool,
     pub threads: usize,
-}
-
-/// Passport in a register, and its file.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub(crate) struct Row {
-    pub id: String,
-    /// File; null if it is missing or has other content.
-    pub file: Option<String>,
-    pub sha256: String,
-    pub state: State,
-    /// Whether the passport has expired.
-    pub expired: bool,
-    pub site: String,
-    pub certificate: String,
-    pub valid_until: Option<Date>,
-    pub since: Option<Timestamp>,
-    pub by: Option<String>,
-    pub reason: Option<String>,
-    #[serde(skip)]
-    pub issued_at: Timestamp,
 }
 
 /// Register of a stand.
@@ -139,47 +120,6 @@ impl Found {
     fn alarm(&mut self, code: AlarmCode, stand: Option<&str>, file: &Path, detail: impl Display) {
         let (stand, file) = (stand.map(str::to_owned), Some(name_of(file)));
         self.alarms.push(Alarm { code, stand, file, detail: detail.to_string() });
-    }
-}
-
-impl Row {
-    fn of(entry: &Entry, time: Timestamp) -> Self {
-        Self {
-            id: entry.id.clone(),
-            file: None,
-            sha256: entry.sha256.clone(),
-            state: entry.state,
-            expired: entry.is_expired(time),
-            site: entry.site_and_revision().0.to_owned(),
-            certificate: entry.certificate.clone(),
-            valid_until: entry.valid_until,
-            since: entry.since,
-            by: entry.by.clone(),
-            reason: entry.reason.clone(),
-            issued_at: entry.issued_at,
-        }
-    }
-
-    /// Returns `true` if the passport is current and has not expired.
-    pub(crate) fn is_in_force(&self) -> bool {
-        self.state == State::Current && !self.expired
-    }
-
-    /// Returns the number of days until the last day, or `None` if the passport does not expire.
-    pub(crate) fn days_left(&self, time: Timestamp) -> Option<i32> {
-        let today = time.to_zoned(jiff::tz::TimeZone::UTC).date();
-        Some(today.until(self.valid_until?).map_or(i32::MAX, |span| span.get_days()))
-    }
-
-    /// Returns the reason for the state, in words; empty for a current passport.
-    pub(crate) fn why(&self) -> String {
-        let until = self.valid_until.map_or_else(String::new, |last| format!("valid until {last} (inclusive)"));
-        let since = self.since.map_or_else(String::new, |since| format!("since {since}"));
-        match (&self.by, &self.reason) {
-            (Some(by), _) => format!("{since} by {by}"),
-            (None, Some(reason)) => format!("{since}: {reason}"),
-            (None, None) => until,
-        }
     }
 }
 
@@ -425,7 +365,8 @@ impl Query<'_> {
                 found.alarm(AlarmCode::Misplaced, stand, path, format!("contains {id}, expected in {due}"));
             }
             _ if is_known => {
-                let advice = "run the command that issued it again, or take it over with `register DIR --renew --adopt`";
+                let advice =
+                    "run the command that issued it again, or take it over with `register DIR --renew --adopt`";
                 let sha256 = sha256_hex(bytes);
                 let detail = format!("{id} is authentic, but not listed (SHA-256 {sha256}); {advice}");
                 found.alarm(AlarmCode::NotListed, stand, path, detail);
@@ -440,7 +381,8 @@ impl Query<'_> {
         let stand = Some(header.stand.as_str());
         if register.is_stale(self.question.time.max(self.question.now)) {
             let last = header.fresh_until.map_or_else(String::new, |last| last.to_string());
-            let detail = format!("was fresh until {last} (inclusive); renew it with `register DIR --renew --fresh-until`");
+            let detail =
+                format!("was fresh until {last} (inclusive); renew it with `register DIR --renew --fresh-until`");
             found.alarm(AlarmCode::RegisterStale, stand, &folder.join(FILE_NAME), detail);
         }
         for row in rows.iter().filter(|row| row.file.is_none()) {
@@ -474,9 +416,9 @@ impl Query<'_> {
                 detail,
             });
         }
-        found.angles.retain(|(number, _)| {
-            rows.iter().any(|row| row.state == State::Current && row.certificate == *number)
-        });
+        found
+            .angles
+            .retain(|(number, _)| rows.iter().any(|row| row.state == State::Current && row.certificate == *number));
         rows.retain(|row| self.selects(row, header));
         found.stand = Some(StandRows {
             stand: header.stand.clone(),
@@ -494,7 +436,8 @@ impl Query<'_> {
         let serial = header.stand.rsplit('/').next();
         self.question.issuer.as_ref().is_none_or(|issuer| *issuer == header.issuer)
             && self.question.serial.as_deref().is_none_or(|asked| serial == Some(asked))
-            && (self.question.place.is_none() || self.content(row).is_some_and(|content| self.question.concerns(&content)))
+            && (self.question.place.is_none()
+                || self.content(row).is_some_and(|content| self.question.concerns(&content)))
     }
 
     fn content(&self, row: &Row) -> Option<Content> {
@@ -524,4 +467,33 @@ fn fingerprint(bytes: &[u8]) -> Option<u64> {
     let mut hasher = DefaultHasher::new();
     bytes[from..from + end].hash(&mut hasher);
     Some(hasher.finish())
+}
+
+/// Returns the history of a stand, `<model>/<serial>`, or `None` if the folder has no register of it, and the stands that
+/// the folder has. The second value is `true` if a file could not be read.
+///
+/// # Errors
+/// Returns [`FileError`] if the folder cannot be read.
+pub(crate) fn history(
+    root: &Path,
+    stand: &str,
+    query: Query,
+) -> Result<(Result<History, Vec<String>>, bool), FileError> {
+    let below = root.join(stand);
+    let folder = if below.is_dir() { &below } else { root };
+    let overview = Overview::of(folder, query)?;
+    let is_incomplete = overview.is_incomplete();
+    let Some(found) = overview.stands.into_iter().find(|found| found.stand == stand) else {
+        let known = super::renewal::stands(root)?.into_iter().map(|(_, stand)| stand).collect();
+        return Ok((Err(known), is_incomplete));
+    };
+    let recorded = parallel::map(&found.rows, query.threads, |row| {
+        let bytes = row.file.as_deref().and_then(|file| files::read(Path::new(file), LARGEST_DOCUMENT_BYTES).ok());
+        // A file that has changed since it was compared with the register has no content.
+        let bytes = bytes.filter(|bytes| sha256_hex(bytes) == row.sha256);
+        let content = bytes.and_then(|bytes| crate::passport::content_from_anyone(&row.id, &bytes).ok());
+        Recorded { row: row.clone(), content }
+    });
+    let alarms = overview.alarms.iter().map(ToString::to_string).collect();
+    Ok((Ok(History::of(stand, recorded, alarms, query.question.time)), is_incomplete))
 }

@@ -60,7 +60,9 @@ pub(crate) enum NotRenewed {
     )]
     Undecided(Vec<String>, Vec<String>),
     /// SHA-256 that is that of no file to take over.
-    #[error("--adopt {0}: found no unlisted passport and no outdated register with this SHA-256 that a trusted key signed")]
+    #[error(
+        "--adopt {0}: found no unlisted passport and no outdated register with this SHA-256 that a trusted key signed"
+    )]
     NothingToAdopt(String),
     /// Passport that no register lists.
     #[error("{0}: no register lists this passport{1}")]
@@ -168,7 +170,11 @@ impl Renewal {
             let other = registers::read(other, authority.trust, authority.now()).map_err(FolderRefused::from)?;
             if other.header().stand == stand {
                 draft.join(&other).map_err(FolderRefused::from)?;
-                conclusions.push(format!("joined with register {} (SHA-256 {})", other.header().sequence, other.sha256()));
+                conclusions.push(format!(
+                    "joined with register {} (SHA-256 {})",
+                    other.header().sequence,
+                    other.sha256()
+                ));
             }
         }
         let listed: BTreeSet<&str> = draft.entries().iter().map(|entry| entry.sha256.as_str()).collect();
@@ -176,10 +182,7 @@ impl Renewal {
         unlisted.retain(|(_, sha256)| !listed.contains(sha256.as_str()));
         let wanted = |sha256: &String| is_first || self.adopt.contains(sha256);
         for (content, sha256) in unlisted.iter().filter(|(_, sha256)| !wanted(sha256)) {
-            conclusions.push(format!(
-                "not listed: {}; to take it over, add --adopt {sha256}",
-                content.passport.id
-            ));
+            conclusions.push(format!("not listed: {}; to take it over, add --adopt {sha256}", content.passport.id));
         }
         unlisted.retain(|(_, sha256)| wanted(sha256));
         adopted.extend(unlisted.iter().map(|(_, sha256)| sha256.clone()));
@@ -194,8 +197,10 @@ impl Renewal {
                 draft.supersede(&from.id, id, State::Moved).map_err(FolderRefused::from)?;
             }
         }
-        for (id, reason) in self.withdrawn.iter().filter(|(id, _)| draft.entry(id).is_some()) {
-            draft.withdraw(id, reason).map_err(FolderRefused::from)?;
+        for (id, reason) in &self.withdrawn {
+            if draft.entry(id).is_some() {
+                draft.withdraw(id, reason).map_err(FolderRefused::from)?;
+            }
         }
         if let Some(last) = self.fresh_until {
             draft.fresh_until(last);
@@ -240,19 +245,21 @@ impl Renewal {
             Ok(register) if outdated && self.adopt.contains(&sha256) => {
                 adopted.insert(sha256);
                 let remembered = authority.memory.map(|memory| memory.path_of(folder.stand()));
-                let remembered = remembered.and_then(|path| crate::register::Register::from_anyone(
-                    &name_of(&path),
-                    &registers::bytes(&path).ok()?,
-                ).ok());
+                let remembered = remembered.and_then(|path| {
+                    crate::register::Register::from_anyone(&name_of(&path), &registers::bytes(&path).ok()?).ok()
+                });
                 conclusions.push(format!("taken over: {refused}"));
                 for entry in register.entries() {
-                    let last = remembered.as_ref().and_then(|last| last.passports.iter().find(|old| old.id == entry.id));
+                    let last =
+                        remembered.as_ref().and_then(|last| last.passports.iter().find(|old| old.id == entry.id));
                     let last = last.map_or("not remembered", |last| last.state.key());
                     conclusions.push(format!("{}: {}, before: {last}", entry.id, entry.state.key()));
                 }
                 Ok(register)
             }
-            Ok(_) if outdated => Err(NotRenewed::Folder(FolderRefused::Outdated { path, sha256, why: refused.to_string() })),
+            Ok(_) if outdated => {
+                Err(NotRenewed::Folder(FolderRefused::Outdated { path, sha256, why: refused.to_string() }))
+            }
             _ => Err(refused.into()),
         }
     }

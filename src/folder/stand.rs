@@ -235,7 +235,12 @@ impl<'a> StandFolder<'a> {
 
     /// Returns the next step for an equal passport that already exists: nothing, if it is current in the register; its
     /// entry, if it is not listed.
-    fn there(&self, there: Existing, draft: &Passport, superseded: Option<(String, State)>) -> Result<Next, FolderRefused> {
+    fn there(
+        &self,
+        there: Existing,
+        draft: &Passport,
+        superseded: Option<(String, State)>,
+    ) -> Result<Next, FolderRefused> {
         let entry = self.register.as_ref().and_then(|register| register.entry(&there.content.passport.id));
         let listing = match entry {
             Some(entry) if entry.sha256 != there.sha256 => return Err(FolderRefused::OtherFile(there.path)),
@@ -311,7 +316,9 @@ impl<'a> StandFolder<'a> {
                         revision = last;
                         continue;
                     }
-                    None if successor.says_the_same && !successor.may_say_the_same => Err(FolderRefused::NothingChanges),
+                    None if successor.says_the_same && !successor.may_say_the_same => {
+                        Err(FolderRefused::NothingChanges)
+                    }
                     None => {
                         let path = self.check_absent(path, &draft.content().passport.id)?;
                         Ok(Next::New { path, draft, superseded })
@@ -372,7 +379,8 @@ impl<'a> StandFolder<'a> {
         let settle_once = || {
             let Sealed { issued, text } = self.seal(next()?)?;
             if let Some(text) = text {
-                let written = files::write_new_as(&issued.path, text.as_bytes(), Access::Shared, self.folder.durability);
+                let written =
+                    files::write_new_as(&issued.path, text.as_bytes(), Access::Shared, self.folder.durability);
                 if let Err(error) = written {
                     let mut listings = self.listings.lock().unwrap_or_else(PoisonError::into_inner);
                     listings.retain(|listing| listing.entry.id != issued.id);
@@ -400,12 +408,19 @@ impl<'a> StandFolder<'a> {
         if listings.is_empty() {
             return Ok(());
         }
-        self.write(|draft| add(draft, listings), |path, text| Ok(files::replace_as(path, text, self.folder.durability)?))
+        self.write(
+            |draft| add(draft, listings),
+            |path, text| Ok(files::replace_as(path, text, self.folder.durability)?),
+        )
     }
 
     /// Writes the register with the passports that were sealed, together with all files: the new passports first, then the
     /// register, and last the file that replaces another one.
-    pub(crate) fn list_together(&self, new: &[(PathBuf, Vec<u8>)], last: (PathBuf, Vec<u8>)) -> Result<(), FolderRefused> {
+    pub(crate) fn list_together(
+        &self,
+        new: &[(PathBuf, Vec<u8>)],
+        last: (PathBuf, Vec<u8>),
+    ) -> Result<(), FolderRefused> {
         let listings = std::mem::take(&mut *self.listings.lock().unwrap_or_else(PoisonError::into_inner));
         let together = |register: Option<(&Path, &[u8])>| {
             let register = register.map(|(path, text)| (path.to_owned(), text.to_owned()));
@@ -467,7 +482,9 @@ impl<'a> StandFolder<'a> {
         for entry in counting().filter(|entry| entry.certificate == *number) {
             let path = self.path_of_entry(entry);
             let read = files::read_into(&mut bytes, &path, LARGEST_DOCUMENT_BYTES);
-            if read.is_err() || memchr::memmem::find(&bytes, text.as_bytes()).is_some() || sha256_hex(&bytes) != entry.sha256
+            if read.is_err()
+                || memchr::memmem::find(&bytes, text.as_bytes()).is_some()
+                || sha256_hex(&bytes) != entry.sha256
             {
                 continue;
             }
@@ -481,7 +498,8 @@ impl<'a> StandFolder<'a> {
         let is_current = counting().any(|entry| entry.state == State::Current && entry.certificate == *number);
         let by = |entry: &Entry| register.entry(entry.by.as_deref()?).filter(|by| by.certificate != *number);
         let replaced = counting().filter(|entry| entry.certificate == *number && !is_current).find_map(by);
-        let replaced = replaced.map(|by| format!("certificate {number} was replaced by {} ({})", by.certificate, by.id));
+        let replaced =
+            replaced.map(|by| format!("certificate {number} was replaced by {} ({})", by.certificate, by.id));
         let others = others
             .into_iter()
             .map(|(other, ids)| format!("the stand is also current under certificate {other}: {}", first_few(&ids)));
@@ -522,7 +540,7 @@ fn list(folder: &Path) -> Result<Vec<String>, FileError> {
 
 /// Returns the name and the number in `<name>-<number>.yaml`, 0 for a number that no revision has, or `None` if the name has
 /// another form.
-pub(super) fn numbered(name: &OsStr) -> Option<(&str, u32)> {
+pub(crate) fn numbered(name: &OsStr) -> Option<(&str, u32)> {
     let (name, number) = name.to_str()?.strip_suffix(".yaml")?.rsplit_once('-')?;
     let is_number = !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit());
     is_number.then(|| (name, number.parse().unwrap_or(0)))

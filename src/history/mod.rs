@@ -2,22 +2,19 @@
 //!
 //! `drift`: the deviations of all certificates, also relative to each other, and the test of whether they drift.
 //!
-//! A history is a function of verified passports; [`crate::folder`] finds the files.
+//! A history is a function of verified registers and of their passports; [`crate::folder`] finds the files.
 
 pub(crate) mod drift;
 
-use crate::document::sha256_hex;
-use crate::passport::{Content, Question, Trust, verify};
-use crate::register::{Alarm, Line, Register, State};
-use crate::revocation::Entry;
+use crate::passport::Content;
+use crate::register::{Row, State};
 use crate::stand::Stand;
 use crate::text::first_few;
 use crate::text::scalar::day;
 use drift::Drift;
 use jiff::Timestamp;
 use serde::Serialize;
-use std::collections::{BTreeMap, BTreeSet};
-use std::iter;
+use std::collections::BTreeSet;
 
 /// Certificate of the stand, as its passports state it.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,20 +27,16 @@ pub(crate) struct PastCertificate {
     pub counts: bool,
 }
 
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+/// Passport of the stand: its entry in the register, and what its file adds.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct PastPassport {
-    /// Entry of the register.
-    #[serde(flatten)]
-    pub line: Line,
-    /// Time of issue; null unless the passport is authentic.
-    pub issued_at: Option<Timestamp>,
-    /// Time from which the passport was no longer in force: superseded, moved, expired or withdrawn; null if it still
-    /// is, or was never.
+    pub row: Row,
+    /// Time from which the passport was no longer in force: superseded, moved, expired or withdrawn; `None` if it still is.
     pub ended_at: Option<Timestamp>,
     /// Time at which a passport in force expires, if it does; for pictures.
-    #[serde(skip)]
     pub expires_at: Option<Timestamp>,
     pub predecessor: Option<String>,
+    /// Reason for the re-issue.
     pub reason: Option<String>,
 }
 
@@ -66,51 +59,35 @@ pub(crate) struct History {
     pub passports: Vec<PastPassport>,
     /// Stays of the stand at sites, in the order of their beginning.
     pub places: Vec<Stay>,
-    /// Withdrawals, in the order of their time.
-    pub withdrawals: Vec<Entry>,
     /// Change of the deviations over the years.
     pub drift: Drift,
     /// Alarms of the register that concern the stand, and remarks on its certificates, in words.
     pub remarks: Vec<String>,
 }
 
-/// File of a passport of the stand: its entry in the register, and its content if it is authentic.
+/// Passport of the stand: its entry in the register, and its content if its file is the listed one.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Recorded {
-    line: Line,
-    content: Option<Content>,
-}
-
-impl Recorded {
-    /// Verifies the file of a register entry again, to obtain its content. A file that has changed since has none.
-    pub(crate) fn of(line: &Line, bytes: &[u8], trust: &Trust, time: Timestamp) -> Self {
-        let same = sha256_hex(bytes) == line.sha256;
-        let verification = same.then(|| verify(&line.file, bytes, trust, &Question::at(time)));
-        let content = verification.as_ref().and_then(|found| found.authentic()).map(|(content, _)| content.clone());
-        Self { line: line.clone(), content }
-    }
+    pub row: Row,
+    pub content: Option<Content>,
 }
 
 impl History {
-    /// Creates the history of a stand, `<model>/<serial>`, from the files of its passports; `register` and `trust` are
-    /// those of their folder.
-    pub(crate) fn of(stand: &str, recorded: Vec<Recorded>, register: &Register, trust: &Trust, now: Timestamp) -> Self {
-        let concerns =
-            |alarm: &&Alarm| alarm.concerns(stand) || recorded.iter().any(|at| alarm.files.contains(&at.line.file));
-        let mut remarks: Vec<String> = register.alarms.iter().filter(concerns).map(ToString::to_string).collect();
+    /// Creates the history of a stand, `<model>/<serial>`, from its passports; `alarms` are those of its register, in words.
+    pub(crate) fn of(stand: &str, recorded: Vec<Recorded>, alarms: Vec<String>, now: Timestamp) -> Self {
+        let mut remarks = alarms;
         let certificates = certificates(&recorded, &mut remarks);
-        let passports = passports(&recorded, trust, now);
-        let withdrawals = withdrawals(&recorded, trust);
+        let passports = passports(&recorded, now);
         let drift = Drift::of(&independent(&certificates, &mut remarks));
-        Self {
-            stand: stand.to_owned(),
-            places: places(&passports),
-            certificates,
-            passports,
-            withdrawals,
-            drift,
-            remarks,
-        }
+        Self { stand: stand.to_owned(), places: places(&passports), certificates, passports, drift, remarks }
+    }
+
+    /// Returns the withdrawn passports, in the order of their withdrawal.
+    pub(crate) fn withdrawals(&self) -> Vec<&Row> {
+        let rows = self.passports.iter().map(|passport| &passport.row);
+        let mut found: Vec<&Row> = rows.filter(|row| row.state == State::Withdrawn).collect();
+        found.sort_by_key(|row| (row.since, &row.id));
+        found
     }
 
     /// Returns the identifiers of the sites, in the order of the first stay.
@@ -125,7 +102,7 @@ fn certificates(recorded: &[Recorded], remarks: &mut Vec<String>) -> Vec<PastCer
     let authentic = recorded.iter().filter_map(|at| Some((at, at.content.as_ref()?)));
     for (at, content) in authentic {
         let stand = content.to_stand();
-        let counts = at.line.state != State::Revoked;
+        let counts = at.row.state != State::Withdrawn;
         let id = content.passport.id.clone();
         match found
             .iter_mut()
@@ -192,48 +169,21 @@ fn independent<'a>(certificates: &'a [PastCertificate], remarks: &mut Vec<String
     used
 }
 
-fn passports(recorded: &[Recorded], trust: &Trust, now: Timestamp) -> Vec<PastPassport> {
-    // Time from which a file is superseded, by its SHA-256.
-    let mut superseded: BTreeMap<&str, Timestamp> = BTreeMap::new();
-    let mut predecessors: BTreeMap<&str, &str> = BTreeMap::new();
-    for (line, content) in recorded.iter().filter_map(|at| Some((&at.line, at.content.as_ref()?))) {
-        let header = &content.passport;
-        if let Some(from) = &header.reissued_from {
-            predecessors.insert(&line.sha256, &from.sha256);
+fn passports(recorded: &[Recorded], now: Timestamp) -> Vec<PastPassport> {
+    let past = recorded.iter().map(|Recorded { row, content }| {
+        let from = content.as_ref().and_then(|content| content.passport.reissued_from.as_ref());
+        let end = [row.since, row.valid_until.map(|last| day(last).1)].into_iter().flatten().min();
+        PastPassport {
+            row: row.clone(),
+            ended_at: end.filter(|end| *end <= now),
+            expires_at: end.filter(|end| *end > now && row.is_in_force()),
+            predecessor: from.map(|from| from.id.clone()),
+            reason: from.map(|from| from.reason.clone()),
         }
-        if let (Some(from), Some(true)) = (&header.reissued_from, header.supersedes) {
-            let first = superseded.entry(&from.sha256).or_insert(header.issued_at);
-            *first = (*first).min(header.issued_at);
-        }
-    }
-    let mut passports: Vec<PastPassport> = recorded
-        .iter()
-        .map(|Recorded { line, content }| {
-            let header = content.as_ref().map(|content| &content.passport);
-            let expired = content.as_ref().and_then(Content::last_day).map(|(last, _)| day(last).1);
-            let withdrawn = trust.withdrawn.entry(&line.sha256).map(|entry| entry.revoked_at);
-            let ends = [superseded.get(line.sha256.as_str()).copied(), expired, withdrawn];
-            let end = header.and(ends.into_iter().flatten().min());
-            PastPassport {
-                line: line.clone(),
-                issued_at: header.map(|header| header.issued_at),
-                ended_at: end.filter(|end| *end <= now),
-                expires_at: end.filter(|end| *end > now && matches!(line.state, State::InForce | State::Expiring)),
-                predecessor: header.and_then(|header| Some(header.reissued_from.as_ref()?.id.clone())),
-                reason: header.and_then(|header| Some(header.reissued_from.as_ref()?.reason.clone())),
-            }
-        })
-        .collect();
-    let ancestors = |at: &PastPassport| {
-        let before = |sha256: &&str| predecessors.get(sha256).copied();
-        // A chain cannot be longer than the number of files.
-        iter::successors(before(&at.line.sha256.as_str()), before).take(recorded.len()).count()
-    };
-    passports.sort_by(|a, b| {
-        // Of two passports of the same second, the predecessor comes first.
-        let key = |at: &PastPassport| (at.issued_at.is_none(), at.issued_at, ancestors(at));
-        key(a).cmp(&key(b)).then_with(|| a.line.id.cmp(&b.line.id)).then_with(|| a.line.file.cmp(&b.line.file))
     });
+    let mut passports: Vec<PastPassport> = past.collect();
+    // Of two passports of the same second, the one that was listed first, which the register keeps in order.
+    passports.sort_by_key(|passport| passport.row.issued_at);
     passports
 }
 
@@ -241,26 +191,18 @@ fn places(passports: &[PastPassport]) -> Vec<Stay> {
     let mut places: Vec<Stay> = Vec::new();
     let mut left: BTreeSet<&str> = BTreeSet::new();
     for passport in passports {
-        let (Some(from), Some(site)) = (passport.issued_at, &passport.line.site) else { continue };
+        let (from, site) = (passport.row.issued_at, &passport.row.site);
         // A stand that returns to a site begins a new stay there.
         match places.iter_mut().rfind(|stay| stay.site == *site).filter(|_| !left.remove(site.as_str())) {
             // The passports of a site follow each other, so the later end counts; one without an end is in force.
             Some(stay) => stay.until = stay.until.zip(passport.ended_at).map(|(a, b)| a.max(b)),
             None => places.push(Stay { site: site.clone(), from, until: passport.ended_at }),
         }
-        if passport.line.state == State::Moved {
+        if passport.row.state == State::Moved {
             left.insert(site);
         }
     }
     places
-}
-
-fn withdrawals(recorded: &[Recorded], trust: &Trust) -> Vec<Entry> {
-    let entries = recorded.iter().filter_map(|at| trust.withdrawn.entry(&at.line.sha256));
-    let mut found: Vec<Entry> = entries.cloned().collect();
-    found.sort_by(|a, b| (a.revoked_at, &a.id).cmp(&(b.revoked_at, &b.id)));
-    found.dedup();
-    found
 }
 
 #[cfg(all(test, feature = "factory"))]

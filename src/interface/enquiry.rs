@@ -1,19 +1,17 @@
 //! Whom to trust and what to ask, and the answer on each passport.
 
 use super::{Asked, Failed, Verdict, json};
-use crate::document::sha256_hex;
 use crate::earth::Place;
 #[cfg(feature = "factory")]
 use crate::files::{self, FileError};
 #[cfg(feature = "factory")]
-use crate::folder::search;
+use crate::folder::Registers;
 #[cfg(feature = "factory")]
 use crate::parallel;
 #[cfg(feature = "factory")]
 use crate::passport::verification;
 use crate::passport::{Question, Trust, Verification, verify};
-use crate::register;
-use crate::revocation::{RevocationList, Series, claims_to_be_a_list};
+use crate::register::{RegisterRefused, VerifiedRegister};
 use crate::site::beyond_180;
 use crate::text::scalar::{day, impossible_date};
 use crate::text::{Field, LARGEST_DOCUMENT_BYTES, Node, Path, Problems, name_of};
@@ -31,7 +29,17 @@ pub struct Enquiry {
     pub question: Question,
     /// Remarks for the user on the revocation lists and the register, one sentence each.
     pub remarks: Vec<String>,
-    pub(crate) register: Option<register::Register>,
+    pub(crate) register: Option<Source>,
+}
+
+/// Registers that are asked.
+#[derive(Debug)]
+pub(crate) enum Source {
+    /// One register, or why it is not accepted.
+    Given(Box<Result<VerifiedRegister, RegisterRefused>>),
+    /// Register in a file, or that of each stand in a folder.
+    #[cfg(feature = "factory")]
+    Files(Registers),
 }
 
 /// Answer on one passport.
@@ -59,9 +67,9 @@ impl Answer {
 impl Enquiry {
     /// Creates an enquiry that trusts `signers`, the name and content of an allowed_signers file.
     ///
-    /// `revoked` are names and contents of revocation lists: OpenSSH KRLs, lists of public keys, lists of withdrawn
-    /// passports. `question` is JSON, `{time, serial, at: [latitude, longitude], issuer, revoked: [text or bytes, …]}`,
-    /// in which every key may be absent: `time` in RFC 3339 or as a UTC date, by default `now`; `at` in degrees.
+    /// `revoked` are names and contents of revocation lists: OpenSSH KRLs, lists of public keys. `question` is JSON,
+    /// `{time, serial, at: [latitude, longitude], issuer, revoked: [text or bytes, …], register: text or bytes}`, in which
+    /// every key may be absent: `time` in RFC 3339 or as a UTC date, by default `now`; `at` in degrees.
     ///
     /// # Errors
     /// Returns [`Failed`] if the question, the signers or a revocation list cannot be used.
@@ -75,9 +83,11 @@ impl Enquiry {
         let (given, at) = (asked.key("time", String::read), asked.key("at", Vec::read));
         let (serial, issuer) = (asked.key("serial", name), asked.key("issuer", name));
         let listed = asked.key("revoked", lists).unwrap_or_default();
+        let register = asked.key("register", content);
         asked.done()?;
         let given = given.map(|text| read("time", &text, time)).transpose()?;
-        let time = given.unwrap_or_else(|| Timestamp::from_second(now.as_second()).unwrap_or(now));
+        let now = Timestamp::from_second(now.as_second()).unwrap_or(now);
+        let time = given.unwrap_or(now);
         let place = at.map(|at: Vec<f64>| match at[..] {
             [latitude_deg, longitude_deg] => place(latitude_deg, longitude_deg),
             _ => Err(format!("found {at:?}, expected [latitude, longitude] in degrees")),
@@ -85,47 +95,73 @@ impl Enquiry {
         let place = place.transpose().map_err(|why| Failed::unusable(format!("at: {why}")))?;
         let listed = listed.into_iter().enumerate().map(|(index, list)| (format!("revoked[{index}]"), list));
         let revoked: Vec<_> = revoked.iter().cloned().chain(listed).collect();
-        Ok(Self::of(trust(signers, &revoked, time)?, Question { time, issuer, serial, place }))
+        let enquiry = Self::of(trust(signers, &revoked)?, Question { time, now, issuer, serial, place });
+        Ok(match register {
+            Some(bytes) => enquiry.with_register_text("register", &bytes),
+            None => enquiry,
+        })
     }
 
     /// Creates an enquiry without a register.
     pub(crate) fn of(trust: Trust, question: Question) -> Self {
-        let remarks = contradictions(&trust.withdrawn);
-        Self { trust, question, remarks, register: None }
+        Self { trust, question, remarks: Vec::new(), register: None }
     }
 
-    /// Adds the register of the passports in `folder`: superseded passports are refused, and the lists of withdrawn
-    /// passports found there count.
-    ///
-    /// # Errors
-    /// Returns an error if the folder cannot be read.
+    /// Adds the register of the stand, the content of a file of this name. One that is not accepted makes no passport valid.
+    #[must_use]
+    pub fn with_register_text(self, name: &str, bytes: &[u8]) -> Self {
+        let register = VerifiedRegister::verify(name, bytes, &self.trust, self.question.now);
+        Self { register: Some(Source::Given(Box::new(register))), ..self }
+    }
+
+    /// Adds the registers at `path`: a register, or a folder of passports that has the register of each stand as
+    /// `<model>/<serial>/register.yaml`, or of one stand as `register.yaml`. Each is read when it is first asked.
     #[cfg(feature = "factory")]
-    pub fn with_register(mut self, folder: &FilePath) -> Result<Self, FileError> {
-        let asked = register::Asked::at(self.question.time);
-        let (register, trust) = search::register(folder, self.trust, &asked, parallel::processors())?;
-        self.remarks.extend(register.alarms.iter().map(ToString::to_string));
-        Ok(Self { trust, register: Some(register), ..self })
+    #[must_use]
+    pub fn with_register(self, path: &FilePath) -> Self {
+        let registers = Registers::new(path, self.trust.clone(), self.question.now, None);
+        self.with_registers(registers)
+    }
+
+    #[cfg(feature = "factory")]
+    pub(crate) fn with_registers(self, registers: Registers) -> Self {
+        Self { register: Some(Source::Files(registers)), ..self }
     }
 
     /// Verifies the bytes of a passport; `file` is the file name in messages.
     pub fn verify(&self, file: &str, bytes: &[u8]) -> Answer {
-        let (verification, sha256) = (self.verification(file, bytes), sha256_hex(bytes));
-        Answer { file: file.to_owned(), verification, sha256, time: self.question.time, remarks: self.remarks.clone() }
+        let verification = self.verification(file, bytes);
+        let sha256 = verification.sha256().to_owned();
+        Answer { file: file.to_owned(), verification, sha256, time: self.question.time, remarks: self.all_remarks() }
+    }
+
+    /// Returns the remarks on the revocation lists and on the registers that were read.
+    pub(crate) fn all_remarks(&self) -> Vec<String> {
+        let of_registers = match &self.register {
+            #[cfg(feature = "factory")]
+            Some(Source::Files(registers)) => registers.remarks(),
+            _ => Vec::new(),
+        };
+        [&self.remarks[..], &of_registers].concat()
     }
 
     pub(crate) fn verification(&self, file: &str, bytes: &[u8]) -> Verification {
-        self.in_register(verify(file, bytes, &self.trust, &self.question), bytes)
+        self.in_register(verify(file, bytes, &self.trust, &self.question))
     }
 
     /// Returns the result for a file that could not be read; `why` is the system's error message.
     #[cfg(feature = "factory")]
     pub(crate) fn unreadable(&self, why: &str) -> Verification {
-        self.in_register(verification::unreadable(why, &self.trust, &self.question), &[])
+        self.in_register(verification::unreadable(why, &self.trust, &self.question))
     }
 
-    fn in_register(&self, verification: Verification, bytes: &[u8]) -> Verification {
+    fn in_register(&self, verification: Verification) -> Verification {
         match &self.register {
-            Some(register) => register.asked(verification, bytes),
+            Some(Source::Given(register)) => {
+                verification.with_register(register.as_ref().as_ref().map(|register| (register, None)), &self.question)
+            }
+            #[cfg(feature = "factory")]
+            Some(Source::Files(registers)) => registers.asked(verification, &self.question),
             None => verification,
         }
     }
@@ -153,15 +189,27 @@ pub(super) fn name(node: &Node, at: &Path, problems: &mut Problems) -> Option<St
     Some(name)
 }
 
-/// Reads revocation lists, each as text or as a list of its bytes.
-fn lists(node: &Node, at: &Path, problems: &mut Problems) -> Option<Vec<Vec<u8>>> {
+/// Returns the content of a file, given as text or as a list of its bytes; `None` for another value.
+fn content_of(node: &Node) -> Option<Vec<u8>> {
     let byte = |node: &Node| if let Node::Integer(byte) = node { u8::try_from(*byte).ok() } else { None };
-    let list = |list: &Node| match list {
+    match node {
         Node::Text(text) => Some(text.clone().into_bytes()),
         Node::List(bytes) => bytes.iter().map(byte).collect(),
         _ => None,
-    };
-    let lists = if let Node::List(all) = node { all.iter().map(list).collect() } else { None };
+    }
+}
+
+fn content(node: &Node, at: &Path, problems: &mut Problems) -> Option<Vec<u8>> {
+    let content = content_of(node);
+    if content.is_none() {
+        problems.at(at, node.describe(), "the content of a register, its text or a list of its bytes", "");
+    }
+    content
+}
+
+/// Reads revocation lists, each as text or as a list of its bytes.
+fn lists(node: &Node, at: &Path, problems: &mut Problems) -> Option<Vec<Vec<u8>>> {
+    let lists = if let Node::List(all) = node { all.iter().map(content_of).collect() } else { None };
     if lists.is_none() {
         problems.at(
             at,
@@ -173,31 +221,13 @@ fn lists(node: &Node, at: &Path, problems: &mut Problems) -> Option<Vec<Vec<u8>>
     lists
 }
 
-/// Returns the trust in `signers` without what `revoked` revokes. The files are names and contents. Lists of withdrawn
-/// passports are verified at `time`; the newest list applies.
-pub(crate) fn trust(signers: (&str, &[u8]), revoked: &[(String, Vec<u8>)], time: Timestamp) -> Result<Trust, Failed> {
+/// Returns the trust in `signers` without what `revoked` revokes. The files are names and contents.
+pub(crate) fn trust(signers: (&str, &[u8]), revoked: &[(String, Vec<u8>)]) -> Result<Trust, Failed> {
     let mut trust = Trust::of(AllowedSigners::parse(signers.0, signers.1)?);
-    let (lists, keys): (Vec<_>, Vec<_>) = revoked.iter().partition(|(_, bytes)| claims_to_be_a_list(bytes));
-    for (name, bytes) in keys {
+    for (name, bytes) in revoked {
         trust.revoked.push(RevokedKeys::parse(name, bytes)?);
     }
-    let verify = |(name, bytes): &&(String, Vec<u8>)| {
-        let verified = RevocationList::verify(name, bytes, &trust.signers, &trust.revoked, time);
-        verified.map_err(Failed::unusable)
-    };
-    let series = Series::of(lists.iter().map(verify).collect::<Result<_, _>>()?);
-    if let Some(alarm) = series.alarms().iter().find(|alarm| alarm.is_unknown()) {
-        return Err(Failed::unusable(format!("{alarm}; specify that list too, with --revoked")));
-    }
-    trust.withdrawn = series;
     Ok(trust)
-}
-
-/// Returns the alarms of lists of withdrawn passports that do not prevent their use.
-pub(crate) fn contradictions(withdrawn: &Series) -> Vec<String> {
-    let contradictions = withdrawn.alarms().iter().filter(|alarm| alarm.is_contradiction());
-    let words = |alarm| format!("ALARM: {alarm}; passports withdrawn by any of the lists are treated as withdrawn");
-    contradictions.map(words).collect()
 }
 
 /// Reads the text of a key, with a parser whose errors end a sentence about what was found.

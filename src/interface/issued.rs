@@ -2,7 +2,7 @@
 
 use super::enquiry::{date, read, time, trust};
 use super::{Asked, Failed, UNWRITABLE};
-use crate::folder::{Folder, FolderRefused, Issued, Seal};
+use crate::folder::{Authority, Folder, FolderRefused, Issued, StandFolder};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::Stated;
@@ -18,7 +18,7 @@ use std::path::Path;
 type File<'a> = (&'a str, &'a [u8]);
 
 /// Issues the passport of a stand for a site into the folder `out`, as the program's `issue` does. An equal passport is
-/// left unchanged, and no file is replaced.
+/// left unchanged, and no passport is replaced. The register of the stand, next to it, lists it.
 ///
 /// The files are names and contents. `order` is JSON, `{identity, issued_at, valid_until, allow_uncalibratable}`, of
 /// which only `identity` must be present; `issued_at` is `now` by default. With `accuracy` the passport states the
@@ -42,17 +42,24 @@ pub fn issue(
     let site = Site::from_yaml(site.0, site.1)?;
     let now = Timestamp::from_second(now.as_second()).unwrap_or(now);
     let order = Issue { accuracy: accuracy.map(stated).transpose()?, ..ordered(order, now)? };
-    let trust = signers.map(|signers| trust(signers, &[], now)).transpose()?;
+    let trust = signers.map(|signers| trust(signers, &[])).transpose()?;
     let folder = Folder::new(out);
-    let believed = trust.clone().or_else(|| own_trust(&order.issuer, &signer.public_key()?));
-    let known = |trust| folder.against_certificate(&stand, &trust, now.max(order.issued_at));
+    let trust = trust.or_else(|| own_trust(&order.issuer, &signer.public_key()?, None));
+    let unknown =
+        || Failed::unusable("the public half of the key is not known before it signs; specify allowed_signers");
+    let (trust, clock) = (trust.ok_or_else(unknown)?, || now);
+    let authority = Authority::new(&order.issuer, signer, &trust, &clock);
     let failed = |refused| match refused {
         FolderRefused::File(error) => Failed { code: UNWRITABLE, ..error.into() },
         refused if refused.is_unusable() => Failed::unusable(refused),
         refused => Failed::refused(refused),
     };
-    let mut words = believed.map_or_else(|| Ok(Vec::new()), known).map_err(failed)?;
-    let issued = folder.issue(&stand, &site, &order, Seal { signer, trust: trust.as_ref() }).map_err(failed)?;
+    let name = format!("{}-{}.yaml", site.id, order.revision);
+    let of_stand = StandFolder::open(&folder, &stand.stand().stand.id(), &authority, |other| other == name);
+    let of_stand = of_stand.map_err(failed)?;
+    let mut words = of_stand.against_certificate(&stand).map_err(failed)?;
+    let issued = of_stand.issue(&stand, &site, &order).map_err(failed)?;
+    of_stand.list().map_err(failed)?;
     if issued.new {
         words.extend(issued.remarks.words());
     }
@@ -91,8 +98,11 @@ mod tests {
     const SITE: (&str, &[u8]) = ("site.yaml", include_bytes!("../../sites/moscow-bmstu.yaml"));
 
     fn order(order: &str, out: &Path) -> Result<(Issued, Vec<String>), Failed> {
-        let key = SigningKey::generate().unwrap();
-        issue([STAND, SITE], order, None, &key, None, out, "2026-11-20T00:00:00.5Z".parse().unwrap())
+        ordered_with(&SigningKey::generate().unwrap(), order, out)
+    }
+
+    fn ordered_with(key: &SigningKey, order: &str, out: &Path) -> Result<(Issued, Vec<String>), Failed> {
+        issue([STAND, SITE], order, None, key, None, out, "2026-11-20T00:00:00.5Z".parse().unwrap())
     }
 
     /// Expected: the messages of the program, and no file.
@@ -124,10 +134,12 @@ mod tests {
     #[test]
     fn the_same_order_leaves_the_passport_as_it_is() {
         let folder = tempfile::tempdir().unwrap();
-        let (first, words) = order(r#"{"identity": "w"}"#, folder.path()).unwrap();
+        let key = SigningKey::generate().unwrap();
+        let order = |order: &str| ordered_with(&key, order, folder.path());
+        let (first, words) = order(r#"{"identity": "w"}"#).unwrap();
         let text = std::fs::read_to_string(&first.path).unwrap();
         assert!(first.new && !words.is_empty() && text.contains("2026-11-20T00:00:00Z"));
-        let (second, words) = order(r#"{"identity": "w"}"#, folder.path()).unwrap();
+        let (second, words) = order(r#"{"identity": "w"}"#).unwrap();
         assert_eq!((second.new, second.sha256, words), (false, first.sha256, Vec::new()));
     }
 }

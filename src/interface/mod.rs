@@ -51,7 +51,7 @@ pub use planned::plan;
 use crate::document::sha256_hex;
 #[cfg(feature = "factory")]
 use crate::files::{self, FileError};
-use crate::passport::{Check, Content, Verification, content_from_anyone};
+use crate::passport::{Check, Content, RegisterUsed, Verification, content_from_anyone};
 use crate::text::{Node, Path, Problem, Problems, Unreadable, name_of, printable, record};
 use crate::trust::LARGEST_TRUST_FILE_BYTES;
 use serde::Serialize;
@@ -164,6 +164,9 @@ pub(crate) struct Verdict {
     pub not_asked: Vec<&'static str>,
     /// Remarks on the lists and the register by which the passport was verified.
     pub remarks: Vec<String>,
+    /// Register by which the passport was checked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub register: Option<RegisterUsed>,
     pub checks: Vec<Check>,
 }
 
@@ -171,7 +174,8 @@ impl Verdict {
     pub(crate) fn of(file: &str, verification: &Verification, remarks: &[String]) -> Self {
         let (id, checks) = (verification.id_from_anyone().map(str::to_owned), verification.checks().to_vec());
         let not_asked = checks.iter().filter(|check| !check.was_asked()).map(|check| check.name.as_str()).collect();
-        Self { file: file.to_owned(), valid: verification.valid(), id, not_asked, remarks: remarks.to_vec(), checks }
+        let (file, valid, register) = (file.to_owned(), verification.valid(), verification.register().cloned());
+        Self { file, valid, id, not_asked, remarks: remarks.to_vec(), register, checks }
     }
 }
 

@@ -19,7 +19,7 @@ words! {
         Schema = "schema",
         /// Key of the issuer, trusted for passports at the time of issue.
         Signer = "signer",
-        /// Revocation of the key, and withdrawal of the passport.
+        /// Revocation of the key.
         Revocation = "revocation",
         /// Recomputation of every number from the signed inputs.
         Recomputed = "recomputed",
@@ -31,7 +31,7 @@ words! {
         Stand = "stand",
         /// Distance from the site, compared with the validity radius.
         Place = "place",
-        /// Absence of a superseding successor in the given register folder.
+        /// State of the passport in the register of its stand.
         Register = "register",
     }
 }
@@ -67,8 +67,6 @@ words! {
         KeyExpired = "key_expired",
         /// The key is revoked.
         KeyRevoked = "key_revoked",
-        /// The passport is withdrawn.
-        PassportRevoked = "passport_revoked",
         /// A number does not follow from the signed inputs.
         WrongNumber = "wrong_number",
         /// The time of issue is later than the time of verification.
@@ -81,9 +79,21 @@ words! {
         WrongStand = "wrong_stand",
         /// The passport is for another place.
         WrongPlace = "wrong_place",
-        /// A successor supersedes the passport.
+        /// The issuer has withdrawn the passport.
+        Withdrawn = "withdrawn",
+        /// A passport for the same site supersedes this one.
         Superseded = "superseded",
-        /// A file in the register that may supersede or withdraw the passport cannot be read.
+        /// The stand has left the site.
+        Moved = "moved",
+        /// The register does not list the file.
+        NotListed = "not_listed",
+        /// The register is no longer fresh.
+        RegisterStale = "register_stale",
+        /// A later register is known.
+        RegisterOlder = "register_older",
+        /// Two registers of the stand contradict each other.
+        RegisterContradicted = "register_contradicted",
+        /// No register of the stand that counts was given.
         RegisterUnknown = "register_unknown",
     }
 }

@@ -11,7 +11,6 @@ use crate::stand::{Certificate, Identity, Stand};
 use crate::text::{Field, Node, number, rule};
 use jiff::Timestamp;
 use jiff::civil::Date;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Changes, reason and issuer of a re-issue.
@@ -33,6 +32,8 @@ pub struct Order {
     pub valid_until: Option<Date>,
     /// Whether to issue a passport even if its positions do not determine the parameters of a gyro.
     pub allow_uncalibratable: bool,
+    /// Whether to issue a successor even if stand, site, issuer and expiry date are those of the predecessor.
+    pub same_content: bool,
 }
 
 /// Reason why a passport was not re-issued.
@@ -110,8 +111,8 @@ pub struct Successor {
     pub(crate) says_the_same: bool,
     /// `true` if the predecessor itself was re-issued for the same reason.
     pub(crate) for_the_same_reason: bool,
-    /// File of another passport that supersedes the same predecessor; `None` if none is known.
-    pub(crate) rival: Option<PathBuf>,
+    /// `true` if such a successor may be issued.
+    pub(crate) may_say_the_same: bool,
 }
 
 /// Prepares the successor of a passport. If every check passed, the whole predecessor is used. If its key is no longer
@@ -182,8 +183,16 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
         && issue.issuer == old.passport.issuer
         && issue.valid_until.or(stand.certificate.valid_until) == old.passport.valid_until;
     let for_the_same_reason = old.passport.reissued_from.as_ref().is_some_and(|from| from.reason == order.reason);
-    let (stand, old_revision, rival) = (prepared, old.passport.revision, None);
-    Ok(Successor { stand, site, same_site, old_revision, issue, says_the_same, for_the_same_reason, rival })
+    Ok(Successor {
+        stand: prepared,
+        site,
+        same_site,
+        old_revision: old.passport.revision,
+        issue,
+        says_the_same,
+        for_the_same_reason,
+        may_say_the_same: order.same_content,
+    })
 }
 
 /// Returns the check, with its detail, because of which only the id and the hash of a predecessor may be used: the key was
@@ -194,9 +203,13 @@ fn limit(verification: &Verification) -> Result<Option<(&'static str, String)>, 
         let (name, detail) = (check.name.as_str(), for_the_issuer(&check.detail).to_owned());
         match (check.name, check.code) {
             // A predecessor whose signer is no longer trusted is not recomputed, but it can still be referenced.
-            (_, Code::Ok | Code::NotAsked) | (CheckName::Recomputed | CheckName::InForce, Code::NotRun) => {}
+            // One that another passport supersedes may be re-issued for another site.
+            (CheckName::Register, Code::Superseded | Code::Moved | Code::RegisterStale)
+            | (_, Code::Ok | Code::NotAsked)
+            | (CheckName::Recomputed | CheckName::InForce, Code::NotRun) => {}
             (CheckName::Signer, Code::UnknownKey)
-            | (CheckName::Revocation, Code::KeyRevoked | Code::PassportRevoked)
+            | (CheckName::Revocation, Code::KeyRevoked)
+            | (CheckName::Register, Code::Withdrawn)
             | (CheckName::InForce, Code::Expired) => limit = Some((name, detail)),
             _ => return Err(ReissueRefused::OldDoesNotHold(name, detail)),
         }
@@ -211,6 +224,14 @@ impl Successor {
 
     pub(crate) fn stand(&self) -> &Stand {
         self.stand.stand()
+    }
+
+    pub(crate) fn prepared(&self) -> &PreparedStand {
+        &self.stand
+    }
+
+    pub(crate) fn old_id(&self) -> &str {
+        self.issue.reissued.as_ref().map_or("", |reissued| &reissued.from.id)
     }
 
     pub(crate) fn old_sha256(&self) -> &str {

@@ -4,39 +4,33 @@
 //! anywhere. It parses no content before the signature is verified, and computes nothing before the signer is trusted,
 //! because anyone can sign a file that is expensive to compute.
 
-use super::checks::{ASK_THE_ISSUER, Check, CheckName, Code, REQUEST_FROM_THE_ISSUER};
+use super::checks::{Check, CheckName, Code, REQUEST_FROM_THE_ISSUER};
 use super::content::{Content, Dated, PASSPORT_FORMAT};
 use super::{FORM, NAMESPACE, content, place, recomputed};
 use crate::coefficients::Coefficients;
 use crate::document::sha256_hex;
 use crate::document::{Malformed, SignedText};
 use crate::earth::Place;
-use crate::revocation::{Entry, Series};
 use crate::text::scalar::day;
 use crate::trust::{AllowedSigners, NotAuthorised, PublicKey, RevokedKeys};
 use jiff::Timestamp;
+use jiff::civil::Date;
+use serde::Serialize;
 use std::fmt::Display;
 
-/// Trusted signers, revoked keys and withdrawn passports.
+/// Trusted signers and revoked keys.
 #[derive(Debug, Clone)]
 pub struct Trust {
     /// Keys that may sign, each with its principals, purposes and validity period.
     pub signers: AllowedSigners,
     /// Revoked keys; their signatures are rejected, whatever they signed and when.
     pub revoked: Vec<RevokedKeys>,
-    /// Verified lists of withdrawn passports.
-    pub withdrawn: Series,
 }
 
 impl Trust {
-    /// Creates a trust in `signers`, with no key revoked and no passport withdrawn.
+    /// Creates a trust in `signers`, with no key revoked.
     pub fn of(signers: AllowedSigners) -> Self {
-        Self { signers, revoked: Vec::new(), withdrawn: Series::default() }
-    }
-
-    /// Returns `true` if a list of revoked keys or of withdrawn passports is given.
-    pub(crate) fn has_lists(&self) -> bool {
-        !self.revoked.is_empty() || self.withdrawn.newest().is_some()
+        Self { signers, revoked: Vec::new() }
     }
 }
 
@@ -45,6 +39,8 @@ impl Trust {
 pub struct Question {
     /// Time of verification.
     pub time: Timestamp,
+    /// Time of the clock, not earlier than which the freshness of a register is judged, whatever [`Self::time`] is.
+    pub now: Timestamp,
     /// Required issuer; any issuer if `None`.
     pub issuer: Option<String>,
     /// Required serial number of the stand; any stand if `None`.
@@ -54,9 +50,9 @@ pub struct Question {
 }
 
 impl Question {
-    /// Creates a question about validity at `time` only, for any issuer, stand and place.
+    /// Creates a question about validity at `time`, which is also that of the clock, for any issuer, stand and place.
     pub fn at(time: Timestamp) -> Self {
-        Self { time, issuer: None, serial: None, place: None }
+        Self { time, now: time, issuer: None, serial: None, place: None }
     }
 
     /// Returns `true` if no issuer, stand or place is required.
@@ -78,6 +74,21 @@ pub struct Verification {
     checks: Vec<Check>,
     key: Option<PublicKey>,
     content: Option<Box<Content>>,
+    sha256: String,
+    register: Option<RegisterUsed>,
+}
+
+/// Register by which a passport was checked.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct RegisterUsed {
+    /// Sequence number.
+    pub sequence: u64,
+    /// SHA-256 of the whole file, in lower-case hexadecimal.
+    pub sha256: String,
+    /// Time of issue.
+    pub issued_at: Timestamp,
+    /// Last day on which the register counts as fresh (inclusive), if it states one.
+    pub fresh_until: Option<Date>,
 }
 
 /// Passport that passed every requested check.
@@ -137,8 +148,19 @@ impl Verification {
         self.content.as_deref()
     }
 
-    /// Replaces a check, which needs more than the passport's own bytes.
-    pub(crate) fn with(mut self, check: Check) -> Self {
+    /// Returns the SHA-256 of the whole file, in lower-case hexadecimal.
+    pub fn sha256(&self) -> &str {
+        &self.sha256
+    }
+
+    /// Returns the register by which the passport was checked, or `None` if none was asked or accepted.
+    pub fn register(&self) -> Option<&RegisterUsed> {
+        self.register.as_ref()
+    }
+
+    /// Replaces a check, which needs more than the passport's own bytes: that of a register.
+    pub(crate) fn with_used(mut self, check: Check, register: Option<RegisterUsed>) -> Self {
+        self.register = register;
         self.checks.iter_mut().filter(|old| old.name == check.name).for_each(|old| *old = check.clone());
         self
     }
@@ -162,30 +184,25 @@ impl Verification {
     /// Returns the content if every requested check passed, even if the passport has expired or may have been
     /// superseded or withdrawn; otherwise `None`: for a comparison with the past, not for use.
     pub(crate) fn content_even_if_past(&self) -> Option<&Content> {
-        let past =
-            [Code::Ok, Code::NotAsked, Code::Expired, Code::PassportRevoked, Code::Superseded, Code::RegisterUnknown];
+        let past = [
+            Code::Ok,
+            Code::NotAsked,
+            Code::Expired,
+            Code::Withdrawn,
+            Code::Superseded,
+            Code::Moved,
+            Code::NotListed,
+            Code::RegisterStale,
+            Code::RegisterOlder,
+            Code::RegisterContradicted,
+            Code::RegisterUnknown,
+        ];
         let good = |check: &Check| past.contains(&check.code);
         self.content.as_deref().filter(|_| self.checks.iter().all(good))
     }
 
-    /// Returns the entry that withdraws this passport, whose file is `bytes`.
-    ///
-    /// A passport with wrong numbers or past its expiry date can be withdrawn. A passport of another signer cannot,
-    /// because its id may be that of an authentic passport.
-    ///
-    /// # Errors
-    /// Returns the first check that failed, if the signer is not trusted or the content is unknown.
-    pub(crate) fn withdrawal(
-        &self,
-        bytes: &[u8],
-        revoked_at: Timestamp,
-        reason: &str,
-    ) -> Result<Entry, Option<&Check>> {
-        let signed = self.code(CheckName::Signer) == Some(Code::Ok);
-        let Some(id) = self.id_from_anyone().filter(|_| signed) else {
-            return Err(self.failed());
-        };
-        Ok(Entry { id: id.to_owned(), sha256: sha256_hex(bytes), revoked_at, reason: reason.to_owned() })
+    fn without_content(checks: Vec<Check>) -> Self {
+        Self { checks, key: None, content: None, sha256: String::new(), register: None }
     }
 
     /// Returns the passport if every requested check passed, otherwise `None`; [`Verification::checks`] then tells what
@@ -208,7 +225,7 @@ pub fn verify(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> V
         key = Some(text.key().clone());
         if let Some(payload) = run.signature(&text, trust) {
             content = run.schema(name, payload).map(Box::new);
-            let counts = run.revocation(bytes, text.key(), trust);
+            let counts = run.revocation(text.key(), trust);
             if let Some(content) = &content
                 && run.signer(text.key(), content, trust)
                 && counts
@@ -219,20 +236,20 @@ pub fn verify(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> V
             }
         }
     }
-    Verification { checks: run.completed(question, trust), key, content }
+    Verification { checks: run.completed(question, trust), key, content, sha256: sha256_hex(bytes), register: None }
 }
 
 /// Creates the result for a file that could not be read; no check was run. `why` is the system's error message.
 pub(crate) fn unreadable(why: &str, trust: &Trust, question: &Question) -> Verification {
     let mut run = Run { checks: Vec::new() };
     run.note(CheckName::Grammar, Code::Unreadable, why);
-    Verification { checks: run.completed(question, trust), key: None, content: None }
+    Verification::without_content(run.completed(question, trust))
 }
 
 /// Creates the result for a passport that was not verified on request: no check was run.
 pub(crate) fn not_run() -> Verification {
     let checks = CheckName::ALL.map(|name| Check::not_run(name, false, "the passport was not verified"));
-    Verification { checks: checks.into(), key: None, content: None }
+    Verification::without_content(checks.into())
 }
 
 /// Checks completed so far.
@@ -277,24 +294,15 @@ impl Run {
         content.ok()
     }
 
-    /// Returns `true` if the key is not revoked, even if the passport is withdrawn.
-    fn revocation(&mut self, bytes: &[u8], key: &PublicKey, trust: &Trust) -> bool {
+    /// Returns `true` if the key is not revoked.
+    fn revocation(&mut self, key: &PublicKey, trust: &Trust) -> bool {
         if let Some(why) = trust.revoked.iter().find_map(|list| list.revokes(key)) {
             let detail = format!("the signing key {} was revoked: {why}", key.fingerprint());
             self.note(CheckName::Revocation, Code::KeyRevoked, detail);
             return false;
         }
-        if let Some(entry) = trust.withdrawn.entry(&sha256_hex(bytes)) {
-            let detail = format!("{entry}; {ASK_THE_ISSUER}");
-            self.note(CheckName::Revocation, Code::PassportRevoked, detail);
-            return true;
-        }
-        let detail = match trust.withdrawn.newest() {
-            Some(list) => format!("not withdrawn: list {} of {} does not list it", list.sequence, list.issued_at),
-            None => "the signing key is not revoked; no list of withdrawn passports was given".to_owned(),
-        };
-        if trust.has_lists() {
-            self.note(CheckName::Revocation, Code::Ok, detail);
+        if !trust.revoked.is_empty() {
+            self.note(CheckName::Revocation, Code::Ok, "the signing key is not revoked");
         }
         true
     }
@@ -394,7 +402,7 @@ impl Run {
     /// the question: its answer replaces [`CheckName::Register`].
     fn completed(mut self, question: &Question, trust: &Trust) -> Vec<Check> {
         let asked = |name| match name {
-            CheckName::Revocation => trust.has_lists(),
+            CheckName::Revocation => !trust.revoked.is_empty(),
             CheckName::Issuer => question.issuer.is_some(),
             CheckName::Stand => question.serial.is_some(),
             CheckName::Place => question.place.is_some(),

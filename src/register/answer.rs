@@ -37,7 +37,10 @@ impl VerifiedRegister {
         }
         if header.issuer != content.passport.issuer {
             let (register, passport) = (&header.issuer, &content.passport.issuer);
-            return (Code::RegisterUnknown, format!("the register is of {register}, and the passport is of {passport}"));
+            return (
+                Code::RegisterUnknown,
+                format!("the register is of {register}, and the passport is of {passport}"),
+            );
         }
         let entry = self.entry(&content.passport.id).filter(|entry| entry.sha256 == sha256);
         let since = |entry: &super::Entry| entry.since.unwrap_or(header.issued_at);
@@ -49,7 +52,8 @@ impl VerifiedRegister {
             Some(Doubt::Contradicted(contradiction)) => return (Code::RegisterContradicted, contradiction.to_string()),
             Some(Doubt::Older(known)) => {
                 let advice = "get the last one from the issuer, or restore it from the backup";
-                let detail = format!("register {} is older than {known}, the last known one; {advice}", header.sequence);
+                let detail =
+                    format!("register {} is older than {known}, the last known one; {advice}", header.sequence);
                 return (Code::RegisterOlder, detail);
             }
             Some(Doubt::Unconfirmed(words)) => return (Code::RegisterUnknown, words.clone()),
@@ -73,7 +77,10 @@ impl VerifiedRegister {
         }
         if let Some(last) = header.fresh_until.filter(|_| self.is_stale(question.time.max(question.now))) {
             let advice = "get the last one from the issuer";
-            return (Code::RegisterStale, format!("register {} was fresh until {last} (inclusive); {advice}", header.sequence));
+            return (
+                Code::RegisterStale,
+                format!("register {} was fresh until {last} (inclusive); {advice}", header.sequence),
+            );
         }
         let fresh = header.fresh_until.map_or_else(String::new, |last| format!(", fresh until {last} (inclusive)"));
         (Code::Ok, format!("current in register {} of {}{fresh}", header.sequence, header.issued_at))

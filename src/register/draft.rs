@@ -124,7 +124,8 @@ impl Draft {
             issued_with: Some(concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION")).to_owned()),
         };
         let entries = previous.map_or_else(Vec::new, |previous| previous.entries().to_vec());
-        let (places, last, previous_issued_at) = (HashMap::new(), HashMap::new(), before.map(|before| before.issued_at));
+        let (places, last, previous_issued_at) =
+            (HashMap::new(), HashMap::new(), before.map(|before| before.issued_at));
         let mut draft = Self { header, entries: Vec::new(), places, last, previous_issued_at };
         draft.set(entries);
         draft

@@ -7,23 +7,26 @@
 //! * `answer`: what a register says of one passport.
 //! * `succession`: whether one register continues another.
 //! * `draft`: the next register of a stand.
+//! * `row`: an entry beside its file.
 
 mod answer;
 #[cfg(feature = "factory")]
 pub(crate) mod draft;
+#[cfg(feature = "factory")]
+mod row;
 mod succession;
 
 pub use answer::Doubt;
 #[cfg(feature = "factory")]
 pub use draft::NoRegister;
+#[cfg(feature = "factory")]
+pub(crate) use row::Row;
 pub use succession::Contradiction;
 
 use crate::document::{self, Form, Malformed, SignedText, sha256_hex};
 use crate::passport::Trust;
 use crate::text::record::{LARGEST_EXACT_INTEGER, OneLine};
-use crate::text::{
-    Identifier, Limits, Path, Printable, Problems, Unreadable, canonical, record, word_of_a_key, words,
-};
+use crate::text::{Identifier, Limits, Path, Printable, Problems, Unreadable, canonical, record, word_of_a_key, words};
 use crate::trust::{NotAuthorised, PublicKey, SignatureError};
 use jiff::civil::Date;
 use jiff::{SignedDuration, Timestamp};

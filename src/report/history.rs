@@ -4,7 +4,6 @@ use crate::attitude::{ANGLE_SYMBOLS, ANGLES};
 use crate::calibration::document::finite;
 use crate::history::drift::{DRIFTS, Drift, Jump, SUSPECTED, Series};
 use crate::history::{History, PastCertificate, PastPassport};
-use crate::register::State;
 use crate::report::page::language::capital;
 use crate::report::style::Outcome;
 use crate::report::{columns, style};
@@ -17,11 +16,33 @@ pub(crate) fn to_json(history: &History) -> Value {
     json!({
         "stand": history.stand,
         "certificates": history.certificates.iter().map(certificate_json).collect::<Vec<_>>(),
-        "passports": history.passports,
+        "passports": history.passports.iter().map(passport_json).collect::<Vec<_>>(),
         "places": history.places,
-        "withdrawals": history.withdrawals,
+        "withdrawals": history.withdrawals().into_iter().map(|row| {
+            json!({"id": row.id, "sha256": row.sha256, "revoked_at": row.since, "reason": row.reason})
+        }).collect::<Vec<_>>(),
         "drift": drift_json(&history.drift),
         "remarks": history.remarks,
+    })
+}
+
+fn passport_json(at: &PastPassport) -> Value {
+    let row = &at.row;
+    json!({
+        "id": row.id,
+        "file": row.file,
+        "sha256": row.sha256,
+        "state": row.state,
+        "expired": row.expired,
+        "site": row.site,
+        "certificate": row.certificate,
+        "valid_until": row.valid_until,
+        "since": row.since,
+        "by": row.by,
+        "issued_at": row.issued_at,
+        "ended_at": at.ended_at,
+        "predecessor": at.predecessor,
+        "reason": at.reason,
     })
 }
 
@@ -238,37 +259,28 @@ fn time_line(history: &History) -> Vec<(String, &'static str, String)> {
         events.push((certificate.measured().to_string(), kind, words));
     }
     for passport in &history.passports {
-        let Some(issued) = passport.issued_at else { continue };
-        events.push((day(issued), "issued", issued_words(passport)));
+        events.push((day(passport.row.issued_at), "issued", issued_words(passport)));
     }
-    for withdrawn in &history.withdrawals {
-        events.push((day(withdrawn.revoked_at), "withdrawn", format!("{}: {}", withdrawn.id, withdrawn.reason)));
+    for row in history.withdrawals() {
+        let reason = row.reason.as_deref().unwrap_or_default();
+        events.push((row.since.map(day).unwrap_or_default(), "withdrawn", format!("{}: {reason}", row.id)));
     }
     // The sort is stable: on one day the measurement comes before the passports, and these before a withdrawal.
     events.sort_by(|a, b| a.0.cmp(&b.0));
-    for passport in history.passports.iter().filter(|passport| passport.issued_at.is_none()) {
-        let words = format!("{}, {}: {}", id(passport), passport.line.state.words(), passport.line.why);
-        events.push(("-         ".to_owned(), "not used", words));
-    }
     events
 }
 
-fn id(passport: &PastPassport) -> &str {
-    passport.line.id.as_deref().unwrap_or("(id not verified)")
-}
-
 fn issued_words(passport: &PastPassport) -> String {
-    let line = &passport.line;
-    let certificate = line.certificate.as_deref().unwrap_or("?");
+    let row = &passport.row;
     let reason = match (&passport.predecessor, &passport.reason) {
         (Some(from), Some(reason)) => format!(", re-issued from {from}: {reason}"),
         _ => String::new(),
     };
-    let until = match (line.valid_until, line.state) {
-        (Some(day), State::InForce | State::Expiring) => format!(", valid until {day}, inclusive"),
+    let until = match row.valid_until {
+        Some(day) if row.is_in_force() => format!(", valid until {day}, inclusive"),
         _ => String::new(),
     };
-    format!("{}, certificate {certificate} ({}{until}){reason}", id(passport), line.state.words())
+    format!("{}, certificate {} ({}{until}){reason}", row.id, row.certificate, row.words())
 }
 
 /// Returns the row of a tested deviation, or `None` if it was not tested. One that has jumped has no rate.

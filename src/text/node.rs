@@ -76,12 +76,7 @@ pub(crate) fn plain_text<'a>(name: &str, bytes: &'a [u8], largest_bytes: usize) 
 
 /// Returns the bytes as text, as [`plain_text`] does. `signed` is the advice on a document in another encoding, or `None` if
 /// its author can save it again.
-fn text_of<'a>(
-    name: &str,
-    bytes: &'a [u8],
-    largest_bytes: usize,
-    signed: Option<&str>,
-) -> Result<&'a str, Unreadable> {
+fn text_of<'a>(name: &str, bytes: &'a [u8], largest_bytes: usize, signed: Option<&str>) -> Result<&'a str, Unreadable> {
     let resaved = signed.unwrap_or("save the file as UTF-8");
     let refuse = |location, found: &str, expected: &str, advice: &str| {
         Err(Unreadable::whole(name, location, found, expected, advice))

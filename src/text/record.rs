@@ -553,7 +553,10 @@ mod tests {
             assert_eq!(crate::text::canonical::write_bare(&place), written);
             assert_eq!(crate::text::canonical::read(&written, Limits::DOCUMENT), Ok(place));
             let unnamed = written.replacen("a \\\"b\\\" \\\\ c", "", 1);
-            assert!(unnamed.starts_with("name: \"\"\n") && crate::text::canonical::read::<Place>(&unnamed, Limits::DOCUMENT).is_err());
+            assert!(
+                unnamed.starts_with("name: \"\"\n")
+                    && crate::text::canonical::read::<Place>(&unnamed, Limits::DOCUMENT).is_err()
+            );
         }
     }
 

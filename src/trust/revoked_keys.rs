@@ -28,7 +28,7 @@ impl RevokedKeys {
     /// list and its offset in bytes.
     pub fn parse(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
         let read = if bytes.starts_with(b"SSHKRL") { binary(name, bytes) } else { text(name, bytes) };
-        let expected = "a KRL, a list of public keys, or a list of withdrawn passports";
+        let expected = "a KRL, or a list of public keys";
         let is_near = |kind| matches!(kind, Kind::KeyRevocationList | Kind::PublicKey | Kind::PrivateKey);
         let revoked = read.map_err(|refused| mistaken(name, bytes, expected, is_near).unwrap_or(refused))?;
         Ok(Self { name: name.to_owned(), revoked })

@@ -7,6 +7,7 @@ use crate::attitude::ANGLE_SYMBOLS;
 use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::history::drift::{DRIFTS, Drift, Series};
 use crate::history::{History, PastPassport};
+use crate::register::State;
 use crate::report::page::Language;
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -60,7 +61,7 @@ fn year_of_time(time: Timestamp) -> f64 {
 
 fn time_scale(history: &History, now: Timestamp) -> Scale {
     let certificates = history.certificates.iter().map(|at| year_of(at.stand.certificate.measured()));
-    let issued = history.passports.iter().filter_map(|at| at.issued_at).map(year_of_time);
+    let issued = history.passports.iter().map(|at| year_of_time(at.row.issued_at));
     let ends = history.passports.iter().filter_map(|at| at.expires_at).map(year_of_time);
     let (low, high) = certificates
         .chain(issued)
@@ -114,8 +115,8 @@ fn time_line(history: &History, (now, as_of): (Timestamp, &str), time: &Scale, b
         }
         @for (place, site) in (1..).zip(history.sites()) {
             (words([ACROSS[0] - 8.0, row(place) + 4.0], Anchor::End, "small", &shortened(site)))
-            @for passport in history.passports.iter().filter(|at| at.line.site.as_deref() == Some(site)) {
-                (bar(passport, history, now, time, row(place)))
+            @for passport in history.passports.iter().filter(|at| at.row.site == site) {
+                (bar(passport, now, time, row(place)))
             }
         }
         @let x = time.place(year_of_time(now));
@@ -124,11 +125,10 @@ fn time_line(history: &History, (now, as_of): (Timestamp, &str), time: &Scale, b
 }
 
 /// Draws the time in which a passport was in force; if it still is, until `now`, and paler from then until it expires.
-fn bar(passport: &PastPassport, history: &History, now: Timestamp, time: &Scale, y: f64) -> Markup {
-    let Some(from) = passport.issued_at.map(year_of_time) else { return html! {} };
+fn bar(passport: &PastPassport, now: Timestamp, time: &Scale, y: f64) -> Markup {
+    let from = year_of_time(passport.row.issued_at);
     let until = year_of_time(passport.ended_at.unwrap_or(now));
-    let withdrawn = history.withdrawals.iter().any(|entry| entry.sha256 == passport.line.sha256);
-    let class = if withdrawn { "frame-line" } else { "bar" };
+    let class = if passport.row.state == State::Withdrawn { "frame-line" } else { "bar" };
     let corner = |at: f64, side: f64| [time.clamped(at), y + side * BAR_HALF];
     html! {
         (rectangle(corner(from, -1.0), corner(until, 1.0), class, None))
@@ -239,7 +239,7 @@ fn in_words(history: &History) -> String {
     let passports = history.passports.iter().filter_map(|at| {
         let expires = at.expires_at.map_or_else(String::new, |end| format!(", expires {end}"));
         let ended = at.ended_at.map_or_else(|| format!("in force{expires}"), |end| format!("until {end}"));
-        Some(format!("passport {} from {}, {ended}", at.line.id.as_deref()?, at.issued_at?))
+        Some(format!("passport {} from {}, {ended}", at.row.id, at.row.issued_at))
     });
     let drifts = history.drift.series.iter().filter_map(|series| {
         let fitted = series.line.as_ref()?;

@@ -97,7 +97,9 @@ mod tests {
 
     #[test]
     fn a_text_may_have_as_many_bytes_and_brackets_as_stated() {
-        let lists = |text: &str| read::<Document>(text, Limits::DOCUMENT).ok().and_then(|read| read.lists).map(|lists| lists.len());
+        let lists = |text: &str| {
+            read::<Document>(text, Limits::DOCUMENT).ok().and_then(|read| read.lists).map(|lists| lists.len())
+        };
         let brackets = |inner: usize| format!("lists: [{}]\n", vec!["[]"; inner].join(", "));
         assert_eq!((lists(&brackets(24_999)), lists(&brackets(25_000))), (Some(24_999), None));
         let bytes = |bytes: usize| format!("lists: [[1], [2]]\n#{}\n", "x".repeat(bytes - 20));

@@ -11,8 +11,7 @@ use crate::text::{Field, Limits, Problem, rule};
 pub(super) fn scan<T: Field>(text: &str, limits: Limits) -> Result<T, Problem> {
     // Count the brackets only if the text is long enough to contain too many.
     let brackets = |text: &str| text.bytes().filter(|byte| b"[{".contains(byte)).count();
-    let too_large =
-        text.len() > limits.bytes || (text.len() > limits.brackets && brackets(text) > limits.brackets);
+    let too_large = text.len() > limits.bytes || (text.len() > limits.brackets && brackets(text) > limits.brackets);
     let mut scanner = Scanner { rest: text, depth: 0, inline: false, first: true };
     let document = if too_large { None } else { T::scan(&mut scanner) };
     let rest = scanner.after_comments();
