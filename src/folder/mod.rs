@@ -43,9 +43,10 @@ pub struct Folder {
     durability: Durability,
     /// Folders of stands that were checked.
     checked: Visited,
-    /// Names of models and serial numbers; `sites` has the names of sites.
+    /// Names of models and serial numbers; `sites` has the names of sites, `files` those of files of other kinds.
     folders: Names,
     sites: Names,
+    files: Names,
 }
 
 /// Signer, with the trust by which a new passport must pass verification before it is written.
@@ -109,8 +110,8 @@ impl Folder {
     /// Creates the handle of the folder `root`, which need not exist yet. Every file is synced as soon as it is
     /// written.
     pub fn new(root: impl Into<PathBuf>) -> Self {
-        let (folders, sites) = (Names::new(Of::Folders), Names::new(Of::Passports));
-        Self { root: root.into(), durability: Durability::Named, checked: Visited::default(), folders, sites }
+        let [folders, sites, files] = [Of::Folders, Of::Passports, Of::Files].map(Names::new);
+        Self { root: root.into(), durability: Durability::Named, checked: Visited::default(), folders, sites, files }
     }
 
     /// Returns the handle with another `durability` of the files written to the folder.
@@ -143,10 +144,18 @@ impl Folder {
         })
     }
 
+    fn of_stand(&self, stand: &Identity) -> PathBuf {
+        self.root.join(stand.model.as_str()).join(stand.serial.as_str())
+    }
+
     /// Returns the path of the passport of a stand for a site.
     pub fn path_of(&self, stand: &Identity, site: &Identifier, revision: u32) -> PathBuf {
-        let folder = self.root.join(stand.model.as_str()).join(stand.serial.as_str());
-        folder.join(format!("{site}-{revision}.yaml"))
+        self.of_stand(stand).join(format!("{site}-{revision}.yaml"))
+    }
+
+    /// Returns the path of the file of a stand.
+    pub(crate) fn stand_file(&self, stand: &Identity) -> PathBuf {
+        self.of_stand(stand).join("stand.yaml")
     }
 
     /// Returns the path of the passport with this id, or `None` if the text is not an id.
@@ -187,7 +196,7 @@ impl Folder {
         time: Timestamp,
     ) -> Result<Vec<String>, FolderRefused> {
         let (text, stand) = (stand.text(), stand.stand());
-        let folder = self.root.join(stand.stand.model.as_str()).join(stand.stand.serial.as_str());
+        let folder = self.of_stand(&stand.stand);
         if !superseding::may_contradict(&folder, text) {
             return Ok(Vec::new());
         }
@@ -326,18 +335,22 @@ impl Folder {
         settle_once()
     }
 
-    /// Checks that the path from the root to the folder of a stand has no link, and that no other name beside its two
-    /// folders differs from model or serial number only in case; once for all its passports.
-    fn check_folder(&self, stand: &Path) -> Result<(), FolderRefused> {
-        self.checked.visit(stand, || {
-            let mut way = stand.ancestors().take_while(|folder| *folder != self.root);
-            if let Some(link) = way.find(|folder| folder.is_symlink()) {
-                return Err(FolderRefused::Link(link.to_owned()));
-            }
-            check_case(&self.folders, files::folder_of(stand))?;
-            check_case(&self.folders, stand)?;
-            Ok(stand.is_dir())
+    /// Checks the path from the root to the folder of a file: none of the folders is a link, and no other name next to one
+    /// of them differs from it only in case. This is done once for all files in that folder.
+    fn check_folder(&self, last: &Path) -> Result<(), FolderRefused> {
+        self.checked.visit(last, || {
+            let way: Vec<&Path> = last.ancestors().take_while(|folder| or_here(folder) != self.root()).collect();
+            way.iter().try_for_each(|folder| check_link(folder))?;
+            way.iter().rev().try_for_each(|folder| check_case(&self.folders, folder))?;
+            Ok(last.is_dir())
         })
+    }
+
+    /// Checks the path at which a file of another kind is to be written, as that of a passport is checked.
+    pub(crate) fn check_place(&self, file: &Path) -> Result<(), FolderRefused> {
+        self.check_folder(files::folder_of(file))?;
+        check_link(file)?;
+        check_case(&self.files, file)
     }
 
     /// Returns the existing passport at a path, or `None` if there is no file.
@@ -349,9 +362,7 @@ impl Folder {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(FileError::Read(path.to_owned(), error).into()),
         };
-        if found.is_symlink() {
-            return Err(FolderRefused::Link(path.to_owned()));
-        }
+        check_link(path)?;
         // Opening a pipe of that name could block indefinitely.
         if !found.is_file() && !found.is_dir() {
             let reason = "a pipe, a device or a socket".to_owned();
@@ -363,6 +374,10 @@ impl Folder {
             Ok(bytes) => Existing::of(path, &bytes).map(Some),
         }
     }
+}
+
+fn check_link(path: &Path) -> Result<(), FolderRefused> {
+    if path.is_symlink() { Err(FolderRefused::Link(path.to_owned())) } else { Ok(()) }
 }
 
 /// Checks that no other name in the same folder differs from that of `path` only in case.

@@ -26,6 +26,8 @@ pub(super) enum Of {
     Folders,
     /// Sites: the part of a passport's file name before the revision.
     Passports,
+    /// Files of other kinds.
+    Files,
 }
 
 /// Number of folders of passports that are remembered before the list is cleared. Passports of one stand follow each
@@ -43,7 +45,7 @@ impl Names {
         let Some(name) = self.name(path) else { return Ok(None) };
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         if !known.contains_key(folder) {
-            if self.of == Of::Passports && known.len() >= MOST_FOLDERS_OF_PASSPORTS {
+            if self.of != Of::Folders && known.len() >= MOST_FOLDERS_OF_PASSPORTS {
                 known.clear();
             }
             known.insert(folder.to_owned(), self.list(folder)?);
@@ -88,7 +90,7 @@ impl Names {
     fn name<'p>(&self, path: &'p Path) -> Option<&'p str> {
         let name = path.file_name()?;
         match self.of {
-            Of::Folders => name.to_str(),
+            Of::Folders | Of::Files => name.to_str(),
             Of::Passports => numbered(name).map(|(site, _)| site),
         }
     }
