@@ -151,7 +151,7 @@ impl<T: Listed> File<T> {
 }
 
 /// Reads a file; returns its document and its SHA-256.
-fn read<T: Listed>(path: &Path) -> Result<(T, [u8; 32]), Failure> {
+pub(super) fn read<T: Listed>(path: &Path) -> Result<(T, [u8; 32]), Failure> {
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
     let value = T::parse(&name_of(path), &bytes);
     let value = value.map_err(|error| Failure::unreadable(path, error))?;

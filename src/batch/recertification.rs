@@ -395,6 +395,7 @@ impl Recertification<'_> {
             issued_at: self.issued_at,
             valid_until: None,
             allow_uncalibratable: old.content.self_check.is_none(),
+            same_content: false,
         };
         let verification = before_expiry(&old.path, &old.bytes, trust, &Question::at(self.question.time));
         let mut next = successor(&old.bytes, &verification, &order)

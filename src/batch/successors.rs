@@ -3,7 +3,7 @@
 //! A passport in a folder is re-issued if it is in force or expired and not superseded, by the rules of the
 //! [`register`](crate::register). A passport whose content would not change is left as it is.
 
-use super::catalogue::Catalogue;
+use super::catalogue::{self, Catalogue};
 use super::{Batch, Event, Failure, Listener, Outcome, Purpose, fail, parallel, paths, sweep};
 use crate::document::sha256_hex;
 use crate::files::walk::Visited;
@@ -37,6 +37,8 @@ pub(crate) struct Change<'a> {
     pub stands: &'a [PathBuf],
     /// Site files, each for the passports of its site, which stay at it.
     pub sites: &'a [PathBuf],
+    /// Returns the factory's own file of a site, for passports whose site was not given; `None` if there is none.
+    pub site_file: fn(&str) -> Option<PathBuf>,
     /// Trust in the predecessors.
     pub trust: Trust,
     /// Question by which the predecessors are verified.
@@ -296,8 +298,10 @@ impl Run<'_> {
             ReissueRefused::BadReason => Failure::unusable(path, error.to_string()),
             _ => refused(error.to_string()),
         })?;
-        let done = next.says_the_same && (changed || next.for_the_same_reason);
-        if candidate.found.is_some() && done {
+        let (in_folder, anew) = (candidate.found.is_some(), next.may_say_the_same);
+        // This run, or an earlier one for the same reason, has nothing to correct in this passport.
+        let done = in_folder && changed && !anew || next.for_the_same_reason && (in_folder || !anew);
+        if next.says_the_same && done {
             let id = verification.id_from_anyone().unwrap_or_default().to_owned();
             let remarks = next.draft(next.first_revision()).map_err(|error| refused(error.to_string()))?.remarks();
             let there = Issued { id, path: path.clone(), sha256: sha256_hex(&bytes), new: false, remarks };
@@ -444,6 +448,16 @@ impl Run<'_> {
         } else if self.sites_missing {
             let why = format!("none of the readable files of --sites is for its site, {}", old.site.id);
             return Err(Failure::refused(&candidate.path, why));
+        } else if order.site.is_none()
+            && let Some(file) = (self.change.site_file)(old.site.id.as_str())
+        {
+            let (site, _) = catalogue::read::<Site>(&file)?;
+            if site.id != old.site.id {
+                let (found, due) = (site.id, &old.site.id);
+                let why = format!("{}: found site {found}, expected {due}; correct the file or its name", shown(&file));
+                return Err(Failure::refused(&file, why));
+            }
+            order.site = Some(site);
         }
         Ok(order)
     }

@@ -275,6 +275,9 @@ impl Folder {
                         revision = last;
                         continue;
                     }
+                    (None, None) if successor.says_the_same && !successor.may_say_the_same => {
+                        Err(FolderRefused::NothingChanges)
+                    }
                     (None, None) => Ok(Next::New { path, draft }),
                 };
             };

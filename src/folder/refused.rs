@@ -44,6 +44,12 @@ pub enum FolderRefused {
         shown(.0)
     )]
     Fork(PathBuf),
+    /// Successor that would say the same as its predecessor.
+    #[error(
+        "nothing would change, because stand, site, issuer and expiry date are those of this passport; give the corrected \
+         file with --site or --stand, or use --same-content to sign the same content again"
+    )]
+    NothingChanges,
     /// Existing next revision that was re-issued from another passport.
     #[error(
         "{}: is already the next revision for this site, re-issued from another passport; re-issue that revision",

@@ -33,6 +33,8 @@ pub struct Order {
     pub valid_until: Option<Date>,
     /// Whether to issue a passport even if its positions do not determine the parameters of a gyro.
     pub allow_uncalibratable: bool,
+    /// Whether to issue a successor even if stand, site, issuer and expiry date are those of the predecessor.
+    pub same_content: bool,
 }
 
 /// Reason why a passport was not re-issued.
@@ -108,6 +110,8 @@ pub struct Successor {
     issue: Issue,
     /// `true` if stand, site, issuer and expiry date are those of the predecessor.
     pub(crate) says_the_same: bool,
+    /// `true` if such a successor may be issued.
+    pub(crate) may_say_the_same: bool,
     /// `true` if the predecessor itself was re-issued for the same reason.
     pub(crate) for_the_same_reason: bool,
     /// File of another passport that supersedes the same predecessor; `None` if none is known.
@@ -182,8 +186,17 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
         && issue.issuer == old.passport.issuer
         && issue.valid_until.or(stand.certificate.valid_until) == old.passport.valid_until;
     let for_the_same_reason = old.passport.reissued_from.as_ref().is_some_and(|from| from.reason == order.reason);
-    let (stand, old_revision, rival) = (prepared, old.passport.revision, None);
-    Ok(Successor { stand, site, same_site, old_revision, issue, says_the_same, for_the_same_reason, rival })
+    Ok(Successor {
+        stand: prepared,
+        site,
+        same_site,
+        old_revision: old.passport.revision,
+        issue,
+        says_the_same,
+        may_say_the_same: order.same_content,
+        for_the_same_reason,
+        rival: None,
+    })
 }
 
 /// Returns the check, with its detail, because of which only the id and the hash of a predecessor may be used: the key was
