@@ -188,6 +188,7 @@ impl Stage<'_> {
             issued_at: self.now,
             valid_until: None,
             allow_uncalibratable: false,
+            same_content: false,
         };
         let issued =
             self.passports().reissue(&successor(&bytes, &old, &order)?, Seal { signer: key, trust: Some(trust) })?;

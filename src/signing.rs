@@ -258,9 +258,12 @@ pub(crate) enum NotAppended {
 }
 
 /// Returns the allowed signers of a file with one more line; a missing final line feed is added first. A file that does
-/// not exist counts as empty.
+/// not exist counts as empty, unless a link leads to it.
 pub(crate) fn with_signer(path: &Path, line: &str) -> Result<Vec<u8>, NotAppended> {
     let mut text = match files::read(path, LARGEST_TRUST_FILE_BYTES) {
+        Err(error) if error.is_missing() && path.is_symlink() => {
+            return Err(FileError::Exists { path: path.to_owned(), replaceable: false }.into());
+        }
         Err(error) if error.is_missing() => Vec::new(),
         read => read?,
     };

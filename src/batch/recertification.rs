@@ -151,9 +151,10 @@ impl Recertification<'_> {
         let (certification, comparison) = self.measured(&old_stand, &header)?;
         let new = certification.stand.clone();
         let root = self.root(&old_stand)?;
-        let stands = self.stands.as_deref().unwrap_or(&root);
-        let stand_file = stands.join(new.stand.model.as_str()).join(new.stand.serial.as_str()).join("stand.yaml");
+        let stands = Folder::new(self.stands.as_deref().unwrap_or(&root));
+        let stand_file = stands.stand_file(&new.stand);
         let text = certification.to_yaml(&name_of(&stand_file))?;
+        stands.check_place(&stand_file).map_err(refused)?;
         self.check_there(&stand_file, &certification)?;
         let failed = |refused| NotRecertified::Folder(old_stand.stand.id(), refused);
         let source = match Folder::root_of(self.passport, &old_stand.stand) {

@@ -9,6 +9,7 @@ use crate::batch::once::Once;
 use crate::batch::{Purpose, paths};
 use crate::certification::{AngleReadings, Certification, Header, certify, compare, predicted};
 use crate::files;
+use crate::folder::Folder;
 use crate::folder::archive::Superseded;
 use crate::passport::content::claims_to_be_a_passport;
 use crate::passport::difference::of_deviations;
@@ -97,6 +98,7 @@ fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
         let words = "expected a folder; with --out, --stand is the folder of the headers, NAME.yaml for NAME.csv";
         return Err(Failure::usage(format!("--stand {}: {words}", shown(headers))));
     }
+    let folder = Folder::new(folder);
     let (mut measured, mut numbered) = (Once::new(), Once::new());
     let work = |readings: &Path| {
         let header = header_of(headers, readings)?;
@@ -117,7 +119,8 @@ fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
             ));
         }
         let stand = &certified.stand.stand;
-        let path = folder.join(stand.model.as_str()).join(stand.serial.as_str()).join("stand.yaml");
+        let path = folder.stand_file(stand);
+        folder.check_place(&path).map_err(Failure::refused)?;
         write(&path, &certified, &[], options.force)?;
         let text = report::line(&certified, &name_of(&path));
         let result = report::to_json(Some(&certified), None, None);
@@ -151,7 +154,8 @@ fn write(path: &Path, certified: &Certification, known: &[&Stand], force: bool) 
         certified.stand.check_number_of_file(there).map_err(|used| Failure::refused(in_use(used)))?;
     }
     let text = certified.to_yaml(&name_of(path)).map_err(Failure::refused)?;
-    let superseded = Superseded::of(path, text.as_bytes())?.filter(|_| force);
+    files::check_replaceable([path], force)?;
+    let superseded = Superseded::of(path, text.as_bytes())?;
     if let Some(superseded) = &superseded {
         superseded.keep()?;
         output::say_after(&format!("kept the superseded stand file as {}", shown(&superseded.path)));

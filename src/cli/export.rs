@@ -9,6 +9,7 @@ use crate::dcc;
 use crate::document::sha256_hex;
 use crate::files::together::write_replaceable_together;
 use crate::files::{self, FileError};
+use crate::folder::Folder;
 use crate::interface::Failed;
 use crate::parallel;
 use crate::passport::export::{site_file, stand_file};
@@ -73,8 +74,9 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     }
     let enquiry = options.trust.load()?;
     let administrative = AdministrativeFile::read(options.administrative.as_deref())?;
+    let folder = Folder::new(options.out.as_deref().unwrap_or(Path::new("")));
     let written = HashMap::new();
-    let mut run = Run { options, enquiry, administrative, written, code: 0, next: Vec::new() };
+    let mut run = Run { options, enquiry, administrative, folder, written, code: 0, next: Vec::new() };
     let mut list = std::io::stdin().lock();
     for found in paths::files(&options.passports, &mut list, Purpose::Passports) {
         match found {
@@ -105,6 +107,7 @@ struct Run<'a> {
     options: &'a Options,
     enquiry: Enquiry,
     administrative: AdministrativeFile,
+    folder: Folder,
     /// SHA-256 of the files written so far, and the passports that they come from.
     written: HashMap<PathBuf, (String, PathBuf)>,
     code: Code,
@@ -165,17 +168,17 @@ impl Run<'_> {
     /// Returns the files of a verified passport.
     fn files(&self, content: &Content, bytes: &[u8], json: Option<&str>) -> Result<Vec<(PathBuf, String)>, Unreadable> {
         let root = self.options.out.as_deref().unwrap_or(Path::new(""));
-        let folder = root.join(content.stand.model.as_str()).join(content.stand.serial.as_str());
+        let stand = self.folder.stand_file(&content.stand);
         let mut files = Vec::new();
         if self.options.to.contains(&Form::Stand) {
-            files.push((folder.join("stand.yaml"), stand_file(content)?));
+            files.push((stand.clone(), stand_file(content)?));
         }
         if self.options.to.contains(&Form::Site) {
             files.push((root.join(format!("{}.yaml", content.site.id)), site_file(content)?));
         }
         if let Some(json) = json.filter(|_| self.options.out.is_some()) {
             let name = format!("{}-{}.json", content.site.id, content.passport.revision);
-            files.push((folder.join(name), json.to_owned()));
+            files.push((stand.with_file_name(name), json.to_owned()));
         }
         if self.options.to.contains(&Form::Dcc) {
             let lang = (!self.options.lang.is_empty()).then(|| languages(&self.options.lang));
@@ -222,8 +225,10 @@ impl Run<'_> {
             failed.message = format!("nothing was exported from {}\n{}", shown(path), failed.message);
             Failure { code: REFUSED, ..Failure::from(failed) }
         })?;
+        let advice = |failure: Failure| failure.with_advice(&format!("nothing was exported from {}", shown(path)));
         let mut new = Vec::new();
         for (target, text) in files {
+            self.folder.check_place(target).map_err(|refused| advice(Failure::refused(refused)))?;
             let sha256 = sha256_hex(text.as_bytes());
             match self.written.get(target) {
                 Some((there, _)) if *there == sha256 => {}
@@ -236,9 +241,7 @@ impl Run<'_> {
                     )));
                 }
                 None if !self.options.force && target.symlink_metadata().is_ok() => {
-                    let error = FileError::Exists { path: target.clone(), replaceable: true };
-                    let advice = format!("nothing was exported from {}", shown(path));
-                    return Err(Failure::from(error).with_advice(&advice));
+                    return Err(advice(FileError::Exists { path: target.clone(), replaceable: true }.into()));
                 }
                 None => new.push((target.clone(), text.clone())),
             }

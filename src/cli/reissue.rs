@@ -22,7 +22,8 @@ pub(super) struct Options {
     /// Predecessors; in a workspace also their identifiers
     #[arg(required = true, value_name = "PASSPORT", value_parser = defaults::passport())]
     passports: Vec<PathBuf>,
-    /// New or corrected site [default: that of the predecessor]; in a workspace also its identifier
+    /// New or corrected site [default: in a workspace its file of the predecessor's site, else the predecessor's site];
+    /// in a workspace also its identifier
     #[arg(long, value_name = "SITE", value_parser = defaults::site())]
     site: Option<PathBuf>,
     /// Site files, each for the passports of that site: files, folders, patterns (repeatable)
@@ -35,6 +36,9 @@ pub(super) struct Options {
     /// The stand has left the previous site; supersede the predecessor
     #[arg(long)]
     moved: bool,
+    /// Issue a successor even if stand, site, issuer and expiry date stay the same, for example to sign with a new key
+    #[arg(long)]
+    same_content: bool,
     /// Reason for the re-issue, recorded in the passport
     #[arg(long, value_name = "TEXT")]
     reason: String,
@@ -70,13 +74,15 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         issued_at: time_of_issue(options.issued_at, trust_options::now()).map_err(Failure::refused)?,
         valid_until: options.valid_until,
         allow_uncalibratable: options.batch.allow_uncalibratable,
+        same_content: options.same_content,
     };
     let signer = options.batch.signer()?;
     if let Some(public) = options.batch.public_key(signer.as_deref())? {
         options.batch.warn_unless_authorised(&trust.signers, &public, order.issued_at, "--trust");
     }
     let folder = options.out.as_deref().map(|out| Arc::new(options.batch.folder(out)));
-    let change = Change { order, stands: &options.stands, sites: &options.sites, trust, question, folder };
+    let site_file = |id: &str| defaults::workspace()?.site(id).filter(|path| path.exists());
+    let change = Change { order, stands: &options.stands, sites: &options.sites, site_file, trust, question, folder };
     options.batch.run(signer.as_deref(), None, |batch, tell| {
         batch.reissue(&options.passports, &mut std::io::stdin().lock(), change, tell);
     })

@@ -36,8 +36,8 @@ pub enum FileError {
     /// File that exceeds this limit, in bytes.
     #[error("{}: more than {} bytes; {}", shown(.0), .1, large_file(&name_of(.0)))]
     TooLarge(PathBuf, usize),
-    /// Existing file that is not replaced.
-    #[error("{}: already exists, not overwritten{}", shown(path), if *replaceable { "; to replace it, use --force" } else { "" })]
+    /// Existing file that is not replaced, or a link, wherever it leads.
+    #[error("{}: {}", shown(path), why_not_replaced(path, *replaceable))]
     Exists {
         /// Path of the file.
         path: PathBuf,
@@ -81,6 +81,15 @@ impl FileError {
             | Self::Twice(path)
             | Self::Write(path, _) => path,
         }
+    }
+}
+
+/// Returns why an existing file is not replaced.
+fn why_not_replaced(path: &Path, replaceable: bool) -> &'static str {
+    match replaceable {
+        _ if path.is_symlink() => "is a link, not overwritten; remove it, or specify a file that is not a link",
+        true => "already exists, not overwritten; to replace it, use --force",
+        false => "already exists, not overwritten",
     }
 }
 
@@ -235,7 +244,7 @@ pub(crate) fn replace_as(path: &Path, bytes: &[u8], durability: Durability) -> R
 /// Checks that no file is in the way of [`write_replaceable`], so that none of several is written if one cannot be.
 ///
 /// # Errors
-/// Returns [`FileError::Folder`]; [`FileError::Exists`] without `force`, or for a file that is never replaced.
+/// Returns [`FileError::Folder`]; [`FileError::Exists`] without `force`, for a link, or for a file that is never replaced.
 pub(crate) fn check_replaceable<P: AsRef<Path>>(
     paths: impl IntoIterator<Item = P>,
     force: bool,
@@ -245,11 +254,11 @@ pub(crate) fn check_replaceable<P: AsRef<Path>>(
         if path.is_dir() {
             return Err(FileError::Folder(path));
         }
-        if path.metadata().is_ok_and(|there| !there.is_file()) || (force && is_irreplaceable(&path)) {
-            return Err(FileError::Exists { path, replaceable: false });
-        }
-        if !force && path.symlink_metadata().is_ok() {
-            return Err(FileError::Exists { path, replaceable: true });
+        if let Ok(there) = path.symlink_metadata() {
+            let replaceable = there.is_file() && !(force && is_irreplaceable(&path));
+            if !(force && replaceable) {
+                return Err(FileError::Exists { path, replaceable });
+            }
         }
     }
     Ok(())
@@ -270,7 +279,7 @@ pub(crate) fn check_distinct<'a>(paths: impl IntoIterator<Item = &'a PathBuf>) -
 /// Writes a file as [`write_new`] does, and replaces an existing file if `force` is set.
 ///
 /// Passports, registers and private keys are never replaced. Nor is anything but a regular file,
-/// because renaming a new file to the name of a device would remove the device.
+/// because renaming a new file to the name of a device or of a link would remove it.
 pub(crate) fn write_replaceable(path: &Path, bytes: &[u8], force: bool) -> Result<(), FileError> {
     check_replaceable([path], force)?;
     let persist = |temporary: NamedTempFile| match force {

@@ -185,7 +185,8 @@ fn read_each<T, L>(
 }
 
 fn passports(register: Register) -> Passports {
-    let counts = register.counts();
+    let mut counts = BTreeMap::from([State::Expiring, State::Expired].map(|state| (state, 0)));
+    counts.extend(register.counts());
     let alarms = register.alarms.iter().map(ToString::to_string).collect();
     let of = |state| register.passports.iter().filter(|line| line.state == state).cloned().collect();
     Passports { counts, expiring: of(State::Expiring), expired: of(State::Expired), broken: of(State::Broken), alarms }
@@ -225,35 +226,45 @@ fn signing_key(key: &Path, workspace: &Workspace, trust: Option<&Trust>, time: T
 }
 
 impl Status {
-    /// Returns `true` if there is an alarm, a broken passport, or a file that cannot be read.
+    /// Returns the number of passports in a state.
+    fn count(&self, state: State) -> usize {
+        self.passports.as_ref().and_then(|passports| passports.counts.get(&state)).copied().unwrap_or_default()
+    }
+
+    fn signing_key_is_unusable(&self) -> bool {
+        self.signing_key.as_ref().is_some_and(|key| key.trusted != Some(true) && key.why.is_some())
+    }
+
+    /// Returns `true` if there is an alarm, a broken or expired passport, a file that cannot be read, or a signing key that
+    /// cannot be used.
     pub(crate) fn needs_attention(&self) -> bool {
-        let passports = self.passports.as_ref();
-        let broken =
-            |passports: &Passports| !passports.alarms.is_empty() || passports.counts.contains_key(&State::Broken);
-        passports.is_some_and(broken) || !self.remarks.is_empty()
+        let alarms = self.passports.as_ref().is_some_and(|passports| !passports.alarms.is_empty());
+        let passports = self.count(State::Broken) + self.count(State::Expired);
+        alarms || passports > 0 || !self.remarks.is_empty() || self.signing_key_is_unusable()
     }
 
     /// Returns the status as text: one line for each number, and below it what needs attention.
     pub(crate) fn text(&self) -> String {
-        let alarms = self.passports.as_ref().map_or(0, |passports| passports.alarms.len());
         let of_stands = self.stands.iter().filter(|stand| stand.expired).count();
-        let of_passports = self.passports.iter().flat_map(|passports| &passports.counts);
-        let of_passports: usize =
-            of_passports.filter(|(state, _)| state.is_running_out()).map(|(_, number)| *number).sum();
-        let (outcome, verdict) = match (self.needs_attention(), of_stands + of_passports) {
-            (true, _) => {
-                let broken = self.passports.as_ref().map_or(0, |passports| passports.broken.len());
-                let remarks = self.remarks.len();
-                let words =
-                    format!("NEEDS ATTENTION  broken passports: {broken}; alarms: {alarms}; remarks: {remarks}");
-                (Outcome::Failed, words)
-            }
-            (false, 0) => (Outcome::Passed, "NO ALARMS".to_owned()),
-            (false, _) => {
-                let counts = format!("passports: {of_passports}; expired certificates of stands: {of_stands}");
-                (Outcome::Undecided, format!("NO ALARMS  expired or expiring {counts}"))
-            }
+        let [expired, expiring, broken] =
+            [State::Expired, State::Expiring, State::Broken].map(|state| self.count(state));
+        let (outcome, verdict) = match self.needs_attention() {
+            true => (Outcome::Failed, "NEEDS ATTENTION"),
+            false if expiring + of_stands > 0 => (Outcome::Undecided, "NO ALARMS"),
+            false => (Outcome::Passed, "NO ALARMS"),
         };
+        let mut verdict = format!("{verdict}  passports expired: {expired}, expiring: {expiring}");
+        let alarms = self.passports.as_ref().map_or(0, |passports| passports.alarms.len());
+        let others = [
+            ("broken passports", broken),
+            ("alarms", alarms),
+            ("expired certificates of stands", of_stands),
+            ("unusable signing keys", self.signing_key_is_unusable().into()),
+            ("remarks", self.remarks.len()),
+        ];
+        for (what, number) in others.iter().filter(|(_, number)| *number > 0) {
+            let _ = write!(verdict, "; {what}: {number}");
+        }
         let mut out = style::marked(outcome, &verdict) + "\n";
         let _ = writeln!(out, "Workspace  {}, {}", Printable(&self.workspace), self.time);
         let _ = writeln!(out, "Stands     {}{}", self.stands.len(), count(of_stands, "with an expired certificate"));
@@ -264,8 +275,8 @@ impl Status {
         indented(&mut out, expired.collect());
         let _ = writeln!(out, "Sites      {}", self.sites.len());
         if let Some(passports) = &self.passports {
-            let counts: Vec<String> =
-                passports.counts.iter().map(|(state, count)| format!("{count} {}", state.words())).collect();
+            let counts = passports.counts.iter().filter(|(_, count)| **count > 0);
+            let counts: Vec<String> = counts.map(|(state, count)| format!("{count} {}", state.words())).collect();
             let counts = if counts.is_empty() { "none".to_owned() } else { counts.join(", ") };
             let _ = writeln!(out, "Passports  {counts}");
             let dated = |lines: &[Line], words: &str| {

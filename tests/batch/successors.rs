@@ -82,11 +82,11 @@ fn a_new_certificate_re_issues_all_that_hangs_on_it_once() {
 fn without_files_all_is_issued_anew_once_for_a_reason() {
     let workshop = issued();
     let everything: BTreeSet<String> = ids("0000", &ALL, 2).into_iter().chain(ids("0001", &ALL, 2)).collect();
-    let said = workshop.run(&format!("reissue passports --reason rotated {ANEW}"), 0);
+    let said = workshop.run(&format!("reissue passports --same-content --reason rotated {ANEW}"), 0);
     assert_eq!(said.ids("issued"), everything);
-    let said = workshop.run(&format!("reissue passports --reason rotated {ANEW}"), 0);
+    let said = workshop.run(&format!("reissue passports --same-content --reason rotated {ANEW}"), 0);
     assert_eq!(said.ids("unchanged"), everything);
-    let said = workshop.run(&format!("reissue passports/SPS-2/0000 --reason otherwise {ANEW}"), 0);
+    let said = workshop.run(&format!("reissue passports/SPS-2/0000 --same-content --reason otherwise {ANEW}"), 0);
     assert_eq!(said.ids("issued"), ids("0000", &ALL, 3));
     assert_eq!(workshop.sound("passports").len(), 25);
 }
@@ -96,7 +96,7 @@ fn parts_of_a_folder_are_disjoint_and_complete() {
     let workshop = issued();
     let mut together = BTreeSet::new();
     for part in ["2/2", "1/2"] {
-        let said = workshop.run(&format!("reissue passports --reason rotated --shard {part} {ANEW}"), 0);
+        let said = workshop.run(&format!("reissue passports --same-content --reason rotated --shard {part} {ANEW}"), 0);
         let issued = said.ids("issued");
         assert!(!issued.is_empty() && together.is_disjoint(&issued));
         together.extend(issued);
@@ -148,7 +148,7 @@ fn withdrawn_passports_are_skipped_and_uncertain_lists_stop_the_folder() {
     let workshop = issued_for_long();
     let revoke = "revoke SPS-2/0000/site-00001/1 --list passports --reason wrong --key key --identity factory";
     workshop.run(&format!("{revoke} --trust allowed_signers"), 0);
-    let said = workshop.run(&format!("reissue passports --reason rotated {NOW}"), 0);
+    let said = workshop.run(&format!("reissue passports --same-content --reason rotated {NOW}"), 0);
     assert_eq!(said.ids("skipped"), ids("0000", &[1], 1));
     assert_eq!(said.ids("issued").len(), 9);
     // The first list is missing.
@@ -156,7 +156,7 @@ fn withdrawn_passports_are_skipped_and_uncertain_lists_stop_the_folder() {
     workshop.run(&format!("{revoke} --trust allowed_signers"), 0);
     fs::remove_file(workshop.path("passports/revocation-1.yaml")).unwrap();
     let before = snapshot(&workshop.path("passports"));
-    let said = workshop.run(&format!("reissue passports --reason otherwise {NOW}"), 1);
+    let said = workshop.run(&format!("reissue passports --same-content --reason otherwise {NOW}"), 1);
     assert!(said.words.starts_with("dtg-passport: passports: the withdrawals are uncertain: "), "{}", said.words);
     assert_eq!(snapshot(&workshop.path("passports")), before);
 }
@@ -165,18 +165,23 @@ fn withdrawn_passports_are_skipped_and_uncertain_lists_stop_the_folder() {
 fn of_a_fork_neither_branch_goes_on_until_one_is_withdrawn() {
     let workshop = issued_for_long();
     let old = "passports/SPS-2/0000/site-00000-1.yaml";
-    workshop.run(&format!("reissue {old} --reason other --out elsewhere {ANEW}"), 0);
-    workshop.run(&format!("reissue {old} --reason one {ANEW}"), 0);
+    workshop.run(&format!("reissue {old} --same-content --reason other --out elsewhere {ANEW}"), 0);
+    workshop.run(&format!("reissue {old} --same-content --reason one {ANEW}"), 0);
     // Where the first one is seen, a second successor is refused: another folder, another site.
-    workshop.run(&format!("reissue {old} --reason more --out third {ANEW}"), 1);
+    workshop.run(&format!("reissue {old} --same-content --reason more --out third {ANEW}"), 1);
     let said = workshop.run(&format!("reissue {old} --reason sold --site sites/site-00001.yaml --moved {ANEW}"), 1);
     assert!(said.words.contains("site-00000-2.yaml: already supersedes this passport"), "{}", said.words);
-    workshop.run(&format!("reissue elsewhere/SPS-2/0000/site-00000-2.yaml --reason another --out passports {ANEW}"), 0);
+    workshop.run(
+        &format!(
+            "reissue elsewhere/SPS-2/0000/site-00000-2.yaml --same-content --reason another --out passports {ANEW}"
+        ),
+        0,
+    );
     // Restored from a copy that had gone its own way: two passports supersede the first one.
     fs::create_dir_all(workshop.path("passports/restored/SPS-2/0000")).unwrap();
     let other = "SPS-2/0000/site-00000-2.yaml";
     fs::rename(workshop.path("elsewhere").join(other), workshop.path("passports/restored").join(other)).unwrap();
-    let said = workshop.run(&format!("reissue passports --reason rotated {ANEW}"), 1);
+    let said = workshop.run(&format!("reissue passports --same-content --reason rotated {ANEW}"), 1);
     assert_eq!(said.ids("issued").len(), 9);
     let [one, another] = [2, 3].map(|revision| format!("passports/SPS-2/0000/site-00000-{revision}.yaml"));
     assert_eq!(said.ids("refused"), [one.clone(), another].into());
@@ -189,7 +194,7 @@ fn of_a_fork_neither_branch_goes_on_until_one_is_withdrawn() {
     assert!(forked());
     workshop.run(&format!("revoke {one} {revoke}"), 0);
     assert!(!forked());
-    let said = workshop.run(&format!("reissue passports --reason rotated {NOW}"), 0);
+    let said = workshop.run(&format!("reissue passports --same-content --reason rotated {NOW}"), 0);
     assert_eq!(said.ids("issued"), ids("0000", &[0], 4));
 }
 
@@ -203,7 +208,7 @@ fn what_is_broken_or_misplaced_or_a_link_is_refused_and_the_rest_goes_on() {
     fs::rename(folder.join("site-00002-1.yaml"), workshop.path("site-00002-1.yaml")).unwrap();
     std::os::unix::fs::symlink(workshop.path("site-00002-1.yaml"), folder.join("site-00002-1.yaml")).unwrap();
     fs::write(folder.join("site-00003-1.yaml"), vec![b'#'; 2 << 20]).unwrap();
-    let said = workshop.run(&format!("reissue passports --reason rotated {ANEW}"), 1);
+    let said = workshop.run(&format!("reissue passports --same-content --reason rotated {ANEW}"), 1);
     // Of the stand whose passport is altered nothing is known: that one might supersede the others.
     let refused = ["0000/site-00000", "0000/site-00002", "0000/site-00003", "0000/site-00004", "0001/site-00009"];
     assert_eq!(said.ids("refused"), refused.map(|file| format!("passports/SPS-2/{file}-1.yaml")).into());
@@ -243,11 +248,12 @@ fn several_that_move_to_one_site_follow_each_other_in_order() {
 #[test]
 fn passports_by_pattern_are_named_ones() {
     let workshop = issued();
-    let said = workshop.run(&format!("reissue passports/SPS-2/*/site-00001-?.yaml --reason rotated {ANEW}"), 0);
+    let said =
+        workshop.run(&format!("reissue passports/SPS-2/*/site-00001-?.yaml --same-content --reason rotated {ANEW}"), 0);
     assert_eq!(said.ids("issued").len(), 2);
-    let said = workshop.run(&format!("reissue passports/SPS-2/000[01] --reason rotated {ANEW}"), 0);
+    let said = workshop.run(&format!("reissue passports/SPS-2/000[01] --same-content --reason rotated {ANEW}"), 0);
     assert_eq!((said.ids("issued").len(), said.ids("unchanged").len(), said.ids("skipped").len()), (8, 2, 2));
-    let list = format!("ls passports/SPS-2/0001/*-2.yaml | \"$DTG\" reissue - --reason listed {ANEW}");
+    let list = format!("ls passports/SPS-2/0001/*-2.yaml | \"$DTG\" reissue - --same-content --reason listed {ANEW}");
     let said = Said::of(workshop.shell(&list).output().unwrap(), 0);
     assert_eq!(said.ids("issued"), ids("0001", &ALL, 3));
 }
@@ -258,7 +264,8 @@ fn a_successor_is_written_into_the_root_that_its_predecessor_shows() {
     for out in ["one", "two/deep"] {
         workshop.run(&format!("issue stands --site sites {SIGN} --out {out}"), 0);
     }
-    let said = workshop.run(&format!("reissue one two/deep/SPS-2/0000/site-00001-1.yaml --reason x {ANEW}"), 0);
+    let said =
+        workshop.run(&format!("reissue one two/deep/SPS-2/0000/site-00001-1.yaml --same-content --reason x {ANEW}"), 0);
     assert_eq!((said.ids("issued").len(), said.results.lines().count()), (2, 4));
     assert_eq!(workshop.sound("one").len(), 4);
     assert_eq!(workshop.sound("two/deep").len(), 3);
@@ -266,7 +273,7 @@ fn a_successor_is_written_into_the_root_that_its_predecessor_shows() {
     // A path that shows no root: nothing is written anywhere until one is named.
     fs::rename(workshop.path("one/SPS-2/0000"), workshop.path("one/SPS-2/renamed")).unwrap();
     let before = snapshot(&workshop.path("one"));
-    let moved = "reissue one/SPS-2/renamed/site-00000-2.yaml --reason y";
+    let moved = "reissue one/SPS-2/renamed/site-00000-2.yaml --same-content --reason y";
     let said = workshop.run(&format!("{moved} {ANEW}"), 2);
     assert!(said.words.contains("--out"), "{}", said.words);
     assert_eq!(snapshot(&workshop.path("one")), before);

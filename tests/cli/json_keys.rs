@@ -164,7 +164,7 @@ fn issue_and_reissue_report_alike() {
         assert_eq!(report.first().at("state").text(), state);
         assert_eq!(report.first().at("noise_growth").names(), "k omega_0 omega_g omega_k");
     }
-    let reissue = format!("reissue {PASSPORT} --reason x {SIGN} {TRUST} --issued-at 2026-11-20");
+    let reissue = format!("reissue {PASSPORT} --same-content --reason x {SIGN} {TRUST} --issued-at 2026-11-20");
     assert_eq!(folder.json(&reissue, 0).first().names(), "id state file sha256 noise_growth");
     let refused = folder.json(&format!("{reissue} --valid-until 2027-01-01"), 1);
     assert_eq!(refused.first().names(), "id state reason");
@@ -220,7 +220,7 @@ fn a_plan_has_its_keys() {
 fn show_has_the_keys_of_the_passport_in_their_order() {
     let folder = Folder::new();
     folder.run(&format!("issue stand.yaml --site here.yaml {SIGN} --issued-at 2026-11-03"), 0);
-    folder.run(&format!("reissue {PASSPORT} --reason x {SIGN} {TRUST} --issued-at 2026-11-20"), 0);
+    folder.run(&format!("reissue {PASSPORT} --same-content --reason x {SIGN} {TRUST} --issued-at 2026-11-20"), 0);
     let passport = folder.json(&format!("show passports/SPS-2/0017/here-2.yaml {TRUST}"), 0);
     assert_eq!(
         passport.names(),

@@ -16,6 +16,8 @@ mod history;
 mod hostile_words;
 mod json_keys;
 mod keystrokes;
+#[cfg(unix)]
+mod links;
 mod recertify;
 mod report;
 mod revocation_chain;

@@ -321,6 +321,7 @@ mod passports {
             issued_at: fixtures::issued_plus(60),
             valid_until: None,
             allow_uncalibratable: false,
+            same_content: false,
         };
         let verification = verify("old.yaml", text.as_bytes(), &fixtures::trust(&key), &fixtures::question());
         let successor = reissue::successor(text.as_bytes(), &verification, &order).unwrap();

@@ -46,6 +46,7 @@ fn of_a_passport_that_may_only_be_named_nothing_but_its_id_and_hash_is_taken_ove
         issuer: "factory".to_owned(),
         issued_at: time("2026-11-20T00:00:00Z"),
         allow_uncalibratable: false,
+        same_content: false,
         valid_until: None,
     };
     let accuracy_of_successor = |trust: &Trust| {
