@@ -5,7 +5,7 @@ use crate::calibration::{self, Options, Parameter, Readings, Setup};
 use crate::coefficients::PositionIndex;
 use crate::earth::Place;
 use crate::files::{self, Access};
-use crate::folder::{Folder, Issued, Seal};
+use crate::folder::{Authority, Folder, Issued};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::issue::{Issue, PreparedStand};
@@ -91,7 +91,7 @@ impl Stage<'_> {
         let moscow = Site::from_yaml("moscow-bmstu.yaml", MOSCOW.as_bytes())?;
         let beijing = Site::from_yaml("beijing-nim.yaml", BEIJING.as_bytes())?;
         let (key, trust) = self.key()?;
-        let here = self.issue(stand, &moscow, &key)?;
+        let here = self.issue(stand, &moscow, &key, &trust)?;
         self.laboratory(&here, &moscow, &beijing, &trust)?;
         let there = self.moved(&here, &beijing, &key, &trust)?;
         self.calibrated(&there, &trust)?;
@@ -125,7 +125,7 @@ impl Stage<'_> {
         Ok((key, Trust::of(AllowedSigners::parse("allowed_signers", signers.as_bytes())?)))
     }
 
-    fn issue(&mut self, stand: &Stand, moscow: &Site, key: &SigningKey) -> Result<Issued> {
+    fn issue(&mut self, stand: &Stand, moscow: &Site, key: &SigningKey, trust: &Trust) -> Result<Issued> {
         files::write_new(&self.path("stand.yaml"), STAND.as_bytes(), Access::Shared)?;
         files::write_new(&self.path("sites/moscow-bmstu.yaml"), MOSCOW.as_bytes(), Access::Shared)?;
         files::write_new(&self.path("sites/beijing-nim.yaml"), BEIJING.as_bytes(), Access::Shared)?;
@@ -140,7 +140,7 @@ impl Stage<'_> {
             &PreparedStand::new(stand.clone()),
             moscow,
             &order,
-            Seal { signer: key, trust: None },
+            &Authority::new(IDENTITY, key, trust, &|| self.now),
         )?;
         self.line(&format!("   {}", shown(&issued.path)))?;
         if let Some(growth) = issued.remarks.noise {
@@ -190,14 +190,15 @@ impl Stage<'_> {
             allow_uncalibratable: false,
             same_content: false,
         };
-        let issued =
-            self.passports().reissue(&successor(&bytes, &old, &order)?, Seal { signer: key, trust: Some(trust) })?;
+        let issued = self
+            .passports()
+            .reissue(&successor(&bytes, &old, &order)?, &Authority::new(IDENTITY, key, trust, &|| self.now))?;
         self.line(&format!("   {}", shown(&issued.path)))?;
         let bytes = files::read(&issued.path, LARGEST_DOCUMENT_BYTES)?;
         let question = Question::at(self.now);
         let answer = verify(&issued.id, &bytes, trust, &question);
         self.answer(&answer, None)?;
-        let page = PassportPage::verified(&issued.id, &bytes, trust, &question, None).map_err(|_| REFUSED)?;
+        let page = PassportPage::verified(&issued.id, &bytes, trust, &question).map_err(|_| REFUSED)?;
         let path = self.path("passport.html");
         let languages = Languages::new(Language::English, [Language::Russian]);
         files::write_new(&path, page.html(&languages).as_bytes(), Access::Shared)?;

@@ -143,7 +143,7 @@ struct Old {
 impl Recertification<'_> {
     /// Recertifies the stand.
     pub(crate) fn run(&self) -> Result<Recertified, NotRecertified> {
-        self.check()?;
+        check(self.number, self.issued, self.performed, self.valid_until)?;
         let bytes = files::read(self.passport, LARGEST_DOCUMENT_BYTES)?;
         let old = content(self.passport, &bytes, self.authority.trust, &self.question)?;
         let old_stand = old.to_stand();
@@ -201,23 +201,6 @@ impl Recertification<'_> {
             stand_file,
             superseded: superseded.map(|superseded| superseded.path),
         })
-    }
-
-    /// Checks the values that have no file which a message could name.
-    pub(crate) fn check(&self) -> Result<(), NotRecertified> {
-        let (number, issued) = (self.number, self.issued);
-        if number.trim().is_empty() || !number.chars().all(rule::allowed_in_string) {
-            return Err(NotRecertified::Order(format!(
-                "--number {number:?}: is empty or contains a character that is not allowed in signed files, expected the \
-                 number of the new certificate, such as C-2027-0009"
-            )));
-        }
-        let words = match (self.valid_until, self.performed) {
-            (Some(until), _) if until < issued => format!("--valid-until {until} is before --issued {issued}"),
-            (_, Some(performed)) if performed > issued => format!("--performed {performed} is after --issued {issued}"),
-            _ => return Ok(()),
-        };
-        Err(NotRecertified::Order(format!("{words}; check the years")))
     }
 
     fn header(&self, old: &Stand) -> Result<Header, NotRecertified> {
@@ -399,6 +382,27 @@ impl Recertification<'_> {
             .map_err(|why| refused(format!("{}: {why}", shown(&old.path))))?;
         to.next_successor(&next).map_err(|why| NotRecertified::Folder(old.content.passport.id.clone(), why))
     }
+}
+
+/// Checks the values that have no file which a message could name.
+pub(crate) fn check(
+    number: &str,
+    issued: Date,
+    performed: Option<Date>,
+    valid_until: Option<Date>,
+) -> Result<(), NotRecertified> {
+    if number.trim().is_empty() || !number.chars().all(rule::allowed_in_string) {
+        return Err(NotRecertified::Order(format!(
+            "--number {number:?}: is empty or contains a character that is not allowed in signed files, expected the \
+             number of the new certificate, such as C-2027-0009"
+        )));
+    }
+    let words = match (valid_until, performed) {
+        (Some(until), _) if until < issued => format!("--valid-until {until} is before --issued {issued}"),
+        (_, Some(performed)) if performed > issued => format!("--performed {performed} is after --issued {issued}"),
+        _ => return Ok(()),
+    };
+    Err(NotRecertified::Order(format!("{words}; check the years")))
 }
 
 /// Returns the content of a passport that passes every check of `question`, or did before it expired.

@@ -1,12 +1,11 @@
 //! Common part of `issue` and `reissue`: running a batch and reporting its progress.
 
-use super::key_options::{self, signer_of};
+use super::key_options::{IssuerOptions, Keys};
 use super::{Code, Failure, REFUSED, UNUSABLE, long_run, output};
 use crate::batch::shard::Shard;
 use crate::batch::{Batch, Event, Listener, Outcome};
-use crate::document::Signer;
 use crate::files::{self, Durability};
-use crate::folder::{Folder, Seal};
+use crate::folder::Folder;
 use crate::parallel;
 use crate::passport::{NAMESPACE, Trust};
 use crate::report::issued::{Form, Report, Reports, Told, failure};
@@ -15,28 +14,20 @@ use crate::trust::{AllowedSigners, NotAuthorised, PublicKey};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget};
 use jiff::Timestamp;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 #[derive(Args)]
 pub(super) struct BatchOptions {
-    /// Private key file, or a .pub file whose private half is in ssh-agent or a FIDO token
-    #[arg(long, value_name = "KEY", required_unless_present = "dry_run")]
-    key: Option<PathBuf>,
-    /// Issuer: the principal of the key in allowed_signers
-    #[arg(long, value_name = "WHO", value_parser = key_options::identity)]
-    pub identity: String,
-    /// Process only part K of N; the parts are disjoint and together complete
+    #[command(flatten)]
+    pub issuer: IssuerOptions,
+    /// Process only the stands of part K of N; the parts are disjoint and together complete
     #[arg(long, value_name = "K/N")]
     shard: Option<Shard>,
     /// Issue even if the positions of the stand do not determine the parameters of a gyro
     #[arg(long)]
     pub allow_uncalibratable: bool,
-    /// Compute and check everything, and list what would be issued, but write nothing. No key is required; if one is
-    /// given, it is checked as far as possible without its passphrase
-    #[arg(short = 'n', long)]
-    dry_run: bool,
     /// Do not sync to disk: faster, but a power failure may lose files
     #[arg(long)]
     no_sync: bool,
@@ -49,28 +40,17 @@ pub(super) struct BatchOptions {
 }
 
 impl BatchOptions {
-    /// Returns the signer, or `None` in a dry run, which signs nothing.
-    pub(super) fn signer(&self) -> Result<Option<Box<dyn Signer + Sync>>, Failure> {
-        self.key.as_deref().filter(|_| !self.dry_run).map(signer_of).transpose()
-    }
-
-    /// Returns the public half of the key, or `None` if there is no key, or if it is not known before `signer` signs. In
-    /// a dry run the key file is checked as far as this needs no passphrase.
-    pub(super) fn public_key(&self, signer: Option<&(dyn Signer + Sync)>) -> Result<Option<PublicKey>, Failure> {
-        match signer {
-            Some(signer) => Ok(signer.public_key()),
-            None => self.key.as_deref().map(key_options::key_to_sign_with).transpose(),
-        }
-    }
-
     /// Warns if a file `allowed_signers` next to the key gives the key to another identity. The file is not trusted:
     /// without `--trust` nothing depends on it.
     pub(super) fn warn_of_other_identity(&self, public: &PublicKey, issued_at: Timestamp) {
-        let Some(key) = self.key.as_deref() else { return };
+        let Some(key) = self.issuer.key() else { return };
         let path = files::folder_of(key).join("allowed_signers");
         let Ok(bytes) = files::read(&path, LARGEST_DOCUMENT_BYTES) else { return };
         let Ok(signers) = AllowedSigners::parse("allowed_signers", &bytes) else { return };
-        if !matches!(signers.authorise(public, &self.identity, NAMESPACE, issued_at), Err(NotAuthorised::UnknownKey)) {
+        if !matches!(
+            signers.authorise(public, &self.issuer.identity, NAMESPACE, issued_at),
+            Err(NotAuthorised::UnknownKey)
+        ) {
             self.warn_unless_authorised(&signers, public, issued_at, &shown(&path).to_string());
         }
     }
@@ -83,8 +63,8 @@ impl BatchOptions {
         issued_at: Timestamp,
         source: &str,
     ) {
-        if let Err(miss) = signers.authorise(public, &self.identity, NAMESPACE, issued_at) {
-            let (who, refuse) = (&self.identity, "laboratories with that list will refuse the new passports");
+        if let Err(miss) = signers.authorise(public, &self.issuer.identity, NAMESPACE, issued_at) {
+            let (who, refuse) = (&self.issuer.identity, "laboratories with that list will refuse the new passports");
             output::warn(&match miss {
                 NotAuthorised::UnknownKey => format!(
                     "--identity {who}: the list of trusted keys ({source}) does not contain the signing key; {refuse}; use a \
@@ -106,23 +86,20 @@ impl BatchOptions {
     }
 
     /// Runs a batch and reports each outcome as it occurs.
-    pub(super) fn run(
-        &self,
-        signer: Option<&(dyn Signer + Sync)>,
-        trust: Option<&Trust>,
-        work: impl FnOnce(&Batch, Listener),
-    ) -> Result<Code, Failure> {
+    pub(super) fn run(&self, keys: &Keys, trust: &Trust, work: impl FnOnce(&Batch, Listener)) -> Result<Code, Failure> {
         let cancel = long_run::cancelled_by_ctrl_c()?;
         let batch = Batch {
             durability: self.durability(),
-            seal: signer.map(|signer| Seal { signer, trust }),
+            authority: keys.authority(trust),
             shard: self.shard.unwrap_or(Shard::WHOLE),
             threads: self.threads.map_or_else(parallel::processors, usize::from),
             cancel: Some(&cancel),
         };
         let mut reporter = Reporter::new(self.format, Arc::clone(&cancel))?;
         work(&batch, &mut |event| reporter.hear(event));
-        reporter.end()
+        let code = reporter.end()?;
+        keys.say_without_register();
+        Ok(code)
     }
 }
 

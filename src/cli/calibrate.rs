@@ -455,7 +455,7 @@ fn used<'a>(passport: &'a Read, enquiry: Option<&'a Enquiry>) -> Result<UsedPass
     let Some((verification, Enquiry { trust, question, .. })) = verification.as_ref().zip(enquiry) else {
         return Ok(UsedPassport::NotVerified { content, sha256: sha256_hex(bytes) });
     };
-    let page = PassportPage::of(bytes, trust, question, verification.clone());
+    let page = PassportPage::of(bytes, question, verification.clone());
     // The passport has just passed every check.
     let page = page.map_err(|_| Failure::refused("the passport cannot be used in a report"))?;
     Ok(UsedPassport::Verified(Box::new(page)))

@@ -122,7 +122,7 @@ fn values(workspace: Option<&Workspace>, verb: &str) -> impl Iterator<Item = Add
     });
     let of_this_verb = [
         ("--out", WRITE_PASSPORTS.contains(&verb), passports()),
-        ("--list", verb == "revoke", stated(|workspace| workspace.lists().map(Into::into))),
+        ("--register-key", true, stated(|workspace| workspace.register_key.clone().map(Into::into))),
         // `register` has its folder without an option.
         ("--passports", verb != "register", passports()),
         // Otherwise a passport that the workspace itself withdrew could be used in it.
@@ -143,7 +143,8 @@ fn lacks(command: &Command, matches: &ArgMatches, option: &str) -> bool {
         .find(|argument| argument.get_long().is_some_and(|long| option.strip_prefix("--") == Some(long)));
     let given =
         |id: &str| matches.try_contains_id(id).is_ok() && matches.value_source(id) == Some(ValueSource::CommandLine);
-    let excluded = ["--trust", "--register"].contains(&option) && given("no_verify");
+    let excluded = ["--trust", "--register"].contains(&option) && given("no_verify")
+        || option == "--register-key" && given("without_register");
     found.is_some_and(|argument| !given(argument.get_id().as_str()) && !excluded)
 }
 

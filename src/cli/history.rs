@@ -2,14 +2,15 @@
 
 use super::register::refuse_file;
 use super::trust_options::TrustOptions;
-use super::{Code, Failure, Format, code, output};
-use crate::folder::search;
+use super::{Code, Failure, Format, code, defaults, output};
+use crate::folder::overview::{self, Query};
 use crate::parallel;
+use crate::passport::Question;
 use crate::report::history as report;
 use crate::report::picture::history as picture;
 use crate::text::{Identifier, Printable, first_few, shown};
+use crate::workspace::Workspace;
 use clap::Args;
-use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 /// Show one stand over the years: certificates, passports, sites, withdrawals, and whether it drifts
@@ -18,8 +19,7 @@ pub(super) struct Options {
     /// Stand
     #[arg(value_name = "MODEL/SERIAL", value_parser = stand)]
     stand: String,
-    /// Folder of passports; lists of withdrawn passports count in it, in `revocations` next to it, and in the folders up
-    /// to two levels above
+    /// Folder of passports
     #[arg(long, value_name = "DIR", default_value = "passports")]
     passports: PathBuf,
     #[command(flatten)]
@@ -47,23 +47,28 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if !question.is_open() {
         output::warn("--issuer, --serial and --at have no effect on a history");
     }
-    let (history, register) =
-        search::history(&options.passports, &options.stand, trust, question.time, parallel::processors())?;
-    let Some(history) = history else {
-        let known: BTreeSet<&str> = register.passports.iter().filter_map(|line| line.stand.as_deref()).collect();
-        let known: Vec<&str> = known.into_iter().collect();
+    let memory = defaults::workspace().map(Workspace::memory);
+    let query = Query {
+        trust: &trust,
+        question: &Question { now: question.now, ..Question::at(question.time) },
+        memory: memory.as_ref(),
+        may_lack: false,
+        threads: parallel::processors(),
+    };
+    let (history, is_incomplete) = overview::history(&options.passports, &options.stand, query)?;
+    let history = history.map_err(|known| {
         let there =
-            if known.is_empty() { "no passports".to_owned() } else { format!("passports of {}", first_few(&known)) };
-        return Err(Failure::refused(format!(
-            "{}: found no passport of {}; the folder contains {}",
+            if known.is_empty() { "no registers".to_owned() } else { format!("registers of {}", first_few(&known)) };
+        Failure::refused(format!(
+            "{}: found no register of {}; the folder contains {}",
             shown(&options.passports),
             options.stand,
             Printable(there)
-        )));
-    };
+        ))
+    })?;
     if let Some(path) = &options.output {
         output::saved_too(path, &picture::history(&history, question.time), options.force)?;
     }
     options.format.write(|| report::to_json(&history), || report::text(&history))?;
-    Ok(code(register.is_incomplete(), false))
+    Ok(code(is_incomplete, false))
 }

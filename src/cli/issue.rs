@@ -7,7 +7,6 @@ use crate::batch::issue::Job;
 use crate::gyro::GyroType;
 use crate::passport::Stated;
 use crate::passport::issue::{Issue, time_of_issue};
-use crate::signing::own_trust;
 use clap::Args;
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -45,7 +44,8 @@ pub(super) struct Options {
     /// Laboratory for --accuracy (dtg-laboratory/1) [default: the paper's meter, 0.015 %]
     #[arg(long, value_name = "FILE", requires = "accuracy")]
     laboratory: Option<PathBuf>,
-    /// Write only passports that pass verification with this allowed_signers file
+    /// Believe existing passports and registers, and write new ones, only if they pass verification with this
+    /// allowed_signers file [default: the own key]
     #[arg(long, value_name = "SIGNERS")]
     trust: Option<PathBuf>,
 }
@@ -57,28 +57,25 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     }
     let now = trust_options::now();
     let issued_at = time_of_issue(options.issued_at, now).map_err(Failure::refused)?;
-    let signer = options.batch.signer()?;
-    let trust = options.trust.as_deref().map(|path| trust_options::load(path, &[], now)).transpose()?;
-    let public = options.batch.public_key(signer.as_deref())?;
-    match (&public, &trust) {
+    let keys = options.batch.issuer.keys()?;
+    let given = options.trust.as_deref().map(|path| trust_options::load(path, &[])).transpose()?;
+    match (&keys.public, &given) {
         (Some(public), None) => options.batch.warn_of_other_identity(public, issued_at),
-        (Some(public), Some(trust)) if signer.is_none() => {
-            refuse_distrusted(trust, public, &options.batch.identity, issued_at)?;
+        (Some(public), Some(trust)) if options.batch.issuer.dry_run => {
+            refuse_distrusted(trust, public, &options.batch.issuer.identity, issued_at)?;
         }
         _ => {}
     }
+    let trust = given.map_or_else(|| keys.own_trust(), Ok)?;
     let order = Issue {
         valid_until: options.valid_until,
         accuracy: options.accuracy.then(|| stated(options)).transpose()?,
         allow_uncalibratable: options.batch.allow_uncalibratable,
-        ..Issue::first(&options.batch.identity, issued_at)
+        ..Issue::first(&options.batch.issuer.identity, issued_at)
     };
-    let own = || own_trust(&options.batch.identity, public.as_ref()?);
-    let believed = trust.clone().or_else(own);
-    let known = believed.as_ref().map(|trust| (trust, now.max(order.issued_at)));
     let folder = options.batch.folder(&options.out);
-    let job = Job { folder: &folder, stands: &options.stands, sites: &options.sites, order: &order, known };
-    options.batch.run(signer.as_deref(), trust.as_ref(), |batch, tell| {
+    let job = Job { folder: &folder, stands: &options.stands, sites: &options.sites, order: &order };
+    options.batch.run(&keys, &trust, |batch, tell| {
         batch.issue(&job, &mut std::io::stdin().lock(), tell);
     })
 }

@@ -1,13 +1,16 @@
 //! Values of the options `--key` and `--identity`: the signing key and the issuer. The passphrase of an encrypted key comes
 //! from a terminal or from the environment.
 
-use super::Failure;
+use super::{Failure, defaults, output, trust_options};
 use crate::document::Signer;
+use crate::folder::{Authority, Memory};
 use crate::passport::Trust;
 pub(super) use crate::signing::PASSPHRASE_VARIABLE;
 use crate::signing::{self, KeyFileError};
 use crate::text::shown;
-use crate::trust::{BadIdentity, PublicKey, check_identity};
+use crate::trust::{AllowedSigners, BadIdentity, PublicKey, check_identity};
+use crate::workspace::Workspace;
+use clap::Args;
 use jiff::Timestamp;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -22,6 +25,113 @@ pub(super) fn with_pub(path: &Path) -> PathBuf {
 
 pub(super) fn identity(text: &str) -> Result<String, BadIdentity> {
     check_identity(text).map(|()| text.to_owned())
+}
+
+/// Options of a verb that signs.
+#[derive(Args)]
+pub(super) struct IssuerOptions {
+    /// Private key file, or a .pub file whose private half is in ssh-agent or a FIDO token
+    #[arg(long, value_name = "KEY", required_unless_present = "dry_run")]
+    key: Option<PathBuf>,
+    /// Issuer: the principal of the key in allowed_signers
+    #[arg(long, value_name = "WHO", value_parser = identity)]
+    pub identity: String,
+    /// Key that signs the registers, of a second person [default: that of --key]
+    #[arg(long, value_name = "KEY")]
+    register_key: Option<PathBuf>,
+    /// Leave the registers to a second person, who lists the passports with `register DIR --renew --adopt`; until then they
+    /// do not count
+    #[arg(long, conflicts_with = "register_key")]
+    without_register: bool,
+    /// Compute and check everything, and list what would be done, but write nothing. No key is required; if one is
+    /// given, it is checked as far as possible without its passphrase
+    #[arg(short = 'n', long)]
+    pub dry_run: bool,
+}
+
+/// Keys of an issuer, and the time of the clock.
+pub(super) struct Keys<'a> {
+    options: &'a IssuerOptions,
+    signer: Option<Box<dyn Signer + Sync>>,
+    register_signer: Option<Box<dyn Signer + Sync>>,
+    /// Public half of the key, if there is one and it is known before it signs.
+    pub public: Option<PublicKey>,
+    register_public: Option<PublicKey>,
+    memory: Option<Memory>,
+}
+
+impl IssuerOptions {
+    /// Creates the options of a renewal, in which either key signs the registers.
+    pub(super) fn of_registers(key: Option<&Path>, register_key: Option<&Path>, identity: &str, dry_run: bool) -> Self {
+        let [key, register_key] = [key, register_key].map(|path| path.map(Path::to_owned));
+        Self { key, identity: identity.to_owned(), register_key, without_register: false, dry_run }
+    }
+
+    /// Returns the path of the key, if one is given.
+    pub(super) fn key(&self) -> Option<&Path> {
+        self.key.as_deref()
+    }
+
+    /// Reads the keys. In a dry run they are checked as far as this needs no passphrase.
+    pub(super) fn keys(&self) -> Result<Keys<'_>, Failure> {
+        let signs = |key: &Option<PathBuf>| key.as_deref().filter(|_| !self.dry_run).map(signer_of).transpose();
+        let (signer, register_signer) = (signs(&self.key)?, signs(&self.register_key)?);
+        let public = public_key(self.key.as_deref(), signer.as_deref())?;
+        let register_public = public_key(self.register_key.as_deref(), register_signer.as_deref())?;
+        if register_public.is_some() && register_public == public {
+            let words = "--register-key: is the key of --key; give the key of a second person, or omit it";
+            return Err(Failure::usage(words));
+        }
+        let memory = defaults::workspace().map(Workspace::memory);
+        Ok(Keys { options: self, signer, register_signer, public, register_public, memory })
+    }
+}
+
+/// Returns the public half of a key, or `None` if there is no key, or if it is not known before the key signs.
+fn public_key(key: Option<&Path>, signer: Option<&(dyn Signer + Sync)>) -> Result<Option<PublicKey>, Failure> {
+    match signer {
+        Some(signer) => Ok(signer.public_key()),
+        None => key.map(key_to_sign_with).transpose(),
+    }
+}
+
+impl Keys<'_> {
+    /// Returns the trust in the keys themselves, for a verb without `--trust`; a dry run without a key trusts nothing.
+    ///
+    /// # Errors
+    /// Returns a failure if the public half of a key is not known before it signs.
+    pub(super) fn own_trust(&self) -> Result<Trust, Failure> {
+        match &self.public {
+            Some(public) => {
+                let own = signing::own_trust(&self.options.identity, public, self.register_public.as_ref());
+                Ok(own.unwrap_or_else(|| Trust::of(AllowedSigners::nobody())))
+            }
+            None if self.signer.is_none() => Ok(Trust::of(AllowedSigners::nobody())),
+            None => Err(Failure::unusable("the public half of the key is not known before it signs; specify --trust")),
+        }
+    }
+
+    /// Returns the issuer with its keys.
+    pub(super) fn authority<'a>(&'a self, trust: &'a Trust) -> Authority<'a> {
+        let of_registers = self.register_signer.as_deref().or(self.signer.as_deref());
+        Authority {
+            issuer: &self.options.identity,
+            trust,
+            signer: self.signer.as_deref(),
+            register_signer: of_registers.filter(|_| !self.options.without_register),
+            clock: &trust_options::now,
+            memory: self.memory.as_ref(),
+        }
+    }
+
+    /// Says which passports do not count yet, because the registers are left to a second person.
+    pub(super) fn say_without_register(&self) {
+        if self.options.without_register && !self.options.dry_run {
+            output::say(
+                "the passports do not count until a second person lists them: `register DIR --renew --adopt SHA256`",
+            );
+        }
+    }
 }
 
 pub(super) fn signer_of(key: &Path) -> Result<Box<dyn Signer + Sync>, Failure> {

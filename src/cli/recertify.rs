@@ -1,15 +1,14 @@
 //! Verb `recertify`: a new certificate from new readings, and successors of the passports in force, in one step.
 
 use super::exclusion::ExclusionOptions;
-use super::key_options::{self, refuse_distrusted, signer_of};
+use super::key_options::{IssuerOptions, refuse_distrusted};
 use super::render::languages;
 use super::trust_options::{self, TrustOptions};
 use super::{Code, Failure, Format, defaults, inputs, long_run, output};
 use crate::batch::Outcome;
-use crate::batch::recertification::{AtSite, NotRecertified, Recertification};
+use crate::batch::recertification::{AtSite, NotRecertified, Recertification, check};
 use crate::certification::Header;
 use crate::files;
-use crate::folder::Seal;
 use crate::passport::issue::time_of_issue;
 use crate::report::Language;
 use crate::report::issued::Told;
@@ -50,12 +49,8 @@ pub(super) struct Options {
     /// Reason for the re-issue, recorded in the passports
     #[arg(long, value_name = "TEXT")]
     reason: String,
-    /// Private key file, or a .pub file whose private half is in ssh-agent or a FIDO token
-    #[arg(long, value_name = "KEY", required_unless_present = "dry_run")]
-    key: Option<PathBuf>,
-    /// Issuer: the principal of the key in allowed_signers
-    #[arg(long, value_name = "WHO", value_parser = key_options::identity)]
-    identity: String,
+    #[command(flatten)]
+    issuer: IssuerOptions,
     #[command(flatten)]
     trust: TrustOptions,
     /// Header of the new certificate (dtg-stand/1 without angles) [default: that of the passport, without the dates and
@@ -82,10 +77,6 @@ pub(super) struct Options {
     /// Replace an existing record
     #[arg(long)]
     force: bool,
-    /// Compute and check everything, and show it, but write only the record, if --report is given. No key is
-    /// required; if one is given, it is checked as far as possible without its passphrase
-    #[arg(short = 'n', long)]
-    dry_run: bool,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -107,6 +98,13 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     // Nothing is written if the record cannot be.
     files::check_replaceable(&options.report, options.force)?;
     let excluded = options.exclusions.excluded()?;
+    let issued_at = time_of_issue(options.issued_at, trust_options::now()).map_err(Failure::refused)?;
+    // Before a passphrase is asked for.
+    check(&options.number, options.issued, options.performed, options.valid_until).map_err(failure)?;
+    let keys = options.issuer.keys()?;
+    if let Some(public) = keys.public.as_ref().filter(|_| options.issuer.dry_run) {
+        refuse_distrusted(&trust, public, &options.issuer.identity, issued_at)?;
+    }
     let order = Recertification {
         passport: &options.passport,
         readings: (&name, &bytes),
@@ -118,24 +116,15 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         valid_until: options.valid_until,
         sites: &sites,
         reason: &options.reason,
-        issuer: &options.identity,
-        issued_at: time_of_issue(options.issued_at, trust_options::now()).map_err(Failure::refused)?,
-        trust: trust.clone(),
+        authority: keys.authority(&trust),
+        issued_at,
         question,
         out: options.out.clone(),
         stands: stands(options),
         cancel: Some(&cancel),
     };
-    // Before a passphrase is asked for.
-    order.check().map_err(failure)?;
-    let signer = options.key.as_deref().filter(|_| !options.dry_run).map(signer_of).transpose()?;
-    if let Some(key) = options.key.as_deref().filter(|_| options.dry_run) {
-        let public = key_options::key_to_sign_with(key)?;
-        refuse_distrusted(&trust, &public, &options.identity, order.issued_at)?;
-    }
-    let seal = signer.as_deref().map(|signer| Seal { signer, trust: Some(&trust) });
-    let found = order.run(seal).map_err(failure)?;
-    let dry_run = options.dry_run;
+    let found = order.run().map_err(failure)?;
+    let dry_run = options.issuer.dry_run;
     if let Some(path) = &options.report {
         let change = Some((&found.comparison, found.changes.clone()));
         let page =
@@ -146,6 +135,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let mut told = Told::default();
     found.passports.iter().filter_map(Outcome::remarks).for_each(|(id, remarks)| told.add_all(id, remarks));
     told.lines(output::is_quiet()).iter().for_each(|line| output::complain(line));
+    keys.say_without_register();
     Ok(0)
 }
 

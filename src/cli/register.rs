@@ -1,23 +1,26 @@
-//! Verb `register`: the passports in a folder and their states.
+//! Verb `register`: the passports in a folder by their registers, and the renewal of registers.
 
+use super::key_options::IssuerOptions;
 use super::trust_options::{TrustOptions, date};
-use super::{Code, Failure, code, output};
-use crate::folder::search;
+use super::{Code, Failure, code, defaults, output};
+use crate::folder::overview::{Overview, Query};
+use crate::folder::renewal::{NotRenewed, Renewal};
 use crate::parallel;
-use crate::register::{Asked, Line, Register, State};
+use crate::register::{Row, State};
 use crate::report::issued::Form;
 use crate::report::register as report;
 use crate::text::{Printable, shown};
+use crate::workspace::Workspace;
 use clap::{Args, ValueEnum};
 use jiff::civil::Date;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// List every passport under a folder: in force, superseded, moved, expired, revoked, broken
+/// List every passport under a folder by the register of its stand: current, superseded, moved, withdrawn, expired; or
+/// renew the registers
 #[derive(Args)]
 pub(super) struct Options {
-    /// Folder of passports; lists of withdrawn passports count in it, in `revocations` next to it, and in the folders up
-    /// to two levels above
+    /// Folder of passports
     #[arg(value_name = "DIR", required_unless_present = "passports")]
     folder: Option<PathBuf>,
     /// Folder of passports (the same as the argument DIR)
@@ -25,24 +28,82 @@ pub(super) struct Options {
     passports: Option<PathBuf>,
     #[command(flatten)]
     trust: TrustOptions,
-    /// Flag passports that expire within DAYS days
+    /// Only current passports that expire within DAYS days
     #[arg(long, value_name = "DAYS")]
     within: Option<u32>,
     /// Only passports in these states
-    #[arg(long, value_delimiter = ',', value_name = "STATE", value_parser = State::ALL.map(State::key))]
+    #[arg(long, value_delimiter = ',', value_name = "STATE", value_parser = STATES)]
     state: Vec<String>,
     /// Only passports of this site
     #[arg(long, value_name = "ID")]
     site: Option<String>,
-    /// Only passports in force whose expiry date is before this UTC date
+    /// Only current passports whose expiry date is before this UTC date
     #[arg(long, value_name = "DATE", value_parser = date)]
     expiring_before: Option<Date>,
     /// Sort order
     #[arg(long, value_enum, value_name = "WHAT", default_value = "stand")]
     by: By,
+    /// Sign every register again, and make first ones where passports have none; read with --dry-run what is concluded
+    #[arg(long)]
+    renew: bool,
+    #[command(flatten)]
+    renewal: RenewalOptions,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Form,
+}
+
+/// States of passports, `expired` among them.
+const STATES: [&str; 5] = ["current", "superseded", "moved", "withdrawn", "expired"];
+
+#[derive(Args)]
+struct RenewalOptions {
+    /// With --renew: last day on which the new registers count as fresh (inclusive), or `never` [default: as before]
+    #[arg(long, value_name = "DATE|never", value_parser = fresh_until, requires = "renew")]
+    fresh_until: Option<Fresh>,
+    /// With --renew: take over the passport that is not listed, or the register whose key is no longer trusted, with this
+    /// SHA-256 (repeatable)
+    #[arg(long, value_name = "SHA256", requires = "renew")]
+    adopt: Vec<String>,
+    /// With --renew: join with another register of the same stand
+    #[arg(long = "with", value_name = "REGISTER", requires = "renew")]
+    other: Option<PathBuf>,
+    /// With --renew: withdraw this passport, which a list of an earlier version withdraws; --reason says why (repeatable)
+    #[arg(long, value_name = "ID", requires_all = ["renew", "reason"])]
+    withdrawn: Vec<String>,
+    /// Reason for the withdrawal of the passport of --withdrawn, in the same order; a single one is for all
+    #[arg(long, value_name = "TEXT", requires = "withdrawn")]
+    reason: Vec<String>,
+    /// With --renew: do not withdraw this passport, although a list of an earlier version does (repeatable)
+    #[arg(long, value_name = "ID", requires = "renew")]
+    not_withdrawn: Vec<String>,
+    #[command(flatten)]
+    keys: OptionalIssuer,
+}
+
+/// Options of an issuer, which only a renewal needs.
+#[derive(Args)]
+struct OptionalIssuer {
+    /// With --renew: private key file, or a .pub file whose private half is in ssh-agent or a FIDO token
+    #[arg(long, value_name = "KEY")]
+    key: Option<PathBuf>,
+    /// With --renew: key that signs the registers, of a second person [default: that of --key]
+    #[arg(long, value_name = "KEY")]
+    register_key: Option<PathBuf>,
+    /// With --renew: issuer, the principal of the key in allowed_signers
+    #[arg(long, value_name = "WHO", value_parser = super::key_options::identity)]
+    identity: Option<String>,
+    /// With --renew: compute and show everything, but write nothing
+    #[arg(short = 'n', long, requires = "renew")]
+    dry_run: bool,
+}
+
+/// Last day of freshness, or none.
+#[derive(Debug, Clone, Copy)]
+struct Fresh(Option<Date>);
+
+fn fresh_until(text: &str) -> Result<Fresh, String> {
+    if text == "never" { Ok(Fresh(None)) } else { date(text).map(|last| Fresh(Some(last))) }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -56,30 +117,77 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let folder = options.folder.as_ref().or(options.passports.as_ref());
     let folder = folder.ok_or_else(|| Failure::usage("missing DIR, the folder of passports"))?;
     refuse_file(folder)?;
-    if options.within.is_none() && options.state.iter().any(|state| state == State::Expiring.key()) {
-        return Err(Failure::usage("--state expiring needs --within DAYS, such as --within 90"));
+    if options.renew {
+        return renew(options, folder);
     }
     let (trust, question) = options.trust.load()?;
-    let serial = question.serial.clone();
-    let asked = Asked { question, within_days: options.within };
-    let (mut register, _) = search::register(folder, trust, &asked, parallel::processors())?;
-    let code = code(register.is_incomplete(), register.needs_attention());
-    for words in [no_such_stand(serial.as_deref(), &register), options.no_such_site(&register)].into_iter().flatten() {
+    let memory = defaults::workspace().map(Workspace::memory);
+    let threads = parallel::processors();
+    let query = Query { trust: &trust, question: &question, memory: memory.as_ref(), may_lack: false, threads };
+    let mut overview = Overview::of(folder, query)?;
+    let code = code(overview.is_incomplete(), overview.needs_attention());
+    overview.remarks.iter().for_each(|words| output::say(words));
+    overview.alarms.iter().for_each(|alarm| output::complain_after(&alarm.to_string()));
+    let serial = question.serial.as_deref();
+    for words in [no_such_stand(serial, &overview), options.no_such_site(&overview)].into_iter().flatten() {
         output::say(&words);
     }
+    let listed = overview.rows().count();
     // The filters select rows; alarms concern all passports.
-    register.passports.retain(|line| options.selects(line));
+    for stand in &mut overview.stands {
+        stand.rows.retain(|row| options.selects(row, question.time));
+    }
     match options.by {
         By::Stand => {}
-        By::Site => register.passports.sort_by(|a, b| a.site.cmp(&b.site)),
-        By::Issuer => register.passports.sort_by(|a, b| a.issuer.cmp(&b.issuer)),
+        By::Site => overview.stands.iter_mut().for_each(|stand| stand.rows.sort_by(|a, b| a.site.cmp(&b.site))),
+        By::Issuer => overview.stands.sort_by(|a, b| a.issuer.cmp(&b.issuer)),
     }
     match options.format {
-        Form::Text => output::text(&report::text(&register))?,
-        Form::Json => output::json(&register)?,
-        Form::Csv => output::result(&report::csv(&register))?,
+        Form::Text => output::text(&report::text(&overview, listed))?,
+        Form::Json => output::json(&overview)?,
+        Form::Csv => output::result(&report::csv(&overview))?,
     }
     Ok(code)
+}
+
+/// Signs the registers again.
+fn renew(options: &Options, folder: &Path) -> Result<Code, Failure> {
+    let RenewalOptions { fresh_until, adopt, other, withdrawn, reason, not_withdrawn, keys } = &options.renewal;
+    let (trust, _) = options.trust.load()?;
+    let identity = keys.identity.as_deref().ok_or_else(|| Failure::usage("--renew needs --identity WHO"))?;
+    let issuer = IssuerOptions::of_registers(keys.key.as_deref(), keys.register_key.as_deref(), identity, keys.dry_run);
+    if !keys.dry_run && keys.key.is_none() && keys.register_key.is_none() {
+        return Err(Failure::usage("--renew needs --key KEY, or --register-key KEY, or --dry-run"));
+    }
+    let reasons: Vec<&String> = match reason.as_slice() {
+        [one] => withdrawn.iter().map(|_| one).collect(),
+        each if each.len() == withdrawn.len() => each.iter().collect(),
+        _ => return Err(Failure::usage("give one --reason for each --withdrawn, or a single one for all")),
+    };
+    let renewal = Renewal {
+        fresh_until: fresh_until.map(|Fresh(last)| last),
+        adopt: adopt.clone(),
+        with: other.clone(),
+        withdrawn: withdrawn.iter().cloned().zip(reasons.into_iter().cloned()).collect(),
+        not_withdrawn: not_withdrawn.clone(),
+        workspace: defaults::workspace().map(|workspace| workspace.root.clone()),
+    };
+    let keys = issuer.keys()?;
+    let renewed = renewal.run(folder, &keys.authority(&trust)).map_err(not_renewed)?;
+    let dry_run = options.renewal.keys.dry_run;
+    match options.format {
+        Form::Json => output::json(&report::renewed_json(&renewed))?,
+        _ => output::text(&report::renewed(&renewed, dry_run))?,
+    }
+    Ok(0)
+}
+
+pub(super) fn not_renewed(refused: NotRenewed) -> Failure {
+    match refused {
+        NotRenewed::File(error) => Failure::from(error),
+        refused if refused.is_unusable() => Failure::unusable(refused),
+        refused => Failure::refused(refused),
+    }
 }
 
 /// Refuses a file given instead of the folder of passports.
@@ -93,17 +201,17 @@ pub(super) fn refuse_file(folder: &Path) -> Result<(), Failure> {
 }
 
 /// Returns a remark if no passport is of the stand asked for, which may be mistyped.
-fn no_such_stand(serial: Option<&str>, register: &Register) -> Option<String> {
-    let serial = serial.filter(|_| register.passports.is_empty())?;
+fn no_such_stand(serial: Option<&str>, overview: &Overview) -> Option<String> {
+    let serial = serial.filter(|_| overview.rows().next().is_none())?;
     let words = "every character counts, including leading zeros";
     Some(format!("no passport of a stand with the serial number {}; {words}", Printable(serial)))
 }
 
 impl Options {
     /// Returns a remark if no passport is of the site asked for, which may be mistyped.
-    fn no_such_site(&self, register: &Register) -> Option<String> {
+    fn no_such_site(&self, overview: &Overview) -> Option<String> {
         let site = self.site.as_deref()?;
-        let there: BTreeSet<&str> = register.passports.iter().filter_map(|line| line.site.as_deref()).collect();
+        let there: BTreeSet<&str> = overview.rows().map(|row| row.site.as_str()).collect();
         if there.contains(site) {
             return None;
         }
@@ -113,10 +221,15 @@ impl Options {
         Some(format!("no passport of site {}{nearest}", Printable(site)))
     }
 
-    fn selects(&self, line: &Line) -> bool {
-        let before = |date: Date| line.is_usable() && line.valid_until.is_some_and(|until| until < date);
-        (self.state.is_empty() || self.state.iter().any(|state| state == line.state.key()))
-            && self.site.as_ref().is_none_or(|site| line.site.as_ref() == Some(site))
+    fn selects(&self, row: &Row, time: jiff::Timestamp) -> bool {
+        let is_current = row.state == State::Current;
+        let before = |date: Date| is_current && row.valid_until.is_some_and(|until| until < date);
+        let within =
+            |days: u32| row.is_in_force() && row.days_left(time).is_some_and(|left| i64::from(left) <= i64::from(days));
+        let state = if is_current && row.expired { "expired" } else { row.state.key() };
+        (self.state.is_empty() || self.state.iter().any(|asked| asked == state))
+            && self.site.as_ref().is_none_or(|site| row.site == *site)
             && self.expiring_before.is_none_or(before)
+            && self.within.is_none_or(within)
     }
 }

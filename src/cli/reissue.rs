@@ -15,7 +15,7 @@ use std::sync::Arc;
 /// Verify passports and issue their successors: another site, corrected stands or sites, another key
 ///
 /// PASSPORT is a file, a quoted pattern, or a folder; a - reads a list of paths from standard input. For a folder, the
-/// passports that the register shows as in force or expired are re-issued; with --stand only those of these stands,
+/// passports that the register of each stand lists as current are re-issued; with --stand only those of these stands,
 /// and with a corrected site only those for it.
 #[derive(Args)]
 pub(super) struct Options {
@@ -70,20 +70,20 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         site: options.site.as_deref().map(inputs::site).transpose()?,
         moved: options.moved,
         reason: options.reason.clone(),
-        issuer: options.batch.identity.clone(),
+        issuer: options.batch.issuer.identity.clone(),
         issued_at: time_of_issue(options.issued_at, trust_options::now()).map_err(Failure::refused)?,
         valid_until: options.valid_until,
         allow_uncalibratable: options.batch.allow_uncalibratable,
         same_content: options.same_content,
     };
-    let signer = options.batch.signer()?;
-    if let Some(public) = options.batch.public_key(signer.as_deref())? {
-        options.batch.warn_unless_authorised(&trust.signers, &public, order.issued_at, "--trust");
+    let keys = options.batch.issuer.keys()?;
+    if let Some(public) = &keys.public {
+        options.batch.warn_unless_authorised(&trust.signers, public, order.issued_at, "--trust");
     }
     let folder = options.out.as_deref().map(|out| Arc::new(options.batch.folder(out)));
     let site_file = |id: &str| defaults::workspace()?.site(id).filter(|path| path.exists());
-    let change = Change { order, stands: &options.stands, sites: &options.sites, site_file, trust, question, folder };
-    options.batch.run(signer.as_deref(), None, |batch, tell| {
+    let change = Change { order, stands: &options.stands, sites: &options.sites, site_file, question, folder };
+    options.batch.run(&keys, &trust, |batch, tell| {
         batch.reissue(&options.passports, &mut std::io::stdin().lock(), change, tell);
     })
 }

@@ -1,6 +1,6 @@
 //! Verb `render`: the printed form of a verified passport.
 
-use super::trust_options::{Enquiry, TrustAmong};
+use super::trust_options::TrustAmong;
 use super::{Code, Failure, Format, defaults, inputs, output};
 use crate::batch::Purpose;
 use crate::folder::Folder;
@@ -53,19 +53,18 @@ pub(super) fn languages(written: &[Language]) -> Languages {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let Enquiry { trust, question, register, remarks } = options.trust.load()?;
+    let enquiry = options.trust.load()?;
+    let folder = options.out.as_deref().map(Folder::new);
     let write = |passport: &Path, output: Option<&Path>| {
         let bytes = inputs::bytes(passport, Kind::Passport.words())?;
         let name = name_of(passport);
-        let page = PassportPage::verified(&name, &bytes, &trust, &question, register.as_ref())
+        let page = PassportPage::of(&bytes, &enquiry.question, enquiry.verification(&name, &bytes))
             .map_err(|refused| Failure::verdict("no page was written", &name, &refused))?;
-        let verdict = verdict::Verdict::of(&name, &page.verification, &remarks);
-        let in_folder = || {
-            let path = Folder::new(options.out.as_deref()?).path_of_id(verdict.id.as_deref()?)?;
-            Some(path.with_extension("html"))
-        };
+        let verdict = verdict::Verdict::of(&name, &page.verification, &enquiry.all_remarks());
+        let in_folder = || Some(folder.as_ref()?.path_of_id(verdict.id.as_deref()?)?.with_extension("html"));
         let output = output.map(Path::to_owned).or_else(in_folder);
         let output = output.ok_or_else(|| Failure::usage("missing -o FILE.html or --out DIR"))?;
+        folder.iter().try_for_each(|folder| folder.check_place(&output)).map_err(Failure::refused)?;
         output::file(&output, &page.html(&languages(&options.lang)), options.force)?;
         if options.format == Format::Text && !verdict.valid {
             output::say_verdict(&style::plain(&verdict::text(&verdict)));

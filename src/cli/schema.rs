@@ -21,7 +21,7 @@ const FORMATS: [Format; 7] = [
     ("laboratory", of_file::<Laboratory>),
     ("dcc", of_file::<Administrative>),
     ("passport", schema::passport),
-    ("revocation", schema::revocation),
+    ("register-file", schema::register_file),
 ];
 
 /// Print the JSON Schema of a format (for several, an object with one for each name), or tables of its keys

@@ -13,7 +13,7 @@ pub(super) struct Options {
     /// Trusted signing keys: an OpenSSH allowed_signers file
     #[arg(long, value_name = "SIGNERS")]
     trust: Option<PathBuf>,
-    /// Revocations: an OpenSSH KRL, a list of public keys, or a list of withdrawn passports (repeatable)
+    /// Revoked keys: an OpenSSH KRL, or a list of public keys (repeatable)
     #[arg(long, value_name = "FILE", requires = "trust")]
     revoked: Vec<PathBuf>,
     /// Verify as of this time: RFC 3339, or a UTC date (00:00) [default: now]
@@ -31,9 +31,10 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
              one)",
         ));
     };
-    let time = options.time.unwrap_or_else(trust_options::now);
-    let trust = options.trust.as_deref().map(|path| trust_options::load(path, &options.revoked, time)).transpose()?;
-    let status = status(workspace, trust.as_ref(), time)?;
+    let now = trust_options::now();
+    let time = options.time.unwrap_or(now);
+    let trust = options.trust.as_deref().map(|path| trust_options::load(path, &options.revoked)).transpose()?;
+    let status = status(workspace, trust.as_ref(), time, now)?;
     options.format.write(|| &status, || status.text())?;
     Ok(code(status.incomplete, status.needs_attention()))
 }

@@ -1,15 +1,17 @@
 //! Options of trust: the trusted keys, the question to verify for, and the folder of passports that tells which are
-//! superseded or withdrawn. Every verb uses this code, so the options are the same everywhere.
+//! current. Every verb uses this code, so the options are the same everywhere.
 
-use super::{Failure, output};
+use super::{Failure, defaults};
 use crate::earth::Place;
 use crate::files;
+use crate::folder::Registers;
 pub(super) use crate::interface::Enquiry;
 use crate::interface::enquiry;
 pub(super) use crate::interface::enquiry::{date, time};
 use crate::passport::{Question, Trust};
 use crate::text::name_of;
 use crate::trust::LARGEST_TRUST_FILE_BYTES;
+use crate::workspace::Workspace;
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 use jiff::Timestamp;
@@ -36,18 +38,18 @@ pub(super) struct TrustOptions {
     /// Trusted signing keys: an OpenSSH allowed_signers file
     #[arg(long, value_name = "SIGNERS")]
     trust: PathBuf,
-    /// Revocations: an OpenSSH KRL, a list of public keys, or a list of withdrawn passports (repeatable)
+    /// Revoked keys: an OpenSSH KRL, or a list of public keys (repeatable)
     #[arg(long, value_name = "FILE")]
     revoked: Vec<PathBuf>,
     #[command(flatten)]
     asked: Asked,
 }
 
-/// Folder in which a passport may be superseded or withdrawn.
+/// Register that says whether a passport counts.
 #[derive(Args)]
 pub(super) struct Among {
-    /// Folder of passports, which shows whether a passport was superseded or withdrawn
-    #[arg(long, visible_alias = "passports", value_name = "DIR")]
+    /// Register of the stand, or the folder of passports that has it as MODEL/SERIAL/register.yaml
+    #[arg(long, visible_alias = "passports", value_name = "FILE|DIR")]
     register: Option<PathBuf>,
 }
 
@@ -66,7 +68,7 @@ pub(super) struct OptionalTrust {
     /// Trusted signing keys: an OpenSSH allowed_signers file
     #[arg(long, value_name = "SIGNERS")]
     trust: Option<PathBuf>,
-    /// Revocations: an OpenSSH KRL, a list of public keys, or a list of withdrawn passports (repeatable)
+    /// Revoked keys: an OpenSSH KRL, or a list of public keys (repeatable)
     #[arg(long, value_name = "FILE", requires = "trust")]
     revoked: Vec<PathBuf>,
     #[command(flatten)]
@@ -80,29 +82,31 @@ impl OptionalTrust {
     pub(super) fn load(&self) -> Result<Option<Enquiry>, Failure> {
         let question = self.asked.question();
         let Some(signers) = &self.trust else { return Ok(None) };
-        let trust = load(signers, &self.revoked, question.time)?;
-        among(trust, question, self.among.register.as_deref()).map(Some)
+        let trust = load(signers, &self.revoked)?;
+        Ok(Some(among(trust, question, self.among.register.as_deref())))
     }
 }
 
 impl TrustAmong {
     pub(super) fn load(&self) -> Result<Enquiry, Failure> {
         let (trust, question) = self.trust.load()?;
-        among(trust, question, self.among.register.as_deref())
+        Ok(among(trust, question, self.among.register.as_deref()))
     }
 }
 
 impl TrustOptions {
     pub(super) fn load(&self) -> Result<(Trust, Question), Failure> {
         let question = self.asked.question();
-        Ok((load(&self.trust, &self.revoked, question.time)?, question))
+        Ok((load(&self.trust, &self.revoked)?, question))
     }
 }
 
 impl Asked {
     pub(super) fn question(&self) -> Question {
+        let now = now();
         Question {
-            time: self.time.unwrap_or_else(now),
+            time: self.time.unwrap_or(now),
+            now,
             issuer: self.issuer.clone(),
             serial: self.serial.clone(),
             place: self.at,
@@ -110,19 +114,17 @@ impl Asked {
     }
 }
 
-/// Reads the register of `folder`, if there is one, and reports its alarms.
-pub(super) fn among(trust: Trust, question: Question, folder: Option<&Path>) -> Result<Enquiry, Failure> {
-    let alone = Enquiry::of(trust, question);
-    let Some(folder) = folder else { return Ok(alone) };
-    // `load` has reported those on the lists that were given.
-    let reported = alone.remarks.len();
-    let enquiry = alone.with_register(folder)?;
-    enquiry.remarks.iter().skip(reported).for_each(|alarm| output::complain_after(alarm));
-    Ok(enquiry)
+/// Adds the registers at a path to the question, if one is given. Those of a workspace are compared with the last ones that it
+/// has accepted.
+pub(super) fn among(trust: Trust, question: Question, registers: Option<&Path>) -> Enquiry {
+    let Some(path) = registers else { return Enquiry::of(trust, question) };
+    let memory = defaults::workspace().map(Workspace::memory);
+    let registers = Registers::new(path, trust.clone(), question.now, memory);
+    Enquiry::of(trust, question).with_registers(registers)
 }
 
-/// Reads the trust files. Lists of withdrawn passports are verified at `time`; the newest list applies.
-pub(super) fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Result<Trust, Failure> {
+/// Reads the trust files.
+pub(super) fn load(signers: &Path, revoked: &[PathBuf]) -> Result<Trust, Failure> {
     let read = |path: &Path| files::read(path, LARGEST_TRUST_FILE_BYTES);
     let keys = read(signers).map_err(|error| {
         let advice =
@@ -133,8 +135,7 @@ pub(super) fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Resu
     });
     let revoked = revoked.iter().map(|path| Ok((name_of(path), read(path)?)));
     let revoked = revoked.collect::<Result<Vec<_>, Failure>>()?;
-    let trust = enquiry::trust((&name_of(signers), &keys?), &revoked, time)?;
-    enquiry::contradictions(&trust.withdrawn).iter().for_each(|remark| output::complain_after(remark));
+    let trust = enquiry::trust((&name_of(signers), &keys?), &revoked)?;
     Ok(trust)
 }
 

@@ -183,6 +183,16 @@ impl Folder {
         self.of_stand(stand).join("stand.yaml")
     }
 
+    /// Returns the path of the passport with this id, or `None` if the text is not an id.
+    pub(crate) fn path_of_id(&self, id: &str) -> Option<PathBuf> {
+        let parts: Vec<&str> = id.split('/').collect();
+        let [model, serial, site, revision] = parts.as_slice() else { return None };
+        let names = [model, serial, site].map(|name| Identifier::new(name).ok());
+        let [Some(model), Some(serial), Some(site)] = names else { return None };
+        let revision: u32 = revision.parse().ok()?;
+        Some(self.root.join(model.as_str()).join(serial.as_str()).join(format!("{site}-{revision}.yaml")))
+    }
+
     /// Issues revision 1 of a stand for a site, and lists it in the register of the stand.
     ///
     /// An equal passport (apart from its time, program and signature) that is authentic and current is left unchanged; a

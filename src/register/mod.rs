@@ -38,7 +38,7 @@ pub const NAMESPACE: &str = "dtg-register";
 /// Name of a register in the folder of its stand.
 pub(crate) const FILE_NAME: &str = "register.yaml";
 
-const FORMAT: &str = "dtg-register/1";
+pub(crate) const FORMAT: &str = "dtg-register/1";
 
 /// Form of registers as signed documents. The memory that a register takes follows from its size alone.
 pub(crate) const FORM: Form = Form {
@@ -429,10 +429,5 @@ impl RegisterRefused {
             why += &format!("; if this key may sign registers, change its line in allowed_signers to: {line}");
         }
         Self::NotAuthorised { name: name.to_owned(), why }
-    }
-
-    /// Returns `true` if everything is correct but the key, which was revoked.
-    pub(crate) fn is_of_a_revoked_key(&self) -> bool {
-        matches!(self, Self::KeyRevoked { .. })
     }
 }

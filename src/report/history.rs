@@ -196,7 +196,7 @@ pub(crate) fn text(history: &History) -> String {
         (history.certificates.len(), "certificate"),
         (history.passports.len(), "passport"),
         (history.sites().len(), "site"),
-        (history.withdrawals.len(), "withdrawal"),
+        (history.withdrawals().len(), "withdrawal"),
     ];
     let counts = counts.map(|(count, what)| format!("{count} {what}{}", if count == 1 { "" } else { "s" }));
     let answer = answer(&history.drift);

@@ -9,10 +9,10 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 
 fn reports(found: &Recertified) -> impl Iterator<Item = Report> {
-    let done = found.done.iter().map(|line| Report {
-        file: Some(line.file.clone()),
-        sha256: Some(line.sha256.clone()),
-        ..Report::new(line.id.clone().unwrap_or_default(), State::Unchanged)
+    let done = found.done.iter().map(|row| Report {
+        file: row.file.clone(),
+        sha256: Some(row.sha256.clone()),
+        ..Report::new(row.id.clone(), State::Unchanged)
     });
     done.chain(found.passports.iter().map(Report::of))
 }

@@ -6,7 +6,7 @@ pub(crate) use reference::tables;
 
 use crate::passport::Content;
 use crate::passport::content::PASSPORT_FORMAT;
-use crate::revocation::{REVOCATION_FORMAT, RevocationList};
+use crate::register::{self, Register};
 use crate::text::Document;
 use schemars::{JsonSchema, Schema, schema_for};
 use serde_json::{Value, json};
@@ -17,9 +17,9 @@ pub(crate) fn passport() -> Schema {
     signed::<Content>("Passport", PASSPORT_FORMAT)
 }
 
-/// Returns the JSON Schema of a list of withdrawn passports with its signature.
-pub(crate) fn revocation() -> Schema {
-    signed::<RevocationList>("RevocationList", REVOCATION_FORMAT)
+/// Returns the JSON Schema of a register with its signature.
+pub(crate) fn register_file() -> Schema {
+    signed::<Register>("Register", register::FORMAT)
 }
 
 fn signed<T: JsonSchema>(title: &str, format: &str) -> Schema {

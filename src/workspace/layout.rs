@@ -3,12 +3,11 @@
 use super::WORKSPACE_FILE;
 use crate::files::together::write_replaceable_together;
 use crate::files::{self, FileError};
-use crate::folder::search::LISTS_FOLDER;
 use crate::text::rule;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const FOLDERS: [&str; 5] = ["stands", "sites", "readings", "passports", LISTS_FOLDER];
+const FOLDERS: [&str; 4] = ["stands", "sites", "readings", "passports"];
 
 /// Reason why a workspace was not made.
 #[derive(Debug, thiserror::Error)]

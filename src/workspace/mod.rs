@@ -11,7 +11,7 @@ pub(crate) use layout::{NotMade, make};
 pub(crate) use status::status;
 
 use crate::files::{self, FileError};
-use crate::folder::{Folder, search};
+use crate::folder::{Folder, Memory};
 use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, Location, Problem, Unreadable, name_of};
 use std::path::{Path, PathBuf};
 use toml::de::DeTable;
@@ -19,7 +19,10 @@ use toml::de::DeTable;
 /// Name of the file in the folder of a workspace.
 pub(crate) const WORKSPACE_FILE: &str = "dtg-passport.toml";
 
-const KEYS: [&str; 6] = ["key", "identity", "trust", "passports", "stands", "sites"];
+/// Folder of the last accepted register of each stand.
+const REGISTERS_FOLDER: &str = "registers";
+
+const KEYS: [&str; 7] = ["key", "identity", "register_key", "trust", "passports", "stands", "sites"];
 
 /// Workspace: the values that the options of commands have if they are not given. Paths begin with that of its folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -28,6 +31,8 @@ pub(crate) struct Workspace {
     pub key: Option<PathBuf>,
     /// Issuer: the principal of the key in `trust`.
     pub identity: Option<String>,
+    /// Key that signs registers, if not [`Self::key`].
+    pub register_key: Option<PathBuf>,
     /// Trusted signing keys (allowed_signers).
     pub trust: Option<PathBuf>,
     pub passports: Option<PathBuf>,
@@ -65,7 +70,7 @@ impl Workspace {
                 Problem::new(at, "", found, "lines such as trust = \"allowed_signers\", each key once", "")
             })
             .collect();
-        let mut values: [Option<String>; 6] = Default::default();
+        let mut values: [Option<String>; 7] = Default::default();
         for (key, value) in table.get_ref().iter() {
             match KEYS.iter().position(|known| known == key.get_ref()) {
                 None => problems.push(unknown_key(key.get_ref(), location(bytes, key.span().start))),
@@ -83,12 +88,13 @@ impl Workspace {
             problems.sort_by_key(|problem| problem.location.map(|at| (at.line, at.column)));
             return Err(Unreadable::of(name, problems));
         }
-        let [key, identity, trust, passports, stands, sites] = values;
+        let [key, identity, register_key, trust, passports, stands, sites] = values;
         let path = |stated: Option<String>| stated.map(|stated| root.join(stated));
         Ok(Self {
             root: root.to_owned(),
             key: path(key),
             identity,
+            register_key: path(register_key),
             trust: path(trust),
             passports: path(passports),
             stands: path(stands),
@@ -96,10 +102,9 @@ impl Workspace {
         })
     }
 
-    /// Returns the folder of new lists of withdrawn passports: `revocations` next to the folder of passports, or that
-    /// folder itself in a workspace without `revocations`. `register` finds lists in both.
-    pub(crate) fn lists(&self) -> Option<PathBuf> {
-        self.passports.as_deref().map(search::place_of_lists)
+    /// Returns the memory of the last accepted registers, in the folder `registers`.
+    pub(crate) fn memory(&self) -> Memory {
+        Memory::new(self.root.join(REGISTERS_FOLDER))
     }
 
     /// Returns the path of the stand file of `MODEL/SERIAL`, or `None` if `name` is not of this form.
@@ -178,7 +183,7 @@ mod tests {
         for (text, due) in [
             (
                 "trust = \"a\"\ntrusts = \"b\"",
-                "w.toml:2:1: found unknown key \"trusts\", expected one of key, identity, ",
+                "w.toml:2:1: found unknown key \"trusts\", expected one of key, identity, register_key, ",
             ),
             ("trust = \"a\"\nkeys = \"b\"", "did you mean key?"),
             ("trust = \"a\"\n\ntrust = \"b\"\n", "w.toml:3:1: found invalid TOML (duplicate key"),

@@ -4,10 +4,10 @@ use super::{WORKSPACE_FILE, Workspace};
 use crate::batch::paths::{is_stand, is_yaml};
 use crate::files::walk::{Entry, Walk};
 use crate::files::{self, FileError};
-use crate::folder::search;
+use crate::folder::overview::{Overview, Query};
 use crate::parallel;
-use crate::passport::Trust;
-use crate::register::{Asked, Line, Register, State};
+use crate::passport::{Question, Trust};
+use crate::register::{Row, State};
 use crate::report::style::{self, Outcome};
 use crate::signing::{self, KeyFileError};
 use crate::site::Site;
@@ -22,7 +22,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 /// Number of days before the expiry date from which a passport or certificate is listed as expiring.
-const SOON_DAYS: u32 = 90;
+const SOON_DAYS: i32 = 90;
 
 /// Most lines of one kind in the text; the rest is counted.
 const MOST_LINES: usize = 20;
@@ -61,14 +61,12 @@ struct SiteLine {
 
 #[derive(Debug, Serialize)]
 struct Passports {
-    counts: BTreeMap<State, usize>,
-    expiring: Vec<Line>,
-    /// Passports that have expired, for the text.
+    /// Number of passports in each state, and of those that have expired or will soon.
+    counts: BTreeMap<&'static str, usize>,
+    expiring: Vec<Row>,
+    /// Current passports that have expired, for the text.
     #[serde(skip)]
-    expired: Vec<Line>,
-    /// Passports that are broken, for the text.
-    #[serde(skip)]
-    broken: Vec<Line>,
+    expired: Vec<Row>,
     alarms: Vec<String>,
 }
 
@@ -94,14 +92,24 @@ struct SigningKeyLine {
 }
 
 /// Returns what `workspace` holds at `time`; without `trust`, passports are not examined.
-pub(crate) fn status(workspace: &Workspace, trust: Option<&Trust>, time: Timestamp) -> Result<Status, FileError> {
+///
+/// Freshness is judged at the later of `time` and `now`.
+pub(crate) fn status(
+    workspace: &Workspace,
+    trust: Option<&Trust>,
+    time: Timestamp,
+    now: Timestamp,
+) -> Result<Status, FileError> {
     let mut remarks = Vec::new();
     let stands = stands(workspace, time, &mut remarks)?;
     let sites = sites(workspace, &mut remarks)?;
     let register = match (&workspace.passports, trust) {
         (Some(folder), Some(trust)) => {
-            let asked = Asked { within_days: Some(SOON_DAYS), ..Asked::at(time) };
-            Some(search::register(folder, trust.clone(), &asked, parallel::processors())?.0)
+            let memory = workspace.memory();
+            let question = Question { now, ..Question::at(time) };
+            let threads = parallel::processors();
+            let query = Query { trust, question: &question, memory: Some(&memory), may_lack: false, threads };
+            Some(Overview::of(folder, query)?)
         }
         (None, _) => {
             remarks.push("no folder of passports is stated (passports)".to_owned());
@@ -112,14 +120,15 @@ pub(crate) fn status(workspace: &Workspace, trust: Option<&Trust>, time: Timesta
             None
         }
     };
-    let incomplete = register.as_ref().is_some_and(Register::is_incomplete);
+    let incomplete = register.as_ref().is_some_and(Overview::is_incomplete);
+    remarks.extend(register.iter().flat_map(|overview| overview.remarks.clone()));
     let keys = trust.map_or_else(Vec::new, |trust| keys(trust, time));
     Ok(Status {
         workspace: name_of(&workspace.root),
         time,
         stands,
         sites,
-        passports: register.map(passports),
+        passports: register.map(|overview| passports(&overview, time)),
         keys,
         signing_key: workspace.key.as_deref().map(|key| signing_key(key, workspace, trust, time)),
         remarks,
@@ -184,12 +193,18 @@ fn read_each<T, L>(
     Ok(lines)
 }
 
-fn passports(register: Register) -> Passports {
-    let mut counts = BTreeMap::from([State::Expiring, State::Expired].map(|state| (state, 0)));
-    counts.extend(register.counts());
-    let alarms = register.alarms.iter().map(ToString::to_string).collect();
-    let of = |state| register.passports.iter().filter(|line| line.state == state).cloned().collect();
-    Passports { counts, expiring: of(State::Expiring), expired: of(State::Expired), broken: of(State::Broken), alarms }
+fn passports(overview: &Overview, time: Timestamp) -> Passports {
+    let rows = |wanted: &dyn Fn(&Row) -> bool| overview.rows().filter(|row| wanted(row)).cloned().collect::<Vec<_>>();
+    let expired = rows(&|row| row.state == State::Current && row.expired);
+    let expiring = rows(&|row| row.is_in_force() && row.days_left(time).is_some_and(|days| days <= SOON_DAYS));
+    let mut counts = BTreeMap::from([("expired", expired.len()), ("expiring", expiring.len())]);
+    for state in State::ALL {
+        let number =
+            overview.rows().filter(|row| row.state == state && !(state == State::Current && row.expired)).count();
+        counts.insert(state.key(), number);
+    }
+    let alarms = overview.alarms.iter().map(ToString::to_string).collect();
+    Passports { counts, expiring, expired, alarms }
 }
 
 fn keys(trust: &Trust, time: Timestamp) -> Vec<KeyLine> {
@@ -226,28 +241,26 @@ fn signing_key(key: &Path, workspace: &Workspace, trust: Option<&Trust>, time: T
 }
 
 impl Status {
-    /// Returns the number of passports in a state.
-    fn count(&self, state: State) -> usize {
-        self.passports.as_ref().and_then(|passports| passports.counts.get(&state)).copied().unwrap_or_default()
+    /// Returns the number of passports of a kind.
+    fn count(&self, kind: &str) -> usize {
+        self.passports.as_ref().and_then(|passports| passports.counts.get(kind)).copied().unwrap_or_default()
     }
 
     fn signing_key_is_unusable(&self) -> bool {
         self.signing_key.as_ref().is_some_and(|key| key.trusted != Some(true) && key.why.is_some())
     }
 
-    /// Returns `true` if there is an alarm, a broken or expired passport, a file that cannot be read, or a signing key that
+    /// Returns `true` if there is an alarm, an expired current passport, a file that cannot be read, or a signing key that
     /// cannot be used.
     pub(crate) fn needs_attention(&self) -> bool {
         let alarms = self.passports.as_ref().is_some_and(|passports| !passports.alarms.is_empty());
-        let passports = self.count(State::Broken) + self.count(State::Expired);
-        alarms || passports > 0 || !self.remarks.is_empty() || self.signing_key_is_unusable()
+        alarms || self.count("expired") > 0 || !self.remarks.is_empty() || self.signing_key_is_unusable()
     }
 
     /// Returns the status as text: one line for each number, and below it what needs attention.
     pub(crate) fn text(&self) -> String {
         let of_stands = self.stands.iter().filter(|stand| stand.expired).count();
-        let [expired, expiring, broken] =
-            [State::Expired, State::Expiring, State::Broken].map(|state| self.count(state));
+        let [expired, expiring] = ["expired", "expiring"].map(|kind| self.count(kind));
         let (outcome, verdict) = match self.needs_attention() {
             true => (Outcome::Failed, "NEEDS ATTENTION"),
             false if expiring + of_stands > 0 => (Outcome::Undecided, "NO ALARMS"),
@@ -256,7 +269,6 @@ impl Status {
         let mut verdict = format!("{verdict}  passports expired: {expired}, expiring: {expiring}");
         let alarms = self.passports.as_ref().map_or(0, |passports| passports.alarms.len());
         let others = [
-            ("broken passports", broken),
             ("alarms", alarms),
             ("expired certificates of stands", of_stands),
             ("unusable signing keys", self.signing_key_is_unusable().into()),
@@ -275,25 +287,20 @@ impl Status {
         indented(&mut out, expired.collect());
         let _ = writeln!(out, "Sites      {}", self.sites.len());
         if let Some(passports) = &self.passports {
-            let counts = passports.counts.iter().filter(|(_, count)| **count > 0);
-            let counts: Vec<String> = counts.map(|(state, count)| format!("{count} {}", state.words())).collect();
+            let counts = passports.counts.iter().filter(|(kind, count)| **count > 0 && **kind != "expiring");
+            let counts: Vec<String> = counts.map(|(kind, count)| format!("{count} {kind}")).collect();
             let counts = if counts.is_empty() { "none".to_owned() } else { counts.join(", ") };
             let _ = writeln!(out, "Passports  {counts}");
-            let dated = |lines: &[Line], words: &str| {
-                let line = |line: &Line| {
-                    let until = line.valid_until.map_or_else(String::new, |day| format!("{day} (inclusive)"));
-                    format!("{}  {words} {until}", line.id.as_deref().unwrap_or_default())
+            let dated = |rows: &[Row], words: &str| {
+                let line = |row: &Row| {
+                    let until = row.valid_until.map_or_else(String::new, |day| format!("{day} (inclusive)"));
+                    format!("{}  {words} {until}", row.id)
                 };
-                lines.iter().map(line).collect::<Vec<_>>()
+                rows.iter().map(line).collect::<Vec<_>>()
             };
             indented(&mut out, dated(&passports.expiring, "valid until"));
             let expired = format!("{}, was valid until", style::marked(Outcome::Failed, "EXPIRED"));
             indented(&mut out, dated(&passports.expired, &expired));
-            let broken = passports.broken.iter().map(|line| {
-                let state = style::marked(Outcome::Failed, "BROKEN");
-                format!("{state}  {}; for the cause, run `register`", Printable(&line.file))
-            });
-            indented(&mut out, broken.collect());
             let _ = writeln!(out, "Alarms     {}", passports.alarms.len());
             indented(&mut out, passports.alarms.iter().map(|alarm| style::marked(Outcome::Failed, alarm)).collect());
         }

@@ -24,7 +24,7 @@ pub struct Case {
 impl Case {
     /// The page, or the test's failure with what verification said.
     pub fn html(&self) -> String {
-        let page = PassportPage::verified(self.name, self.passport.as_bytes(), &self.trust, &self.question, None);
+        let page = PassportPage::verified(self.name, self.passport.as_bytes(), &self.trust, &self.question);
         page.unwrap_or_else(|refused| panic!("{}: {:?}", self.name, refused.checks())).html(&self.languages)
     }
 

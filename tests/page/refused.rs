@@ -7,7 +7,7 @@ use dtg_passport::report::{Language, PassportPage};
 use dtg_passport::trust::SigningKey;
 
 fn page<'a>(bytes: &'a [u8], trust: &'a Trust, question: &'a Question) -> Result<PassportPage<'a>, Box<Verification>> {
-    PassportPage::verified("passport.yaml", bytes, trust, question, None)
+    PassportPage::verified("passport.yaml", bytes, trust, question)
 }
 
 /// The code of the first check that failed.

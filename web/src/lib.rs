@@ -51,7 +51,7 @@ pub extern "C" fn content(inputs: &Inputs, now_s: f64) -> *const Slice {
 #[unsafe(no_mangle)]
 pub extern "C" fn print(inputs: &Inputs, now_s: f64) -> *const Slice {
     run(inputs, now_s, |Enquiry { trust, question, .. }, answer| {
-        let page = PassportPage::of(inputs.passport.bytes(), trust, question, answer.verification.clone());
+        let page = PassportPage::of(inputs.passport.bytes(), question, answer.verification.clone());
         Ok(page.map_or_else(|_| answer.to_json(), |page| page.html(&Languages::from(Language::English))))
     })
 }

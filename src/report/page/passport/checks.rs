@@ -96,7 +96,8 @@ fn reason(code: Code) -> Text {
         Code::WrongStand => texts::ANOTHER_STAND,
         Code::WrongPlace => texts::ANOTHER_PLACE,
         Code::Superseded => texts::SUPERSEDED,
-        Code::PassportRevoked => texts::WITHDRAWN,
+        Code::Moved => texts::MOVED,
+        Code::Withdrawn => texts::WITHDRAWN,
         _ => texts::REFUSED,
     }
 }
@@ -178,30 +179,36 @@ fn words(page: &PassportPage, check: &Check, language: Language) -> String {
         CheckName::Schema => texts::SCHEMA_OK.filled(language, values! { format: content.format }),
         CheckName::Signer => texts::SIGNER_OK.filled(language, values! { issuer }),
         CheckName::Recomputed => plain(texts::RECOMPUTED_OK),
-        CheckName::Revocation => revocation(page, language),
+        CheckName::Revocation => plain(texts::REVOCATION_OK),
         CheckName::InForce => validity(page, check.code, language),
         CheckName::Issuer => texts::ISSUER_OK.filled(language, values! { issuer }),
         CheckName::Stand => stand(page, check.code, language),
         CheckName::Place => place(page, language),
-        CheckName::Register if check.code == Code::Ok => plain(texts::REGISTER_OK),
-        CheckName::Register if check.code == Code::RegisterUnknown => plain(texts::REGISTER_UNKNOWN),
-        CheckName::Register => plain(texts::REGISTER_SUPERSEDED),
+        CheckName::Register => register(page, check.code, language),
     }
 }
 
-fn revocation(page: &PassportPage, language: Language) -> String {
-    let withdrawn = &page.trust.withdrawn;
-    if let Some(entry) = withdrawn.entry(&page.sha256) {
-        let time = time_text(language, entry.revoked_at);
-        return texts::REVOCATION_WITHDRAWN.filled(language, values! { time, reason: entry.reason });
-    }
-    match withdrawn.newest() {
-        Some(list) => {
-            let time = time_text(language, list.issued_at);
-            texts::REVOCATION_LIST.filled(language, values! { sequence: list.sequence, time })
-        }
-        None => texts::REVOCATION_KEYS_ONLY.words(language),
-    }
+/// Returns what the register says, with its number, time, SHA-256 and freshness.
+fn register(page: &PassportPage, code: Code, language: Language) -> String {
+    let text = match code {
+        Code::Ok => texts::REGISTER_OK,
+        Code::Superseded => texts::REGISTER_SUPERSEDED,
+        Code::Moved => texts::REGISTER_MOVED,
+        Code::Withdrawn => texts::REGISTER_WITHDRAWN,
+        Code::NotListed => texts::REGISTER_NOT_LISTED,
+        Code::RegisterStale => texts::REGISTER_STALE,
+        Code::RegisterOlder => texts::REGISTER_OLDER,
+        Code::RegisterContradicted => texts::REGISTER_CONTRADICTED,
+        _ => texts::REGISTER_UNKNOWN,
+    };
+    let Some(used) = page.verification.register() else { return text.words(language) };
+    let time = time_text(language, used.issued_at);
+    let fresh = used.fresh_until.map_or_else(String::new, |last| {
+        texts::REGISTER_FRESH.filled(language, values! { day: date_text(language, last) })
+    });
+    let sha256 = &used.sha256[..16];
+    let used = texts::REGISTER_USED.filled(language, values! { sequence: used.sequence, time, sha256, fresh });
+    format!("{}; {used}", text.words(language))
 }
 
 fn validity(page: &PassportPage, code: Code, language: Language) -> String {

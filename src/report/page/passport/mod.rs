@@ -27,7 +27,6 @@ use super::symbols::italic;
 use super::texts::{passport as texts, record as record_texts};
 use crate::document::sha256_hex;
 use crate::passport::{Content, Question, Trust, Verification, verify};
-use crate::register::Register;
 use crate::trust::PublicKey;
 use maud::{Markup, html};
 
@@ -37,7 +36,6 @@ pub struct PassportPage<'a> {
     text: &'a str,
     /// SHA-256 of the passport's file, lower-case hexadecimal.
     pub(crate) sha256: String,
-    trust: &'a Trust,
     question: &'a Question,
     pub(crate) verification: Verification,
     pub(crate) content: Content,
@@ -46,24 +44,17 @@ pub struct PassportPage<'a> {
 }
 
 impl<'a> PassportPage<'a> {
-    /// Verifies the bytes of a passport, and with `register` also whether another passport supersedes it. `name` is the
-    /// name of the file in messages.
+    /// Verifies the bytes of a passport. `name` is the name of the file in messages.
     ///
     /// # Errors
     /// Returns the verification if the passport is not authentic; no part of it may then be printed.
     pub fn verified(
         name: &str,
         bytes: &'a [u8],
-        trust: &'a Trust,
+        trust: &Trust,
         question: &'a Question,
-        register: Option<&Register>,
     ) -> Result<Self, Box<Verification>> {
-        let verification = verify(name, bytes, trust, question);
-        let verification = match register {
-            Some(register) => register.asked(verification, bytes),
-            None => verification,
-        };
-        Self::of(bytes, trust, question, verification)
+        Self::of(bytes, question, verify(name, bytes, trust, question))
     }
 
     /// Creates the page of a passport that was already verified with the same trust and question.
@@ -72,7 +63,6 @@ impl<'a> PassportPage<'a> {
     /// Returns the verification if the passport is not authentic, as [`Self::verified`] does.
     pub fn of(
         bytes: &'a [u8],
-        trust: &'a Trust,
         question: &'a Question,
         verification: Verification,
     ) -> Result<Self, Box<Verification>> {
@@ -80,7 +70,7 @@ impl<'a> PassportPage<'a> {
         let genuine = verification.authentic().map(|(content, key)| (content.clone(), key.clone()));
         match text.zip(genuine) {
             Some((text, (content, key))) => {
-                Ok(Self { text, sha256: sha256_hex(bytes), trust, question, verification, content, key })
+                Ok(Self { text, sha256: sha256_hex(bytes), question, verification, content, key })
             }
             None => Err(Box::new(verification)),
         }

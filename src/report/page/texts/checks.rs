@@ -29,6 +29,7 @@ texts! {
     ANOTHER_STAND { en: "issued for another stand", ru: "относится к другому стенду" }
     ANOTHER_PLACE { en: "issued for another site", ru: "выдан для другого места установки" }
     SUPERSEDED { en: "superseded", ru: "заменён другим паспортом" }
+    MOVED { en: "the stand has left this site", ru: "стенд покинул это место установки" }
     WITHDRAWN { en: "withdrawn by its issuer", ru: "отозван выдавшей организацией" }
     REFUSED { en: "rejected", ru: "отклонён" }
 
@@ -46,23 +47,9 @@ texts! {
     }
     SIGNER { en: "Signing key", ru: "Ключ подписи" }
     SIGNER_OK { en: "the key belongs to {issuer}", ru: "владелец ключа: {issuer}" }
-    REVOCATION { en: "Withdrawal", ru: "Отзыв" }
-    REVOCATION_NO_LIST {
-        en: "no list of revoked keys or withdrawn passports was given",
-        ru: "список отозванных ключей или паспортов не предъявлен"
-    }
-    REVOCATION_KEYS_ONLY {
-        en: "the key is not revoked; no list of withdrawn passports was given",
-        ru: "ключ не отозван; список отозванных паспортов не предъявлен"
-    }
-    REVOCATION_LIST {
-        en: "not withdrawn: list {sequence} of {time} does not list it",
-        ru: "не отозван: в списке {sequence} от {time} не указан"
-    }
-    REVOCATION_WITHDRAWN {
-        en: "withdrawn at {time}; stated reason: {reason}; ask the issuer for a new passport",
-        ru: "отозван {time}; указанная причина: {reason}; следует запросить новый паспорт"
-    }
+    REVOCATION { en: "Revocation of the key", ru: "Отзыв ключа" }
+    REVOCATION_NO_LIST { en: "no list of revoked keys was given", ru: "список отозванных ключей не предъявлен" }
+    REVOCATION_OK { en: "the key is not revoked", ru: "ключ не отозван" }
     RECOMPUTED { en: "Numbers", ru: "Числа" }
     RECOMPUTED_OK {
         en: "all numbers, recomputed, agree with the signed deviations and site",
@@ -109,18 +96,29 @@ texts! {
     }
     PLACE_NOT_ASKED { en: "no place was given", ru: "место не задано" }
     REGISTER { en: "Register", ru: "Реестр" }
-    REGISTER_OK {
-        en: "no passport in the specified folder supersedes it",
-        ru: "в указанной папке нет паспорта, который его заменяет"
-    }
+    REGISTER_OK { en: "current", ru: "паспорт действует" }
     REGISTER_SUPERSEDED {
-        en: "superseded by another passport in the specified folder; this one is not in force",
-        ru: "заменён другим паспортом из указанной папки; этот паспорт не действует"
+        en: "superseded by another passport; this one is not in force",
+        ru: "заменён другим паспортом; этот паспорт не действует"
     }
+    REGISTER_MOVED {
+        en: "the stand has left this site; this passport is not in force",
+        ru: "стенд покинул это место установки; этот паспорт не действует"
+    }
+    REGISTER_WITHDRAWN { en: "withdrawn by the issuer", ru: "отозван выдавшей организацией" }
+    REGISTER_NOT_LISTED { en: "the register does not list this passport", ru: "паспорта нет в реестре" }
+    REGISTER_STALE { en: "the register is no longer fresh", ru: "срок актуальности реестра истёк" }
+    REGISTER_OLDER { en: "a later register is known", ru: "известен более поздний реестр" }
+    REGISTER_CONTRADICTED { en: "two registers contradict each other", ru: "два реестра противоречат друг другу" }
     REGISTER_UNKNOWN {
-        en: "unknown: a file in the specified folder is damaged or missing",
-        ru: "неизвестно: в указанной папке повреждён или отсутствует файл"
+        en: "unknown: no register of this stand that counts was given",
+        ru: "неизвестно: действительный реестр этого стенда не предъявлен"
     }
-    REGISTER_NOT_ASKED { en: "no folder of passports was given", ru: "папка с паспортами не задана" }
+    REGISTER_USED {
+        en: "register {sequence} of {time}, SHA-256 {sha256}…{fresh}",
+        ru: "реестр {sequence} от {time}, SHA-256 {sha256}…{fresh}"
+    }
+    REGISTER_FRESH { en: ", fresh until {day} (inclusive)", ru: ", актуален по {day} включительно" }
+    REGISTER_NOT_ASKED { en: "no register was given", ru: "реестр не предъявлен" }
     NOT_RUN { en: "not run", ru: "не проводилось" }
 }
