@@ -452,7 +452,7 @@ impl Options {
 /// Returns the passport in the form that the report takes.
 fn used<'a>(passport: &'a Read, enquiry: Option<&'a Enquiry>) -> Result<UsedPassport<'a>, Failure> {
     let Read { content, bytes, verification } = passport;
-    let Some((verification, Enquiry { trust, question, .. })) = verification.as_ref().zip(enquiry) else {
+    let Some((verification, Enquiry { question, .. })) = verification.as_ref().zip(enquiry) else {
         return Ok(UsedPassport::NotVerified { content, sha256: sha256_hex(bytes) });
     };
     let page = PassportPage::of(bytes, question, verification.clone());

@@ -34,6 +34,11 @@ pub(super) fn workspace() -> Option<&'static Workspace> {
     WORKSPACE.get()
 }
 
+/// Returns `true` if the workspace cannot sign, so that it need not have every passport of a stand.
+pub(super) fn is_of_a_laboratory() -> bool {
+    workspace().is_some_and(|workspace| workspace.key.is_none())
+}
+
 /// Adds the options that are not given, and returns them in words.
 pub(super) fn add(arguments: &mut Vec<OsString>) -> Result<Vec<String>, Failure> {
     // What this pass cannot parse, the next one refuses.

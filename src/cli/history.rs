@@ -52,7 +52,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         trust: &trust,
         question: &Question { now: question.now, ..Question::at(question.time) },
         memory: memory.as_ref(),
-        may_lack: false,
+        may_lack: defaults::is_of_a_laboratory(),
         threads: parallel::processors(),
     };
     let (history, is_incomplete) = overview::history(&options.passports, &options.stand, query)?;

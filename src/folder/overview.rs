@@ -462,10 +462,11 @@ fn is_in_place(path: &Path, due: &str) -> bool {
 
 /// Returns a fingerprint of the certified angles in the text of a passport, which is in canonical form.
 fn fingerprint(bytes: &[u8]) -> Option<u64> {
-    let from = memchr::memmem::find(bytes, b"\npositions:\n")?;
-    let end = memchr::memmem::find(&bytes[from..], b"\nsite:\n")?;
+    const POSITIONS: &[u8] = b"\npositions:\n";
+    let from = memchr::memmem::find(bytes, POSITIONS)? + POSITIONS.len();
     let mut hasher = DefaultHasher::new();
-    bytes[from..from + end].hash(&mut hasher);
+    let lines = bytes[from..].split(|byte| *byte == b'\n');
+    lines.take_while(|line| line.starts_with(b"  - {")).for_each(|line| line.hash(&mut hasher));
     Some(hasher.finish())
 }
 

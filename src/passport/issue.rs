@@ -86,8 +86,7 @@ pub enum IssueRefused {
     },
     /// The time of issue is ahead of the clock.
     #[error(
-        "issued_at {issued_at} is more than one day later than the clock, {clock}; specify an earlier \
-         time of issue, or omit it"
+        "issued_at {issued_at} is later than the clock, {clock}; specify an earlier time of issue, or omit it"
     )]
     AheadOfClock {
         /// Requested time of issue.
@@ -168,14 +167,11 @@ pub enum IssueRefused {
 /// Returns the time of issue: `asked`, or the time of the `clock` if `asked` is `None`.
 ///
 /// # Errors
-/// Returns [`IssueRefused::AheadOfClock`] if the time is more than a day ahead of the clock. Such a passport would not
-/// be valid yet, and would rank as later than every passport issued until then.
+/// Returns [`IssueRefused::AheadOfClock`] if the time is ahead of the clock. Such a passport would not be valid yet, and no
+/// register of today could list it.
 pub(crate) fn time_of_issue(asked: Option<Timestamp>, clock: Timestamp) -> Result<Timestamp, IssueRefused> {
-    const DAY_S: i64 = 86_400;
     match asked {
-        Some(issued_at) if issued_at.as_second() - clock.as_second() > DAY_S => {
-            Err(IssueRefused::AheadOfClock { issued_at, clock })
-        }
+        Some(issued_at) if issued_at > clock => Err(IssueRefused::AheadOfClock { issued_at, clock }),
         asked => Ok(asked.unwrap_or(clock)),
     }
 }

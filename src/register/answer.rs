@@ -83,7 +83,10 @@ impl VerifiedRegister {
             );
         }
         let fresh = header.fresh_until.map_or_else(String::new, |last| format!(", fresh until {last} (inclusive)"));
-        (Code::Ok, format!("current in register {} of {}{fresh}", header.sequence, header.issued_at))
+        let sha256 = &self.sha256()[..16];
+        let detail =
+            format!("current in register {} of {} (SHA-256 {sha256}…){fresh}", header.sequence, header.issued_at);
+        (Code::Ok, detail)
     }
 }
 

@@ -225,7 +225,7 @@ impl Register {
     }
 
     /// Returns the text to be signed.
-    fn payload(&self) -> String {
+    pub(crate) fn payload(&self) -> String {
         let comments = |path: &str| match path {
             "format" => vec![
                 "Which passports of this stand count. A later register replaces this one.".to_owned(),

@@ -67,6 +67,9 @@ struct Passports {
     /// Current passports that have expired, for the text.
     #[serde(skip)]
     expired: Vec<Row>,
+    /// Registers that will soon no longer be fresh: stand and last day, for the text.
+    #[serde(skip)]
+    aging: Vec<(String, Date)>,
     alarms: Vec<String>,
 }
 
@@ -108,7 +111,7 @@ pub(crate) fn status(
             let memory = workspace.memory();
             let question = Question { now, ..Question::at(time) };
             let threads = parallel::processors();
-            let query = Query { trust, question: &question, memory: Some(&memory), may_lack: false, threads };
+            let query = Query { trust, question: &question, memory: Some(&memory), may_lack: workspace.key.is_none(), threads };
             Some(Overview::of(folder, query)?)
         }
         (None, _) => {
@@ -203,8 +206,11 @@ fn passports(overview: &Overview, time: Timestamp) -> Passports {
             overview.rows().filter(|row| row.state == state && !(state == State::Current && row.expired)).count();
         counts.insert(state.key(), number);
     }
+    let today = time.to_zoned(jiff::tz::TimeZone::UTC).date();
+    let is_soon = |last: &Date| today.until(*last).is_ok_and(|span| (0..=SOON_DAYS).contains(&span.get_days()));
+    let aging = overview.stands.iter().filter_map(|one| Some((one.stand.clone(), one.fresh_until.filter(is_soon)?)));
     let alarms = overview.alarms.iter().map(ToString::to_string).collect();
-    Passports { counts, expiring, expired, alarms }
+    Passports { counts, expiring, expired, aging: aging.collect(), alarms }
 }
 
 fn keys(trust: &Trust, time: Timestamp) -> Vec<KeyLine> {
@@ -301,6 +307,10 @@ impl Status {
             indented(&mut out, dated(&passports.expiring, "valid until"));
             let expired = format!("{}, was valid until", style::marked(Outcome::Failed, "EXPIRED"));
             indented(&mut out, dated(&passports.expired, &expired));
+            let aging = |(stand, last): &(String, Date)| {
+                format!("{stand}  register fresh until {last} (inclusive); renew it with `register --renew`")
+            };
+            indented(&mut out, passports.aging.iter().map(aging).collect());
             let _ = writeln!(out, "Alarms     {}", passports.alarms.len());
             indented(&mut out, passports.alarms.iter().map(|alarm| style::marked(Outcome::Failed, alarm)).collect());
         }

@@ -20,7 +20,6 @@ mod keystrokes;
 mod links;
 mod recertify;
 mod report;
-mod revocation_chain;
 mod selftest;
 mod terminal;
 mod transcripts;

@@ -17,13 +17,13 @@ use dtg_passport::document::{SignedText, join};
 use dtg_passport::gyro::GyroType;
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::passport::issue::{Issue, draft};
-use dtg_passport::passport::{NAMESPACE, Question, Trust, annotations, content, content_from_anyone, verify};
+use dtg_passport::passport::{FORM, NAMESPACE, Question, Trust, annotations, content, content_from_anyone, verify};
+use dtg_passport::register::{self, VerifiedRegister};
 use dtg_passport::report::passport_table;
-use dtg_passport::revocation::{REVOCATION_NAMESPACE, RevocationList};
 use dtg_passport::site::Site;
 use dtg_passport::stand::Stand;
 use dtg_passport::text::record::{Document, File};
-use dtg_passport::text::{Field, Unreadable, canonical, rule};
+use dtg_passport::text::{Field, LARGEST_DOCUMENT_BYTES, Unreadable, canonical, rule};
 use dtg_passport::trust::{AllowedSigners, PublicKey, RevokedKeys, Signature, SigningKey};
 use std::fmt::Debug;
 use std::sync::LazyLock;
@@ -48,7 +48,7 @@ pub const TARGETS: [Target; 19] = [
     Target { name: "content", reads: content },
     Target { name: "passport", reads: passport },
     Target { name: "signed", reads: signed },
-    Target { name: "revocation", reads: revocation },
+    Target { name: "register", reads: of_register },
     Target { name: "armor", reads: armor },
     Target { name: "blob", reads: blob },
     Target { name: "public_key", reads: public_key },
@@ -118,7 +118,7 @@ fn document<T: Document + PartialEq + Debug>(
         Err(error) => return refused(&error, bytes),
     };
     let text = written(&File(value.clone()));
-    rule::check("written", text.as_bytes()).expect("what is written obeys the text rule");
+    rule::check("written", text.as_bytes(), LARGEST_DOCUMENT_BYTES).expect("what is written obeys the text rule");
     let again = from_yaml("written", text.as_bytes()).expect("what is written is read");
     assert_eq!(again, value);
     assert_eq!(written(&File(again)), text);
@@ -184,7 +184,7 @@ fn issue(bytes: &[u8]) -> bool {
 fn payload(bytes: &[u8]) -> Option<&str> {
     let line = b"signature: |\n";
     let end = bytes.windows(line.len()).position(|window| window == line).unwrap_or(bytes.len());
-    rule::check("f", &bytes[..end]).ok()
+    rule::check("f", &bytes[..end], LARGEST_DOCUMENT_BYTES).ok()
 }
 
 /// What may be in a passport: read, shown and calculated with.
@@ -229,26 +229,21 @@ fn signed(bytes: &[u8]) -> bool {
     true
 }
 
-/// The same for a list of withdrawn passports; signed again, it is the same list in the same bytes.
-fn revocation(bytes: &[u8]) -> bool {
+/// The same for a register; verified again, it is the same register in the same bytes.
+fn of_register(bytes: &[u8]) -> bool {
     let Some(payload) = payload(bytes) else { return false };
     let Bench { key, trust, question, .. } = &*BENCH;
-    let file = join(payload, &key.sign(REVOCATION_NAMESPACE, payload.as_bytes()).unwrap());
-    let verify = |file: &str| {
-        RevocationList::verify("f", file.as_bytes(), &trust.signers, &[], question.time).map(|verified| verified.list)
-    };
-    let list = match verify(&file) {
-        Ok(list) => list,
+    let file = join(payload, &key.sign(register::NAMESPACE, payload.as_bytes()).unwrap());
+    let verified = match VerifiedRegister::verify("f", file.as_bytes(), trust, question.time) {
+        Ok(verified) => verified,
         Err(error) => {
             assert!(!error.to_string().is_empty());
             return false;
         }
     };
-    assert_eq!(rule::differs(payload, &written(&list)), None);
-    let again = list.sign(key).unwrap();
-    assert_eq!(verify(&again).as_ref(), Ok(&list));
-    assert_eq!(list.sign(key).unwrap(), again);
-    SignedText::split("f", file.as_bytes(), NAMESPACE).expect_err("a list is no passport");
+    assert_eq!(rule::differs(payload, &written(verified.content())), None);
+    assert_eq!(verified.agree(&verified), Ok(()));
+    SignedText::split("f", file.as_bytes(), &FORM).expect_err("a register is no passport");
     true
 }
 
@@ -302,7 +297,7 @@ fn allowed_signers(bytes: &[u8]) -> bool {
     let other = AllowedSigners::parse("other", other.as_bytes()).expect("the same lines");
     let key = BENCH.key.public_key();
     for principal in ["examples@dtg-passport.test", "a", "bc@d"] {
-        for namespace in [NAMESPACE, REVOCATION_NAMESPACE] {
+        for namespace in [NAMESPACE, register::NAMESPACE] {
             for time in ["2026-11-20T00:00:00Z", "1999-12-31T23:59:59Z"] {
                 let verdict = |list: &AllowedSigners| list.authorise(&key, principal, namespace, time.parse().unwrap());
                 assert_eq!(verdict(&signers), verdict(&other));

@@ -168,7 +168,7 @@ fn the_stand_file_reads_back() {
     let found = certified(&Truth::new([1.0; 3], 2.0, 0.0), &mut Stream::new(4), 3);
     let text = found.to_yaml("stand.yaml").unwrap();
     assert_eq!(Stand::from_yaml("stand.yaml", text.as_bytes()).unwrap(), found.stand);
-    dtg_passport::text::rule::check("stand.yaml", text.as_bytes()).unwrap();
+    dtg_passport::text::rule::check("stand.yaml", text.as_bytes(), 1 << 20).unwrap();
     for words in [
         "# Repeatability of one visit, from 3 runs",
         "# Means of 3 runs",

@@ -325,13 +325,13 @@ fn blocks_of_the_signature() {
         (format!("signed for {purpose:?}"), join(bench.payload(), &signature))
     };
     let list =
-        "format: \"dtg-revocation/1\"\nsequence: 1\nissued_at: \"2026-11-09T08:00:00Z\"\nissuer: \"x\"\nentries:\n";
-    let shown = join(list, &bench.key.sign("dtg-revocation", list.as_bytes()).unwrap());
+        "format: \"dtg-register/1\"\nregister: {stand: \"a/b\", sequence: 1, issuer: \"x\"}\npassports:\n";
+    let shown = join(list, &bench.key.sign("dtg-register", list.as_bytes()).unwrap());
     let purposes =
-        ["dtg-revocation", "git", "file", "dtg-passport2", "DTG-PASSPORT", "dtg-passport\0", "*", "\u{1B}[2J"];
+        ["dtg-register", "git", "file", "dtg-passport2", "DTG-PASSPORT", "dtg-passport\0", "*", "\u{1B}[2J"];
     let purposes: Vec<_> = purposes.into_iter().map(for_purpose).collect();
     let mut files: Vec<_> = purposes.iter().map(|(name, file)| (name.as_str(), file.clone())).collect();
-    files.push(("a revocation list shown as a passport", shown));
+    files.push(("a register shown as a passport", shown));
     refuse_all(&cases(&bench, (CheckName::Grammar, Code::WrongNamespace), files));
 }
 
@@ -774,7 +774,7 @@ fn keys_that_do_not_count() {
         case("a pattern of nothing but exclusion", trust_as("!lab@*", key), Code::WrongPrincipal),
         case("another letter case", trust_as("Factory@example.org", key), Code::WrongPrincipal),
         case("for git", trust_as(&format!("{ISSUER} namespaces=\"git\""), key), Code::WrongNamespace),
-        case("for lists", trust_as(&format!("{ISSUER} namespaces=\"dtg-revocation\""), key), Code::WrongNamespace),
+        case("for lists", trust_as(&format!("{ISSUER} namespaces=\"dtg-register\""), key), Code::WrongNamespace),
         case("for all but", trust_as(&format!("{ISSUER} namespaces=\"*,!dtg-passport\""), key), Code::WrongNamespace),
         case("a second late", trust_as(&format!("{ISSUER} valid-before=\"20261109075959Z\""), key), Code::KeyExpired),
         case(

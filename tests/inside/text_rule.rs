@@ -40,7 +40,7 @@ fn a_string_may_hold_the_repertoire_and_nothing_else() {
 
 /// Where `check` refuses `bytes`, as `line:column`; `-` when it refuses them as a whole.
 fn refused_at(bytes: &[u8]) -> Option<String> {
-    let refused = rule::check("t.yaml", bytes).err()?;
+    let refused = rule::check("t.yaml", bytes, 1 << 20).err()?;
     assert_eq!(refused.problems().len(), 1, "{refused}");
     Some(refused.problems()[0].location.map_or("-".to_owned(), |at| format!("{}:{}", at.line, at.column)))
 }

@@ -98,7 +98,7 @@ const CROWDS: [(&str, &str, &str, &str); 32] = [
     ("content", "a: [", "0,", "]\n"),
     ("content", "", "a: 0.0\n", ""),
     ("content", "vectors:\n", "  - {i: 1, j: 1, specific_force_g: [0.0, 0.0], specific_force_z_g: 0.0}\n", ""),
-    ("revocation", "entries:\n", "  - {id: \"a\", sha256: \"\", reason: \"b\"}\n", ""),
+    ("register", "passports:\n", "  - {id: \"a\", sha256: \"\", reason: \"b\"}\n", ""),
     ("currents", "i,j,jx_ma,jy_ma\n", "1,1,0.1,.1\n", ""),
     ("currents", "i,j,jx_ma,jy_ma\n", "0,0,0,0\n", ""),
     ("currents", "i,j,jx_ma,jy_ma\n", ",\n", ""),

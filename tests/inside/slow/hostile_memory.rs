@@ -5,14 +5,13 @@
 use super::alone::alone;
 use crate::fuzzing::memory::{bound, peak};
 use crate::inside::{fixtures, written};
-use dtg_passport::folder::search::register;
+use dtg_passport::folder::overview::{Overview, Query};
 use dtg_passport::gyro::GyroType;
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::passport::accuracy::Accuracy;
 use dtg_passport::passport::annotations::payload;
 use dtg_passport::passport::content::{Content, PositionVectors};
 use dtg_passport::passport::{CheckName, Code, Trust, verify};
-use dtg_passport::register::{Asked, State};
 use dtg_passport::stand::{CertifiedPosition, MOST_POSITIONS};
 use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
 use dtg_passport::trust::SigningKey;
@@ -113,10 +112,36 @@ fn in_a_folder(files: &[(&str, String)], factory: &SigningKey, trust: &Trust) {
     }
     let good = fixtures::content(&fixtures::stand(fixtures::DEGREES), &fixtures::site(fixtures::SITE));
     write("SPS-1/0203/bench-1.yaml", &written(&good, factory));
-    let asked = Asked::at(fixtures::question().time);
-    let (found, most) = measured("a folder of them", || register(folder.path(), trust.clone(), &asked, 2));
-    let (register, _) = found.unwrap();
+    let question = fixtures::question();
+    let query = Query { trust, question: &question, memory: None, may_lack: false, threads: 2 };
+    let (found, most) = measured("a folder of them", || Overview::of(folder.path(), query).unwrap());
     assert!(most <= 2 * bound(LARGEST_DOCUMENT_BYTES), "{most} bytes");
-    assert_eq!(register.counts().get(&State::InForce), Some(&1), "{:?}", register.alarms);
-    assert_eq!(register.passports.len(), files.len() + 1);
+    // The good passport has no register; the others are not authentic.
+    assert_eq!(found.alarms.iter().map(|alarm| alarm.code.key()).collect::<Vec<_>>(), ["no_register"]);
+    assert_eq!(found.remarks.len(), files.len());
+}
+
+/// Expected: the limit of a listing with 20,000 files that are not passports and 1,500 false registers of 1 MiB.
+#[test]
+fn junk_and_false_registers_cost_little_memory() {
+    alone(module_path!(), "junk_and_false_registers_cost_little_memory", || {
+        let folder = tempfile::tempdir().unwrap();
+        for number in 0..20_000 {
+            let place = folder.path().join(format!("SPS-9/{:04}", number / 1000));
+            fs::create_dir_all(&place).unwrap();
+            fs::write(place.join(format!("{number}.txt")), "junk\n").unwrap();
+        }
+        for number in 0..1_500 {
+            let place = folder.path().join(format!("SPS-8/{number:04}"));
+            fs::create_dir_all(&place).unwrap();
+            let file = fs::File::create(place.join("register.yaml")).unwrap();
+            std::io::Write::write_all(&mut &file, b"format: \"dtg-register/1\"\n").unwrap();
+            file.set_len(1 << 20).unwrap();
+        }
+        let (trust, question) = (fixtures::trust(&SigningKey::generate().unwrap()), fixtures::question());
+        let query = Query { trust: &trust, question: &question, memory: None, may_lack: false, threads: 2 };
+        let (found, most) = measured("junk and false registers", || Overview::of(folder.path(), query).unwrap());
+        assert!(most <= 64 << 20, "{most} bytes");
+        assert_eq!(found.alarms.len(), 1_500);
+    });
 }

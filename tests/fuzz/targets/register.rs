@@ -1,0 +1,2 @@
+#![no_main]
+dtg_passport_fuzz::target!("register");

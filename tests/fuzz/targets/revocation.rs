@@ -1,2 +1,0 @@
-#![no_main]
-dtg_passport_fuzz::target!("revocation");
