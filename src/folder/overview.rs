@@ -257,7 +257,7 @@ impl Query<'_> {
                 found.alarm(AlarmCode::RevocationList, None, &path, detail);
             } else if kind == Some(Kind::Passport) || numbered(name).is_some() {
                 let id = listed.map(|place| rows[place].id.as_str());
-                let is_good = self.unlisted(&path, &bytes, id, register.as_ref(), is_known, &mut found);
+                let is_good = self.unlisted(&path, &bytes, id, register.as_ref(), &mut found);
                 if is_good && !is_known && !is_told {
                     is_told = true;
                     let detail = "has passports, but no register; make it with `register DIR --renew`, or restore it from \
@@ -340,7 +340,6 @@ impl Query<'_> {
         bytes: &[u8],
         place_of: Option<&str>,
         register: Option<&VerifiedRegister>,
-        is_known: bool,
         found: &mut Found,
     ) -> bool {
         let verification = verify(&name_of(path), bytes, self.trust, &Question::at(self.question.now));
@@ -364,7 +363,8 @@ impl Query<'_> {
             _ if !is_in_place(path, &due) => {
                 found.alarm(AlarmCode::Misplaced, stand, path, format!("contains {id}, expected in {due}"));
             }
-            _ if is_known => {
+            // Next to a register that does not count, nothing is known to be unlisted.
+            _ if register.is_some() => {
                 let advice =
                     "run the command that issued it again, or take it over with `register DIR --renew --adopt`";
                 let sha256 = sha256_hex(bytes);

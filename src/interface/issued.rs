@@ -11,6 +11,7 @@ use crate::signing::{Signer, own_trust};
 use crate::site::Site;
 use crate::stand::Stand;
 use crate::text::Field;
+use crate::trust::check_identity;
 use jiff::Timestamp;
 use std::path::Path;
 
@@ -42,6 +43,7 @@ pub fn issue(
     let site = Site::from_yaml(site.0, site.1)?;
     let now = Timestamp::from_second(now.as_second()).unwrap_or(now);
     let order = Issue { accuracy: accuracy.map(stated).transpose()?, ..ordered(order, now)? };
+    check_identity(&order.issuer).map_err(Failed::unusable)?;
     let trust = signers.map(|signers| trust(signers, &[])).transpose()?;
     let folder = Folder::new(out);
     let trust = trust.or_else(|| own_trust(&order.issuer, &signer.public_key()?, None));
