@@ -74,12 +74,8 @@ impl Names {
         };
         let mut names = Listed::new();
         for entry in entries {
-            let entry = entry.map_err(failed)?;
-            let is_folder = entry.file_type().map_err(failed)?.is_dir();
-            if is_folder == (self.of == Of::Folders)
-                && let file = entry.file_name()
-                && let Some(name) = self.name(Path::new(&file))
-            {
+            let file = entry.map_err(failed)?.file_name();
+            if let Some(name) = self.name(Path::new(&file)) {
                 let last = &mut names.entry(name.to_ascii_lowercase()).or_insert((name.to_owned(), 0)).1;
                 *last = (*last).max(numbered(&file).map_or(0, |(_, revision)| revision));
             }

@@ -279,21 +279,19 @@ impl Status {
             let counts: Vec<String> = counts.map(|(state, count)| format!("{count} {}", state.words())).collect();
             let counts = if counts.is_empty() { "none".to_owned() } else { counts.join(", ") };
             let _ = writeln!(out, "Passports  {counts}");
-            let dated = |lines: &[Line], words: &str| {
-                let line = |line: &Line| {
-                    let until = line.valid_until.map_or_else(String::new, |day| format!("{day} (inclusive)"));
-                    format!("{}  {words} {until}", line.id.as_deref().unwrap_or_default())
-                };
-                lines.iter().map(line).collect::<Vec<_>>()
+            let line = |line: &Line| {
+                let id = line.id.as_deref().unwrap_or_default();
+                let until = line.valid_until.map_or_else(String::new, |day| format!("valid until {day} (inclusive)"));
+                let failed = |word| style::marked(Outcome::Failed, word);
+                match line.state {
+                    State::Expiring => format!("{id}  {until}"),
+                    State::Expired => format!("{id}  {}, was {until}", failed("EXPIRED")),
+                    _ => format!("{}  {}; for the cause, run `register`", failed("BROKEN"), Printable(&line.file)),
+                }
             };
-            indented(&mut out, dated(&passports.expiring, "valid until"));
-            let expired = format!("{}, was valid until", style::marked(Outcome::Failed, "EXPIRED"));
-            indented(&mut out, dated(&passports.expired, &expired));
-            let broken = passports.broken.iter().map(|line| {
-                let state = style::marked(Outcome::Failed, "BROKEN");
-                format!("{state}  {}; for the cause, run `register`", Printable(&line.file))
-            });
-            indented(&mut out, broken.collect());
+            for lines in [&passports.expiring, &passports.expired, &passports.broken] {
+                indented(&mut out, lines.iter().map(line).collect());
+            }
             let _ = writeln!(out, "Alarms     {}", passports.alarms.len());
             indented(&mut out, passports.alarms.iter().map(|alarm| style::marked(Outcome::Failed, alarm)).collect());
         }
@@ -310,11 +308,7 @@ impl Status {
         let line = |key: &KeyLine| {
             let from = key.valid_after.map_or_else(String::new, |from| format!(", from {from}"));
             let until = key.valid_before.map_or_else(String::new, |until| format!(", until {until}"));
-            let now = if key.valid {
-                String::new()
-            } else {
-                format!("  {}", style::marked(Outcome::Failed, "NOT VALID NOW"))
-            };
+            let now = if key.valid { "" } else { &format!("  {}", style::marked(Outcome::Failed, "NOT VALID NOW")) };
             format!("{}  {}{from}{until}{now}", Printable(&key.principals), key.fingerprint)
         };
         indented(out, self.keys.iter().map(line).collect());
