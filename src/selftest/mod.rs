@@ -2,7 +2,7 @@
 //!
 //! * `gum`: examples H.1, H.2, H.3 of the GUM, by the law of propagation and by least squares.
 //! * `monte_carlo`: examples 9.2 and 9.3 of Supplement 1 to the GUM, by Monte Carlo.
-//! * `regression`: Norris and Longley data sets of NIST, by the project's least squares.
+//! * `regression`: the linear data sets of NIST, by the project's least squares.
 //! * `model`: the paper's model and its analytic method, compared with 60-digit arithmetic.
 
 pub(crate) mod gum;

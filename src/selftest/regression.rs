@@ -1,104 +1,81 @@
-//! Linear regression of [NIST StRD](crate::bibliography::Bibliography::NistStrd), by the project's least squares: data
-//! sets Norris (lower difficulty) and Longley (higher). Data and certified values are those of NIST's files, digit by
-//! digit.
+//! Linear regression of [NIST StRD](crate::bibliography::Bibliography::NistStrd), by the project's least squares: all eleven
+//! data sets. `tests/vectors/nist_strd.py` writes the data and the certified values, after it has solved each set in
+//! rational numbers.
 
 use super::Case;
+use crate::calibration::propagation::covariance;
 use crate::statistics::least_squares::Factorised;
 use nalgebra::DMatrix;
+use serde::Deserialize;
 
-/// Norris data: (y, x).
-#[rustfmt::skip]
-const NORRIS: [(f64, f64); 36] = [
-    (0.1, 0.2), (338.8, 337.4), (118.1, 118.2), (888.0, 884.6), (9.2, 10.1), (228.1, 226.5), (668.5, 666.3),
-    (998.5, 996.3), (449.1, 448.6), (778.9, 777.0), (559.2, 558.2), (0.3, 0.4), (0.1, 0.6), (778.1, 775.5),
-    (668.8, 666.9), (339.3, 338.0), (448.9, 447.5), (10.8, 11.6), (557.7, 556.0), (228.3, 228.1), (998.0, 995.8),
-    (888.8, 887.6), (119.6, 120.2), (0.3, 0.3), (0.6, 0.3), (557.6, 556.8), (339.3, 339.1), (888.0, 887.2),
-    (998.5, 999.0), (778.9, 779.0), (10.2, 11.1), (117.6, 118.3), (228.9, 229.2), (668.4, 669.1), (449.2, 448.9),
-    (0.2, 0.5),
-];
+const REFERENCE: &str = include_str!("../../tests/vectors/nist_strd.json");
 
-/// Longley data: y, x₁ to x₆.
-#[rustfmt::skip]
-const LONGLEY: [[f64; 7]; 16] = [
-    [60323.0, 83.0, 234289.0, 2356.0, 1590.0, 107608.0, 1947.0], [61122.0, 88.5, 259426.0, 2325.0, 1456.0, 108632.0, 1948.0],
-    [60171.0, 88.2, 258054.0, 3682.0, 1616.0, 109773.0, 1949.0], [61187.0, 89.5, 284599.0, 3351.0, 1650.0, 110929.0, 1950.0],
-    [63221.0, 96.2, 328975.0, 2099.0, 3099.0, 112075.0, 1951.0], [63639.0, 98.1, 346999.0, 1932.0, 3594.0, 113270.0, 1952.0],
-    [64989.0, 99.0, 365385.0, 1870.0, 3547.0, 115094.0, 1953.0], [63761.0, 100.0, 363112.0, 3578.0, 3350.0, 116219.0, 1954.0],
-    [66019.0, 101.2, 397469.0, 2904.0, 3048.0, 117388.0, 1955.0], [67857.0, 104.6, 419180.0, 2822.0, 2857.0, 118734.0, 1956.0],
-    [68169.0, 108.4, 442769.0, 2936.0, 2798.0, 120445.0, 1957.0], [66513.0, 110.8, 444546.0, 4681.0, 2637.0, 121950.0, 1958.0],
-    [68655.0, 112.6, 482704.0, 3813.0, 2552.0, 123366.0, 1959.0], [69564.0, 114.2, 502601.0, 3931.0, 2514.0, 125368.0, 1960.0],
-    [69331.0, 115.7, 518173.0, 4806.0, 2572.0, 127852.0, 1961.0], [70551.0, 116.9, 554894.0, 4007.0, 2827.0, 130081.0, 1962.0],
-];
+/// Largest relative rounding of a certified value: half a unit of its 15th digit.
+const ROUNDING_OF_CERTIFIED: f64 = 5e-15;
 
-/// Certified estimates of Norris, with their standard deviations.
-const NORRIS_CERTIFIED: [(f64, f64); 2] =
-    [(-0.262323073774029, 0.232818234301152), (1.00211681802045, 0.429796848199937E-03)];
-
-/// Certified estimates of Longley, with their standard deviations.
-const LONGLEY_CERTIFIED: [(f64, f64); 7] = [
-    (-3482258.63459582, 890420.383607373),
-    (15.0618722713733, 84.9149257747669),
-    (-0.358191792925910E-01, 0.334910077722432E-01),
-    (-2.02022980381683, 0.488399681651699),
-    (-1.03322686717359, 0.214274163161675),
-    (-0.511041056535807E-01, 0.226073200069370),
-    (1829.15146461355, 455.478499142212),
-];
-
-pub(crate) fn cases() -> Vec<Case> {
-    let norris_design = DMatrix::from_fn(36, 2, |row, column| if column == 0 { 1.0 } else { NORRIS[row].1 });
-    let longley_design = DMatrix::from_fn(16, 7, |row, column| if column == 0 { 1.0 } else { LONGLEY[row][column] });
-    let norris = Set {
-        example: "NIST StRD Norris",
-        source: "NIST StRD, Norris.dat",
-        certified: &NORRIS_CERTIFIED,
-        residual: 0.884796396144373,
-        digits_due: 11.0,
-    };
-    let longley = Set {
-        example: "NIST StRD Longley",
-        source: "NIST StRD, Longley.dat",
-        certified: &LONGLEY_CERTIFIED,
-        residual: 304.854073561965,
-        // The condition number is 4.9e9, so a stable method gives 16 − 10 digits; it usually gives more.
-        digits_due: 7.0,
-    };
-    let mut cases = norris.cases(norris_design, DMatrix::from_fn(36, 1, |row, _| NORRIS[row].0));
-    cases.extend(longley.cases(longley_design, DMatrix::from_fn(16, 1, |row, _| LONGLEY[row][0])));
-    cases
-}
-
+#[derive(Deserialize)]
 struct Set {
     example: &'static str,
     source: &'static str,
-    certified: &'static [(f64, f64)],
+    /// Predictors of each row.
+    x: Vec<Vec<f64>>,
+    y: Vec<f64>,
+    /// Predictor and its power in each column of the design.
+    terms: Vec<(usize, usize)>,
+    /// Certified estimates and their standard deviations, one of each for a term.
+    estimates: Vec<f64>,
+    deviations: Vec<f64>,
     /// Certified residual standard deviation.
     residual: f64,
-    /// Required number of correct digits.
-    digits_due: f64,
+}
+
+pub(crate) fn cases() -> Vec<Case> {
+    let sets: Vec<Set> = serde_json::from_str(REFERENCE).unwrap_or_default();
+    sets.iter().flat_map(Set::cases).collect()
 }
 
 impl Set {
-    fn cases(&self, design: DMatrix<f64>, mut right: DMatrix<f64>) -> Vec<Case> {
-        let (rows, columns) = design.shape();
-        let Some(model) = Factorised::new(design) else { return vec![self.case("fit", 1.0, f64::NAN)] };
+    /// Returns the cases of the set. Each tolerance is the first-order effect of the rounding errors of a stable method.
+    ///
+    /// Such a method gives the exact solution for a design whose columns, and a right-hand side that, differ from the given
+    /// ones by γ relative to their lengths. γ is the unit roundoff times the square root of the number of elements, because
+    /// rounding errors are as often positive as negative. Of a solution by the normal equations the error would be larger
+    /// by the condition number.
+    fn cases(&self) -> Vec<Case> {
+        let (rows, columns) = (self.y.len(), self.terms.len());
+        let power = |row: usize, (predictor, power): (usize, usize)| {
+            std::iter::repeat_n(self.x[row][predictor], power).product::<f64>()
+        };
+        let design = DMatrix::from_fn(rows, columns, |row, column| power(row, self.terms[column]));
+        let lengths: Vec<f64> = design.column_iter().map(|column| column.norm()).collect();
+        let mut right = DMatrix::from_column_slice(rows, 1, &self.y);
+        let gamma = 0.5 * f64::EPSILON * ((rows * columns) as f64).sqrt();
+        let moved = gamma * (right.norm() + lengths.iter().zip(&self.estimates).map(|(a, b)| a * b.abs()).sum::<f64>());
+        let Some(model) = Factorised::new(design) else { return vec![self.case("fit", 1.0, 0.0, f64::NAN)] };
         model.rotate(&mut right);
         let (estimates, _) = model.solve_rotated(&right);
-        let residual = (right.rows(columns, rows - columns).norm_squared() / (rows - columns) as f64).sqrt();
+        let root = ((rows - columns) as f64).sqrt();
+        let residual = right.rows(columns, rows - columns).norm() / root;
+        let cofactors = covariance(&model.r_inverse);
         let mut cases = Vec::new();
-        for (at, (estimate, deviation)) in self.certified.iter().enumerate() {
-            cases.push(self.case(&format!("B{at}"), *estimate, estimates[at]));
-            cases.push(self.case(&format!("s(B{at})"), *deviation, residual * model.r_inverse.row(at).norm()));
+        for at in 0..columns {
+            let spread = cofactors[(at, at)].sqrt();
+            let turned = gamma * lengths.iter().enumerate().map(|(to, a)| a * cofactors[(at, to)].abs()).sum::<f64>();
+            let of_estimate = spread * moved + turned * self.residual * root;
+            let of_deviation = spread * moved / root + turned * self.residual;
+            cases.push(self.case(&format!("B{at}"), self.estimates[at], of_estimate, estimates[at]));
+            cases.push(self.case(&format!("s(B{at})"), self.deviations[at], of_deviation, residual * spread));
         }
-        cases.push(self.case("residual standard deviation", self.residual, residual));
+        cases.push(self.case("residual standard deviation", self.residual, moved / root, residual));
         cases
     }
 
-    fn case(&self, quantity: &str, expected: f64, found: f64) -> Case {
-        // Certified values have 15 digits, so no more can be compared.
-        let digits = -libm::log10(((found - expected) / expected).abs());
+    fn case(&self, quantity: &str, expected: f64, error: f64, found: f64) -> Case {
+        // Certified values have 15 digits, so no more can be compared. One that is 0 is compared with 1.
+        let unit = if expected == 0.0 { 1.0 } else { expected };
+        let digits = -libm::log10(((found - expected) / unit).abs());
         let digits = Some(if digits.is_nan() { 0.0 } else { digits.min(15.0) });
-        let tolerance = expected.abs() * libm::pow(10.0, -self.digits_due);
+        let tolerance = error + expected.abs() * ROUNDING_OF_CERTIFIED;
         Case { digits, ..Case::new(self.example, self.source, quantity, [expected, tolerance, found]) }
     }
 }

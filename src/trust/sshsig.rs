@@ -25,7 +25,7 @@ pub struct Message<'a> {
     pub(crate) namespace: &'a str,
     pub(crate) bytes: &'a [u8],
     /// Data that the key signs; `None` without a namespace, for which nothing is signed.
-    pub(super) signed: Option<Vec<u8>>,
+    pub(crate) signed: Option<Vec<u8>>,
 }
 
 impl<'a> Message<'a> {

@@ -198,8 +198,8 @@ def test_revocations_and_registers_count(corpus: Corpus, tmp_path: Path) -> None
     key = corpus.folder / "key"
     trust = ("--trust", corpus.signers, "--time", TIME)
     who = ("--key", key, "--identity", "factory@example.org")
-    program("reissue", old, "--same-content", "--reason", "test", *who, *trust, "--out", tmp_path, "--issued-at", "2026-11-11T00:00:00Z",
-            "--site", corpus.folder / "sites/site-60.yaml")  # fmt: skip
+    program("reissue", old, "--reason", "test", *who, *trust, "--out", tmp_path, "--issued-at", "2026-11-11T00:00:00Z",
+            "--site", corpus.folder / "sites/site-60.yaml", "--same-content")  # fmt: skip
     (tmp_path / "SPS-2/0017/site-60-1.yaml").write_bytes(old.read_bytes())
     assert dtg_passport.load(old, corpus.signers, time=TIME).verified
     with pytest.raises(dtg_passport.Refused, match="superseded"):

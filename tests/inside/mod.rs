@@ -75,3 +75,4 @@ mod trust_files;
 mod type_b;
 #[cfg(feature = "factory")]
 mod verdict;
+mod wycheproof;

@@ -31,6 +31,8 @@ mod split_run;
 #[cfg(feature = "monte-carlo")]
 mod stated_uncertainty;
 #[cfg(feature = "factory")]
+mod suites;
+#[cfg(feature = "factory")]
 mod tampering;
 #[cfg(all(feature = "factory", feature = "report"))]
 mod uncertainty;
