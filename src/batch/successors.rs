@@ -7,8 +7,8 @@
 use super::catalogue::{self, Catalogue};
 use super::{Batch, Event, Failure, Listener, Outcome, Purpose, fail, parallel, paths, sweep};
 use crate::document::sha256_hex;
-use crate::files::walk::{Visited, Walk};
 use crate::files;
+use crate::files::walk::{Visited, Walk};
 use crate::folder::stand::numbered;
 use crate::folder::{Folder, Issued, StandFolder, renewal};
 use crate::passport::checks::for_the_issuer;

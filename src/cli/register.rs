@@ -123,7 +123,13 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
     let memory = defaults::workspace().map(Workspace::memory);
     let threads = parallel::processors();
-    let query = Query { trust: &trust, question: &question, memory: memory.as_ref(), may_lack: defaults::is_of_a_laboratory(), threads };
+    let query = Query {
+        trust: &trust,
+        question: &question,
+        memory: memory.as_ref(),
+        may_lack: defaults::is_of_a_laboratory(),
+        threads,
+    };
     let mut overview = Overview::of(folder, query)?;
     let code = code(overview.is_incomplete(), overview.needs_attention());
     overview.remarks.iter().for_each(|words| output::say(words));

@@ -85,9 +85,7 @@ pub enum IssueRefused {
         certified: Date,
     },
     /// The time of issue is ahead of the clock.
-    #[error(
-        "issued_at {issued_at} is later than the clock, {clock}; specify an earlier time of issue, or omit it"
-    )]
+    #[error("issued_at {issued_at} is later than the clock, {clock}; specify an earlier time of issue, or omit it")]
     AheadOfClock {
         /// Requested time of issue.
         issued_at: Timestamp,

@@ -111,7 +111,8 @@ pub(crate) fn status(
             let memory = workspace.memory();
             let question = Question { now, ..Question::at(time) };
             let threads = parallel::processors();
-            let query = Query { trust, question: &question, memory: Some(&memory), may_lack: workspace.key.is_none(), threads };
+            let query =
+                Query { trust, question: &question, memory: Some(&memory), may_lack: workspace.key.is_none(), threads };
             Some(Overview::of(folder, query)?)
         }
         (None, _) => {

@@ -324,11 +324,9 @@ fn blocks_of_the_signature() {
         let signature = bench.key.sign(purpose, bench.payload().as_bytes()).unwrap();
         (format!("signed for {purpose:?}"), join(bench.payload(), &signature))
     };
-    let list =
-        "format: \"dtg-register/1\"\nregister: {stand: \"a/b\", sequence: 1, issuer: \"x\"}\npassports:\n";
+    let list = "format: \"dtg-register/1\"\nregister: {stand: \"a/b\", sequence: 1, issuer: \"x\"}\npassports:\n";
     let shown = join(list, &bench.key.sign("dtg-register", list.as_bytes()).unwrap());
-    let purposes =
-        ["dtg-register", "git", "file", "dtg-passport2", "DTG-PASSPORT", "dtg-passport\0", "*", "\u{1B}[2J"];
+    let purposes = ["dtg-register", "git", "file", "dtg-passport2", "DTG-PASSPORT", "dtg-passport\0", "*", "\u{1B}[2J"];
     let purposes: Vec<_> = purposes.into_iter().map(for_purpose).collect();
     let mut files: Vec<_> = purposes.iter().map(|(name, file)| (name.as_str(), file.clone())).collect();
     files.push(("a register shown as a passport", shown));

@@ -130,11 +130,12 @@ impl Factory {
     /// Notes an attack, after which `verify --register` must say `codes` of `here/1`, `here/2`, `there/1` and `hall/1`.
     fn attacked(&self, kind: &'static str, name: &str, codes: [&str; 4]) {
         let question = Question::at(now());
-        let found = [("here", 1), ("here", 2), ("there", 1), ("hall", 1)]
-            .map(|(site, revision)| match self.file(site, revision).exists() {
+        let found = [("here", 1), ("here", 2), ("there", 1), ("hall", 1)].map(|(site, revision)| {
+            match self.file(site, revision).exists() {
                 true => self.code_at(site, revision, &question, None),
                 false => "absent",
-            });
+            }
+        });
         for (found, due) in found.iter().zip(codes) {
             assert!(*found == due || *found == "absent" || due == "*", "{kind}, {name}: {found:?}, expected {codes:?}");
         }
@@ -293,9 +294,9 @@ fn the_files_of_other_passports_have_no_effect() {
 #[test]
 fn no_other_signature_and_no_broken_rule_is_accepted() {
     let mut factory = Factory::new();
-    let [stranger, colleague, passports_only, revoked, expired, late] =
-        [0; 6].map(|_| SigningKey::generate().unwrap());
-    let line = |who: &str, options: &str, key: &SigningKey| format!("{who} {options} {}\n", key.public_key().to_openssh());
+    let [stranger, colleague, passports_only, revoked, expired, late] = [0; 6].map(|_| SigningKey::generate().unwrap());
+    let line =
+        |who: &str, options: &str, key: &SigningKey| format!("{who} {options} {}\n", key.public_key().to_openssh());
     let lines = [
         line(ISSUER, "", &factory.key),
         line("another@example.org", "", &colleague),
@@ -318,7 +319,9 @@ fn no_other_signature_and_no_broken_rule_is_accepted() {
         ("an expired key", &expired),
         ("a later key", &late),
     ];
-    let entry = |place: usize| move |register: &mut Register, change: &dyn Fn(&mut Entry)| change(&mut register.passports[place]);
+    let entry = |place: usize| {
+        move |register: &mut Register, change: &dyn Fn(&mut Entry)| change(&mut register.passports[place])
+    };
     let first = entry(0);
     let changes: [(&str, &dyn Fn(&mut Register)); 9] = [
         ("nothing", &|_| {}),
@@ -373,7 +376,10 @@ fn no_other_signature_and_no_broken_rule_is_accepted() {
             register.passports.iter_mut().for_each(|entry| entry.reason = None);
         }),
         ("a reason of 501 characters", &|register| {
-            register.passports.iter_mut().for_each(|entry| entry.reason = entry.reason.as_ref().map(|_| "ж".repeat(501)));
+            register
+                .passports
+                .iter_mut()
+                .for_each(|entry| entry.reason = entry.reason.as_ref().map(|_| "ж".repeat(501)));
         }),
         ("current with a successor", &|register| {
             let by = &by;
@@ -403,10 +409,7 @@ fn no_other_signature_and_no_broken_rule_is_accepted() {
             factory.attacked("rule broken by the right key", what, UNKNOWN);
         });
     }
-    for (what, change) in [
-        ("of another stand", "SPS-2/0018"),
-        ("of another model", "SPS-3/0017"),
-    ] {
+    for (what, change) in [("of another stand", "SPS-2/0018"), ("of another model", "SPS-3/0017")] {
         let mut register = good.clone();
         register.register.0.stand = change.to_owned();
         for entry in &mut register.passports {
@@ -461,7 +464,8 @@ fn an_older_register_does_not_count_where_a_later_one_is_known() {
     let refused = factory.issue("bench", now()).unwrap_err();
     assert!(matches!(refused, FolderRefused::NoRegister { .. }), "{refused}");
     let clock = now;
-    let authority = Authority { memory: Some(&memory()), ..Authority::new(ISSUER, &factory.key, &factory.trust, &clock) };
+    let authority =
+        Authority { memory: Some(&memory()), ..Authority::new(ISSUER, &factory.key, &factory.trust, &clock) };
     Renewal::default().run(&factory.root(), &authority).unwrap_err();
     assert!(!factory.register().exists() && !factory.file("bench", 1).exists());
     factory.note("older register", "removed before the factory's next command");
@@ -517,9 +521,10 @@ fn times_of_the_question_do_not_bring_a_passport_back() {
     register.register.0.fresh_until = Some("2026-11-15".parse().unwrap());
     factory.with_register(&factory.signed(&register, &factory.key), || {
         let question = |time, now| Question { now, ..Question::at(time) };
-        let codes = |question: &Question| [("here", 1), ("here", 2), ("there", 1)].map(|(site, revision)| {
-            factory.code_at(site, revision, question, None)
-        });
+        let codes = |question: &Question| {
+            [("here", 1), ("here", 2), ("there", 1)]
+                .map(|(site, revision)| factory.code_at(site, revision, question, None))
+        };
         assert_eq!(codes(&question(day(3), day(3))), ["superseded", "ok", "withdrawn"]);
         assert_eq!(codes(&question(day(0), day(3))), ["ok", "ok", "withdrawn"]);
         assert_eq!(codes(&question(day(3), day(9))), ["superseded", "register_stale", "withdrawn"]);
@@ -608,12 +613,15 @@ fn a_folder_is_compared_with_its_registers() {
     let good = overview();
     assert_eq!((good.alarms.len(), good.remarks.len(), good.stands.len()), (0, 0, 1));
     let states: Vec<(&str, &str)> = good.rows().map(|row| (row.id.as_str(), row.state.key())).collect();
-    assert_eq!(states, [
-        ("SPS-2/0017/here/1", "superseded"),
-        ("SPS-2/0017/there/1", "withdrawn"),
-        ("SPS-2/0017/hall/1", "current"),
-        ("SPS-2/0017/here/2", "current"),
-    ]);
+    assert_eq!(
+        states,
+        [
+            ("SPS-2/0017/here/1", "superseded"),
+            ("SPS-2/0017/there/1", "withdrawn"),
+            ("SPS-2/0017/hall/1", "current"),
+            ("SPS-2/0017/here/2", "current"),
+        ]
+    );
     let stranger = Factory::new();
     stranger.issue("bench", now()).unwrap();
     fs::copy(stranger.file("bench", 1), factory.file("bench", 1)).unwrap();

@@ -61,11 +61,7 @@ impl<'a> PassportPage<'a> {
     ///
     /// # Errors
     /// Returns the verification if the passport is not authentic, as [`Self::verified`] does.
-    pub fn of(
-        bytes: &'a [u8],
-        question: &'a Question,
-        verification: Verification,
-    ) -> Result<Self, Box<Verification>> {
+    pub fn of(bytes: &'a [u8], question: &'a Question, verification: Verification) -> Result<Self, Box<Verification>> {
         let text = std::str::from_utf8(bytes).ok();
         let genuine = verification.authentic().map(|(content, key)| (content.clone(), key.clone()));
         match text.zip(genuine) {
