@@ -57,7 +57,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     }
     let now = trust_options::now();
     let issued_at = time_of_issue(options.issued_at, now).map_err(Failure::refused)?;
-    let keys = options.batch.issuer.keys()?;
+    let keys = options.batch.issuer.keys(Some(&options.out))?;
     let given = options.trust.as_deref().map(|path| trust_options::load(path, &[])).transpose()?;
     match (&keys.public, &given) {
         (Some(public), None) => options.batch.warn_of_other_identity(public, issued_at),

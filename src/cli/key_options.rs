@@ -72,8 +72,9 @@ impl IssuerOptions {
         self.key.as_deref()
     }
 
-    /// Reads the keys. In a dry run they are checked as far as this needs no passphrase.
-    pub(super) fn keys(&self) -> Result<Keys<'_>, Failure> {
+    /// Reads the keys. In a dry run they are checked as far as this needs no passphrase. A workspace remembers the registers
+    /// of its own folder of passports.
+    pub(super) fn keys(&self, passports: Option<&Path>) -> Result<Keys<'_>, Failure> {
         let signs = |key: &Option<PathBuf>| key.as_deref().filter(|_| !self.dry_run).map(signer_of).transpose();
         let (signer, register_signer) = (signs(&self.key)?, signs(&self.register_key)?);
         let public = public_key(self.key.as_deref(), signer.as_deref())?;
@@ -82,7 +83,8 @@ impl IssuerOptions {
             let words = "--register-key: is the key of --key; give the key of a second person, or omit it";
             return Err(Failure::usage(words));
         }
-        let memory = defaults::workspace().map(Workspace::memory);
+        let is_its_own = |workspace: &&Workspace| passports.is_some() && workspace.passports.as_deref() == passports;
+        let memory = defaults::workspace().filter(is_its_own).map(Workspace::memory);
         Ok(Keys { options: self, signer, register_signer, public, register_public, memory })
     }
 }

@@ -101,7 +101,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let issued_at = time_of_issue(options.issued_at, trust_options::now()).map_err(Failure::refused)?;
     // Before a passphrase is asked for.
     check(&options.number, options.issued, options.performed, options.valid_until).map_err(failure)?;
-    let keys = options.issuer.keys()?;
+    let keys = options.issuer.keys(options.out.as_deref())?;
     if let Some(public) = keys.public.as_ref().filter(|_| options.issuer.dry_run) {
         refuse_distrusted(&trust, public, &options.issuer.identity, issued_at)?;
     }

@@ -178,7 +178,7 @@ fn renew(options: &Options, folder: &Path) -> Result<Code, Failure> {
         not_withdrawn: not_withdrawn.clone(),
         workspace: defaults::workspace().map(|workspace| workspace.root.clone()),
     };
-    let keys = issuer.keys()?;
+    let keys = issuer.keys(Some(folder))?;
     let renewed = renewal.run(folder, &keys.authority(&trust)).map_err(not_renewed)?;
     let dry_run = options.renewal.keys.dry_run;
     match options.format {

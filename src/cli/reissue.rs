@@ -76,7 +76,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         allow_uncalibratable: options.batch.allow_uncalibratable,
         same_content: options.same_content,
     };
-    let keys = options.batch.issuer.keys()?;
+    let keys = options.batch.issuer.keys(options.out.as_deref())?;
     if let Some(public) = &keys.public {
         options.batch.warn_unless_authorised(&trust.signers, public, order.issued_at, "--trust");
     }

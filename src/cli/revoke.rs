@@ -32,7 +32,7 @@ pub(super) struct Options {
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, _) = options.trust.load()?;
-    let keys = options.issuer.keys()?;
+    let keys = options.issuer.keys(Some(&options.passports))?;
     let withdrawal = Withdrawal { ids: &options.ids, reason: &options.reason };
     let withdrawn = withdrawal.run(&options.passports, &keys.authority(&trust)).map_err(not_renewed)?;
     let dry_run = options.issuer.dry_run;

@@ -136,6 +136,7 @@ impl Renewal {
             let (stand, sequence) = (folder.stand().to_owned(), draft.sequence());
             let entries = draft.entries().to_vec();
             folder.write(
+                true,
                 |new| {
                     new.take_from(draft);
                     Ok(())
@@ -372,6 +373,7 @@ impl Withdrawal<'_> {
         for (this, sequence, ids) in prepared {
             let alarms = ids.iter().filter_map(|id| difference(&this, id)).collect();
             this.write(
+                false,
                 |draft| Ok(ids.iter().try_for_each(|id| draft.withdraw(id, self.reason))?),
                 |path, text| Ok(files::replace(path, text)?),
             )?;

@@ -409,6 +409,7 @@ impl<'a> StandFolder<'a> {
             return Ok(());
         }
         self.write(
+            false,
             |draft| add(draft, listings),
             |path, text| Ok(files::replace_as(path, text, self.folder.durability)?),
         )
@@ -430,13 +431,15 @@ impl<'a> StandFolder<'a> {
         if listings.is_empty() || self.authority.register_signer.is_none() {
             return together(None);
         }
-        self.write(|draft| add(draft, listings), |path, text| together(Some((path, text))))
+        self.write(true, |draft| add(draft, listings), |path, text| together(Some((path, text))))
     }
 
     /// Replaces the register by one that `change` makes of it, under a lock that other runs respect; `write` writes it.
-    /// Without a signer of registers nothing is written, and the passports do not count yet.
+    /// Without a signer of registers nothing is written, and the passports do not count yet. A register with the
+    /// entries of the one before is written only `even_if_same`.
     pub(crate) fn write(
         &self,
+        even_if_same: bool,
         change: impl FnOnce(&mut Draft) -> Result<(), FolderRefused>,
         write: impl FnOnce(&Path, &[u8]) -> Result<(), FolderRefused>,
     ) -> Result<(), FolderRefused> {
@@ -460,6 +463,10 @@ impl<'a> StandFolder<'a> {
         }
         let mut draft = Draft::after(current.as_ref(), &self.stand, issuer, self.authority.now());
         change(&mut draft)?;
+        // Another run may have listed the same passports meanwhile.
+        if !even_if_same && current.is_some_and(|current| current.entries() == draft.entries()) {
+            return Ok(());
+        }
         let (text, _) = draft.sign(&name_of(&path), signer, trust)?;
         write(&path, text.as_bytes())?;
         if let Some(memory) = memory {
