@@ -116,6 +116,7 @@ fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
                 "{name}: WARNING: its certificate has the same number, {number}, as that of {other}"
             ));
         }
+        certified.stand.certificate.odd_number().iter().for_each(|words| output::warn(words));
         let stand = &certified.stand.stand;
         let path = folder.join(stand.model.as_str()).join(stand.serial.as_str()).join("stand.yaml");
         write(&path, &certified, &[], options.force)?;
@@ -199,6 +200,7 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
             let words = "-o requires --stand HEADER.yaml, because a new certificate has its own number and dates";
             return Err(Failure::unusable(words));
         }
+        certified.stand.certificate.odd_number().iter().for_each(|words| output::warn(words));
         write(path, certified, &against.iter().collect::<Vec<_>>(), options.force)?;
         output::say_after(&format!("wrote {}", shown(path)));
     }
