@@ -206,7 +206,7 @@ impl Site {
             let error = usual_error(here, |meant| earth::distance_m(meant, *place) <= SAME_REGION_M)?;
             let away = distance(earth::distance_m(here, *place));
             Some(format!(
-                "the coordinates {} are {away} from {name}; check them: near it they are with {error}",
+                "the coordinates {} are {away} from {name}; with {error} they would be near it; check them",
                 coordinates(here)
             ))
         })

@@ -55,7 +55,7 @@ pub(crate) enum Odd {
 }
 
 impl Certificate {
-    /// Returns a sentence if letters of the number only look Latin, or `None`: whoever looks for the number types others.
+    /// Returns a sentence if letters of the number only look Latin, or `None`; a search for the number would not find it.
     pub(crate) fn odd_number(&self) -> Option<String> {
         let (meant, odd) = latin(&self.number)?;
         let number = Printable(&self.number);
