@@ -77,6 +77,7 @@ impl Run<'_> {
             let loaded_stands = self.without_contradictions(loaded_stands, sites.len(), tell);
             for some_sites in ranges(sites.len(), SITES_AT_ONCE) {
                 let loaded_sites = self.load(sites, some_sites, loaded_stands.len(), tell);
+                self.remark_on_misplaced(&loaded_stands, &loaded_sites, tell);
                 for stand in &loaded_stands {
                     let id = stand.stand().stand.id();
                     for site in loaded_sites.iter().filter(|site| self.batch.shard.has(&id, site.id.as_str())) {
@@ -117,6 +118,23 @@ impl Run<'_> {
             }
         }
         good
+    }
+
+    /// Reports sites whose coordinates seem to be exchanged: compared with the others, with those of existing passports of the
+    /// stands, and with the towns that their names mention.
+    fn remark_on_misplaced(&self, stands: &[Arc<PreparedStand>], sites: &[Arc<Site>], tell: Listener) {
+        const MOST: usize = 8;
+        let issued = stands.iter().take(MOST).flat_map(|stand| self.job.folder.sites_of(&stand.stand().stand, MOST));
+        let given = sites.iter().take(MOST).map(|site| Site::clone(site));
+        let known = issued.chain(given).filter_map(|site| Some((site.id.clone(), site.place()?)));
+        let known: BTreeMap<_, _> = known.collect();
+        for site in sites {
+            let others = known.iter().filter(|(id, _)| **id != site.id);
+            let others: Vec<_> = others.map(|(id, place)| (format!("the site {id}"), *place)).collect();
+            if let Some(words) = site.misplaced(&others) {
+                tell(Event::Remark { file: site.id.to_string(), words: format!("WARNING: {words}") });
+            }
+        }
     }
 
     /// Reports a failure that costs passports already counted as planned.

@@ -4,7 +4,8 @@ use super::{Failure, Purpose};
 use crate::files::walk::{Entry, LINK, SPECIAL, Walk};
 use crate::files::{FileError, reason};
 use crate::folder::search;
-use crate::text::{Printable, shown};
+use crate::text::node::{is_utf16, without_byte_order_mark};
+use crate::text::{Cause, Printable, Unreadable, shown};
 use std::ffi::OsStr;
 use std::io::{self, BufRead};
 use std::path::{Path, PathBuf};
@@ -192,7 +193,14 @@ impl Iterator for List<'_> {
     type Item = Result<PathBuf, Failure>;
 
     fn next(&mut self) -> Option<Self::Item> {
+        let is_first = self.separator.is_none();
         match self.next_bytes() {
+            Ok(Some(bytes)) if is_first && is_utf16(&bytes) => {
+                self.list = None;
+                let refused = Unreadable::whole("-", None, "UTF-16", "one path per line, in UTF-8", Cause::Utf16);
+                Some(Err(Failure::unreadable(Path::new("-"), refused)))
+            }
+            Ok(Some(bytes)) if is_first => Some(path_of(without_byte_order_mark(&bytes).to_owned())),
             Ok(bytes) => bytes.map(path_of),
             Err(error) => {
                 self.list = None;

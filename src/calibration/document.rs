@@ -34,6 +34,7 @@ use crate::gyro::GyroType;
 use crate::stand::Certificate;
 use crate::statistics::distributions::normal_below;
 use crate::text::Unreadable;
+use crate::text::node::from_json;
 use crate::text::printable::printable;
 use crate::wording::{Language, Text, comparison, values};
 use jiff::civil::Date;
@@ -293,18 +294,16 @@ impl CalibrationDocument {
     /// Returns [`Unreadable`] with line and column if `bytes` is not such a result, or contains no parameters.
     pub fn from_json(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
         const EXPECTED: &str = "the JSON result of an earlier calibration";
-        let read = serde_json::from_slice(bytes).map_err(|error| {
-            // A line of JSON for one of several gyros begins with the name of its file.
-            let advice = match bytes.trim_ascii_start().starts_with(b"{\"file\":") {
-                true => "these are the results of several gyros; `calibrate --out DIR` writes each of them to a file",
-                false => "create it with `calibrate --format json`",
-            };
-            Unreadable::json(name, bytes, &error, EXPECTED, advice)
-        });
-        read.and_then(|document: Self| match document.results.is_empty() {
+        // A line of JSON for one of several gyros begins with the name of its file.
+        let advice = match bytes.trim_ascii_start().starts_with(b"{\"file\":") {
+            true => "these are the results of several gyros; `calibrate --out DIR` writes each of them to a file",
+            false => "create it with `calibrate --format json`",
+        };
+        let document: Self = from_json(name, bytes, EXPECTED, advice)?;
+        match document.results.is_empty() {
             true => Err(Unreadable::whole(name, None, "no parameters", EXPECTED, "")),
             false => Ok(document),
-        })
+        }
     }
 
     /// Returns the adopted result: least squares if present, otherwise the last method; `None` if there is no result.

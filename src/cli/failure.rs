@@ -62,6 +62,9 @@ impl Failure {
     }
 
     pub(super) fn input(failed: &crate::batch::Failure) -> Self {
+        if let Some(unreadable) = &failed.unreadable {
+            return Unreadable::clone(unreadable).into();
+        }
         let words = issued::failure(failed);
         if failed.unusable { Self::unusable(words) } else { Self::refused(words) }
     }

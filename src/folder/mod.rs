@@ -23,7 +23,7 @@ use crate::files::{self, Access, or_here};
 use crate::passport::checks::for_the_issuer;
 use crate::passport::issue::{Draft, Issue, PreparedStand, Remarks};
 use crate::passport::reissue::{NO_CHANGES, Successor, changes};
-use crate::passport::{Content, NAMESPACE, Question, Trust, content, verify};
+use crate::passport::{Content, NAMESPACE, Question, Trust, content, content_from_anyone, verify};
 use crate::register::{Asked, Line, State};
 use crate::site::Site;
 use crate::stand::{Identity, Stand};
@@ -212,6 +212,17 @@ impl Folder {
             unlike.map_err(|error| FolderRefused::NumberInUse(path, error))?;
         }
         Ok(register.against_certificate(&stand.stand.id(), number))
+    }
+
+    /// Returns the sites that existing passports of a stand state, for remarks only: at most `most`, not verified.
+    pub(crate) fn sites_of(&self, stand: &Identity, most: usize) -> Vec<Site> {
+        let folder = self.root.join(stand.model.as_str()).join(stand.serial.as_str());
+        let read = |path: PathBuf| {
+            let bytes = files::read(&path, LARGEST_DOCUMENT_BYTES).ok()?;
+            Some(content_from_anyone(&name_of(&path), &bytes).ok()?.site)
+        };
+        let found = search::passports(&folder).into_iter().flatten().flatten();
+        found.take(most).filter_map(read).collect()
     }
 
     /// Issues revision 1 of a stand for a site.

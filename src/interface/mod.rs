@@ -52,7 +52,7 @@ use crate::document::sha256_hex;
 #[cfg(feature = "factory")]
 use crate::files::{self, FileError};
 use crate::passport::{Check, Content, Verification, content_from_anyone};
-use crate::text::{Node, Path, Problem, Problems, Unreadable, name_of, printable, record};
+use crate::text::{Cause, Node, Path, Problem, Problems, Unreadable, name_of, printable, record};
 use crate::trust::LARGEST_TRUST_FILE_BYTES;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -83,11 +83,14 @@ pub(crate) struct Place {
     line: Option<usize>,
     column: Option<usize>,
     message: String,
+    /// Word of the cause, if it is a recognised one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cause: Option<&'static str>,
 }
 
 impl Place {
     pub(crate) fn file(file: String, message: String) -> Self {
-        Self { file, line: None, column: None, message }
+        Self { file, line: None, column: None, message, cause: None }
     }
 
     pub(crate) fn each(error: &Unreadable) -> Vec<Self> {
@@ -96,6 +99,7 @@ impl Place {
             line: problem.location.map(|at| at.line),
             column: problem.location.map(|at| at.column),
             message: problem.to_string(),
+            cause: problem.cause.map(Cause::code),
         };
         error.problems().iter().map(place).collect()
     }
@@ -126,7 +130,7 @@ impl Failed {
         BTreeMap::from([("error", self)])
     }
 
-    /// Returns the failure as JSON: `{"error": {code, message, problems: [{file, line, column, message}]}}`.
+    /// Returns the failure as JSON: `{"error": {code, message, problems: [{file, line, column, message, cause}]}}`.
     pub fn to_json(&self) -> String {
         json(&self.document())
     }

@@ -172,7 +172,7 @@ impl Field for Date {
             Node::Text(text) => impossible_date(text).unwrap_or_else(|| FORM_OF_DATE.to_owned()),
             _ => FORM_OF_DATE.to_owned(),
         };
-        refuse(node, at, &advice, problems)
+        refuse(node, at, advice, problems)
     }
 
     fn expected(_: &str) -> String {

@@ -26,6 +26,7 @@ fn written(content: &crate::passport::Content, key: &crate::trust::SigningKey) -
 
 #[cfg(feature = "monte-carlo")]
 mod calibration;
+mod causes;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod certification;
 #[cfg(feature = "monte-carlo")]
@@ -51,6 +52,7 @@ mod plan;
 mod readings;
 #[cfg(feature = "monte-carlo")]
 mod recorded;
+mod records;
 #[cfg(feature = "factory")]
 mod register_attacks;
 #[cfg(feature = "factory")]
