@@ -63,6 +63,7 @@ pub(crate) const UNREADABLE: &str = "unreadable";
 pub(crate) const UNUSABLE: &str = "unusable";
 pub(crate) const UNWRITABLE: &str = "unwritable";
 pub(crate) const EXISTS: &str = "exists";
+pub(crate) const MISSING_DATA: &str = "missing_data";
 
 /// Refusal, or input that cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Serialize)]
@@ -73,7 +74,7 @@ pub struct Failed {
     pub code: &'static str,
     /// Message, which may have several lines.
     pub message: String,
-    problems: Vec<Place>,
+    pub(crate) problems: Vec<Place>,
 }
 
 /// Error in a file.
