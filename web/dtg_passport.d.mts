@@ -41,9 +41,11 @@ export interface Order {
 export interface Verdict {
     valid: boolean;
     id: string | null;
+    /** Names of the checks that the question did not request. */
+    not_asked: string[];
+    /** Alarms of the revocation lists, such as ALARM: two of them contradict. */
+    remarks: string[];
     checks: { name: string; passed: boolean | null; code: string; detail: string }[];
-    /** What there is to know about the revocation lists, such as ALARM: two of them contradict. */
-    remarks?: string[];
 }
 
 /**
@@ -53,6 +55,8 @@ export interface Verdict {
 export interface Calibration {
     consistent: boolean;
     mistake?: object;
+    /** Errors that were not looked for, because the order has no gyro type. */
+    not_tested?: string[];
     remarks?: string[];
     verdict?: { overall: "pass" | "fail" | "undecided"; [key: string]: unknown };
     results: { [key: string]: any }[];

@@ -85,8 +85,8 @@ async function accepted(...inputs) {
 }
 
 export async function verify(passport, allowedSigners, question) {
-    const { valid, id, checks, remarks } = parsed(await call("verify", passport, allowedSigners, question));
-    return { valid, id, checks, ...(remarks && { remarks }) };
+    const { valid, id, not_asked, remarks, checks } = parsed(await call("verify", passport, allowedSigners, question));
+    return { valid, id, not_asked, remarks, checks };
 }
 
 export async function content(passport, allowedSigners, question) {

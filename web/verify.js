@@ -81,12 +81,13 @@ async function answer() {
     const signers = signersFile ?? typed;
     const question = await asked();
     const verdict = await verify(passport, signers, question);
-    const large = element("p", verdict.valid ? "VALID" : "REFUSED");
+    const soFar = ["stand", "place", "register"].some((name) => verdict.not_asked.includes(name));
+    const large = element("p", verdict.valid ? (soFar ? "VALID SO FAR" : "VALID") : "REFUSED");
     large.className = `answer ${verdict.valid ? "valid" : "refused"}`;
-    const mark = (passed) => (passed === null ? "not run" : passed ? "ok" : "FAILED");
-    const rows = verdict.checks.map((check) => [mark(check.passed), check.name, check.code, check.detail]);
+    const mark = ({ passed, code }) => (passed === null ? code.replace("_", " ") : passed ? "ok" : "FAILED");
+    const rows = verdict.checks.map((check) => [mark(check), check.name, check.code, check.detail]);
     const parts = [element("h2", "Answer"), large, element("p", verdict.id ?? "(id not verified)"),
-        ...(verdict.remarks ?? []).map((words) => element("strong", words)),
+        ...verdict.remarks.map((words) => element("strong", words)),
         table(["result", "check", "code", "detail"], rows)];
     if (!verdict.valid) return parts;
     parts.push(...numbers(await content(passport, signers, question)));

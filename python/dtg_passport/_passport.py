@@ -38,7 +38,7 @@ class Check(NamedTuple):
     name: str
     """Name of the check, such as `signature`."""
     passed: bool | None
-    """Whether the check passed, or None if it was not run. Without revocation lists `revocation` passes."""
+    """Whether the check passed, or None if it was not run or not requested (`code` is then `not_run` or `not_asked`)."""
     code: str
     """Result as a code for programs, such as `altered`."""
     detail: str

@@ -413,7 +413,7 @@ fn content(path: &Path, bytes: &[u8], trust: &Trust, question: &Question) -> Res
     if let Some(passport) = verification.passport() {
         return Ok(passport.content().clone());
     }
-    let failed = verification.checks().iter().find(|check| check.passed() == Some(false));
+    let failed = verification.failed();
     let why = failed
         .map_or_else(String::new, |check| format!(" ({}: {})", check.name.as_str(), for_the_issuer(&check.detail)));
     Err(refused(format!("{}: the passport failed verification{why}", shown(path))))

@@ -28,7 +28,8 @@ pub(super) struct Failure {
 
 impl From<Failed> for Failure {
     fn from(failed: Failed) -> Self {
-        let code = if matches!(failed.code, interface::REFUSED | interface::EXISTS) { REFUSED } else { UNUSABLE };
+        let refused = [interface::REFUSED, interface::EXISTS, interface::MISSING_DATA].contains(&failed.code);
+        let code = if refused { REFUSED } else { UNUSABLE };
         Self { failed, code, is_verdict: false }
     }
 }
@@ -110,7 +111,7 @@ impl Failure {
 
     /// Creates the failure for the passport `name`, which did not pass every check; `words` follow its verdict.
     pub(super) fn verdict(words: &str, name: &str, verification: &Verification) -> Self {
-        let verdict = verdict::Verdict::of(name, verification);
+        let verdict = verdict::Verdict::of(name, verification, &[]);
         let failed: Vec<_> = verdict.checks.iter().filter(|check| check.passed() == Some(false)).collect();
         let kind = failed.first().map_or(interface::REFUSED, |check| check.code.as_str());
         let place = |check: &&Check| Place::file(name.to_owned(), format!("{}: {}", check.name.as_str(), check.detail));

@@ -53,14 +53,14 @@ pub(super) fn languages(written: &[Language]) -> Languages {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let Enquiry { trust, question, register, .. } = options.trust.load()?;
+    let Enquiry { trust, question, register, remarks } = options.trust.load()?;
     let folder = options.out.as_deref().map(Folder::new);
     let write = |passport: &Path, output: Option<&Path>| {
         let bytes = inputs::bytes(passport, Kind::Passport.words())?;
         let name = name_of(passport);
         let page = PassportPage::verified(&name, &bytes, &trust, &question, register.as_ref())
             .map_err(|refused| Failure::verdict("no page was written", &name, &refused))?;
-        let verdict = verdict::Verdict::of(&name, &page.verification);
+        let verdict = verdict::Verdict::of(&name, &page.verification, &remarks);
         let in_folder = || Some(folder.as_ref()?.path_of_id(verdict.id.as_deref()?)?.with_extension("html"));
         let output = output.map(Path::to_owned).or_else(in_folder);
         let output = output.ok_or_else(|| Failure::usage("missing -o FILE.html or --out DIR"))?;

@@ -114,8 +114,10 @@ impl Asked {
 pub(super) fn among(trust: Trust, question: Question, folder: Option<&Path>) -> Result<Enquiry, Failure> {
     let alone = Enquiry::of(trust, question);
     let Some(folder) = folder else { return Ok(alone) };
+    // `load` has reported those on the lists that were given.
+    let reported = alone.remarks.len();
     let enquiry = alone.with_register(folder)?;
-    enquiry.remarks.iter().for_each(|alarm| output::complain_after(alarm));
+    enquiry.remarks.iter().skip(reported).for_each(|alarm| output::complain_after(alarm));
     Ok(enquiry)
 }
 
@@ -131,8 +133,8 @@ pub(super) fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Resu
     });
     let revoked = revoked.iter().map(|path| Ok((name_of(path), read(path)?)));
     let revoked = revoked.collect::<Result<Vec<_>, Failure>>()?;
-    let (trust, remarks) = enquiry::trust((&name_of(signers), &keys?), &revoked, time)?;
-    remarks.iter().for_each(|remark| output::complain_after(remark));
+    let trust = enquiry::trust((&name_of(signers), &keys?), &revoked, time)?;
+    enquiry::contradictions(&trust.withdrawn).iter().for_each(|remark| output::complain_after(remark));
     Ok(trust)
 }
 

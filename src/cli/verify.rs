@@ -4,7 +4,6 @@ use super::trust_options::TrustAmong;
 use super::{Code, Failure, Format, REFUSED, UNUSABLE, defaults, output};
 use crate::batch::paths;
 use crate::files::{self, FileError};
-use crate::passport::verification::unreadable;
 use crate::report::verdict;
 use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, name_of};
 use clap::Args;
@@ -45,13 +44,13 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
             Ok((name, bytes)) => {
                 let verification = enquiry.verification(&name, &bytes);
                 code = code.max(if verification.valid() { 0 } else { REFUSED });
-                let verdict = verdict::Verdict::of(&name, &verification);
+                let verdict = verdict::Verdict::of(&name, &verification, &enquiry.remarks);
                 text += &verdict::text(&verdict);
                 verdicts.push(verdict);
             }
             Err((name, words)) => {
                 code = code.max(UNUSABLE);
-                let refused = verdict::Verdict::of(&name, &unreadable(&words, &enquiry.question));
+                let refused = verdict::Verdict::of(&name, &enquiry.unreadable(&words), &enquiry.remarks);
                 text += &verdict::not_read(&refused);
                 verdicts.push(refused);
                 unread.push(words);

@@ -426,7 +426,7 @@ pub(crate) fn sync_names<'a>(
 fn check_verifiable(path: &Path, text: &str, draft: &Draft, trust: &Trust) -> Result<(), FolderRefused> {
     let question = Question::at(draft.content().passport.issued_at);
     let verification = verify(&name_of(path), text.as_bytes(), trust, &question);
-    match verification.checks().iter().find(|check| check.passed() != Some(true)) {
+    match verification.failed() {
         None => Ok(()),
         Some(failed) => {
             Err(FolderRefused::NotVerifiable(failed.name.as_str(), for_the_issuer(&failed.detail).to_owned()))

@@ -9,6 +9,8 @@ use crate::files::{self, FileError};
 use crate::folder::search;
 #[cfg(feature = "factory")]
 use crate::parallel;
+#[cfg(feature = "factory")]
+use crate::passport::verification;
 use crate::passport::{Question, Trust, Verification, verify};
 use crate::register;
 use crate::revocation::{RevocationList, Series, claims_to_be_a_list};
@@ -18,7 +20,6 @@ use crate::text::{Field, LARGEST_DOCUMENT_BYTES, Node, Path, Problems, name_of};
 use crate::trust::{AllowedSigners, RevokedKeys};
 use jiff::Timestamp;
 use jiff::civil::{Date, DateTime};
-use serde::Serialize;
 use std::path::{Path as FilePath, PathBuf};
 
 /// Trusted keys and the question to verify passports for.
@@ -49,20 +50,10 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// Returns the verdict as JSON: `{file, valid, id, checks: [{name, passed, code, detail}], remarks}`, without `remarks`
-    /// if there are none.
+    /// Returns the verdict as JSON: `{file, valid, id, not_asked, remarks, checks: [{name, passed, code, detail}]}`.
     pub fn to_json(&self) -> String {
-        json(&Remarked { verdict: Verdict::of(&self.file, &self.verification), remarks: &self.remarks })
+        json(&Verdict::of(&self.file, &self.verification, &self.remarks))
     }
-}
-
-/// Verdict on a passport, and remarks on the lists by which it was verified.
-#[derive(Serialize)]
-struct Remarked<'a> {
-    #[serde(flatten)]
-    verdict: Verdict,
-    #[serde(skip_serializing_if = "<[_]>::is_empty")]
-    remarks: &'a [String],
 }
 
 impl Enquiry {
@@ -94,15 +85,13 @@ impl Enquiry {
         let place = place.transpose().map_err(|why| Failed::unusable(format!("at: {why}")))?;
         let listed = listed.into_iter().enumerate().map(|(index, list)| (format!("revoked[{index}]"), list));
         let revoked: Vec<_> = revoked.iter().cloned().chain(listed).collect();
-        let (trust, remarks) = trust(signers, &revoked, time)?;
-        let question = Question { time, issuer, serial, place };
-        Ok(Self { trust, question, register: None, remarks })
+        Ok(Self::of(trust(signers, &revoked, time)?, Question { time, issuer, serial, place }))
     }
 
-    /// Creates an enquiry without remarks.
-    #[cfg(feature = "factory")]
+    /// Creates an enquiry without a register.
     pub(crate) fn of(trust: Trust, question: Question) -> Self {
-        Self { trust, question, remarks: Vec::new(), register: None }
+        let remarks = contradictions(&trust.withdrawn);
+        Self { trust, question, remarks, register: None }
     }
 
     /// Adds the register of the passports in `folder`: superseded passports are refused, and the lists of withdrawn
@@ -125,7 +114,16 @@ impl Enquiry {
     }
 
     pub(crate) fn verification(&self, file: &str, bytes: &[u8]) -> Verification {
-        let verification = verify(file, bytes, &self.trust, &self.question);
+        self.in_register(verify(file, bytes, &self.trust, &self.question), bytes)
+    }
+
+    /// Returns the result for a file that could not be read; `why` is the system's error message.
+    #[cfg(feature = "factory")]
+    pub(crate) fn unreadable(&self, why: &str) -> Verification {
+        self.in_register(verification::unreadable(why, &self.trust, &self.question), &[])
+    }
+
+    fn in_register(&self, verification: Verification, bytes: &[u8]) -> Verification {
         match &self.register {
             Some(register) => register.asked(verification, bytes),
             None => verification,
@@ -175,13 +173,9 @@ fn lists(node: &Node, at: &Path, problems: &mut Problems) -> Option<Vec<Vec<u8>>
     lists
 }
 
-/// Returns the trust in `signers` without what `revoked` revokes, and the alarms that do not prevent its use. The files
-/// are names and contents. Lists of withdrawn passports are verified at `time`; the newest list applies.
-pub(crate) fn trust(
-    signers: (&str, &[u8]),
-    revoked: &[(String, Vec<u8>)],
-    time: Timestamp,
-) -> Result<(Trust, Vec<String>), Failed> {
+/// Returns the trust in `signers` without what `revoked` revokes. The files are names and contents. Lists of withdrawn
+/// passports are verified at `time`; the newest list applies.
+pub(crate) fn trust(signers: (&str, &[u8]), revoked: &[(String, Vec<u8>)], time: Timestamp) -> Result<Trust, Failed> {
     let mut trust = Trust::of(AllowedSigners::parse(signers.0, signers.1)?);
     let (lists, keys): (Vec<_>, Vec<_>) = revoked.iter().partition(|(_, bytes)| claims_to_be_a_list(bytes));
     for (name, bytes) in keys {
@@ -195,11 +189,15 @@ pub(crate) fn trust(
     if let Some(alarm) = series.alarms().iter().find(|alarm| alarm.is_unknown()) {
         return Err(Failed::unusable(format!("{alarm}; specify that list too, with --revoked")));
     }
-    let contradictions = series.alarms().iter().filter(|alarm| alarm.is_contradiction());
-    let words = |alarm| format!("ALARM: {alarm}; passports withdrawn by any of the lists are treated as withdrawn");
-    let remarks = contradictions.map(words).collect();
     trust.withdrawn = series;
-    Ok((trust, remarks))
+    Ok(trust)
+}
+
+/// Returns the alarms of lists of withdrawn passports that do not prevent their use.
+pub(crate) fn contradictions(withdrawn: &Series) -> Vec<String> {
+    let contradictions = withdrawn.alarms().iter().filter(|alarm| alarm.is_contradiction());
+    let words = |alarm| format!("ALARM: {alarm}; passports withdrawn by any of the lists are treated as withdrawn");
+    contradictions.map(words).collect()
 }
 
 /// Reads the text of a key, with a parser whose errors end a sentence about what was found.
@@ -270,9 +268,7 @@ mod tests {
             (r#"{"at": [39.9, 116.4]}"#, "wrong_place"),
         ] {
             let answer = ask(question).unwrap().verify("p.yaml", PASSPORT);
-            let checks = answer.verification.checks();
-            let worst =
-                checks.iter().find(|check| check.passed() != Some(true)).map_or("ok", |check| check.code.as_str());
+            let worst = answer.verification.failed().map_or("ok", |check| check.code.as_str());
             assert_eq!(worst, code, "{question}");
         }
     }

@@ -42,7 +42,7 @@ pub fn issue(
     let site = Site::from_yaml(site.0, site.1)?;
     let now = Timestamp::from_second(now.as_second()).unwrap_or(now);
     let order = Issue { accuracy: accuracy.map(stated).transpose()?, ..ordered(order, now)? };
-    let trust = signers.map(|signers| trust(signers, &[], now)).transpose()?.map(|(trust, _)| trust);
+    let trust = signers.map(|signers| trust(signers, &[], now)).transpose()?;
     let folder = Folder::new(out);
     let believed = trust.clone().or_else(|| own_trust(&order.issuer, &signer.public_key()?));
     let known = |trust| folder.against_certificate(&stand, &trust, now.max(order.issued_at));

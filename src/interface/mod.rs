@@ -63,6 +63,7 @@ pub(crate) const UNREADABLE: &str = "unreadable";
 pub(crate) const UNUSABLE: &str = "unusable";
 pub(crate) const UNWRITABLE: &str = "unwritable";
 pub(crate) const EXISTS: &str = "exists";
+pub(crate) const MISSING_DATA: &str = "missing_data";
 
 /// Refusal, or input that cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Serialize)]
@@ -73,7 +74,7 @@ pub struct Failed {
     pub code: &'static str,
     /// Message, which may have several lines.
     pub message: String,
-    problems: Vec<Place>,
+    pub(crate) problems: Vec<Place>,
 }
 
 /// Error in a file.
@@ -156,7 +157,7 @@ impl From<FileError> for Failed {
     }
 }
 
-/// Verdict on one file, as `verify` prints it.
+/// Verdict on one file, as `verify` prints it and every other language gets it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(crate) struct Verdict {
     pub file: String,
@@ -164,13 +165,18 @@ pub(crate) struct Verdict {
     pub valid: bool,
     /// Id of the passport; null until the signature passes.
     pub id: Option<String>,
+    /// Names of the checks that were not requested.
+    pub not_asked: Vec<&'static str>,
+    /// Remarks on the lists and the register by which the passport was verified.
+    pub remarks: Vec<String>,
     pub checks: Vec<Check>,
 }
 
 impl Verdict {
-    pub(crate) fn of(file: &str, verification: &Verification) -> Self {
-        let id = verification.id_from_anyone().map(str::to_owned);
-        Self { file: file.to_owned(), valid: verification.valid(), id, checks: verification.checks().to_vec() }
+    pub(crate) fn of(file: &str, verification: &Verification, remarks: &[String]) -> Self {
+        let (id, checks) = (verification.id_from_anyone().map(str::to_owned), verification.checks().to_vec());
+        let not_asked = checks.iter().filter(|check| !check.was_asked()).map(|check| check.name.as_str()).collect();
+        Self { file: file.to_owned(), valid: verification.valid(), id, not_asked, remarks: remarks.to_vec(), checks }
     }
 }
 

@@ -45,6 +45,8 @@ words! {
         Ok = "ok",
         /// Not run, because it depends on an earlier check that failed.
         NotRun = "not_run",
+        /// Not requested: the question has nothing to compare with.
+        NotAsked = "not_asked",
         /// The file could not be opened or read.
         Unreadable = "unreadable",
         /// The text rule, the split or the armor is broken.
@@ -97,9 +99,6 @@ pub struct Check {
     pub detail: String,
 }
 
-/// Detail of the check of revocations if there is no list to check.
-pub(super) const NO_LIST: &str = "no list of revocations was given (--revoked)";
-
 /// Request at the end of the detail of a passport that was withdrawn.
 pub(crate) const ASK_THE_ISSUER: &str = "ask the issuer for a new passport";
 
@@ -113,22 +112,44 @@ pub(crate) fn for_the_issuer(detail: &str) -> &str {
     requests.into_iter().find_map(without).unwrap_or(detail)
 }
 
+impl CheckName {
+    /// Returns the option that asks for the check, or `None` for one that is part of every verification.
+    pub(crate) fn option(self) -> Option<&'static str> {
+        Some(match self {
+            Self::Revocation => "--revoked",
+            Self::Issuer => "--issuer",
+            Self::Stand => "--serial",
+            Self::Place => "--at",
+            Self::Register => "--register",
+            _ => return None,
+        })
+    }
+}
+
 impl Check {
     /// Creates the result of a check, with `detail` as a single printable line.
     pub(crate) fn new(name: CheckName, code: Code, detail: impl Display) -> Self {
         Self { name, code, detail: printable(detail) }
     }
 
-    /// Returns `false` if there was nothing to check, because the question was not asked.
-    pub(crate) fn was_asked(&self) -> bool {
-        self.detail != NO_LIST
+    /// Creates the check `name`, which was not run: not asked, or else because of `why`.
+    pub(super) fn not_run(name: CheckName, asked: bool, why: &str) -> Self {
+        match name.option().filter(|_| !asked) {
+            Some(option) => Self::new(name, Code::NotAsked, format!("not asked ({option})")),
+            None => Self::new(name, Code::NotRun, format!("not run: {why}")),
+        }
     }
 
-    /// Returns whether the check passed, or `None` if it was not run.
+    /// Returns `false` if the check was not requested.
+    pub(crate) fn was_asked(&self) -> bool {
+        self.code != Code::NotAsked
+    }
+
+    /// Returns whether the check passed, or `None` if it was not run or not requested.
     pub fn passed(&self) -> Option<bool> {
         match self.code {
             Code::Ok => Some(true),
-            Code::NotRun => None,
+            Code::NotRun | Code::NotAsked => None,
             _ => Some(false),
         }
     }

@@ -207,7 +207,7 @@ fn limit(verification: &Verification) -> Result<Option<(&'static str, String)>, 
         let (name, detail) = (check.name.as_str(), for_the_issuer(&check.detail).to_owned());
         match (check.name, check.code) {
             // A predecessor whose signer is no longer trusted is not recomputed, but it can still be referenced.
-            (_, Code::Ok) | (CheckName::Recomputed | CheckName::InForce, Code::NotRun) => {}
+            (_, Code::Ok | Code::NotAsked) | (CheckName::Recomputed | CheckName::InForce, Code::NotRun) => {}
             (CheckName::Signer, Code::UnknownKey)
             | (CheckName::Revocation, Code::KeyRevoked | Code::PassportRevoked)
             | (CheckName::InForce, Code::Expired) => limit = Some((name, detail)),

@@ -4,7 +4,7 @@
 //! anywhere. It parses no content before the signature is verified, and computes nothing before the signer is trusted,
 //! because anyone can sign a file that is expensive to compute.
 
-use super::checks::{ASK_THE_ISSUER, Check, CheckName, Code, NO_LIST, REQUEST_FROM_THE_ISSUER};
+use super::checks::{ASK_THE_ISSUER, Check, CheckName, Code, REQUEST_FROM_THE_ISSUER};
 use super::content::{Content, Dated, PASSPORT_FORMAT};
 use super::{NAMESPACE, content, place, recomputed};
 use crate::coefficients::Coefficients;
@@ -105,17 +105,22 @@ impl VerifiedPassport {
 }
 
 impl Verification {
-    /// Returns every check, in the order of [`CheckName`].
+    /// Returns every check, also those that were not requested, in the order of [`CheckName`].
     pub fn checks(&self) -> &[Check] {
         &self.checks
     }
 
     /// Returns `true` if every requested check passed.
     pub fn valid(&self) -> bool {
-        self.checks.iter().all(|check| check.code == Code::Ok)
+        self.checks.iter().all(|check| matches!(check.code, Code::Ok | Code::NotAsked))
     }
 
-    /// Returns the result code of the check `name`, or `None` if that check was not requested.
+    /// Returns the first check that failed, or `None` if none did.
+    pub(crate) fn failed(&self) -> Option<&Check> {
+        self.checks.iter().find(|check| check.passed() == Some(false))
+    }
+
+    /// Returns the result code of the check `name`: [`Code::NotAsked`] if it was not requested.
     pub fn code(&self, name: CheckName) -> Option<Code> {
         self.checks.iter().find(|check| check.name == name).map(|check| check.code)
     }
@@ -132,9 +137,9 @@ impl Verification {
         self.content.as_deref()
     }
 
-    /// Adds a check that needs more than the passport's own bytes.
+    /// Replaces a check, which needs more than the passport's own bytes.
     pub(crate) fn with(mut self, check: Check) -> Self {
-        self.checks.push(check);
+        self.checks.iter_mut().filter(|old| old.name == check.name).for_each(|old| *old = check.clone());
         self
     }
 
@@ -148,7 +153,7 @@ impl Verification {
     /// signature, content, signer and numbers pass, the key is not revoked, and the issuer is the required one. The
     /// other checks tell whether the passport may be used here and now.
     pub fn authentic(&self) -> Option<(&Content, &PublicKey)> {
-        let issuer = self.code(CheckName::Issuer).is_none_or(|code| code == Code::Ok);
+        let issuer = matches!(self.code(CheckName::Issuer), Some(Code::Ok | Code::NotAsked));
         // The numbers are not computed if the signer is not trusted or the key is revoked.
         let numbers = self.code(CheckName::Recomputed) == Some(Code::Ok);
         self.content_from_anyone().filter(|_| issuer && numbers).zip(self.key_from_anyone())
@@ -157,7 +162,8 @@ impl Verification {
     /// Returns the content if every requested check passed, even if the passport has expired or may have been
     /// superseded or withdrawn; otherwise `None`: for a comparison with the past, not for use.
     pub(crate) fn content_even_if_past(&self) -> Option<&Content> {
-        let past = [Code::Ok, Code::Expired, Code::PassportRevoked, Code::Superseded, Code::RegisterUnknown];
+        let past =
+            [Code::Ok, Code::NotAsked, Code::Expired, Code::PassportRevoked, Code::Superseded, Code::RegisterUnknown];
         let good = |check: &Check| past.contains(&check.code);
         self.content.as_deref().filter(|_| self.checks.iter().all(good))
     }
@@ -177,7 +183,7 @@ impl Verification {
     ) -> Result<Entry, Option<&Check>> {
         let signed = self.code(CheckName::Signer) == Some(Code::Ok);
         let Some(id) = self.id_from_anyone().filter(|_| signed) else {
-            return Err(self.checks.iter().find(|check| check.passed() == Some(false)));
+            return Err(self.failed());
         };
         Ok(Entry { id: id.to_owned(), sha256: sha256_hex(bytes), revoked_at, reason: reason.to_owned() })
     }
@@ -213,25 +219,20 @@ pub fn verify(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> V
             }
         }
     }
-    Verification { checks: run.completed(question, trust.has_lists()), key, content }
+    Verification { checks: run.completed(question, trust), key, content }
 }
 
 /// Creates the result for a file that could not be read; no check was run. `why` is the system's error message.
-pub(crate) fn unreadable(why: &str, question: &Question) -> Verification {
+pub(crate) fn unreadable(why: &str, trust: &Trust, question: &Question) -> Verification {
     let mut run = Run { checks: Vec::new() };
     run.note(CheckName::Grammar, Code::Unreadable, why);
-    Verification { checks: run.completed(question, true), key: None, content: None }
+    Verification { checks: run.completed(question, trust), key: None, content: None }
 }
 
 /// Creates the result for a passport that was not verified on request: no check was run.
 pub(crate) fn not_run() -> Verification {
-    let checks = always().map(|name| Check::new(name, Code::NotRun, "not run: the passport was not verified"));
-    Verification { checks: checks.collect(), key: None, content: None }
-}
-
-/// Returns the checks that are part of every verification, in their order.
-fn always() -> impl Iterator<Item = CheckName> {
-    CheckName::ALL.into_iter().filter(|name| *name <= CheckName::InForce)
+    let checks = CheckName::ALL.map(|name| Check::not_run(name, false, "the passport was not verified"));
+    Verification { checks: checks.into(), key: None, content: None }
 }
 
 /// Checks completed so far.
@@ -288,12 +289,13 @@ impl Run {
             self.note(CheckName::Revocation, Code::PassportRevoked, detail);
             return true;
         }
-        let detail = match (trust.withdrawn.newest(), trust.revoked.is_empty()) {
-            (Some(list), _) => format!("not withdrawn: list {} of {} does not list it", list.sequence, list.issued_at),
-            (None, false) => "the signing key is not revoked; no list of withdrawn passports was given".to_owned(),
-            (None, true) => NO_LIST.to_owned(),
+        let detail = match trust.withdrawn.newest() {
+            Some(list) => format!("not withdrawn: list {} of {} does not list it", list.sequence, list.issued_at),
+            None => "the signing key is not revoked; no list of withdrawn passports was given".to_owned(),
         };
-        self.note(CheckName::Revocation, Code::Ok, detail);
+        if trust.has_lists() {
+            self.note(CheckName::Revocation, Code::Ok, detail);
+        }
         true
     }
 
@@ -388,20 +390,19 @@ impl Run {
         }
     }
 
-    /// Returns all checks in their order, including those that were not run. The check of revocations is not requested
-    /// if no list is given.
-    fn completed(mut self, question: &Question, has_lists: bool) -> Vec<Check> {
-        let asked = [
-            question.issuer.as_ref().map(|_| CheckName::Issuer),
-            question.serial.as_ref().map(|_| CheckName::Stand),
-            question.place.map(|_| CheckName::Place),
-        ];
-        for name in always().chain(asked.into_iter().flatten()) {
-            if !self.checks.iter().any(|check| check.name == name) {
-                let is_asked = name != CheckName::Revocation || has_lists;
-                self.note(name, Code::NotRun, if is_asked { "not run: an earlier check failed" } else { NO_LIST });
-            }
-        }
+    /// Returns all checks in their order, including those that were not run or not requested. A register is not part of
+    /// the question: its answer replaces [`CheckName::Register`].
+    fn completed(mut self, question: &Question, trust: &Trust) -> Vec<Check> {
+        let asked = |name| match name {
+            CheckName::Revocation => trust.has_lists(),
+            CheckName::Issuer => question.issuer.is_some(),
+            CheckName::Stand => question.serial.is_some(),
+            CheckName::Place => question.place.is_some(),
+            _ => false,
+        };
+        let missing = |name: &CheckName| !self.checks.iter().any(|check| check.name == *name);
+        let missing: Vec<_> = CheckName::ALL.into_iter().filter(missing).collect();
+        self.checks.extend(missing.iter().map(|name| Check::not_run(*name, asked(*name), "an earlier check failed")));
         self.checks.sort_by_key(|check| check.name);
         self.checks
     }

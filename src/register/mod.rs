@@ -150,7 +150,7 @@ pub fn examine(file: &str, bytes: &[u8], trust: &Trust, asked: &Asked) -> Examin
     let time = asked.question.time;
     let verification = verify(file, bytes, trust, &Question::at(time));
     let content = verification.content_from_anyone();
-    let failed = verification.checks().iter().find(|check| check.passed() == Some(false));
+    let failed = verification.failed();
     let (state, why) = match failed.map(|check| (check.code, check)) {
         None => in_force(content, time, asked.within_days),
         Some((Code::Expired, check)) => (State::Expired, check.detail.clone()),

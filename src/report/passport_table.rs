@@ -19,7 +19,7 @@ pub(crate) fn text(content: &Content, verification: Option<&Verification>) -> St
     let mut out = String::new();
     let header = &content.passport;
     let answer = match verification {
-        Some(verification) => verdict::answer(verification.valid()),
+        Some(verification) => verdict::answer(verification.valid(), verification.checks()),
         None => style::marked(None, &style::bad("NOT VERIFIED")),
     };
     let _ = writeln!(out, "{answer}  {}", style::heading(&header.id));

@@ -135,7 +135,7 @@ const READ_AGAIN_BYTES: usize = 1 << 22;
 const SHOWN: usize = 20;
 
 /// Found content of a missing key.
-const MISSING: &str = "missing";
+pub(crate) const MISSING: &str = "missing";
 
 /// Found content that represents all errors that are not reported separately.
 const FURTHER: &str = "further errors";

@@ -36,6 +36,7 @@ mod forgeries;
 mod frame_axis;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod hidden_drift;
+mod interface;
 #[cfg(feature = "factory")]
 mod issue;
 mod model;

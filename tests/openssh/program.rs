@@ -47,7 +47,7 @@ fn assert_issued(bench: &Bench, issued: &Finished) {
     let mut program = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
     program.args(["verify", "out/SPS-2/0017/braunschweig-ptb-1.yaml", "--trust", "signers", "--time", "2026-12-01"]);
     let verified = bench.run(&mut program, b"");
-    assert!(verified.good && verified.output.starts_with("● VALID"), "{}{}", verified.output, verified.errors);
+    assert!(verified.good && verified.output.starts_with("◐ VALID SO FAR"), "{}{}", verified.output, verified.errors);
 }
 
 #[test]

@@ -30,8 +30,8 @@ pub extern "C" fn room(length: usize) -> *mut u8 {
     Box::leak(vec![0_u64; length.div_ceil(8)].into_boxed_slice()).as_mut_ptr().cast()
 }
 
-/// Verifies a passport; `now_s` is the time in seconds since 1970 UTC. Gives `{file, valid, id, checks, remarks}` or
-/// `{error}`.
+/// Verifies a passport; `now_s` is the time in seconds since 1970 UTC. Gives `{file, valid, id, not_asked,
+/// remarks, checks}` or `{error}`.
 #[unsafe(no_mangle)]
 pub extern "C" fn verify(inputs: &Inputs, now_s: f64) -> *const Slice {
     run(inputs, now_s, |_, answer| Ok(answer.to_json()))
