@@ -47,6 +47,45 @@ pub(crate) fn name_of(path: &Path) -> String {
     path.display().to_string()
 }
 
+/// Number of characters in 32 bytes as base64, without padding.
+const CHARACTERS_OF_A_KEY: usize = 43;
+
+/// Number of characters that remain of what may be a secret.
+const REMAINING: usize = 8;
+
+/// Returns text of a file for a message, because messages end up in logs: of each word that may be a secret (a key of age,
+/// or 32 bytes or more as base64 or hexadecimal), only the first 8 characters remain.
+pub(crate) fn without_secrets(text: &str) -> String {
+    let is_in_word = |c: char| c.is_ascii_alphanumeric() || "+/=_-:".contains(c);
+    let (mut shown, mut rest) = (String::with_capacity(text.len()), text);
+    while let Some(start) = rest.find(is_in_word) {
+        let end = rest[start..].find(|c| !is_in_word(c)).map_or(rest.len(), |length| start + length);
+        match may_be_secret(&rest[start..end]) {
+            true => shown.extend([&rest[..start + REMAINING], "…"]),
+            false => shown.push_str(&rest[..end]),
+        }
+        rest = &rest[end..];
+    }
+    shown + rest
+}
+
+/// Returns `true` if a word may contain a secret. Fingerprints, and long words in lower case, are not taken for one.
+fn may_be_secret(word: &str) -> bool {
+    let has = |run: &str, is: fn(&u8) -> bool| run.as_bytes().iter().any(is);
+    let runs = |others: &'static str| {
+        let run = word.split(move |c: char| !(c.is_ascii_alphanumeric() || others.contains(c)));
+        run.filter(|run| run.len() >= CHARACTERS_OF_A_KEY && has(run, u8::is_ascii_uppercase))
+    };
+    let is_digit = |c: &u8| c.is_ascii_hexdigit();
+    !word.starts_with("SHA256:")
+        && (word.to_ascii_uppercase().contains("AGE-SECRET-KEY")
+            || runs("+/").next().is_some()
+            || runs("-_").any(|run| has(run, u8::is_ascii_lowercase) && has(run, u8::is_ascii_digit))
+            || word
+                .split(|c: char| !(c.is_ascii_hexdigit() || c == ':'))
+                .any(|run| run.bytes().filter(is_digit).count() >= 64))
+}
+
 /// Writer that escapes every character that the function rejects.
 struct Escaping<'a, W>(&'a mut W, fn(char) -> bool);
 
@@ -118,6 +157,38 @@ mod tests {
         let shown = "a\\nb\\r\\t\\u{1b}[31m\\u{9b}\\u{202e}\\u{200b}\\u{2028}\\u{3164}\\u{301}";
         assert_eq!(printable(hostile), shown);
         assert_eq!(printable(shown), shown);
+    }
+
+    /// Expected: RFC 4648 and BIP 173 for the forms; no more than 8 characters remain of any.
+    #[test]
+    fn of_a_secret_the_beginning_remains() {
+        let base64 = "LXEWQrcmsEQBYnyp+6wy9chTD7GQPMTbAiWHF5IaSIE=";
+        let hex = "2d711642b726b04401627ca9fbac32f5c8530fb1903cc4db02258717921a4881";
+        let pairs: String =
+            hex.as_bytes().chunks(2).map(|pair| format!(":{}{}", pair[0] as char, pair[1] as char)).collect();
+        let age = "AGE-SECRET-KEY-1QYQSZQGPQYQSZQGPQYQSZQGPQYQSZQGPQYQSZQGPQYQSZQGPQYQSQ";
+        for (text, shown) in [
+            (format!("only `{base64}`, x"), "only `LXEWQrcm…`, x".to_owned()),
+            (base64.replace('+', "-").replace('=', ""), "LXEWQrcm…".to_owned()),
+            (format!("a={base64}"), "a=LXEWQr…".to_owned()),
+            (hex.to_owned(), "2d711642…".to_owned()),
+            (hex.to_uppercase(), "2D711642…".to_owned()),
+            (pairs, ":2d:71:1…".to_owned()),
+            (format!("«{age}» {age}"), "«AGE-SECR…» AGE-SECR…".to_owned()),
+            (age.to_lowercase(), "age-secr…".to_owned()),
+        ] {
+            assert_eq!(without_secrets(&text), shown);
+        }
+        for other in [
+            "",
+            "SHA256:DVcCvVSg0vxIVDD6Fy/8K8+VwgvIM7+/UyYqqlJJq8E",
+            "standard_uncertainty_of_the_deflection_xi_arcsec",
+            "srv/stands/2026/passports/sps/0017/moscow/bmstu/1.yaml",
+            &base64[..42],
+            &hex[..63],
+        ] {
+            assert_eq!(without_secrets(other), other);
+        }
     }
 
     #[test]

@@ -1,10 +1,10 @@
 //! Errors in documents: location, found content, expected content and advice.
 
-use super::Printable;
 use super::excerpt::{Excerpt, Location};
 use super::kind::{Kind, mistaken};
 use super::node::without_byte_order_mark;
 use super::scalar::is_sha256_hex;
+use super::{Printable, without_secrets};
 use std::collections::HashMap;
 use std::fmt::{self, Display, Formatter};
 use std::hash::Hash;
@@ -96,8 +96,8 @@ impl Problem {
         expected: impl Into<String>,
         advice: impl Into<String>,
     ) -> Self {
-        let (field, found, expected, advice) = (field.into(), found.into(), expected.into(), advice.into());
-        Self { location, field, found, expected, advice }
+        let [field, found, advice] = [field.into(), found.into(), advice.into()].map(|words| without_secrets(&words));
+        Self { location, field, found, expected: expected.into(), advice }
     }
 
     /// Returns `true` if the advice names `key`, because it was found with another name.

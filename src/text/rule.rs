@@ -5,6 +5,7 @@
 
 use super::node::{location_of, plain_text};
 use super::problem::Unreadable;
+use super::without_secrets;
 use std::ops::RangeInclusive;
 
 /// Characters beyond ASCII that a quoted string may contain: letters, punctuation and symbols that are drawn alone and
@@ -194,6 +195,7 @@ pub(crate) fn differs(text: &str, canonical: &str) -> Option<(usize, String, Str
 /// Returns a line as messages show it.
 pub(super) fn shortened(line: &str) -> String {
     const LONGEST: usize = 100;
+    let line = without_secrets(line);
     if line.chars().count() <= LONGEST {
         return format!("`{line}`");
     }

@@ -2,6 +2,7 @@
 
 use super::error::KeyError;
 use super::wire::{Wire, string};
+use crate::text::without_secrets;
 use base64ct::{Base64, Encoding};
 use sha2::{Digest, Sha256};
 use ssh_key::Algorithm;
@@ -139,9 +140,10 @@ impl AnyKey {
 
 pub(super) fn shortened(word: &str) -> String {
     const LONGEST: usize = 60;
+    let word = without_secrets(word);
     match word.char_indices().nth(LONGEST) {
         Some((end, _)) => format!("{}…", &word[..end]),
-        None => word.to_owned(),
+        None => word,
     }
 }
 
