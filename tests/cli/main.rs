@@ -19,6 +19,7 @@ mod keystrokes;
 mod recertify;
 mod report;
 mod revocation_chain;
+mod secrets;
 mod selftest;
 mod terminal;
 mod transcripts;
