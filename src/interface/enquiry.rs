@@ -197,7 +197,7 @@ pub(crate) fn trust(
     }
     let contradictions = series.alarms().iter().filter(|alarm| alarm.is_contradiction());
     let words = |alarm| format!("ALARM: {alarm}; passports withdrawn by any of the lists are treated as withdrawn");
-    let remarks = contradictions.map(words).collect();
+    let remarks = contradictions.map(words).chain(trust.skipped()).collect();
     trust.withdrawn = series;
     Ok((trust, remarks))
 }

@@ -3,6 +3,7 @@
 use super::excerpt::{Excerpt, Location};
 use super::kind::{Kind, mistaken};
 use super::node::without_byte_order_mark;
+use super::rule;
 use super::scalar::is_sha256_hex;
 use super::{Printable, without_secrets};
 use std::collections::HashMap;
@@ -377,6 +378,11 @@ impl Unreadable {
     /// Returns the errors, in the order of the text as far as their locations are known.
     pub fn problems(&self) -> &[Problem] {
         &self.problems
+    }
+
+    /// Returns `true` if a later version of the program wrote the document.
+    pub(crate) fn is_of_a_later_version(&self) -> bool {
+        self.problems.iter().any(|problem| problem.advice == rule::UPDATE)
     }
 }
 

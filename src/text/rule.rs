@@ -62,6 +62,17 @@ pub(super) fn write_quoted(text: &str, mut push: impl FnMut(&str)) {
 /// Advice for text that is not as the writer writes it.
 pub(super) const NOT_CANONICAL: &str = "this is not the canonical form; get the file from the issuer again";
 
+/// Advice for a text with a key or a format that this version does not know.
+pub(crate) const UPDATE: &str = "update the program, because a later version wrote this file";
+
+/// Returns `true` if the format `found` is `known` with a later number.
+pub(crate) fn is_later_format(found: &str, known: &str) -> bool {
+    let number = |format: &str| {
+        format.rsplit_once('/').and_then(|(kind, number)| Some((kind.to_owned(), number.parse::<u32>().ok()?)))
+    };
+    number(found).zip(number(known)).is_some_and(|(found, known)| found.0 == known.0 && found.1 > known.1)
+}
+
 /// Checks the bytes against the rule before anything is parsed, and returns the text.
 pub(crate) fn check<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable> {
     let text = plain_text(name, bytes)?;

@@ -1,7 +1,7 @@
 //! Allowed signers: keys with their principals, namespaces and validity periods (ssh-keygen(1), ALLOWED SIGNERS).
 //!
 //! This reader is stricter than OpenSSH, which skips a line that it cannot read. Here such a line is an error, because
-//! its author meant to trust a key or to end that trust.
+//! its author meant to trust a key or to end that trust. Only keys that cannot sign passports are skipped here too.
 
 use super::pattern::matches_list;
 use super::signer_line::{self, SignerLine};
@@ -15,6 +15,8 @@ use thiserror::Error;
 #[derive(Debug, Clone)]
 pub struct AllowedSigners {
     lines: Vec<SignerLine>,
+    /// Types of the keys that were skipped, because they cannot sign passports.
+    pub(crate) skipped: Vec<String>,
 }
 
 /// Reason why a key is not trusted for an identity, a namespace and a time. If several lines contain the key, the
@@ -42,8 +44,8 @@ pub enum NotAuthorised {
 impl AllowedSigners {
     /// Reads a list of allowed signers in OpenSSH's format; `name` is the file name used in messages.
     ///
-    /// A line contains patterns of principals, options (`namespaces`, `valid-after`, `valid-before`) and a public key
-    /// of any type that OpenSSH knows.
+    /// A line contains patterns of principals, options (`namespaces`, `valid-after`, `valid-before`) and a public key.
+    /// Keys that cannot sign passports are skipped, whatever their type.
     ///
     /// # Errors
     /// Returns [`Unreadable`] with the errors of all lines, up to a limit. `cert-authority` is an error, and so is a
@@ -60,7 +62,14 @@ impl AllowedSigners {
             let advice = "add the line that `keygen` prints";
             return Err(Unreadable::whole(name, None, "no key", "a line for each trusted key", advice));
         }
-        Ok(Self { lines: kept })
+        let mut signers = Self { lines: Vec::new(), skipped: Vec::new() };
+        for line in kept {
+            match line {
+                Ok(line) => signers.lines.push(line),
+                Err(other) => signers.skipped.push(other),
+            }
+        }
+        Ok(signers)
     }
 
     pub(crate) fn lines(&self) -> &[SignerLine] {
@@ -313,10 +322,10 @@ mod tests {
     }
 
     #[test]
-    fn quotes_inside_values_and_keys_of_other_types_are_kept() {
+    fn quotes_inside_values_are_kept_and_keys_of_other_types_are_counted() {
         let rsa = "ssh-rsa AAAAB3NzaC1yc2EAAAADAQABAAAAAwUAAQ==";
         let signers = parsed(&format!("a namespaces=\"x\\\"y,z\" {}\nb {rsa}", key().to_openssh()));
         assert_eq!(signers.lines[0].namespaces.as_deref(), Some("x\"y,z"));
-        assert_eq!(signers.lines.len(), 2);
+        assert_eq!((signers.lines.len(), signers.skipped), (1, vec!["ssh-rsa".to_owned()]));
     }
 }
