@@ -47,8 +47,8 @@ pub(crate) fn name_of(path: &Path) -> String {
     path.display().to_string()
 }
 
-/// Number of characters in 32 bytes as base64, without padding.
-const CHARACTERS_OF_A_KEY: usize = 43;
+/// Number of characters in 32 bytes as base64 without padding, the shortest form of a key.
+const LEAST_OF_A_KEY: usize = 43;
 
 /// Number of characters that remain of what may be a secret.
 const REMAINING: usize = 8;
@@ -69,21 +69,20 @@ pub(crate) fn without_secrets(text: &str) -> String {
     shown + rest
 }
 
-/// Returns `true` if a word may contain a secret. Fingerprints, and long words in lower case, are not taken for one.
+/// Returns `true` if a word may contain a secret. Fingerprints, numbers, and long words in lower case are not taken for one.
 fn may_be_secret(word: &str) -> bool {
     let has = |run: &str, is: fn(&u8) -> bool| run.as_bytes().iter().any(is);
-    let runs = |others: &'static str| {
-        let run = word.split(move |c: char| !(c.is_ascii_alphanumeric() || others.contains(c)));
-        run.filter(|run| run.len() >= CHARACTERS_OF_A_KEY && has(run, u8::is_ascii_uppercase))
-    };
-    let is_digit = |c: &u8| c.is_ascii_hexdigit();
+    let runs = |is_part: fn(char) -> bool| word.split(move |c| !is_part(c)).filter(|run| run.len() >= LEAST_OF_A_KEY);
+    let mut base64 = runs(|c| c.is_ascii_alphanumeric() || "+/".contains(c));
+    let mut for_urls = runs(|c| c.is_ascii_alphanumeric() || "-_".contains(c));
+    let mut hexadecimal = runs(|c| c.is_ascii_hexdigit() || c == ':');
     !word.starts_with("SHA256:")
         && (word.to_ascii_uppercase().contains("AGE-SECRET-KEY")
-            || runs("+/").next().is_some()
-            || runs("-_").any(|run| has(run, u8::is_ascii_lowercase) && has(run, u8::is_ascii_digit))
-            || word
-                .split(|c: char| !(c.is_ascii_hexdigit() || c == ':'))
-                .any(|run| run.bytes().filter(is_digit).count() >= 64))
+            || base64.any(|run| has(run, u8::is_ascii_uppercase))
+            || for_urls.any(|run| {
+                [u8::is_ascii_uppercase, u8::is_ascii_lowercase, u8::is_ascii_digit].iter().all(|is| has(run, *is))
+            })
+            || hexadecimal.any(|run| has(run, u8::is_ascii_alphabetic) && run.replace(':', "").len() >= 64))
 }
 
 /// Writer that escapes every character that the function rejects.
