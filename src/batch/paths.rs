@@ -5,7 +5,7 @@ use crate::files::walk::{Entry, LINK, SPECIAL, Walk};
 use crate::files::{FileError, reason};
 use crate::folder::search;
 use crate::text::node::{is_utf16, without_byte_order_mark};
-use crate::text::{Cause, Printable, Unreadable, shown};
+use crate::text::{Cause, Printable, Unreadable, shown, without_secrets};
 use std::ffi::OsStr;
 use std::io::{self, BufRead};
 use std::path::{Path, PathBuf};
@@ -53,10 +53,11 @@ pub(crate) fn named<'a>(
     })
 }
 
-/// Returns `true` if a line is not a path, but the first line of a file of this project.
+/// Returns `true` if a line is not a path, but the first line of a file of this project or of a key.
 fn is_of_a_file(line: &Path) -> bool {
     let text = line.to_string_lossy();
-    (text.starts_with("# ") || text.starts_with("format: ") || text.starts_with("i,j,")) && !line.exists()
+    let is_content = ["# ", "format: ", "i,j,", "-----BEGIN"].iter().any(|begin| text.starts_with(begin));
+    (is_content || without_secrets(&text) != text) && !line.exists()
 }
 
 /// Returns the files specified by the user, and those in specified folders that fit the purpose.

@@ -134,7 +134,7 @@ pub(super) fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Resu
     let revoked = revoked.iter().map(|path| Ok((name_of(path), read(path)?)));
     let revoked = revoked.collect::<Result<Vec<_>, Failure>>()?;
     let trust = enquiry::trust((&name_of(signers), &keys?), &revoked, time)?;
-    enquiry::contradictions(&trust.withdrawn).iter().for_each(|remark| output::complain_after(remark));
+    enquiry::remarks(&trust).iter().for_each(|remark| output::complain_after(remark));
     Ok(trust)
 }
 

@@ -90,7 +90,7 @@ impl Enquiry {
 
     /// Creates an enquiry without a register.
     pub(crate) fn of(trust: Trust, question: Question) -> Self {
-        let remarks = contradictions(&trust.withdrawn);
+        let remarks = remarks(&trust);
         Self { trust, question, remarks, register: None }
     }
 
@@ -193,11 +193,11 @@ pub(crate) fn trust(signers: (&str, &[u8]), revoked: &[(String, Vec<u8>)], time:
     Ok(trust)
 }
 
-/// Returns the alarms of lists of withdrawn passports that do not prevent their use.
-pub(crate) fn contradictions(withdrawn: &Series) -> Vec<String> {
-    let contradictions = withdrawn.alarms().iter().filter(|alarm| alarm.is_contradiction());
+/// Returns the alarms of lists of withdrawn passports that do not prevent their use, and a remark on skipped keys.
+pub(crate) fn remarks(trust: &Trust) -> Vec<String> {
+    let contradictions = trust.withdrawn.alarms().iter().filter(|alarm| alarm.is_contradiction());
     let words = |alarm| format!("ALARM: {alarm}; passports withdrawn by any of the lists are treated as withdrawn");
-    contradictions.map(words).collect()
+    contradictions.map(words).chain(trust.skipped()).collect()
 }
 
 /// Reads the text of a key, with a parser whose errors end a sentence about what was found.

@@ -377,9 +377,6 @@ impl Content {
         let at = Path::Root;
         stand::check(&self.certificate, &self.positions, problems);
         self.site.check(&at.key("site"), problems);
-        if self.format != PASSPORT_FORMAT {
-            problems.at(&at.key("format"), format!("{:?}", self.format), format!("{PASSPORT_FORMAT:?}"), "");
-        }
         if let Some(accuracy) = &self.accuracy {
             accuracy.check(&at.key("accuracy"), problems);
         }
@@ -418,7 +415,7 @@ impl Content {
 
 /// Parses the payload of a passport, step 5 of verification: see [`document::parse`].
 pub(crate) fn read(name: &str, payload: &str) -> Result<Content, Unreadable> {
-    document::parse(name, payload, Content::check)
+    document::parse(name, payload, PASSPORT_FORMAT, Content::check)
 }
 
 /// Parses the content of a passport file without verifying its signature: anyone may have written it.

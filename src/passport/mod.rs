@@ -27,7 +27,7 @@ pub(crate) mod recomputed;
 pub mod reissue;
 pub(crate) mod verification;
 
-pub use crate::document::Malformed;
+pub use crate::document::{Malformed, OtherSignature};
 pub use accuracy::{Accuracy, NoAccuracy, Stated};
 pub use checks::{Check, CheckName, Code};
 pub use content::{

@@ -202,7 +202,7 @@ impl RevocationList {
         let text = SignedText::split(name, bytes, REVOCATION_NAMESPACE).map_err(ListRefused::Malformed)?;
         let name = name.to_owned();
         let list: Self = match text.signed_payload(Some(signers)) {
-            Ok(payload) => document::parse(&name, payload, Self::check)?,
+            Ok(payload) => document::parse(&name, payload, REVOCATION_FORMAT, Self::check)?,
             Err(error) => return Err(ListRefused::Altered(name, error)),
         };
         if let Err(miss) = signers.authorise(text.key(), &list.issuer, REVOCATION_NAMESPACE, list.issued_at) {
@@ -220,9 +220,6 @@ impl RevocationList {
 
     fn check(&self, problems: &mut Problems) {
         let at = Path::Root;
-        if self.format != REVOCATION_FORMAT {
-            problems.at(&at.key("format"), format!("{:?}", self.format), format!("{REVOCATION_FORMAT:?}"), "");
-        }
         if self.sequence == 0 {
             problems.at(&at.key("sequence"), "0", "a whole number of 1 or more", "");
         }

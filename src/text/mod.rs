@@ -38,7 +38,7 @@ pub use cause::Cause;
 pub use excerpt::Location;
 pub(crate) use kind::Kind;
 pub(crate) use node::Node;
-pub(crate) use printable::{Printable, name_of, printable, shown};
+pub(crate) use printable::{Printable, name_of, printable, shown, without_secrets};
 pub(crate) use problem::{Path, Problems};
 pub use problem::{Problem, Unreadable};
 pub(crate) use record::{Document, Field, record};

@@ -1,10 +1,11 @@
 //! Errors in documents: location, found content, expected content and advice.
 
-use super::Printable;
 use super::cause::{Advice, Cause};
 use super::excerpt::{Excerpt, Location};
 use super::node::without_byte_order_mark;
+use super::rule;
 use super::scalar::is_sha256_hex;
+use super::{Printable, without_secrets};
 use std::collections::HashMap;
 use std::fmt::{self, Display, Formatter};
 use std::hash::Hash;
@@ -100,8 +101,9 @@ impl Problem {
         expected: impl Into<String>,
         advice: impl Into<Advice>,
     ) -> Self {
-        let Advice { cause, words: advice, meant } = advice.into();
-        Self { location, field: field.into(), found: found.into(), expected: expected.into(), advice, cause, meant }
+        let Advice { cause, words, meant } = advice.into();
+        let [field, found, advice] = [field.into(), found.into(), words].map(|words| without_secrets(&words));
+        Self { location, field, found, expected: expected.into(), advice, cause, meant }
     }
 
     /// Returns `true` if what was found is `key` with another spelling or unit.
@@ -367,6 +369,11 @@ impl Unreadable {
     /// Returns the errors, in the order of the text as far as their locations are known.
     pub fn problems(&self) -> &[Problem] {
         &self.problems
+    }
+
+    /// Returns `true` if a later version of the program wrote the document.
+    pub(crate) fn is_of_a_later_version(&self) -> bool {
+        self.problems.iter().any(|problem| problem.advice == rule::UPDATE)
     }
 }
 

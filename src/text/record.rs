@@ -3,7 +3,7 @@
 use super::canonical::Scanner;
 use super::node::{Sink, Tree};
 use super::scalar::{STRAIGHT_QUOTES, latin, typographic_quote};
-use super::{Advice, Cause, Node, Path, Problems, advice, node};
+use super::{Advice, Cause, Node, Path, Problems, advice, node, rule};
 use std::collections::HashSet;
 
 /// Type of a field of a document.
@@ -76,6 +76,7 @@ impl<T: Document> Field for File<T> {
             Some(Node::Text(found)) if found == format => {}
             Some(found) => {
                 let advice = match found {
+                    Node::Text(text) if rule::is_later_format(text, format) => rule::UPDATE.to_owned(),
                     Node::Text(text) if typographic_quote(text).is_some() => STRAIGHT_QUOTES.to_owned(),
                     Node::Text(text) => latin(text).filter(|(latin, _)| latin == format).map_or_else(
                         || RIGHT_FILE.to_owned(),
@@ -138,7 +139,7 @@ macro_rules! record {
             }
 
             fn scan(scanner: &mut $crate::text::canonical::Scanner) -> Option<Self> {
-                scanner.mapping(|scanner| {
+                scanner.mapping(<Self as $crate::text::record::Record>::KEYS, |scanner| {
                     Some(Self { $($field: scanner.entry(const { $crate::text::record::key(stringify!($field)) })?,)* })
                 })
             }

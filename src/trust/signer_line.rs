@@ -35,8 +35,9 @@ impl SignerLine {
     }
 }
 
-/// Reads a line and reports every error in it.
-pub(super) fn read(line: &Line) -> Result<SignerLine, Vec<Problem>> {
+/// Reads a line and reports every error in it. Of a line with a key that cannot sign passports, returns the type of that
+/// key instead.
+pub(super) fn read(line: &Line) -> Result<Result<SignerLine, String>, Vec<Problem>> {
     if let Some(problem) = line.control_character() {
         return Err(vec![problem]);
     }
@@ -65,7 +66,8 @@ pub(super) fn read(line: &Line) -> Result<SignerLine, Vec<Problem>> {
     let (key, point) = (Vec::new(), OnceLock::new());
     let mut signer = SignerLine { principals, namespaces, valid_after, valid_before, key, point };
     let mut key_at = at;
-    if !AnyKey::is_type(word(line.text, at)) {
+    let mut other = None;
+    if !AnyKey::is_type(word(line.text, at)) && read_key(line, at).is_err() {
         let unclosed = |quote| line.problem(at + quote, "", "a quote that is not closed", "a closing quote", "");
         let end = at + length_before(&BLANKS, &line.text[at..]).map_err(|quote| vec![unclosed(quote)])?;
         key_at = blanks(line.text, end);
@@ -77,10 +79,11 @@ pub(super) fn read(line: &Line) -> Result<SignerLine, Vec<Problem>> {
         signer.read_options(line, at, end, &mut problems);
     }
     match read_key(line, key_at) {
-        Ok(key) => signer.key = key.blob,
+        Ok(AnyKey::Signing(key)) => signer.key = key.blob,
+        Ok(AnyKey::Other { algorithm, .. }) => other = Some(algorithm),
         Err(problem) => problems.push(problem),
     }
-    if problems.is_empty() { Ok(signer) } else { Err(problems) }
+    if problems.is_empty() { Ok(other.map_or(Ok(signer), Err)) } else { Err(problems) }
 }
 
 const BLANKS: [char; 2] = [' ', '\t'];

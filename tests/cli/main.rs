@@ -21,6 +21,7 @@ mod links;
 mod recertify;
 mod report;
 mod revocation_chain;
+mod secrets;
 mod selftest;
 mod terminal;
 mod transcripts;

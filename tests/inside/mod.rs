@@ -24,6 +24,8 @@ fn written(content: &crate::passport::Content, key: &crate::trust::SigningKey) -
     fixtures::signed(&crate::passport::annotations::payload(content), key)
 }
 
+#[cfg(feature = "factory")]
+mod allowed_signers;
 #[cfg(feature = "monte-carlo")]
 mod calibration;
 mod causes;
@@ -58,8 +60,11 @@ mod records;
 mod register_attacks;
 #[cfg(feature = "factory")]
 mod reissue;
+#[cfg(feature = "factory")]
+mod revoked_keys;
 #[cfg(feature = "monte-carlo")]
 mod robustness;
+mod secrets;
 #[cfg(feature = "report")]
 mod selftest;
 #[cfg(feature = "factory")]
