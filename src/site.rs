@@ -73,7 +73,7 @@ record! {
 
 record! {
     /// Site: the place where a stand is used (`dtg-site/1`).
-    #[cfg_attr(feature = "cli", schemars(extend("oneOf" = [
+    #[cfg_attr(feature = "generate", schemars(extend("oneOf" = [
         {"required": ["latitude_deg"]}, {"required": ["astronomic_latitude_deg"]}
     ])))]
     pub struct Site {

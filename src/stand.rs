@@ -174,7 +174,7 @@ record! {
         /// Datum surfaces, which define the axes.
         pub datum: Option<Datum>,
         /// Positions, sorted by (i, j) after reading; at most 256.
-        #[cfg_attr(feature = "cli", schemars(length(max = 256)))]
+        #[cfg_attr(feature = "generate", schemars(length(max = 256)))]
         pub positions: Vec<CertifiedPosition>,
     }
 }

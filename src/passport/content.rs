@@ -119,7 +119,7 @@ record! {
     /// Self-check: currents, and the parameters that laboratory software should obtain from them.
     pub struct SelfCheck {
         /// Currents in every position.
-        #[cfg_attr(feature = "cli", schemars(length(max = 256)))]
+        #[cfg_attr(feature = "generate", schemars(length(max = 256)))]
         pub currents: Vec<PositionCurrents>,
         /// Scale factors K.
         pub k_deg_per_h_per_ma: Rows,
@@ -146,7 +146,7 @@ record! {
         /// Datum surfaces, which define the axes.
         pub datum: Option<Datum>,
         /// Positions, sorted by (i, j); at most 256.
-        #[cfg_attr(feature = "cli", schemars(length(max = 256)))]
+        #[cfg_attr(feature = "generate", schemars(length(max = 256)))]
         pub positions: Vec<CertifiedPosition>,
         /// Site of the stand.
         pub site: Site,
@@ -155,7 +155,7 @@ record! {
         /// Matrices of the paper; absent without its eight positions.
         pub matrices: Option<MatrixRows>,
         /// Specific force and Earth rate in every position, for least squares.
-        #[cfg_attr(feature = "cli", schemars(length(max = 256)))]
+        #[cfg_attr(feature = "generate", schemars(length(max = 256)))]
         pub vectors: Vec<PositionVectors>,
         /// Self-check of laboratory software; absent if the positions do not determine the eight parameters.
         pub self_check: Option<SelfCheck>,

@@ -116,7 +116,7 @@ impl<T: Document> Field for File<T> {
 macro_rules! record {
     ($(#[$about:meta])* $vis:vis struct $name:ident { $($(#[$doc:meta])* pub $field:ident : $type:ty,)* }) => {
         #[derive(Debug, Clone, PartialEq)]
-        #[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
+        #[cfg_attr(feature = "generate", derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
         $(#[$about])*
         $vis struct $name { $($(#[$doc])* pub $field: $type,)* }
 

@@ -11,6 +11,7 @@ mod calibrate;
 mod certify;
 mod dcc;
 mod export;
+mod generated;
 mod history;
 #[cfg(unix)]
 mod hostile_words;
