@@ -40,6 +40,11 @@ update-examples:
     UPDATE_EXAMPLES=1 cargo test --locked --test docs examples
     git diff --stat
 
+# Write the JSON Schemas, completions and manual pages again, then read the difference
+update-generated:
+    UPDATE_GENERATED=1 cargo test --locked --features generate --test generated
+    git diff --stat
+
 # Accept new output of the command line, then read the difference
 update-transcripts:
     TRANSCRIPTS=write cargo test --locked --test cli transcripts

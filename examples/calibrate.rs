@@ -34,7 +34,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let readings = Readings::from_csv(currents, &fs::read(currents)?, setup.coefficients(), range_ma)?;
 
     let calibration = calibrate(&setup, &readings, &Options::default())?;
-    let result = calibration.answer().ok_or("the readings do not determine the parameters")?;
+    // It is an error if the readings do not fit the stand. Only `interface::calibrate` compares with a gyro type.
+    let result = calibration.valid()?;
     for parameter in Parameter::EIGHT {
         if let (Some(value), Some(u)) = (result.value(parameter), result.standard_uncertainty(parameter)) {
             println!("{:>5} = {value:9.4} {} (u = {u:.4})", parameter.symbol(), parameter.unit());

@@ -6,7 +6,7 @@
 use crate::text::canonical;
 use crate::text::kind::mistaken;
 pub(crate) use crate::text::scalar::sha256_hex;
-use crate::text::{Field, Kind, Limits, Location, Printable, Problems, Unreadable, rule};
+use crate::text::{Field, Kind, Limits, Location, Printable, Problem, Problems, Unreadable, rule};
 use crate::trust::{AllowedSigners, Message, PublicKey, Signature, SignatureError};
 #[cfg(feature = "factory")]
 use crate::trust::{KeyError, KeyPoint, SigningKey};
@@ -16,6 +16,8 @@ use crate::trust::{KeyError, KeyPoint, SigningKey};
 pub(crate) struct Form {
     /// Namespace of its signatures.
     pub namespace: &'static str,
+    /// Value of the key `format`.
+    pub format: &'static str,
     pub limits: Limits,
     /// Noun phrase of what was expected instead of another file.
     pub expected: &'static str,
@@ -95,13 +97,23 @@ pub(crate) struct SignedText<'a> {
     signature: Signature,
 }
 
-/// Fault in the form of a document, or a signature for another namespace.
+/// Fault in the form of a document, or a signature of another kind.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Malformed {
     /// Description and location of the fault.
     pub fault: Unreadable,
-    /// Namespace of the signature if that is the fault, otherwise `None`.
-    pub other_namespace: Option<String>,
+    /// Kind of the signature if that is the fault, otherwise `None`.
+    pub other: Option<OtherSignature>,
+}
+
+/// Kind of a whole signature that no document of this kind has.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum OtherSignature {
+    /// Signature for this other namespace.
+    Namespace(String),
+    /// Signature with a key of this type, which cannot sign passports, or with an OpenSSH certificate.
+    KeyType(String),
 }
 
 /// Form of the signature in a document.
@@ -117,9 +129,6 @@ fn found_and_expected(error: SignatureError) -> (String, &'static str) {
         SignatureError::Version(version) => (format!("a signature block of format version {version}"), "version 1"),
         SignatureError::Reserved(bytes) => (format!("a signature block with {bytes} reserved bytes"), "none"),
         SignatureError::HashAlgorithm(name) => (format!("a signed text hashed with {name}"), "sha512"),
-        SignatureError::KeyType(found) => {
-            (format!("a text signed with {found}"), "one with a key of type ssh-ed25519 or sk-ssh-ed25519@openssh.com")
-        }
         SignatureError::Algorithm { key, signature } => {
             (format!("a signature of type {signature} with a key of type {key}"), "the same type twice")
         }
@@ -137,7 +146,7 @@ impl<'a> SignedText<'a> {
             let mistaken = || mistaken(name, bytes, form.expected, is_signed);
             signature_line(bytes).is_none().then(mistaken).flatten()
         };
-        let malformed = |fault| Malformed { fault: other().unwrap_or(fault), other_namespace: None };
+        let malformed = |fault| Malformed { fault: other().unwrap_or(fault), other: None };
         if bytes.len() > limits.bytes {
             rule::check(name, bytes, limits.bytes).map_err(malformed)?;
         }
@@ -151,24 +160,35 @@ impl<'a> SignedText<'a> {
             let advice = "the file is unsigned, or may be truncated; get it from the issuer again";
             return Err(malformed(Unreadable::whole(name, location, "no signature", "`signature: |`", advice)));
         };
-        let at = || Location { line: payload.lines().count() + 2, column: 1 };
+        let fault = |found: String, expected: &str, advice: &str| {
+            let at = Location { line: payload.lines().count() + 2, column: 1 };
+            Unreadable::whole(name, Some(at), found, expected, advice)
+        };
         let refuse = |found: String, expected: &str| {
             let advice = "the signature or the text after it has changed; get the file from the issuer again";
-            malformed(Unreadable::whole(name, Some(at()), found, expected, advice))
+            malformed(fault(found, expected, advice))
         };
         let tail = &bytes[payload_end + SIGNATURE_LINE.len()..];
         let armor = std::str::from_utf8(tail).ok().and_then(unindented);
         let armor = armor.ok_or_else(|| refuse("a line that is not indented like the signature".to_owned(), BLOCK))?;
-        let signature = Signature::from_armor(&armor).map_err(|error| {
-            let (found, expected) = found_and_expected(error);
-            refuse(found, expected)
+        let signature = Signature::from_armor(&armor).map_err(|error| match error {
+            SignatureError::KeyType(other) => {
+                let what = if other.contains("-cert-v") { "an OpenSSH certificate" } else { "a key" };
+                let found = format!("a text signed with {what} of type {other}");
+                let expected = "a key of type ssh-ed25519 or sk-ssh-ed25519@openssh.com";
+                let fault = fault(found, expected, "ask the issuer to sign it with such a key");
+                Malformed { fault, other: Some(OtherSignature::KeyType(other)) }
+            }
+            error => {
+                let (found, expected) = found_and_expected(error);
+                refuse(found, expected)
+            }
         })?;
         if signature.namespace() != namespace {
             let other = signature.namespace().to_owned();
-            let found = format!("a signature for {other:?}");
-            let advice = "it is signed as another kind of document";
-            let fault = Unreadable::whole(name, Some(at()), found, format!("a signature for {namespace:?}"), advice);
-            return Err(Malformed { fault, other_namespace: Some(other) });
+            let (found, expected) = (format!("a signature for {other:?}"), format!("a signature for {namespace:?}"));
+            let fault = fault(found, &expected, "it is signed as another kind of document");
+            return Err(Malformed { fault, other: Some(OtherSignature::Namespace(other)) });
         }
         Ok(Self { payload, signature })
     }
@@ -194,19 +214,25 @@ impl<'a> SignedText<'a> {
     }
 }
 
-/// Parses a payload in canonical form (step 5); `check` applies the rules of the content.
+/// Parses a payload in canonical form (step 5) with the format `format`; `check` applies the rules of the content.
 ///
 /// Call it only with text whose signature was verified.
 ///
 /// # Errors
-/// Returns the first line that is not in canonical form, or every rule that the content breaks.
+/// Returns another format, the first line that is not in canonical form, or every rule that the content breaks.
 pub(crate) fn parse<T: Field>(
     name: &str,
     payload: &str,
-    limits: Limits,
+    form: &Form,
     check: impl Fn(&T, &mut Problems),
 ) -> Result<T, Unreadable> {
-    let content: T = canonical::read(payload, limits).map_err(|problem| Unreadable::of(name, vec![problem]))?;
+    let stated = payload.lines().find_map(|line| line.strip_prefix("format: \"")?.strip_suffix('"'));
+    if let Some(found) = stated.filter(|found| *found != form.format) {
+        let advice = if rule::is_later_format(found, form.format) { rule::UPDATE } else { "" };
+        let other = Problem::new(None, "format", format!("{found:?}"), format!("{:?}", form.format), advice);
+        return Err(Unreadable::of(name, vec![other]));
+    }
+    let content: T = canonical::read(payload, form.limits).map_err(|problem| Unreadable::of(name, vec![problem]))?;
     let mut problems = Problems::default();
     check(&content, &mut problems);
     if problems.is_empty() { Ok(content) } else { Err(problems.refuse_by_field(name)) }
@@ -251,7 +277,7 @@ pub(crate) fn join(payload: &str, signature: &Signature) -> String {
 mod tests {
     use super::*;
 
-    const FORM: Form = Form { namespace: "dtg-passport", limits: Limits::DOCUMENT, expected: "a passport" };
+    const FORM: Form = crate::passport::FORM;
     const NAMESPACE: &str = FORM.namespace;
 
     fn signed(payload: &str) -> String {
@@ -288,7 +314,7 @@ mod tests {
             assert!(SignedText::split("x", text.as_bytes(), &FORM).is_err(), "{text}");
         }
         let other = SignedText::split("x", good.as_bytes(), &Form { namespace: "dtg-register", ..FORM }).unwrap_err();
-        assert_eq!(other.other_namespace.as_deref(), Some(NAMESPACE));
+        assert_eq!(other.other, Some(OtherSignature::Namespace(NAMESPACE.to_owned())));
     }
 
     /// Expected: by hand, the first line of a passport that is not in its form, the column of what is left to read.
@@ -300,7 +326,7 @@ mod tests {
             let altered = payload.replacen(from, to, 1);
             assert_ne!(altered, payload, "{from}");
             let line = altered.lines().zip(payload.lines()).take_while(|(a, b)| a == b).count() + 1;
-            let read = parse("p.yaml", &altered, Limits::DOCUMENT, crate::passport::content::Content::check);
+            let read = parse("p.yaml", &altered, &FORM, crate::passport::content::Content::check);
             (read.unwrap_err().to_string(), line)
         };
         let other_form = |from: &str, to: &str, expected: &str| {

@@ -83,7 +83,7 @@ const LARGEST_CROSS_PERCENT: f64 = 100.0;
 
 record! {
     /// Tolerances of the parameters: largest permitted deviations from the nominal values.
-    #[cfg_attr(feature = "cli", schemars(extend("oneOf" = [
+    #[cfg_attr(feature = "generate", schemars(extend("oneOf" = [
         {"required": ["k_cross_percent"]}, {"required": ["k_cross_deg_per_h_per_ma"]}
     ])))]
     pub struct Tolerance {

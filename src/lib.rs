@@ -69,7 +69,7 @@
 //! | [`interface`] | what programs in other languages call: `python`, `c` and `web` | |
 //! | [`report`] | what people read | `report` |
 //! | `dcc` | Digital Calibration Certificates of PTB, of a stand and of a gyro | `cli` |
-//! | `schema` | JSON Schemas of the formats | `cli` |
+//! | `schema` | JSON Schemas of the formats; what makes them with `generate` | `cli` |
 //! | `template` | commented files to begin with | `cli` |
 //! | `workspace` | a folder that states key, trust and folders; its contents | `cli` |
 //! | `demonstration` | the whole story on a built-in example | `cli` |

@@ -5,7 +5,8 @@ mod consistency;
 use crate::attitude::PAPER_FRAME_AXIS_AZIMUTH_DEG;
 use crate::coefficients::EarthRate;
 use crate::earth::{self, LaplaceCorrection, Place};
-use crate::text::{Document, Identifier, Path, Problems, number, record};
+use crate::text::advice::without_full_turns;
+use crate::text::{Advice, Cause, Document, Identifier, Path, Problems, number, record};
 use crate::units::radians_from_arcseconds;
 use crate::units::{ARCSECONDS_PER_DEGREE, sin_cos_of_degrees};
 
@@ -72,7 +73,7 @@ record! {
 
 record! {
     /// Site: the place where a stand is used (`dtg-site/1`).
-    #[cfg_attr(feature = "cli", schemars(extend("oneOf" = [
+    #[cfg_attr(feature = "generate", schemars(extend("oneOf" = [
         {"required": ["latitude_deg"]}, {"required": ["astronomic_latitude_deg"]}
     ])))]
     pub struct Site {
@@ -188,7 +189,8 @@ impl Site {
     pub(crate) fn check(&self, at: &Path, problems: &mut Problems) {
         self.check_latitude(at, problems);
         if let Some(longitude) = self.longitude_deg.filter(|longitude| !(-180.0..=180.0).contains(longitude)) {
-            let advice = beyond_180(longitude).or_else(|| decimal_degrees(longitude, 180.0)).unwrap_or_default();
+            let advice = beyond_180(longitude).map(|words| Advice::from((Cause::FullTurn, words)));
+            let advice = advice.or_else(|| Some(decimal_degrees(longitude, 180.0)?.into())).unwrap_or_default();
             problems.at(&at.key("longitude_deg"), format!("{longitude}"), "a number from -180 to 180", advice);
         }
         problems.within(&at.key("height_m"), self.height_m, -500.0, 9000.0);
@@ -213,7 +215,9 @@ impl Site {
         }
         if let Some(azimuth) = self.frame_axis_azimuth_deg.filter(|azimuth| !(0.0..360.0).contains(azimuth)) {
             let at = at.key("frame_axis_azimuth_deg");
-            let advice = "count clockwise from north: 0 is north, 90 east";
+            let meant = without_full_turns(azimuth, 360.0, 0.0).unwrap_or_default();
+            let advice =
+                (Cause::FullTurn, format!("count clockwise from north: 0 is north, 90 east; this one is {meant}"));
             problems.at(&at, number::decimal(azimuth), "degrees from 0 to less than 360", advice);
         }
         if let Some(uncertainty) = &self.uncertainty {
@@ -235,7 +239,7 @@ impl Site {
                 let advice = "keep the geodetic latitude, with deflection_arcsec, or the astronomic latitude";
                 problems.at(&at.key("astronomic_latitude_deg"), "both latitudes", "one of them", advice);
             }
-            (None, None) if problems.name("latitude_deg") => {}
+            (None, None) if problems.mean("latitude_deg") => {}
             (None, None) => {
                 let expected = "latitude_deg (geodetic) or astronomic_latitude_deg";
                 problems.at(at, "no latitude", expected, "add the known latitude");
@@ -383,10 +387,8 @@ fn check_latitude_range(at: &Path, latitude_deg: Option<f64>, longitude_deg: Opt
 /// Returns the advice for a longitude that is counted up to 360 degrees, or `None` for any other.
 pub(crate) fn beyond_180(longitude: f64) -> Option<String> {
     (longitude.abs() <= 360.0).then(|| {
-        // As many decimals as were given, because 316.8 − 360 is not exactly −43.2.
-        let decimals = format!("{longitude}").split_once('.').map_or(0, |(_, decimals)| decimals.len());
-        let meant = longitude - 360.0_f64.copysign(longitude);
-        format!("count from -180 to 180, negative in the west; this longitude is {meant:.decimals$}")
+        let meant = without_full_turns(longitude, 360.0, -180.0).unwrap_or_default();
+        format!("count from -180 to 180, negative in the west; this longitude is {meant}")
     })
 }
 

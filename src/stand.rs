@@ -10,7 +10,8 @@ pub use type_b::{ActsOn, Evidence, TypeB};
 
 use crate::attitude::Deviation;
 use crate::coefficients::{EIGHT_POSITIONS, Position, PositionIndex, SingularPositions, StandGeometry};
-use crate::text::{Document, Identifier, Path, Problems, record};
+use crate::text::advice::{beyond_range, without_full_turns};
+use crate::text::{Advice, Cause, Document, Identifier, Path, Problems, record};
 use crate::units::{ARCSECONDS_PER_DEGREE, radians_from_arcseconds};
 use jiff::civil::Date;
 use std::collections::BTreeSet;
@@ -173,7 +174,7 @@ record! {
         /// Datum surfaces, which define the axes.
         pub datum: Option<Datum>,
         /// Positions, sorted by (i, j) after reading; at most 256.
-        #[cfg_attr(feature = "cli", schemars(length(max = 256)))]
+        #[cfg_attr(feature = "generate", schemars(length(max = 256)))]
         pub positions: Vec<CertifiedPosition>,
     }
 }
@@ -294,6 +295,23 @@ fn check_degrees_of_freedom(value: Option<f64>, at: &Path, problems: &mut Proble
     }
 }
 
+/// Returns the expected range of a deviation and the advice on this one, arcsec, or `None` if it is within the range; `remedy`
+/// says what to do about an overload.
+pub(crate) fn beyond_largest_deviation(value_arcsec: f64, remedy: &str) -> Option<(String, Advice)> {
+    const TURN: f64 = 360.0 * ARCSECONDS_PER_DEGREE;
+    let largest = LARGEST_DEVIATION_DEG * ARCSECONDS_PER_DEGREE;
+    let full_turn = || {
+        let meant = without_full_turns(value_arcsec, TURN, -TURN / 2.0)?;
+        let words = format!("subtract or add a full turn of {TURN} arcseconds, which gives {meant}");
+        (libm::remainder(value_arcsec, TURN).abs() <= largest).then(|| (Cause::FullTurn, words).into())
+    };
+    (value_arcsec.abs() > largest).then(|| {
+        let advice = beyond_range(value_arcsec, remedy).or_else(full_turn);
+        let expected = format!("at most {LARGEST_DEVIATION_DEG} degrees ({largest} arcseconds) in either direction");
+        (expected, advice.unwrap_or_else(|| "state deviations from the nominal position, in arcseconds".into()))
+    })
+}
+
 fn check_position(position: &CertifiedPosition, at: &Path, problems: &mut Problems) {
     for (key, index) in [("i", position.i), ("j", position.j)] {
         if index == 0 {
@@ -304,18 +322,17 @@ fn check_position(position: &CertifiedPosition, at: &Path, problems: &mut Proble
     if let Some((index, theta, phi)) = nominal {
         for (key, found, due) in [("theta_deg", position.theta_deg, *theta), ("phi_deg", position.phi_deg, *phi)] {
             if found != due {
-                let advice = "use another (i, j) for another orientation, because the angles of the eight positions \
-                              are fixed";
+                let advice = match libm::remainder(found - due, 360.0) {
+                    0.0 => Advice::from((Cause::FullTurn, format!("write {due}, which is the same without a full turn"))),
+                    _ => "use another (i, j) for another orientation, because the angles of the eight positions are fixed"
+                        .into(),
+                };
                 problems.at(&at.key(key), format!("{found}"), format!("{due} for position {index}"), advice);
             }
         }
     }
-    let largest = LARGEST_DEVIATION_DEG * ARCSECONDS_PER_DEGREE;
     for (key, value) in ["alpha_arcsec", "beta_arcsec", "gamma_arcsec"].into_iter().zip(position.angles_arcsec()) {
-        if value.abs() > largest {
-            let advice = "state deviations from the nominal position, in arcseconds";
-            let expected =
-                format!("at most {LARGEST_DEVIATION_DEG} degrees ({largest} arcseconds) in either direction");
+        if let Some((expected, advice)) = beyond_largest_deviation(value, "measure it in a larger range") {
             problems.at(&at.key(key), format!("{value}"), expected, advice);
         }
     }

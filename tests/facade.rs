@@ -1,7 +1,8 @@
 //! Tests of the library without any feature: from bytes, keys and a time to an answer.
 
-use dtg_passport::calibration::Parameter;
-use dtg_passport::calibration::{Options, Readings, Setup, calibrate};
+use dtg_passport::calibration::{
+    CalibrationDocument, CurrentsMistaken, Mistake, NotValid, Options, Parameter, Readings, Setup, calibrate,
+};
 use dtg_passport::earth::Place;
 use dtg_passport::interface;
 use dtg_passport::laboratory::Laboratory;
@@ -86,6 +87,52 @@ fn readings_in_the_laboratory_give_the_parameters() {
     let result = calibration.answer().unwrap();
     let (k_x, u) = (result.value(Parameter::Kx).unwrap(), result.standard_uncertainty(Parameter::Kx).unwrap());
     assert!((k_x - 95.0).abs() < 3.0 * u && u < 0.02, "{k_x}, u {u}");
+}
+
+/// Expected: no parameters from docs/currents.csv with one current 100 µA off, nor with all currents in microamperes; and from
+/// the JSON of such a result the same answer.
+#[test]
+fn a_result_that_is_not_valid_is_no_answer() {
+    let answer = verify("good", &read("passports/SPS-2/0017/moscow-bmstu-1.yaml"), &trust(), &question());
+    let passport = answer.passport().unwrap();
+    let content = passport.content();
+    let laboratory = Laboratory::paper();
+    let (setup, _) = Setup::stated(&content.certificate, &content.positions, &content.site, &laboratory).unwrap();
+    let good = String::from_utf8(read("docs/currents.csv")).unwrap();
+    let result = |csv: &str| {
+        let readings = Readings::from_csv("currents.csv", csv.as_bytes(), setup.coefficients(), 1000.0).unwrap();
+        let calibration = calibrate(&setup, &readings, &Options::default()).unwrap();
+        let document = CalibrationDocument::new("id", true, (9.8157, None), &calibration, &[]);
+        let json = serde_json::to_string(&document).unwrap();
+        (calibration, CalibrationDocument::from_json("result", json.as_bytes()).unwrap())
+    };
+    let (calibration, document) = result(&good);
+    assert_eq!(calibration.answer(), calibration.valid().ok());
+    assert!(calibration.answer().is_some() && document.answer().is_some());
+
+    let (calibration, document) = result(&good.replace("-0.3002995", "-0.4002995"));
+    assert!(matches!(calibration.valid(), Err(NotValid::Inconsistent(_))), "{:?}", calibration.valid());
+    assert!(matches!(document.valid(), Err(NotValid::Inconsistent(_))), "{:?}", document.valid());
+    assert!(calibration.answer().is_none() && document.answer().is_none());
+
+    let thousandfold = |cell: &str| cell.parse().map_or_else(|_| cell.to_owned(), |ma: f64| (1000.0 * ma).to_string());
+    let in_microamperes = |line: &str| match line.split(',').collect::<Vec<_>>()[..] {
+        [i, j, x, y] => format!(
+            "{i},{j},{},{}
+",
+            thousandfold(x),
+            thousandfold(y)
+        ),
+        _ => format!(
+            "{line}
+"
+        ),
+    };
+    let (calibration, document) = result(&good.lines().map(in_microamperes).collect::<String>());
+    let microamperes = CurrentsMistaken { power_of_ten: 3, ..CurrentsMistaken::default() };
+    let mistaken = NotValid::Mistaken(Mistake::Currents(microamperes));
+    assert_eq!((calibration.valid().unwrap_err(), document.valid().unwrap_err()), (mistaken.clone(), mistaken));
+    assert!(calibration.answer().is_none() && document.answer().is_none());
 }
 
 /// Returns the order of a calibration by `method`, with the gyro type and the laboratory of the files in docs.

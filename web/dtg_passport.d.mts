@@ -55,6 +55,8 @@ export interface Verdict {
 export interface Calibration {
     consistent: boolean;
     mistake?: object;
+    /** Errors that were not looked for, because the order has no gyro type. */
+    not_tested?: string[];
     remarks?: string[];
     verdict?: { overall: "pass" | "fail" | "undecided"; [key: string]: unknown };
     results: { [key: string]: any }[];

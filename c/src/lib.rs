@@ -153,8 +153,8 @@ pub unsafe extern "C" fn dtg_position(
 /// "gyro_serial": "4711", "operator": "A. Ivanova", "date": "2026-11-20", "temperature_c": 21.5, "previous": [{…}]}`; every
 /// key may be absent. `method` may also be "analytic" or "iterative", `model` "general". `laboratory` and `gyro` have the
 /// keys of the files dtg-laboratory/1 and dtg-gyro/1. Without a laboratory the uncertainties are those of the paper's
-/// meter, 0.015 % of the reading; without a gyro type there is no verdict. `previous` are earlier results of the same
-/// gyro.
+/// meter, 0.015 % of the reading. Without a gyro type there is no verdict, and most errors such as currents in another unit
+/// are not recognised: `not_tested` in the result lists them. `previous` are earlier results of the same gyro.
 ///
 /// `result_json`, unless NULL, receives a text to be freed with dtg_string_free: the JSON of the command `calibrate`,
 /// or `{"error": …}` as from dtg_load. Returns DTG_OK; DTG_REFUSED if the readings do not give a result; DTG_UNUSABLE if

@@ -29,7 +29,7 @@ function text = dtg_run(verb, words, signers, options, known, files)
     [status, text] = system(['dtg-passport ', verb, ' --format=json ', strjoin(words, ' '), ' 2>', quoted(messages)]);
     if isempty(text), text = fileread(messages); end
     if status == 1 && strcmp(verb, 'calibrate') && any(strfind(text, '"passport_id"'))
-        status = 0;  % the gyro fails its type; the result says so
+        status = 0;  % the gyro fails its type, or the result is not valid; it says so
     end
     if status ~= 0
         identifiers = {'dtg:refused', 'dtg:unusable'};

@@ -167,6 +167,11 @@ class Calibration(Frozen):
         return self.document.get("mistake")
 
     @property
+    def not_tested(self) -> tuple[str, ...]:
+        """Errors that were not looked for, because no gyro type was given; empty with one."""
+        return tuple(self._document.get("not_tested", ()))
+
+    @property
     def verified(self) -> bool:
         """Whether the passport was verified."""
         return bool(self._document["passport_verified"])

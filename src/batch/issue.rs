@@ -8,7 +8,7 @@ use crate::folder::{Folder, StandFolder};
 use crate::passport::content::passport_id;
 use crate::passport::issue::{Issue, PreparedStand};
 use crate::site::Site;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::BufRead;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -79,6 +79,7 @@ impl<'a> Run<'a> {
             let mut works = self.open(stands, sites.len(), tell);
             for some_sites in ranges(sites.len(), SITES_AT_ONCE) {
                 let sites = self.load(sites, some_sites, works.len(), tell);
+                self.remark_on_misplaced(&works, &sites, tell);
                 let pairs: Vec<(usize, &Site)> =
                     (0..works.len()).flat_map(|work| sites.iter().map(move |site| (work, &**site))).collect();
                 for chunk in pairs.chunks(self.batch.chunk()) {
@@ -137,6 +138,23 @@ impl<'a> Run<'a> {
             }
         }
         outcomes.into_iter().flatten().for_each(|outcome| tell(Event::Done(outcome)));
+    }
+
+    /// Reports sites whose coordinates seem to be exchanged: compared with the others, with those of existing passports of the
+    /// stands, and with the towns that their names mention.
+    fn remark_on_misplaced(&self, works: &[Work], sites: &[Arc<Site>], tell: Listener) {
+        const MOST: usize = 8;
+        let issued = works.iter().take(MOST).flat_map(|work| work.folder.sites(MOST));
+        let given = sites.iter().take(MOST).map(|site| Site::clone(site));
+        let known = issued.chain(given).filter_map(|site| Some((site.id.clone(), site.place()?)));
+        let known: BTreeMap<_, _> = known.collect();
+        for site in sites {
+            let others = known.iter().filter(|(id, _)| **id != site.id);
+            let others: Vec<_> = others.map(|(id, place)| (format!("the site {id}"), *place)).collect();
+            if let Some(words) = site.misplaced(&others) {
+                tell(Event::Remark { file: site.id.to_string(), words: format!("WARNING: {words}") });
+            }
+        }
     }
 
     /// Reports a failure that costs passports already counted as planned.

@@ -6,8 +6,8 @@ use crate::files::leftovers::is_lasting;
 use crate::files::walk::{Entry, LINK, SPECIAL, Walk};
 use crate::files::{FileError, reason};
 use crate::folder::stand::numbered;
-use crate::text::Kind;
-use crate::text::{Printable, shown};
+use crate::text::node::{is_utf16, without_byte_order_mark};
+use crate::text::{Cause, Kind, Printable, Unreadable, shown, without_secrets};
 use std::ffi::OsStr;
 use std::io::{self, BufRead};
 use std::path::{Path, PathBuf};
@@ -58,10 +58,11 @@ pub(crate) fn named<'a>(
     })
 }
 
-/// Returns `true` if a line is not a path, but the first line of a file of this project.
+/// Returns `true` if a line is not a path, but the first line of a file of this project or of a key.
 fn is_of_a_file(line: &Path) -> bool {
     let text = line.to_string_lossy();
-    (text.starts_with("# ") || text.starts_with("format: ") || text.starts_with("i,j,")) && !line.exists()
+    let is_content = ["# ", "format: ", "i,j,", "-----BEGIN"].iter().any(|begin| text.starts_with(begin));
+    (is_content || without_secrets(&text) != text) && !line.exists()
 }
 
 /// Returns the files specified by the user, and those in specified folders that fit the purpose.
@@ -208,7 +209,14 @@ impl Iterator for List<'_> {
     type Item = Result<PathBuf, Failure>;
 
     fn next(&mut self) -> Option<Self::Item> {
+        let is_first = self.separator.is_none();
         match self.next_bytes() {
+            Ok(Some(bytes)) if is_first && is_utf16(&bytes) => {
+                self.list = None;
+                let refused = Unreadable::whole("-", None, "UTF-16", "one path per line, in UTF-8", Cause::Utf16);
+                Some(Err(Failure::unreadable(Path::new("-"), refused)))
+            }
+            Ok(Some(bytes)) if is_first => Some(path_of(without_byte_order_mark(&bytes).to_owned())),
             Ok(bytes) => bytes.map(path_of),
             Err(error) => {
                 self.list = None;

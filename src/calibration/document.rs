@@ -27,13 +27,15 @@ use super::readings::Exclusion;
 use super::recorded::Digits;
 use super::verdict::change_in_uncertainties;
 use super::{
-    Calibration, Found, Mistake, NotStated, Parameter, Scatter, Suspect, Verdict, against_earlier, against_type,
+    Calibration, Found, Method, Mistake, NotStated, NotValid, Parameter, Scatter, Suspect, Verdict, against_earlier,
+    against_type,
 };
 use crate::coefficients::PositionIndex;
 use crate::gyro::GyroType;
 use crate::stand::Certificate;
 use crate::statistics::distributions::normal_below;
 use crate::text::Unreadable;
+use crate::text::node::from_json;
 use crate::text::printable::printable;
 use crate::wording::{Language, Text, comparison, values};
 use jiff::civil::Date;
@@ -70,12 +72,14 @@ result! {
         /// Effective degrees of freedom of the adopted uncertainties by the keys of the parameters; those without a key are
         /// unlimited.
         pub(crate) degrees_of_freedom: BTreeMap<String, f64> = default,
-        /// Results, one for each method.
+        /// Results, one for each method, the adopted one first.
         pub(crate) results: Vec<ResultDocument>,
         /// Reasons why methods gave no result, by the keys of the methods.
         pub(crate) refused: BTreeMap<String, String> = default,
         /// Inputs whose uncertainty certificate, site and laboratory do not state; the result does not include it.
         pub(crate) not_stated: Vec<String> = default,
+        /// Errors that were not looked for, because no gyro type was specified.
+        pub(crate) not_tested: Vec<String> = default,
         /// Agreement of the visits of a position; present if there are several visits.
         pub(crate) scatter: Option<Scatter> = default,
         /// Agreement of the turn-ons with the gyro type; present if there are several and the type states their noise.
@@ -243,20 +247,24 @@ impl CalibrationDocument {
         calibration: &Calibration,
         not_stated: &[NotStated],
     ) -> Self {
+        let adopted = calibration.adopted().map(|result| result.method);
+        let mut results: Vec<_> = calibration.results.iter().collect();
+        results.sort_by_key(|result| Some(result.method) != adopted);
         Self {
             passport_id: passport_id.to_owned(),
             passport_verified,
             gravity_m_per_s2,
             gravity_u_m_per_s2,
-            adopted: calibration.answer().map_or_else(String::new, |answer| answer.method.key().to_owned()),
+            adopted: adopted.map_or_else(String::new, |method| method.key().to_owned()),
             consistent: calibration.hint.is_none(),
-            results: calibration.results.iter().map(|result| ResultDocument::new(result, calibration)).collect(),
+            results: results.into_iter().map(|result| ResultDocument::new(result, calibration)).collect(),
             refused: calibration
                 .refused
                 .iter()
                 .map(|(method, why)| (method.key().to_owned(), why.to_string()))
                 .collect(),
             not_stated: not_stated.iter().map(|what| what.words().to_owned()).collect(),
+            not_tested: Mistake::NEED_A_GYRO_TYPE.map(str::to_owned).into(),
             scatter: calibration.scatter,
             turn_on_scatter: calibration.turn_on_scatter,
             drift_probability: calibration.drift_test.map(|test| test.probability),
@@ -264,6 +272,7 @@ impl CalibrationDocument {
             suspects: calibration.suspects.clone(),
             digits: calibration.digits,
             hint: calibration.hint.as_ref().map(ToString::to_string),
+            mistake: calibration.mistake,
             ..Self::default()
         }
     }
@@ -293,30 +302,46 @@ impl CalibrationDocument {
     /// Returns [`Unreadable`] with line and column if `bytes` is not such a result, or contains no parameters.
     pub fn from_json(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
         const EXPECTED: &str = "the JSON result of an earlier calibration";
-        let read = serde_json::from_slice(bytes).map_err(|error| {
-            // A line of JSON for one of several gyros begins with the name of its file.
-            let advice = match bytes.trim_ascii_start().starts_with(b"{\"file\":") {
-                true => "these are the results of several gyros; `calibrate --out DIR` writes each of them to a file",
-                false => "create it with `calibrate --format json`",
-            };
-            Unreadable::json(name, bytes, &error, EXPECTED, advice)
-        });
-        read.and_then(|document: Self| match document.results.is_empty() {
+        // A line of JSON for one of several gyros begins with the name of its file.
+        let advice = match bytes.trim_ascii_start().starts_with(b"{\"file\":") {
+            true => "these are the results of several gyros; `calibrate --out DIR` writes each of them to a file",
+            false => "create it with `calibrate --format json`",
+        };
+        let document: Self = from_json(name, bytes, EXPECTED, advice)?;
+        match document.results.is_empty() {
             true => Err(Unreadable::whole(name, None, "no parameters", EXPECTED, "")),
             false => Ok(document),
-        })
+        }
     }
 
-    /// Returns the adopted result: least squares if present, otherwise the last method; `None` if there is no result.
+    /// Returns the adopted result if it is valid. A result that is not that of the gyro is never returned;
+    /// [`CalibrationDocument::valid`] gives the reason.
     pub fn answer(&self) -> Option<Found> {
+        self.valid().ok()
+    }
+
+    /// Returns the adopted result.
+    ///
+    /// # Errors
+    /// Returns [`NotValid`] for the keys `consistent`, with its `hint`, and `mistake`: if the readings do not fit the stand, or an
+    /// error explains the parameters; or if no method gave a result.
+    pub fn valid(&self) -> Result<Found, NotValid> {
+        NotValid::checked(self.found(), self.hint.clone(), self.mistake)
+    }
+
+    /// Returns the adopted result even if it is not valid; `None` if there is no result.
+    pub(crate) fn found(&self) -> Option<Found> {
         let best = self.best()?;
         let of = |parameter: Parameter| self.degrees_of_freedom.get(parameter.key()).copied();
         let degrees_of_freedom = Parameter::EIGHT.map(|parameter| of(parameter).unwrap_or(f64::INFINITY));
         Some(Found { degrees_of_freedom, ..best.found(self.gravity_m_per_s2, self.gravity_u_m_per_s2) })
     }
 
-    fn best(&self) -> Option<&ResultDocument> {
-        self.results.iter().find(|result| result.method == "least-squares").or(self.results.last())
+    /// Returns the result of the adopted method. Results of the first version do not name it: it is least squares if
+    /// present, otherwise the last method.
+    pub(crate) fn best(&self) -> Option<&ResultDocument> {
+        let of = |method: &str| self.results.iter().find(|result| result.method == method);
+        of(&self.adopted).or_else(|| of(Method::LeastSquares.key())).or(self.results.last())
     }
 
     /// Returns the noise of the drift from visit to visit, °/h, if only this result or `earlier` includes it.
@@ -364,7 +389,7 @@ impl CalibrationDocument {
     /// Returns this result and `earlier` for comparison. A noise of the gyro that only one of them includes is added to the
     /// other, which does not include it because it has a single turn-on, or a single visit to each position.
     pub(crate) fn with_earlier(&self, earlier: &Self) -> Option<[Found; 2]> {
-        let mut both = [self.answer()?, earlier.answer()?];
+        let mut both = [self.found()?, earlier.found()?];
         for (what, other, (deg_per_h, degrees_of_freedom)) in self.noises_of_one(earlier) {
             for parameter in Parameter::EIGHT {
                 let u = match (what, parameter) {
@@ -381,7 +406,7 @@ impl CalibrationDocument {
     /// Returns the comparison of the adopted result with a gyro type; `None` if there is no result. Nothing is
     /// decided if the readings do not fit the stand.
     pub(crate) fn judged(&self, gyro_type: &GyroType) -> Option<Verdict> {
-        Some(self.withheld(against_type(&self.answer()?, gyro_type)))
+        Some(self.withheld(against_type(&self.found()?, gyro_type)))
     }
 
     /// Returns the comparison of the adopted result with that of `earlier`, within the tolerance of a gyro type, as
@@ -397,7 +422,7 @@ impl CalibrationDocument {
         let file = self.currents_sha256().filter(|sha256| !sha256.is_empty());
         let same_file = file.is_some() && file == earlier.currents_sha256();
         // The same readings may have been saved anew.
-        let same_result = || self.answer().zip(earlier.answer()).is_some_and(|(here, there)| here.is_same(&there));
+        let same_result = || self.found().zip(earlier.found()).is_some_and(|(here, there)| here.is_same(&there));
         if same_file || same_result() {
             Some(NoChange::SameReadings)
         } else if !earlier.is_valid() {
@@ -429,16 +454,15 @@ impl CalibrationDocument {
         self.change.as_ref().filter(|change| !change.withheld)
     }
 
-    /// Returns `false` if the readings do not fit the stand, or if an error explains the result.
+    /// Returns `false` if the readings do not fit the stand, if an error explains the result, or if there is none.
     pub(crate) fn is_valid(&self) -> bool {
-        self.hint.is_none() && self.mistake.is_none()
+        self.valid().is_ok()
     }
 
     fn withheld(&self, verdict: Verdict) -> Verdict {
-        // Results of earlier versions have no `consistent`, but a hint.
-        match self.hint {
-            Some(_) => verdict.undecided(),
-            None => Verdict { withheld: self.mistake.is_some() || !self.passport_verified, ..verdict },
+        match self.is_valid() {
+            true => Verdict { withheld: !self.passport_verified, ..verdict },
+            false => verdict.undecided(),
         }
     }
 }

@@ -100,6 +100,14 @@ pub struct CurrentsMistaken {
 }
 
 impl Mistake {
+    /// Errors that are only recognised by comparison with a gyro type.
+    pub(crate) const NEED_A_GYRO_TYPE: [&str; 4] = [
+        "currents exchanged, reversed, or in a unit that is wrong by a factor below 1000",
+        "passport of another site",
+        "gyro rotated in its seat, or base about the vertical",
+        "positions numbered differently",
+    ];
+
     /// Returns the only error that clearly explains the result, judged by the gyro type or, without one, by the size of
     /// the `usual` parameters. `used` is the Earth rate of the passport.
     ///
@@ -115,13 +123,19 @@ impl Mistake {
         if calibration.hint.is_some() || !calibration.settled {
             return None;
         }
-        match gyro_type {
-            Some(gyro_type) => {
-                let by_size = || by_size(found, &gyro_type.nominal.to_model()).filter(|_| has_drifts(found, gyro_type));
-                by_type(found, used, gyro_type).or_else(|| scaled(found, gyro_type)).or_else(by_size)
-            }
-            None => by_size(found, usual),
-        }
+        let Some(gyro_type) = gyro_type else { return Self::by_size(calibration, usual) };
+        let by_size =
+            || Self::by_size(calibration, &gyro_type.nominal.to_model()).filter(|_| has_drifts(found, gyro_type));
+        by_type(found, used, gyro_type).or_else(|| scaled(found, gyro_type)).or_else(by_size)
+    }
+
+    /// Returns an error of the unit if the readings fit, and the scale factors are a thousand times or more too small or too
+    /// large.
+    pub(super) fn by_size(calibration: &Calibration, usual: &GyroParameters) -> Option<Self> {
+        let found = calibration.adopted().filter(|_| calibration.hint.is_none() && calibration.settled)?;
+        let power_of_ten = power_of_ten(&found.parameters, usual);
+        (power_of_ten.abs() >= IMPLAUSIBLE_POWER)
+            .then(|| Self::Currents(CurrentsMistaken { power_of_ten, ..CurrentsMistaken::default() }))
     }
 
     /// Returns the numbering of the positions with which a result that fits, but is not that of the gyro type, becomes it, if
@@ -202,13 +216,6 @@ fn scale_to(found: &Found, expected: &GyroParameters) -> f64 {
     k.dot(&expected.k_deg_per_h_per_ma) / k.norm_squared()
 }
 
-/// Returns an error of the unit if the scale factors are a thousand times or more too small or too large.
-fn by_size(found: &Found, usual: &GyroParameters) -> Option<Mistake> {
-    let power_of_ten = power_of_ten(found, usual);
-    (power_of_ten.abs() >= IMPLAUSIBLE_POWER)
-        .then(|| Mistake::Currents(CurrentsMistaken { power_of_ten, ..CurrentsMistaken::default() }))
-}
-
 /// Returns the error whose removal brings the result clearly nearest to the gyro type.
 fn by_type(found: &Found, used: &EarthRate, gyro_type: &GyroType) -> Option<Mistake> {
     let nominal = gyro_type.nominal.to_model();
@@ -218,7 +225,7 @@ fn by_type(found: &Found, used: &EarthRate, gyro_type: &GyroType) -> Option<Mist
     if as_read < CLEARLY {
         return None;
     }
-    let mut candidates: Vec<(f64, Mistake)> = CurrentsMistaken::all(power_of_ten(found, &nominal))
+    let mut candidates: Vec<(f64, Mistake)> = CurrentsMistaken::all(power_of_ten(&found.parameters, &nominal))
         .map(|mistaken| (distance(&mistaken.undone(found)), Mistake::Currents(mistaken)))
         .collect();
     let of_currents = candidates.iter().map(|(distance, _)| *distance).fold(f64::INFINITY, f64::min);
@@ -242,8 +249,8 @@ fn distance(verdict: &Verdict) -> f64 {
 }
 
 /// Returns the power of ten by which the currents would be too large if this alone made K too small.
-fn power_of_ten(found: &Found, expected: &GyroParameters) -> i32 {
-    let ratio = expected.k_deg_per_h_per_ma.norm() / found.parameters.k_deg_per_h_per_ma.norm();
+fn power_of_ten(found: &GyroParameters, expected: &GyroParameters) -> i32 {
+    let ratio = expected.k_deg_per_h_per_ma.norm() / found.k_deg_per_h_per_ma.norm();
     if ratio.is_normal() { libm::round(libm::log10(ratio)) as i32 } else { 0 }
 }
 

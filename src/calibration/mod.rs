@@ -39,7 +39,7 @@
 //!
 //! let readings = Readings::from_csv("currents.csv", csv.as_bytes(), setup.coefficients(), laboratory.meter.range_ma)?;
 //! let calibration = calibrate(&setup, &readings, &Options::default())?;
-//! let answer = calibration.answer().ok_or("the readings do not determine the parameters")?;
+//! let answer = calibration.valid()?;
 //! # assert!((answer.parameters.k_deg_per_h_per_ma.m11 / 95.0 - 1.0).abs() < 0.01, "{answer:?}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -86,9 +86,10 @@ pub use parameter::Parameter;
 pub use prediction::predicted;
 pub use procedure::{Options, calibrate};
 pub use readings::{NoReadings, PositionReadings, Reading, Readings, Visit};
-pub use result::{Calibration, Method, MethodRefusal, MethodResult, Residual};
+pub use result::{Calibration, Method, MethodRefusal, MethodResult, NotValid, Residual};
 pub use scatter::{Agreement, RowScatter, Scatter};
 pub use stated::NotStated;
 pub use suspect::Suspect;
 pub use unknowns::Model;
-pub use verdict::{Decision, Found, ParameterVerdict, Verdict, against_earlier, against_type};
+pub use verdict::{Decision, Found, ParameterVerdict, Verdict};
+pub(crate) use verdict::{against_earlier, against_type};

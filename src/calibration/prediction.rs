@@ -112,7 +112,7 @@ pub(crate) fn best_further_visit(
     }
     let u = |rows: &[Reading]| {
         let readings = Readings::of_rows(setup.coefficients(), rows).ok()?;
-        calibrate(&setup, &readings, &options).ok()?.answer()?.standard_uncertainty(parameter)
+        calibrate(&setup, &readings, &options).ok()?.adopted()?.standard_uncertainty(parameter)
     };
     let (cycle, after) = (rows.iter().map(|row| row.cycle).max(), rows.iter().filter_map(|row| row.visit).max());
     let time_s = rows.iter().filter_map(|row| row.time_s).reduce(f64::max);

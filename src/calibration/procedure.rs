@@ -14,10 +14,10 @@ use super::scatter;
 use super::suspect;
 use super::unknowns::Unknowns;
 use super::{
-    Calibration, ChiSquare, Iteration, Method, MethodRefusal, MethodResult, Model, NoAnalyticSolution, NoLeastSquares,
-    Parameter, Readings, Residual, Setup, causes,
+    Calibration, ChiSquare, Iteration, Method, MethodRefusal, MethodResult, Mistake, Model, NoAnalyticSolution,
+    NoLeastSquares, Parameter, Readings, Residual, Setup, causes,
 };
-use crate::gyro::GyroParameters;
+use crate::gyro::{GyroParameters, GyroType};
 use crate::statistics::scaled_f::{self, Part};
 use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2};
 
@@ -78,6 +78,7 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
         drift_or_noise: possible == Err(NoLeastSquares::DriftOrNoise),
         settled: fit.settled,
         hint,
+        mistake: None,
     };
     let closed = options.model != Model::General && !options.drift && data.offsets.are_balanced();
     let paper = if fit.of == Model::Paper { None } else { Some(data.fit(setup, Model::Paper)?) };
@@ -100,6 +101,7 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
             Err(refusal) => calibration.refused.push((method, refusal)),
         }
     }
+    calibration.mistake = Mistake::by_size(&calibration, &GyroType::gvk_6().nominal.to_model());
     Ok(calibration)
 }
 

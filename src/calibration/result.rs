@@ -1,11 +1,11 @@
 //! Results of a calibration.
 
-use super::diagnosis::ALARM;
+use super::diagnosis::{ALARM, INCONSISTENT};
 use super::iterative::NoIterativeSolution;
 use super::recorded::Digits;
 use super::scatter::IMPROBABLE;
 use super::{
-    ChiSquare, DriftNoise, Hint, Iteration, Model, NoAnalyticSolution, NoLeastSquares, NoiseSource, NotStated,
+    ChiSquare, DriftNoise, Hint, Iteration, Mistake, Model, NoAnalyticSolution, NoLeastSquares, NoiseSource, NotStated,
     Parameter, RowScatter, Scatter, Suspect,
 };
 use crate::coefficients::PositionIndex;
@@ -67,12 +67,56 @@ pub struct Calibration {
     pub settled: bool,
     /// Possible causes if the readings do not fit; otherwise `None`.
     pub hint: Option<Hint>,
+    /// Error that explains the parameters if the readings fit. Without a gyro type only a unit of the currents that is wrong
+    /// by a factor of a thousand or more is recognised.
+    pub mistake: Option<Mistake>,
+}
+
+/// Reason why a result is not that of the gyro.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NotValid {
+    /// No method gave a result; [`Calibration::refused`] has the reasons.
+    #[error("no method gave a result")]
+    NoResult,
+    /// The readings do not fit the stand (`consistent` is false); possible causes in words.
+    #[error("{INCONSISTENT}: {0}")]
+    Inconsistent(String),
+    /// The readings fit, but an error (`mistake`) explains parameters that are far from the gyro's.
+    #[error("the parameters are far from the gyro's; `mistake` states what would explain it: {0:?}")]
+    Mistaken(Mistake),
+}
+
+impl NotValid {
+    /// Returns the `result` if the readings fit and no error explains it.
+    pub(super) fn checked<T>(result: Option<T>, hint: Option<String>, mistake: Option<Mistake>) -> Result<T, Self> {
+        match (hint, mistake) {
+            (Some(hint), _) => Err(Self::Inconsistent(hint)),
+            (None, Some(mistake)) => Err(Self::Mistaken(mistake)),
+            (None, None) => result.ok_or(Self::NoResult),
+        }
+    }
 }
 
 impl Calibration {
-    /// Returns the adopted result: least squares if requested, otherwise the last method; `None` if no method gave a
-    /// result.
+    /// Returns the adopted result if it is valid: least squares if requested, otherwise the last method. A result that is not
+    /// that of the gyro is never returned; [`Calibration::valid`] gives the reason.
     pub fn answer(&self) -> Option<&MethodResult> {
+        self.valid().ok()
+    }
+
+    /// Returns the adopted result.
+    ///
+    /// # Errors
+    /// Returns [`NotValid`] if no method gave a result, if the readings do not fit the stand, or if an error explains the
+    /// parameters.
+    pub fn valid(&self) -> Result<&MethodResult, NotValid> {
+        let hint = self.meaningless().or_else(|| self.hint.as_ref().map(ToString::to_string));
+        NotValid::checked(self.adopted(), hint, self.mistake)
+    }
+
+    /// Returns the adopted result even if it is not valid; `None` if no method gave a result.
+    pub(crate) fn adopted(&self) -> Option<&MethodResult> {
         self.results.iter().find(|result| result.method == Method::LeastSquares).or(self.results.last())
     }
 
@@ -85,12 +129,12 @@ impl Calibration {
     /// Returns `true` if the readings agree more closely with the fit than chance explains, and their digits do not explain it.
     pub(crate) fn fits_too_well(&self) -> bool {
         let is_too_small = |fit: &ChiSquare| fit.judges() && fit.probability > 1.0 - IMPROBABLE;
-        self.digits.is_none() && self.answer().is_some_and(|answer| is_too_small(&answer.chi_square))
+        self.digits.is_none() && self.adopted().is_some_and(|answer| is_too_small(&answer.chi_square))
     }
 
     /// Returns the standard uncertainty of ω_0 from the scatter of the turn-ons, °/h, if it is most of that of ω_0x or ω_0y.
     pub(crate) fn mostly_from_turn_ons(&self) -> Option<f64> {
-        let answer = self.answer()?;
+        let answer = self.adopted()?;
         let u = self.turn_on_noise.deg_per_h / (answer.cycles.len().max(1) as f64).sqrt();
         let most = |parameter| answer.standard_uncertainty(parameter).is_some_and(|whole| 2.0 * u * u > whole * whole);
         (most(Parameter::Omega0x) || most(Parameter::Omega0y)).then_some(u)

@@ -63,6 +63,10 @@ pub struct ParameterVerdict {
     pub unit: &'static str,
     /// Deviation: value found minus nominal or earlier value.
     pub deviation: f64,
+    /// Part of the deviation that comes from converting g-sensitive drifts from the local g to the type's g; absent for other
+    /// parameters.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub conversion_of_g: Option<f64>,
     /// Tolerance: largest permitted deviation, in either direction.
     pub tolerance: f64,
     /// Expanded uncertainty of the deviation.
@@ -78,8 +82,9 @@ pub struct ParameterVerdict {
     /// Decision by guarded acceptance: whether the deviation is inside or outside by more than the expanded
     /// uncertainty.
     pub guarded: Decision,
-    /// Specific risk: probability that the decision by simple acceptance is wrong.
-    pub specific_risk: f64,
+    /// Specific risk: probability that the decision by simple acceptance is wrong; absent if it is undecided.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub specific_risk: Option<f64>,
 }
 
 impl ParameterVerdict {
@@ -201,7 +206,7 @@ impl Found {
 }
 
 /// Compares a result with the specification of a gyro type.
-pub fn against_type(found: &Found, gyro_type: &GyroType) -> Verdict {
+pub(crate) fn against_type(found: &Found, gyro_type: &GyroType) -> Verdict {
     let nominal = Found {
         parameters: gyro_type.nominal.to_model(),
         standard_uncertainty: [0.0; 8],
@@ -216,7 +221,7 @@ pub fn against_type(found: &Found, gyro_type: &GyroType) -> Verdict {
 ///
 /// The two results are treated as independent. If they were found on one stand, its contribution to both errors is the
 /// same and cancels in the change. The stated uncertainty is then too large.
-pub fn against_earlier(found: &Found, earlier: &Found, gyro_type: &GyroType) -> Verdict {
+pub(crate) fn against_earlier(found: &Found, earlier: &Found, gyro_type: &GyroType) -> Verdict {
     compare(&found.under_the_same_gravity(earlier), &earlier.under_the_same_gravity(found), gyro_type)
 }
 
@@ -226,17 +231,19 @@ fn compare(found: &Found, reference: &Found, gyro_type: &GyroType) -> Verdict {
     let sides = [found, reference];
     let at_type = sides.map(|side| side.at_gravity(gravity_m_per_s2));
     // The general model has no ω_g and ω_k, and the paper's tolerances say nothing of its matrix.
-    let found =
+    let is_found =
         |parameter: &Parameter| at_type.iter().all(|side| !side.parameters.to_vector()[parameter.place()].is_nan());
-    let parameters = Parameter::AS_IN_THE_PAPER.into_iter().filter(found).map(|parameter| {
-        let values = at_type.map(|side| side.parameters.to_vector()[parameter.place()]);
+    let parameters = Parameter::AS_IN_THE_PAPER.into_iter().filter(is_found).map(|parameter| {
+        let of = |side: &Found| side.parameters.to_vector()[parameter.place()];
+        let values = [of(&at_type[0]), of(&at_type[1])];
+        let conversion = (values[0] - of(found)) - (values[1] - of(reference));
         let parts = at_type
             .map(|side| (side.standard_uncertainty[parameter.place()], side.degrees_of_freedom[parameter.place()]));
         let u = libm::hypot(parts[0].0, parts[1].0);
         let u = (u, effective_degrees_of_freedom(&parts));
         let from_gravity = sides.map(|side| side.u_from_gravity(parameter) * gravity_m_per_s2 / side.gravity_m_per_s2);
         let from_gravity = libm::hypot(from_gravity[0], from_gravity[1]);
-        judge(parameter, values, u, from_gravity, gyro_type)
+        judge(parameter, values, u, [from_gravity, conversion], gyro_type)
     });
     Verdict::of(gravity_m_per_s2, parameters.collect())
 }
@@ -260,6 +267,18 @@ impl Verdict {
         let share = |line: &&ParameterVerdict| line.expanded_uncertainty / line.tolerance;
         let with_tolerance = self.parameters.iter().filter(|line| line.tolerance > 0.0);
         with_tolerance.max_by(|one, other| share(one).total_cmp(&share(other)))
+    }
+
+    /// Returns the parts of the deviations that come from converting g, and those of the expanded uncertainties that come from
+    /// the local g where that is most of them; nothing if no statement is made.
+    pub(crate) fn parts_from_gravity(&self) -> [Vec<(&ParameterVerdict, f64)>; 2] {
+        let of = |part: fn(&ParameterVerdict) -> Option<f64>| {
+            let rows = self.parameters.iter().filter(|_| !self.withheld);
+            rows.filter_map(|row| Some((row, part(row).filter(|part| *part != 0.0)?))).collect()
+        };
+        let mostly =
+            |row: &ParameterVerdict| row.expanded_uncertainty_from_gravity.filter(|_| row.is_mostly_from_gravity());
+        [of(|row| row.conversion_of_g), of(mostly)]
     }
 
     /// Returns the parameters with a tolerance that were not found, because the general model does not have them.
@@ -330,9 +349,12 @@ impl Verdict {
     /// without any if that is not possible.
     pub(crate) fn agreed(mut self, other: Option<Self>) -> Self {
         for row in &mut self.parameters {
-            let decision = other.as_ref().and_then(|other| other.parameter(row.parameter)).map(|other| other.guarded);
-            if decision != Some(row.guarded) {
+            let other = other.as_ref().and_then(|other| other.parameter(row.parameter));
+            if other.map(|other| other.guarded) != Some(row.guarded) {
                 row.guarded = Decision::Undecided;
+            }
+            if other.map(|other| other.simple) != Some(row.simple) {
+                (row.simple, row.specific_risk) = (Decision::Undecided, None);
             }
         }
         Self { withheld: self.withheld, ..Self::of(self.gravity_m_per_s2, self.parameters) }
@@ -341,7 +363,7 @@ impl Verdict {
     /// Returns the comparison with nothing decided, for parameters that are not valid.
     pub(crate) fn undecided(mut self) -> Self {
         for row in &mut self.parameters {
-            (row.simple, row.guarded) = (Decision::Undecided, Decision::Undecided);
+            (row.simple, row.guarded, row.specific_risk) = (Decision::Undecided, Decision::Undecided, None);
         }
         Self { withheld: true, ..Self::of(self.gravity_m_per_s2, self.parameters) }
     }
@@ -373,12 +395,13 @@ fn coverage_factor(degrees_of_freedom: f64) -> f64 {
 }
 
 /// Compares a value with a reference value. `u` is the standard uncertainty of their difference with its degrees of
-/// freedom; a part of it comes from the local g. All arguments are in the unit of the parameter.
+/// freedom. A part of it comes from the local g, and a part of the difference from converting g. All arguments are in the
+/// unit of the parameter.
 fn judge(
     parameter: Parameter,
     [value, reference_value]: [f64; 2],
     (u, degrees_of_freedom): (f64, f64),
-    from_gravity: f64,
+    [from_gravity, conversion]: [f64; 2],
     gyro_type: &GyroType,
 ) -> ParameterVerdict {
     let limit = gyro_type.tolerance.of(parameter);
@@ -393,7 +416,7 @@ fn judge(
     let coverage_factor = coverage_factor(degrees_of_freedom);
     let expanded_uncertainty = coverage_factor * u * scale;
     let (simple, guarded) = decide(deviation, expanded_uncertainty, limit);
-    let specific_risk = risk(deviation, (u * scale, degrees_of_freedom), limit);
+    let specific_risk = Some(risk(deviation, (u * scale, degrees_of_freedom), limit));
     ParameterVerdict {
         parameter,
         value,
@@ -401,6 +424,7 @@ fn judge(
         standard_uncertainty: u,
         unit,
         deviation,
+        conversion_of_g: PER_G.contains(&parameter).then_some(conversion * scale),
         tolerance: limit,
         expanded_uncertainty,
         coverage_factor,

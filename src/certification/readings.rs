@@ -6,7 +6,7 @@ use super::header::NominalPosition;
 use crate::calibration::readings::csv::{ANGLE_COLUMNS, compare_angles, position};
 use crate::calibration::recorded::{SPREAD_OVER_DIGITS, rounding_of};
 use crate::coefficients::PositionIndex;
-use crate::stand::{Excluded, LARGEST_DEVIATION_DEG};
+use crate::stand::{Excluded, beyond_largest_deviation};
 use crate::statistics::coincidences::step_of_meter;
 use crate::text::Unreadable;
 use crate::text::problem::{MOST_PROBLEMS, Problem};
@@ -95,8 +95,7 @@ impl AngleReadings {
         positions: &[NominalPosition],
         excluded: &[Excluded],
     ) -> Result<Self, Unreadable> {
-        let table = Table::read(name, bytes, &COLUMNS, &ANGLE_COLUMNS)?;
-        table.check_marks(&COLUMNS[3..])?;
+        let table = Table::read(name, bytes, &COLUMNS[..3], &COLUMNS[3..], &ANGLE_COLUMNS)?;
         let mut problems = Vec::new();
         let mut rows: Vec<Reading> = Vec::new();
         let is_out = |place| excluded.iter().any(|excluded| is_excluded(excluded, place));
@@ -228,13 +227,8 @@ fn angle(table: &Table, row: &Row, column: usize, place: Option<Place>, problems
         format!("measure it, or keep the row and exclude it with --exclude {i},{j},{run} and --why")
     });
     let value = table.number(row, column, &not_taken, problems)?;
-    let largest = LARGEST_DEVIATION_DEG * ARCSECONDS_PER_DEGREE;
-    if value.abs() <= largest {
-        return Some(value);
-    }
-    let advice = "state deviations from the nominal position, in arcseconds";
-    let expected = format!("at most {LARGEST_DEVIATION_DEG} degrees ({largest} arcseconds) in either direction");
-    problems.push(table.problem(&row[column], column, format!("{value}"), &expected, advice));
+    let Some((expected, advice)) = beyond_largest_deviation(value, &not_taken) else { return Some(value) };
+    problems.push(table.problem(&row[column], column, row[column].text.clone(), &expected, advice));
     None
 }
 

@@ -206,7 +206,8 @@ impl Found {
     fn code(&self) -> Code {
         let document = &self.done.document;
         let failed = |verdict: &Verdict| verdict.overall == Decision::Fail;
-        if document.verdict.iter().chain(&document.change).any(failed) { REFUSED } else { 0 }
+        let refused = !document.is_valid() || document.verdict.iter().chain(&document.change).any(failed);
+        if refused { REFUSED } else { 0 }
     }
 }
 
@@ -336,7 +337,7 @@ impl Bench<'_> {
         }
         failed.into_iter().for_each(|word| all.add_failed(word));
         match (options.format, all.summary()) {
-            (Format::Text, _) => output::text(&all.text(options.laboratory.is_none()))?,
+            (Format::Text, _) => output::text(&all.text(options.laboratory.is_none(), self.gyro_name()))?,
             (Format::Json, words) if words.is_empty() => (),
             (Format::Json, words) => output::say_verdict(&style::plain(&words)),
         }
@@ -398,8 +399,7 @@ impl Bench<'_> {
 
     fn write_dcc(&self, path: &Path, calibrated: &Calibrated) -> Result<(), Failure> {
         let dcc = dcc::of_gyro(calibrated, self.administrative.content.as_ref(), Some(&languages(&self.options.lang)));
-        let refused = |problems| Failure::from(self.administrative.refuse(problems));
-        let dcc = dcc.map_err(|problems| Failure { code: REFUSED, ..refused(problems) })?;
+        let dcc = dcc.map_err(|problems| self.administrative.refuse(problems))?;
         output::saved_too(path, &dcc.xml, self.options.uncertainty.force)?;
         output::say_after("the DCC is not signed; the passport of the stand is, and its SHA-256 is in the DCC");
         Ok(())

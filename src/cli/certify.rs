@@ -118,6 +118,7 @@ fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
                 "{name}: WARNING: its certificate has the same number, {number}, as that of {other}"
             ));
         }
+        certified.stand.certificate.odd_number().iter().for_each(|words| output::warn(words));
         let stand = &certified.stand.stand;
         let path = folder.stand_file(stand);
         folder.check_place(&path).map_err(Failure::refused)?;
@@ -203,6 +204,7 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
             let words = "-o requires --stand HEADER.yaml, because a new certificate has its own number and dates";
             return Err(Failure::unusable(words));
         }
+        certified.stand.certificate.odd_number().iter().for_each(|words| output::warn(words));
         write(path, certified, &against.iter().collect::<Vec<_>>(), options.force)?;
         output::say_after(&format!("wrote {}", shown(path)));
     }

@@ -15,7 +15,7 @@ use crate::parallel;
 use crate::passport::export::{site_file, stand_file};
 use crate::passport::{Content, Verification};
 use crate::report::{Language, exported};
-use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, name_of, printable, shown};
+use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, printable, shown};
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 use std::collections::HashMap;
@@ -96,7 +96,7 @@ struct Exported {
     path: PathBuf,
     verification: Verification,
     /// Files to write, by their paths.
-    files: Result<Vec<(PathBuf, String)>, Unreadable>,
+    files: Result<Vec<(PathBuf, String)>, Failed>,
     /// Line for standard output, if JSON goes there.
     line: Option<String>,
     /// `true` if the passport could not be read at all.
@@ -166,7 +166,7 @@ impl Run<'_> {
     }
 
     /// Returns the files of a verified passport.
-    fn files(&self, content: &Content, bytes: &[u8], json: Option<&str>) -> Result<Vec<(PathBuf, String)>, Unreadable> {
+    fn files(&self, content: &Content, bytes: &[u8], json: Option<&str>) -> Result<Vec<(PathBuf, String)>, Failed> {
         let root = self.options.out.as_deref().unwrap_or(Path::new(""));
         let stand = self.folder.stand_file(&content.stand);
         let mut files = Vec::new();
@@ -218,12 +218,11 @@ impl Run<'_> {
     fn new_files(
         &self,
         path: &Path,
-        files: Result<&Vec<(PathBuf, String)>, &Unreadable>,
+        files: Result<&Vec<(PathBuf, String)>, &Failed>,
     ) -> Result<Vec<(PathBuf, String)>, Failure> {
         let files = files.map_err(|error| {
-            let mut failed = Failed::from(error.clone());
-            failed.message = format!("nothing was exported from {}\n{}", shown(path), failed.message);
-            Failure { code: REFUSED, ..Failure::from(failed) }
+            let message = format!("nothing was exported from {}\n{error}", shown(path));
+            Failure { code: REFUSED, ..Failure::from(Failed { message, ..error.clone() }) }
         })?;
         let advice = |failure: Failure| failure.with_advice(&format!("nothing was exported from {}", shown(path)));
         let mut new = Vec::new();

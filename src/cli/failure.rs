@@ -28,7 +28,8 @@ pub(super) struct Failure {
 
 impl From<Failed> for Failure {
     fn from(failed: Failed) -> Self {
-        let code = if matches!(failed.code, interface::REFUSED | interface::EXISTS) { REFUSED } else { UNUSABLE };
+        let refused = [interface::REFUSED, interface::EXISTS, interface::MISSING_DATA].contains(&failed.code);
+        let code = if refused { REFUSED } else { UNUSABLE };
         Self { failed, code, is_verdict: false }
     }
 }
@@ -62,6 +63,9 @@ impl Failure {
     }
 
     pub(super) fn input(failed: &crate::batch::Failure) -> Self {
+        if let Some(unreadable) = &failed.unreadable {
+            return Unreadable::clone(unreadable).into();
+        }
         let words = issued::failure(failed);
         if failed.unusable { Self::unusable(words) } else { Self::refused(words) }
     }

@@ -131,6 +131,8 @@ fn unbroken(usage: &str) -> String {
 fn long_version() -> &'static str {
     static VERSION: LazyLock<String> = LazyLock::new(|| {
         let commit = match (option_env!("DTG_PASSPORT_COMMIT"), option_env!("DTG_PASSPORT_COMMIT_DATE")) {
+            // What is generated must be the same for every commit.
+            _ if cfg!(feature = "generate") => String::new(),
             (Some(commit), Some(date)) => format!("\ncommit {commit}, {date}"),
             (Some(commit), None) => format!("\ncommit {commit}"),
             _ => String::new(),

@@ -6,11 +6,12 @@ use crate::batch::{Purpose, paths};
 use crate::dcc::Administrative;
 use crate::files::{self, FileError};
 use crate::gyro::GyroType;
-use crate::interface::Failed;
+use crate::interface::{Failed, MISSING_DATA, REFUSED};
 use crate::laboratory::Laboratory;
 use crate::report::issued;
 use crate::site::Site;
 use crate::stand::Stand;
+use crate::text::problem::MISSING;
 use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, Printable, Problems, Unreadable, name_of, printable, shown};
 use crate::wording::{Language, plain};
 use serde::Serialize;
@@ -94,11 +95,13 @@ impl AdministrativeFile {
     }
 
     /// Returns the refusal of a DCC, with the lines of the file.
-    pub(super) fn refuse(&self, problems: Problems) -> Unreadable {
-        match &self.content {
+    pub(super) fn refuse(&self, problems: Problems) -> Failed {
+        let error = match &self.content {
             Some(_) => problems.refuse(&self.name, &self.text).in_text(self.text.as_bytes()),
             None => problems.refuse_by_field(&self.name),
-        }
+        };
+        let is_missing = error.problems().iter().any(|problem| problem.found == MISSING);
+        Failed { code: if is_missing { MISSING_DATA } else { REFUSED }, ..Failed::from(error) }
     }
 }
 

@@ -124,6 +124,13 @@ fn code(is_unknown: bool, refuses: bool) -> Code {
     if is_unknown { UNUSABLE } else { Code::from(refuses) }
 }
 
+/// Returns the command line as declared and the JSON Schemas of the formats, from which tests/generated.rs makes files.
+#[cfg(feature = "generate")]
+#[doc(hidden)]
+pub fn declared() -> (clap::Command, serde_json::Map<String, serde_json::Value>) {
+    (help::command(), crate::schema::generate::schemas())
+}
+
 /// Parses the arguments and runs the verb.
 pub fn main() -> ExitCode {
     // The message of a broken invariant may quote untrusted text.

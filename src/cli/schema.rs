@@ -1,34 +1,16 @@
 //! Verb `schema`: JSON Schemas of the formats, for editors.
 
 use super::{Code, Failure, output};
-use crate::dcc::Administrative;
-use crate::gyro::GyroType;
-use crate::laboratory::Laboratory;
-use crate::schema::{self, of_file};
-use crate::site::Site;
-use crate::stand::Stand;
+use crate::schema::{FORMATS, schemas, tables};
 use clap::{Args, ValueEnum};
-use schemars::Schema;
+use serde_json::Value;
 use std::collections::BTreeMap;
-
-/// Name of a format, and its schema.
-type Format = (&'static str, fn() -> Schema);
-
-const FORMATS: [Format; 7] = [
-    ("stand", of_file::<Stand>),
-    ("site", of_file::<Site>),
-    ("gyro", of_file::<GyroType>),
-    ("laboratory", of_file::<Laboratory>),
-    ("dcc", of_file::<Administrative>),
-    ("passport", schema::passport),
-    ("register-file", schema::register_file),
-];
 
 /// Print the JSON Schema of a format (for several, an object with one for each name), or tables of its keys
 #[derive(Args)]
 pub(super) struct Options {
     /// Formats
-    #[arg(required = true, value_parser = FORMATS.map(|(name, _)| name), value_delimiter = ',', value_name = "FORMAT")]
+    #[arg(required = true, value_parser = FORMATS, value_delimiter = ',', value_name = "FORMAT")]
     formats: Vec<String>,
     /// Form of the description: JSON Schema for editors, or tables for reading
     #[arg(long, value_enum, default_value = "json")]
@@ -44,10 +26,10 @@ enum Form {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let of = |name: &String| FORMATS.iter().find(|(known, _)| known == name).map(|(_, schema)| schema());
-    let schemas: Vec<Schema> = options.formats.iter().filter_map(of).collect();
-    match (options.format, schemas.as_slice()) {
-        (Form::Markdown, schemas) => output::result(&schema::tables(schemas))?,
+    let schemas = schemas().map_err(Failure::unusable)?;
+    let asked: Vec<&Value> = options.formats.iter().filter_map(|name| schemas.get(name)).collect();
+    match (options.format, asked.as_slice()) {
+        (Form::Markdown, asked) => output::result(&tables(asked))?,
         (Form::Json, [one]) => output::json(one)?,
         (Form::Json, several) => output::json(&options.formats.iter().zip(several).collect::<BTreeMap<_, _>>())?,
     }

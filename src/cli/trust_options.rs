@@ -136,6 +136,7 @@ pub(super) fn load(signers: &Path, revoked: &[PathBuf]) -> Result<Trust, Failure
     let revoked = revoked.iter().map(|path| Ok((name_of(path), read(path)?)));
     let revoked = revoked.collect::<Result<Vec<_>, Failure>>()?;
     let trust = enquiry::trust((&name_of(signers), &keys?), &revoked)?;
+    trust.skipped().iter().for_each(|remark| output::complain_after(remark));
     Ok(trust)
 }
 

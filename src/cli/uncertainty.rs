@@ -39,14 +39,8 @@ pub(super) struct UncertaintyOptions {
     /// Seed of the random numbers; results do not depend on the number of threads
     #[arg(long, value_name = "S", default_value_t = 1, requires = "monte_carlo")]
     seed: u64,
-    /// Number of threads [default: one for each processor]
-    #[arg(
-        short = 'j',
-        long,
-        value_name = "T",
-        requires = "monte_carlo",
-        value_parser = clap::value_parser!(u32).range(1..=1024)
-    )]
+    /// Number of threads of --monte-carlo [default: one for each processor]
+    #[arg(short = 'j', long, value_name = "T", value_parser = clap::value_parser!(u32).range(1..=1024))]
     threads: Option<u32>,
 }
 
@@ -103,7 +97,7 @@ impl UncertaintyOptions {
         if !self.budget && !self.monte_carlo {
             return Ok(Found { budget: None, monte_carlo: None });
         }
-        let method = calibration.answer().map_or(Method::LeastSquares, |answer| answer.method);
+        let method = calibration.adopted().map_or(Method::LeastSquares, |answer| answer.method);
         // Before the picture is written.
         if let Some(why) = self.monte_carlo.then(|| refused_model(options)).flatten() {
             let advice = "omit --monte-carlo, or --anisoelasticity, --drift and --model general";

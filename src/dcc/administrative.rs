@@ -8,8 +8,8 @@ use jiff::civil::Date;
 
 words! {
     /// Place of the measurements, in the words of the DCC.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq, schemars::JsonSchema)]
-    #[schemars(rename_all = "camelCase")]
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[cfg_attr(feature = "generate", derive(schemars::JsonSchema), schemars(rename_all = "camelCase"))]
     pub enum Location: pub(super) word {
         /// Permanent laboratory.
         Laboratory = "laboratory",

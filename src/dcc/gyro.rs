@@ -53,11 +53,11 @@ impl<'a> Calibrated<'a> {
         done: &'a Done,
     ) -> Result<Self, &'static str> {
         let document = &done.document;
-        if document.hint.is_some() || document.mistake.is_some() {
+        if !document.is_valid() {
             return Err("no DCC was written, because the result is not that of this gyro; omit --dcc to see why");
         }
-        let answer = done.calibration.answer().filter(|answer| answer.model == Model::Paper && answer.drift.is_none());
-        let (Some(answer), Some(found), Some(subject)) = (answer, document.answer(), &document.subject) else {
+        let answer = done.calibration.adopted().filter(|answer| answer.model == Model::Paper && answer.drift.is_none());
+        let (Some(answer), Some(found), Some(subject)) = (answer, document.found(), &document.subject) else {
             return Err("no DCC was written: it states the parameters of the paper's model; omit --model, or --dcc");
         };
         let judged = gyro_type.zip(document.verdict.as_ref());

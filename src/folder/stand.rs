@@ -11,7 +11,7 @@ use crate::files::{self, Access, FileError};
 use crate::passport::checks::for_the_issuer;
 use crate::passport::issue::{Draft as Passport, Issue, PreparedStand};
 use crate::passport::reissue::Successor;
-use crate::passport::{Content, Question, verify};
+use crate::passport::{Content, Question, content_from_anyone, verify};
 use crate::register::draft::Draft;
 use crate::register::{Doubt, Entry, FILE_NAME, RegisterRefused, State, VerifiedRegister};
 use crate::site::Site;
@@ -185,6 +185,16 @@ impl<'a> StandFolder<'a> {
 
     pub(crate) fn path_of(&self, site: &str, revision: u32) -> PathBuf {
         self.path.join(format!("{site}-{revision}.yaml"))
+    }
+
+    /// Returns the sites that listed passports state, for remarks only: at most `most`.
+    pub(crate) fn sites(&self, most: usize) -> Vec<Site> {
+        let entries = self.register.iter().flat_map(VerifiedRegister::entries);
+        let read = |entry: &Entry| {
+            let bytes = files::read(&self.path_of_entry(entry), LARGEST_DOCUMENT_BYTES).ok()?;
+            Some(content_from_anyone(&entry.id, &bytes).ok()?.site)
+        };
+        entries.take(most).filter_map(read).collect()
     }
 
     /// Returns the path of the passport of an entry.

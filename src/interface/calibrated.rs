@@ -1,8 +1,6 @@
 //! Calibration with a passport: from currents as CSV to the JSON of `calibrate`.
 
 use super::{Failed, Order, json};
-#[cfg(not(feature = "report"))]
-use crate::calibration::diagnosis::INCONSISTENT;
 use crate::calibration::diagnosis::other_numberings;
 use crate::calibration::document::{NoChange, Subject, another_type};
 use crate::calibration::mistake::narrow_by_type;
@@ -56,7 +54,7 @@ pub fn calibrate(
     let subject = Subject { passport_verified_as_of: verified_as_of, ..order.subject.clone() };
     let done = prepared(content, currents, order)?.run(&order.options, subject, &order.previous)?;
     // The document has an answer, so the calibration has one.
-    let result = done.calibration.answer().ok_or_else(|| Failed::refused("no result"))?;
+    let result = done.calibration.adopted().ok_or_else(|| Failed::refused("no result"))?;
     let columns = Parameter::EIGHT.map(|parameter| result.model.column(parameter));
     let element = |row: Option<usize>, column: Option<usize>| Some(result.covariance[(row?, column?)]);
     let covariance = columns.map(|row| columns.map(|column| element(row, column).unwrap_or(f64::NAN)));
@@ -103,7 +101,7 @@ fn prepared<'a>(content: &'a Content, currents: (&str, &[u8]), order: &'a Order)
 /// Returns [`Failed`] if `result` is not such JSON.
 pub fn parameters(result: &str) -> Result<([f64; 8], [f64; 8], bool), Failed> {
     let document = CalibrationDocument::from_json("result", result.as_bytes())?;
-    let found = document.answer().ok_or_else(|| Failed::unusable("result: found no parameters"))?;
+    let found = document.found().ok_or_else(|| Failed::unusable("result: found no parameters"))?;
     Ok((found.parameters.to_vector(), found.standard_uncertainty, document.is_valid()))
 }
 
@@ -119,7 +117,7 @@ pub fn monte_carlo(content: &Content, currents: (&str, &[u8]), order: &Order, ru
     let options = &order.options;
     let prepared = prepared(content, currents, order)?;
     let Done { setup, readings, calibration, .. } = prepared.run(options, Subject::default(), &[])?;
-    let method = calibration.answer().map_or(Method::LeastSquares, |answer| answer.method);
+    let method = calibration.adopted().map_or(Method::LeastSquares, |answer| answer.method);
     let budget = Budget::new(&setup, &readings, method, options).map_err(Failed::refused)?;
     Ok(json(&distributions(&setup, &readings, (&budget, options), run)?))
 }
@@ -266,9 +264,12 @@ impl<'a> Prepared<'a> {
             let id = &content.passport.id;
             let mut document = CalibrationDocument::new(id, verified, gravity, calibration, &missing);
             let budget =
-                calibration.answer().and_then(|answer| Budget::new(&setup, readings, answer.method, options).ok());
+                calibration.adopted().and_then(|answer| Budget::new(&setup, readings, answer.method, options).ok());
+            if gyro_type.is_some() {
+                document.not_tested.clear();
+            }
             document.degrees_of_freedom = budget.map_or_else(BTreeMap::new, |budget| budget.degrees_of_freedom());
-            let noise = last.and_then(|earlier| document.visits_of_one(earlier)).zip(document.answer());
+            let noise = last.and_then(|earlier| document.visits_of_one(earlier)).zip(document.found());
             document.u_of_single_visits =
                 noise.and_then(|(noise, found)| u_of_single_visits(&setup, readings, &found.parameters, noise));
             document
@@ -276,25 +277,26 @@ impl<'a> Prepared<'a> {
         let mut document = documented(&readings, &calibration);
         document.subject = Some(subject);
         (document.excluded, document.left_out) = (readings.exclusions.clone(), readings.left_out.clone());
-        let Some(found) = document.answer() else {
-            let words = calibration.refused.iter().map(|(method, why)| format!("{}: {why}", method.key()));
+        let Some(found) = document.found() else {
+            let words = document.refused.iter().map(|(method, why)| format!("{method}: {why}"));
             return Err(Failed::refused(words.collect::<Vec<_>>().join("\n")));
         };
         // Without a type or a valid earlier result, the nominal values of the paper's gyro still reveal an error by a
         // factor of a thousand.
-        let usual = last.filter(|earlier| earlier.is_valid()).and_then(CalibrationDocument::answer);
+        let usual = last.filter(|earlier| earlier.is_valid()).and_then(CalibrationDocument::found);
         let usual = usual.map_or_else(|| GyroType::gvk_6().nominal.to_model(), |found| found.parameters);
         let rate = content.earth.rate(&content.site);
-        document.mistake = Mistake::explaining(&calibration, &found, &rate, gyro_type, &usual);
-        if let (None, None, Some(gyro_type)) = (&document.mistake, &document.hint, gyro_type) {
+        calibration.mistake = Mistake::explaining(&calibration, &found, &rate, gyro_type, &usual);
+        if let (None, None, Some(gyro_type)) = (&calibration.mistake, &document.hint, gyro_type) {
             let others = || other_numberings(&setup, &readings, options.model, options.drift);
-            document.mistake = Mistake::of_numbering(&found, gyro_type, others);
+            calibration.mistake = Mistake::of_numbering(&found, gyro_type, others);
         }
+        document.mistake = calibration.mistake;
         if let Some((hint, gyro_type)) = calibration.hint.as_mut().zip(gyro_type) {
             narrow_by_type(hint, &found, gyro_type);
             document.hint = Some(hint.to_string());
         }
-        document.remarks = remarks(&calibration, &readings, document.mistake.as_ref());
+        document.remarks = remarks(&calibration, &readings);
         let of_files = laboratory.remarks(Language::English).into_iter();
         let of_files = of_files.chain(gyro_type.into_iter().flat_map(|gyro| gyro.remarks(Language::English)));
         let of_conditions =
@@ -305,7 +307,8 @@ impl<'a> Prepared<'a> {
             let without = without_suspects(&calibration, &readings, |rest| {
                 // Without a visit, the paper's methods may not have a result.
                 let methods = vec![Method::LeastSquares];
-                let found = calibration::calibrate(&setup, rest, &Options { methods, ..options.clone() }).ok()?;
+                let mut found = calibration::calibrate(&setup, rest, &Options { methods, ..options.clone() }).ok()?;
+                found.mistake = calibration.mistake;
                 Some((documented(rest, &found), found))
             });
             let agreed = |judged: &dyn Fn(&CalibrationDocument) -> Option<Verdict>| {
@@ -367,129 +370,12 @@ impl<'a> Prepared<'a> {
 
 /// Returns the remarks for the user on a result, one sentence each.
 #[cfg(feature = "report")]
-fn remarks(calibration: &Calibration, readings: &Readings, mistake: Option<&Mistake>) -> Vec<String> {
-    crate::report::calibration::remarks(calibration, readings, mistake)
+fn remarks(calibration: &Calibration, readings: &Readings) -> Vec<String> {
+    crate::report::calibration::remarks(calibration, readings)
 }
 
 /// Returns what makes a result unusable, a sentence each. The feature `report` has the words for the rest.
 #[cfg(not(feature = "report"))]
-fn remarks(calibration: &Calibration, _: &Readings, mistake: Option<&Mistake>) -> Vec<String> {
-    let hint = calibration.hint.iter().map(|hint| format!("{INCONSISTENT}: {hint}"));
-    let mistake =
-        mistake.map(|_| "the parameters are far from the gyro's; `mistake` states what would explain it".to_owned());
-    hint.chain(mistake).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    #[cfg(feature = "report")]
-    use crate::calibration::diagnosis::INCONSISTENT;
-    use crate::gyro::GyroNoise;
-    use crate::passport::content::PositionCurrents;
-    use crate::passport::content_from_anyone;
-
-    const PASSPORT: &[u8] = include_bytes!("../../passports/SPS-2/0017/moscow-bmstu-1.yaml");
-
-    fn default() -> Order {
-        "{}".parse().unwrap()
-    }
-
-    /// Expected: the parameters stated in the self-check, and the limit of 1e-9 of each.
-    #[test]
-    fn the_currents_of_the_self_check_give_its_gyro_by_every_method() {
-        let content = content_from_anyone("p", PASSPORT).unwrap();
-        let check = content.self_check.clone().unwrap();
-        let row = |at: &PositionCurrents| format!("{},{},{},{}\n", at.i, at.j, at.jx_ma, at.jy_ma);
-        let csv = "i,j,jx_ma,jy_ma\n".to_owned() + &check.currents.iter().map(row).collect::<String>();
-        for method in ["analytic", "least-squares"] {
-            let order = format!(r#"{{"method": "{method}"}}"#).parse().unwrap();
-            let found = calibrate(&content, None, ("c", csv.as_bytes()), &order).unwrap();
-            let document = CalibrationDocument::from_json("r", found.json.as_bytes()).unwrap();
-            let result = document.answer().unwrap();
-            let errors = check.errors(&result.parameters);
-            assert!(errors.iter().all(|error| *error <= 1e-9), "{method}: {errors:?}");
-            for (place, u) in result.standard_uncertainty.iter().enumerate() {
-                assert!((found.covariance[place][place].sqrt() - u).abs() <= 1e-15 * u);
-            }
-        }
-    }
-
-    /// The currents are those of a gyro on another stand.
-    #[test]
-    fn readings_that_do_not_fit_pass_nothing_and_say_so() {
-        let other = include_bytes!("../../passports/SPS-1/0203/moscow-bmstu-1.yaml");
-        let content = content_from_anyone("p", other).unwrap();
-        let currents: (&str, &[u8]) = ("c", include_bytes!("../../docs/currents.csv"));
-        let mut wide = GyroType::gvk_6();
-        (wide.tolerance.k_main_percent, wide.tolerance.k_cross_percent) = (20.0, Some(100.0));
-        (wide.tolerance.omega0_deg_per_h, wide.tolerance.omega_g_deg_per_h_per_g) = (1e3, 1e3);
-        wide.tolerance.omega_k_deg_per_h_per_g = 1e3;
-        let order = Order { gyro: Some(wide), ..default() };
-        let found = calibrate(&content, None, currents, &order).unwrap();
-        let json: serde_json::Value = serde_json::from_str(&found.json).unwrap();
-        assert_eq!((&json["consistent"], &json["verdict"]["overall"]), (&false.into(), &"undecided".into()));
-        assert!(found.remarks.iter().any(|remark| remark.starts_with(INCONSISTENT)), "{:?}", found.remarks);
-        let content = content_from_anyone("p", PASSPORT).unwrap();
-        let found = calibrate(&content, None, currents, &order).unwrap();
-        let json: serde_json::Value = serde_json::from_str(&found.json).unwrap();
-        assert_eq!((&json["consistent"], &json["verdict"]["overall"]), (&true.into(), &"pass".into()));
-        assert_eq!((&json["adopted"], found.remarks), (&"least-squares".into(), Vec::new()));
-    }
-
-    /// Expected: the uncertainties of a change between two results that both include the noise. The small differences come from
-    /// the weights of the result without noise.
-    #[test]
-    fn a_noise_that_only_one_result_includes_counts_in_both() {
-        let content = content_from_anyone("p", PASSPORT).unwrap();
-        let first = include_str!("../../docs/currents.csv");
-        let second = first.replace("-0.2003831", "-0.2003841");
-        let noisy = GyroNoise { visit_deg_per_h: Some(0.001), turn_on_deg_per_h: Some(0.005) };
-        let calibrated = |currents: &str, noise: Option<&GyroNoise>, previous: Option<&str>| {
-            let previous = previous.map(|json| CalibrationDocument::from_json("r", json.as_bytes()).unwrap());
-            let gyro = Some(GyroType { noise: noise.cloned(), ..GyroType::gvk_6() });
-            let options = Options { methods: vec![Method::LeastSquares], ..Options::default() };
-            let order = Order { gyro, options, previous: previous.into_iter().collect(), ..default() };
-            calibrate(&content, None, ("c", currents.as_bytes()), &order).unwrap()
-        };
-        let change = |now: Option<&GyroNoise>, before: Option<&GyroNoise>| {
-            let previous = calibrated(first, before, None).json;
-            let found = calibrated(&second, now, Some(&previous));
-            let json: serde_json::Value = serde_json::from_str(&found.json).unwrap();
-            let parameters = json["change"]["parameters"].as_array().unwrap();
-            let u = parameters.iter().map(|line| line["standard_uncertainty"].as_f64().unwrap()).collect::<Vec<_>>();
-            let said = found.remarks.iter().filter(|words| words.starts_with("Only one of the two")).count();
-            (u, said)
-        };
-        let (both, said) = change(Some(&noisy), Some(&noisy));
-        let (neither, _) = change(None, None);
-        assert_eq!((said, both.len()), (0, 8));
-        assert!(both[4] > 1.5 * neither[4], "{both:?} {neither:?}");
-        for one in [change(Some(&noisy), None), change(None, Some(&noisy))] {
-            assert_eq!(one.1, 1);
-            for (one, both) in one.0.iter().zip(&both) {
-                assert!((one / both - 1.0).abs() < 1e-4, "{one:?} {both:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn a_tolerance_in_percent_of_nothing_is_refused() {
-        let content = content_from_anyone("p", PASSPORT).unwrap();
-        let currents: (&str, &[u8]) = ("c", include_bytes!("../../docs/currents.csv"));
-        let mut gyro = GyroType::gvk_6();
-        gyro.nominal.k_deg_per_h_per_ma[0][1] = 0.0;
-        let refused = calibrate(&content, None, currents, &Order { gyro: Some(gyro), ..default() }).unwrap_err();
-        assert!(refused.to_string().contains("no tolerance of K_xy"), "{refused}");
-    }
-
-    #[test]
-    fn what_is_no_current_is_refused_with_its_line() {
-        let content = content_from_anyone("p", PASSPORT).unwrap();
-        let csv = b"i,j,jx_ma,jy_ma\n1,1,0.1,0.1\n1.5,2,0.1,0.1\n1,3,NaN,inf\n";
-        let failed = calibrate(&content, None, ("c", csv), &default()).unwrap_err();
-        for place in ["c:3:1", "c:4:5", "c:4:9"] {
-            assert!(failed.message.contains(place), "{failed}");
-        }
-    }
+fn remarks(calibration: &Calibration, _: &Readings) -> Vec<String> {
+    calibration.valid().err().iter().map(ToString::to_string).collect()
 }

@@ -104,7 +104,8 @@ impl Enquiry {
 
     /// Creates an enquiry without a register.
     pub(crate) fn of(trust: Trust, question: Question) -> Self {
-        Self { trust, question, remarks: Vec::new(), register: None }
+        let remarks = trust.skipped().into_iter().collect();
+        Self { trust, question, remarks, register: None }
     }
 
     /// Adds the register of the stand, the content of a file of this name. One that is not accepted makes no passport valid.

@@ -52,7 +52,7 @@ use crate::document::sha256_hex;
 #[cfg(feature = "factory")]
 use crate::files::{self, FileError};
 use crate::passport::{Check, Content, RegisterUsed, Verification, content_from_anyone};
-use crate::text::{Node, Path, Problem, Problems, Unreadable, name_of, printable, record};
+use crate::text::{Cause, Node, Path, Problem, Problems, Unreadable, name_of, printable, record};
 use crate::trust::LARGEST_TRUST_FILE_BYTES;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -63,6 +63,7 @@ pub(crate) const UNREADABLE: &str = "unreadable";
 pub(crate) const UNUSABLE: &str = "unusable";
 pub(crate) const UNWRITABLE: &str = "unwritable";
 pub(crate) const EXISTS: &str = "exists";
+pub(crate) const MISSING_DATA: &str = "missing_data";
 
 /// Refusal, or input that cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Serialize)]
@@ -73,7 +74,7 @@ pub struct Failed {
     pub code: &'static str,
     /// Message, which may have several lines.
     pub message: String,
-    problems: Vec<Place>,
+    pub(crate) problems: Vec<Place>,
 }
 
 /// Error in a file.
@@ -83,11 +84,14 @@ pub(crate) struct Place {
     line: Option<usize>,
     column: Option<usize>,
     message: String,
+    /// Word of the cause, if it is a recognised one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cause: Option<&'static str>,
 }
 
 impl Place {
     pub(crate) fn file(file: String, message: String) -> Self {
-        Self { file, line: None, column: None, message }
+        Self { file, line: None, column: None, message, cause: None }
     }
 
     pub(crate) fn each(error: &Unreadable) -> Vec<Self> {
@@ -96,6 +100,7 @@ impl Place {
             line: problem.location.map(|at| at.line),
             column: problem.location.map(|at| at.column),
             message: problem.to_string(),
+            cause: problem.cause.map(Cause::code),
         };
         error.problems().iter().map(place).collect()
     }
@@ -126,7 +131,7 @@ impl Failed {
         BTreeMap::from([("error", self)])
     }
 
-    /// Returns the failure as JSON: `{"error": {code, message, problems: [{file, line, column, message}]}}`.
+    /// Returns the failure as JSON: `{"error": {code, message, problems: [{file, line, column, message, cause}]}}`.
     pub fn to_json(&self) -> String {
         json(&self.document())
     }

@@ -41,10 +41,10 @@ use std::str::FromStr;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Order {
-    pub(super) options: Options,
-    pub(super) exclude: Vec<Exclusion>,
-    pub(super) subject: Subject,
-    pub(super) previous: Vec<CalibrationDocument>,
+    pub(crate) options: Options,
+    pub(crate) exclude: Vec<Exclusion>,
+    pub(crate) subject: Subject,
+    pub(crate) previous: Vec<CalibrationDocument>,
     /// Laboratory; by default that of the paper's meter.
     pub laboratory: Laboratory,
     /// Gyro type for the verdict, or `None` for no verdict.

@@ -72,7 +72,8 @@ impl Stated {
         let readings = Readings::new(setup.coefficients(), &currents)?;
         let options = Options { methods: vec![Method::LeastSquares], ..Options::default() };
         let calibration = calibrate(&setup, &readings, &options)?;
-        let u = |parameter| calibration.answer().and_then(|found| found.standard_uncertainty(parameter)).unwrap_or(0.0);
+        let u =
+            |parameter| calibration.adopted().and_then(|found| found.standard_uncertainty(parameter)).unwrap_or(0.0);
         let standard_uncertainty = Parameters::of(&GyroParameters::from_vector(&Parameter::EIGHT.map(u)));
         Ok(Accuracy { gyro: self.gyro.clone(), laboratory: self.laboratory.clone(), standard_uncertainty })
     }

@@ -51,12 +51,16 @@ words! {
         Unreadable = "unreadable",
         /// The text rule, the split or the armor is broken.
         Malformed = "malformed",
+        /// The text is signed with a key of a type that cannot sign passports.
+        UnsupportedKey = "unsupported_key",
         /// The text is not the one that was signed.
         Altered = "altered",
         /// The signature was made for another kind of document.
         WrongNamespace = "wrong_namespace",
         /// The content breaks a rule or is not in canonical form.
         BadContent = "bad_content",
+        /// The format has a later number, or the content a key that this version does not know.
+        NewerFormat = "newer_format",
         /// No trusted signer has this key.
         UnknownKey = "unknown_key",
         /// The key belongs to another signer.

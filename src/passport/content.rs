@@ -119,7 +119,7 @@ record! {
     /// Self-check: currents, and the parameters that laboratory software should obtain from them.
     pub struct SelfCheck {
         /// Currents in every position.
-        #[cfg_attr(feature = "cli", schemars(length(max = 256)))]
+        #[cfg_attr(feature = "generate", schemars(length(max = 256)))]
         pub currents: Vec<PositionCurrents>,
         /// Scale factors K.
         pub k_deg_per_h_per_ma: Rows,
@@ -146,7 +146,7 @@ record! {
         /// Datum surfaces, which define the axes.
         pub datum: Option<Datum>,
         /// Positions, sorted by (i, j); at most 256.
-        #[cfg_attr(feature = "cli", schemars(length(max = 256)))]
+        #[cfg_attr(feature = "generate", schemars(length(max = 256)))]
         pub positions: Vec<CertifiedPosition>,
         /// Site of the stand.
         pub site: Site,
@@ -155,7 +155,7 @@ record! {
         /// Matrices of the paper; absent without its eight positions.
         pub matrices: Option<MatrixRows>,
         /// Specific force and Earth rate in every position, for least squares.
-        #[cfg_attr(feature = "cli", schemars(length(max = 256)))]
+        #[cfg_attr(feature = "generate", schemars(length(max = 256)))]
         pub vectors: Vec<PositionVectors>,
         /// Self-check of laboratory software; absent if the positions do not determine the eight parameters.
         pub self_check: Option<SelfCheck>,
@@ -318,7 +318,7 @@ impl SelfCheck {
 
     /// Returns the relative error |found/stated − 1| of each parameter found from the currents: K_x, K_xy, K_yx, K_y,
     /// ω_0x, ω_0y, ω_g, ω_k. Correct software has none above [`SelfCheck::LIMIT`].
-    pub fn errors(&self, found: &GyroParameters) -> [f64; 8] {
+    pub(crate) fn errors(&self, found: &GyroParameters) -> [f64; 8] {
         let (found, due) = (found.to_vector(), self.parameters().to_model().to_vector());
         std::array::from_fn(|place| match (found[place], due[place]) {
             (found, 0.0) => found.abs(),
@@ -377,9 +377,6 @@ impl Content {
         let at = Path::Root;
         stand::check(&self.certificate, &self.positions, problems);
         self.site.check(&at.key("site"), problems);
-        if self.format != PASSPORT_FORMAT {
-            problems.at(&at.key("format"), format!("{:?}", self.format), format!("{PASSPORT_FORMAT:?}"), "");
-        }
         if let Some(accuracy) = &self.accuracy {
             accuracy.check(&at.key("accuracy"), problems);
         }
@@ -418,7 +415,7 @@ impl Content {
 
 /// Parses the payload of a passport, step 5 of verification: see [`document::parse`].
 pub(crate) fn read(name: &str, payload: &str) -> Result<Content, Unreadable> {
-    document::parse(name, payload, FORM.limits, Content::check)
+    document::parse(name, payload, &FORM, Content::check)
 }
 
 /// Parses the content of a passport file without verifying its signature: anyone may have written it.

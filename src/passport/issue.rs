@@ -354,6 +354,7 @@ impl Draft {
         let noise = self.ideal.as_ref().and_then(|ideal| noise_growth(&content.coefficients(), ideal, &gyro, meter));
         let odd = stand::remarks::of(&content.certificate, &content.positions);
         let mut odd: Vec<String> = odd.iter().map(ToString::to_string).collect();
+        odd.extend(content.certificate.odd_number());
         odd.extend(content.site.odd());
         odd.extend(content.accuracy.as_ref().and_then(|accuracy| accuracy.beyond_range(content)));
         Remarks {

@@ -28,7 +28,7 @@ pub mod reissue;
 pub(crate) mod verification;
 
 use crate::document::Form;
-pub use crate::document::Malformed;
+pub use crate::document::{Malformed, OtherSignature};
 use crate::text::Limits;
 pub use accuracy::{Accuracy, NoAccuracy, Stated};
 pub use checks::{Check, CheckName, Code};
@@ -43,4 +43,4 @@ pub const NAMESPACE: &str = "dtg-passport";
 
 /// Form of passports as signed documents.
 pub(crate) const FORM: Form =
-    Form { namespace: NAMESPACE, limits: Limits::DOCUMENT, expected: "a passport, which `issue` makes and signs" };
+    Form { namespace: NAMESPACE, format: content::PASSPORT_FORMAT, limits: Limits::DOCUMENT, expected: "a passport, which `issue` makes and signs" };

@@ -8,14 +8,15 @@ use super::checks::{Check, CheckName, Code, REQUEST_FROM_THE_ISSUER};
 use super::content::{Content, Dated, PASSPORT_FORMAT};
 use super::{FORM, NAMESPACE, content, place, recomputed};
 use crate::coefficients::Coefficients;
-use crate::document::sha256_hex;
-use crate::document::{Malformed, SignedText};
+use crate::document::{OtherSignature, SignedText, sha256_hex};
 use crate::earth::Place;
 use crate::text::scalar::day;
+use crate::text::{first_few, printable};
 use crate::trust::{AllowedSigners, NotAuthorised, PublicKey, RevokedKeys};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use serde::Serialize;
+use std::collections::BTreeSet;
 use std::fmt::Display;
 
 /// Trusted signers and revoked keys.
@@ -31,6 +32,18 @@ impl Trust {
     /// Creates a trust in `signers`, with no key revoked.
     pub fn of(signers: AllowedSigners) -> Self {
         Self { signers, revoked: Vec::new() }
+    }
+
+    /// Returns the remark on keys that were skipped in the lists, because they cannot sign passports; `None` without any.
+    pub(crate) fn skipped(&self) -> Option<String> {
+        let types = self.revoked.iter().flat_map(|list| &list.skipped).chain(&self.signers.skipped);
+        let distinct: Vec<_> = types.clone().collect::<BTreeSet<_>>().into_iter().collect();
+        let verb = match types.count() {
+            0 => return None,
+            1 => "1 key was skipped, because it".to_owned(),
+            many => format!("{many} keys were skipped, because they"),
+        };
+        Some(printable(format!("{verb} cannot sign passports: {}", first_few(&distinct))))
     }
 }
 
@@ -267,8 +280,14 @@ impl Run {
         let good = "all programs read it alike; it ends with a signature";
         match &split {
             Ok(_) => self.note(CheckName::Grammar, Code::Ok, good),
-            Err(Malformed { fault, other_namespace: None }) => self.note(CheckName::Grammar, Code::Malformed, fault),
-            Err(Malformed { fault, .. }) => self.note(CheckName::Grammar, Code::WrongNamespace, fault),
+            Err(malformed) => {
+                let code = match malformed.other {
+                    None => Code::Malformed,
+                    Some(OtherSignature::Namespace(_)) => Code::WrongNamespace,
+                    Some(OtherSignature::KeyType(_)) => Code::UnsupportedKey,
+                };
+                self.note(CheckName::Grammar, code, &malformed.fault);
+            }
         }
         split.ok()
     }
@@ -287,6 +306,7 @@ impl Run {
         let content = content::read(name, payload);
         let (code, detail) = match &content {
             Ok(_) => (Code::Ok, format!("the content is complete and conforms to {PASSPORT_FORMAT}")),
+            Err(error) if error.is_of_a_later_version() => (Code::NewerFormat, error.to_string()),
             Err(error) => (Code::BadContent, error.to_string()),
         };
         // The detail has one line for each error, so `Check::new`, which makes a single line, is not used.

@@ -6,6 +6,7 @@ use crate::calibration::NotStated;
 use crate::coefficients::PositionIndex;
 use crate::gyro::{GyroParameters, Parameters};
 use crate::stand::MOST_POSITIONS;
+use crate::text::node::from_json;
 use crate::text::{Kind, Unreadable};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Serialize, Serializer};
@@ -64,8 +65,7 @@ impl Planned {
         if let Some(kind) = Kind::of(bytes) {
             return Err(refused(kind.words().to_owned()));
         }
-        let plan: Self =
-            serde_json::from_slice(bytes).map_err(|error| Unreadable::json(name, bytes, &error, EXPECTED, ADVICE))?;
+        let plan: Self = from_json(name, bytes, EXPECTED, ADVICE)?;
         match plan.contradiction() {
             Some(found) => Err(refused(found)),
             None => Ok(plan),

@@ -43,6 +43,7 @@ pub(crate) const FORMAT: &str = "dtg-register/1";
 /// Form of registers as signed documents. The memory that a register takes follows from its size alone.
 pub(crate) const FORM: Form = Form {
     namespace: NAMESPACE,
+    format: FORMAT,
     limits: Limits { bytes: 16 << 20, brackets: usize::MAX },
     expected: "a register, which `issue` writes beside the passports of a stand",
 };
@@ -221,7 +222,7 @@ impl Register {
     /// Parses the content of a register without verifying its signature: anyone may have written it.
     pub(crate) fn from_anyone(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
         let text = SignedText::split(name, bytes, &FORM).map_err(|malformed| malformed.fault)?;
-        document::parse(name, text.unverified_payload(), FORM.limits, Self::check)
+        document::parse(name, text.unverified_payload(), &FORM, Self::check)
     }
 
     /// Returns the text to be signed.
@@ -376,7 +377,7 @@ impl VerifiedRegister {
         let text = SignedText::split(name, bytes, &FORM).map_err(RegisterRefused::Malformed)?;
         let payload = text.signed_payload(Some(&trust.signers));
         let payload = payload.map_err(|error| RegisterRefused::Altered(name.to_owned(), error))?;
-        let content: Register = document::parse(name, payload, FORM.limits, Register::check)?;
+        let content: Register = document::parse(name, payload, &FORM, Register::check)?;
         let (key, header) = (text.key(), content.header());
         let miss = trust.signers.authorise(key, &header.issuer, NAMESPACE, header.issued_at);
         miss.map_err(|miss| RegisterRefused::not_authorised(name, &miss, key, header, header.issued_at))?;

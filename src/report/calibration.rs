@@ -10,9 +10,7 @@ use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::prediction::FurtherVisit;
 use crate::calibration::readings::Exclusion;
 use crate::calibration::verdict::{BEYOND, change_in_uncertainties};
-use crate::calibration::{
-    Calibration, Hint, Method, MethodResult, Mistake, Model, NotStated, Parameter, Readings, Verdict,
-};
+use crate::calibration::{Calibration, Hint, Method, MethodResult, Model, NotStated, Parameter, Readings, Verdict};
 use crate::interface::calibrated::Done;
 use crate::passport::Check;
 use crate::report::page::calibration::why_no_change;
@@ -70,7 +68,7 @@ pub(crate) fn text(
     };
     // The matrix of the general model is at local g: only ω_g and ω_k are compared with the type.
     let of_type = verdict.map(|(_, verdict)| verdict.gravity_m_per_s2).filter(|of_type| {
-        *of_type != document.gravity_m_per_s2 && calibration.answer().is_none_or(|answer| answer.model == Model::Paper)
+        *of_type != document.gravity_m_per_s2 && calibration.adopted().is_none_or(|answer| answer.model == Model::Paper)
     });
     let refer_to = of_type.map_or_else(
         || format!("local g, {gravity}"),
@@ -88,8 +86,8 @@ pub(crate) fn text(
         );
         columns::paragraph(&mut out, "", &words);
     }
-    if meter_assumed {
-        columns::paragraph(&mut out, "", texts::METER_ASSUMED.of(Language::English));
+    for words in assumed(meter_assumed, gyro_type) {
+        columns::paragraph(&mut out, "", words);
     }
     methods(&mut out, calibration, &document.results, of_type.is_some());
     residuals(&mut out, calibration);
@@ -111,7 +109,7 @@ pub(crate) fn text(
         if verdict.has_simple() {
             columns::paragraph(&mut out, "  ", DECISIONS);
         }
-        let gravity = document.gravity_u_m_per_s2.and_then(|u| from_gravity(verdict, u, done.without_height));
+        let gravity = from_gravity(verdict, document.gravity_u_m_per_s2, done.without_height);
         let turn_ons = calibration.mostly_from_turn_ons().map(|u| {
             let u = quantity(&columns::two_digits(u), "deg/h");
             texts::FROM_TURN_ONS.filled(Language::English, values! { u })
@@ -139,6 +137,13 @@ pub(crate) fn text(
     out
 }
 
+/// Returns that the meter was assumed, and which errors were not looked for without a gyro type.
+pub(super) fn assumed(meter_assumed: bool, gyro_type: Option<&str>) -> impl Iterator<Item = &'static str> {
+    let meter = meter_assumed.then_some(texts::METER_ASSUMED);
+    let untested = gyro_type.is_none().then_some(texts::NOT_TESTED);
+    meter.into_iter().chain(untested).map(|text| text.of(Language::English))
+}
+
 /// Returns which gyro was measured, when, by whom and at which temperature, as far as this was stated.
 fn conditions(Subject { gyro_serial, date, operator, temperature_c, .. }: &Subject) -> Option<String> {
     let said = [
@@ -162,11 +167,11 @@ pub(crate) fn warnings(done: &Done, trials: Option<&MonteCarlo>) -> Vec<String> 
 
 /// Returns what makes the parameters or their uncertainties unusable or doubtful, a line each.
 pub(super) fn doubts(done: &Done, trials: Option<&MonteCarlo>) -> impl Iterator<Item = String> {
-    let Done { calibration, document, warning, earlier, unexplained, common_factor, .. } = done;
+    let Done { calibration, warning, earlier, unexplained, common_factor, .. } = done;
     let of_scatter = scatter(calibration).into_iter().filter(|(weight, _)| *weight == Weight::Warning);
     let others = of_scatter.map(|(_, words)| words).chain(warning.as_ref().map(|warning| format!("{warning}.")));
     let why = earlier.as_ref().and_then(|(_, why)| Some(why_no_change((*why)?).of(Language::English).to_owned()));
-    let all = unusable(calibration, document.mistake.as_ref())
+    let all = unusable(calibration)
         .chain(why)
         .chain(others)
         .chain(unexplained.iter().chain(common_factor).cloned())
@@ -175,17 +180,18 @@ pub(super) fn doubts(done: &Done, trials: Option<&MonteCarlo>) -> impl Iterator<
 }
 
 /// Returns what makes the parameters unusable: readings that do not fit, or those of another gyro.
-fn unusable(calibration: &Calibration, mistake: Option<&Mistake>) -> impl Iterator<Item = String> {
+fn unusable(calibration: &Calibration) -> impl Iterator<Item = String> {
     let inconsistent = calibration.hint.iter().map(|hint| format!("{INCONSISTENT}. {}.", capital(&hint.causes())));
     let correlated = calibration.hint.as_ref().and_then(|_| correlated(calibration));
-    inconsistent.chain(correlated).chain(mistake.map(|mistake| plain(&mistake::words(mistake, Language::English))))
+    let mistake = calibration.mistake.as_ref().map(|mistake| plain(&mistake::words(mistake, Language::English)));
+    inconsistent.chain(correlated).chain(mistake)
 }
 
 /// Returns what a program should show with the parameters, a sentence each: what makes them unusable, what the readings
 /// cannot tell, and a scatter that is not the stated one.
-pub(crate) fn remarks(calibration: &Calibration, readings: &Readings, mistake: Option<&Mistake>) -> Vec<String> {
-    let mut remarks: Vec<String> = unusable(calibration, mistake).collect();
-    let tested = calibration.answer().is_some_and(|answer| answer.chi_square.judges());
+pub(crate) fn remarks(calibration: &Calibration, readings: &Readings) -> Vec<String> {
+    let mut remarks: Vec<String> = unusable(calibration).collect();
+    let tested = calibration.adopted().is_some_and(|answer| answer.chi_square.judges());
     remarks.extend((!tested).then(|| UNTESTED.to_owned()));
     remarks.extend(calibration.digits.iter().flat_map(|digits| recorded::words(digits, Language::English)));
     remarks.extend(
@@ -222,7 +228,7 @@ fn in_paper_order(answer: &MethodResult) -> Vec<Parameter> {
 
 /// Writes the adopted values with their uncertainties; if there is a type, as they are decided, at its g, with the decision.
 fn parameters(out: &mut String, calibration: &Calibration, verdict: Option<&Verdict>) {
-    let Some(answer) = calibration.answer() else { return };
+    let Some(answer) = calibration.adopted() else { return };
     let mut names = vec!["", "unit", answer.method.key(), "u"];
     names.extend(verdict.map(|_| "decision"));
     let rows = in_paper_order(answer).into_iter().filter_map(|parameter| {
@@ -308,7 +314,7 @@ fn beyond_the_paper(out: &mut String, answer: &MethodResult) {
 }
 
 fn methods(out: &mut String, calibration: &Calibration, results: &[ResultDocument], at_local_g: bool) {
-    let Some(answer) = calibration.answer() else { return };
+    let Some(answer) = calibration.adopted() else { return };
     let others: Vec<&MethodResult> =
         calibration.results.iter().filter(|result| result.method != answer.method).collect();
     if !(others.is_empty() && calibration.refused.is_empty()) {
@@ -350,7 +356,7 @@ fn methods(out: &mut String, calibration: &Calibration, results: &[ResultDocumen
 }
 
 fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
-    let Some(answer) = calibration.answer() else { return };
+    let Some(answer) = calibration.adopted() else { return };
     if answer.chi_square.judges() {
         chi_square(out, answer);
     } else {
@@ -412,7 +418,7 @@ fn chi_square(out: &mut String, answer: &MethodResult) {
 
 /// Writes the residuals of the adopted result, if there are more readings than unknowns.
 fn residuals(out: &mut String, calibration: &Calibration) {
-    let Some(answer) = calibration.answer().filter(|answer| answer.chi_square.judges()) else { return };
+    let Some(answer) = calibration.adopted().filter(|answer| answer.chi_square.judges()) else { return };
     let _ = writeln!(out, "\nResiduals:");
     let rows = answer.residuals.iter().map(|residual| {
         let (value, normalised) = (residual.residual_deg_per_h, residual.normalised);

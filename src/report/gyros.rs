@@ -1,13 +1,12 @@
 //! Results of several gyros on one stand as text: a line for each, and what they have in common.
 
-use super::calibration::{NOT_STATED, doubts, not_stated, passport, without_reading};
+use super::calibration::{NOT_STATED, assumed, doubts, not_stated, passport, without_reading};
 use super::style::Outcome;
 use super::tolerance::headline;
 use crate::calibration::NotStated;
 use crate::interface::calibrated::Done;
 use crate::passport::Check;
 use crate::report::page::language::Language;
-use crate::report::page::texts::calibration as texts;
 use crate::report::{columns, recorded, style};
 use crate::text::printable;
 use crate::uncertainty::MonteCarlo;
@@ -26,7 +25,7 @@ pub(crate) fn line(file: &str, done: &Done, trials: Option<&MonteCarlo>, gyro_ty
     if let Some(hint) = &calibration.hint {
         reasons += &format!("; {}", hint.causes());
     } else if gyro_type.is_none() && document.is_valid() {
-        let fit = calibration.answer().map(|answer| columns::probability(answer.chi_square.probability));
+        let fit = calibration.adopted().map(|answer| columns::probability(answer.chi_square.probability));
         reasons = fit.map_or_else(String::new, |p| format!("probability of a larger chi-square {p}"));
     }
     let mut out = format!("{}  {file}  {reasons}", style::of_input(outcome, &word));
@@ -83,13 +82,13 @@ impl Gyros {
         style::marked(worst.unwrap_or(Outcome::Passed), &format!("{} gyros: {counts}", self.outcomes.len())) + "\n"
     }
 
-    /// Returns the counts, the passport, whether the meter was assumed, and the inputs without a stated uncertainty.
-    pub(crate) fn text(&self, meter_assumed: bool) -> String {
+    /// Returns the counts, the passport, what was assumed or not tested, and the inputs without a stated uncertainty.
+    pub(crate) fn text(&self, meter_assumed: bool, gyro_type: Option<&str>) -> String {
         let mut out = self.summary();
         let Some(passport) = &self.passport else { return out };
         columns::paragraph(&mut out, "", passport);
-        if meter_assumed {
-            columns::paragraph(&mut out, "", texts::METER_ASSUMED.of(Language::English));
+        for words in assumed(meter_assumed, gyro_type) {
+            columns::paragraph(&mut out, "", words);
         }
         let (of_all, of_some): (Vec<_>, Vec<_>) = self.missing.iter().partition(|(_, number)| *number == self.results);
         let [of_all, of_some] = [of_all, of_some].map(|of| of.into_iter().map(|(what, _)| what).collect::<Vec<_>>());

@@ -15,7 +15,7 @@ use crate::passport::annotations::Absence;
 use crate::passport::issue::Remarks;
 use crate::text::printable::json;
 use crate::text::words;
-use crate::text::{Printable, name_of, printable};
+use crate::text::{Cause, Printable, name_of, printable};
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -78,12 +78,15 @@ pub(crate) struct Report {
     /// Number of passports that an unusable input prevents.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub passports: Option<u64>,
+    /// Word of the first recognised cause for which a file was refused.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cause: Option<&'static str>,
 }
 
 impl Report {
     pub(super) fn new(id: String, state: State) -> Self {
-        let absences = Vec::new();
-        Self { id, state, file: None, sha256: None, noise_growth: None, absences, reason: None, passports: None }
+        let (file, sha256, noise_growth, reason, passports, cause) = (None, None, None, None, None, None);
+        Self { id, state, file, sha256, noise_growth, absences: Vec::new(), reason, passports, cause }
     }
 
     /// Creates the report of an order of a batch.
@@ -100,8 +103,10 @@ impl Report {
             Outcome::Skipped { id, file, why } => {
                 Self { file: Some(name_of(file)), reason: Some(why.clone()), ..Self::new(id.clone(), State::Skipped) }
             }
-            Outcome::Failed(Failure { what, why, passports, .. }) => {
-                Self { reason: Some(why.clone()), passports: *passports, ..Self::new(what.clone(), State::Refused) }
+            Outcome::Failed(Failure { what, why, passports, unreadable, .. }) => {
+                let cause = unreadable.iter().flat_map(|refused| refused.problems()).find_map(|problem| problem.cause);
+                let (reason, passports, cause) = (Some(why.clone()), *passports, cause.map(Cause::code));
+                Self { reason, passports, cause, ..Self::new(what.clone(), State::Refused) }
             }
         }
     }

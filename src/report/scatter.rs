@@ -46,7 +46,7 @@ pub(super) fn scatter(calibration: &Calibration) -> Vec<(Weight, String)> {
         say(words, Weight::Warning);
     }
     const CHECK: &str = "check the noise that the gyro type states";
-    let of_visits = match calibration.answer().map_or(1, |answer| answer.cycles.len()) {
+    let of_visits = match calibration.adopted().map_or(1, |answer| answer.cycles.len()) {
         0 | 1 => {
             "if these readings were taken without leaving the position, give them the same number in the column visit"
         }
@@ -126,7 +126,7 @@ pub(super) fn drift(text: Text, test: &DriftTest, language: Language) -> String 
 /// Returns why chi-square is much smaller than expected, if it is.
 pub(in crate::report) fn too_small(calibration: &Calibration) -> Option<Text> {
     let drifts = [calibration.drift_test, calibration.drift_in_order];
-    let turn_ons = calibration.answer().map_or(1, |answer| answer.cycles.len());
+    let turn_ons = calibration.adopted().map_or(1, |answer| answer.cycles.len());
     let is_multiplied = calibration.scatter.is_some_and(|scatter| scatter.variance_factor > 1.0);
     let is_enlarged = is_multiplied || calibration.visit_noise.is_estimated();
     let why = match is_enlarged {

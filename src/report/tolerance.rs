@@ -107,7 +107,10 @@ pub(super) fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str
             format!("{} {}", row.tolerance, unit_of(row).of(Language::English)),
         ];
         if verdict.has_simple() {
-            cells.extend([decided(Some(row.simple)), columns::probability(row.specific_risk)]);
+            cells.extend([
+                decided(Some(row.simple)),
+                row.specific_risk.map_or_else(|| "–".to_owned(), columns::probability),
+            ]);
         }
         cells.push(decided(verdict.decision(row)));
         cells
@@ -139,23 +142,26 @@ pub(super) fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str
     }
 }
 
-/// Returns how much local g adds to the uncertainties of the drifts, where that is most of them.
-pub(super) fn from_gravity(verdict: &Verdict, u_m_per_s2: f64, without_height: bool) -> Option<String> {
-    let parts = verdict.parameters.iter().filter(|row| row.is_mostly_from_gravity()).map(|row| {
-        let gravity = columns::two_digits(row.expanded_uncertainty_from_gravity.unwrap_or(0.0));
-        let gravity = format!("{gravity} {}", unit_of(row).of(Language::English));
+/// Returns how much the conversion from the local g changes the deviations of the drifts, and how much the local g adds to
+/// their uncertainties, where that is most of them.
+pub(super) fn from_gravity(verdict: &Verdict, u_m_per_s2: Option<f64>, without_height: bool) -> Vec<String> {
+    let u = quantity(&columns::two_digits(u_m_per_s2.unwrap_or(0.0)), "m/s²");
+    let part = |(row, part): (&ParameterVerdict, f64)| {
+        let gravity = format!("{} {}", columns::two_digits(part), unit_of(row).of(Language::English));
         texts::FROM_GRAVITY_PART.filled(Language::English, values! { gravity, parameter: row.parameter.symbol() })
+    };
+    let each = gravity_contributes(without_height).into_iter().zip(verdict.parts_from_gravity());
+    let said = each.filter(|(_, parts)| !parts.is_empty()).map(|(text, parts)| {
+        let parts = parts.into_iter().map(part).collect::<Vec<_>>().join(", ");
+        text.filled(Language::English, values! { parts, u })
     });
-    let parts: Vec<String> = parts.collect();
-    let u = quantity(&columns::two_digits(u_m_per_s2), "m/s²");
-    let words =
-        || gravity_contributes(without_height).filled(Language::English, values! { parts: parts.join(", "), u });
-    (!parts.is_empty() && !verdict.withheld).then(words)
+    said.collect()
 }
 
-/// Returns the sentence on what the uncertainty of local g contributes: on normal gravity without a height, what it assumes.
-pub(super) fn gravity_contributes(without_height: bool) -> Text {
-    if without_height { texts::FROM_UNKNOWN_HEIGHT } else { texts::FROM_GRAVITY }
+/// Returns the sentences on the parts from converting g and from the uncertainty of local g: on normal gravity without a height,
+/// what it assumes.
+pub(super) fn gravity_contributes(without_height: bool) -> [Text; 2] {
+    [texts::CONVERSION_OF_G, if without_height { texts::FROM_UNKNOWN_HEIGHT } else { texts::FROM_GRAVITY }]
 }
 
 #[cfg(test)]

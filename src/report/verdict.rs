@@ -23,11 +23,11 @@ pub(crate) fn text(verdict: &Verdict) -> String {
     for (check, passed) in checks.iter().filter_map(|check| Some((check, check.passed()?))) {
         row(Some(passed), if passed { "passed" } else { "FAILED" }, check.name.as_str(), &check.detail);
     }
-    if let not_run @ [_, ..] = &*not_run(checks) {
+    if let not_run @ [_, ..] = &*named(checks, Code::NotRun) {
         row(None, "not run", &format!("{}: an earlier check failed", not_run.join(", ")), "");
     }
-    let with_option = |name: CheckName| Some(format!("{} ({})", name.as_str(), name.option()?));
-    let not_asked: Vec<String> = not_asked(checks).filter_map(with_option).collect();
+    let with_option = |check: &Check| Some(format!("{} ({})", check.name.as_str(), check.name.option()?));
+    let not_asked: Vec<_> = checks.iter().filter(|check| !check.was_asked()).filter_map(with_option).collect();
     if !not_asked.is_empty() {
         row(None, "not asked", &not_asked.join(", "), "");
     }
@@ -72,21 +72,16 @@ pub(crate) fn answer(valid: bool, checks: &[Check]) -> String {
 /// passport may be used on this stand, here and now was not asked.
 fn outcome(valid: bool, checks: &[Check]) -> (Outcome, &'static str) {
     let needed = [CheckName::Stand, CheckName::Place, CheckName::Register];
-    match not_asked(checks).any(|name| needed.contains(&name)) {
+    match checks.iter().any(|check| !check.was_asked() && needed.contains(&check.name)) {
         _ if !valid => (Outcome::Failed, "REFUSED"),
         true => (Outcome::Undecided, "VALID SO FAR"),
         false => (Outcome::Passed, "VALID"),
     }
 }
 
-/// Returns the names of the checks that an earlier failure prevented.
-fn not_run(checks: &[Check]) -> Vec<&'static str> {
-    checks.iter().filter(|check| check.code == Code::NotRun).map(|check| check.name.as_str()).collect()
-}
-
-/// Returns the checks that were not requested.
-fn not_asked(checks: &[Check]) -> impl Iterator<Item = CheckName> {
-    checks.iter().filter(|check| !check.was_asked()).map(|check| check.name)
+/// Returns the names of the checks with this result: not run, because of an earlier failure, or not requested.
+fn named(checks: &[Check], code: Code) -> Vec<&'static str> {
+    checks.iter().filter(|check| check.code == code).map(|check| check.name.as_str()).collect()
 }
 
 /// Returns which checks failed, and how many were made, were not run, or were not asked for.
@@ -95,14 +90,14 @@ fn counts(checks: &[Check]) -> String {
         checks.iter().filter(|check| check.passed() == Some(false)).map(|check| check.name.as_str()).collect();
     let failed = if failed.is_empty() { String::new() } else { format!("failed: {}; ", failed.join(", ")) };
     let checked = checks.iter().filter(|check| check.passed().is_some()).count();
-    let others = [(not_run(checks).len(), "not run"), (not_asked(checks).count(), "not asked")];
-    let others = others.into_iter().filter(|(count, _)| *count > 0).map(|(count, word)| format!(", {count} {word}"));
+    let others = [(Code::NotRun, "not run"), (Code::NotAsked, "not asked")];
+    let others = others.map(|(code, word)| (named(checks, code).len(), word)).into_iter();
+    let others = others.filter(|(count, _)| *count > 0).map(|(count, word)| format!(", {count} {word}"));
     format!("{failed}{checked} checked{}", others.collect::<String>())
 }
 
 /// Returns the counts of the checks, with the names of those that were not asked for.
 pub(crate) fn counts_with_names(checks: &[Check]) -> String {
-    let names: Vec<&str> = not_asked(checks).map(CheckName::as_str).collect();
-    let names = if names.is_empty() { String::new() } else { format!(": {}", names.join(", ")) };
-    counts(checks) + &names
+    let names = named(checks, Code::NotAsked);
+    counts(checks) + &if names.is_empty() { String::new() } else { format!(": {}", names.join(", ")) }
 }

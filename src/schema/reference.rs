@@ -1,19 +1,18 @@
 //! Tables of keys in Markdown, generated from the schemas, so that they always agree with what the program reads.
 
-use schemars::Schema;
 use serde_json::{Map, Value};
 use std::collections::HashMap;
 use std::fmt::Write;
 
 /// Returns the keys of every format as Markdown, with a section for each; shared parts are described in the first.
-pub(crate) fn tables(schemas: &[Schema]) -> String {
+pub(crate) fn tables(schemas: &[&Value]) -> String {
     let mut seen = HashMap::new();
-    schemas.iter().map(|schema| Section { schema, seen: &mut seen }.write()).collect::<Vec<_>>().join("\n")
+    schemas.iter().map(|&schema| Section { schema, seen: &mut seen }.write()).collect::<Vec<_>>().join("\n")
 }
 
 /// Section of one format.
 struct Section<'a> {
-    schema: &'a Schema,
+    schema: &'a Value,
     /// Names of shared parts, each with the title of the section that describes it.
     seen: &'a mut HashMap<String, String>,
 }

@@ -7,7 +7,7 @@ use super::Site;
 use crate::earth::{self, Place};
 use crate::text::number::two_digits;
 use crate::text::{Path, Problems};
-use crate::units::{arcseconds_from_radians, radians_from_degrees};
+use crate::units::{arcseconds_from_radians, distance, radians_from_degrees};
 
 /// Largest distance of the pillar from the site, m.
 const FARTHEST_PILLAR_M: f64 = 5_000.0;
@@ -167,6 +167,48 @@ impl Site {
                 "azimuth_mark: mark and pillar are rounded to {step_deg} degrees, which alone gives u = {rounding_m:.2} m, but \
                  position_u_m is {stated_m}; state all digits of the survey, or a larger position_u_m"
             )
+        })
+    }
+}
+
+/// Distance from every other known place from which coordinates may be wrong, and largest distance from one of them at which a
+/// correction is taken to be right, m.
+const ANOTHER_REGION_M: f64 = 1e6;
+const SAME_REGION_M: f64 = 1e5;
+
+/// Coordinates of towns, with the names by which a site may mention them.
+const TOWNS: &str = include_str!("towns.txt");
+
+impl Site {
+    /// Returns the geodetic coordinates, or `None` if the site has no longitude.
+    pub(crate) fn place(&self) -> Option<Place> {
+        Some(Place { latitude_deg: self.geodetic_deg(), longitude_deg: self.longitude_deg? })
+    }
+
+    /// Returns a warning if the coordinates are far from the `others`, sites of the same stand, and from the towns that the
+    /// site names, but near one of them after the correction of a usual error; otherwise `None`.
+    pub(crate) fn misplaced(&self, others: &[(String, Place)]) -> Option<String> {
+        let here = self.place()?;
+        let text = format!("{} {}", self.id, self.name.as_deref().unwrap_or_default()).to_lowercase();
+        let words: Vec<&str> = text.split(|c: char| !c.is_alphanumeric()).collect();
+        let town = |line: &str| {
+            let (latitude, rest) = line.split_once(' ')?;
+            let (longitude, names) = rest.split_once(' ')?;
+            let name = names.split(' ').find(|name| words.contains(name))?;
+            let place = Place { latitude_deg: latitude.parse().ok()?, longitude_deg: longitude.parse().ok()? };
+            Some((format!("the town {name:?} of its name"), place))
+        };
+        let known: Vec<(String, Place)> = TOWNS.lines().filter_map(town).chain(others.iter().cloned()).collect();
+        if known.iter().any(|(_, place)| farther_than(ANOTHER_REGION_M, here, *place).is_none()) {
+            return None;
+        }
+        known.iter().find_map(|(name, place)| {
+            let error = usual_error(here, |meant| earth::distance_m(meant, *place) <= SAME_REGION_M)?;
+            let away = distance(earth::distance_m(here, *place));
+            Some(format!(
+                "the coordinates {} are {away} from {name}; with {error} they would be near it; check them",
+                coordinates(here)
+            ))
         })
     }
 }

@@ -3,6 +3,8 @@
 use super::{Certificate, CertifiedPosition};
 use crate::attitude::ANGLES;
 use crate::coefficients::PositionIndex;
+use crate::text::Printable;
+use crate::text::scalar::latin;
 use jiff::Span;
 use jiff::civil::Date;
 
@@ -50,6 +52,18 @@ pub(crate) enum Odd {
     /// Certificate that is valid for more than ten years.
     #[error("valid_until is {valid_until}, more than {MOST_YEARS} years after issued, {issued}; check the years")]
     LongValidity { valid_until: Date, issued: Date },
+}
+
+impl Certificate {
+    /// Returns a sentence if letters of the number only look Latin, or `None`; a search for the number would not find it.
+    pub(crate) fn odd_number(&self) -> Option<String> {
+        let (meant, odd) = latin(&self.number)?;
+        let number = Printable(&self.number);
+        Some(format!(
+            "the number of the certificate, {number}, has the {odd}, which only looks like a Latin letter; if Latin \
+                      letters are meant, type {meant} again"
+        ))
+    }
 }
 
 /// Returns what a temperature would be if it is in kelvin; empty if that is not a temperature of a room.

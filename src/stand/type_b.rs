@@ -8,7 +8,7 @@ use crate::text::{Path, Problems, record, word_of_a_key, words};
 words! {
     /// Part of the stand that a contribution of type B rotates.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    #[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(rename_all = "snake_case"))]
+    #[cfg_attr(feature = "generate", derive(schemars::JsonSchema), schemars(rename_all = "snake_case"))]
     #[non_exhaustive]
     pub enum ActsOn: pub(crate) word {
         /// Each position by itself, per axis of the platform; part of u_alpha_arcsec, u_beta_arcsec and u_gamma_arcsec.

@@ -3,76 +3,141 @@
 
 use super::placeholder::{self, is_placeholder};
 use super::scalar::{STRAIGHT_QUOTES, latin, typographic_quote};
-use super::{Node, Path};
+use super::{Advice, Cause, Node, Path};
+
+/// Text where a number is expected.
+#[derive(Debug, Clone, Copy)]
+struct Written<'a> {
+    text: &'a str,
+    /// Name of the column or key, which ends with the unit.
+    name: &'a str,
+    of: Of,
+}
+
+/// Place of a text: a cell of a table, or the value of a key, which may be a tolerance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Of {
+    Cell,
+    Key,
+    Tolerance,
+}
+
+/// Way to write what is not a number: the test, the cause if it is a recognised one, and the advice unless it is the usual one
+/// of the cause.
+type Way = (fn(&Written) -> bool, Option<Cause>, &'static str);
+
+/// Ways in which people and programs write what is not a number; the first that fits is taken.
+const WAYS: &[Way] = &[
+    (|it| is_placeholder(it.text), None, placeholder::ADVICE),
+    (|it| it.of == Of::Tolerance && it.text.contains(['±', '/']), None, TOLERANCE),
+    (|it| it.text.chars().any(char::is_control), Some(Cause::ControlCharacter), ""),
+    (|it| it.of == Of::Cell && it.text.contains(';'), None, "separate columns by commas"),
+    (|it| is_date(it.text) && !it.name.ends_with("_deg"), Some(Cause::SpreadsheetDate), ""),
+    (|it| is_overload(it.text), Some(Cause::Overload), ""),
+    (|it| is_grouped(it.text), Some(Cause::Thousands), ""),
+    (
+        |it| it.name.ends_with("_arcsec") && is_in_parts(it.text),
+        None,
+        "write degrees, minutes and seconds of arc as one number of arcseconds",
+    ),
+    (
+        |it| it.name.ends_with("_s") && it.text.contains(':'),
+        None,
+        "count seconds from the first reading, as one number",
+    ),
+    (
+        |it| it.name.ends_with("_deg") && has_two_points(it.text),
+        None,
+        "it has two points; write degrees, minutes and seconds as decimal degrees, with one point",
+    ),
+    (|it| has_two_points(it.text), None, "it has two points; use one decimal point"),
+    (
+        |it| is_number(unquoted(it.text)) && it.of != Of::Cell && typographic_quote(it.text).is_some(),
+        None,
+        STRAIGHT_QUOTES,
+    ),
+    (|it| it.of != Of::Cell && has_leading_zero(it.text), Some(Cause::LeadingZero), ""),
+    (|it| is_number(unquoted(it.text)), None, "write the number without quotes"),
+    (
+        |it| it.text.strip_prefix('(').and_then(|text| text.strip_suffix(')')).is_some_and(is_number),
+        None,
+        "write a negative number with a minus, without parentheses",
+    ),
+    (
+        |it| has_decimal_comma(it.text) && !it.text.is_ascii(),
+        Some(Cause::DecimalComma),
+        "use a decimal point, and an ASCII minus",
+    ),
+    (|it| has_decimal_comma(it.text), Some(Cause::DecimalComma), ""),
+    (|it| is_number(&it.text.replace(['D', 'd'], "E")), None, "write the exponent with E, such as 1.0E-3"),
+    (
+        |it| it.name.ends_with("_deg") && is_in_minutes(it.text),
+        None,
+        "write decimal degrees, such as 55.7658; south and west are negative",
+    ),
+    (|it| has_unit(it.text), None, "write the number alone, in the unit that the name states"),
+    (
+        |it| !it.text.is_ascii() && (it.of != Of::Cell || it.text.chars().any(|c| c.is_ascii_digit())),
+        None,
+        "use ASCII digits, a decimal point and an ASCII minus",
+    ),
+    (|it| it.of != Of::Cell && it.text.parse::<f64>().is_ok(), None, NOT_FINITE),
+];
 
 const NOT_FINITE: &str = "use a finite number, because NaN and infinity are not measured values";
-
-const WITHOUT_QUOTES: &str = "write the number without quotes";
-
-const ASCII: &str = "use ASCII digits, a decimal point and an ASCII minus";
 
 /// Advice for a tolerance that is written as two limits, or with ±.
 const TOLERANCE: &str = "a tolerance is one number for both directions and both axes: state half the width of the interval, and \
                          its middle as the nominal value";
 
-/// Advice for an angle in degrees, minutes and seconds where the unit is the arcsecond.
-const ARCSECONDS: &str = "write degrees, minutes and seconds of arc as one number of arcseconds";
+fn on(written: Written) -> Option<Advice> {
+    let (_, cause, words) = WAYS.iter().find(|(fits, ..)| fits(&written))?;
+    Some(match cause {
+        None => (*words).into(),
+        Some(cause) if words.is_empty() => (*cause).into(),
+        Some(cause) => (*cause, *words).into(),
+    })
+}
 
 /// Returns what to do about a value of YAML that is not a number; empty without such advice.
-pub(super) fn on_yaml(node: &Node, at: &Path) -> &'static str {
-    let key = at.last_key();
+pub(crate) fn on_yaml(node: &Node, at: &Path) -> Advice {
     let is_tolerance = matches!(at, Path::Key(parent, _) if parent.last_key() == "tolerance");
+    let of = if is_tolerance { Of::Tolerance } else { Of::Key };
     match node {
-        Node::List(_) | Node::Map(_) if is_tolerance => TOLERANCE,
-        Node::Text(text) if is_tolerance && text.contains(['±', '/']) => TOLERANCE,
-        Node::Text(text) if has_two_points(text) && key.ends_with("_deg") => {
-            "it has two points; write degrees, minutes and seconds as decimal degrees, with one point"
-        }
-        Node::Text(text) if has_two_points(text) => "it has two points; use one decimal point",
-        Node::Text(text) if is_number(unquoted(text)) && typographic_quote(text).is_some() => STRAIGHT_QUOTES,
-        Node::Text(text) if is_number(unquoted(text)) => WITHOUT_QUOTES,
-        Node::Text(text) if text.contains(',') && text.chars().all(|c| c.is_ascii_digit() || "+-,. ".contains(c)) => {
-            "use a decimal point"
-        }
-        Node::Text(text) if key.ends_with("_deg") && is_in_minutes(text) => {
-            "write decimal degrees, such as 55.7658; south and west are negative"
-        }
-        Node::Text(text) if key.ends_with("_arcsec") && is_in_parts(text) => ARCSECONDS,
-        Node::Text(text) if has_unit(text) => "write the number alone, in the unit that the key states",
-        Node::Text(text) if !text.is_ascii() => ASCII,
-        Node::Text(text) if text.parse::<f64>().is_ok() => NOT_FINITE,
-        Node::Number(_) => NOT_FINITE,
-        _ => "",
+        Node::List(_) | Node::Map(_) if is_tolerance => TOLERANCE.into(),
+        Node::Text(text) => on(Written { text, name: at.last_key(), of }).unwrap_or_default(),
+        Node::Number(_) => NOT_FINITE.into(),
+        _ => Advice::default(),
     }
 }
 
-/// Returns how to write the number that a cell of CSV in a column of this name seems to mean, or `None` if it means none.
-pub(super) fn on_cell(text: &str, column: &str) -> Option<&'static str> {
-    if is_placeholder(text) {
-        Some(placeholder::ADVICE)
-    } else if text.contains(';') {
-        Some("separate columns by commas")
-    } else if column.ends_with("_arcsec") && is_in_parts(text) {
-        Some(ARCSECONDS)
-    } else if text.contains(':') && column.ends_with("_s") {
-        Some("count seconds from the first reading, as one number")
-    } else if has_two_points(text) {
-        Some("it has two points; use one decimal point")
-    } else if unquoted(text) != text && is_number(unquoted(text)) {
-        Some(WITHOUT_QUOTES)
-    } else if text.strip_prefix('(').and_then(|text| text.strip_suffix(')')).is_some_and(is_number) {
-        Some("write a negative number with a minus, without parentheses")
-    } else if is_number(&text.replace([',', ' ', '\u{A0}', '\u{202F}'], "")) {
-        Some("use a decimal point, and no thousands separators")
-    } else if is_number(&text.replace(['D', 'd'], "E")) {
-        Some("write the exponent with E, such as 1.0E-3")
-    } else if has_unit(text) {
-        Some("write the number alone, in the unit that the column name states")
-    } else if text.chars().any(|c| c.is_ascii_digit()) && !text.is_ascii() {
-        Some(ASCII)
-    } else {
-        None
-    }
+/// Returns how to write the number that a cell of CSV in a column of this name seems to mean; for a reading that was not
+/// taken, it ends with the advice `not_taken`.
+pub(crate) fn on_cell(text: &str, column: &str, not_taken: &str) -> Advice {
+    let advice = on(Written { text, name: column, of: Of::Cell }).unwrap_or_else(|| not_taken.into());
+    if advice.cause == Some(Cause::Overload) { overload(not_taken) } else { advice }
+}
+
+/// Returns the advice on the sign of an instrument for an overload, followed by what to do about it.
+fn overload(remedy: &str) -> Advice {
+    let Advice { cause, words, meant } = Cause::Overload.into();
+    Advice { cause, words: format!("{words}; {remedy}"), meant }
+}
+
+/// Returns the advice on a number beyond its range that has a recognised cause; `remedy` says what to do about an overload.
+pub(crate) fn beyond_range(value: f64, remedy: &str) -> Option<Advice> {
+    const LEAST_OVERLOAD: f64 = 1e9;
+    let digits = format!("{}", value.abs()).replace('.', "");
+    let is_full_scale = digits.len() >= 4 && digits.bytes().all(|digit| digit == b'9');
+    (value.abs() >= LEAST_OVERLOAD || is_full_scale).then(|| overload(remedy))
+}
+
+/// Returns an angle with full turns of `turn` added or subtracted, so that it is from `least` to less than `least + turn`: as
+/// text with the decimals of the angle, because 316.8 − 360 is not exactly −43.2. `None` if no full turn is needed.
+pub(crate) fn without_full_turns(angle: f64, turn: f64, least: f64) -> Option<String> {
+    let decimals = format!("{angle}").split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    let within = (angle - least).rem_euclid(turn) + least;
+    (!(least..least + turn).contains(&angle)).then(|| format!("{within:.decimals$}"))
 }
 
 /// Returns `true` for an angle with a sign of degrees, in several numbers, or with the letter of a hemisphere.
@@ -94,15 +159,74 @@ fn is_number(text: &str) -> bool {
     text.parse::<f64>().is_ok_and(f64::is_finite)
 }
 
+/// Beginnings of the names of months: English, German, French, Russian.
+const MONTHS: &str = "jan feb mar apr may jun jul aug sep oct nov dec mär mai okt dez fév avr jui aoû déc \
+                      янв фев мар апр май мая июн июл авг сен окт ноя дек";
+
+/// Returns `true` for a date in which a spreadsheet program shows a number such as 10.9: a month in letters with a day or a
+/// year, or day, month and year in digits.
+fn is_date(text: &str) -> bool {
+    let lower = text.to_lowercase();
+    let parts: Vec<&str> = lower.split(|c: char| " .-/,".contains(c)).filter(|part| !part.is_empty()).collect();
+    let is_month = |part: &&&str| {
+        part.chars().all(char::is_alphabetic)
+            && MONTHS.split_whitespace().any(|month| part.starts_with(month) && part.len() <= 2 * month.len() + 4)
+    };
+    let number = |part: &str| part.parse::<u32>().ok().filter(|_| part.len() <= 4);
+    let numbers: Vec<u32> = parts.iter().filter_map(|part| number(part)).collect();
+    match numbers[..] {
+        [_] | [_, _] if parts.len() == numbers.len() + 1 => parts.iter().filter(is_month).count() == 1,
+        [year, month, day] | [day, month, year] if parts.len() == 3 && (1900..2100).contains(&year) => {
+            (1..=31).contains(&day) && (1..=31).contains(&month) && day.min(month) <= 12
+        }
+        _ => false,
+    }
+}
+
+/// Returns `true` for a word that a meter writes for an overload, such as OL, +OVLD or 1.#INF.
+fn is_overload(text: &str) -> bool {
+    let word = text.trim_matches(|c: char| "+- ".contains(c)).to_ascii_uppercase();
+    ["OVER", "OVL", "OVR", "OVF", "OFL", "1.#INF"].iter().any(|beginning| word.starts_with(beginning))
+        || ["OL", "O.L", "O.L.", "0L", "0.L", "0.L."].contains(&word.as_str())
+}
+
+/// Returns `true` for a number in groups of three digits with equal separators between them.
+fn is_grouped(text: &str) -> bool {
+    let digits = with_ascii_minus(unquoted(text));
+    let digits = digits.trim_start_matches(['+', '-']);
+    let is_digits = |part: &str| !part.is_empty() && part.bytes().all(|digit| digit.is_ascii_digit());
+    let Some(mark) = digits.chars().find(|c| ",.'’_ \u{A0}\u{2009}\u{202F}".contains(*c)) else { return false };
+    let fraction = digits.rsplit_once(|c| ",.".contains(c) && c != mark);
+    let whole = fraction.map_or(digits, |(whole, _)| whole);
+    let mut groups = whole.split(mark);
+    let is_first = |first: &str| first.len() <= 3 && is_digits(first) && !first.starts_with('0');
+    // A single point is a decimal point.
+    (mark != '.' || fraction.is_some() || whole.matches('.').count() > 1)
+        && groups.next().is_some_and(is_first)
+        && groups.all(|group| group.len() == 3 && is_digits(group))
+        && fraction.is_none_or(|(_, fraction)| is_digits(fraction))
+}
+
+fn has_leading_zero(text: &str) -> bool {
+    let digits = unquoted(text).trim_start_matches(['+', '-']);
+    digits.len() > 1 && digits.starts_with('0') && digits.bytes().all(|digit| digit.is_ascii_digit())
+}
+
+fn has_decimal_comma(text: &str) -> bool {
+    text.contains(',') && is_number(&with_ascii_minus(unquoted(text)).replacen(',', ".", 1))
+}
+
+fn with_ascii_minus(text: &str) -> String {
+    text.replace('\u{2212}', "-")
+}
+
 fn has_unit(text: &str) -> bool {
     if text.parse::<f64>().is_ok() {
         return false;
     }
     let number = text.trim_start_matches(['+', '-']);
     let rest = number.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.');
-    // A spreadsheet may have made a date of a number: 01.Feb.
-    let is_whole = rest.len() < number.len() && !number[..number.len() - rest.len()].ends_with('.');
-    is_whole && rest.trim_start().starts_with(|c: char| c.is_alphabetic() || "°%″′µ".contains(c))
+    rest.len() < number.len() && rest.trim_start().starts_with(|c: char| c.is_alphabetic() || "°%″′µ".contains(c))
 }
 
 /// Returns a text without the quotes around it, straight or typographic.
@@ -124,25 +248,67 @@ const UNITS: [&str; 36] = [
     "mas",
 ];
 
-/// Returns the advice for an unknown name that only looks like one of the `known`, is one of them in another unit, whose
-/// numbers must be converted, or is an expanded uncertainty instead of a standard one; `None` for other names.
-pub(super) fn on_name(known: &[&str], found: &str) -> Option<String> {
+/// Returns the advice for an unknown name that only looks like one of the `known`, is one of them in another unit or another
+/// way of writing it, or is an expanded uncertainty instead of a standard one; `None` for other names.
+pub(crate) fn on_name(known: &[&str], found: &str) -> Option<Advice> {
     if let Some((latin, odd)) = latin(found).filter(|(latin, _)| known.contains(&latin.as_str())) {
-        return Some(format!("the {odd} only looks like a Latin letter; type {latin} again"));
+        return Some(
+            Advice::from(format!("the {odd} only looks like a Latin letter; type {latin} again")).meaning(&latin),
+        );
     }
     if let Some(name) = known.iter().find(|name| found.starts_with("U_") && **name == found.to_lowercase()) {
-        return Some(format!(
-            "if U is an expanded uncertainty, divide the numbers by its coverage factor k; then name it {name}"
-        ));
+        let words = "if U is an expanded uncertainty, divide the numbers by its coverage factor k; then name it";
+        return Some(Advice::from(format!("{words} {name}")).meaning(name));
     }
-    let found = found.to_lowercase();
-    let (quantity, unit) = split(&found)?;
+    let lower = found.to_lowercase();
+    let of_name = split(&lower).map(|(quantity, unit)| (quantity.to_owned(), unit.to_owned()));
+    let is_written = of_name.is_none();
+    let (quantity, unit) = of_name.or_else(|| written_unit(&lower))?;
     let (name, known) = known.iter().find_map(|name| {
         let (of, known) = split(name)?;
-        (of == quantity && known != unit).then_some((name, known))
+        (of.replace('_', "") == quantity.replace('_', "") && (is_written || known != unit)).then_some((*name, known))
     })?;
     let words = |unit: &str| unit.split('_').map(unit_in_words).collect::<Vec<_>>().join(" ");
-    Some(format!("convert the numbers from {} to {}, then name it {name}", words(unit), words(known)))
+    let convert = format!("convert the numbers from {} to {}, then name it {name}", words(&unit), words(known));
+    let advice = match (is_written, known == unit) {
+        (true, true) => (Cause::HeaderUnit, format!("name it {name}, which states the unit")).into(),
+        (true, false) => (Cause::HeaderUnit, convert).into(),
+        (false, _) => Advice::from(convert),
+    };
+    Some(advice.meaning(name))
+}
+
+/// Units of names, with the ways in which people write them, in lower case and without dots and spaces; Cyrillic and Latin
+/// letters may be mixed.
+const WRITTEN_UNITS: [(&str, &str); 10] = [
+    ("ma", "ма mа мa"),
+    ("ua", "мка µa μa"),
+    ("na", "на"),
+    ("a", "а"),
+    ("arcsec", "″ \" '' ′′ угл углс углсек asec"),
+    ("arcmin", "′"),
+    ("deg", "° град"),
+    ("s", "с сек sec"),
+    ("ms", "мс"),
+    ("m", "м"),
+];
+
+/// Returns the unit in the form that names have, or `None` if `text` is no unit. Brackets around it do not count.
+pub(super) fn unit(text: &str) -> Option<&str> {
+    let text = text.trim_matches(|c: char| "()[]., ".contains(c));
+    let written: String = text.to_lowercase().chars().filter(|c| !". ".contains(*c)).collect();
+    let known = WRITTEN_UNITS.iter().find(|(_, ways)| ways.split(' ').any(|way| way == written));
+    known.map(|(unit, _)| *unit).or_else(|| UNITS.into_iter().find(|unit| *unit == written))
+}
+
+/// Returns the quantity and the unit of a name such as `jx, мА`, `j_x (ma)` or `α [″]`, in the form that names have.
+fn written_unit(lower: &str) -> Option<(String, String)> {
+    let (quantity, written) = lower.split_once([',', '(', '[', '/']).or_else(|| lower.rsplit_once([' ', '_']))?;
+    let quantity: String = quantity.chars().filter(|c| c.is_alphanumeric()).collect();
+    let greek = [("α", "alpha"), ("β", "beta"), ("γ", "gamma"), ("θ", "theta"), ("φ", "phi")];
+    let quantity = greek.into_iter().fold(quantity, |name, (letter, word)| name.replace(letter, word));
+    let quantity = latin(&quantity).map_or(quantity, |(latin, _)| latin);
+    Some((quantity, unit(written)?.to_owned()))
 }
 
 /// Returns a part of a unit in a name as people write it.
@@ -168,150 +334,4 @@ fn split(name: &str) -> Option<(&str, &str)> {
         quantity = stem;
     }
     Some((quantity, &name[quantity.len() + 1..]))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn digits_with_two_points_are_neither_number_nor_other_text() {
-        for text in ["12.5.6", "+1.2.3", "-55.45.0"] {
-            assert!(has_two_points(text), "{text}");
-        }
-        for text in ["12.5", "1.2.3.4", "1..2", ".1.2", "1.2.", "a.b.c", "1.2.x", ""] {
-            assert!(!has_two_points(text), "{text}");
-        }
-    }
-
-    fn text(text: &str) -> Node {
-        Node::Text(text.to_owned())
-    }
-
-    /// Expected: the one remedy for what a person wrote.
-    #[test]
-    fn the_advice_on_a_number_fits_what_was_written() {
-        const DECIMAL_DEGREES: &str = "write decimal degrees, such as 55.7658; south and west are negative";
-        const WITHOUT_UNIT: &str = "write the number alone, in the unit that the key states";
-        for (written, key, due) in [
-            ("55.45.56", "alpha_arcsec", "it has two points; use one decimal point"),
-            ("\u{201C}1.5\u{201D}", "alpha_arcsec", STRAIGHT_QUOTES),
-            ("'1.5'", "alpha_arcsec", WITHOUT_QUOTES),
-            ("'inf'", "alpha_arcsec", ""),
-            ("1.5", "alpha_arcsec", WITHOUT_QUOTES),
-            ("150,0", "alpha_arcsec", "use a decimal point"),
-            ("-1 000,5", "latitude_deg", "use a decimal point"),
-            ("a,b", "alpha_arcsec", ""),
-            ("55°45′56″", "latitude_deg", DECIMAL_DEGREES),
-            ("55 45 56", "latitude_deg", DECIMAL_DEGREES),
-            ("55.7 N", "latitude_deg", DECIMAL_DEGREES),
-            ("55.7°", "latitude_deg", DECIMAL_DEGREES),
-            ("55.7°", "alpha_arcsec", WITHOUT_UNIT),
-            ("12 mA", "jx_ma", WITHOUT_UNIT),
-            ("-.5m", "height_m", WITHOUT_UNIT),
-            ("5280 ft", "height_m", WITHOUT_UNIT),
-            ("0°01′10.9″", "alpha_arcsec", ARCSECONDS),
-            ("-1:10.9", "u_arcsec", ARCSECONDS),
-            ("m 5", "height_m", ""),
-            ("5 (m)", "height_m", ""),
-            ("a,b 1 2", "latitude_deg", ""),
-            ("NORTH", "latitude_deg", ""),
-            ("about 55", "latitude_deg", ""),
-            ("°", "latitude_deg", ASCII),
-            ("\u{2212}5", "alpha_arcsec", ASCII),
-            ("nan", "alpha_arcsec", NOT_FINITE),
-        ] {
-            assert_eq!(on_yaml(&text(written), &Path::Root.key(key)), due, "{written}");
-        }
-        assert!(on_yaml(&text("55.45.56"), &Path::Root.key("latitude_deg")).contains("degrees, minutes and seconds"));
-        let alpha = Path::Root.key("alpha_arcsec");
-        assert_eq!(on_yaml(&Node::Number(f64::INFINITY), &alpha), NOT_FINITE);
-        assert_eq!(on_yaml(&Node::Bool(true), &alpha), "");
-    }
-
-    /// Expected: of a tolerance alone, what to do about an interval that is not symmetric.
-    #[test]
-    fn an_interval_in_place_of_a_tolerance_has_its_advice() {
-        let limits = Node::List(vec![Node::Number(-0.1), Node::Number(0.3)]);
-        let [tolerance, nominal] = ["tolerance", "nominal"].map(|key| Path::Root.key(key));
-        for (node, due) in [(limits, TOLERANCE), (text("±0.3"), TOLERANCE), (text("-0.1/+0.3"), TOLERANCE)] {
-            assert_eq!(on_yaml(&node, &tolerance.key("omega0_deg_per_h")), due);
-            assert_ne!(on_yaml(&node, &nominal.key("omega_g_deg_per_h_per_g")), due);
-        }
-        assert_eq!(on_yaml(&text("0,01"), &tolerance.key("omega0_deg_per_h")), "use a decimal point");
-    }
-
-    /// Expected: the one remedy for what a person or a program wrote into a cell.
-    #[test]
-    fn the_advice_on_a_cell_fits_what_was_written() {
-        const WITHOUT_UNIT: &str = "write the number alone, in the unit that the column name states";
-        const NO_THOUSANDS: &str = "use a decimal point, and no thousands separators";
-        for (written, column, due) in [
-            ("-1:10.9", "beta_arcsec", ARCSECONDS),
-            ("0°01′10.9″", "alpha_arcsec", ARCSECONDS),
-            ("10.9″", "alpha_arcsec", WITHOUT_UNIT),
-            ("10:02:03", "time_s", "count seconds from the first reading, as one number"),
-        ] {
-            assert_eq!(on_cell(written, column), Some(due), "{written}");
-        }
-        assert_eq!(on_cell("0:10", "jx_ma"), None);
-        for (written, due) in [
-            ("1;2", "separate columns by commas"),
-            ("1.2.3", "it has two points; use one decimal point"),
-            ("(0.2)", "write a negative number with a minus, without parentheses"),
-            ("'1.5'", WITHOUT_QUOTES),
-            ("1,234.5", NO_THOUSANDS),
-            ("-1\u{A0}234.5", NO_THOUSANDS),
-            ("-0,2003", NO_THOUSANDS),
-            ("-2.003D-01", "write the exponent with E, such as 1.0E-3"),
-            ("\u{2212}1.5", ASCII),
-            ("1.5mA", WITHOUT_UNIT),
-            ("1.5 µA", WITHOUT_UNIT),
-            ("-1.5 mA", WITHOUT_UNIT),
-        ] {
-            assert_eq!(on_cell(written, "jx_ma"), Some(due), "{written}");
-        }
-        for written in
-            ["", "'inf'", "NaN", "-", "—", "#DIV/0!", "#N/A", "OVERLOAD", "01.Feb", "about 1.5", "a lot", "1.5 (?)"]
-        {
-            assert_eq!(on_cell(written, "jx_ma"), None, "{written}");
-        }
-    }
-
-    /// Expected: the units by hand; GUM 2.3.5 and 6.2.1 for U = k u.
-    #[test]
-    fn another_unit_is_to_be_converted() {
-        let known = [
-            "alpha_arcsec",
-            "u_arcsec",
-            "u_alpha_arcsec",
-            "jx_ma",
-            "time_s",
-            "gravity_m_per_s2",
-            "height_m",
-            "omega_g_deg_per_h_per_g",
-        ];
-        for (found, from, to, name) in [
-            ("alpha_arcmin", "arcminutes", "arcseconds", "alpha_arcsec"),
-            ("alpha_deg", "degrees", "arcseconds", "alpha_arcsec"),
-            ("alpha_mrad", "mrad", "arcseconds", "alpha_arcsec"),
-            ("u_arcmin", "arcminutes", "arcseconds", "u_arcsec"),
-            ("jx_uA", "µA", "mA", "jx_ma"),
-            ("jx_A", "A", "mA", "jx_ma"),
-            ("time_ms", "ms", "s", "time_s"),
-            ("gravity_mGal", "mGal", "m per s2", "gravity_m_per_s2"),
-            ("height_km", "km", "m", "height_m"),
-            ("omega_g_rad_per_s_per_g", "rad per s per g", "degrees per h per g", "omega_g_deg_per_h_per_g"),
-        ] {
-            let due = format!("convert the numbers from {from} to {to}, then name it {name}");
-            assert_eq!(on_name(&known, found), Some(due), "{found}");
-        }
-        for name in ["u_arcsec", "u_alpha_arcsec"] {
-            let said = on_name(&known, &name.replacen('u', "U", 1)).unwrap();
-            assert!(said.contains("divide") && said.ends_with(name), "{said}");
-        }
-        for other in ["alpha_arcsecs", "alfa_arcsec", "alpha", "jx_mA", "time_of_day", "omega_k_deg_per_h_per_g", "k"] {
-            assert_eq!(on_name(&known, other), None, "{other}");
-        }
-    }
 }

@@ -1,6 +1,6 @@
 //! Line of a file with an error, as a terminal shows it.
 
-use super::Printable;
+use super::{Printable, without_secrets};
 use std::fmt::{self, Display, Formatter};
 
 /// Number of characters shown, and how many of them precede the error; with line number and indentation, they fit in
@@ -32,13 +32,16 @@ pub(crate) struct Excerpt {
 }
 
 impl Excerpt {
-    /// Returns the line of `text` around `at`, or `None` if the text has no such line.
+    /// Returns the line of `text` around `at`, or `None` if the text has no such line or the line may contain a secret.
     pub(crate) fn new(text: &[u8], at: Location) -> Option<Self> {
         let mut lines = text.split(|byte| *byte == b'\n').skip(at.line.checked_sub(1)?);
         let line = lines.next()?;
         // The CR of a line end is not part of the line.
         let line = line.strip_suffix(b"\r").filter(|_| lines.next().is_some()).unwrap_or(line);
         let line = String::from_utf8_lossy(line);
+        if without_secrets(&line) != line {
+            return None;
+        }
         let column = at.column.saturating_sub(1);
         let start = column.saturating_sub(BEFORE);
         let mut characters = line.chars().skip(start);
@@ -146,8 +149,8 @@ mod tests {
 
     #[test]
     fn a_long_line_is_cut_around_the_place() {
-        let text = format!("{}x{}", "a".repeat(1 << 19), "b".repeat(1 << 19));
-        let due = format!("1 | …{}x{}…\n  | {:47}^", "a".repeat(46), "b".repeat(29), "");
+        let text = format!("{}x{}", "o".repeat(1 << 19), "p".repeat(1 << 19));
+        let due = format!("1 | …{}x{}…\n  | {:47}^", "o".repeat(46), "p".repeat(29), "");
         assert_eq!(shown(&text, 1, (1 << 19) + 1), due);
         let hostile = "\u{1b}".repeat(1 << 20);
         assert!(shown(&hostile, 1, 1 << 19).len() < 1000);

@@ -12,10 +12,12 @@
 //! * `yaml`: conversion of hand-written YAML to a tree; the location of a value is found again if an error needs it.
 //! * `printable`: safe display of text from other sources.
 //! * `kind`: what a file is that was given instead of another.
+//! * `cause`: recognised causes of errors, and the advice on each; `advice`: how they are recognised in what was written.
 //! * `problem`: location, found content, expected content and advice of an error; `excerpt`: its line.
 
-mod advice;
+pub(crate) mod advice;
 pub(crate) mod canonical;
+pub(crate) mod cause;
 pub(crate) mod excerpt;
 pub(crate) mod kind;
 pub(crate) mod node;
@@ -31,10 +33,12 @@ pub(crate) mod words;
 #[cfg(feature = "factory")]
 pub(crate) mod yaml;
 
+pub(crate) use cause::Advice;
+pub use cause::Cause;
 pub use excerpt::Location;
 pub(crate) use kind::Kind;
 pub(crate) use node::Node;
-pub(crate) use printable::{Printable, name_of, printable, shown};
+pub(crate) use printable::{Printable, name_of, printable, shown, without_secrets};
 pub(crate) use problem::{Path, Problems};
 pub use problem::{Problem, Unreadable};
 pub(crate) use record::{Document, Field, record};

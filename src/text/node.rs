@@ -1,8 +1,9 @@
 //! Documents as trees: every key is kept in order, including duplicates. Trees are serialised as JSON. And destinations of
 //! a document, written value by value: a text in canonical form, or a tree.
 
-use super::{Field, LARGEST_DOCUMENT_BYTES, Location, Path, Unreadable, large_file};
-use serde::de::{self, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
+use super::kind::{Kind, mistaken};
+use super::{Advice, Cause, Field, LARGEST_DOCUMENT_BYTES, Location, Path, Unreadable, large_file};
+use serde::de::{self, DeserializeOwned, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::{Serialize, Serializer};
 use std::cell::Cell;
 use std::fmt;
@@ -88,20 +89,10 @@ fn text_of<'a>(name: &str, bytes: &'a [u8], largest_bytes: usize, signed: Option
         let found = format!("more than {largest_bytes} bytes");
         return refuse(None, &found, "fewer", large_file(name));
     }
-    if is_utf16(bytes) {
-        return refuse(None, "UTF-16", "UTF-8", resaved);
-    }
     if bytes.starts_with(&[0xEF, 0xBB, 0xBF]) {
         return refuse(Some(Location { line: 1, column: 1 }), "a byte order mark (BOM)", "plain UTF-8", resaved);
     }
-    let text = match std::str::from_utf8(bytes) {
-        Ok(text) => text,
-        Err(error) => {
-            let at = location_of(&bytes[..error.valid_up_to()]);
-            let found = format!("byte 0x{:02X}, which is not valid UTF-8", bytes[error.valid_up_to()]);
-            return refuse(Some(at), &found, "UTF-8", resaved);
-        }
-    };
+    let text = utf8(name, bytes, signed)?;
     if let Some(index) = memchr::memchr(b'\r', bytes) {
         let at = Some(location_of(&bytes[..index]));
         return if text[index..].starts_with("\r\n") {
@@ -114,6 +105,76 @@ fn text_of<'a>(name: &str, bytes: &'a [u8], largest_bytes: usize, signed: Option
         };
     }
     Ok(text)
+}
+
+/// Returns the bytes as text if they are UTF-8; `signed` is as in [`text_of`].
+pub(crate) fn utf8<'a>(name: &str, bytes: &'a [u8], signed: Option<&str>) -> Result<&'a str, Unreadable> {
+    if is_utf16(bytes) {
+        let advice = signed.map_or(Cause::Utf16.into(), |advice| Advice::from((Cause::Utf16, advice)));
+        return Err(Unreadable::whole(name, None, "UTF-16", "UTF-8", advice));
+    }
+    std::str::from_utf8(bytes).map_err(|error| {
+        let (valid, rest) = bytes.split_at(error.valid_up_to());
+        let found = format!("byte 0x{:02X}, which is not valid UTF-8", rest[0]);
+        let advice = signed.unwrap_or("save the file as UTF-8");
+        Unreadable::whole(name, Some(location_of(valid)), found, "UTF-8", advice)
+    })
+}
+
+/// Reads a file of JSON that is what is `expected`. It may begin with a byte order mark, which PowerShell writes.
+pub(crate) fn from_json<T: DeserializeOwned>(
+    name: &str,
+    bytes: &[u8],
+    expected: &str,
+    advice: &str,
+) -> Result<T, Unreadable> {
+    let read = || {
+        let text = utf8(name, without_byte_order_mark(bytes), None)?;
+        serde_json::from_str(text).map_err(|error| {
+            if let Some((at, found, cause)) = odd_character(text) {
+                return Unreadable::whole(name, Some(location_of(&text.as_bytes()[..at])), found, expected, cause);
+            }
+            let location = (error.line() > 0).then(|| Location { line: error.line(), column: error.column().max(1) });
+            let mut found = error.to_string();
+            // Names of all keys, or a place, which is given apart.
+            let end = [", expected one of ", " at line "].into_iter().filter_map(|rest| found.find(rest)).min();
+            found.truncate(end.unwrap_or(found.len()));
+            Unreadable::whole(name, location, format!("unsuitable JSON ({found})"), expected, advice)
+        })
+    };
+    read().map_err(|unreadable| {
+        let other = mistaken(name, bytes, expected, |kind| kind == Kind::Result);
+        other.unwrap_or_else(|| unreadable.in_text(bytes))
+    })
+}
+
+/// Describes a character that a person does not see as what it is, with its cause; `None` for all others. A carriage return
+/// is checked as part of the line ending.
+pub(crate) fn odd(c: char) -> Option<(String, Cause)> {
+    let (name, cause) = match c {
+        '\n' | '\t' | '\r' | ' ' => return None,
+        _ if c.is_control() => ("control character", Cause::ControlCharacter),
+        '\u{2028}' | '\u{2029}' => ("line separator", Cause::NoBreakSpace),
+        '\u{A0}' | '\u{2007}' | '\u{202F}' => ("no-break space", Cause::NoBreakSpace),
+        _ if c.is_whitespace() => ("space", Cause::NoBreakSpace),
+        _ => return None,
+    };
+    Some((format!("{name} U+{:04X}", u32::from(c)), cause))
+}
+
+/// Returns the place, the description and the cause of the first [`odd`] character; spaces in comments do not count, except
+/// separators, which end a line, and so a comment, in YAML 1.1 but not in YAML 1.2.
+pub(crate) fn odd_character(text: &str) -> Option<(usize, String, Cause)> {
+    let (mut in_comment, mut before) = (false, '\n');
+    for (at, c) in text.char_indices() {
+        in_comment = c != '\n' && (in_comment || c == '#' && before.is_ascii_whitespace());
+        before = c;
+        let is_space = c.is_whitespace() && !"\u{85}\u{2028}\u{2029}".contains(c);
+        if let Some((found, cause)) = odd(c).filter(|_| !(in_comment && is_space)) {
+            return Some((at, found, cause));
+        }
+    }
+    None
 }
 
 /// Returns the bytes of a hand-written file after its byte order mark, if it has one.

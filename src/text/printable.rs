@@ -47,6 +47,44 @@ pub(crate) fn name_of(path: &Path) -> String {
     path.display().to_string()
 }
 
+/// Number of characters in 32 bytes as base64 without padding, the shortest form of a key.
+const LEAST_OF_A_KEY: usize = 43;
+
+/// Number of characters that remain of what may be a secret.
+const REMAINING: usize = 8;
+
+/// Returns text of a file for a message, because messages end up in logs: of each word that may be a secret (a key of age,
+/// or 32 bytes or more as base64 or hexadecimal), only the first 8 characters remain.
+pub(crate) fn without_secrets(text: &str) -> String {
+    let is_in_word = |c: char| c.is_ascii_alphanumeric() || "+/=_-:".contains(c);
+    let (mut shown, mut rest) = (String::with_capacity(text.len()), text);
+    while let Some(start) = rest.find(is_in_word) {
+        let end = rest[start..].find(|c| !is_in_word(c)).map_or(rest.len(), |length| start + length);
+        match may_be_secret(&rest[start..end]) {
+            true => shown.extend([&rest[..start + REMAINING], "…"]),
+            false => shown.push_str(&rest[..end]),
+        }
+        rest = &rest[end..];
+    }
+    shown + rest
+}
+
+/// Returns `true` if a word may contain a secret. Fingerprints, numbers, and long words in lower case are not taken for one.
+fn may_be_secret(word: &str) -> bool {
+    let has = |run: &str, is: fn(&u8) -> bool| run.as_bytes().iter().any(is);
+    let runs = |is_part: fn(char) -> bool| word.split(move |c| !is_part(c)).filter(|run| run.len() >= LEAST_OF_A_KEY);
+    let mut base64 = runs(|c| c.is_ascii_alphanumeric() || "+/".contains(c));
+    let mut for_urls = runs(|c| c.is_ascii_alphanumeric() || "-_".contains(c));
+    let mut hexadecimal = runs(|c| c.is_ascii_hexdigit() || c == ':');
+    !word.starts_with("SHA256:")
+        && (word.to_ascii_uppercase().contains("AGE-SECRET-KEY")
+            || base64.any(|run| has(run, u8::is_ascii_uppercase))
+            || for_urls.any(|run| {
+                [u8::is_ascii_uppercase, u8::is_ascii_lowercase, u8::is_ascii_digit].iter().all(|is| has(run, *is))
+            })
+            || hexadecimal.any(|run| has(run, u8::is_ascii_alphabetic) && run.replace(':', "").len() >= 64))
+}
+
 /// Writer that escapes every character that the function rejects.
 struct Escaping<'a, W>(&'a mut W, fn(char) -> bool);
 

@@ -1,10 +1,11 @@
 //! Errors in documents: location, found content, expected content and advice.
 
-use super::Printable;
+use super::cause::{Advice, Cause};
 use super::excerpt::{Excerpt, Location};
-use super::kind::{Kind, mistaken};
 use super::node::without_byte_order_mark;
+use super::rule;
 use super::scalar::is_sha256_hex;
+use super::{Printable, without_secrets};
 use std::collections::HashMap;
 use std::fmt::{self, Display, Formatter};
 use std::hash::Hash;
@@ -86,6 +87,10 @@ pub struct Problem {
     pub expected: String,
     /// Advice; empty if the remedy is obvious.
     pub advice: String,
+    /// Cause, or `None` if it is not a recognised one.
+    pub cause: Option<Cause>,
+    /// Known name that was found with another spelling or unit.
+    meant: Option<String>,
 }
 
 impl Problem {
@@ -94,20 +99,20 @@ impl Problem {
         field: impl Into<String>,
         found: impl Into<String>,
         expected: impl Into<String>,
-        advice: impl Into<String>,
+        advice: impl Into<Advice>,
     ) -> Self {
-        let (field, found, expected, advice) = (field.into(), found.into(), expected.into(), advice.into());
-        Self { location, field, found, expected, advice }
+        let Advice { cause, words, meant } = advice.into();
+        let [field, found, advice] = [field.into(), found.into(), words].map(|words| without_secrets(&words));
+        Self { location, field, found, expected: expected.into(), advice, cause, meant }
     }
 
-    /// Returns `true` if the advice names `key`, because it was found with another name.
-    pub(super) fn names(&self, key: &str) -> bool {
-        let is_in_a_name = |c: char| c.is_alphanumeric() || c == '_';
-        self.advice.split(|c| !is_in_a_name(c)).any(|word| word == key)
+    /// Returns `true` if what was found is `key` with another spelling or unit.
+    pub(super) fn means(&self, key: &str) -> bool {
+        self.meant.as_deref() == Some(key)
     }
 
     /// Creates the report of an error in a whole document.
-    pub(crate) fn whole(found: impl Into<String>, expected: &str, advice: &str) -> Self {
+    pub(crate) fn whole(found: impl Into<String>, expected: &str, advice: impl Into<Advice>) -> Self {
         Self::new(None, "", found, expected, advice)
     }
 }
@@ -132,7 +137,7 @@ const READ_AGAIN_BYTES: usize = 1 << 22;
 const SHOWN: usize = 20;
 
 /// Found content of a missing key.
-const MISSING: &str = "missing";
+pub(crate) const MISSING: &str = "missing";
 
 /// Found content that represents all errors that are not reported separately.
 const FURTHER: &str = "further errors";
@@ -150,9 +155,9 @@ impl Problems {
         self.found.is_empty()
     }
 
-    /// Returns `true` if an error [names](Problem::names) `key`.
-    pub(crate) fn name(&self, key: &str) -> bool {
-        self.found.iter().any(|(_, problem)| problem.names(key))
+    /// Returns `true` if `key` was found with another spelling or unit.
+    pub(crate) fn mean(&self, key: &str) -> bool {
+        self.found.iter().any(|(_, problem)| problem.means(key))
     }
 
     /// Returns `true` if more than [`MOST_PROBLEMS`] errors were found; further ones are not recorded.
@@ -174,13 +179,13 @@ impl Problems {
         at: &Path,
         found: impl Into<String>,
         expected: impl Into<String>,
-        advice: impl Into<String>,
+        advice: impl Into<Advice>,
     ) {
         self.push(at, at, found.into(), expected.into(), advice.into());
     }
 
     /// Records that the mapping at `at` lacks `key`; the location is that of the mapping.
-    pub(crate) fn missing(&mut self, at: &Path, key: &str, expected: impl Into<String>, advice: impl Into<String>) {
+    pub(crate) fn missing(&mut self, at: &Path, key: &str, expected: impl Into<String>, advice: impl Into<Advice>) {
         let key = at.key(key);
         self.push(at, &key, MISSING.to_owned(), expected.into(), advice.into());
     }
@@ -203,7 +208,7 @@ impl Problems {
         }
     }
 
-    fn push(&mut self, at: &Path, field: &Path, found: String, expected: String, advice: String) {
+    fn push(&mut self, at: &Path, field: &Path, found: String, expected: String, advice: Advice) {
         // Further errors in a document with many errors must cost no more than a comparison.
         if self.found.len() == MOST_PROBLEMS {
             self.more = true;
@@ -227,10 +232,10 @@ impl Problems {
 
     fn refused(self, name: &str, affordable: usize, locate: impl Fn(&[Step]) -> Option<Location>) -> Unreadable {
         let groups = grouped(self.found, |(_, problem)| {
-            // The rest of an advice may repeat the value.
-            let advice = problem.advice.split(": ").next().unwrap_or_default().to_owned();
+            // The advice on a recognised cause may repeat the value.
+            let advice = problem.cause.is_none().then(|| problem.advice.clone());
             let field: String = problem.field.chars().filter(|c| !c.is_ascii_digit()).collect();
-            let kind = (field, problem.found == MISSING, problem.expected.clone(), advice);
+            let kind = (field, problem.found == MISSING, problem.expected.clone(), problem.cause, advice);
             problem.field.contains('[').then_some(kind)
         });
         let more = self.more || groups.len() > affordable;
@@ -319,22 +324,9 @@ impl Unreadable {
         location: Option<Location>,
         found: impl Into<String>,
         expected: impl Into<String>,
-        advice: impl Into<String>,
+        advice: impl Into<Advice>,
     ) -> Self {
         Self::of(name, vec![Problem::new(location, "", found, expected, advice)])
-    }
-
-    /// Creates the refusal of JSON that cannot be read as what is `expected`.
-    pub(crate) fn json(name: &str, bytes: &[u8], error: &serde_json::Error, expected: &str, advice: &str) -> Self {
-        if let Some(other) = mistaken(name, bytes, expected, |kind| kind == Kind::Result) {
-            return other;
-        }
-        let location = (error.line() > 0).then(|| Location { line: error.line(), column: error.column().max(1) });
-        let mut found = error.to_string();
-        // Names of all keys, or a place, which is given apart.
-        let end = [", expected one of ", " at line "].into_iter().filter_map(|rest| found.find(rest)).min();
-        found.truncate(end.unwrap_or(found.len()));
-        Self::whole(name, location, format!("unsuitable JSON ({found})"), expected, advice).in_text(bytes)
     }
 
     /// Creates a refusal with several errors whose locations are already known.
@@ -377,6 +369,11 @@ impl Unreadable {
     /// Returns the errors, in the order of the text as far as their locations are known.
     pub fn problems(&self) -> &[Problem] {
         &self.problems
+    }
+
+    /// Returns `true` if a later version of the program wrote the document.
+    pub(crate) fn is_of_a_later_version(&self) -> bool {
+        self.problems.iter().any(|problem| problem.advice == rule::UPDATE)
     }
 }
 

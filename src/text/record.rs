@@ -3,7 +3,7 @@
 use super::canonical::Scanner;
 use super::node::{Sink, Tree};
 use super::scalar::{STRAIGHT_QUOTES, latin, typographic_quote};
-use super::{Node, Path, Problems, advice};
+use super::{Advice, Cause, Node, Path, Problems, advice, node, rule};
 use std::collections::HashSet;
 
 /// Type of a field of a document.
@@ -76,6 +76,7 @@ impl<T: Document> Field for File<T> {
             Some(Node::Text(found)) if found == format => {}
             Some(found) => {
                 let advice = match found {
+                    Node::Text(text) if rule::is_later_format(text, format) => rule::UPDATE.to_owned(),
                     Node::Text(text) if typographic_quote(text).is_some() => STRAIGHT_QUOTES.to_owned(),
                     Node::Text(text) => latin(text).filter(|(latin, _)| latin == format).map_or_else(
                         || RIGHT_FILE.to_owned(),
@@ -115,7 +116,7 @@ impl<T: Document> Field for File<T> {
 macro_rules! record {
     ($(#[$about:meta])* $vis:vis struct $name:ident { $($(#[$doc:meta])* pub $field:ident : $type:ty,)* }) => {
         #[derive(Debug, Clone, PartialEq)]
-        #[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
+        #[cfg_attr(feature = "generate", derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
         $(#[$about])*
         $vis struct $name { $($(#[$doc])* pub $field: $type,)* }
 
@@ -138,7 +139,7 @@ macro_rules! record {
             }
 
             fn scan(scanner: &mut $crate::text::canonical::Scanner) -> Option<Self> {
-                scanner.mapping(|scanner| {
+                scanner.mapping(<Self as $crate::text::record::Record>::KEYS, |scanner| {
                     Some(Self { $($field: scanner.entry(const { $crate::text::record::key(stringify!($field)) })?,)* })
                 })
             }
@@ -214,21 +215,25 @@ pub(crate) fn entries<'n>(
     Some(entries)
 }
 
-fn unknown_key_advice(entries: &[(String, Node)], index: usize, key: &str, value: &Node, known: &[&str]) -> String {
+fn unknown_key_advice(entries: &[(String, Node)], index: usize, key: &str, value: &Node, known: &[&str]) -> Advice {
     let previous = index.checked_sub(1).and_then(|before| entries.get(before));
     if let Some((name, Node::Integer(whole))) = previous
         && *value == Node::Null
         && key.bytes().all(|byte| byte.is_ascii_digit())
     {
-        return format!("use a decimal point: {name}: {whole}.{key}");
+        return match (1..1000).contains(&whole.abs()) && key.len() == 3 {
+            true => (Cause::Thousands, format!("write {name}: {whole}{key}, or, with a decimal point, {whole}.{key}")),
+            false => (Cause::DecimalComma, format!("use a decimal point: {name}: {whole}.{key}")),
+        }
+        .into();
     }
     if let Some(advice) = advice::on_name(known, key) {
         return advice;
     }
     let alike = |name: &&str| strsim::jaro_winkler(name, key);
     match known.iter().max_by(|a, b| alike(a).total_cmp(&alike(b))) {
-        Some(name) if alike(name) > ALIKE => format!("did you mean {name}?"),
-        _ => "delete it, or make it a comment".to_owned(),
+        Some(name) if alike(name) > ALIKE => Advice::from(format!("did you mean {name}?")).meaning(name),
+        _ => "delete it, or make it a comment".into(),
     }
 }
 
@@ -252,7 +257,12 @@ pub(crate) fn read_field<T: Field>(
 }
 
 /// Reports a value that is not what its key expects.
-pub(crate) fn refuse<T: Field>(node: &Node, at: &Path, advice: &str, problems: &mut Problems) -> Option<T> {
+pub(crate) fn refuse<T: Field>(
+    node: &Node,
+    at: &Path,
+    advice: impl Into<Advice>,
+    problems: &mut Problems,
+) -> Option<T> {
     problems.at(at, node.describe(), T::expected(at.last_key()), advice);
     None
 }
@@ -385,9 +395,12 @@ impl Field for String {
             return None;
         }
         if let Some(refused) = refused_in_string(text) {
-            let found = format!("character U+{:04X}", u32::from(refused));
-            let advice = "delete it, or use a composed character (NFC); control, combining, bidirectional, invisible \
-                          and separator characters cannot be signed";
+            const ADVICE: &str = "delete it, or use a composed character (NFC); control, combining, bidirectional, invisible \
+                                  and separator characters cannot be signed";
+            let (found, advice): (String, Advice) = match node::odd(refused) {
+                Some((found, cause @ Cause::NoBreakSpace)) => (found, cause.into()),
+                _ => (format!("character U+{:04X}", u32::from(refused)), ADVICE.into()),
+            };
             problems.at(at, found, "printable text on one line", advice);
             return None;
         }
@@ -478,130 +491,5 @@ impl<T: Field, const N: usize> Field for [T; N] {
 
     fn scan(scanner: &mut Scanner) -> Option<Self> {
         scanner.array()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::text::Limits;
-
-    /// Returns the value, and what the message says about it.
-    fn read<T: Field>(node: Node) -> (Option<T>, Option<String>) {
-        let mut problems = Problems::default();
-        let value = T::read(&node, &Path::Root, &mut problems);
-        let refused = (!problems.is_empty()).then(|| problems.refuse_by_field("f").problems()[0].found.clone());
-        (value, refused)
-    }
-
-    #[test]
-    fn a_value_is_either_read_or_described() {
-        let described = |found: &str| Some(found.to_owned());
-        assert_eq!(read::<u32>(Node::Integer(4_294_967_295)), (Some(u32::MAX), None));
-        assert_eq!(read::<u32>(Node::Integer(4_294_967_296)), (None, described("4294967296")));
-        assert_eq!(read::<u32>(Node::Integer(-1)), (None, described("-1")));
-        assert_eq!(read::<f64>(Node::Number(f64::INFINITY)), (None, described("inf")));
-        let list = |length| Node::List(vec![Node::Integer(1); length]);
-        assert_eq!(read::<[u32; 3]>(list(3)), (Some([1; 3]), None));
-        assert_eq!(read::<[u32; 3]>(list(2)), (None, described("a list of 2 items")));
-        assert_eq!(read::<String>(Node::Text("a\u{301}".to_owned())), (None, described("character U+0301")));
-        // A document has one zero.
-        assert!(read::<f64>(Node::Number(-0.0)).0.unwrap().is_sign_positive());
-    }
-
-    record! {
-        /// Record with every kind of value.
-        pub struct Place {
-            /// Text.
-            pub name: String,
-            /// Boolean.
-            pub open: bool,
-            /// Number.
-            pub height_m: f64,
-            /// Whole number.
-            pub floors: u32,
-            /// Text that may be absent.
-            pub remark: Option<String>,
-        }
-    }
-
-    fn map(entries: &[(&str, Node)]) -> Node {
-        Node::Map(entries.iter().map(|(key, value)| ((*key).to_owned(), value.clone())).collect())
-    }
-
-    fn text(text: &str) -> Node {
-        Node::Text(text.to_owned())
-    }
-
-    /// Expected: the canonical form of the contract, and the tree of the same values.
-    #[test]
-    fn a_record_is_written_and_read_as_text_and_as_a_tree() {
-        let entries = [
-            ("name", text("a \"b\" \\ c")),
-            ("open", Node::Bool(true)),
-            ("height_m", Node::Number(-2.5)),
-            ("floors", Node::Integer(12)),
-            ("remark", text("d")),
-        ];
-        let written = "name: \"a \\\"b\\\" \\\\ c\"\nopen: true\nheight_m: -2.5\nfloors: 12\nremark: \"d\"\n";
-        for length in [5, 4] {
-            let (tree, written) = (map(&entries[..length]), written.split_inclusive('\n').take(length));
-            let written: String = written.collect();
-            let place = read::<Place>(tree.clone()).0.unwrap();
-            assert_eq!(place.open && place.remark.is_some(), length == 5);
-            assert_eq!(place.write(), Some(tree));
-            assert_eq!(crate::text::canonical::write_bare(&place), written);
-            assert_eq!(crate::text::canonical::read(&written, Limits::DOCUMENT), Ok(place));
-            let unnamed = written.replacen("a \\\"b\\\" \\\\ c", "", 1);
-            assert!(
-                unnamed.starts_with("name: \"\"\n")
-                    && crate::text::canonical::read::<Place>(&unnamed, Limits::DOCUMENT).is_err()
-            );
-        }
-    }
-
-    /// Returns what was found, expected and advised of each error in a [`Place`].
-    fn refused(node: &Node) -> Vec<[String; 3]> {
-        let mut problems = Problems::default();
-        assert_eq!(Place::read(node, &Path::Root, &mut problems), None);
-        let refused = problems.refuse_by_field("f");
-        refused.problems().iter().map(|at| [at.found.clone(), at.expected.clone(), at.advice.clone()]).collect()
-    }
-
-    /// Expected: the unit that each key of the contract ends with.
-    #[test]
-    fn a_missing_key_says_what_belongs_there() {
-        let expected: Vec<String> = refused(&map(&[])).into_iter().map(|[_, expected, _]| expected).collect();
-        assert_eq!(expected, ["text", "true or false", "a number in metres", "a whole number"]);
-        for (key, unit) in [
-            ("alpha_arcsec", "a number in arcseconds"),
-            ("latitude_deg", "a number in degrees"),
-            ("k_x_deg_per_h_per_ma", "a number in degrees per hour per milliampere"),
-            ("gravity_m_per_s2", "a number in metres per second squared"),
-            ("size", "a number"),
-        ] {
-            assert_eq!(f64::expected(key), unit);
-        }
-        assert_eq!([Place::expected(""), <Vec<f64>>::expected("")], ["a mapping", "a list"]);
-        assert_eq!(<[f64; 3]>::expected(""), "a list of 3 items");
-    }
-
-    #[test]
-    fn an_unknown_key_is_named_with_the_key_that_was_meant() {
-        let advice = |entries: &[(&str, Node)]| refused(&map(entries)).swap_remove(0);
-        let unknown = |key: &str| format!("unknown key {key:?}");
-        for (key, due) in [
-            ("hieght_m", "did you mean height_m?"),
-            ("colour", "delete it, or make it a comment"),
-            ("fl\u{43E}ors", "the Cyrillic letter 'о' (U+043E) only looks like a Latin letter; type floors again"),
-        ] {
-            let [found, _, advice] = advice(&[(key, Node::Integer(1))]);
-            assert_eq!((found, advice.as_str()), (unknown(key), due));
-        }
-        let comma = advice(&[("height_m", Node::Integer(12)), ("4", Node::Null)]);
-        assert_eq!((&comma[0], comma[2].as_str()), (&unknown("4"), "use a decimal point: height_m: 12.4"));
-        let no_comma = advice(&[("height_m", Node::Integer(12)), ("4", Node::Integer(1))]);
-        assert_eq!(no_comma[2], "delete it, or make it a comment");
-        assert_eq!(advice(&[("open", Node::Bool(true)), ("open", Node::Bool(true))])[0], "duplicate key \"open\"");
     }
 }

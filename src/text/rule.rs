@@ -5,6 +5,7 @@
 
 use super::node::{location_of, plain_text};
 use super::problem::Unreadable;
+use super::without_secrets;
 use std::ops::RangeInclusive;
 
 /// Characters beyond ASCII that a quoted string may contain: letters, punctuation and symbols that are drawn alone and
@@ -60,6 +61,17 @@ pub(super) fn write_quoted(text: &str, mut push: impl FnMut(&str)) {
 
 /// Advice for text that is not as the writer writes it.
 pub(super) const NOT_CANONICAL: &str = "this is not the canonical form; get the file from the issuer again";
+
+/// Advice for a text with a key or a format that this version does not know.
+pub(crate) const UPDATE: &str = "update the program, because a later version wrote this file";
+
+/// Returns `true` if the format `found` is `known` with a later number.
+pub(crate) fn is_later_format(found: &str, known: &str) -> bool {
+    let number = |format: &str| {
+        format.rsplit_once('/').and_then(|(kind, number)| Some((kind.to_owned(), number.parse::<u32>().ok()?)))
+    };
+    number(found).zip(number(known)).is_some_and(|(found, known)| found.0 == known.0 && found.1 > known.1)
+}
 
 /// Checks the bytes against the rule before anything is parsed, and returns the text.
 pub(crate) fn check<'a>(name: &str, bytes: &'a [u8], largest_bytes: usize) -> Result<&'a str, Unreadable> {
@@ -194,6 +206,7 @@ pub(crate) fn differs(text: &str, canonical: &str) -> Option<(usize, String, Str
 /// Returns a line as messages show it.
 pub(super) fn shortened(line: &str) -> String {
     const LONGEST: usize = 100;
+    let line = without_secrets(line);
     if line.chars().count() <= LONGEST {
         return format!("`{line}`");
     }

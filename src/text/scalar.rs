@@ -13,9 +13,10 @@ use std::str::FromStr;
 /// Name that can be a folder or file name on every system: `[A-Za-z0-9][A-Za-z0-9._-]{0,63}` without `..`, without a
 /// dot at the end, and not reserved by Windows.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(transparent))]
-pub struct Identifier(#[cfg_attr(feature = "cli", schemars(regex(pattern = PATTERN)))] String);
+#[cfg_attr(feature = "generate", derive(schemars::JsonSchema), schemars(transparent))]
+pub struct Identifier(#[cfg_attr(feature = "generate", schemars(regex(pattern = PATTERN)))] String);
 
+#[cfg(feature = "generate")]
 const PATTERN: &str = concat!(
     r"^(?!.*\.\.)(?!.*\.$)",
     r"(?!([Cc][Oo][Nn]|[Pp][Rr][Nn]|[Aa][Uu][Xx]|[Nn][Uu][Ll]|([Cc][Oo][Mm]|[Ll][Pp][Tt])[0-9])(\.|$))",
@@ -172,7 +173,7 @@ impl Field for Date {
             Node::Text(text) => impossible_date(text).unwrap_or_else(|| FORM_OF_DATE.to_owned()),
             _ => FORM_OF_DATE.to_owned(),
         };
-        refuse(node, at, &advice, problems)
+        refuse(node, at, advice, problems)
     }
 
     fn expected(_: &str) -> String {

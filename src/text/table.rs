@@ -6,11 +6,13 @@
 //! columns are accepted and reported, and with them decimal commas if the whole file has them; anything in between is
 //! refused, because its meaning depends on the country of the reader.
 
-use super::advice::{self, unquoted};
+use super::advice;
 use super::kind::mistaken;
-use super::node::{hand_written_text, without_byte_order_mark};
+use super::node::{hand_written_text, odd, without_byte_order_mark};
 use super::problem::{MOST_COUNTED, MOST_PROBLEMS, counted};
-use super::{Kind, Location, Problem, Unreadable};
+use super::{Advice, Cause, Kind, Location, Node, Problem, Unreadable};
+use std::cmp::Reverse;
+use std::ops::Range;
 
 /// Table: rows of cells, in the order of the requested columns.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,24 +39,34 @@ pub(crate) struct Cell {
 }
 
 impl<'a> Table<'a> {
-    /// Reads the table `name`, which must have the `required` columns and may have the `optional` ones, in any order.
+    /// Reads the table `name`. It must have the columns `indices` and `measured`, whose numbers may have decimals, and may have
+    /// the `optional` ones, in any order.
     ///
     /// # Errors
     /// Returns [`Unreadable`] with every error in the form. The caller checks the content of the cells.
     pub(crate) fn read(
         name: &'a str,
         bytes: &'a [u8],
-        required: &[&'a str],
+        indices: &[&'a str],
+        measured: &[&'a str],
         optional: &[&'a str],
     ) -> Result<Self, Unreadable> {
-        Self::parse(name, bytes, required, optional).map_err(|unreadable| {
-            let expected = if required.contains(&"jx_ma") { Kind::Currents } else { Kind::Angles };
+        Self::parse(name, bytes, indices, measured, optional).map_err(|unreadable| {
+            let expected = if measured.contains(&"jx_ma") { Kind::Currents } else { Kind::Angles };
             let other = mistaken(name, bytes, expected.words(), |kind| kind == expected);
             other.unwrap_or_else(|| unreadable.in_text(bytes))
         })
     }
 
-    fn parse(name: &'a str, bytes: &'a [u8], required: &[&'a str], optional: &[&'a str]) -> Result<Self, Unreadable> {
+    fn parse(
+        name: &'a str,
+        bytes: &'a [u8],
+        indices: &[&'a str],
+        measured: &[&'a str],
+        optional: &[&'a str],
+    ) -> Result<Self, Unreadable> {
+        let required = &[indices, measured].concat()[..];
+        let known = &[required, optional].concat()[..];
         let header = || format!("a table with the header {}", required.join(","));
         if without_byte_order_mark(bytes).is_empty() {
             let advice = "the file may be truncated; copy it again";
@@ -73,25 +85,25 @@ impl<'a> Table<'a> {
         let Some((line, header)) = first else {
             return Err(Unreadable::whole(name, None, "only spaces and comments", header(), ""));
         };
-        let separator = declared
-            .or_else(|| SEPARATORS.into_iter().map(|(separator, _)| separator).find(|it| header.contains(*it)))
-            .unwrap_or(',');
-        let header = Header::read(name, (line, header), separator, required, optional)?;
+        let separator = declared.unwrap_or_else(|| separator_of(header, known));
+        let range = indices.len()..required.len();
+        let header = Header::read(name, (line, header), separator, (required, range.clone()), known)?;
         let mut problems = Vec::new();
         let mut rows = Vec::new();
         for (line, text) in lines {
-            match cells(line, text, separator).map(|cells| without_trailing(cells, header.names.len())) {
-                Ok(cells) if cells.iter().all(|cell| cell.text.is_empty()) => {}
-                Ok(cells) if header.fits(text, separator, cells.len()) => {
-                    rows.push(header.order.iter().map(|&place| cells[place].clone()).collect());
-                }
-                Ok(cells) => problems.push(header.wrong_number_of_cells((line, text), separator, cells.len())),
-                Err(problem) => problems.push(problem),
+            match cells(line, text, separator).map(|cells| header.examined((line, text), separator, cells)) {
+                Ok(Ok(None)) => {}
+                Ok(Ok(Some(row))) => rows.push(row),
+                Ok(Err(problem)) | Err(problem) => problems.push(problem),
             }
             if problems.len() >= MOST_COUNTED {
                 break;
             }
         }
+        if problems.is_empty() && separator == ',' {
+            problems.extend(split_numbers(&rows, range));
+        }
+        let mut rows: Vec<Row> = rows.into_iter().map(|(row, _)| row).collect();
         let Header { columns, left_out, .. } = header;
         let mut separated = None;
         if problems.is_empty() && separator != ',' {
@@ -104,11 +116,11 @@ impl<'a> Table<'a> {
                 Err(problem) => problems.push(problem),
             }
         }
+        let table = Self { name, bytes, columns, rows, left_out, separated };
         if problems.is_empty() {
-            Ok(Self { name, bytes, columns, rows, left_out, separated })
-        } else {
-            Err(Unreadable::of(name, counted(problems, kind)))
+            problems.extend(table.with_thousands(measured));
         }
+        if problems.is_empty() { Ok(table) } else { Err(Unreadable::of(name, counted(problems, kind))) }
     }
 
     /// Returns a remark on how the table was understood, if it has decimal commas or ignored columns, otherwise `None`.
@@ -131,7 +143,7 @@ impl<'a> Table<'a> {
         let cell = &row[column];
         let value = cell.text.parse::<f64>().ok().filter(|value| value.is_finite());
         if value.is_none() {
-            let advice = advice::on_cell(&cell.text, self.columns[column]).unwrap_or(not_taken);
+            let advice = advice::on_cell(&cell.text, self.columns[column], not_taken);
             problems.push(self.problem(cell, column, described(&cell.text), "a number", advice));
         }
         value
@@ -144,20 +156,31 @@ impl<'a> Table<'a> {
         let is_index = |value: &f64| value.fract() == 0.0 && (1.0..=f64::from(u32::MAX)).contains(value);
         let index = cell.text.parse::<f64>().ok().filter(is_index).map(|index| index as u32);
         if index.is_none() {
-            let advice = advice_for_index(&cell.text);
+            let advice = match cell.text.parse::<f64>() {
+                Ok(0.0) => "count from 1".into(),
+                Ok(_) => Advice::default(),
+                Err(_) => advice::on_cell(&cell.text, self.columns[column], ""),
+            };
             problems.push(self.problem(cell, column, described(&cell.text), "a whole number of 1 or more", advice));
         }
         index
     }
 
     /// Creates the report of an error in a cell.
-    pub(crate) fn problem(&self, cell: &Cell, column: usize, found: String, expected: &str, advice: &str) -> Problem {
+    pub(crate) fn problem(
+        &self,
+        cell: &Cell,
+        column: usize,
+        found: String,
+        expected: &str,
+        advice: impl Into<Advice>,
+    ) -> Problem {
         Problem::new(Some(cell.location), column_name(&self.columns, column), found, expected, advice)
     }
 
-    /// Refuses a table in which the points in `columns` seem to be thousands separators, as in 1.064 for 1064: each is before
-    /// exactly three digits, no number is below 1, and other numbers are whole.
-    pub(crate) fn check_marks(&self, columns: &[&str]) -> Result<(), Unreadable> {
+    /// Returns the problem of a table in which the points in `columns` seem to be thousands separators, as in 1.064 for 1064:
+    /// each is before exactly three digits, no number is below 1, and other numbers are whole.
+    fn with_thousands(&self, columns: &[&str]) -> Option<Problem> {
         let places: Vec<usize> = columns.iter().filter_map(|column| self.place(column)).collect();
         let cells = || self.rows.iter().flat_map(|row| places.iter().map(move |&place| (place, &row[place])));
         let is_grouped = |cell: &Cell| {
@@ -170,14 +193,14 @@ impl<'a> Table<'a> {
         let is_small_and_whole =
             |cell: &Cell| cell.text.parse::<i32>().is_ok_and(|number| (1..1000).contains(&number.abs()));
         let mut with_point = cells().filter(|(_, cell)| cell.text.contains('.'));
-        let Some((place, first)) = with_point.next().filter(|(_, cell)| is_grouped(cell)) else { return Ok(()) };
+        let (place, first) = with_point.next().filter(|(_, cell)| is_grouped(cell))?;
         if !with_point.all(|(_, cell)| is_grouped(cell)) || !cells().any(|(_, cell)| is_small_and_whole(cell)) {
-            return Ok(());
+            return None;
         }
         let advice = "every point is before exactly three digits, and other numbers are whole: save the table again without \
                       thousands separators, or, if the points are decimal, with all decimals in every number";
         let expected = "a number that can be read in one way";
-        Err(self.refuse(vec![self.problem(first, place, described(&first.text), expected, advice)]))
+        Some(self.problem(first, place, described(&first.text), expected, (Cause::Thousands, advice)))
     }
 
     /// Returns the refusal of this table. If many cells need the same advice, only the first is shown, with the number
@@ -191,13 +214,10 @@ fn column_name<'a>(columns: &[&'a str], place: usize) -> &'a str {
     columns.get(place).copied().unwrap_or_default()
 }
 
-/// Returns the kind of an error in a cell, or of a row with too few or too many; `None` for errors of which each is
-/// shown.
-fn kind(problem: &Problem) -> Option<(String, String)> {
-    let is_cell = !problem.field.is_empty() && (!problem.advice.is_empty() || problem.expected.contains("number"));
-    let is_row = problem.field.is_empty() && problem.found.contains(" value");
-    let counts = problem.location.is_some() && (is_cell || is_row);
-    counts.then(|| (problem.expected.clone(), problem.advice.clone()))
+/// Returns the kind of an error in a cell or a row; `None` for errors of the whole table, of which each is shown.
+fn kind(problem: &Problem) -> Option<(bool, String, String)> {
+    problem.location?;
+    Some((problem.field.is_empty(), problem.expected.clone(), problem.advice.clone()))
 }
 
 /// Returns `true` for a line that begins with `#`, also in quotes, which spreadsheet programs put around a cell with a comma.
@@ -232,8 +252,8 @@ fn with_decimal_points(rows: &mut [Row], columns: &[&str]) -> Result<bool, Probl
             let found = format!("{:?}, with decimal commas from line {} on", cell.text, comma.location.line);
             let expected = "decimal commas or decimal points in the whole file";
             let advice = match cell.text.contains(',') {
-                true => "save the table again without thousands separators",
-                false => "save the table again with decimal points",
+                true => (Cause::Thousands, "save the table again without thousands separators"),
+                false => (Cause::DecimalComma, "save the table again with decimal points"),
             };
             return Err(Problem::new(Some(cell.location), column_name(columns, place), found, expected, advice));
         }
@@ -248,15 +268,24 @@ fn with_decimal_points(rows: &mut [Row], columns: &[&str]) -> Result<bool, Probl
     Ok(true)
 }
 
+/// Largest number of cells in a row: that of spreadsheet programs.
+const MOST_CELLS: usize = 16_384;
+
 /// Returns the cells of a line. A quoted cell may contain separators, and quotes written twice (RFC 4180).
 fn cells(line: usize, text: &str, separator: char) -> Result<Vec<Cell>, Problem> {
     let mut cells = Vec::new();
     let mut rest = Some(text);
+    // Counted from cell to cell: counted from the beginning of the line, a long row would take the square of its length.
+    let mut column = 1;
     let blank = |c: char| c.is_whitespace() && c != separator;
     while let Some(here) = rest {
         let start = here.trim_start_matches(blank);
-        let column = text[..text.len() - start.len()].chars().count() + 1;
+        column += here[..here.len() - start.len()].chars().count();
         let location = Location { line, column };
+        if cells.len() == MOST_CELLS {
+            let (found, expected) = (format!("more than {MOST_CELLS} values in a row"), "a row of a table");
+            return Err(Problem::new(Some(location), "", found, expected, "check that this is the right file"));
+        }
         let (cell, after) = match start.strip_prefix('"') {
             Some(quoted) => quoted_cell(quoted, separator).ok_or_else(|| {
                 let found = "a quoted cell without a closing quote before a comma or the end of the line";
@@ -269,6 +298,7 @@ fn cells(line: usize, text: &str, separator: char) -> Result<Vec<Cell>, Problem>
             }
         };
         cells.push(Cell { text: cell, location });
+        column += start[..start.len() - after.len()].chars().count() + 1;
         rest = after.strip_prefix(separator);
     }
     Ok(cells)
@@ -295,6 +325,43 @@ fn quoted_cell(quoted: &str, separator: char) -> Option<(String, &str)> {
 /// Separators of columns with their names, in the order in which a header is searched for them.
 const SEPARATORS: [(char, &str); 3] = [(',', "commas"), (';', "semicolons"), ('\t', "tabs")];
 
+/// Returns the separator that gives the most known columns, the first of equal ones.
+fn separator_of(header: &str, known: &[&str]) -> char {
+    let found = SEPARATORS.iter().map(|(separator, _)| *separator).filter(|it| header.contains(*it));
+    found.min_by_key(|it| Reverse(count_known(header.split(*it), known))).unwrap_or(',')
+}
+
+fn count_known<'h>(cells: impl Iterator<Item = &'h str>, known: &[&str]) -> usize {
+    cells.filter(|cell| known.contains(&cell.trim().trim_matches('"'))).count()
+}
+
+/// Cells of a row that are used, and the count of numbers in further columns that decimal commas may have put there.
+type Examined = (Row, usize);
+
+/// Returns the problem of a table in which decimal commas seem to have split the numbers: every measured number is whole, and
+/// further columns contain as many numbers as there are channels, or at least one where a channel has single digits alone.
+fn split_numbers(rows: &[Examined], measured: Range<usize>) -> Option<Problem> {
+    let is_digit = |cell: &Cell| matches!(cell.text.as_bytes(), [b'0'..=b'9']);
+    let has_digits_alone = |&column: &usize| rows.iter().all(|(row, further)| *further > 0 && is_digit(&row[column]));
+    let first = rows.iter().find(|(_, further)| *further >= measured.len());
+    let (row, further) =
+        first.or_else(|| rows.first().filter(|_| measured.clone().skip(1).any(|at| has_digits_alone(&at))))?;
+    let is_whole = rows.iter().all(|(row, _)| is_without_point(&row[measured.clone()]));
+    is_whole.then(|| split_row(row[0].location.line, *further))
+}
+
+fn split_row(line: usize, further: usize) -> Problem {
+    let plural = if further == 1 { "" } else { "s" };
+    let found = format!("measured numbers without a decimal point, and {further} number{plural} in further columns");
+    let advice = "use decimal points, because a decimal comma splits a number in two; write a whole number as 12.0";
+    let at = Location { line, column: 1 };
+    Problem::new(Some(at), "", found, "decimal points in the measured numbers", (Cause::DecimalComma, advice))
+}
+
+fn is_without_point(cells: &[Cell]) -> bool {
+    cells.iter().all(|cell| !cell.text.contains('.'))
+}
+
 struct Header<'a> {
     /// Requested columns that are present.
     columns: Vec<&'a str>,
@@ -303,6 +370,10 @@ struct Header<'a> {
     left_out: Vec<String>,
     /// Names of all columns, in the order of a line.
     names: Vec<String>,
+    /// Number of cells of the header, with the empty ones at its end.
+    written: usize,
+    /// Range of the measured columns in `columns` and `order`.
+    measured: Range<usize>,
 }
 
 impl<'a> Header<'a> {
@@ -310,13 +381,11 @@ impl<'a> Header<'a> {
         name: &str,
         (line, header): (usize, &str),
         separator: char,
-        required: &[&'a str],
-        optional: &[&'a str],
+        (required, measured): (&[&'a str], Range<usize>),
+        known: &[&'a str],
     ) -> Result<Self, Unreadable> {
         let at = Location { line, column: 1 };
         let expected = || format!("the header {} (columns in any order)", required.join(","));
-        let known: Vec<&str> = required.iter().chain(optional).copied().collect();
-        let is_known = |cell: &str| known.contains(&cell.trim().trim_matches('"'));
         // Decimal commas in a row of numbers, or commas in a title, do not separate columns.
         let parts = || header.split([',', ';', '\t']);
         if parts().all(|part| part.trim().is_empty() || part.trim().parse::<f64>().is_ok()) {
@@ -325,7 +394,9 @@ impl<'a> Header<'a> {
         }
         let words = |sought: char| SEPARATORS.iter().find(|(it, _)| *it == sought).map_or("", |(_, words)| words);
         let other = SEPARATORS.iter().find(|(other, _)| *other != separator && header.contains(*other));
-        if let Some((_, and)) = other.filter(|_| parts().any(is_known)) {
+        if let Some((_, and)) =
+            other.filter(|_| count_known(parts(), known) > count_known(header.split(separator), known))
+        {
             let found = format!("columns separated by {} and {and}", words(separator));
             let advice = "save as CSV with commas between columns and decimal points in numbers";
             return Err(Unreadable::whole(name, Some(at), found, expected(), advice));
@@ -335,28 +406,35 @@ impl<'a> Header<'a> {
             return Err(Unreadable::whole(name, Some(at), found, expected(), "check that this is the right file"));
         }
         let cells = cells(line, header, separator).map_err(|problem| Unreadable::of(name, vec![problem]))?;
+        let written = cells.len();
         let cells = without_trailing(cells, 1);
         let mut problems = Vec::new();
         let mut left_out = Vec::new();
+        // A comma before the unit, as in `Jx, mA`, makes two cells of a name.
+        let with_unit = |index: usize| {
+            let [name, unit] = cells.get(index..index + 2)? else { return None };
+            advice::on_name(known, &format!("{}, {}", name.text, unit.text))
+        };
         for (index, cell) in cells.iter().enumerate() {
-            let mut problem = |found: String, advice: String| {
+            let mut problem = |found: String, advice: Advice| {
                 problems.push(Problem::new(Some(cell.location), "", found, expected(), advice));
             };
             if known.contains(&cell.text.as_str()) {
                 if cells[..index].iter().any(|earlier| earlier.text == cell.text) {
-                    problem(format!("duplicate column {:?}", cell.text), String::new());
+                    problem(format!("duplicate column {:?}", cell.text), Advice::default());
                 }
-            } else if let Some(advice) = advice::on_name(&known, &cell.text) {
+            } else if let Some(advice) = advice::on_name(known, &cell.text).or_else(|| with_unit(index)) {
                 problem(format!("column {:?}", cell.text), advice);
-            } else if let Some(column) = meant(&known, &cell.text) {
-                problem(format!("column {:?}", cell.text), format!("did you mean {column}?"));
+            } else if let Some(column) = meant(known, &cell.text) {
+                let advice = Advice::from(format!("did you mean {column}?")).meaning(column);
+                problem(format!("column {:?}", cell.text), advice);
             } else {
                 left_out.push(cell.text.clone());
             }
         }
         let place = |column: &&str| cells.iter().position(|cell| cell.text == *column);
         // A column that only has another name is named there.
-        let is_named = |column: &&&str| problems.iter().any(|problem| problem.names(column));
+        let is_named = |column: &&&str| problems.iter().any(|problem| problem.means(column));
         let missing = required.iter().filter(|column| place(column).is_none() && !is_named(column));
         let missing: Vec<&str> = missing.copied().collect();
         if !missing.is_empty() {
@@ -364,11 +442,11 @@ impl<'a> Header<'a> {
             let found = format!("no column{plural} {}", missing.join(", "));
             let advice = match left_out.is_empty() {
                 true => String::new(),
-                false if cells.len() == 1 && cells[0].text.split(',').filter(|word| is_known(word)).count() > 1 => {
+                false if cells.len() == 1 && count_known(cells[0].text.split(','), known) > 1 => {
                     "each row is one quoted cell; import the table again with commas between columns, and save it"
                         .to_owned()
                 }
-                false if header.split_whitespace().filter(|word| is_known(word)).count() > 1 => {
+                false if count_known(header.split_whitespace(), known) > 1 => {
                     "separate columns by commas, semicolons or tabs, not by spaces".to_owned()
                 }
                 false if missing.len() == required.len() => "put # before the lines above the header".to_owned(),
@@ -382,15 +460,91 @@ impl<'a> Header<'a> {
         if !problems.is_empty() {
             return Err(Unreadable::of(name, problems));
         }
-        let (columns, order) = known.into_iter().filter_map(|column| Some((column, place(&column)?))).unzip();
-        Ok(Self { columns, order, left_out, names: cells.into_iter().map(|cell| cell.text).collect() })
+        let (columns, order) = known.iter().filter_map(|column| Some((*column, place(column)?))).unzip();
+        let names = cells.into_iter().map(|cell| cell.text).collect();
+        Ok(Self { columns, order, left_out, names, written, measured })
     }
 
-    /// Returns `true` if a row with this number of cells has those of all columns that are used. Spreadsheet programs omit
-    /// separators at the end of a row, so cells of other columns may be missing there.
-    fn fits(&self, row: &str, separator: char, found: usize) -> bool {
-        let is_short = found < self.names.len();
-        found <= self.names.len() && self.has_used(found) && !(is_short && separator == ',' && has_decimal_commas(row))
+    /// Returns the cells of a row that are used; `None` for an empty row. Spreadsheet programs omit separators at the end of a
+    /// row, so cells of other columns may be missing there.
+    fn examined(
+        &self,
+        (line, text): (usize, &str),
+        separator: char,
+        cells: Vec<Cell>,
+    ) -> Result<Option<Examined>, Problem> {
+        let written = cells.len();
+        let cells = without_trailing(cells, self.names.len());
+        if cells.iter().all(|cell| cell.text.is_empty()) {
+            return Ok(None);
+        }
+        if let Some((found, cause)) = self.not_readings(&cells) {
+            return Err(Problem::new(Some(Location { line, column: 1 }), "", found, "readings", cause));
+        }
+        if cells.len() > self.names.len() || !self.has_used(cells.len()) {
+            return Err(self.wrong_number_of_cells((line, text), separator, &cells));
+        }
+        let is_further = |place: &usize| !self.order.contains(place) && cells[*place].text.parse::<f64>().is_ok();
+        let from_measured = self.first_measured()..cells.len();
+        let further = match separator == ',' && has_split_number(&cells[from_measured.clone()]) {
+            true => from_measured.clone().filter(is_further).count(),
+            false => 0,
+        };
+        let row: Row = self.order.iter().map(|&place| cells[place].clone()).collect();
+        let has_rest = || cells[from_measured].iter().any(|cell| cell.text.len() > 1 && is_rest(&cell.text, "0"));
+        if further > 0 && is_without_point(&row[self.measured.clone()]) && (written != self.written || has_rest()) {
+            return Err(split_row(line, further));
+        }
+        Ok(Some((row, further)))
+    }
+
+    /// Describes a row of names, units or statistics instead of readings, with its cause; `None` for any other row.
+    fn not_readings(&self, cells: &[Cell]) -> Option<(&'static str, Cause)> {
+        const STATISTICS: [&str; 18] = [
+            "mean",
+            "average",
+            "avg",
+            "std",
+            "stdev",
+            "sd",
+            "median",
+            "total",
+            "sum",
+            "min",
+            "max",
+            "rms",
+            "средн",
+            "ско",
+            "сумм",
+            "мин",
+            "макс",
+            "mittel",
+        ];
+        let is_name = |name: &&str| cells.iter().any(|cell| cell.text.trim_start_matches('\u{FEFF}') == *name);
+        let measured = self.order[self.measured.clone()].iter().filter_map(|place| cells.get(*place));
+        let indices = self.order[..self.measured.start].iter().filter_map(|place| cells.get(*place));
+        let mut left = cells.iter().take(self.first_measured());
+        let is_number = |cell: &Cell| cell.text.parse::<f64>().is_ok();
+        let is_blank = |cell: &Cell| cell.text.chars().all(|c| "-–—".contains(c));
+        let is_unit = |cell: &Cell| advice::unit(&cell.text).is_some();
+        let is_statistic = |cell: &Cell| {
+            let word = cell.text.to_lowercase();
+            STATISTICS.iter().any(|statistic| word.starts_with(statistic))
+        };
+        if self.columns[..self.measured.end].iter().all(is_name) {
+            Some(("the header again", Cause::RepeatedHeader))
+        } else if measured.clone().any(is_unit) && measured.clone().all(|cell| is_unit(cell) || is_blank(cell)) {
+            Some(("a row of units", Cause::UnitsRow))
+        } else if indices.clone().any(is_statistic) || !indices.clone().any(is_number) && left.any(is_statistic) {
+            Some(("a row of a statistic", Cause::SummaryRow))
+        } else {
+            None
+        }
+    }
+
+    /// Returns the first place of a measured column in a line.
+    fn first_measured(&self) -> usize {
+        self.order[self.measured.clone()].iter().copied().min().unwrap_or_default()
     }
 
     /// Returns `true` if the first `found` cells are those of all columns that are used.
@@ -399,31 +553,46 @@ impl<'a> Header<'a> {
     }
 
     /// Creates the report of a row that has another number of cells than the header.
-    fn wrong_number_of_cells(&self, (line, text): (usize, &str), separator: char, found: usize) -> Problem {
-        let names = &self.names;
+    fn wrong_number_of_cells(&self, (line, text): (usize, &str), separator: char, cells: &[Cell]) -> Problem {
+        let (names, found, at) = (&self.names, cells.len(), Some(Location { line, column: 1 }));
+        if let Some((found, cause)) = text.chars().find_map(odd).filter(|(_, cause)| *cause == Cause::ControlCharacter)
+        {
+            return Problem::new(at, "", found, "a row of values", cause);
+        }
         let has_other = SEPARATORS.iter().any(|(other, _)| *other != separator && text.contains(*other));
         let advice = if separator == ',' && text.contains(';') {
-            "separate columns by commas, and use decimal points"
+            "separate columns by commas, and use decimal points".into()
         } else if !text.contains(separator) && has_other {
-            "separate columns as in the header"
-        } else if self.has_used(found) && separator == ',' && has_decimal_commas(text) {
-            "use decimal points; a decimal comma splits a number in two"
+            "separate columns as in the header".into()
+        } else if self.has_used(found) && separator == ',' && has_split_number(&cells[self.first_measured()..]) {
+            Advice::from((Cause::DecimalComma, "use decimal points; a decimal comma splits a number in two"))
         } else if found > names.len() {
-            "name each column in the header, or delete what goes beyond it"
+            "name each column in the header, or delete what goes beyond it".into()
         } else {
-            "add the values that are missing; if the reading was not taken, omit the whole row"
+            "add the values that are missing; if the reading was not taken, omit the whole row".into()
         };
         let plural = if found == 1 { "" } else { "s" };
         let expected = format!("{}, for {}", names.len(), names.join(", "));
-        Problem::new(Some(Location { line, column: 1 }), "", format!("{found} value{plural}"), expected, advice)
+        Problem::new(at, "", format!("{found} value{plural}"), expected, advice)
     }
 }
 
-/// Returns `true` if a whole number is followed by digits beyond the first two cells, which are the indices of a position.
-fn has_decimal_commas(row: &str) -> bool {
-    let cells: Vec<&str> = row.split(',').map(str::trim).skip(2).collect();
-    let is_digits = |cell: &str| !cell.is_empty() && cell.bytes().all(|byte| byte.is_ascii_digit());
-    cells.windows(2).any(|pair| is_digits(pair[0].trim_start_matches(['+', '-'])) && is_digits(pair[1]))
+/// Returns `true` if a whole number is followed by what may be its decimals.
+fn has_split_number(cells: &[Cell]) -> bool {
+    let is_whole = |text: &str| {
+        let digits = text.trim_start_matches(['+', '-', '\u{2212}']);
+        !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
+    };
+    cells.windows(2).any(|pair| is_whole(&pair[0].text) && is_rest(&pair[1].text, ""))
+}
+
+/// Returns `true` for digits that begin with `beginning`, and perhaps an exponent, as after a decimal mark.
+fn is_rest(text: &str, beginning: &str) -> bool {
+    let digits = text.split(['e', 'E']).next().unwrap_or_default();
+    !digits.is_empty()
+        && text.starts_with(beginning)
+        && digits.bytes().all(|byte| byte.is_ascii_digit())
+        && text.parse::<f64>().is_ok()
 }
 
 /// Returns the known column that `found` misspells: at most two letters differ, or the unit is missing.
@@ -438,158 +607,5 @@ fn meant<'a>(known: &[&'a str], found: &str) -> Option<&'a str> {
 }
 
 fn described(text: &str) -> String {
-    if text.is_empty() { "nothing".to_owned() } else { format!("{text:?}") }
-}
-
-fn advice_for_index(text: &str) -> &'static str {
-    if unquoted(text) != text {
-        "write the number without quotes"
-    } else if text.parse() == Ok(0.0) {
-        "count from 1"
-    } else {
-        ""
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Whole arcseconds as spreadsheets of two countries write them are refused. Decimals are read, even if a single number shows
-    /// that they are decimals.
-    #[test]
-    fn separators_of_thousands_are_not_decimal_marks() {
-        let checked = |rows: &str| {
-            let text = format!("i;j;a;b\n{rows}");
-            let table = Table::read("t.csv", text.as_bytes(), &["i", "j", "a", "b"], &[]).unwrap();
-            table.check_marks(&["a", "b"]).map_err(|refused| refused.to_string())
-        };
-        for rows in ["1;1;-622;-1.064\n1;2;12.345;17", "1;1;2,697;-2,136\n1;2;-459;63"] {
-            let words = checked(rows).unwrap_err();
-            assert!(words.contains("without thousands separators"), "{words}");
-        }
-        for rows in [
-            "1;1;-622.5;-1.064\n1;2;12.345;17",
-            "1;1;0.622;-1.064\n1;2;12.345;17",
-            "1;1;-622.001;-1.064\n1;2;12.345;17.000",
-            "1;1;-622;1064\n1;2;12345;17",
-            "1;1;1234.567;-1.064\n1;2;12.345;17",
-        ] {
-            assert_eq!(checked(rows), Ok(()), "{rows}");
-        }
-    }
-
-    /// Expected: of equal errors in cells, and of rows of a wrong length, one is shown; of all others each.
-    #[test]
-    fn equal_errors_in_cells_are_counted() {
-        let at = Some(Location { line: 2, column: 1 });
-        for (location, field, found, expected, advice, counts) in [
-            (at, "jx_ma", "\"1;5\"", "a current", "separate columns by commas", true),
-            (at, "jx_ma", "\"a lot\"", "a number", "", true),
-            (at, "jx_ma", "3 values", "text", "", false),
-            (at, "", "3 values", "4", "", true),
-            (at, "", "3 rows", "4", "add one", false),
-            (None, "jx_ma", "\"1;5\"", "a current", "separate columns by commas", false),
-            (None, "", "3 values", "4", "", false),
-        ] {
-            let due = counts.then(|| (expected.to_owned(), advice.to_owned()));
-            let problem = Problem::new(location, field, found, expected, advice);
-            assert_eq!(kind(&problem), due, "{problem:?}");
-        }
-    }
-
-    #[test]
-    fn a_spreadsheet_declares_its_separator_in_one_line() {
-        for (line, due) in [
-            ("sep=;", Some(';')),
-            ("\"SEP=,\"", Some(',')),
-            ("sep=;;", None),
-            ("sep=x", None),
-            ("sep=", None),
-            ("i,j", None),
-        ] {
-            assert_eq!(declared_separator(line), due, "{line}");
-        }
-    }
-
-    /// Expected: as Excel writes the rows whose last cells are empty; what may be a decimal comma is refused.
-    #[test]
-    fn cells_of_other_columns_may_be_missing_at_the_end() {
-        let table = |rows: &str| {
-            let text = format!("i,j,jx_ma,remark,by\n{rows}");
-            let table = Table::parse("f", text.as_bytes(), &["i", "j", "jx_ma"], &[]);
-            table.map(|table| table.rows.len()).map_err(|error| error.problems()[0].advice.clone())
-        };
-        assert_eq!(table("1,1,0.5,ok,me\n1,2,0.6,ok\n1,3,0.7\n"), Ok(3));
-        let advice = "use decimal points; a decimal comma splits a number in two";
-        assert_eq!(table("1,1,0,25\n"), Err(advice.to_owned()));
-    }
-
-    #[test]
-    fn the_advice_on_a_row_fits_its_number_of_cells() {
-        const INCOMPLETE: &str = "add the values that are missing; if the reading was not taken, omit the whole row";
-        const TOO_MANY: &str = "name each column in the header, or delete what goes beyond it";
-        let names = ["i", "j", "jx_ma", "remark"].map(str::to_owned).to_vec();
-        let header = Header { columns: vec!["i", "j", "jx_ma"], order: vec![0, 1, 2], left_out: Vec::new(), names };
-        for (separator, text, due) in [
-            (',', "1,2", INCOMPLETE),
-            (',', "1,2,0,1,x", "use decimal points; a decimal comma splits a number in two"),
-            (',', "1,2,0.1,0,25,x", "use decimal points; a decimal comma splits a number in two"),
-            (',', "1,2,0.1,x,y", TOO_MANY),
-            (',', "1;2;0,1;x", "separate columns by commas, and use decimal points"),
-            (';', "1;2", INCOMPLETE),
-            (';', "1;2;0,1;x;y", TOO_MANY),
-            (';', "1,2,0.1,x", "separate columns as in the header"),
-            ('\t', "1\t2", INCOMPLETE),
-            ('\t', "1", INCOMPLETE),
-            ('\t', "1;2;0,1;x", "separate columns as in the header"),
-        ] {
-            let found = cells(2, text, separator).unwrap().len();
-            assert_eq!(header.wrong_number_of_cells((2, text), separator, found).advice, due, "{text:?}");
-        }
-    }
-
-    #[test]
-    fn the_advice_on_an_index_fits_what_was_written() {
-        for (written, due) in [
-            ("'1'", "write the number without quotes"),
-            ("0", "count from 1"),
-            ("0.0", "count from 1"),
-            ("1.5", ""),
-            ("-1.0", ""),
-            ("one", ""),
-        ] {
-            assert_eq!(advice_for_index(written), due, "{written}");
-        }
-        assert_eq!((described(""), described("a")), ("nothing".to_owned(), "\"a\"".to_owned()));
-    }
-
-    #[test]
-    fn a_misspelt_column_is_told_from_another() {
-        let known = ["i", "j", "jx_ma", "time_s"];
-        for (found, due) in [
-            ("jx_mA", Some("jx_ma")),
-            ("jy_m", Some("jx_ma")),
-            ("time_x", Some("time_s")),
-            ("time", Some("time_s")),
-            ("time_of_day", None),
-            ("jx_turns", None),
-            ("k", None),
-            ("remark", None),
-        ] {
-            assert_eq!(meant(&known, found), due, "{found}");
-        }
-    }
-
-    /// Expected: RFC 4180, sections 2.5 to 2.7.
-    #[test]
-    fn quoted_cells_are_those_of_rfc_4180() {
-        let texts = |line: &str| cells(1, line, ',').map(|cells| cells.into_iter().map(|cell| cell.text).collect());
-        let due = |cells: &[&str]| Ok(cells.iter().map(|cell| (*cell).to_owned()).collect::<Vec<String>>());
-        assert_eq!(texts("\"aaa\",\"b,bb\",ccc"), due(&["aaa", "b,bb", "ccc"]));
-        assert_eq!(texts("\"b\"\"bb\" , c"), due(&["b\"bb", "c"]));
-        assert!(texts("\"aaa").is_err() && texts("\"aaa\"b").is_err());
-        let columns: Vec<usize> = cells(1, "µ, \"b\",c", ',').unwrap().iter().map(|at| at.location.column).collect();
-        assert_eq!(columns, [1, 4, 8]);
-    }
+    if text.is_empty() { "nothing".to_owned() } else { Node::Text(text.to_owned()).describe() }
 }

@@ -2,7 +2,7 @@
 //! are read back once written.
 
 use super::kind::mistaken;
-use super::node::{Builder, REPEATED, hand_written_text, location_of};
+use super::node::{Builder, REPEATED, hand_written_text, location_of, odd_character};
 use super::placeholder;
 use super::problem::Step;
 use super::record::File;
@@ -21,7 +21,11 @@ pub(crate) fn tree(name: &str, bytes: &[u8]) -> Result<(Node, String), Unreadabl
     if text.lines().all(|line| line.trim_start().is_empty() || line.trim_start().starts_with('#')) {
         return Err(Unreadable::whole(name, None, "only spaces and comments", "a YAML document", ""));
     }
-    refuse_control_characters(name, &text)?;
+    // The YAML reader refuses most of them too, but reports a position that no editor shows.
+    if let Some((index, found, cause)) = odd_character(&text) {
+        let at = location_of(&text.as_bytes()[..index]);
+        return Err(Unreadable::whole(name, Some(at), found, "text with ordinary spaces", cause));
+    }
     refuse_deep(name, &text)?;
     // Every value and every byte of a string takes space in the text unless an alias repeats it, so no document without
     // aliases needs this much.
@@ -30,19 +34,6 @@ pub(crate) fn tree(name: &str, bytes: &[u8]) -> Result<(Node, String), Unreadabl
         Ok(node) => Ok((node, text)),
         Err(error) => Err(unreadable_yaml(name, &text, &error)),
     }
-}
-
-/// Refuses control characters. The YAML reader refuses them too, but reports a position that no editor shows. Unicode
-/// separators are refused because they end a line, and so a comment, in YAML 1.1 but not in YAML 1.2.
-fn refuse_control_characters(name: &str, text: &str) -> Result<(), Unreadable> {
-    const SEPARATORS: [char; 2] = ['\u{2028}', '\u{2029}'];
-    let refused = |c: char| (c.is_control() && !"\n\t".contains(c)) || SEPARATORS.contains(&c);
-    let Some((index, c)) = text.char_indices().find(|(_, c)| refused(*c)) else {
-        return Ok(());
-    };
-    let at = Some(location_of(&text.as_bytes()[..index]));
-    let kind = if SEPARATORS.contains(&c) { "line separator" } else { "control character" };
-    Err(Unreadable::whole(name, at, format!("{kind} U+{:04X}", u32::from(c)), "text", "delete it"))
 }
 
 /// Words of the parser's error for several documents in one text.

@@ -1,7 +1,7 @@
 //! Allowed signers: keys with their principals, namespaces and validity periods (ssh-keygen(1), ALLOWED SIGNERS).
 //!
 //! This reader is stricter than OpenSSH, which skips a line that it cannot read. Here such a line is an error, because
-//! its author meant to trust a key or to end that trust.
+//! its author meant to trust a key or to end that trust. Only keys that cannot sign passports are skipped here too.
 
 use super::pattern::matches_list;
 use super::signer_line::{self, SignerLine};
@@ -15,6 +15,8 @@ use thiserror::Error;
 #[derive(Debug, Clone)]
 pub struct AllowedSigners {
     lines: Vec<SignerLine>,
+    /// Types of the keys that were skipped, because they cannot sign passports.
+    pub(crate) skipped: Vec<String>,
 }
 
 /// Reason why a key is not trusted for an identity, a namespace and a time. If several lines contain the key, the
@@ -42,8 +44,8 @@ pub enum NotAuthorised {
 impl AllowedSigners {
     /// Reads a list of allowed signers in OpenSSH's format; `name` is the file name used in messages.
     ///
-    /// A line contains patterns of principals, options (`namespaces`, `valid-after`, `valid-before`) and a public key
-    /// of any type that OpenSSH knows.
+    /// A line contains patterns of principals, options (`namespaces`, `valid-after`, `valid-before`) and a public key.
+    /// Keys that cannot sign passports are skipped, whatever their type.
     ///
     /// # Errors
     /// Returns [`Unreadable`] with the errors of all lines, up to a limit. `cert-authority` is an error, and so is a
@@ -60,7 +62,14 @@ impl AllowedSigners {
             let advice = "add the line that `keygen` prints";
             return Err(Unreadable::whole(name, None, "no key", "a line for each trusted key", advice));
         }
-        Ok(Self { lines: kept })
+        let mut signers = Self { lines: Vec::new(), skipped: Vec::new() };
+        for line in kept {
+            match line {
+                Ok(line) => signers.lines.push(line),
+                Err(other) => signers.skipped.push(other),
+            }
+        }
+        Ok(signers)
     }
 
     /// Creates a list without any key, which trusts nobody.
@@ -150,179 +159,5 @@ impl NotAuthorised {
             (Self::Expired(until), Self::Expired(other)) => Self::Expired(until.max(other)),
             (one, other) => one.max(other),
         }
-    }
-}
-
-#[cfg(all(test, feature = "factory"))]
-mod tests {
-    use super::*;
-    use crate::trust::SigningKey;
-
-    const NAMESPACE: &str = "dtg-passport";
-
-    fn key() -> PublicKey {
-        SigningKey::generate().unwrap().public_key()
-    }
-
-    fn parsed(text: &str) -> AllowedSigners {
-        AllowedSigners::parse("allowed_signers", text.as_bytes()).unwrap()
-    }
-
-    fn refused(text: &str) -> String {
-        AllowedSigners::parse("f", text.as_bytes()).unwrap_err().to_string()
-    }
-
-    fn at(text: &str) -> Timestamp {
-        text.parse().unwrap()
-    }
-
-    #[test]
-    fn every_verdict() {
-        let (key, now) = (key(), at("2026-06-01T12:00:00Z"));
-        let line = |options: &str| parsed(&format!("*@factory,qa {options} {} comment", key.to_openssh()));
-        let verdict = |options: &str, principal: &str| line(options).authorise(&key, principal, NAMESPACE, now);
-        assert_eq!(verdict("", "lab@factory"), Ok(()));
-        assert_eq!(verdict("NameSpaces=\"git,dtg-*\",valid-after=\"20260601Z\"", "qa"), Ok(()));
-        assert_eq!(line("").authorise(&self::key(), "qa", NAMESPACE, now), Err(NotAuthorised::UnknownKey));
-        let allowed = vec!["*@factory,qa".to_owned()];
-        assert_eq!(verdict("", "QA"), Err(NotAuthorised::WrongPrincipal(allowed)));
-        let allowed = "git,!dtg-*,*".to_owned();
-        assert_eq!(verdict("namespaces=\"git,!dtg-*,*\"", "qa"), Err(NotAuthorised::WrongNamespace(allowed)));
-        let from = at("2026-06-01T12:00:01Z");
-        assert_eq!(verdict("valid-after=\"20260601120001Z\"", "qa"), Err(NotAuthorised::NotYetValid(from)));
-        let until = at("2026-06-01T11:59:59Z");
-        assert_eq!(verdict("valid-before=\"20260601115959Z\"", "qa"), Err(NotAuthorised::Expired(until)));
-    }
-
-    #[test]
-    fn both_ends_of_the_validity_belong_to_it() {
-        let key = key();
-        let signers = parsed(&format!("a valid-after=\"20260101Z\",valid-before=\"20260102Z\" {}", key.to_openssh()));
-        let holds = |instant: &str| signers.authorise(&key, "a", NAMESPACE, at(instant)).is_ok();
-        assert!(!holds("2025-12-31T23:59:59.9Z"));
-        assert!(holds("2026-01-01T00:00:00Z"));
-        assert!(holds("2026-01-02T00:00:00.9Z"));
-        assert!(!holds("2026-01-02T00:00:01Z"));
-    }
-
-    #[test]
-    fn of_several_lines_any_that_fits_counts_else_the_nearest_miss() {
-        let key = key();
-        let line = key.to_openssh();
-        let now = at("2026-06-01T12:00:00Z");
-        let misses = format!(
-            "b {line}\n\"c d\" {line}\na namespaces=\"git\" {line}\na valid-after=\"20270101Z\" {line}\n\
-             a valid-before=\"20250101Z\" {line}\na valid-before=\"20260101Z\" {line}\n"
-        );
-        let verdict = |count: usize| {
-            let text: String = misses.lines().take(count).map(|line| format!("{line}\r\n")).collect();
-            parsed(&text).authorise(&key, "a", NAMESPACE, now).unwrap_err()
-        };
-        let allowed = vec!["b".to_owned(), "c d".to_owned()];
-        assert_eq!(verdict(2), NotAuthorised::WrongPrincipal(allowed));
-        assert_eq!(verdict(3), NotAuthorised::WrongNamespace("git".to_owned()));
-        assert_eq!(verdict(4), NotAuthorised::NotYetValid(at("2027-01-01T00:00:00Z")));
-        assert_eq!(verdict(6), NotAuthorised::Expired(at("2026-01-01T00:00:00Z")));
-        assert_eq!(parsed(&format!("{misses}a {line}")).authorise(&key, "a", NAMESPACE, now), Ok(()));
-    }
-
-    /// Expected: the order of the variants of [`NotAuthorised`], whatever the order of the lines.
-    #[test]
-    fn the_nearest_miss_is_reported_in_any_order_of_the_lines() {
-        let key = key();
-        let line = key.to_openssh();
-        let verdict = |one: &str, other: &str| {
-            let text = format!("{one} {line}\n{other} {line}\n");
-            parsed(&text).authorise(&key, "a", NAMESPACE, at("2026-06-01T12:00:00Z")).unwrap_err()
-        };
-        let until = at("2026-01-01T00:00:00Z");
-        assert_eq!(verdict("a valid-before=\"20260101Z\"", "b"), NotAuthorised::Expired(until));
-        let namespaces = |allowed: &str| NotAuthorised::WrongNamespace(allowed.to_owned());
-        assert_eq!(verdict("a namespaces=\"git\"", "a namespaces=\"git\""), namespaces("git"));
-        assert_eq!(verdict("a namespaces=\"git\"", "a namespaces=\"file\""), namespaces("git or file"));
-    }
-
-    #[test]
-    fn every_mistake_of_every_line_is_reported_with_its_place() {
-        let key = key().to_openssh();
-        let text = format!(
-            "# who\n a cert-authority {key}\na valid-after=\"20260101\",colour=\"red\" {key}\n\
-             \"a b {key}\na\na {key}\na ssh-ed25519 AAAA!\n"
-        );
-        let refused = refused(&text);
-        let expected = [
-            "f:2:4: found cert-authority, expected a key that signs directly; list each signing key, because an \
-             authority could certify",
-            "f:3:15: valid-after: found \"20260101\", expected a date in UTC, with a Z at the end; add the Z; without \
-             it each verifier",
-            "f:3:26: found `colour=\"red\"`, expected namespaces=",
-            "f:4:1: principals: found a quote that is not closed, expected a closing quote",
-            "f:5:2: key: found nothing, expected a public key",
-            "f:7:15: key: found damaged public key (its base64 is truncated or changed)",
-        ];
-        assert_eq!(refused.lines().count(), expected.len(), "{refused}");
-        for (line, beginning) in refused.lines().zip(expected) {
-            assert!(line.starts_with(beginning), "{line}\n  does not begin with\n{beginning}");
-        }
-    }
-
-    #[test]
-    fn options_are_strict() {
-        let key = key().to_openssh();
-        for (options, words) in [
-            ("namespaces=\"a\",namespaces=\"b\"", "f:1:18: namespaces: found a duplicate option"),
-            ("namespaces=dtg-passport", "found `dtg-passport`, expected a value in double quotes"),
-            ("namespaces=\"a\"b", "found `\"a\"b`, expected a value in double quotes"),
-            ("namespaces=\"a\"\"b\"", "found `\"a\"\"b\"`, expected a value in double quotes"),
-            ("namespaces=\"\"", "found an empty list"),
-            ("namespaces", "found no value, expected namespaces=\"…\""),
-            ("namespaces=\"a\",", "found nothing after a comma"),
-            (",namespaces=\"a\"", "found nothing, expected namespaces"),
-            ("no-touch-required", "found `no-touch-required`, expected namespaces"),
-            ("valid-before=\"20260101Z\",valid-after=\"20260101Z\"", "expected a time after valid-after"),
-            ("valid-before=\"20260230Z\"", "a calendar date"),
-            ("namespaces=\"a", "f:1:14: found a quote that is not closed"),
-        ] {
-            let refused = refused(&format!("a {options} {key}"));
-            assert!(refused.contains(words), "{options}: {refused}");
-        }
-        assert!(refused(&format!("{} {key}", "a".repeat(1023))).contains("a pattern of 1023 bytes"));
-        assert!(refused(&format!("\"\" {key}")).contains("found an empty list"));
-        assert!(refused(&format!("a\"b\" {key}")).contains("a quote within the list"));
-        assert!(refused(&format!("\"a\"b {key}")).contains("text immediately after the closing quote"));
-        assert!(refused(&format!("a {key}\u{7}")).contains("found control character U+0007"));
-        assert!(refused(&format!(" a\"b\" {key}")).starts_with("f:1:3: principals: found a quote within the list"));
-        assert!(refused("# nobody so far\n").contains("found no key"));
-    }
-
-    /// Expected: the lines as counted by hand.
-    #[test]
-    fn the_same_mistake_in_many_lines_is_one_error_with_a_count() {
-        let key = key().to_openssh();
-        let of = |lines: usize, line: &str| refused(&format!("# keys\n{}", format!("{line}\n").repeat(lines)));
-        let dated = format!("a valid-before=\"20270101\" {key}");
-        let twenty = of(20, &dated);
-        assert_eq!(twenty.lines().count(), 1, "{twenty}");
-        let due = "f:2:16: valid-before: found \"20270101\" (and 19 more of this kind, up to line 21), expected";
-        assert!(twenty.starts_with(due), "{twenty}");
-        assert_eq!(of(3, &dated).lines().count(), 3);
-        // Another mistake among them is seen.
-        let mixed =
-            refused(&format!("{}a colour {key}\n{}", format!("{dated}\n").repeat(60), format!("{dated}\n").repeat(60)));
-        assert!(mixed.contains("(and 119 more of this kind, up to line 121)"), "{mixed}");
-        assert!(mixed.contains("\nf:61:3: found `colour`, expected") && mixed.lines().count() == 2, "{mixed}");
-        let very_many = of(5_000, &dated);
-        assert!(very_many.contains("(and at least 999 more of this kind, up to line 1001 or beyond)"), "{very_many}");
-        let sixty: Vec<_> = (0..60).map(|number| format!("x{number}")).collect();
-        let sixty = refused(&format!("a {} {key}", sixty.join(",")));
-        assert!(sixty.contains("found `x0` (and 59 more of this kind, up to line 1), expected"), "{sixty}");
-    }
-
-    #[test]
-    fn quotes_inside_values_and_keys_of_other_types_are_kept() {
-        let rsa = "ssh-rsa AAAAB3NzaC1yc2EAAAADAQABAAAAAwUAAQ==";
-        let signers = parsed(&format!("a namespaces=\"x\\\"y,z\" {}\nb {rsa}", key().to_openssh()));
-        assert_eq!(signers.lines[0].namespaces.as_deref(), Some("x\"y,z"));
-        assert_eq!(signers.lines.len(), 2);
     }
 }

@@ -2,10 +2,10 @@
 //!
 //! Certificate sections revoke nothing here, because passports are not signed with certificates. Every byte of them is
 //! still read as OpenSSH reads it, because one changed bit can turn a section of fingerprints into a section of
-//! certificates. A signature in the list is refused for the same reason; `ssh-keygen` writes none, and PROTOCOL.krl
-//! says that OpenSSH supports none.
+//! certificates. For the same reason, a list is refused that any supported version of OpenSSH refuses, from 9.2 on:
+//! extensions (unknown before 9.4), signatures (refused from 9.4 on) and authorities with a DSA or an ML-DSA key.
+//! `ssh-keygen` writes neither extensions nor signatures.
 
-use super::public_key::{check_blob, shortened};
 use super::wire::{Truncated, Wire};
 use crate::text::problem::Problem;
 use std::collections::BTreeSet;
@@ -37,7 +37,6 @@ mod section {
     pub(super) const EXPLICIT_KEYS: u8 = 2;
     pub(super) const SHA1: u8 = 3;
     pub(super) const SHA256: u8 = 5;
-    pub(super) const EXTENSION: u8 = 255;
 }
 
 /// Section types inside a section of certificates (PROTOCOL.krl, section 2).
@@ -46,11 +45,16 @@ mod certificates {
     pub(super) const SERIAL_RANGE: u8 = 0x21;
     pub(super) const SERIAL_BITMAP: u8 = 0x22;
     pub(super) const KEY_ID: u8 = 0x23;
-    pub(super) const EXTENSION: u8 = 0x39;
 }
 
-/// Largest bitmap of serial numbers that OpenSSH reads, in bytes.
-const LARGEST_BITMAP_BYTES: usize = 2048;
+/// Largest mpint that OpenSSH reads, in bytes without the zero before a number whose highest bit is set.
+const LARGEST_MPINT_BYTES: usize = 2048;
+
+/// Smallest modulus of an RSA key that OpenSSH reads, in bytes.
+const SMALLEST_RSA_BYTES: usize = 128;
+
+/// First byte of the only form of a point of ECDSA that OpenSSH reads (SEC 1, section 2.3.3).
+const UNCOMPRESSED: u8 = 4;
 
 /// Reads a list without skipping any byte.
 pub(super) fn read(bytes: &[u8]) -> Result<Revoked, Problem> {
@@ -77,7 +81,6 @@ pub(super) fn read(bytes: &[u8]) -> Result<Revoked, Problem> {
             section::EXPLICIT_KEYS => collect(body, None, &mut revoked.keys)?,
             section::SHA1 => collect(body, Some(20), &mut revoked.sha1)?,
             section::SHA256 => collect(body, Some(32), &mut revoked.sha256)?,
-            section::EXTENSION => extension(body)?,
             unknown => return Err(unknown_section(unknown, at)),
         }
     }
@@ -106,9 +109,10 @@ fn collect(mut body: Wire, length: Option<usize>, into: &mut BTreeSet<Vec<u8>>) 
 fn certificates(mut body: Wire) -> Result<(), Problem> {
     let at = body.offset;
     let authority = body.string()?;
-    if !authority.is_empty() {
-        check_blob(authority)
-            .map_err(|what| refusal(format!("certificate authority at byte {at}: {what}"), "a public key"))?;
+    if !authority.is_empty() && is_authority(authority) != Some(true) {
+        let found =
+            format!("certificate authority at byte {at}: a damaged key, or one of a type that not every OpenSSH reads");
+        return Err(refusal(found, "an RSA, ECDSA or Ed25519 key"));
     }
     let _reserved = body.string()?;
     while !body.rest.is_empty() {
@@ -131,10 +135,6 @@ fn certificates(mut body: Wire) -> Result<(), Problem> {
                     name(&mut part)?;
                 }
             }
-            certificates::EXTENSION => {
-                extension(part)?;
-                continue;
-            }
             unknown => return Err(unknown_section(unknown, at)),
         }
         if !part.rest.is_empty() {
@@ -153,19 +153,50 @@ fn bad_serials(at: usize) -> Problem {
     refusal(format!("invalid serial numbers at byte {at}"), "numbers from 1 to 2^64 - 1, in order")
 }
 
-/// Checks a bitmap of serial numbers: an mpint (RFC 4251, section 5) in which bit N means the first number plus N.
+/// Checks a bitmap of serial numbers, in which bit N means the first number plus N.
 fn bitmap(part: &mut Wire, at: usize) -> Result<(), Problem> {
     let (first, bits) = (part.u64()?, part.string()?);
-    let negative = bits.first().is_some_and(|byte| byte & 0x80 != 0);
-    let significant = &bits[bits.iter().take_while(|byte| **byte == 0).count()..];
+    let significant = mpint(bits).ok_or_else(|| bad_serials(at))?;
     let Some(top) = significant.first() else { return Ok(()) };
-    if negative || significant.len() > LARGEST_BITMAP_BYTES {
-        return Err(bad_serials(at));
-    }
     let lowest_is_set = significant.last().is_some_and(|byte| byte & 1 != 0);
     let highest = 8 * significant.len() as u64 - 1 - u64::from(top.leading_zeros());
     // Only set bits are serial numbers; if the lowest bit is not set, the first number is larger than `first`.
     serials(if lowest_is_set { first } else { first.max(1) }, highest, at)
+}
+
+/// Returns the bytes of an mpint (RFC 4251, section 5) without zeros before them, or `None` if it is negative or too
+/// large for OpenSSH.
+fn mpint(bytes: &[u8]) -> Option<&[u8]> {
+    let zeros = bytes.iter().take_while(|byte| **byte == 0).count();
+    let is_small = bytes.len() <= LARGEST_MPINT_BYTES + usize::from(zeros > 0);
+    let is_negative = bytes.first().is_some_and(|byte| byte & 0x80 != 0);
+    (is_small && !is_negative).then(|| &bytes[zeros..])
+}
+
+/// Returns `Some(true)` if every supported OpenSSH reads the key of an authority; the point of an ECDSA key may lie beside
+/// its curve.
+fn is_authority(blob: &[u8]) -> Option<bool> {
+    let mut wire = Wire::new(blob);
+    let algorithm = wire.string().ok()?;
+    let first = wire.string().ok()?;
+    let is_on = |curve: &[u8], bytes: usize, point: &[u8]| {
+        first == curve && point.len() == 1 + 2 * bytes && point[0] == UNCOMPRESSED
+    };
+    let is_good = match algorithm {
+        b"ssh-ed25519" | b"sk-ssh-ed25519@openssh.com" => first.len() == 32,
+        b"ssh-rsa" => {
+            let (_exponent, modulus) = (mpint(first)?, mpint(wire.string().ok()?)?);
+            modulus.len() > SMALLEST_RSA_BYTES || (modulus.len() == SMALLEST_RSA_BYTES && modulus[0] >= 0x80)
+        }
+        b"ecdsa-sha2-nistp256" | b"sk-ecdsa-sha2-nistp256@openssh.com" => is_on(b"nistp256", 32, wire.string().ok()?),
+        b"ecdsa-sha2-nistp384" => is_on(b"nistp384", 48, wire.string().ok()?),
+        b"ecdsa-sha2-nistp521" => is_on(b"nistp521", 66, wire.string().ok()?),
+        _ => false,
+    };
+    if algorithm.starts_with(b"sk-") {
+        let _application = name(&mut wire).ok()?;
+    }
+    Some(is_good && wire.rest.is_empty())
 }
 
 /// Reads a string that OpenSSH treats as a C string: NUL is allowed only at its end.
@@ -177,19 +208,4 @@ fn name<'a>(wire: &mut Wire<'a>) -> Result<&'a [u8], Problem> {
         return Err(refusal(format!("a NUL within the text at byte {at}"), "text without NUL"));
     }
     Ok(text)
-}
-
-/// Refuses a critical extension, because none is known; skips any other.
-fn extension(mut body: Wire) -> Result<(), Problem> {
-    let at = body.offset;
-    let name = String::from_utf8_lossy(name(&mut body)?).into_owned();
-    let critical = body.byte()? != 0;
-    let _contents = body.string()?;
-    match body.rest.len() {
-        _ if critical => {
-            Err(refusal(format!("critical extension `{}` at byte {at}", shortened(&name)), "no critical extension"))
-        }
-        0 => Ok(()),
-        more => Err(refusal(format!("{more} bytes after an extension, at byte {}", body.offset), "nothing")),
-    }
 }

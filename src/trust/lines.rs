@@ -1,9 +1,9 @@
 //! Checks that apply to all textual trust files before their lines are read.
 
 use super::LARGEST_TRUST_FILE_BYTES;
-use crate::text::node::{is_utf16, location_of, without_byte_order_mark};
+use crate::text::node::{odd, utf8, without_byte_order_mark};
 use crate::text::problem::{MOST_COUNTED, counted};
-use crate::text::{Location, Problem, Unreadable};
+use crate::text::{Advice, Cause, Location, Problem, Unreadable};
 
 /// A line that is neither empty nor a comment.
 #[derive(Debug, Clone, Copy)]
@@ -22,7 +22,7 @@ impl Line<'_> {
         field: &str,
         found: impl Into<String>,
         expected: impl Into<String>,
-        advice: impl Into<String>,
+        advice: impl Into<Advice>,
     ) -> Problem {
         let column = 1 + self.text.get(..at).unwrap_or(self.text).chars().count();
         Problem::new(Some(Location { line: self.number, column }), field, found, expected, advice)
@@ -30,9 +30,9 @@ impl Line<'_> {
 
     /// Returns the problem of the first control character in this line except tab, or `None` if there is none.
     pub(super) fn control_character(&self) -> Option<Problem> {
-        let (at, c) = self.text.char_indices().find(|(_, c)| c.is_control() && *c != '\t')?;
-        let found = format!("control character U+{:04X}", u32::from(c));
-        Some(self.problem(at, "", found, "text", "retype the line in a text editor"))
+        let is_control = |(at, c)| odd(c).filter(|(_, cause)| *cause == Cause::ControlCharacter).map(|odd| (at, odd));
+        let (at, (found, cause)) = self.text.char_indices().find_map(is_control)?;
+        Some(self.problem(at, "", found, "text", cause))
     }
 }
 
@@ -77,15 +77,7 @@ pub(super) fn check_size(name: &str, bytes: &[u8]) -> Result<(), Unreadable> {
 /// key.
 pub(super) fn of<'a>(name: &str, bytes: &'a [u8]) -> Result<Vec<Line<'a>>, Unreadable> {
     check_size(name, bytes)?;
-    if is_utf16(bytes) {
-        return Err(Unreadable::whole(name, None, "UTF-16", "UTF-8", "save the file as UTF-8"));
-    }
-    let bytes = without_byte_order_mark(bytes);
-    let text = std::str::from_utf8(bytes).map_err(|error| {
-        let at = location_of(&bytes[..error.valid_up_to()]);
-        let found = format!("byte 0x{:02X}", bytes[error.valid_up_to()]);
-        Unreadable::whole(name, Some(at), found, "UTF-8", "save the file as UTF-8")
-    })?;
+    let text = utf8(name, without_byte_order_mark(bytes), None)?;
     if text.contains("PRIVATE KEY-----") {
         // The lines of a private key must not appear in messages, because messages end up in logs.
         let advice = "use the line of the .pub file, and keep the private key secret";

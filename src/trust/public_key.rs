@@ -2,23 +2,20 @@
 
 use super::error::KeyError;
 use super::wire::{Wire, string};
+use crate::text::without_secrets;
 use base64ct::{Base64, Encoding};
 use sha2::{Digest, Sha256};
 use ssh_key::Algorithm;
 use ssh_key::public::KeyData;
 
-/// Key types that OpenSSH writes into a public key line, with the number of fields after the type. Certificates are
-/// excluded, because this project trusts keys, not authorities.
-const KEY_TYPES: [(&str, usize); 8] = [
-    ("ssh-ed25519", 1),
-    ("sk-ssh-ed25519@openssh.com", 2),
-    ("ecdsa-sha2-nistp256", 2),
-    ("ecdsa-sha2-nistp384", 2),
-    ("ecdsa-sha2-nistp521", 2),
-    ("sk-ecdsa-sha2-nistp256@openssh.com", 3),
-    ("ssh-rsa", 2),
-    ("ssh-dss", 4),
+/// Key types that can sign passports, the number of fields after each type, and the type of its certificates.
+const SIGNING: [(&str, usize, &str); 2] = [
+    ("ssh-ed25519", 1, "ssh-ed25519-cert-v01@openssh.com"),
+    ("sk-ssh-ed25519@openssh.com", 2, "sk-ssh-ed25519-cert-v01@openssh.com"),
 ];
+
+/// Longest name of a key type (RFC 4251, section 6).
+const LONGEST_TYPE: usize = 64;
 
 /// Public key that can sign passports: `ssh-ed25519` or `sk-ssh-ed25519@openssh.com`.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -48,7 +45,10 @@ impl PublicKey {
             _ if line.trim_end().contains('\n') => not_a_public_key("several lines"),
             (None, _) => not_a_public_key("nothing"),
             (Some(_), None) => not_a_public_key("a single word"),
-            (Some(algorithm), Some(base64)) => AnyKey::read(algorithm, base64)?.signing(),
+            (Some(algorithm), Some(base64)) => match AnyKey::read(algorithm, base64)? {
+                AnyKey::Signing(key) => Ok(key),
+                AnyKey::Other { algorithm, .. } => Err(KeyError::OtherKeyType(algorithm)),
+            },
         }
     }
 
@@ -64,7 +64,7 @@ impl PublicKey {
 
     /// Returns the key type as OpenSSH names it.
     pub(crate) fn algorithm(&self) -> &'static str {
-        if self.data.is_sk_ed25519() { KEY_TYPES[1].0 } else { KEY_TYPES[0].0 }
+        SIGNING[usize::from(self.is_security_key())].0
     }
 
     /// Returns `true` if the private half is in a security key (FIDO token).
@@ -74,7 +74,7 @@ impl PublicKey {
 
     /// Creates the public half of a private key of this process.
     pub(super) fn of_ed25519(key: ssh_key::public::Ed25519PublicKey) -> Self {
-        let blob = [string(KEY_TYPES[0].0.as_bytes()), string(&key.0)].concat();
+        let blob = [string(SIGNING[0].0.as_bytes()), string(&key.0)].concat();
         Self { data: key.into(), blob }
     }
 
@@ -98,12 +98,15 @@ fn not_a_public_key<T>(found: &str) -> Result<T, KeyError> {
     Err(KeyError::NotAPublicKey(found.to_owned()))
 }
 
-/// Public key of any type that OpenSSH knows, because lists may contain keys that cannot sign passports.
+/// Public key of any type, because lists and signatures may contain keys that cannot sign passports.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct AnyKey {
-    algorithm: &'static str,
-    /// Key as SSH transmits it.
-    pub(super) blob: Vec<u8>,
+pub(super) enum AnyKey {
+    Signing(PublicKey),
+    /// Key of another type, or a certificate; `certified` is the key that it certifies if that can sign passports.
+    Other {
+        algorithm: String,
+        certified: Option<PublicKey>,
+    },
 }
 
 impl AnyKey {
@@ -112,65 +115,70 @@ impl AnyKey {
         ["ssh-", "ecdsa-", "sk-"].iter().any(|family| word.starts_with(family)) && !word.contains(['=', ',', '"'])
     }
 
+    /// Reads the first two words of a public key line.
     pub(super) fn read(algorithm: &str, base64: &str) -> Result<Self, KeyError> {
-        let Some(&(algorithm, fields)) = KEY_TYPES.iter().find(|(name, _)| *name == algorithm) else {
-            return match algorithm {
-                certificate if certificate.contains("-cert-v0") => {
-                    not_a_public_key(&format!("a certificate ({})", shortened(certificate)))
-                }
-                unknown => not_a_public_key(&format!("`{}`, which is not a key type", shortened(unknown))),
-            };
+        let damaged = |why: String| match Self::is_type(algorithm) {
+            true => KeyError::DamagedPublicKey(why),
+            false => KeyError::NotAPublicKey(format!("`{}`, which is not a key type", shortened(algorithm))),
         };
-        let blob = Base64::decode_vec(base64)
-            .map_err(|_| KeyError::DamagedPublicKey("its base64 is truncated or changed".to_owned()))?;
-        check_fields(&blob, algorithm, fields).map_err(KeyError::DamagedPublicKey)?;
-        Ok(Self { algorithm, blob })
+        let blob = Base64::decode_vec(base64).map_err(|_| damaged("its base64 is truncated or changed".to_owned()))?;
+        match Wire::new(&blob).string() {
+            Ok(named) if named == algorithm.as_bytes() => Self::from_blob(&blob).map_err(damaged),
+            Ok(named) => {
+                let found = shortened(&String::from_utf8_lossy(named));
+                Err(damaged(format!("it says {algorithm}, its base64 says `{found}`")))
+            }
+            Err(truncated) => Err(damaged(truncated.to_string())),
+        }
     }
 
-    pub(super) fn signing(self) -> Result<PublicKey, KeyError> {
-        if self.algorithm != KEY_TYPES[0].0 && self.algorithm != KEY_TYPES[1].0 {
-            return Err(KeyError::OtherKeyType(self.algorithm.to_owned()));
+    /// Reads a key as SSH transmits it (RFC 4253, section 6.6): the name of its type, then one or more strings.
+    pub(super) fn from_blob(blob: &[u8]) -> Result<Self, String> {
+        let mut wire = Wire::new(blob);
+        let algorithm = String::from_utf8_lossy(wire.string()?).into_owned();
+        if !(1..=LONGEST_TYPE).contains(&algorithm.len()) || !algorithm.bytes().all(|byte| byte.is_ascii_graphic()) {
+            return Err(format!("`{}`, which is not a key type", shortened(&algorithm)));
         }
-        let key = ssh_key::PublicKey::from_bytes(&self.blob)
-            .map_err(|error| KeyError::DamagedPublicKey(error.to_string()))?;
-        PublicKey::from_data(key.key_data().clone())
+        let is_own = |(plain, _, certificate): &&(&str, usize, &str)| [*plain, *certificate].contains(&&*algorithm);
+        let Some((plain, fields, _)) = SIGNING.iter().find(is_own) else {
+            // Only certificates also have other fields than strings.
+            wire.string()?;
+            while !algorithm.contains("-cert-v") && !wire.rest.is_empty() {
+                wire.string()?;
+            }
+            return Ok(Self::Other { algorithm, certified: None });
+        };
+        let is_certificate = algorithm != *plain;
+        if is_certificate {
+            let _nonce = wire.string()?;
+        }
+        let mut key = string(plain.as_bytes());
+        for index in 0..*fields {
+            let field = wire.string()?;
+            if index == 0 && field.len() != 32 {
+                return Err(format!("a key of {} bytes, expected 32", field.len()));
+            }
+            key.extend(string(field));
+        }
+        let key = ssh_key::PublicKey::from_bytes(&key).map_err(|error| error.to_string())?;
+        let key = PublicKey::from_data(key.key_data().clone()).map_err(|error| match error {
+            KeyError::DamagedPublicKey(why) => why,
+            other => other.to_string(),
+        })?;
+        match wire.rest.len() {
+            _ if is_certificate => Ok(Self::Other { algorithm, certified: Some(key) }),
+            0 => Ok(Self::Signing(key)),
+            more => Err(format!("{more} bytes after its end")),
+        }
     }
 }
 
 pub(super) fn shortened(word: &str) -> String {
     const LONGEST: usize = 60;
+    let word = without_secrets(word);
     match word.char_indices().nth(LONGEST) {
         Some((end, _)) => format!("{}…", &word[..end]),
-        None => word.to_owned(),
-    }
-}
-
-/// Checks that bytes are a key of a type that OpenSSH knows, as SSH transmits it, or returns their fault in words.
-pub(super) fn check_blob(blob: &[u8]) -> Result<(), String> {
-    let named = Wire::new(blob).string()?;
-    match KEY_TYPES.iter().find(|(name, _)| name.as_bytes() == named) {
-        Some((algorithm, fields)) => check_fields(blob, algorithm, *fields),
-        None => Err(format!("`{}`, which is not a key type", shortened(&String::from_utf8_lossy(named)))),
-    }
-}
-
-/// Checks that a key consists of the name of its type and as many strings as the type has fields.
-fn check_fields(blob: &[u8], algorithm: &str, fields: usize) -> Result<(), String> {
-    let mut wire = Wire::new(blob);
-    let named = wire.string()?;
-    if named != algorithm.as_bytes() {
-        let found = shortened(&String::from_utf8_lossy(named));
-        return Err(format!("it says {algorithm}, its base64 says `{found}`"));
-    }
-    for _ in 0..fields {
-        let field = wire.string()?;
-        if algorithm == KEY_TYPES[0].0 && field.len() != 32 {
-            return Err(format!("a key of {} bytes, expected 32", field.len()));
-        }
-    }
-    match wire.rest.len() {
-        0 => Ok(()),
-        more => Err(format!("{more} bytes after its end")),
+        None => word,
     }
 }
 
@@ -199,8 +207,8 @@ mod tests {
         assert!(refused("ssh-ed25519").contains("a single word"));
         assert!(refused(&format!("{LINE}\n{LINE}")).contains("several lines"));
         assert!(refused("-----BEGIN OPENSSH PRIVATE KEY-----\nAAAA").contains("a private key file"));
-        assert!(refused("ssh-foo AAAA").contains("`ssh-foo`, which is not a key type"));
-        assert!(refused("ssh-ed25519-cert-v01@openssh.com AAAA").contains("a certificate"));
+        assert!(refused("foo AAAA").contains("`foo`, which is not a key type"));
+        assert!(refused("ssh-foo AAAA").contains("the public key is damaged: an item of 4 bytes"));
     }
 
     #[test]

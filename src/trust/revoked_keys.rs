@@ -1,6 +1,7 @@
 //! Revoked keys: OpenSSH's key revocation list (`ssh-keygen -k`), or a list of public keys, one per line.
 
 use super::krl::{self, Revoked};
+use super::public_key::AnyKey;
 use super::signer_line::read_key;
 use super::{PublicKey, lines};
 use crate::text::kind::mistaken;
@@ -13,25 +14,29 @@ use sha2::{Digest, Sha256};
 pub struct RevokedKeys {
     name: String,
     revoked: Revoked,
+    /// Types of the keys that were skipped, because they cannot sign passports.
+    pub(crate) skipped: Vec<String>,
 }
 
 impl RevokedKeys {
     /// Reads a key revocation list or a list of public keys, distinguished by content; `name` is the file name used in
     /// messages.
     ///
-    /// A list of public keys has on each line one key of any type that OpenSSH knows, without options; `#` begins a
-    /// comment line. A list that revokes no key yet must contain a comment, because an empty file may be the remainder
-    /// of a truncated list.
+    /// A list of public keys has on each line one key, without options; `#` begins a comment line. Keys that cannot sign
+    /// passports are skipped; a certificate revokes its key, as with OpenSSH. A list that revokes no key yet must contain a
+    /// comment, because an empty file may be the remainder of a truncated list.
     ///
     /// # Errors
     /// Returns [`Unreadable`] with every error in a list of public keys, or with the first error in a key revocation
     /// list and its offset in bytes.
     pub fn parse(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        let read = if bytes.starts_with(b"SSHKRL") { binary(name, bytes) } else { text(name, bytes) };
+        let mut skipped = Vec::new();
+        let is_binary = bytes.starts_with(b"SSHKRL");
+        let read = if is_binary { binary(name, bytes) } else { text(name, bytes, &mut skipped) };
         let expected = "a KRL, or a list of public keys";
         let is_near = |kind| matches!(kind, Kind::KeyRevocationList | Kind::PublicKey | Kind::PrivateKey);
         let revoked = read.map_err(|refused| mistaken(name, bytes, expected, is_near).unwrap_or(refused))?;
-        Ok(Self { name: name.to_owned(), revoked })
+        Ok(Self { name: name.to_owned(), revoked, skipped })
     }
 
     /// Returns the reason why `key` is revoked, or `None` if it is not revoked.
@@ -59,7 +64,7 @@ fn binary(name: &str, bytes: &[u8]) -> Result<Revoked, Unreadable> {
     krl::read(bytes).map_err(|problem| Unreadable::of(name, vec![problem]))
 }
 
-fn text(name: &str, bytes: &[u8]) -> Result<Revoked, Unreadable> {
+fn text(name: &str, bytes: &[u8], skipped: &mut Vec<String>) -> Result<Revoked, Unreadable> {
     if bytes.trim_ascii().is_empty() {
         let advice = "if no key has been revoked, state this in a line that begins with #";
         return Err(Unreadable::whole(name, None, "an empty file", "a list of revoked keys", advice));
@@ -69,152 +74,11 @@ fn text(name: &str, bytes: &[u8]) -> Result<Revoked, Unreadable> {
         let start = line.text.len() - line.text.trim_start().len();
         line.control_character().map_or_else(|| read_key(line, start), Err).map_err(|problem| vec![problem])
     };
-    let keys = lines::each(name, &lines::of(name, bytes)?, read)?;
-    revoked.keys.extend(keys.into_iter().map(|key| key.blob));
+    for key in lines::each(name, &lines::of(name, bytes)?, read)? {
+        match key {
+            AnyKey::Signing(key) | AnyKey::Other { certified: Some(key), .. } => drop(revoked.keys.insert(key.blob)),
+            AnyKey::Other { algorithm, .. } => skipped.push(algorithm),
+        }
+    }
     Ok(revoked)
-}
-
-#[cfg(all(test, feature = "factory"))]
-mod tests {
-    use super::*;
-    use crate::trust::SigningKey;
-    use crate::trust::wire::string;
-
-    fn key() -> PublicKey {
-        SigningKey::generate().unwrap().public_key()
-    }
-
-    fn section(kind: u8, items: &[&[u8]]) -> Vec<u8> {
-        let body: Vec<u8> = items.iter().flat_map(|item| string(item)).collect();
-        [vec![kind], string(&body)].concat()
-    }
-
-    fn list(sections: &[Vec<u8>]) -> Vec<u8> {
-        let header = [krl::MAGIC, &[0, 0, 0, 1], &[0; 24], &[0; 4], &string(b"why")].concat();
-        [header, sections.concat()].concat()
-    }
-
-    fn refused(bytes: &[u8]) -> String {
-        RevokedKeys::parse("krl", bytes).unwrap_err().to_string()
-    }
-
-    #[test]
-    fn keys_are_revoked_by_themselves_or_by_either_fingerprint() {
-        let (key, other) = (key(), key());
-        let why = |section: Vec<u8>| RevokedKeys::parse("krl", &list(&[section])).unwrap().revokes(&key);
-        assert_eq!(why(section(2, &[&other.blob, &key.blob])).as_deref(), Some("listed in krl"));
-        let sha1 = Sha1::digest(&key.blob);
-        assert_eq!(why(section(3, &[&sha1])).as_deref(), Some("its SHA-1 fingerprint is in krl"));
-        let sha256 = Sha256::digest(&key.blob);
-        assert_eq!(why(section(5, &[&sha256])).as_deref(), Some("its SHA-256 fingerprint is in krl"));
-        assert_eq!(why(section(2, &[&other.blob])), None);
-        // A section of certificates of one authority, without any certificate, revokes no plain key.
-        assert_eq!(why(section(1, &[&key.blob, b""])), None);
-        let lines = format!("# lost\n{} bench\r\n", key.to_openssh());
-        let lines = RevokedKeys::parse("keys", lines.as_bytes()).unwrap();
-        assert_eq!((lines.revokes(&key).as_deref(), lines.revokes(&other)), (Some("listed in keys"), None));
-    }
-
-    #[test]
-    fn every_line_counts_and_many_alike_are_one_error() {
-        let (key, other) = (key(), key());
-        let lines = format!("{}\n\n{}\n", other.to_openssh(), key.to_openssh());
-        assert!(RevokedKeys::parse("keys", lines.as_bytes()).unwrap().revokes(&key).is_some());
-        let refused = RevokedKeys::parse("keys", "lost\n".repeat(60).as_bytes()).unwrap_err();
-        let due = "keys:1:1: key: found only `lost` (and 59 more of this kind, up to line 60), expected a public key";
-        assert!(refused.to_string().starts_with(due), "{refused}");
-    }
-
-    #[test]
-    fn a_file_may_be_as_large_as_stated_and_no_larger() {
-        let comment = |bytes: usize| "#".repeat(bytes).into_bytes();
-        // 44 bytes precede the comment of a key revocation list.
-        let empty =
-            |bytes: usize| [krl::MAGIC, &[0, 0, 0, 1], &[0; 24], &[0; 4], &string(&vec![b'x'; bytes - 44])].concat();
-        for file in [&comment as &dyn Fn(usize) -> Vec<u8>, &empty] {
-            assert!(RevokedKeys::parse("krl", &file(16_777_216)).is_ok());
-            assert!(refused(&file(16_777_217)).contains("found 16777217 bytes, expected at most 16777216"));
-        }
-    }
-
-    #[test]
-    fn extensions_that_need_not_be_understood_are_passed_over() {
-        let key = key();
-        let optional = [string(b"note@here"), vec![0], string(b"x")].concat();
-        let of_certificates = [string(b""), string(b""), vec![0x39], string(&optional)].concat();
-        let sections = [
-            [vec![255], string(&optional)].concat(),
-            [vec![1], string(&of_certificates)].concat(),
-            section(2, &[&key.blob]),
-        ];
-        assert!(RevokedKeys::parse("krl", &list(&sections)).unwrap().revokes(&key).is_some());
-    }
-
-    /// Expected: OpenSSH's krl.c, `parse_revoked_certs`.
-    #[test]
-    fn certificates_are_read_to_their_last_byte() {
-        let certificates = |parts: &[(u8, Vec<u8>)]| {
-            let parts: Vec<u8> = parts.iter().flat_map(|(kind, part)| [vec![*kind], string(part)].concat()).collect();
-            list(&[[vec![1], string(&[string(b""), string(b""), parts].concat())].concat()])
-        };
-        let numbers = |numbers: &[u64]| numbers.iter().flat_map(|number| number.to_be_bytes()).collect::<Vec<u8>>();
-        let bitmap = |first: u64, bits: &[u8]| [numbers(&[first]), string(bits)].concat();
-        let last = u64::MAX;
-        for good in [
-            (0x20, numbers(&[1, 5, last])),
-            (0x21, numbers(&[5, 5])),
-            (0x22, bitmap(7, &[0, 0x80])),
-            (0x22, bitmap(0, &[2])),
-            (0x22, bitmap(last - 1, &[3])),
-            (0x22, bitmap(last - 8, &[1, 0])),
-            (0x22, bitmap(1, &[1; 2048])),
-            (0x23, [string(b"id"), string(b"other\0")].concat()),
-        ] {
-            assert!(RevokedKeys::parse("krl", &certificates(std::slice::from_ref(&good))).is_ok(), "{good:x?}");
-        }
-        for (part, words) in [
-            ((0x20, numbers(&[0])), "invalid serial numbers at byte 60"),
-            ((0x20, vec![1; 7]), "an item of 8 bytes"),
-            ((0x21, numbers(&[6, 5])), "invalid serial numbers"),
-            ((0x21, numbers(&[1, 2, 3])), "8 unread bytes"),
-            ((0x22, bitmap(7, &[0x80])), "invalid serial numbers"),
-            ((0x22, bitmap(0, &[1])), "invalid serial numbers"),
-            ((0x22, bitmap(last - 1, &[4])), "invalid serial numbers"),
-            ((0x22, bitmap(last - 7, &[1, 0])), "invalid serial numbers"),
-            ((0x22, bitmap(1, &[1; 2049])), "invalid serial numbers"),
-            ((0x23, string(b"a\0b")), "a NUL within the text"),
-            ((0x24, vec![]), "a section of type 36 at byte 60"),
-        ] {
-            let refused = refused(&certificates(&[part]));
-            assert!(refused.contains(words), "{refused}");
-        }
-        let authority = refused(&list(&[section(1, &[b"\0\0\0\x03ssh", b""])]));
-        assert!(authority.contains("certificate authority at byte 52: `ssh`, which is not a key type"), "{authority}");
-    }
-
-    #[test]
-    fn what_cannot_be_understood_is_refused_with_its_place() {
-        let critical = [vec![255], string(&[string(b"must@here"), vec![1], string(b"")].concat())].concat();
-        let longer = [vec![255], string(&[string(b"note@here"), vec![0], string(b""), vec![7]].concat())].concat();
-        for (bytes, words) in [
-            (list(&[section(6, &[])]), "a section of type 6 at byte 47"),
-            (list(&[[section(4, &[]), string(b"signature")].concat()]), "a section of type 4 at byte 47"),
-            (list(&[section(1, &[&[0; 20]])]), "certificate authority at byte 52"),
-            (list(&[section(3, &[&[0; 32]])]), "a fingerprint of 32 bytes at byte 52, expected 20 bytes"),
-            (list(&[section(5, &[&[0; 20]])]), "a fingerprint of 20 bytes at byte 52, expected 32 bytes"),
-            (list(&[critical]), "critical extension `must@here`"),
-            (list(&[longer]), "1 bytes after an extension"),
-            (b"SSHKRL\r\n\0\0".to_vec(), "changed line endings"),
-            (b"SSHKRL".to_vec(), "only 6 bytes are left"),
-            (b"SSHKRL\n\0\0\0\0\x02".to_vec(), "format version 2 at byte 8"),
-            (b"SSHKRLxx".to_vec(), "other bytes at the beginning"),
-            (b" \n".to_vec(), "an empty file"),
-            (b"revoked: [a]\n".to_vec(), "krl:1:1: key: found `revoked:`, which is not a key type"),
-        ] {
-            let refused = refused(&bytes);
-            assert!(refused.contains(words), "{refused}");
-        }
-        assert!(RevokedKeys::parse("krl", b"# none so far\n").is_ok());
-        assert!(RevokedKeys::parse("krl", &list(&[])).is_ok());
-    }
 }

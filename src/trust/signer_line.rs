@@ -4,6 +4,7 @@ use super::lines::Line;
 use super::pattern::LONGEST_PATTERN;
 use super::public_key::{AnyKey, fingerprint, shortened};
 use super::{KeyError, KeyPoint};
+use crate::text::Cause;
 use crate::text::problem::{MOST_COUNTED, Problem};
 use jiff::Timestamp;
 use jiff::civil::DateTime;
@@ -34,8 +35,9 @@ impl SignerLine {
     }
 }
 
-/// Reads a line and reports every error in it.
-pub(super) fn read(line: &Line) -> Result<SignerLine, Vec<Problem>> {
+/// Reads a line and reports every error in it. Of a line with a key that cannot sign passports, returns the type of that
+/// key instead.
+pub(super) fn read(line: &Line) -> Result<Result<SignerLine, String>, Vec<Problem>> {
     if let Some(problem) = line.control_character() {
         return Err(vec![problem]);
     }
@@ -47,22 +49,41 @@ pub(super) fn read(line: &Line) -> Result<SignerLine, Vec<Problem>> {
         return Err(vec![line.problem(start, "principals", format!("key type {first}"), "a name", advice)]);
     }
     let (principals, at) = principals(line, start).map_err(|problem| vec![problem])?;
+    let blank = |at: usize, found: &str| {
+        vec![line.problem(
+            at,
+            "",
+            found,
+            "principals, options and the key, separated by one space each",
+            Cause::OptionBlank,
+        )]
+    };
+    if principals.ends_with(',') {
+        return Err(blank(at, "a space in the list of principals"));
+    }
     check_patterns(line, start, "principals", &principals, &mut problems);
     let (namespaces, valid_after, valid_before) = (None, None, None);
     let (key, point) = (Vec::new(), OnceLock::new());
     let mut signer = SignerLine { principals, namespaces, valid_after, valid_before, key, point };
     let mut key_at = at;
-    if !AnyKey::is_type(word(line.text, at)) {
+    let mut other = None;
+    if !AnyKey::is_type(word(line.text, at)) && read_key(line, at).is_err() {
         let unclosed = |quote| line.problem(at + quote, "", "a quote that is not closed", "a closing quote", "");
         let end = at + length_before(&BLANKS, &line.text[at..]).map_err(|quote| vec![unclosed(quote)])?;
-        signer.read_options(line, at, end, &mut problems);
         key_at = blanks(line.text, end);
+        let next = word(line.text, key_at);
+        let continues = line.text[..end].ends_with([',', '=']) || next.contains([',', '"']) || next.starts_with('=');
+        if continues && !AnyKey::is_type(next) && !line.text[at..end].contains("cert-authority") {
+            return Err(blank(end, "a space between or within the options"));
+        }
+        signer.read_options(line, at, end, &mut problems);
     }
     match read_key(line, key_at) {
-        Ok(key) => signer.key = key.blob,
+        Ok(AnyKey::Signing(key)) => signer.key = key.blob,
+        Ok(AnyKey::Other { algorithm, .. }) => other = Some(algorithm),
         Err(problem) => problems.push(problem),
     }
-    if problems.is_empty() { Ok(signer) } else { Err(problems) }
+    if problems.is_empty() { Ok(other.map_or(Ok(signer), Err)) } else { Err(problems) }
 }
 
 const BLANKS: [char; 2] = [' ', '\t'];

@@ -15,14 +15,17 @@ use std::fmt::Display;
 words! {
     /// A language of the pages and of a DCC; its word is its code in ISO 639-1.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    #[cfg_attr(feature = "cli", derive(clap::ValueEnum, schemars::JsonSchema))]
+    #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+    #[cfg_attr(feature = "generate", derive(schemars::JsonSchema))]
     #[non_exhaustive]
     pub enum Language: pub tag {
         /// English.
-        #[cfg_attr(feature = "cli", value(name = "en"), schemars(rename = "en"))]
+        #[cfg_attr(feature = "cli", value(name = "en"))]
+        #[cfg_attr(feature = "generate", schemars(rename = "en"))]
         English = "en",
         /// Russian.
-        #[cfg_attr(feature = "cli", value(name = "ru"), schemars(rename = "ru"))]
+        #[cfg_attr(feature = "cli", value(name = "ru"))]
+        #[cfg_attr(feature = "generate", schemars(rename = "ru"))]
         Russian = "ru",
     }
 }

@@ -12,6 +12,7 @@ pub(crate) use status::status;
 
 use crate::files::{self, FileError};
 use crate::folder::{Folder, Memory};
+use crate::text::node::{location_of, odd_character, utf8, without_byte_order_mark};
 use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, Location, Problem, Unreadable, name_of};
 use std::path::{Path, PathBuf};
 use toml::de::DeTable;
@@ -57,11 +58,12 @@ impl Workspace {
     }
 
     fn from_toml(root: &Path, name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        let text = std::str::from_utf8(bytes).map_err(|error| {
-            let at = location(bytes, error.valid_up_to());
-            Unreadable::whole(name, Some(at), "a byte that is not valid UTF-8", "UTF-8", "save the file as UTF-8")
-        })?;
+        let bytes = without_byte_order_mark(bytes);
+        let text = utf8(name, bytes, None)?;
         let (table, errors) = DeTable::parse_recoverable(text);
+        if let Some((at, found, cause)) = odd_character(text).filter(|_| !errors.is_empty()) {
+            return Err(Unreadable::whole(name, Some(location(bytes, at)), found, "lines of TOML", cause));
+        }
         let mut problems: Vec<Problem> = errors
             .iter()
             .map(|error| {
@@ -150,7 +152,7 @@ fn unknown_key(key: &str, at: Location) -> Problem {
 
 /// Returns the line and column of a byte.
 fn location(bytes: &[u8], place: usize) -> Location {
-    crate::text::node::location_of(&bytes[..place.min(bytes.len())])
+    location_of(&bytes[..place.min(bytes.len())])
 }
 
 #[cfg(test)]

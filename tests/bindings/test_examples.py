@@ -156,6 +156,20 @@ def test_a_thousand_stands_on_a_cluster_give_the_answers_of_the_program(corpus: 
     assert len({result["results"][0]["omega_g_deg_per_h_per_g"] for result in found}) == STANDS
 
 
+def test_one_wrong_current_is_a_failure(corpus: Corpus, fleet: Path) -> None:
+    """Of two gyros one has a current that is 0.1 mA off: its readings do not fit the stand."""
+    some = fleet / "wrong"
+    for number, file in enumerate(sorted((fleet / "currents").glob("*/*/*.csv"))[:2]):
+        *before, last = file.read_text().splitlines()
+        i, j, jx_ma, jy_ma = last.split(",")
+        copied = some / file.relative_to(fleet / "currents")
+        copied.parent.mkdir(parents=True)
+        copied.write_text("\n".join([*before, f"{i},{j},{jx_ma},{float(jy_ma) - 0.1 * number}", ""]))
+    good, wrong = run(corpus, fleet, some, accept=1)
+    assert good["consistent"] is True and "error" not in good
+    assert set(wrong) == {"passport", "error"} and wrong["error"].startswith("not valid: ")
+
+
 def test_trials_on_a_cluster_and_a_passport_that_is_refused(corpus: Corpus, fleet: Path) -> None:
     """Of three stands one has an altered passport: its line is the error, and the others are not affected."""
     files = sorted((fleet / "currents").glob("*/*/*.csv"))[:3]

@@ -557,7 +557,7 @@ fn a_gyro_has_its_certificate_with_decisions() {
             (&judged["number"], &judged["day"], &judged["laboratory"]),
             (&"G-7".into(), &"2026-11-19".into(), &"Gyro laboratory".into())
         );
-        let best = result["results"].as_array().unwrap().last().unwrap();
+        let best = result["results"].as_array().unwrap().first().unwrap();
         assert_eq!(best["method"], "least-squares");
         let [k, omega_0, drift] = [0, 1, 2].map(|place| &judged["results"][place]);
         let rows = |value: &Value| {

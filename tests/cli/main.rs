@@ -11,6 +11,7 @@ mod calibrate;
 mod certify;
 mod dcc;
 mod export;
+mod generated;
 mod history;
 #[cfg(unix)]
 mod hostile_words;
@@ -20,6 +21,7 @@ mod keystrokes;
 mod links;
 mod recertify;
 mod report;
+mod secrets;
 mod selftest;
 mod terminal;
 mod transcripts;

@@ -24,8 +24,11 @@ fn written(content: &crate::passport::Content, key: &crate::trust::SigningKey) -
     fixtures::signed(&crate::passport::annotations::payload(content), key)
 }
 
+#[cfg(feature = "factory")]
+mod allowed_signers;
 #[cfg(feature = "monte-carlo")]
 mod calibration;
+mod causes;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod certification;
 #[cfg(feature = "monte-carlo")]
@@ -35,6 +38,7 @@ mod forgeries;
 mod frame_axis;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod hidden_drift;
+mod interface;
 #[cfg(feature = "factory")]
 mod issue;
 mod model;
@@ -51,12 +55,16 @@ mod plan;
 mod readings;
 #[cfg(feature = "monte-carlo")]
 mod recorded;
+mod records;
 #[cfg(feature = "factory")]
 mod register_attacks;
 #[cfg(feature = "factory")]
 mod reissue;
+#[cfg(feature = "factory")]
+mod revoked_keys;
 #[cfg(feature = "monte-carlo")]
 mod robustness;
+mod secrets;
 #[cfg(feature = "report")]
 mod selftest;
 #[cfg(feature = "factory")]

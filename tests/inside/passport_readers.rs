@@ -60,7 +60,7 @@ fn general(text: &str) -> Option<Content> {
     let content = Content::read(&node, &Path::Root, &mut problems)?;
     content.check(&mut problems);
     let same = rule::differs(text, &canonical::write_bare(&content)).is_none();
-    (problems.is_empty() && same).then_some(content)
+    (problems.is_empty() && same && content.format == "dtg-passport/1").then_some(content)
 }
 
 /// Returns `true` if the reader accepts the text. Among the texts that obey the rule of signed texts, it must

@@ -44,7 +44,7 @@ fn over_stands(count: u64, rows: usize, noise_ma: f64, stated_ma: f64) -> (f64, 
     for seed in 0..count {
         let (setup, mut stream) = (bench(seed, stated_ma), Stream::new(seed + 1000));
         let found = solved(&setup, &written(&setup, rows, (&mut stream, noise_ma), 4));
-        let answer = found.answer().unwrap();
+        let answer = found.adopted().unwrap();
         fit += answer.chi_square.value / answer.chi_square.degrees_of_freedom as f64;
         let (values, truth) = (answer.parameters.to_vector(), gvk_6().to_vector());
         let near = |parameter: &Parameter| {

@@ -50,7 +50,11 @@ fn stand_header_readings_and_currents_pass_their_readers() {
 
 #[test]
 fn gyro_laboratory_and_site_pass_their_readers() {
-    assert_eq!(GyroType::from_yaml("gyro.yaml", GYRO.as_bytes()).unwrap().nominal, GyroType::gvk_6().nominal);
+    // A type that states no g would be compared at 9.80665 m/s², so the template asks for it.
+    let type_at_9_8 = GYRO.replace("\ngravity_m_per_s2: CHANGE", "\ngravity_m_per_s2: 9.8");
+    let gyro = GyroType::from_yaml("gyro.yaml", type_at_9_8.as_bytes()).unwrap();
+    assert_eq!((gyro.nominal.clone(), gyro.gravity()), (GyroType::gvk_6().nominal, 9.8));
+    assert!(GyroType::from_yaml("gyro.yaml", GYRO.as_bytes()).unwrap_err().to_string().contains("gravity_m_per_s2"));
     Laboratory::from_yaml("laboratory.yaml", filled(LABORATORY).as_bytes()).unwrap();
     Administrative::from_yaml("dcc.yaml", filled(DCC).as_bytes()).unwrap();
     let read = |text: &str| Site::from_yaml("here.yaml", text.as_bytes()).unwrap();
@@ -89,7 +93,8 @@ fn what_is_a_comment_is_right_too() {
     assert!(text.contains("\ndeflection_arcsec") && text.contains("\ngravity_m_per_s2"), "{text}");
     Site::from_yaml("here.yaml", text.as_bytes()).unwrap();
     Laboratory::from_yaml("laboratory.yaml", filled(&uncommented(LABORATORY)).as_bytes()).unwrap();
-    GyroType::from_yaml("gyro.yaml", uncommented(GYRO).as_bytes()).unwrap();
+    let gyro = uncommented(GYRO).replace("_m_per_s2: CHANGE", "_m_per_s2: 9.8");
+    GyroType::from_yaml("gyro.yaml", gyro.as_bytes()).unwrap();
     let dcc = filled(&uncommented(DCC));
     let read = Administrative::from_yaml("dcc.yaml", dcc.as_bytes()).unwrap();
     assert!(read.traceable == Some(true) && read.issued.is_some(), "{dcc}");

@@ -8,6 +8,7 @@
 mod agent;
 mod allowed_signers;
 mod keys;
+mod other_types;
 mod program;
 mod revocation;
 mod signatures;

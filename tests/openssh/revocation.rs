@@ -1,6 +1,7 @@
 //! Revoked keys: lists that `ssh-keygen -k` makes, and lists of public keys, with the verdicts of `ssh-keygen`.
 
 use crate::{Bench, NAMESPACE, PRINCIPAL};
+use base64ct::{Base64, Encoding as _};
 use dtg_passport::trust::{RevokedKeys, SigningKey};
 use std::fs;
 
@@ -107,6 +108,83 @@ fn a_list_cut_short_or_continued_is_refused_by_both() {
     bench.write("longer", [&whole[..], &[0]].concat());
     assert!(!bench.keygen(&["-Q", "-f", "longer", "key5.pub"]).good);
     assert!(RevokedKeys::parse("longer", &[&whole[..], &[0]].concat()).is_err());
+}
+
+/// A string of SSH (RFC 4251, section 5).
+fn string(bytes: &[u8]) -> Vec<u8> {
+    [&u32::try_from(bytes.len()).unwrap().to_be_bytes()[..], bytes].concat()
+}
+
+/// Expected: `ssh-keygen -Q` of OpenSSH 9.2 or later. One of the two refuses every list with an extension (known since
+/// 9.4) or a signature (refused since 9.4).
+#[test]
+fn sections_that_some_openssh_refuses_are_refused() {
+    let (bench, keys) = bench_with_keys();
+    assert!(bench.keygen(&["-q", "-k", "-f", "krl", "key0.pub"]).good);
+    let whole = fs::read(bench.path("krl")).unwrap();
+    let extension = |critical: u8| [string(b"note@here"), vec![critical], string(b"x")].concat();
+    let certificates = |parts: &[u8]| [vec![1], string(&[string(b""), string(b""), parts.to_vec()].concat())].concat();
+    for section in [
+        [vec![255], string(&extension(0))].concat(),
+        [vec![255], string(&extension(1))].concat(),
+        certificates(&[vec![0x39], string(&extension(0))].concat()),
+        certificates(&[vec![0x39], string(&extension(1))].concat()),
+        [vec![4], string(b"key"), string(b"signature")].concat(),
+        [vec![6], string(b"")].concat(),
+    ] {
+        let list = [&whole[..], &section].concat();
+        assert!(RevokedKeys::parse("list", &list).is_err(), "{section:x?}");
+    }
+    assert!(RevokedKeys::parse("krl", &whole).unwrap().revokes(&keys[0].public_key()).is_some());
+}
+
+/// The key of an authority revokes nothing here; a list is refused with the keys that OpenSSH refuses, and with those of
+/// types that only some versions know.
+#[test]
+fn the_key_of_an_authority_is_read_as_openssh_reads_it() {
+    let (bench, _) = bench_with_keys();
+    let of = |authority: &[u8]| {
+        bench.write("spec", "id: a\n");
+        assert!(bench.keygen(&["-q", "-k", "-s", "authority.pub", "-f", "krl", "spec"]).good);
+        let krl = fs::read(bench.path("krl")).unwrap();
+        // The header of 44 bytes and a section with the key of the authority, nothing reserved, and the id.
+        let id = [vec![0x23], string(&string(b"a"))].concat();
+        [&krl[..44], &[1], &string(&[string(authority), string(b""), id].concat())].concat()
+    };
+    let blob_of = |line: &str| Base64::decode_vec(line.split(' ').nth(1).unwrap()).unwrap();
+    let mut compared = [0, 0];
+    for (kind, bits) in
+        [("rsa", "1024"), ("rsa", "2048"), ("ecdsa", "256"), ("ecdsa", "384"), ("ecdsa", "521"), ("ed25519", "256")]
+    {
+        let name = format!("{kind}{bits}");
+        assert!(bench.keygen(&["-q", "-t", kind, "-b", bits, "-N", "", "-f", &name]).good);
+        let blob = blob_of(&bench.read(&format!("{name}.pub")));
+        // Whole, cut, continued, and with a changed byte in each length, in the name of the curve and in the first bytes
+        // of each field.
+        let changed = (0..blob.len().min(60)).map(|at| {
+            let mut changed = blob.clone();
+            changed[at] ^= 0x80;
+            changed
+        });
+        let cut = [1, 2, 33, 40].map(|bytes| blob[..blob.len() - bytes].to_vec());
+        let longer = [blob.clone(), [&blob[..], b"\0"].concat(), [&blob[..], &string(b"x")].concat()];
+        for authority in changed.chain(cut).chain(longer) {
+            let list = of(&authority);
+            bench.write("list", &list);
+            let theirs = bench.keygen(&["-Q", "-f", "list", "key5.pub"]);
+            let ours = RevokedKeys::parse("list", &list);
+            // The bytes of a point decide whether it lies on the curve, which is not computed here.
+            if ours.is_ok() != theirs.good {
+                assert!(kind == "ecdsa" && ours.is_ok(), "{name}: {authority:x?}: {ours:?}, {}", theirs.errors);
+            }
+            compared[usize::from(theirs.good)] += 1;
+        }
+    }
+    assert!(compared.iter().all(|count| *count > 20), "{compared:?}");
+    for kind in ["ssh-dss", "ssh-mldsa44-ed25519@openssh.com"] {
+        let authority = [kind.as_bytes(), b"x", b"x", b"x", b"x"].map(string).concat();
+        assert!(RevokedKeys::parse("list", &of(&authority)).is_err(), "{kind}");
+    }
 }
 
 /// A list with a section of every type that `ssh-keygen -k` writes; each of the first four keys is revoked in a way of

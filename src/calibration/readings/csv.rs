@@ -1,10 +1,13 @@
 //! Currents from CSV: `i,j,jx_ma,jy_ma`, and optionally `cycle`, `visit`, `time_s`, `theta_deg`, `phi_deg`.
 
-use super::times::{doubtful_times, impossible_times, scattered_visit, times_in_another_unit, torn_visits};
+use super::times::{
+    doubtful_times, impossible_times, over_midnight, scattered_visit, times_in_another_unit, torn_visits,
+};
 use super::{PositionReadings, Reading, Readings};
 use crate::calibration::recorded::Recorded;
 use crate::coefficients::{Coefficients, EIGHT_POSITIONS, PositionIndex};
 use crate::statistics::coincidences::{self, Coincidence};
+use crate::text::advice::beyond_range;
 use crate::text::problem::MOST_PROBLEMS;
 use crate::text::table::{Row, Table};
 use crate::text::{Printable, Problem, Unreadable};
@@ -49,8 +52,7 @@ impl Readings {
         coefficients: &Coefficients,
         range_ma: f64,
     ) -> Result<Self, Unreadable> {
-        let table = Table::read(name, bytes, &COLUMNS, &OPTIONAL_COLUMNS)?;
-        table.check_marks(&COLUMNS[2..])?;
+        let table = Table::read(name, bytes, &COLUMNS[..2], &COLUMNS[2..], &OPTIONAL_COLUMNS)?;
         let [cycle, visit, time, ..] = OPTIONAL_COLUMNS.map(|column| table.place(column));
         let mut problems = Vec::new();
         let mut readings = Vec::new();
@@ -75,6 +77,7 @@ impl Readings {
             // Each kind of problem may be the cause of the next.
             let kinds = [
                 if visit.is_none() { perhaps_mistaken(coefficients, &readings) } else { Vec::new() },
+                over_midnight(&table, &readings),
                 torn_visits(&table, &readings),
                 lone_cycles(&readings),
                 impossible_times(&table, &readings),
@@ -127,7 +130,7 @@ pub(crate) fn position(
         } else {
             advice.to_owned()
         };
-        problems.push(table.problem(&row[0], 0, format!("position {index}"), expected, &advice));
+        problems.push(table.problem(&row[0], 0, format!("position {index}"), expected, advice));
     }
     found
 }
@@ -161,21 +164,17 @@ fn current(table: &Table, row: &Row, column: usize, range_ma: f64, problems: &mu
     if value.abs() <= range_ma {
         return Some(value);
     }
-    let advice = if value.abs() >= OVERLOAD {
-        "a meter writes such a number for an overload; omit the whole row, or measure it in a larger range"
-    } else if (1e-3..=1e3).contains(&(value.abs() / range_ma)) && value.abs() > 10.0 * range_ma {
+    let usual = if (1e-3..=1e3).contains(&(value.abs() / range_ma)) && value.abs() > 10.0 * range_ma {
         "convert it to milliamperes; it may be in microamperes"
     } else {
         "check the value, or the range of the meter in the laboratory file"
     };
+    let advice =
+        beyond_range(value, "omit the whole row, or measure it in a larger range").unwrap_or_else(|| usual.into());
     let expected = format!("at most {range_ma} mA in either direction, the range of the meter");
-    let found = if value.abs() >= OVERLOAD { format!("{value:e}") } else { format!("{value}") };
-    problems.push(table.problem(&row[column], column, found, &expected, advice));
+    problems.push(table.problem(&row[column], column, row[column].text.clone(), &expected, advice));
     None
 }
-
-/// Number from which a current is the sign of a meter for an overload, such as 9.9E+37.
-const OVERLOAD: f64 = 1e9;
 
 /// Returns a problem for each position without a reading if one other position has more rows than all others: its row may
 /// belong there. A column of visits would say that it does not.
@@ -194,7 +193,11 @@ fn perhaps_mistaken(coefficients: &Coefficients, readings: &[Reading]) -> Vec<Pr
     let missing = coefficients.positions.iter().filter(|at| count(at.index) == 0);
     missing
         .map(|at| {
-            Problem::whole(format!("no reading of position {}", at.index), "a reading of every position", &advice)
+            Problem::whole(
+                format!("no reading of position {}", at.index),
+                "a reading of every position",
+                advice.as_str(),
+            )
         })
         .collect()
 }

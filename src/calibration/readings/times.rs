@@ -2,9 +2,9 @@
 
 use super::Reading;
 use crate::coefficients::PositionIndex;
-use crate::text::Problem;
 use crate::text::number::two_digits;
-use crate::text::table::Table;
+use crate::text::table::{Row, Table};
+use crate::text::{Advice, Cause, Problem};
 use crate::units::SECONDS_PER_HOUR;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -35,6 +35,23 @@ pub(super) fn torn_visits(table: &Table, readings: &[Reading]) -> Vec<Problem> {
     Vec::new()
 }
 
+/// Returns a problem for the first row after midnight, if the times of all rows rise except at midnight.
+pub(super) fn over_midnight(table: &Table, readings: &[Reading]) -> Vec<Problem> {
+    let Some(column) = table.place("time_s") else { return Vec::new() };
+    let time_s = |reading: &Reading| reading.time_s.unwrap_or_default();
+    let pairs = readings.windows(2).zip(table.rows.iter().skip(1));
+    let falls = pairs.filter(|(pair, _)| time_s(&pair[1]) < time_s(&pair[0]));
+    let falls: Vec<_> = falls.map(|(pair, row)| (time_s(&pair[0]), time_s(&pair[1]), row)).collect();
+    if !falls.iter().all(|(before_s, time_s, _)| is_midnight(*before_s, *time_s)) {
+        return Vec::new();
+    }
+    let problem = |(before_s, time_s, row): &(f64, f64, &Row)| {
+        let expected = format!("a time not before that of the row above, {before_s} s");
+        table.problem(&row[column], column, format!("{time_s} s"), &expected, Cause::Midnight)
+    };
+    falls.first().map(problem).into_iter().collect()
+}
+
 /// Returns a problem for the first row whose time cannot be: earlier than the row before it where the order of rows tells
 /// the visits, or in a cycle that begins before an earlier one ends.
 pub(super) fn impossible_times(table: &Table, readings: &[Reading]) -> Vec<Problem> {
@@ -47,12 +64,13 @@ pub(super) fn impossible_times(table: &Table, readings: &[Reading]) -> Vec<Probl
     let mut before = f64::NEG_INFINITY;
     for (reading, row) in readings.iter().zip(&table.rows) {
         let time_s = reading.time_s.unwrap_or(before);
-        let refuse = |expected: &str, advice: &str| {
+        let refuse = |expected: &str, advice: Advice| {
             vec![table.problem(&row[column], column, format!("{time_s} s"), expected, advice)]
         };
         if let Some((cycle, end)) = last.range(..reading.cycle).find(|(_, end)| **end > time_s) {
             let expected = format!("a time after the last one of cycle {cycle}, {end} s");
-            return refuse(&expected, "count the time from the first reading of the run, not of each cycle");
+            let otherwise = "count the time from the first reading of the run, not of each cycle";
+            return refuse(&expected, on_fall(*end, time_s, otherwise));
         }
         if reading.visit.is_none() && time_s < before {
             let expected = format!("a time not before that of the row above, {before} s");
@@ -79,17 +97,20 @@ pub(super) fn impossible_times(table: &Table, readings: &[Reading]) -> Vec<Probl
 }
 
 /// Returns the advice on a time, s, that is before an earlier one; `otherwise` if neither midnight nor a clock explains it.
-fn on_fall(before_s: f64, time_s: f64, otherwise: &'static str) -> &'static str {
-    const DAY_S: f64 = 24.0 * SECONDS_PER_HOUR;
+fn on_fall(before_s: f64, time_s: f64, otherwise: &str) -> Advice {
     match before_s - time_s {
-        fall if before_s <= DAY_S && fall > 0.5 * DAY_S => {
-            "the times seem to start again at midnight: add 86400 s to them from there on"
-        }
+        _ if is_midnight(before_s, time_s) => Cause::Midnight.into(),
         fall if (0.5 * SECONDS_PER_HOUR..=SECONDS_PER_HOUR).contains(&fall) => {
-            "the clock seems to have been set back by an hour: add 3600 s to the times from there on"
+            "the clock seems to have been set back by an hour: add 3600 s to the times from there on".into()
         }
-        _ => otherwise,
+        _ => otherwise.into(),
     }
+}
+
+/// Returns `true` if a time, s, that follows another seems to be that of a clock on the next day.
+fn is_midnight(before_s: f64, time_s: f64) -> bool {
+    const DAY_S: f64 = 24.0 * SECONDS_PER_HOUR;
+    before_s <= DAY_S && before_s - time_s > 0.5 * DAY_S
 }
 
 /// Returns the number of moves to another position within the turn-ons, and the time that these took, s. Without times or

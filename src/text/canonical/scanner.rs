@@ -12,15 +12,19 @@ pub(super) fn scan<T: Field>(text: &str, limits: Limits) -> Result<T, Problem> {
     // Count the brackets only if the text is long enough to contain too many.
     let brackets = |text: &str| text.bytes().filter(|byte| b"[{".contains(byte)).count();
     let too_large = text.len() > limits.bytes || (text.len() > limits.brackets && brackets(text) > limits.brackets);
-    let mut scanner = Scanner { rest: text, depth: 0, inline: false, first: true };
+    let mut scanner = Scanner { rest: text, depth: 0, inline: false, first: true, known: [&[]; DEEPEST + 1] };
     let document = if too_large { None } else { T::scan(&mut scanner) };
     let rest = scanner.after_comments();
     document.filter(|_| rest.is_empty()).ok_or_else(|| {
         let at = location_of(&text.as_bytes()[..text.len() - rest.len()]);
         let found = rest.lines().next().map_or_else(|| "the end of the file".to_owned(), rule::shortened);
-        Problem::new(Some(at), "", found, "the next key of this format", rule::NOT_CANONICAL)
+        let advice = if scanner.stopped_at_unknown_key(rest) { rule::UPDATE } else { rule::NOT_CANONICAL };
+        Problem::new(Some(at), "", found, "the next key of this format", advice)
     })
 }
+
+/// Deepest nesting of blocks whose keys are remembered for messages; a passport has two.
+const DEEPEST: usize = 4;
 
 #[derive(Debug)]
 pub(crate) struct Scanner<'t> {
@@ -31,6 +35,8 @@ pub(crate) struct Scanner<'t> {
     inline: bool,
     /// Whether no key has been read yet in the current brackets.
     first: bool,
+    /// Keys of the mapping in the current brackets, then those of the last block at each depth.
+    known: [&'static [&'static str]; DEEPEST + 1],
 }
 
 impl<'t> Scanner<'t> {
@@ -44,14 +50,19 @@ impl<'t> Scanner<'t> {
         &self.rest[self.rest.len() - after_comments(self.rest.as_bytes()).len()..]
     }
 
-    /// Reads a mapping; `entries` reads its keys one after the other with [`Scanner::entry`].
-    pub(crate) fn mapping<T>(&mut self, entries: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
+    /// Reads a mapping with the keys `known`; `entries` reads them one after the other with [`Scanner::entry`].
+    pub(crate) fn mapping<T>(
+        &mut self,
+        known: &'static [&'static str],
+        entries: impl FnOnce(&mut Self) -> Option<T>,
+    ) -> Option<T> {
         if self.inline || (self.depth > 0 && self.rest.starts_with(" {")) {
             return self.on_the_line(|scanner| {
                 scanner.take("{")?;
                 let outer = std::mem::replace(&mut scanner.first, true);
+                let outer_known = std::mem::replace(&mut scanner.known[0], known);
                 let mapping = entries(scanner)?;
-                scanner.first = outer;
+                (scanner.first, scanner.known[0]) = (outer, outer_known);
                 scanner.take("}")?;
                 Some(mapping)
             });
@@ -60,9 +71,19 @@ impl<'t> Scanner<'t> {
             self.take("\n")?;
         }
         self.depth += 1;
+        self.known[self.depth.min(DEEPEST)] = known;
         let mapping = entries(self)?;
         self.depth -= 1;
         Some(mapping)
+    }
+
+    /// Returns `true` if `rest`, at which the scanner stopped, begins with a key that its mapping does not have.
+    fn stopped_at_unknown_key(&self, rest: &str) -> bool {
+        let line = rest.trim_start_matches([',', ' ']);
+        let place = if self.inline { 0 } else { (rest.len() - line.len()) / 2 + 1 };
+        let known = self.known.get(place).copied().unwrap_or_default();
+        let is_key = |key: &str| key.bytes().all(|byte| byte == b'_' || byte.is_ascii_alphanumeric());
+        !known.is_empty() && line.split_once(':').is_some_and(|(key, _)| is_key(key) && !known.contains(&key))
     }
 
     /// Reads the value of `key` if that is the next key; otherwise returns the value of an absent key.

@@ -68,7 +68,8 @@ fn row(
         expanded_uncertainty_from_gravity: None,
         simple,
         guarded,
-        specific_risk: 0.0,
+        specific_risk: Some(0.0),
+        conversion_of_g: None,
     }
 }
 

@@ -144,7 +144,7 @@ fn counts(verdict: &Verdict, by: fn(&ParameterVerdict) -> Decision, passed: Text
 
 /// Writes the parameters without a type: values and expanded uncertainties.
 fn alone(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let Some(found) = page.document.answer() else { return html! {} };
+    let Some(found) = page.document.found() else { return html! {} };
     let values = found.parameters.to_vector();
     let rows = Parameter::AS_IN_THE_PAPER.into_iter().filter(|parameter| !values[parameter.place()].is_nan());
     let rows: Vec<(Parameter, f64)> =
@@ -189,9 +189,9 @@ fn table(
         }
     };
     // One digit stands before every decimal mark, so that these align where the numbers begin at one place.
-    let risk = |row: &ParameterVerdict| match verdict.has_simple() {
-        true => probability(languages, row.specific_risk),
-        false => html! { "–" },
+    let risk = |row: &ParameterVerdict| match row.specific_risk.filter(|_| verdict.has_simple()) {
+        Some(risk) => probability(languages, risk),
+        None => html! { "–" },
     };
     let tolerance = |row: &ParameterVerdict| (Number::exact(row.tolerance), italic(languages.spoken(unit_of(row))));
     let tolerances = column_with_units(languages, rows.iter().map(tolerance));
@@ -247,24 +247,24 @@ pub(super) fn with_gravity(languages: &Languages, caption: Text, gravity_m_per_s
     languages.label_with(|language| caption.filled(language, values! { g: *gravity_m_per_s2 }))
 }
 
-/// Writes the expanded uncertainty that the local g adds to the drifts converted to the type's g, where it is most of it.
+/// Writes the part of the deviations that comes from converting the drifts to the type's g, and the expanded uncertainty that
+/// the local g adds to them, where it is most of it.
 fn from_gravity(page: &CalibrationPage, verdict: &Verdict, languages: &Languages) -> Markup {
-    let rows: Vec<_> = verdict.parameters.iter().filter(|row| row.is_mostly_from_gravity()).collect();
-    if rows.is_empty() || verdict.withheld {
-        return html! {};
-    }
     let u = Number::uncertainty(page.document.gravity_u_m_per_s2.unwrap_or(0.0));
-    let contributes = gravity_contributes(page.content().site.is_gravity_without_height());
-    let part = |row: &ParameterVerdict, language: Language| {
-        let gravity = Number::uncertainty(row.expanded_uncertainty_from_gravity.unwrap_or(0.0));
-        let gravity = quantity(&language.into(), &gravity, unit_of(row));
+    let part = |&(row, part): &(&ParameterVerdict, f64), language: Language| {
+        let gravity = quantity(&language.into(), &Number::significant(part, 2), unit_of(row));
         texts::FROM_GRAVITY_PART.marked_up(language, &[("gravity", gravity), ("parameter", parameter(row))])
     };
-    languages.paragraph_with(|language| {
-        let parts = listed(rows.iter().map(|row| part(row, language)));
-        let u = quantity(&language.into(), &u, units::M_PER_S2);
-        contributes.marked_up(language, &[("parts", parts), ("u", u)])
-    })
+    let texts = gravity_contributes(page.content().site.is_gravity_without_height());
+    html! {
+        @for (text, parts) in texts.into_iter().zip(verdict.parts_from_gravity()).filter(|(_, parts)| !parts.is_empty()) {
+            (languages.paragraph_with(|language| {
+                let parts = listed(parts.iter().map(|one| part(one, language)));
+                let u = quantity(&language.into(), &u, units::M_PER_S2);
+                text.marked_up(language, &[("parts", parts), ("u", u)])
+            }))
+        }
+    }
 }
 
 /// Returns the symbol of the parameter of `row`.

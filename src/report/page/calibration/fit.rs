@@ -32,7 +32,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
                 (scatter(page, languages))
             } @else {
                 (chi_square(result, languages))
-                @if page.calibration.answer().is_some_and(|found| found.chi_square.is_changed_by_estimates()) {
+                @if page.calibration.adopted().is_some_and(|found| found.chi_square.is_changed_by_estimates()) {
                     (languages.paragraph(texts::OF_ESTIMATES))
                 }
                 @if let Some(why) = too_small(page.calibration) { (languages.paragraph(why)) }

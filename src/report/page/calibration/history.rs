@@ -29,7 +29,7 @@ pub(super) fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
     let results = page.previous.iter().chain([page.document]);
     let all: Vec<Past> = results
         .filter_map(|document| {
-            let found = document.answer()?;
+            let found = document.found()?;
             let verdict = page.gyro.and_then(|gyro| document.judged(gyro));
             Some(Past { document, found, verdict })
         })

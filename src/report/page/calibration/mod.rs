@@ -158,10 +158,8 @@ impl CalibrationPage<'_> {
         self.gyro.zip(self.document.verdict.as_ref())
     }
 
-    /// Returns the adopted result: that of least squares, otherwise the last.
     fn adopted(&self) -> Option<&ResultDocument> {
-        let results = &self.document.results;
-        results.iter().find(|result| result.method == Method::LeastSquares.key()).or(results.last())
+        self.document.best()
     }
 
     /// Returns the serial number of the gyro, if it was stated.
@@ -253,6 +251,7 @@ impl CalibrationPage<'_> {
         let Some((gyro, verdict)) = self.judged() else {
             let words = html! {
                 (languages.paragraph_with(|language| html! { (texts::NO_TYPE_WORDS.words(language)) (self.not_in_u(language)) }))
+                (languages.paragraph(texts::NOT_TESTED))
                 (self.unexplained_change(languages))
                 (self.not_linear(languages))
                 (self.implausible(languages))

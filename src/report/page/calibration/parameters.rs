@@ -59,8 +59,7 @@ fn has_least_squares(results: &[ResultDocument]) -> bool {
 
 fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
     let results = &page.document.results;
-    // The adopted result comes first: it is the last of the methods.
-    let rows = results.iter().rev().flat_map(|result| {
+    let rows = results.iter().flat_map(|result| {
         let [values, u] = values(result);
         let cells = |number: &dyn Fn(Parameter) -> Number| {
             // The general model has no ω_g and ω_k.

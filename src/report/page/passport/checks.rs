@@ -12,11 +12,6 @@ use crate::report::page::texts::{checks as texts, units};
 use crate::wording::date_text;
 use maud::{Markup, html};
 
-/// Returns whether the check `name` passed; `None` if it was not asked.
-fn passed(page: &PassportPage, name: CheckName) -> Option<bool> {
-    page.verification.checks().iter().find(|check| check.name == name).and_then(Check::passed)
-}
-
 fn word(passed: Option<bool>) -> Text {
     match passed {
         Some(true) => texts::PASSED,
@@ -27,12 +22,13 @@ fn word(passed: Option<bool>) -> Text {
 
 /// Returns `true` if nothing shows whether the passport has been withdrawn.
 pub(crate) fn withdrawal_not_checked(page: &PassportPage) -> bool {
-    passed(page, CheckName::Revocation).is_none()
+    page.verification.code(CheckName::Revocation) == Some(Code::NotAsked)
 }
 
 /// Writes every check as a mark with its name, and the number of checks with each result.
 pub(crate) fn line(page: &PassportPage, languages: &Languages) -> Markup {
-    let count = |result| CheckName::ALL.into_iter().filter(|name| passed(page, *name) == result).count();
+    let checks = page.verification.checks();
+    let count = |result| checks.iter().filter(|check| check.passed() == result).count();
     let counted = |language: Language| {
         let [passed, not_asked, failed] = [Some(true), None, Some(false)].map(count);
         let text = if failed == 0 { texts::COUNTED } else { texts::COUNTED_FAILED };
@@ -42,11 +38,10 @@ pub(crate) fn line(page: &PassportPage, languages: &Languages) -> Markup {
     html! {
         (languages.paragraph_with(|language| html! { (counted(language)) }))
         ul.marks {
-            @for check in CheckName::ALL {
-                @let passed = passed(page, check);
+            @for check in checks {
                 li {
-                    (marked(passed, &languages.inline(name(check))))
-                    span.unseen { ": " (languages.spoken(word(passed))) }
+                    (marked(check.passed(), &languages.inline(name(check.name))))
+                    span.unseen { ": " (languages.spoken(word(check.passed()))) }
                 }
             }
         }
@@ -108,22 +103,18 @@ pub(crate) fn table(page: &PassportPage, languages: &Languages) -> Markup {
         texts::CAPTION.filled(language, values! { time: time_text(language, page.question.time) })
     });
     let named = |passed| marked(passed, &languages.label(word(passed)));
-    let (not_asked, asked): (Vec<_>, Vec<_>) =
-        CheckName::ALL.into_iter().partition(|check| passed(page, *check).is_none());
-    let found = |check| page.verification.checks().iter().find(|one| one.name == check);
-    let mut rows: Vec<_> = asked
-        .into_iter()
-        .filter_map(found)
-        .map(|found| {
-            let words = languages.label_with(|language| words(page, found, language));
-            vec![languages.label(name(found.name)), named(passed(page, found.name)), words]
-        })
-        .collect();
+    let (not_asked, asked): (Vec<&Check>, Vec<_>) =
+        page.verification.checks().iter().partition(|check| check.passed().is_none());
+    let row = |check: &Check| {
+        let words = languages.label_with(|language| words(page, check, language));
+        vec![languages.label(name(check.name)), named(check.passed()), words]
+    };
+    let mut rows: Vec<_> = asked.into_iter().map(row).collect();
     if !not_asked.is_empty() {
         let joined = |of: fn(CheckName) -> Text, between| {
             // Only the first name of a list has its capital letter.
             let words = |language| {
-                let words = not_asked.iter().map(|check| of(*check).words(language)).enumerate();
+                let words = not_asked.iter().map(|check| of(check.name).words(language)).enumerate();
                 words.map(|(place, words)| if place == 0 { words } else { words.to_lowercase() }).collect::<Vec<_>>()
             };
             languages.label_with(|language| words(language).join(between))

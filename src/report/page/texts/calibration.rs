@@ -70,6 +70,13 @@ texts! {
         en: "No gyro type was specified; this report makes no statement of conformity.",
         ru: "Тип гироскопа не указан; заключение о соответствии не приводится."
     }
+    NOT_TESTED {
+        en: "Without a gyro type these errors are not recognised: columns of currents that are exchanged or reversed, a unit of \
+             the currents that is wrong by a factor below 1000, a passport of another site, a rotated gyro or base, and \
+             positions numbered differently.",
+        ru: "Без типа гироскопа не распознаются перестановка токов x и y, обратный знак тока, неверная единица тока (менее чем \
+             в 1000 раз), паспорт другого места установки, поворот гироскопа или основания и другая нумерация положений."
+    }
     MISTAKE { en: "These are not the parameters of this gyro", ru: "Параметры не относятся к данному гироскопу" }
     MISTAKE_CURRENTS {
         en: "The readings fit, but the parameters do not match this gyro. This explains it: {causes}. Check the torquer \
@@ -357,6 +364,10 @@ texts! {
     }
     EARLIER { en: "Previous", ru: "Предыдущее" }
     FOUND { en: "Value", ru: "Значение" }
+    CONVERSION_OF_G {
+        en: "Part of the deviation that comes from converting local g to the g of the type: {parts}.",
+        ru: "Часть отклонения, вызванная пересчётом от местного g к g типа: {parts}."
+    }
     FROM_GRAVITY {
         en: "Contribution of local g (standard uncertainty {u}) to U: {parts}. To reduce it, measure g.",
         ru: "Вклад местного g (u = {u}) в U: {parts}. Вклад уменьшают, измерив g."

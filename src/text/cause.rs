@@ -1,0 +1,112 @@
+//! Recognised causes of errors in documents, and the advice on an error.
+
+use super::words;
+
+words! {
+    /// Recognised cause of an error in a document; [`Cause::code`] is its word in JSON.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    #[non_exhaustive]
+    pub enum Cause: pub code {
+        /// Comma as the decimal mark.
+        DecimalComma = "decimal_comma",
+        /// Unit of a column or key that is not written as in the format.
+        HeaderUnit = "header_unit",
+        /// Row of units below the header.
+        UnitsRow = "units_row",
+        /// Second header, as in joined tables.
+        RepeatedHeader = "repeated_header",
+        /// Row with means or other statistics.
+        SummaryRow = "summary_row",
+        /// Date that a spreadsheet program made of a number.
+        SpreadsheetDate = "spreadsheet_date",
+        /// Value or word that an instrument writes for an overload.
+        Overload = "overload",
+        /// Angle that is right except for a full turn.
+        FullTurn = "full_turn",
+        /// Times that begin again at midnight.
+        Midnight = "midnight",
+        /// Control character, such as Ctrl-Z or NUL at the end of a file.
+        ControlCharacter = "control_character",
+        /// Separators of thousands.
+        Thousands = "thousands",
+        /// Whole number with a leading zero.
+        LeadingZero = "leading_zero",
+        /// No-break or other space that is not ASCII.
+        NoBreakSpace = "no_break_space",
+        /// Space within the options of a trusted key.
+        OptionBlank = "option_blank",
+        /// File in UTF-16.
+        Utf16 = "utf16",
+    }
+}
+
+impl Cause {
+    /// Returns the usual advice on an error with this cause.
+    fn advice(self) -> &'static str {
+        match self {
+            Self::DecimalComma => "use a decimal point",
+            Self::HeaderUnit => "write the name as in the header of the format, which contains the unit",
+            Self::UnitsRow => "delete it, because the names of the columns state the units",
+            Self::RepeatedHeader => "delete it, and check that the joined tables belong together",
+            Self::SummaryRow => "delete it, because the program computes from the readings themselves",
+            Self::SpreadsheetDate => {
+                "a spreadsheet program has made a date of a number: set the format of the column to text, and import the \
+                 original file again"
+            }
+            Self::Overload => "instruments write such a value for an overload",
+            Self::FullTurn => "subtract or add a full turn",
+            Self::Midnight => "the times seem to start again at midnight: add 86400 s to them from there on",
+            Self::ControlCharacter => {
+                "delete it; old programs end a file with Ctrl-Z (U+001A), and an interrupted copy may end with NUL (U+0000)"
+            }
+            Self::Thousands => {
+                "write the number without separators of thousands; if the mark is a decimal comma, use a decimal point"
+            }
+            Self::LeadingZero => "omit the leading zero, because some YAML readers take such a number as octal",
+            Self::NoBreakSpace => "replace it with a space, or delete it within a number",
+            Self::OptionBlank => "delete the space; options and principals are separated by commas alone",
+            Self::Utf16 => "save the file as UTF-8; PowerShell's `>` and \"Unicode\" in Windows programs mean UTF-16",
+        }
+    }
+}
+
+/// Advice on an error, with its cause if that is recognised.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(crate) struct Advice {
+    pub(crate) cause: Option<Cause>,
+    pub(crate) words: String,
+    /// Known name that an unknown one stands for.
+    pub(crate) meant: Option<String>,
+}
+
+impl From<Cause> for Advice {
+    fn from(cause: Cause) -> Self {
+        (cause, cause.advice()).into()
+    }
+}
+
+impl From<&str> for Advice {
+    fn from(words: &str) -> Self {
+        words.to_owned().into()
+    }
+}
+
+impl From<String> for Advice {
+    fn from(words: String) -> Self {
+        Self { words, ..Self::default() }
+    }
+}
+
+/// Advice on an error with this cause that says more than the usual one.
+impl<W: Into<String>> From<(Cause, W)> for Advice {
+    fn from((cause, words): (Cause, W)) -> Self {
+        Self { cause: Some(cause), words: words.into(), meant: None }
+    }
+}
+
+impl Advice {
+    /// Adds that the known `name` is meant.
+    pub(super) fn meaning(self, name: &str) -> Self {
+        Self { meant: Some(name.to_owned()), ..self }
+    }
+}

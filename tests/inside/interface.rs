@@ -1,0 +1,178 @@
+//! Calibration as programs in other languages call it: from a passport and currents to JSON.
+
+use dtg_passport::calibration::diagnosis::INCONSISTENT;
+use dtg_passport::calibration::{CalibrationDocument, Method, Options};
+use dtg_passport::gyro::{GyroNoise, GyroType};
+use dtg_passport::interface::{Order, calibrate};
+use dtg_passport::passport::content::PositionCurrents;
+use dtg_passport::passport::content_from_anyone;
+
+const PASSPORT: &[u8] = include_bytes!("../../passports/SPS-2/0017/moscow-bmstu-1.yaml");
+
+fn default() -> Order {
+    "{}".parse().unwrap()
+}
+
+/// Expected: the parameters stated in the self-check, and the limit of 1e-9 of each.
+#[test]
+fn the_currents_of_the_self_check_give_its_gyro_by_every_method() {
+    let content = content_from_anyone("p", PASSPORT).unwrap();
+    let check = content.self_check.clone().unwrap();
+    let row = |at: &PositionCurrents| format!("{},{},{},{}\n", at.i, at.j, at.jx_ma, at.jy_ma);
+    let csv = "i,j,jx_ma,jy_ma\n".to_owned() + &check.currents.iter().map(row).collect::<String>();
+    for method in ["analytic", "least-squares"] {
+        let order = format!(r#"{{"method": "{method}"}}"#).parse().unwrap();
+        let found = calibrate(&content, None, ("c", csv.as_bytes()), &order).unwrap();
+        let document = CalibrationDocument::from_json("r", found.json.as_bytes()).unwrap();
+        let result = document.found().unwrap();
+        let errors = check.errors(&result.parameters);
+        assert!(errors.iter().all(|error| *error <= 1e-9), "{method}: {errors:?}");
+        for (place, u) in result.standard_uncertainty.iter().enumerate() {
+            assert!((found.covariance[place][place].sqrt() - u).abs() <= 1e-15 * u);
+        }
+    }
+}
+
+/// The currents are those of a gyro on another stand.
+#[test]
+fn readings_that_do_not_fit_pass_nothing_and_say_so() {
+    let other = include_bytes!("../../passports/SPS-1/0203/moscow-bmstu-1.yaml");
+    let content = content_from_anyone("p", other).unwrap();
+    let currents: (&str, &[u8]) = ("c", include_bytes!("../../docs/currents.csv"));
+    let mut wide = GyroType::gvk_6();
+    (wide.tolerance.k_main_percent, wide.tolerance.k_cross_percent) = (20.0, Some(100.0));
+    (wide.tolerance.omega0_deg_per_h, wide.tolerance.omega_g_deg_per_h_per_g) = (1e3, 1e3);
+    wide.tolerance.omega_k_deg_per_h_per_g = 1e3;
+    let order = Order { gyro: Some(wide), ..default() };
+    let found = calibrate(&content, None, currents, &order).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&found.json).unwrap();
+    assert_eq!((&json["consistent"], &json["verdict"]["overall"]), (&false.into(), &"undecided".into()));
+    assert!(found.remarks.iter().any(|remark| remark.starts_with(INCONSISTENT)), "{:?}", found.remarks);
+    // Where nothing is decided, no decision can be wrong.
+    let rows = json["verdict"]["parameters"].as_array().unwrap();
+    assert_eq!((rows.len(), rows.iter().filter(|row| row.get("specific_risk").is_some()).count()), (8, 0));
+    let content = content_from_anyone("p", PASSPORT).unwrap();
+    let found = calibrate(&content, None, currents, &order).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&found.json).unwrap();
+    assert_eq!((&json["consistent"], &json["verdict"]["overall"]), (&true.into(), &"pass".into()));
+    assert_eq!((&json["adopted"], found.remarks), (&"least-squares".into(), Vec::new()));
+}
+
+/// Expected: the uncertainties of a change between two results that both include the noise. The small differences come from
+/// the weights of the result without noise.
+#[test]
+fn a_noise_that_only_one_result_includes_counts_in_both() {
+    let content = content_from_anyone("p", PASSPORT).unwrap();
+    let first = include_str!("../../docs/currents.csv");
+    let second = first.replace("-0.2003831", "-0.2003841");
+    let noisy = GyroNoise { visit_deg_per_h: Some(0.001), turn_on_deg_per_h: Some(0.005) };
+    let calibrated = |currents: &str, noise: Option<&GyroNoise>, previous: Option<&str>| {
+        let previous = previous.map(|json| CalibrationDocument::from_json("r", json.as_bytes()).unwrap());
+        let gyro = Some(GyroType { noise: noise.cloned(), ..GyroType::gvk_6() });
+        let options = Options { methods: vec![Method::LeastSquares], ..Options::default() };
+        let order = Order { gyro, options, previous: previous.into_iter().collect(), ..default() };
+        calibrate(&content, None, ("c", currents.as_bytes()), &order).unwrap()
+    };
+    let change = |now: Option<&GyroNoise>, before: Option<&GyroNoise>| {
+        let previous = calibrated(first, before, None).json;
+        let found = calibrated(&second, now, Some(&previous));
+        let json: serde_json::Value = serde_json::from_str(&found.json).unwrap();
+        let parameters = json["change"]["parameters"].as_array().unwrap();
+        let u = parameters.iter().map(|line| line["standard_uncertainty"].as_f64().unwrap()).collect::<Vec<_>>();
+        let said = found.remarks.iter().filter(|words| words.starts_with("Only one of the two")).count();
+        (u, said)
+    };
+    let (both, said) = change(Some(&noisy), Some(&noisy));
+    let (neither, _) = change(None, None);
+    assert_eq!((said, both.len()), (0, 8));
+    assert!(both[4] > 1.5 * neither[4], "{both:?} {neither:?}");
+    for one in [change(Some(&noisy), None), change(None, Some(&noisy))] {
+        assert_eq!(one.1, 1);
+        for (one, both) in one.0.iter().zip(&both) {
+            assert!((one / both - 1.0).abs() < 1e-4, "{one:?} {both:?}");
+        }
+    }
+}
+
+#[test]
+fn a_tolerance_in_percent_of_nothing_is_refused() {
+    let content = content_from_anyone("p", PASSPORT).unwrap();
+    let currents: (&str, &[u8]) = ("c", include_bytes!("../../docs/currents.csv"));
+    let mut gyro = GyroType::gvk_6();
+    gyro.nominal.k_deg_per_h_per_ma[0][1] = 0.0;
+    let refused = calibrate(&content, None, currents, &Order { gyro: Some(gyro), ..default() }).unwrap_err();
+    assert!(refused.to_string().contains("no tolerance of K_xy"), "{refused}");
+}
+
+#[test]
+fn what_is_no_current_is_refused_with_its_line() {
+    let content = content_from_anyone("p", PASSPORT).unwrap();
+    let csv = b"i,j,jx_ma,jy_ma\n1,1,0.1,0.1\n1.5,2,0.1,0.1\n1,3,NaN,inf\n";
+    let failed = calibrate(&content, None, ("c", csv), &default()).unwrap_err();
+    for place in ["c:3:1", "c:4:5", "c:4:9"] {
+        assert!(failed.message.contains(place), "{failed}");
+    }
+}
+
+/// Expected: the currents of docs/currents.csv ten times too small give scale factors ten times too large, which only the gyro
+/// type shows.
+#[test]
+fn what_needs_a_gyro_type_is_said_to_be_untested_without_one() {
+    let content = content_from_anyone("p", PASSPORT).unwrap();
+    let tenth = |cell: &str| cell.parse::<f64>().map_or_else(|_| cell.to_owned(), |ma| format!("{:.7}", ma / 10.0));
+    let line = |line: &str| match line.split(',').collect::<Vec<_>>()[..] {
+        [i, j, x, y] => format!("{i},{j},{},{}\n", tenth(x), tenth(y)),
+        _ => String::new(),
+    };
+    let csv: String = include_str!("../../docs/currents.csv").lines().map(line).collect();
+    let found = |order: &Order| -> serde_json::Value {
+        serde_json::from_str(&calibrate(&content, None, ("c", csv.as_bytes()), order).unwrap().json).unwrap()
+    };
+    let without = found(&default());
+    assert!(without["consistent"] == true && without.get("mistake").is_none(), "{without}");
+    assert!(without["not_tested"][0].as_str().unwrap().contains("unit"), "{without}");
+    let with = found(&Order { gyro: Some(GyroType::gvk_6()), ..default() });
+    assert!(with.get("not_tested").is_none(), "{with}");
+    assert_eq!(with["mistake"]["currents"]["power_of_ten"], -1);
+    assert_eq!(with["verdict"]["overall"], "undecided");
+}
+
+/// Expected: a drift of 10 °/(h·g) at the local g of Moscow, 9.81572 m/s², is 9.99076 at 9.80665 m/s² (by hand), 0.00924 less;
+/// nothing else depends on g.
+#[test]
+fn a_verdict_states_what_converting_g_contributed() {
+    let content = content_from_anyone("p", PASSPORT).unwrap();
+    let currents: (&str, &[u8]) = ("c", include_bytes!("../../docs/currents.csv"));
+    let conversions = |gravity_m_per_s2: Option<f64>| -> Vec<Option<f64>> {
+        let gyro = Some(GyroType { gravity_m_per_s2, ..GyroType::gvk_6() });
+        let found = calibrate(&content, None, currents, &Order { gyro, ..default() }).unwrap();
+        let json: serde_json::Value = serde_json::from_str(&found.json).unwrap();
+        let rows = json["verdict"]["parameters"].as_array().unwrap();
+        rows.iter().map(|row| row.get("conversion_of_g").and_then(serde_json::Value::as_f64)).collect()
+    };
+    let [none @ .., omega_g, omega_k] = &conversions(None)[..] else { panic!() };
+    assert!(none.iter().all(Option::is_none));
+    assert!((omega_g.unwrap() + 0.00924).abs() < 2e-5 && (omega_k.unwrap() + 0.00924).abs() < 2e-5, "{omega_g:?}");
+    assert_eq!(conversions(Some(content.earth.gravity_m_per_s2))[6..], [Some(0.0), Some(0.0)]);
+}
+
+#[test]
+fn the_adopted_method_comes_first() {
+    let content = content_from_anyone("p", PASSPORT).unwrap();
+    let currents: (&str, &[u8]) = ("c", include_bytes!("../../docs/currents.csv"));
+    for (methods, due) in [
+        (
+            vec![Method::Analytic, Method::Iterative, Method::LeastSquares],
+            ["least-squares", "analytic", "iterative"].as_slice(),
+        ),
+        (vec![Method::Analytic, Method::Iterative], &["iterative", "analytic"]),
+        (vec![Method::Analytic], &["analytic"]),
+    ] {
+        let options = Options { methods, ..Options::default() };
+        let found = calibrate(&content, None, currents, &Order { options, ..default() }).unwrap();
+        let json: serde_json::Value = serde_json::from_str(&found.json).unwrap();
+        let found: Vec<_> = json["results"].as_array().unwrap().iter().map(|result| &result["method"]).collect();
+        assert_eq!(found, due);
+        assert_eq!(json["adopted"], due[0]);
+    }
+}
