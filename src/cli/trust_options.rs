@@ -1,7 +1,7 @@
 //! Options of trust: the trusted keys, the question to verify for, and the folder of passports that tells which are
 //! current. Every verb uses this code, so the options are the same everywhere.
 
-use super::{Failure, defaults};
+use super::{Failure, defaults, output};
 use crate::earth::Place;
 use crate::files;
 use crate::folder::Registers;

@@ -42,5 +42,9 @@ pub use verification::{Question, RegisterUsed, Trust, Verification, VerifiedPass
 pub const NAMESPACE: &str = "dtg-passport";
 
 /// Form of passports as signed documents.
-pub(crate) const FORM: Form =
-    Form { namespace: NAMESPACE, format: content::PASSPORT_FORMAT, limits: Limits::DOCUMENT, expected: "a passport, which `issue` makes and signs" };
+pub(crate) const FORM: Form = Form {
+    namespace: NAMESPACE,
+    format: content::PASSPORT_FORMAT,
+    limits: Limits::DOCUMENT,
+    expected: "a passport, which `issue` makes and signs",
+};

@@ -61,7 +61,7 @@ words! {
     /// State of a passport in the register of its stand.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
     #[serde(rename_all = "snake_case")]
-    #[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(rename_all = "snake_case"))]
+    #[cfg_attr(feature = "generate", derive(schemars::JsonSchema), schemars(rename_all = "snake_case"))]
     #[non_exhaustive]
     pub enum State: pub key {
         /// Neither superseded nor withdrawn.

@@ -345,7 +345,7 @@ impl Field for u64 {
 
 /// Record that a signed text has on one line, `{key: value, …}`.
 #[derive(Debug, Clone, PartialEq, Eq)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(transparent))]
+#[cfg_attr(feature = "generate", derive(schemars::JsonSchema), schemars(transparent))]
 pub struct OneLine<T>(pub T);
 
 impl<T: Record> Field for OneLine<T> {

@@ -75,7 +75,7 @@ impl AllowedSigners {
     /// Creates a list without any key, which trusts nobody.
     #[cfg(feature = "factory")]
     pub(crate) fn nobody() -> Self {
-        Self { lines: Vec::new() }
+        Self { lines: Vec::new(), skipped: Vec::new() }
     }
 
     pub(crate) fn lines(&self) -> &[SignerLine] {
