@@ -99,24 +99,67 @@ async function answer() {
     return parts;
 }
 
-byId("question").addEventListener("submit", async (event) => {
-    event.preventDefault();
-    // An answer of before must not stand beside other files.
-    byId("result").replaceChildren();
-    byId("result").replaceChildren(...(await answer().catch(failed("No answer"))));
-});
-byId("question").addEventListener("input", () => byId("result").replaceChildren());
+// Every request has a number: a late answer must not stand beside other files or another question.
+let latest = 0;
 
-document.addEventListener("dragover", (event) => event.preventDefault());
-document.addEventListener("drop", (event) => {
+function clear() {
+    byId("result").replaceChildren();
+    return ++latest;
+}
+
+async function show(parts) {
+    const number = clear();
+    const found = await parts;
+    if (number === latest) byId("result").replaceChildren(...found);
+}
+
+byId("question").addEventListener("submit", (event) => {
     event.preventDefault();
-    for (const one of event.dataTransfer.files) {
-        const kinds = [["passport", /\.ya?ml$/i], ["currents", /\.csv$/i], ["order", /\.json$/i], ["signers-file", /$/]];
-        const [id] = kinds.find(([, ending]) => ending.test(one.name));
+    show(answer().catch(failed("No answer")));
+});
+byId("question").addEventListener("input", clear);
+
+// The content of a dropped file tells what it is, never its name.
+const kinds = [
+    ["passport", "a passport", /^format: *"?dtg-passport\//m],
+    ["revoked", "a revocation list", /^\s*(SSHKRL|(#.*\r?\n\s*)*(format: *"?dtg-revocation\/|(sk-)?(ssh|ecdsa)-\S+\s+AAAA))/],
+    ["signers-file", "a list of trusted keys", /^(?!#).*\s(sk-)?ssh-ed25519(@openssh\.com)?\s+AAAA/m],
+    ["currents", "a table of currents", /^(?!#).*\bjx_ma\b/im],
+    ["order", "an order", /^\s*\{/],
+];
+
+async function accept(files) {
+    const given = new Map();
+    for (const one of files) {
+        const text = await one.text();
+        const [id, what] = kinds.find(([, , form]) => form.test(text)) ?? [];
+        const refuse = (why) => { throw new Error(`${one.name}: ${why}; none of the dropped files was taken`); };
+        if (id === undefined) refuse("neither a passport nor trusted keys, currents or an order");
+        if (id === "revoked") refuse(`${what}, which must be chosen under Revocation lists`);
+        if (given.has(id)) refuse(`${what}, as is ${given.get(id).name}; drop only one`);
+        const chosen = id === "signers-file" && (file(id) || byId("signers").value.trim());
+        if (chosen) refuse("trusted keys, which are already chosen above; to use others, choose them there");
+        given.set(id, one);
+    }
+    for (const [id, one] of given) {
         // The inputs show the name of what they hold.
         const held = new DataTransfer();
         held.items.add(one);
         byId(id).files = held.files;
     }
-    byId("question").requestSubmit();
+    if (byId("serial").value.trim()) return answer();
+    byId("serial").focus();
+    return [element("h2", "Serial number"), element("p", "Enter the serial number that you read from the stand, then press " +
+        "Verify. Without it, a passport of another stand is not detected.")];
+}
+
+let dropped = Promise.resolve();
+document.addEventListener("dragover", (event) => event.preventDefault());
+document.addEventListener("drop", (event) => {
+    event.preventDefault();
+    const files = [...event.dataTransfer.files];
+    // One drop after the other, because reading a file takes time.
+    const parts = dropped.then(() => accept(files)).catch(failed("No answer"));
+    dropped = parts.then(() => undefined);
+    show(parts);
 });

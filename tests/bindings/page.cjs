@@ -1,5 +1,5 @@
-// Uses target/web/verify.html in Chromium for tests/bindings/test_web.py: reads {page, cases: [{files, fields}]} on
-// standard input, prints what the page says, every request, violations of axe-core, and how long a verification takes.
+// Uses target/web/verify.html in Chromium for tests/bindings/test_web.py: reads {page, cases: [{files, fields, drops}]} on
+// standard input (files are chosen, then drops are dropped one straight after the other, else the button is pressed), prints what the page says, every request, violations of axe-core, and how long a verification takes.
 const fs = require("fs");
 const { pathToFileURL } = require("url");
 const { chromium } = require("playwright-core");
@@ -18,24 +18,28 @@ const axe = fs.readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
   page.on("console", (message) => { if (message.type() === "error") errors.push(message.text()); });
   page.on("dialog", (dialog) => { errors.push(`dialog: ${dialog.message()}`); dialog.dismiss(); });
   const results = [];
-  for (const { files, fields, drop } of cases) {
+  for (const { files, fields, drops } of cases) {
     await page.goto(pathToFileURL(path).href);
     for (const [id, value] of Object.entries(fields)) await page.fill(`#${id}`, value);
-    if (drop) {
-      const given = Object.values(files).flat().map((file) => [file.split("/").at(-1), fs.readFileSync(file, "latin1")]);
-      await page.evaluate((given) => {
-        const transfer = new DataTransfer();
-        for (const [name, text] of given) transfer.items.add(new File([Uint8Array.from(text, (c) => c.charCodeAt(0))], name));
-        document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
+    for (const [id, file] of Object.entries(files)) await page.setInputFiles(`#${id}`, file);
+    if (drops) {
+      const given = drops.map((files) => files.map((file) => [file.split("/").at(-1), fs.readFileSync(file, "latin1")]));
+      await page.evaluate((drops) => {
+        for (const given of drops) {
+          const transfer = new DataTransfer();
+          for (const [name, text] of given) transfer.items.add(new File([Uint8Array.from(text, (c) => c.charCodeAt(0))], name));
+          document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
+        }
       }, given);
     } else {
-      for (const [id, file] of Object.entries(files)) await page.setInputFiles(`#${id}`, file);
       await page.click("button[type=submit]");
     }
     await page.waitForSelector("#result h2");
     await page.waitForTimeout(300);
     const result = await page.evaluate(() => ({
       text: document.querySelector("#result").innerText,
+      chosen: Object.fromEntries([...document.querySelectorAll("input[type=file]")].map((input) => [input.id, [...input.files].map((file) => file.name)])),
+      focus: document.activeElement.id,
       headings: [...document.querySelectorAll("#result h2")].map((heading) => heading.textContent),
       rows: [...document.querySelectorAll("#result table")].map((table) => [...table.tBodies[0].rows].map((row) => [...row.cells].map((cell) => cell.textContent))),
       scripts: document.querySelectorAll("#result script, #result img").length,

@@ -179,7 +179,7 @@ MISUSED = """
     const [passport, signers, currents, one, other] = %s.map((path) => readFileSync(path));
     class Stand { get serial() { return "0018"; } }
     const wrong = [new Map([["serial", "0018"]]), new URLSearchParams("serial=0018"), Object.create({ serial: "0018" }),
-        new Stand(), { serial: () => "0018" }, { serial: Symbol("0018") }, { serial: undefined }, { serial: "" },
+        new Stand(), { serial: () => "0018" }, { serial: Symbol("0018") }, { serial: undefined }, { serial: null }, { serial: "" },
         { serial: 18 }, { at: [NaN, 37] }, { at: "55,37" }, ["0018"], null, "0018"];
     const said = (question) => dtg.verify(passport, signers, question).then(({ valid }) => `valid ${valid}`, (error) => error.message);
     const other_world = (await import("node:vm")).runInNewContext("({ time: '2026-11-20', serial: '0018' })");
@@ -207,7 +207,7 @@ def test_a_question_is_never_left_out_and_remarks_are_handed_on(corpus: Corpus, 
     paths = json.dumps([str(path) for path in (mine, corpus.signers, CURRENTS, *lists)])
     found = json.loads(node(MISUSED % (WEB / "dtg_passport.mjs", paths)).stdout)
     assert not [said for said in found["refused"] if said.startswith("valid")], found["refused"]
-    for words in ("question: found Map", "serial: found undefined; leave the key out", "serial: found empty text",
+    for words in ("question: found Map", "serial: found undefined; leave the key out", "serial: found null", "serial: found empty text",
                   "serial: found 18, expected text", "0: found NaN"):  # fmt: skip
         assert any(words in said for said in found["refused"]), (words, found["refused"])
     assert found["other_world"] == "valid false"
@@ -236,6 +236,7 @@ def test_the_page_in_chromium(tmp_path: Path) -> None:
     revoked = str(PROJECT / "tests/keys/examples.pub")
     (tmp_path / "order.json").write_text(json.dumps(ORDERS["general"][1]))
     asked = {"time": TIME}
+    serial = {**asked, "serial": "0017"}
     cases = [
         {"files": {**files, "currents": str(CURRENTS)}, "fields": {**asked, "serial": "0017", "latitude": "55.766", "longitude": "37.685"}},
         {"files": {**files, "passport": str(altered)}, "fields": asked},
@@ -244,9 +245,9 @@ def test_the_page_in_chromium(tmp_path: Path) -> None:
         {"files": files, "fields": {"time": "<img src=x onerror=alert(1)>"}},
         {"files": {"passport": str(PASSPORT)}, "fields": {"signers": SIGNERS.read_text(), **asked}},
         {"files": {}, "fields": {}},
-        {"files": {"passport": [str(PASSPORT), str(SIGNERS), str(CURRENTS)]}, "fields": asked, "drop": True},
+        {"files": {}, "fields": serial, "drops": [[str(PASSPORT), str(SIGNERS), str(CURRENTS)]]},
         {"files": files, "fields": asked},
-        {"files": {"passport": [str(PASSPORT), str(SIGNERS), str(RUN), str(tmp_path / "order.json")]}, "fields": asked, "drop": True},
+        {"files": {}, "fields": serial, "drops": [[str(PASSPORT), str(SIGNERS), str(RUN), str(tmp_path / "order.json")]]},
     ]
     found = json.loads(node(str(PROJECT / "tests/bindings/page.cjs"), {"page": str(WEB / "verify.html"), "cases": cases}).stdout)
     good, changed, withdrawn, strange, no_time, typed, nothing, dropped, again, general = found["results"]
@@ -289,6 +290,53 @@ def test_the_page_in_chromium(tmp_path: Path) -> None:
     print(f"\none verification in Chromium: {found['times']:.1f} ms, median of 21")
     # Far above what was measured (docs/figures.md), for a machine that does other things.
     assert found["times"] < 100
+
+
+def test_dropped_files_and_late_answers(tmp_path: Path) -> None:
+    """What is shown belongs to the files that the page holds; a drop takes no file that it cannot tell, and no second one."""
+    altered = tmp_path / "altered.yaml"
+    altered.write_bytes(PASSPORT.read_bytes().replace(b"alpha_arcsec: 12.4", b"alpha_arcsec: 12.5", 1))
+    # Names say nothing: a passport is a .csv, currents are a .yaml, and trusted keys a .json.
+    renamed = [tmp_path / name for name in ("passport.csv", "currents.yaml", "signers.json", "order")]
+    for path, source in zip(renamed, (PASSPORT, CURRENTS, SIGNERS)):
+        path.write_bytes(source.read_bytes())
+    renamed[3].write_text("{}")
+    unknown, keys = tmp_path / "notes.yaml", PROJECT / "tests/keys/examples.pub"
+    unknown.write_text("format: other/1\n")
+    other = tmp_path / "signers"
+    other.write_text("# examples\n" + SIGNERS.read_text().replace("examples@dtg-passport.test", "other@example.org"))
+    good, fields = [str(PASSPORT), str(SIGNERS)], {"time": TIME, "serial": "0017"}
+    files = {"passport": str(PASSPORT), "signers-file": str(SIGNERS)}
+    cases = [
+        {"files": files, "fields": fields, "drops": [good[:1], [str(altered)]]},
+        {"files": files, "fields": fields, "drops": [[str(altered)], good[:1]]},
+        {"files": {}, "fields": fields, "drops": [list(map(str, renamed))]},
+        {"files": files, "fields": fields, "drops": [[str(PASSPORT), str(altered)]]},
+        {"files": files, "fields": fields, "drops": [[str(altered), str(unknown)]]},
+        {"files": files, "fields": fields, "drops": [[str(altered), str(keys)]]},
+        {"files": files, "fields": fields, "drops": [[str(other)]]},
+        {"files": {}, "fields": {**fields, "signers": SIGNERS.read_text()}, "drops": [[str(PASSPORT), str(other)]]},
+        {"files": {}, "fields": {"time": TIME}, "drops": [good]},
+    ]
+    found = json.loads(node(str(PROJECT / "tests/bindings/page.cjs"), {"page": str(WEB / "verify.html"), "cases": cases}).stdout)
+    late, last, by_content, two, strange, revoked, chosen, typed, waiting = found["results"]
+    assert "REFUSED" in late["text"] and "VALID" not in late["text"] and late["chosen"]["passport"] == ["altered.yaml"]
+    assert "VALID" in last["text"] and "REFUSED" not in last["text"] and last["chosen"]["passport"] == [PASSPORT.name]
+    assert "VALID" in by_content["text"] and "Calibration by least-squares" in by_content["headings"]
+    names = {"passport": "passport.csv", "currents": "currents.yaml", "signers-file": "signers.json", "order": "order"}
+    assert all(by_content["chosen"][id] == [name] for id, name in names.items())
+    # Nothing was taken, and no answer stands beside the refusal.
+    refused = ((two, "a passport, as is"), (strange, "notes.yaml: neither a passport"), (revoked, "a revocation list, which must be chosen"),
+               (chosen, "already chosen above"), (typed, "already chosen above"))  # fmt: skip
+    for result, words in refused:
+        assert result["headings"] == ["No answer"] and words in result["text"] and "VALID" not in result["text"], result["text"]
+        held = [] if result is typed else [PASSPORT.name]
+        assert result["chosen"]["passport"] == held and result["chosen"]["revoked"] == []
+    assert chosen["chosen"]["signers-file"] == [SIGNERS.name]
+    # Without the serial number it waits, with the files in place.
+    assert waiting["headings"] == ["Serial number"] and waiting["focus"] == "serial" and "VALID" not in waiting["text"]
+    assert waiting["chosen"]["passport"] == [PASSPORT.name] and waiting["chosen"]["signers-file"] == [SIGNERS.name]
+    assert found["errors"] == [] and all(result["violations"] == [] for result in found["results"])
 
 
 def test_the_library_compiles_without_features() -> None:

@@ -41,9 +41,9 @@ fn keys_are_revoked_by_themselves_or_by_either_fingerprint() {
     let (key, other) = (key(), key());
     let why = |section: Vec<u8>| RevokedKeys::parse("krl", &list(&[section])).unwrap().revokes(&key);
     assert_eq!(why(section(2, &[&blob(&other), &blob(&key)])).as_deref(), Some("listed in krl"));
-    let sha1 = Sha1::digest(&blob(&key));
+    let sha1 = Sha1::digest(blob(&key));
     assert_eq!(why(section(3, &[&sha1])).as_deref(), Some("its SHA-1 fingerprint is in krl"));
-    let sha256 = Sha256::digest(&blob(&key));
+    let sha256 = Sha256::digest(blob(&key));
     assert_eq!(why(section(5, &[&sha256])).as_deref(), Some("its SHA-256 fingerprint is in krl"));
     assert_eq!(why(section(2, &[&blob(&other)])), None);
     // A section of certificates of one authority, without any certificate, revokes no plain key.
