@@ -6,7 +6,7 @@
 use super::refused::FolderRefused;
 use super::registers::{self, doubt};
 use super::{Authority, Existing, Folder, Issued, Next, Sealed};
-use crate::document::sha256_hex;
+use crate::document::{Signer, sha256_hex};
 use crate::files::{self, Access, FileError};
 use crate::passport::checks::for_the_issuer;
 use crate::passport::issue::{Draft as Passport, Issue, PreparedStand};
@@ -67,6 +67,12 @@ impl<'a> StandFolder<'a> {
         authority: &'a Authority<'a>,
         planned: impl Fn(&str) -> bool,
     ) -> Result<Self, FolderRefused> {
+        // No passport is written that no register could list.
+        let key = authority.register_signer.and_then(Signer::public_key);
+        if let Some(key) = key {
+            let Authority { issuer, trust, .. } = *authority;
+            RegisterRefused::unless_authorised(FILE_NAME, trust, &key, issuer, authority.now())?;
+        }
         let (this, names) = Self::listed(folder, stand, authority)?;
         if names.iter().any(|name| name == FILE_NAME) {
             return Ok(Self { register: Some(this.read_register()?), ..this });

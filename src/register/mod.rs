@@ -360,9 +360,7 @@ impl VerifiedRegister {
         if let Some(why) = trust.revoked.iter().find_map(|keys| keys.revokes(key)) {
             return Err(RegisterRefused::KeyRevoked { name: name.to_owned(), key: Box::new(key.clone()), why });
         }
-        if let Err(miss) = trust.signers.authorise(key, &header.issuer, NAMESPACE, now) {
-            return Err(RegisterRefused::not_authorised(name, &miss, key, header, now));
-        }
+        RegisterRefused::unless_authorised(name, trust, key, &header.issuer, now)?;
         if header.issued_at.duration_since(now) > CLOCKS_DIFFER {
             return Err(RegisterRefused::FromTheFuture { name: name.to_owned(), issued_at: header.issued_at, now });
         }
@@ -379,8 +377,7 @@ impl VerifiedRegister {
         let payload = payload.map_err(|error| RegisterRefused::Altered(name.to_owned(), error))?;
         let content: Register = document::parse(name, payload, &FORM, Register::check)?;
         let (key, header) = (text.key(), content.header());
-        let miss = trust.signers.authorise(key, &header.issuer, NAMESPACE, header.issued_at);
-        miss.map_err(|miss| RegisterRefused::not_authorised(name, &miss, key, header, header.issued_at))?;
+        RegisterRefused::unless_authorised(name, trust, key, &header.issuer, header.issued_at)?;
         let places = content.passports.iter().map(|entry| entry.id.clone()).zip(0..).collect();
         Ok(Self { key: key.clone(), sha256: sha256_hex(bytes), places, content })
     }
@@ -422,13 +419,21 @@ impl VerifiedRegister {
 }
 
 impl RegisterRefused {
-    /// Returns the refusal of a key, with the line that allowed_signers needs if the key lacks this purpose only.
-    fn not_authorised(name: &str, miss: &NotAuthorised, key: &PublicKey, header: &Header, at: Timestamp) -> Self {
-        let mut why = miss.of_document(key, &header.issuer, at);
+    /// Checks that `trust` gives a key to the issuer for registers at a time. The refusal has the line that allowed_signers
+    /// needs, if the key lacks this purpose only.
+    pub(crate) fn unless_authorised(
+        name: &str,
+        trust: &Trust,
+        key: &PublicKey,
+        issuer: &str,
+        at: Timestamp,
+    ) -> Result<(), Self> {
+        let Err(miss) = trust.signers.authorise(key, issuer, NAMESPACE, at) else { return Ok(()) };
+        let mut why = miss.of_document(key, issuer, at);
         if let NotAuthorised::WrongNamespace(allowed) = miss {
-            let line = format!("{} namespaces=\"{allowed},{NAMESPACE}\" {}", header.issuer, key.to_openssh());
+            let line = format!("{issuer} namespaces=\"{allowed},{NAMESPACE}\" {}", key.to_openssh());
             why += &format!("; if this key may sign registers, change its line in allowed_signers to: {line}");
         }
-        Self::NotAuthorised { name: name.to_owned(), why }
+        Err(Self::NotAuthorised { name: name.to_owned(), why })
     }
 }
