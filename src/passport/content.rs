@@ -318,7 +318,7 @@ impl SelfCheck {
 
     /// Returns the relative error |found/stated − 1| of each parameter found from the currents: K_x, K_xy, K_yx, K_y,
     /// ω_0x, ω_0y, ω_g, ω_k. Correct software has none above [`SelfCheck::LIMIT`].
-    pub(crate) fn errors(&self, found: &GyroParameters) -> [f64; 8] {
+    pub fn errors(&self, found: &GyroParameters) -> [f64; 8] {
         let (found, due) = (found.to_vector(), self.parameters().to_model().to_vector());
         std::array::from_fn(|place| match (found[place], due[place]) {
             (found, 0.0) => found.abs(),

@@ -180,7 +180,7 @@ impl Verification {
 
     /// Returns the key stated in the signature if the form of the signature is correct, otherwise `None`. Anyone can
     /// state any key there.
-    pub fn key_from_anyone(&self) -> Option<&PublicKey> {
+    pub(crate) fn key_from_anyone(&self) -> Option<&PublicKey> {
         self.key.as_ref()
     }
 

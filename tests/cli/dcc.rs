@@ -420,6 +420,9 @@ fn everything_that_is_missing_is_named() {
     let arguments = ["export", passport.to_str().unwrap(), "--trust", signers.to_str().unwrap(), "--to", "dcc"];
     let (code, _, said) = run(folder.path(), &[&arguments[..], &["--time", "2026-11-20", "--out", "out"]].concat());
     assert_eq!((code, said.matches(": missing").count()), (1, 6), "{said}");
+    let more = ["--time", "2026-11-20", "--out", "out", "--format", "json"];
+    let (code, refusal, _) = run(folder.path(), &[&arguments[..], &more].concat());
+    assert!(code == 1 && refusal.contains("missing_data"), "{refusal}");
 }
 
 /// Nothing in the file may contradict the signed passport.

@@ -34,7 +34,7 @@ fn solved(setup: &Setup, csv: &[u8]) -> Calibration {
 }
 
 fn u(calibration: &Calibration, parameter: Parameter) -> f64 {
-    calibration.answer().unwrap().standard_uncertainty(parameter).unwrap()
+    calibration.adopted().unwrap().standard_uncertainty(parameter).unwrap()
 }
 
 /// Mean of chi-square per degree of freedom, and the share of the parameters of `count` gyros on different stands that are
@@ -110,7 +110,7 @@ fn a_meter_of_fixed_significant_digits_has_the_digit_of_its_largest_current() {
     let ranged = solved(&setup, csv.as_bytes());
     assert_eq!(ranged.digits, fixed.digits);
     assert!((u(&ranged, Parameter::Kx) / u(&fixed, Parameter::Kx) - 1.0).abs() < 1e-3);
-    assert!(ranged.answer().unwrap().chi_square.probability > 0.01);
+    assert!(ranged.adopted().unwrap().chi_square.probability > 0.01);
 }
 
 /// Expected: by hand. Four decimals from 0.2 mA on and five below are uncertain by at most the rounding of four; the steps

@@ -92,7 +92,7 @@ fn drift_along_the_spin_axis_names_the_general_model() {
         let options = Options { model: Model::General, ..least_squares_only() };
         let general = calibrate(&setup, &readings(&setup, &currents), &options).unwrap();
         // Four degrees of freedom are left, and the F test alone finds it only in some.
-        assert!(general.answer().unwrap().model_test.unwrap().is_significant());
+        assert!(general.adopted().unwrap().model_test.unwrap().is_significant());
         outcome(&solve(&setup, &currents), |found| *found == Explanation::OtherModel)
     });
     println!("spin axis: right {right}, among several {among}, nothing {nothing}, wrong {wrong}");
@@ -377,7 +377,7 @@ fn explained_for(
 /// The adopted result at the normal gravity of a latitude.
 fn found(calibration: &Calibration, latitude_deg: f64) -> Found {
     let gravity = (normal_gravity_m_per_s2(latitude_deg, 0.0), Some(7.1e-3));
-    CalibrationDocument::new("a/b/c/1", true, gravity, calibration, &[]).answer().unwrap()
+    CalibrationDocument::new("a/b/c/1", true, gravity, calibration, &[]).found().unwrap()
 }
 
 /// A gyro within the paper's tolerance, its drifts per the g of a latitude at 100 m.
