@@ -31,6 +31,8 @@ signature: |
 /// passports in the workspace.
 fn of_an_earlier_version() -> Workshop {
     let workshop = Workshop::new(2, 2);
+    let text = fs::read_to_string(workshop.path("stands/0001/stand.yaml")).unwrap();
+    workshop.write("stands/0001/stand.yaml", &text.replace("C-2026-0142", "C-2026-0143").replace("12.4", "12.9"));
     workshop.run(&format!("issue stands --site sites {SIGN}"), 0);
     for stand in ["0000", "0001"] {
         fs::remove_file(workshop.path(&format!("passports/SPS-2/{stand}/register.yaml"))).unwrap();
@@ -196,7 +198,8 @@ fn with_two_keys_the_key_of_the_passports_alone_makes_nothing_count() {
 #[test]
 fn a_second_person_takes_over_what_the_first_has_issued() {
     let workshop = of_two_people();
-    let issue = format!("issue stands --site sites/site-00000.yaml {SIGN} --trust allowed_signers --register-key second");
+    let issue =
+        format!("issue stands --site sites/site-00000.yaml {SIGN} --trust allowed_signers --register-key second");
     workshop.run(&issue, 0);
     let without = format!("issue stands --site sites {SIGN} --trust allowed_signers --without-register --format csv");
     let said = workshop.run(&without, 0);
@@ -256,4 +259,28 @@ fn a_register_under_a_revoked_key_is_taken_over_by_a_person() {
     assert_eq!(said.results.matches(": current, before: not remembered").count(), 3, "{}", said.results);
     let said = workshop.run(&format!("register passports {trust} --format csv"), 0);
     assert_eq!(said.results.lines().count(), 4);
+}
+
+/// Expected: a withdrawal that was killed is completed by the same command, and what is done already is no error.
+#[test]
+fn the_same_withdrawal_again_is_done_already() {
+    let workshop = of_an_earlier_version();
+    fs::remove_file(workshop.path("revocations/revocation-1.yaml")).unwrap();
+    workshop.run(&format!("register passports --renew {OWN}"), 0);
+    let one = "SPS-2/0000/site-00000/1";
+    workshop.run(&format!("revoke {one} --reason wrong {OWN}"), 0);
+    let before = snapshot(&workshop.path("passports"));
+    for ids in [one, "SPS-2/0000/site-00000/*"] {
+        let said = workshop.run(&format!("revoke {ids} --reason wrong {OWN}"), 0);
+        assert_eq!(
+            (said.results.as_str(), said.words.as_str()),
+            ("", "dtg-passport: already withdrawn; nothing was written\n")
+        );
+    }
+    let said = workshop.run(&format!("revoke {one} --reason other {OWN}"), 1);
+    assert!(said.words.contains("already withdrawn at"), "{}", said.words);
+    assert_eq!(snapshot(&workshop.path("passports")), before);
+    // Together with one that is not yet withdrawn, as after a kill.
+    workshop.run(&format!("revoke {one} SPS-2/0001/site-00000/1 --reason wrong {OWN}"), 0);
+    assert_eq!(states(&workshop).iter().filter(|(_, state)| state == "withdrawn").count(), 2);
 }
