@@ -4,7 +4,7 @@
 //! cargo run --example issue_for_sites -- passports/SPS-1/0203/stand.yaml out sites/*.yaml
 //! ```
 
-use dtg_passport::folder::{Folder, Seal};
+use dtg_passport::folder::{Authority, Folder};
 use dtg_passport::jiff::Timestamp;
 use dtg_passport::passport::Trust;
 use dtg_passport::passport::issue::{Issue, PreparedStand};
@@ -28,13 +28,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     let line = allowed_signers_line(ISSUER, &key.public_key())?;
     let trust = Trust::of(AllowedSigners::parse("allowed_signers", line.as_bytes())?);
 
-    // The part that depends on the stand alone is computed once. Every new passport is verified before it is written.
+    // The part that depends on the stand alone is computed once. Every new passport is verified before it is written, and
+    // listed in the register of the stand, which is dated by the clock.
     let stand = PreparedStand::new(Stand::from_yaml(stand, &fs::read(stand)?)?);
     let folder = Folder::new(out);
+    let authority = Authority::new(ISSUER, &key, &trust, &Timestamp::now);
     let order = Issue::first(ISSUER, Timestamp::from_second(Timestamp::now().as_second())?);
     for path in sites {
         let site = Site::from_yaml(path, &fs::read(path)?)?;
-        let issued = folder.issue(&stand, &site, &order, Seal { signer: &key, trust: Some(&trust) })?;
+        let issued = folder.issue(&stand, &site, &order, &authority)?;
         println!("{}  {}", issued.id, issued.path.display());
     }
     print!("line of allowed_signers for the laboratories:\n{line}");

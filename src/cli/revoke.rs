@@ -35,6 +35,9 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let keys = options.issuer.keys(Some(&options.passports))?;
     let withdrawal = Withdrawal { ids: &options.ids, reason: &options.reason };
     let withdrawn = withdrawal.run(&options.passports, &keys.authority(&trust)).map_err(not_renewed)?;
+    if withdrawn.is_empty() {
+        output::say("already withdrawn; nothing was written");
+    }
     let dry_run = options.issuer.dry_run;
     options.format.write(|| report::withdrawn_json(&withdrawn), || report::withdrawn(&withdrawn, dry_run))?;
     withdrawn.iter().flat_map(|one| &one.alarms).for_each(|alarm| output::complain(&format!("ALARM: {alarm}")));

@@ -347,18 +347,21 @@ impl Withdrawal<'_> {
             let mut ids = Vec::new();
             for wanted in self.ids {
                 let pattern = glob::Pattern::new(wanted).ok().filter(|_| is_pattern(wanted));
-                let entries = draft.entries().iter();
+                let whole = glob::MatchOptions { require_literal_separator: true, ..glob::MatchOptions::new() };
                 let fits = |entry: &&Entry| match &pattern {
-                    Some(pattern) => {
-                        let whole = glob::MatchOptions { require_literal_separator: true, ..glob::MatchOptions::new() };
-                        entry.state != State::Withdrawn && pattern.matches_with(&entry.id, whole)
-                    }
+                    Some(pattern) => pattern.matches_with(&entry.id, whole),
                     None => entry.id == *wanted,
                 };
-                let found: Vec<String> = entries.filter(fits).map(|entry| entry.id.clone()).collect();
-                if !found.is_empty() {
+                // A run that was killed is completed by the same command.
+                let is_done = |entry: &&Entry| {
+                    entry.state == State::Withdrawn
+                        && (pattern.is_some() || entry.reason.as_deref() == Some(self.reason))
+                };
+                let (done, found): (Vec<&Entry>, Vec<&Entry>) = draft.entries().iter().filter(fits).partition(is_done);
+                if !(done.is_empty() && found.is_empty()) {
                     missing.remove(wanted);
                 }
+                let found: Vec<String> = found.into_iter().map(|entry| entry.id.clone()).collect();
                 ids.extend(found.into_iter().filter(|id| !ids.contains(id)).collect::<Vec<_>>());
             }
             ids.iter().try_for_each(|id| draft.withdraw(id, self.reason)).map_err(FolderRefused::from)?;

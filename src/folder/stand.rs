@@ -463,6 +463,7 @@ impl<'a> StandFolder<'a> {
         let Some(signer) = self.authority.register_signer else { return Ok(()) };
         let path = self.path.join(FILE_NAME);
         let _locked = lock(&self.path)?;
+        files::leftovers::remove(&self.path);
         let current = match registers::bytes(&path) {
             Err(RegisterRefused::Missing(_)) => None,
             Err(refused) => return Err(refused.into()),

@@ -1,6 +1,6 @@
 //! What a batch is given: folders, patterns, lists, parts of a job; and what is bad among it.
 
-use crate::workshop::{SIGN, Said, Workshop, site, snapshot};
+use crate::workshop::{SIGN, Said, Workshop, site, snapshot, snapshot_of_passports};
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::Write;
@@ -20,11 +20,11 @@ fn of_ten_thousand_sites_one_bad_latitude_costs_one_passport() {
     assert_eq!(ids.len(), 9_999);
     assert!(!ids.contains("SPS-2/0000/site-04321/1"));
     // Corrected and run again, it issues the one that is missing and touches nothing else.
-    let before = snapshot(&workshop.path("passports"));
+    let before = snapshot_of_passports(&workshop.path("passports"));
     workshop.write("sites/site-04321.yaml", &site("site-04321", 4321));
     let said = workshop.run(&format!("issue stands --site sites/site-04*.yaml {SIGN} --no-sync"), 0);
     assert_eq!(said.results, "● issued 1, unchanged 999, refused 0\n");
-    let after = snapshot(&workshop.path("passports"));
+    let after = snapshot_of_passports(&workshop.path("passports"));
     let new: Vec<_> = after.difference(&before).collect();
     assert!(new.len() == 1 && new[0].0.ends_with("SPS-2/0000/site-04321-1.yaml") && before.is_subset(&after));
 }
@@ -235,7 +235,8 @@ fn a_dry_run_says_all_and_writes_nothing() {
     let text = fs::read_to_string(workshop.path("sites/site-00002.yaml")).unwrap();
     workshop.write("sites/site-00002.yaml", &text.replace("height_m: 150.0", "height_m: 151.0"));
     let before = snapshot(&workshop.path("."));
-    let said = workshop.run("issue stands --site sites --identity factory --dry-run --format csv", 1);
+    let said =
+        workshop.run("issue stands --site sites --identity factory --trust allowed_signers --dry-run --format csv", 1);
     assert_eq!((said.ids("unchanged").len(), said.ids("planned").len()), (4, 5));
     assert_eq!(said.ids("refused"), BTreeSet::from(["SPS-2/0000/site-00002/1".to_owned()]));
     assert!(
@@ -306,7 +307,7 @@ fn a_pipe_or_a_device_is_refused_at_once_wherever_a_file_is_named() {
         format!("reissue FILE {sign} {trust} --out out"),
         format!("reissue good.yaml {sign} {trust} --out out --stand FILE"),
         format!("reissue good.yaml {sign} {trust} --out out --site FILE"),
-        format!("revoke FILE --list lists {sign} {trust}"),
+        format!("issue stands --site sites {SIGN} --register-key FILE --out out"),
         "simulate accuracy --trials 1 --stand FILE --site sites/site-00000.yaml".to_owned(),
     ];
     for arguments in named {
@@ -341,7 +342,7 @@ fn a_pipe_or_a_device_is_refused_at_once_wherever_a_file_is_named() {
             assert!(said.words.contains(expected), "{arguments}: {}", said.words);
         }
     }
-    assert!(!workshop.path("out").exists() && !workshop.path("lists").exists());
+    assert!(!workshop.path("out").exists());
 }
 
 #[test]

@@ -9,6 +9,7 @@ mod programs;
 mod inputs;
 mod kills;
 mod limits;
+mod registers;
 mod scale;
 mod successors;
 mod workshop;

@@ -1,12 +1,12 @@
 //! Passports of a whole folder issued anew: those that a change concerns, and no others.
 
-use crate::workshop::{SIGN, Said, Workshop, snapshot};
+use crate::workshop::{SIGN, Said, Workshop, snapshot, snapshot_of_passports};
+use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;
 use std::fs;
 
 /// Weeks later.
-const ANEW: &str =
-    "--key key --identity factory --trust allowed_signers --time 2026-11-20 --issued-at 2026-11-20 --format csv";
+const ANEW: &str = "--key key --identity factory --trust allowed_signers --issued-at 2026-11-20 --format csv";
 
 /// Two stands at five sites, revision 1 of each.
 fn issued() -> Workshop {
@@ -29,20 +29,6 @@ fn years_earlier(workshop: &Workshop, stand: &str, years: i32) -> String {
     text.replace("\"2026-", &year(2026)).replace("\"2028-", &year(2028))
 }
 
-/// Passports that last until long after the clock's time, which is when lists are made that withdraw them.
-fn issued_for_long() -> Workshop {
-    let workshop = Workshop::new(2, 5);
-    for stand in ["0000", "0001"] {
-        let text = fs::read_to_string(workshop.path(&format!("stands/{stand}/stand.yaml"))).unwrap();
-        workshop.write(&format!("stands/{stand}/stand.yaml"), &text.replace("\"2028-", "\"2098-"));
-    }
-    workshop.run(&format!("issue stands --site sites {SIGN}"), 0);
-    workshop
-}
-
-/// By the clock, as the lists that withdraw passports are.
-const NOW: &str = "--key key --identity factory --trust allowed_signers --format csv";
-
 fn ids(stand: &str, sites: &[u32], revision: u32) -> BTreeSet<String> {
     sites.iter().map(|site| format!("SPS-2/{stand}/site-{site:05}/{revision}")).collect()
 }
@@ -58,11 +44,12 @@ fn a_new_certificate_re_issues_all_that_hangs_on_it_once() {
     let said = workshop.run(&format!("{again} --dry-run"), 0);
     assert_eq!(said.ids("planned"), ids("0001", &ALL, 2));
     assert_eq!(snapshot(&workshop.path("passports")), before);
+    let before = snapshot_of_passports(&workshop.path("passports"));
     let said = workshop.run(&again, 0);
     assert_eq!((said.ids("issued"), said.results.lines().count()), (ids("0001", &ALL, 2), 6));
     assert_eq!(workshop.sound("passports").len(), 15);
+    assert!(before.is_subset(&snapshot_of_passports(&workshop.path("passports"))));
     let after = snapshot(&workshop.path("passports"));
-    assert!(before.is_subset(&after));
     // Nothing hangs on the old certificate any more.
     let said = workshop.run(&again, 0);
     assert_eq!(said.ids("unchanged"), ids("0001", &ALL, 2));
@@ -143,84 +130,89 @@ fn a_site_file_that_cannot_be_read_lets_nothing_be_issued_with_old_numbers() {
     assert!(said.words.contains("no stand file is for SPS-2/0000"), "{}", said.words);
 }
 
+/// `revoke`, but for the passports and the reason.
+const REVOKE: &str = "--key key --identity factory --trust allowed_signers";
+
 #[test]
-fn withdrawn_passports_are_skipped_and_uncertain_lists_stop_the_folder() {
-    let workshop = issued_for_long();
-    let revoke = "revoke SPS-2/0000/site-00001/1 --list passports --reason wrong --key key --identity factory";
-    workshop.run(&format!("{revoke} --trust allowed_signers"), 0);
-    let said = workshop.run(&format!("reissue passports --same-content --reason rotated {NOW}"), 0);
+fn withdrawn_passports_are_skipped_and_a_stand_without_a_good_register_is_left() {
+    let workshop = issued();
+    workshop.run(&format!("revoke SPS-2/0000/site-00001/1 --reason wrong {REVOKE}"), 0);
+    let said = workshop.run(&format!("reissue passports --same-content --reason rotated {ANEW}"), 0);
     assert_eq!(said.ids("skipped"), ids("0000", &[1], 1));
     assert_eq!(said.ids("issued").len(), 9);
-    // The first list is missing.
-    let revoke = revoke.replace("site-00001", "site-00002");
-    workshop.run(&format!("{revoke} --trust allowed_signers"), 0);
-    fs::remove_file(workshop.path("passports/revocation-1.yaml")).unwrap();
-    let before = snapshot(&workshop.path("passports"));
-    let said = workshop.run(&format!("reissue passports --same-content --reason otherwise {NOW}"), 1);
-    assert!(said.words.starts_with("dtg-passport: passports: the withdrawals are uncertain: "), "{}", said.words);
-    assert_eq!(snapshot(&workshop.path("passports")), before);
+    // Missing or damaged, the register of one stand stops that stand, and no other.
+    let register = workshop.path("passports/SPS-2/0000/register.yaml");
+    let text = fs::read_to_string(&register).unwrap();
+    for (revision, damaged, why) in [
+        (3, None, "no register; make it with `register DIR --renew`, or restore it from the backup"),
+        (4, Some(text.replace("wrong", "right")), "passports/SPS-2/0000/register.yaml: "),
+    ] {
+        match damaged {
+            Some(damaged) => fs::write(&register, damaged).unwrap(),
+            None => fs::remove_file(&register).unwrap(),
+        }
+        let before = snapshot(&workshop.path("passports/SPS-2/0000"));
+        let said = workshop.run(&format!("reissue passports --same-content --reason again-{revision} {ANEW}"), 1);
+        assert!(said.words.contains(why), "{}", said.words);
+        assert_eq!(
+            (said.ids("refused"), said.ids("issued")),
+            (["SPS-2/0000".to_owned()].into(), ids("0001", &ALL, revision))
+        );
+        assert_eq!(snapshot(&workshop.path("passports/SPS-2/0000")), before);
+    }
 }
 
 #[test]
-fn of_a_fork_neither_branch_goes_on_until_one_is_withdrawn() {
-    let workshop = issued_for_long();
+fn a_passport_has_one_successor_and_a_copy_that_went_its_own_way_does_not_count() {
+    let workshop = issued();
     let old = "passports/SPS-2/0000/site-00000-1.yaml";
-    workshop.run(&format!("reissue {old} --same-content --reason other --out elsewhere {ANEW}"), 0);
+    assert!(workshop.shell("cp -r passports elsewhere").status().unwrap().success());
     workshop.run(&format!("reissue {old} --same-content --reason one {ANEW}"), 0);
-    // Where the first one is seen, a second successor is refused: another folder, another site.
-    workshop.run(&format!("reissue {old} --same-content --reason more --out third {ANEW}"), 1);
-    let said = workshop.run(&format!("reissue {old} --reason sold --site sites/site-00001.yaml --moved {ANEW}"), 1);
-    assert!(said.words.contains("site-00000-2.yaml: already supersedes this passport"), "{}", said.words);
-    workshop.run(
-        &format!(
-            "reissue elsewhere/SPS-2/0000/site-00000-2.yaml --same-content --reason another --out passports {ANEW}"
-        ),
-        0,
-    );
-    // Restored from a copy that had gone its own way: two passports supersede the first one.
-    fs::create_dir_all(workshop.path("passports/restored/SPS-2/0000")).unwrap();
-    let other = "SPS-2/0000/site-00000-2.yaml";
-    fs::rename(workshop.path("elsewhere").join(other), workshop.path("passports/restored").join(other)).unwrap();
+    workshop.run(&format!("reissue elsewhere/SPS-2/0000/site-00000-1.yaml --same-content --reason other {ANEW}"), 0);
+    // A second successor is refused: at this site, in another folder, for another site.
+    for more in ["--same-content", "--same-content --out third", "--site sites/site-00001.yaml --moved"] {
+        let said = workshop.run(&format!("reissue {old} --reason more {more} {ANEW}"), 1);
+        let there = ["SPS-2/0000/site-00000/2", "SPS-2/0000/site-00000-2.yaml"];
+        assert!(there.iter().any(|there| said.words.contains(there)), "{more}: {}", said.words);
+    }
+    // Restored from the copy, the file is not the listed one, and the other passports go on.
+    let file = "SPS-2/0000/site-00000-2.yaml";
+    fs::copy(workshop.path("elsewhere").join(file), workshop.path("passports").join(file)).unwrap();
     let said = workshop.run(&format!("reissue passports --same-content --reason rotated {ANEW}"), 1);
     assert_eq!(said.ids("issued").len(), 9);
-    let [one, another] = [2, 3].map(|revision| format!("passports/SPS-2/0000/site-00000-{revision}.yaml"));
-    assert_eq!(said.ids("refused"), [one.clone(), another].into());
-    assert!(said.words.contains("its predecessor has several successors"), "{}", said.words);
-    let revoke = "--list passports --reason wrong --key key --identity factory --trust allowed_signers";
-    let forked = || {
-        let register = workshop.command("register passports --trust allowed_signers").output().unwrap();
-        String::from_utf8(register.stdout).unwrap().contains("ALARM (forked): SPS-2/0000/site-00000/1 has 2 successors")
-    };
-    assert!(forked());
-    workshop.run(&format!("revoke {one} {revoke}"), 0);
-    assert!(!forked());
-    let said = workshop.run(&format!("reissue passports --same-content --reason rotated {NOW}"), 0);
-    assert_eq!(said.ids("issued"), ids("0000", &[0], 4));
+    assert_eq!(said.ids("refused"), BTreeSet::from([format!("passports/{file}")]));
+    assert!(said.words.contains("is not the listed file; restore it from the backup"), "{}", said.words);
+    let said = workshop.run("register passports --trust allowed_signers", 1);
+    assert!(said.words.contains(&format!("ALARM (differs): passports/{file}: ")), "{}", said.words);
+    // The withdrawal is of the listed passport, whatever is in its place.
+    let said = workshop.run(&format!("revoke SPS-2/0000/site-00000/2 --reason wrong {REVOKE}"), 0);
+    assert!(
+        said.words.contains("ALARM: ") && said.words.contains("is another file than the listed one"),
+        "{}",
+        said.words
+    );
+    let said = workshop.run(&format!("reissue passports --same-content --reason rotated {ANEW}"), 0);
+    assert!(said.ids("skipped").contains("SPS-2/0000/site-00000/2"), "{}", said.results);
 }
 
 #[test]
-fn what_is_broken_or_misplaced_or_a_link_is_refused_and_the_rest_goes_on() {
+fn what_is_broken_or_missing_or_in_another_place_is_refused_and_the_rest_goes_on() {
     let workshop = issued();
     let (folder, other) = (workshop.path("passports/SPS-2/0000"), workshop.path("passports/SPS-2/0001"));
     let text = fs::read_to_string(folder.join("site-00000-1.yaml")).unwrap();
     fs::write(folder.join("site-00000-1.yaml"), text.replace("12.4", "12.6")).unwrap();
     fs::rename(folder.join("site-00001-1.yaml"), other.join("site-00009-1.yaml")).unwrap();
-    fs::rename(folder.join("site-00002-1.yaml"), workshop.path("site-00002-1.yaml")).unwrap();
-    std::os::unix::fs::symlink(workshop.path("site-00002-1.yaml"), folder.join("site-00002-1.yaml")).unwrap();
     fs::write(folder.join("site-00003-1.yaml"), vec![b'#'; 2 << 20]).unwrap();
-    let said = workshop.run(&format!("reissue passports --same-content --reason rotated {ANEW}"), 1);
-    // Of the stand whose passport is altered nothing is known: that one might supersede the others.
-    let refused = ["0000/site-00000", "0000/site-00002", "0000/site-00003", "0000/site-00004", "0001/site-00009"];
+    let said = workshop.run(&format!("reissue passports --same-content --reason rotated {ANEW}"), 2);
+    let refused = ["0000/site-00000", "0000/site-00001", "0000/site-00003"];
     assert_eq!(said.ids("refused"), refused.map(|file| format!("passports/SPS-2/{file}-1.yaml")).into());
-    for words in [
-        "failed verification (signature",
-        "the file of SPS-2/0000/site-00001/1 must be",
-        "links are not followed",
-        "more than 1048576",
-    ] {
+    for words in
+        ["site-00000-1.yaml: is not the listed file", "listed in the register, but missing", "more than 1048576"]
+    {
         assert!(said.words.contains(words), "{words}: {}", said.words);
     }
-    assert_eq!(said.ids("issued"), ids("0001", &ALL, 2));
+    let issued = ids("0000", &[2, 4], 2).into_iter().chain(ids("0001", &ALL, 2)).collect();
+    assert_eq!(said.ids("issued"), issued);
 }
 
 #[test]
@@ -291,12 +283,22 @@ fn after_a_theft_all_is_made_anew_from_the_factorys_files() {
     let new = fs::read_to_string(workshop.path("new.pub")).unwrap();
     workshop.write("allowed_signers", &format!("{signers}factory {new}"));
     let anew = format!("{} --revoked stolen.pub", ANEW.replace("--key key", "--key new"));
-    // The register of a folder cannot follow the word of a revoked key: which passports are meant must be said.
-    let said = workshop.run(&format!("reissue passports --stand stands --sites sites --reason stolen {anew}"), 0);
-    assert_eq!((said.ids("skipped").len(), said.ids("issued").len()), (10, 0));
-    let named = "reissue passports/*/*/*.yaml --stand stands --sites sites";
-    let said = workshop.run(&format!("{named} --reason stolen {anew}"), 0);
+    // A register under a revoked key does not count: a person takes over each.
+    let again = format!("reissue passports --stand stands --sites sites --reason stolen {anew}");
+    let said = workshop.run(&again, 1);
+    assert!(said.words.contains("was revoked") && said.ids("issued").is_empty(), "{}", said.words);
+    let renew = "register passports --renew --key new --identity factory --trust allowed_signers --revoked stolen.pub";
+    let hashes = ["0000", "0001"].map(|stand| {
+        let register = fs::read(workshop.path(&format!("passports/SPS-2/{stand}/register.yaml"))).unwrap();
+        format!("--adopt {:x}", Sha256::digest(&register))
+    });
+    let said = workshop.run(renew, 1);
+    assert!(said.words.contains(&hashes[0]), "{}", said.words);
+    workshop.run(&format!("{renew} {}", hashes.join(" ")), 0);
+    let said = workshop.run(&again, 0);
     assert_eq!(said.ids("issued").len(), 10);
-    let said = workshop.run(&format!("{named} --reason stolen {anew} --dry-run"), 0);
+    let said = workshop.run(&format!("{again} --dry-run"), 0);
     assert_eq!(said.ids("unchanged").len(), 10);
+    let verify = "verify passports/*/*/*-2.yaml --trust allowed_signers --revoked stolen.pub --register passports";
+    workshop.run(verify, 0);
 }

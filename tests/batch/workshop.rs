@@ -1,7 +1,9 @@
 //! A factory's folder with as many stands and sites as a test wants, the program run in it, and what must hold after.
 
 use crate::programs;
+use dtg_passport::jiff::Timestamp;
 use dtg_passport::passport::{Question, Trust, verify};
+use dtg_passport::register::{State, VerifiedRegister};
 use dtg_passport::trust::AllowedSigners;
 use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
@@ -82,8 +84,7 @@ impl Workshop {
         if !root.exists() {
             return BTreeMap::new();
         }
-        let signers = fs::read(self.path("allowed_signers")).unwrap();
-        let trust = Trust::of(AllowedSigners::parse("allowed_signers", &signers).unwrap());
+        let trust = self.trust();
         let question = Question::at("2027-01-01T00:00:00Z".parse().unwrap());
         let verified = |path: &PathBuf| {
             let bytes = fs::read(path).unwrap();
@@ -107,6 +108,30 @@ impl Workshop {
             let parts: Vec<_> = passports.chunks(quarter).map(|files| scope.spawn(move || verify_all(files))).collect();
             parts.into_iter().flat_map(|part| part.join().unwrap()).collect()
         })
+    }
+
+    fn trust(&self) -> Trust {
+        let signers = fs::read(self.path("allowed_signers")).unwrap();
+        Trust::of(AllowedSigners::parse("allowed_signers", &signers).unwrap())
+    }
+
+    /// The passports in the registers under a folder, with their states. Every register verifies, and the file of every
+    /// listed passport is there, whole.
+    pub fn listed(&self, folder: &str) -> BTreeMap<String, State> {
+        let root = self.path(folder);
+        let mut states = BTreeMap::new();
+        for path in files_under(&root).into_iter().filter(|path| path.ends_with("register.yaml")) {
+            let name = path.display().to_string();
+            let register = VerifiedRegister::verify(&name, &fs::read(&path).unwrap(), &self.trust(), Timestamp::now());
+            for entry in register.unwrap_or_else(|why| panic!("{name}: {why}")).entries() {
+                let (place, revision) = entry.id.rsplit_once('/').unwrap();
+                let bytes = fs::read(root.join(format!("{place}-{revision}.yaml")));
+                let hash = bytes.map(|bytes| format!("{:x}", Sha256::digest(&bytes))).ok();
+                assert_eq!(hash.as_ref(), Some(&entry.sha256), "{} is listed, and its file is lost or torn", entry.id);
+                states.insert(entry.id.clone(), entry.state);
+            }
+        }
+        states
     }
 
     /// Temporary files anywhere under a folder.
@@ -135,11 +160,11 @@ fn files_under(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// Whether a file is named `<site>-<revision>.yaml` and is no list of withdrawn passports.
+/// Whether a file is named `<site>-<revision>.yaml`.
 fn is_named_as_a_passport(path: &Path) -> bool {
     let name = path.file_name().unwrap().to_string_lossy();
     let parts = name.strip_suffix(".yaml").and_then(|name| name.rsplit_once('-'));
-    parts.is_some_and(|(site, revision)| site != "revocation" && revision.parse::<u32>().is_ok())
+    parts.is_some_and(|(_, revision)| revision.parse::<u32>().is_ok())
 }
 
 /// A site of its own place.
@@ -185,5 +210,12 @@ pub fn snapshot(folder: &Path) -> BTreeSet<(PathBuf, Vec<u8>)> {
             }
         }
     }
+    files
+}
+
+/// The passports in a folder as they are, without the registers, of which each run makes a new one.
+pub fn snapshot_of_passports(folder: &Path) -> BTreeSet<(PathBuf, Vec<u8>)> {
+    let mut files = snapshot(folder);
+    files.retain(|(path, _)| is_named_as_a_passport(path));
     files
 }

@@ -52,7 +52,7 @@ fn altered_text_and_another_namespace_are_refused_by_both() {
     let good = key.sign(NAMESPACE, b"alpha: 1.0\n").unwrap();
     assert!(!bench.verify("signers", &good.to_armor(), b"alpha: 1.1\n", &[]).good);
     assert_eq!(good.verify(NAMESPACE, b"alpha: 1.1\n"), Err(SignatureError::DoesNotHold));
-    let other = key.sign("dtg-revocation", b"alpha: 1.0\n").unwrap();
+    let other = key.sign("dtg-register", b"alpha: 1.0\n").unwrap();
     assert!(!bench.verify("signers", &other.to_armor(), b"alpha: 1.0\n", &[]).good);
     assert!(matches!(other.verify(NAMESPACE, b"alpha: 1.0\n"), Err(SignatureError::WrongNamespace { .. })));
 }

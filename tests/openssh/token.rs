@@ -87,7 +87,7 @@ fn every_altered_part_is_refused_by_both() {
     }
     for (name, armor) in [
         ("another application", token.armor("ssh:other", good.clone())),
-        ("another namespace inside", token.armor("ssh:", token.sign("dtg-revocation", 1, 42))),
+        ("another namespace inside", token.armor("ssh:", token.sign("dtg-register", 1, 42))),
     ] {
         assert!(!accepted(&armor), "{name}");
         assert!(!bench.verify("signers", &armor, MESSAGE, &[]).good, "{name}");
