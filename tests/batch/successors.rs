@@ -169,8 +169,11 @@ fn a_passport_has_one_successor_and_a_copy_that_went_its_own_way_does_not_count(
     assert!(workshop.shell("cp -r passports elsewhere").status().unwrap().success());
     workshop.run(&format!("reissue {old} --same-content --reason one {ANEW}"), 0);
     workshop.run(&format!("reissue elsewhere/SPS-2/0000/site-00000-1.yaml --same-content --reason other {ANEW}"), 0);
-    // A second successor is refused: at this site, in another folder, for another site.
-    for more in ["--same-content", "--same-content --out third", "--site sites/site-00001.yaml --moved"] {
+    // A second successor is refused, at this site and for another one. In another folder, whose register does not know of
+    // the first one, it is a warning.
+    let other = format!("reissue {old} --reason more --same-content --out third {ANEW}");
+    assert!(workshop.run(&other, 0).words.contains("WARNING: superseded by SPS-2/0000/site-00000/2"));
+    for more in ["--same-content", "--site sites/site-00001.yaml --moved"] {
         let said = workshop.run(&format!("reissue {old} --reason more {more} {ANEW}"), 1);
         let there = ["SPS-2/0000/site-00000/2", "SPS-2/0000/site-00000-2.yaml"];
         assert!(there.iter().any(|there| said.words.contains(there)), "{more}: {}", said.words);

@@ -153,8 +153,7 @@ impl Way {
         match self.workspace {
             true => self.types("dtg-passport revoke SPS-2/0017/oslo/2 --reason 'wrong building'"),
             false => self.types(&format!(
-                "dtg-passport revoke SPS-2/0017/oslo/2 --passports passports --list passports --reason 'wrong building' \
-                 {SIGN}"
+                "dtg-passport revoke SPS-2/0017/oslo/2 --passports passports --reason 'wrong building' {SIGN}"
             )),
         }
     }
@@ -180,7 +179,7 @@ impl Way {
         });
         let register: Value =
             serde_json::from_str(&self.run(&format!("dtg-passport register passports {trust} --format json"))).unwrap();
-        let lines = register["passports"].as_array().unwrap().iter();
+        let lines = register["stands"][0]["rows"].as_array().unwrap().iter();
         let states = lines.map(|line| format!("{} {}", line["id"].as_str().unwrap(), line["state"].as_str().unwrap()));
         (contents.collect(), states.collect())
     }
@@ -216,7 +215,7 @@ fn a_workspace_saves_what_the_page_says() {
         assert!(!contents.is_empty() && contents == same_contents, "{name}: other contents");
         assert_eq!(states, same_states, "{name}");
     }
-    let in_force = ways[1].signed().1.iter().filter(|state| state.ends_with(" in_force")).count();
+    let in_force = ways[1].signed().1.iter().filter(|state| state.ends_with(" current")).count();
     assert_eq!(in_force, 4, "five places, one of them withdrawn");
     assert!(missing.is_empty(), "docs/figures.md lacks\n{missing}");
 }

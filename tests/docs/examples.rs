@@ -1,12 +1,14 @@
-//! The shipped passports and sites: made again byte for byte, verified, and read by the programs of the documentation.
+//! The shipped passports, registers and sites: made again byte for byte, verified, and read by the programs of the
+//! documentation.
 //!
-//! `UPDATE_EXAMPLES=1 cargo test --test docs examples` writes the passports again after a change of the format; nothing writes
-//! tests/golden again.
+//! `UPDATE_EXAMPLES=1 cargo test --test docs examples` writes the passports and the registers again after a change of the
+//! format; nothing writes tests/golden again.
 
 use crate::fixtures;
 use crate::programs;
 use dtg_passport::passport::issue::{self, Issue};
-use dtg_passport::passport::{Question, Trust, verify};
+use dtg_passport::passport::{CheckName, Code, Question, Trust, verify};
+use dtg_passport::register::{NAMESPACE, State, VerifiedRegister};
 use dtg_passport::site::Site;
 use dtg_passport::stand::Stand;
 use dtg_passport::trust::{AllowedSigners, SigningKey};
@@ -59,6 +61,20 @@ fn the_passports_are_those_that_this_program_issues() {
             read(&path) == passport.as_bytes(),
             "{path} is not what this program issues: see the head of this file"
         );
+    }
+}
+
+#[test]
+fn the_registers_list_the_passports() {
+    let question = Question::at("2026-12-01T00:00:00Z".parse().unwrap());
+    for (path, _, _) in passports().into_iter().filter(|(path, ..)| path != FICTITIOUS) {
+        let name = format!("{}/register.yaml", path.rsplit_once('/').unwrap().0);
+        let register = VerifiedRegister::verify(&name, &read(&name), &trust(), question.now).unwrap();
+        assert_eq!((register.entries().len(), register.header().fresh_until), (SITES.len(), None));
+        assert!(register.entries().iter().all(|entry| entry.state == State::Current));
+        let answer = verify(&path, &read(&path), &trust(), &question).with_register(Ok((&register, None)), &question);
+        assert_eq!(answer.code(CheckName::Register), Some(Code::Ok), "{path}: {:?}", answer.checks());
+        assert!(answer.valid());
     }
 }
 
@@ -281,5 +297,20 @@ fn the_program_issues_the_same_bytes_as_the_library() {
             let issued = fs::read(folder.join("out").join(&name)).unwrap();
             assert!(issued == read(&format!("passports/{name}")), "{name}");
         }
+        // Registers are dated by the clock; the shipped ones are dated like their passports, and signed again.
+        let name = format!("{}/register.yaml", stand.trim_start_matches("passports/"));
+        let issued = fs::read_to_string(folder.join("out").join(&name)).unwrap();
+        let (payload, _) = issued.split_once("signature: |\n").unwrap();
+        let (before, header) = payload.split_once("register: {").unwrap();
+        let (header, entries) = header.split_once('\n').unwrap();
+        let (start, now) = header.split_once("issued_at: \"").unwrap();
+        let now = now.split_once('"').unwrap().1;
+        let payload = format!("{before}register: {{{start}issued_at: \"{ISSUED_AT}\"{now}\n{entries}");
+        let key = SigningKey::from_openssh(&String::from_utf8(read("tests/keys/examples")).unwrap(), None).unwrap();
+        let due = fixtures::signed_as(NAMESPACE, &payload, &key);
+        if std::env::var_os("UPDATE_EXAMPLES").is_some() {
+            fs::write(programs::project(&format!("passports/{name}")), &due).unwrap();
+        }
+        assert!(read(&format!("passports/{name}")) == due.as_bytes(), "{name}: see the head of this file");
     }
 }

@@ -70,7 +70,12 @@ pub fn content(stand: &Stand, site: &Site) -> Content {
 
 /// Returns any payload with a correct signature, assembled by hand as docs/formats.md describes.
 pub fn signed(payload: &str, key: &SigningKey) -> String {
-    let armor = key.sign(NAMESPACE, payload.as_bytes()).unwrap().to_armor();
+    signed_as(NAMESPACE, payload, key)
+}
+
+/// Returns any payload with a correct signature for this purpose.
+pub fn signed_as(namespace: &str, payload: &str, key: &SigningKey) -> String {
+    let armor = key.sign(namespace, payload.as_bytes()).unwrap().to_armor();
     let indented: String = armor.lines().map(|line| format!("  {line}\n")).collect();
     format!("{payload}signature: |\n{indented}")
 }

@@ -43,7 +43,7 @@ pub fn contents(file: &str, good: &str) -> Vec<(&'static str, Vec<u8>)> {
         all.push(("with a column", good.replace(header, &format!("{header},{LINE_POISON}")).into_bytes()));
         all.push(("with another column", good.replace(header, &header.replacen('i', LINE_POISON, 1)).into_bytes()));
     }
-    if file.contains("passport.yaml") || file == "list.yaml" {
+    if file.contains("passport.yaml") || file == "register.yaml" {
         all.extend(signatures(good));
     }
     if file == "allowed_signers" || file == "key.pub" {
@@ -90,7 +90,7 @@ fn string(bytes: &[u8]) -> Vec<u8> {
 /// The document with other signatures under it, a label of each hostile (PROTOCOL.sshsig).
 fn signatures(good: &str) -> Vec<(&'static str, Vec<u8>)> {
     let payload = good.split("signature: |").next().unwrap();
-    let namespace = if payload.contains("dtg-revocation") { "dtg-revocation" } else { "dtg-passport" };
+    let namespace = if payload.contains("dtg-register/1") { "dtg-register" } else { "dtg-passport" };
     let key = SigningKey::generate().unwrap();
     let line = key.public_key().to_openssh();
     let blob = Base64::decode_vec(line.split(' ').nth(1).unwrap()).unwrap();

@@ -21,8 +21,8 @@ fn the_lines_go_through() {
     for line in LINES {
         let arguments = line_with(&words(line), None, OsStr::new(""), scene.runs);
         let output = scene.run(line, &arguments);
-        // A .pub whose private half no agent has; a revoked key or passport; a result against a type; a list that withdraws.
-        let refused = line.contains("@key.pub") || line.contains("@list") || line.contains("=help");
+        // A .pub whose private half no agent has; a revoked key or passport; a result against a type.
+        let refused = line.contains("@key.pub") || line.contains("=help");
         let good = output.status.success() || refused;
         assert!(good, "{line}: {}", String::from_utf8_lossy(&output.stderr));
     }
@@ -63,32 +63,34 @@ fn contents_of_files() {
             if *kind != '@' {
                 continue;
             }
-            // Of a folder a file in it.
-            let (argument, file) = match *word {
-                "passports" => ("hostile", "hostile/SPS-2/0017/here-1.yaml"),
-                "lists" => ("hostile", "hostile/revocation-1.yaml"),
-                file => (file, file),
-            };
-            let hostile =
-                OsString::from(if argument == "hostile" { argument.to_owned() } else { format!("hostile-{file}") });
-            let good = match *word {
-                "passports" => fs::read_to_string(scene.path("passport.yaml")).unwrap(),
-                "lists" => fs::read_to_string(scene.path("list.yaml")).unwrap(),
-                file => fs::read_to_string(scene.path(file)).unwrap(),
-            };
-            let like = match *word {
-                "passports" => "passport.yaml",
-                "lists" => "list.yaml",
-                file => file,
-            };
-            for (what, content) in contents(like, &good) {
-                let path = scene.path(if argument == "hostile" { OsStr::new(file) } else { &hostile });
+            // Of a folder of passports the files in it, the other one as it is.
+            const FILES: [&str; 2] = ["here-1.yaml", "register.yaml"];
+            let is_folder = ["passports", "withdrawn"].contains(word);
+            for at in 0..if is_folder { 2 } else { 1 } {
+                let of_stand = |root: &str, name: &str| format!("{root}/SPS-2/0017/{name}");
+                let (hostile, file) = match is_folder {
+                    true => (OsString::from("hostile"), OsString::from(of_stand("hostile", FILES[at]))),
+                    false => (OsString::from(format!("hostile-{word}")), OsString::from(format!("hostile-{word}"))),
+                };
+                let path = scene.path(&file);
                 fs::create_dir_all(path.parent().unwrap()).unwrap();
-                fs::write(&path, content).unwrap();
-                fs::set_permissions(&path, fs::Permissions::from_mode(0o600)).unwrap();
-                let arguments = line_with(&words, Some(place), &hostile, scene.runs);
-                scene.run(&named(line, place, what), &arguments);
-                fs::remove_file(path).unwrap();
+                let original = if is_folder { of_stand(word, FILES[at]) } else { (*word).to_owned() };
+                let like = match at {
+                    0 if is_folder => "passport.yaml",
+                    _ if is_folder => "register.yaml",
+                    _ => word,
+                };
+                for (what, content) in contents(like, &fs::read_to_string(scene.path(original)).unwrap()) {
+                    if is_folder {
+                        let other = FILES[1 - at];
+                        fs::copy(scene.path(of_stand(word, other)), scene.path(of_stand("hostile", other))).unwrap();
+                    }
+                    fs::write(&path, content).unwrap();
+                    fs::set_permissions(&path, fs::Permissions::from_mode(0o600)).unwrap();
+                    let arguments = line_with(&words, Some(place), &hostile, scene.runs);
+                    scene.run(&named(line, place, what), &arguments);
+                    fs::remove_file(&path).unwrap();
+                }
             }
             let _ = fs::remove_dir_all(scene.path("hostile"));
         }
@@ -116,11 +118,14 @@ fn json_gives_the_text_back_and_csv_a_text() {
     let refused = json(&format!("verify @ {trust} --format json"), OsStr::new(POISON));
     assert_eq!((&refused[0]["file"], &refused[0]["valid"]), (&Value::from(POISON), &Value::from(false)));
     let register = json(&format!("register folder {trust} --format json"), OsStr::new(""));
-    assert_eq!(register["passports"][0]["file"], Value::from(format!("folder/{there}")));
-    assert_eq!(register["alarms"][0]["files"][0], Value::from(format!("folder/{there}")));
+    assert_eq!(register["alarms"][0]["code"], Value::from("misplaced"));
+    assert_eq!(register["alarms"][0]["file"], Value::from(format!("folder/{there}")));
     let issue = "issue stand.yaml --site here.yaml --key key --identity factory --issued-at 2026-11-03 --out @";
     let issued = json(&format!("{issue} --format json"), OsStr::new(POISON));
     assert_eq!(issued[0]["file"], Value::from(format!("{POISON}/SPS-2/0017/here-1.yaml")));
+    let register = json(&format!("register @ {trust} --format json"), OsStr::new(POISON));
+    let row = &register["stands"][0]["rows"][0];
+    assert_eq!(row["file"], Value::from(format!("{POISON}/SPS-2/0017/here-1.yaml")));
     // A name that a spreadsheet would take for a formula.
     let csv = run(&format!("{issue} --format csv"), OsStr::new(";=1+1"));
     let row = String::from_utf8(csv).unwrap().lines().nth(1).unwrap().to_owned();

@@ -95,8 +95,12 @@ impl Scene {
         make("issue stand.yaml --site here.yaml --key key --identity factory --issued-at 2026-11-03");
         let passport = scene.path("passports/SPS-2/0017/here-1.yaml");
         fs::copy(&passport, scene.path("passport.yaml")).unwrap();
-        make("revoke SPS-2/0017/here/1 --reason why --list lists --key key --identity factory --trust allowed_signers");
-        fs::copy(scene.path("lists/revocation-1.yaml"), scene.path("list.yaml")).unwrap();
+        fs::copy(scene.path("passports/SPS-2/0017/register.yaml"), scene.path("register.yaml")).unwrap();
+        make("issue stand.yaml --site here.yaml --key key --identity factory --issued-at 2026-11-03 --out withdrawn");
+        make(
+            "revoke SPS-2/0017/here/1 --reason why --passports withdrawn --key key --identity factory --trust \
+             allowed_signers",
+        );
         let result =
             make("calibrate passport.yaml currents.csv --trust allowed_signers --time 2026-11-04 --format json");
         fs::write(scene.path("result.json"), result).unwrap();
@@ -197,19 +201,21 @@ pub const LINES: &[&str] = &[
     "reissue @passport.yaml --same-content --reason =why --key @key --identity =factory --out > --trust @allowed_signers --issuer =factory --serial =0017 --at =55.7658,37.6856 --issued-at =2026-11-05 --valid-until =2027-11-03 --time =2026-11-05 --format text",
     "reissue @passport.yaml --same-content --reason =why --key @key --identity =factory --out > --trust @allowed_signers --issued-at =2026-11-05 --time =2026-11-05 --format json",
     "reissue @passports --same-content --reason =why --key @key --identity =factory --out > --trust @allowed_signers --issued-at =2026-11-05 --format csv",
-    "verify @passport.yaml --trust @allowed_signers --revoked @list.yaml --issuer =factory --serial =0017 --at =55.7658,37.6856 --time =2026-11-04 --register @passports --format text",
+    "verify @passport.yaml --trust @allowed_signers --issuer =factory --serial =0017 --at =55.7658,37.6856 --time =2026-11-04 --register @register.yaml --format text",
     "verify @passport.yaml --trust @allowed_signers --revoked @key.pub --issuer =factory --serial =0017 --time =2026-11-04 --register @passports --format json",
     "show @passport.yaml --trust @allowed_signers --revoked @key.pub --issuer =factory --serial =0017 --at =55.7658,37.6856 --time =2026-11-04 --format text",
     "show @passport.yaml --no-verify --format text",
     "show @passport.yaml --no-verify --format json",
-    "render @passport.yaml -o > --trust @allowed_signers --revoked @list.yaml --issuer =factory --serial =0017 --time =2026-11-04 --register @passports --lang =en,ru",
+    "render @passport.yaml -o > --trust @allowed_signers --issuer =factory --serial =0017 --time =2026-11-04 --register @passports --lang =en,ru",
     "calibrate @passport.yaml @currents.csv --trust @allowed_signers --time =2026-11-04 --method =analytic,iterative,least-squares --gyro @gyro.yaml --laboratory @laboratory.yaml --previous @result.json --delta1-percent =0.1 --delta2-deg-per-h =0.001 --budget --budget-svg > --report > --lang =en,ru --format text",
     "calibrate @passport.yaml @currents.csv --no-verify --gyro @gyro.yaml --laboratory @laboratory.yaml --previous @result.json --report > --format json",
-    "register @passports --trust @allowed_signers --revoked @list.yaml --issuer =factory --serial =0017 --time =2026-11-04 --within =9 --by =site --format text",
+    "register @passports --trust @allowed_signers --issuer =factory --serial =0017 --time =2026-11-04 --within =9 --by =site --format text",
     "register @passports --trust @allowed_signers --revoked @key.pub --time =2026-11-04 --format json",
     "register @passports --trust @allowed_signers --time =2026-11-04 --format csv",
-    "revoke @passport.yaml --reason =why --list > --passports @passports --key @key --identity =factory --trust @allowed_signers --revoked @list.yaml --time =2026-11-04",
-    "revoke =SPS-2/0017/here/1 --reason =why --list @lists --key @key --identity =factory --trust @allowed_signers",
+    "register @passports --renew --fresh-until =2098-12-31 --with @register.yaml --not-withdrawn =SPS-2/0017/here/1 --key @key --identity =factory --trust @allowed_signers --dry-run --format json",
+    "register @passports --renew --adopt =0 --key @key --identity =factory --trust @allowed_signers --revoked @key.pub",
+    "revoke =SPS-2/*/here/* --reason =why --passports @passports --key @key --identity =factory --trust @allowed_signers --time =2026-11-04 --dry-run --format json",
+    "revoke =SPS-2/0017/here/1 --reason =why --passports @withdrawn --key @key --identity =factory --trust @allowed_signers",
     "simulate accuracy --stand @stand.yaml --site @here.yaml --gyro @gyro.yaml --current-percent =0.015 --current-error =common --method =analytic --trials =2 --seed =1 --threads =1 --format text",
     "simulate convergence --limits-deg =1,2 --trials =2 --seed =1 --threads =1 -o > --format json",
     "schema =stand,site --format =json",
