@@ -3,7 +3,7 @@ export type Bytes = Uint8Array | ArrayBuffer;
 
 /**
  * What to ask of a passport; every key may be absent. It is a plain object without other keys, and no value may be
- * `undefined`: a check that was silently left out would look like one that passed.
+ * `undefined` or `null`: a check that was silently left out would look like one that passed.
  */
 export interface Question {
     /** RFC 3339 in whole seconds, a UTC date, or a Date; default: now. */
@@ -16,7 +16,7 @@ export interface Question {
     revoked?: (string | Bytes)[];
 }
 
-/** How to calibrate; every key may be absent, but not `undefined`. */
+/** How to calibrate; every key may be absent, but not `undefined` or `null`. */
 export interface Order {
     method?: "least-squares" | "analytic" | "iterative";
     model?: "paper" | "general";

@@ -95,8 +95,13 @@ def pair(gyro: File | None, laboratory: File | None) -> _dtg_passport._Pair:
 
 
 def asked(**values: Any) -> str:
-    """Return a question or an order as JSON, which the library checks."""
-    return json.dumps({key: _plain(key, value) for key, value in values.items()}, ensure_ascii=False)
+    """Return a question or an order as JSON, which the library checks; of None, the key is left out."""
+    return json.dumps({key: _plain(key, value) for key, value in values.items() if value is not None}, ensure_ascii=False)
+
+
+def path_or_content(name: str, file: Path | bytes) -> _dtg_passport._File:
+    """Return a file as the compiled part reads it. Bytes are its content, and anything else is its path."""
+    return (name, file) if isinstance(file, bytes) else file
 
 
 def _plain(at: str, value: Any) -> Any:

@@ -10,8 +10,7 @@ from typing import Any, NamedTuple
 
 from . import _dtg_passport
 from ._calibration import Parameters, parameters
-from ._common import Array, File, Path, asked, frozen, given, numbers, pair, whole
-from ._load import signers
+from ._common import Array, File, Path, asked, frozen, given, numbers, pair, path_or_content, whole
 
 
 class Issued(NamedTuple):
@@ -76,7 +75,7 @@ def issue(
         valid_until: Expiry date (inclusive), not later than that of the certificate. Default: that of the certificate.
         accuracy: Whether to include the expected calibration uncertainty.
         gyro, laboratory: Gyro type and laboratory for `accuracy`: paths, or mappings. Default: the paper's.
-        trust: Allowed_signers, path or text: the passport is written only if it passes verification with it.
+        trust: Allowed_signers, a path or content as bytes: the passport is written only if it passes verification with it.
         allow_uncalibratable: Whether to issue even if the positions do not determine the parameters of a gyro.
         passphrase: Passphrase of an encrypted key. Default: the environment variable DTG_PASSPORT_PASSPHRASE.
 
@@ -101,7 +100,7 @@ def issue(
         pair(gyro, laboratory) if accuracy else None,
         key,
         os.environ.get("DTG_PASSPORT_PASSPHRASE") if passphrase is None else passphrase,
-        None if trust is None else signers(trust),
+        None if trust is None else path_or_content("trust", trust),
         out,
     ))  # fmt: skip
 

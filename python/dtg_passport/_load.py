@@ -9,7 +9,7 @@ import warnings
 from collections.abc import Iterable, Iterator, Sequence
 
 from . import _dtg_passport
-from ._common import Array, Path, asked, numbers, whole
+from ._common import Array, Path, asked, numbers, path_or_content, whole
 from ._passport import Check, Passport, Refused, Verification
 
 # Passports verified at a time by load_many: enough work for the threads, little memory.
@@ -27,19 +27,9 @@ def _enquiry(
 ) -> _dtg_passport.Enquiry:
     if isinstance(revoked, (str, bytes, os.PathLike)):
         revoked = (revoked,)
-    lists = [("revoked", one) if isinstance(one, bytes) else one for one in revoked]
+    lists = [path_or_content("revoked", one) for one in revoked]
     question = asked(serial=serial, at=None if at is None else numbers("at", at), time=time, issuer=issuer)
-    return _dtg_passport.Enquiry(signers(trust), lists, question, register)
-
-
-def signers(trust: Path | bytes) -> _dtg_passport._File:
-    """Return allowed_signers, given as a path or as text, as the compiled part reads it.
-
-    Every line of it has the base64 of a key, which begins with AAAA after a space. No path of a file looks like that.
-    """
-    if isinstance(trust, str) and ("\n" in trust or " AAAA" in trust):
-        trust = trust.encode()
-    return ("trust", trust) if isinstance(trust, bytes) else trust
+    return _dtg_passport.Enquiry(path_or_content("trust", trust), lists, question, register)
 
 
 def _each(paths: Iterable[Path], enquiry: _dtg_passport.Enquiry, threads: int) -> Iterator[tuple[str, _dtg_passport._Answer]]:
@@ -73,13 +63,13 @@ def load(
 
     Args:
         path: Passport file.
-        trust: Trusted keys: the path of an OpenSSH allowed_signers file, or its text.
+        trust: Trusted keys: the path of an OpenSSH allowed_signers file, or its content as bytes.
         serial: Serial number of the stand, read from the stand. Without it, a passport of another stand is not noticed.
         at: Place of the stand: latitude and longitude in degrees, north and east positive.
         time: Time to verify for: RFC 3339 in whole seconds, a UTC date, or a `datetime` with a time zone. Default: now.
         issuer: Required issuer.
-        revoked: Revocation lists: paths (or bytes) of OpenSSH KRLs, lists of public keys, or lists of withdrawn
-            passports.
+        revoked: Revocation lists: paths of OpenSSH KRLs, lists of public keys, or lists of withdrawn passports, or
+            their contents as bytes.
         register: Folder of passports: a passport that another one there supersedes is refused.
 
     Raises:

@@ -206,7 +206,7 @@ pub fn read(path: &std::path::Path) -> Result<Vec<u8>, FileError> {
     files::read(path, LARGEST_TRUST_FILE_BYTES)
 }
 
-/// Question or order, a JSON object, whose keys may all be absent or null.
+/// Question or order, a JSON object, whose keys may all be absent. Null is refused, because it may be a value that got lost.
 struct Asked {
     /// Name in messages.
     what: &'static str,
@@ -225,8 +225,12 @@ impl Asked {
     /// Returns the value of a key as `read` reads it; `None` if there is none, or after an error.
     fn key<T>(&mut self, key: &'static str, read: impl FnOnce(&Node, &Path, &mut Problems) -> Option<T>) -> Option<T> {
         self.known.push(key);
-        let node = self.node.get(key).filter(|node| **node != Node::Null)?;
-        read(node, &Path::Root.key(key), &mut self.problems)
+        let (node, at) = (self.node.get(key)?, Path::Root.key(key));
+        if *node == Node::Null {
+            self.problems.at(&at, "null", "a value", "leave the key out if it is not asked");
+            return None;
+        }
+        read(node, &at, &mut self.problems)
     }
 
     /// Refuses keys that were not asked for, duplicate keys, and every value with an error.

@@ -177,7 +177,7 @@ mod tests {
         assert_eq!((gyro_serial.as_deref(), operator.as_deref()), (Some("4711"), Some("A. B.")));
         assert_eq!((date.unwrap().to_string(), temperature_c), ("2026-11-19".to_owned(), Some(-5.0)));
         assert_eq!(order.options.model, Model::Anisoelastic);
-        let default: Order = r#"{"gyro": null, "previous": null}"#.parse().unwrap();
+        let default: Order = "{}".parse().unwrap();
         assert_eq!((default.options.methods, default.laboratory), (vec![Method::LeastSquares], Laboratory::paper()));
     }
 
@@ -193,6 +193,7 @@ mod tests {
             ),
             ("{".to_owned(), "the order is not usable JSON"),
             (r#"{"drift": 1}"#.to_owned(), "drift: found 1, expected true or false"),
+            (r#"{"gyro": null}"#.to_owned(), "gyro: found null, expected a value; leave the key out"),
             (
                 r#"{"model": "general", "anisoelasticity": true}"#.to_owned(),
                 "anisoelasticity: found true, expected false with the general model",

@@ -70,6 +70,8 @@ static void misuse(void) {
     dtg_string_free(text);
     EXPECT(dtg_loads("", "\xff", NULL, &passport, &text) == DTG_UNUSABLE && strstr(text, "\"allowed_signers"));
     dtg_string_free(text);
+    EXPECT(dtg_loads("", "", "{\"serial\": null}", &passport, &text) == DTG_UNUSABLE && strstr(text, "serial: found null"));
+    dtg_string_free(text);
     EXPECT(dtg_loads("\xff", "", NULL, &passport, &text) != DTG_OK && passport == NULL);
     dtg_string_free(text);
     EXPECT(dtg_matrix(NULL, "delta", numbers) == DTG_UNUSABLE);

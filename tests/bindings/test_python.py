@@ -180,11 +180,25 @@ def test_good_questions_pass_every_check() -> None:
     assert others == [("revocation", "not_asked"), ("register", "not_asked")] and passport.verified
 
 
-def test_trust_is_a_path_or_its_text(corpus: Corpus) -> None:
+def test_a_str_is_always_a_path_and_bytes_are_always_content(corpus: Corpus, tmp_path: Path) -> None:
     text = SIGNERS.read_text()
     [line] = [line for line in text.splitlines() if line and not line.startswith("#")]
-    for trust in (SIGNERS, str(SIGNERS), text, text.encode(), line):
+    odd = tmp_path / "of AAAA\nsigners"
+    odd.write_text(text)
+    for trust in (SIGNERS, str(SIGNERS), text.encode(), line.replace(" ", "\t").encode(), odd, str(odd)):
         assert dtg_passport.load(PASSPORT, trust, time=TIME).verified
+    # A text is the name of a file that does not exist, or one that no system allows.
+    for trust in (text, line, line.replace(" ", "\t")):
+        with pytest.raises(OSError):
+            dtg_passport.load(PASSPORT, trust, time=TIME)
+    key = (PROJECT / "tests/keys/examples.pub").read_text()
+    list_of_keys = tmp_path / "of AAAA\nkeys"
+    list_of_keys.write_text(key)
+    for revoked in (str(list_of_keys), [list_of_keys], key.encode(), [key.replace(" ", "\t").encode()]):
+        with pytest.raises(dtg_passport.Refused, match="key_revoked"):
+            load(revoked=revoked)
+    with pytest.raises(OSError):
+        load(revoked=key)
     with pytest.raises(ValueError, match="allowed_signers|currents.csv"):
         dtg_passport.load(PASSPORT, CURRENTS, time=TIME)
     with pytest.raises(FileNotFoundError):
@@ -689,7 +703,7 @@ def test_keys_are_found_as_by_the_program(corpus: Corpus, tmp_path: Path, monkey
 def test_what_cannot_be_issued_leaves_no_file(corpus: Corpus, tmp_path: Path) -> None:
     wrong = plain(STAND) | {"positions": plain(STAND)["positions"][:3]}
     (tmp_path / "file").write_text("")
-    other = (PROJECT / "docs/allowed_signers").read_text()
+    other = (PROJECT / "docs/allowed_signers").read_bytes()
     for asked, error, words in (
         ({"stand": "nowhere.yaml"}, FileNotFoundError, "nowhere.yaml"),
         ({"key": "nowhere"}, FileNotFoundError, "nowhere"),
