@@ -24,7 +24,8 @@ async function asked() {
     const at = place[0] === undefined ? undefined : place.map(Number);
     if (at?.some(Number.isNaN)) throw new Error("latitude and longitude are numbers with a decimal point");
     const revoked = await Promise.all([...byId("revoked").files].map(read));
-    const question = { serial: value("serial"), time: value("time"), at, revoked };
+    const register = await read(file("register"));
+    const question = { serial: value("serial"), time: value("time"), at, revoked, register };
     return Object.fromEntries(Object.entries(question).filter(([, given]) => given !== undefined));
 }
 
@@ -84,9 +85,13 @@ async function answer() {
     const soFar = ["stand", "place", "register"].some((name) => verdict.not_asked.includes(name));
     const large = element("p", verdict.valid ? (soFar ? "VALID SO FAR" : "VALID") : "REFUSED");
     large.className = `answer ${verdict.valid ? "valid" : "refused"}`;
+    const { register } = verdict;
+    const used = register && `register ${register.sequence} of ${register.issued_at}, SHA-256 ${register.sha256}`;
+    const fresh = register?.fresh_until ? `, fresh until ${register.fresh_until}` : "";
     const mark = ({ passed, code }) => (passed === null ? code.replace("_", " ") : passed ? "ok" : "FAILED");
     const rows = verdict.checks.map((check) => [mark(check), check.name, check.code, check.detail]);
     const parts = [element("h2", "Answer"), large, element("p", verdict.id ?? "(id not verified)"),
+        ...(used ? [element("p", used + fresh)] : []),
         ...verdict.remarks.map((words) => element("strong", words)),
         table(["result", "check", "code", "detail"], rows)];
     if (!verdict.valid) return parts;
@@ -111,7 +116,7 @@ document.addEventListener("dragover", (event) => event.preventDefault());
 document.addEventListener("drop", (event) => {
     event.preventDefault();
     for (const one of event.dataTransfer.files) {
-        const kinds = [["passport", /\.ya?ml$/i], ["currents", /\.csv$/i], ["order", /\.json$/i], ["signers-file", /$/]];
+        const kinds = [["register", /^register\.ya?ml$/i], ["passport", /\.ya?ml$/i], ["currents", /\.csv$/i], ["order", /\.json$/i], ["signers-file", /$/]];
         const [id] = kinds.find(([, ending]) => ending.test(one.name));
         // The inputs show the name of what they hold.
         const held = new DataTransfer();

@@ -64,7 +64,8 @@ def issue(
 ) -> Issued:
     """Issue the signed passport of a stand for a site: the same bytes as `dtg-passport issue`.
 
-    An equal passport that exists is left unchanged, and no file is replaced.
+    An equal passport that exists is left unchanged, and no passport is replaced. The register of the stand, beside it,
+    then lists it.
 
     Args:
         stand: Certified stand, `dtg-stand/1`: path of the file, or a mapping.
@@ -76,7 +77,8 @@ def issue(
         valid_until: Expiry date (inclusive), not later than that of the certificate. Default: that of the certificate.
         accuracy: Whether to include the expected calibration uncertainty.
         gyro, laboratory: Gyro type and laboratory for `accuracy`: paths, or mappings. Default: the paper's.
-        trust: Allowed_signers, path or text: the passport is written only if it passes verification with it.
+        trust: Allowed_signers, path or text: the passport is written only if it passes verification with it. The key
+            needs the namespaces dtg-passport and dtg-register.
         allow_uncalibratable: Whether to issue even if the positions do not determine the parameters of a gyro.
         passphrase: Passphrase of an encrypted key. Default: the environment variable DTG_PASSPORT_PASSPHRASE.
 

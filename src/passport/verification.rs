@@ -15,7 +15,7 @@ use crate::text::scalar::day;
 use crate::trust::{AllowedSigners, NotAuthorised, PublicKey, RevokedKeys};
 use jiff::Timestamp;
 use jiff::civil::Date;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::fmt::Display;
 
 /// Trusted signers and revoked keys.
@@ -79,7 +79,7 @@ pub struct Verification {
 }
 
 /// Register by which a passport was checked.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RegisterUsed {
     /// Sequence number.
     pub sequence: u64,

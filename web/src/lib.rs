@@ -63,7 +63,8 @@ pub extern "C" fn calibrated(inputs: &Inputs, now_s: f64) -> *const Slice {
     run(inputs, now_s, |_, answer| {
         let order = inputs.order.text()?.parse()?;
         let Some(passport) = answer.verification.passport() else { return Ok(answer.to_json()) };
-        Ok(calibrate(passport.content(), Some(answer.time), ("currents", inputs.currents.bytes()), &order)?.json)
+        let verified = Some((answer.time, answer.verification.register()));
+        Ok(calibrate(passport.content(), verified, ("currents", inputs.currents.bytes()), &order)?.json)
     })
 }
 
