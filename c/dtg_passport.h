@@ -38,15 +38,17 @@ extern "C" {
  Reads a passport and verifies it.
 
  `question_json` is NULL or JSON, `{"time": "2026-11-20T00:00:00Z", "serial": "0017", "at": [55.7660, 37.6850],
- "issuer": "…", "revoked": ["content of a revocation list", …]}`; every key may be absent, none null. `time` is by default now,
- `at` is latitude and longitude in degrees. `time` may also be a UTC date, and an element of `revoked` a list of bytes.
+ "issuer": "…", "revoked": ["content of a list of revoked keys", …], "register": "content of the stand's register"}`;
+ every key may be absent, none null. `time` is by default now, and may also be a UTC date; `at` is latitude and longitude in degrees;
+ `register` and an element of `revoked` may also be a list of bytes.
 
  Returns DTG_OK and the passport in `*out`, to be freed with dtg_free; DTG_REFUSED if a check failed; DTG_UNUSABLE if
  an argument, the question or a file cannot be used. `*out` is NULL unless DTG_OK is returned.
 
  `report_json`, unless NULL, receives a text to be freed with dtg_string_free: `{"file", "valid", "id", "not_asked": [name
- of a check, …], "remarks": [sentence, …], "checks": [{"name", "passed", "code", "detail"}, …]}`, or after
- DTG_UNUSABLE `{"error": {"code", "message", "problems": [{"file", "line", "column", "message"}, …]}}`.
+ of a check, …], "remarks": [sentence, …], "register": {"sequence", "sha256", "issued_at", "fresh_until"}, "checks":
+ [{"name", "passed", "code", "detail"}, …]}`, with `register` only if one was asked and accepted; or after DTG_UNUSABLE
+ `{"error": {"code", "message", "problems": [{"file", "line", "column", "message"}, …]}}`.
  */
 int dtg_load(const char *path,
              const char *allowed_signers_path,

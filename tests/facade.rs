@@ -172,8 +172,12 @@ fn order(method: &str, previous: &[&serde_json::Value]) -> interface::Order {
 fn calibrated(currents: &str, order: &interface::Order) -> serde_json::Value {
     let answer = verify("good", &read("passports/SPS-2/0017/moscow-bmstu-1.yaml"), &trust(), &question());
     let passport = answer.passport().unwrap();
-    let found =
-        interface::calibrate(passport.content(), Some(question().time), ("run.csv", currents.as_bytes()), order);
+    let found = interface::calibrate(
+        passport.content(),
+        Some((question().time, None)),
+        ("run.csv", currents.as_bytes()),
+        order,
+    );
     serde_json::from_str(&found.unwrap().json).unwrap()
 }
 

@@ -1,4 +1,4 @@
-/** Bytes of a file; of allowed_signers, currents and revocation lists also the text. */
+/** Bytes of a file; of allowed_signers, currents, lists of revoked keys and registers also the text. */
 export type Bytes = Uint8Array | ArrayBuffer;
 
 /**
@@ -12,8 +12,10 @@ export interface Question {
     /** Latitude and longitude, degrees. */
     at?: [number, number];
     issuer?: string;
-    /** Revocation lists. */
+    /** Lists of revoked keys: OpenSSH KRLs or public keys. */
     revoked?: (string | Bytes)[];
+    /** Register of the stand: whether the passport counts. */
+    register?: string | Bytes;
 }
 
 /** How to calibrate; every key may be absent, but not `undefined` or `null`. */
@@ -38,13 +40,25 @@ export interface Order {
     previous?: Calibration[];
 }
 
+/** Register of a stand, by which a passport was checked. */
+export interface Register {
+    sequence: number;
+    /** SHA-256 of the whole file. */
+    sha256: string;
+    issued_at: string;
+    /** Last UTC day on which the register counts as fresh; null if it states none. */
+    fresh_until: string | null;
+}
+
 export interface Verdict {
     valid: boolean;
     id: string | null;
     /** Names of the checks that the question did not request. */
     not_asked: string[];
-    /** Alarms of the revocation lists, such as ALARM: two of them contradict. */
+    /** What else to show. */
     remarks: string[];
+    /** Register that was asked and accepted; absent otherwise. */
+    register?: Register;
     checks: { name: string; passed: boolean | null; code: string; detail: string }[];
 }
 
@@ -57,6 +71,7 @@ export interface Calibration {
     mistake?: object;
     /** Errors that were not looked for, because the order has no gyro type. */
     not_tested?: string[];
+    register?: Register;
     remarks?: string[];
     verdict?: { overall: "pass" | "fail" | "undecided"; [key: string]: unknown };
     results: { [key: string]: any }[];

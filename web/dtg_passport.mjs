@@ -85,8 +85,8 @@ async function accepted(...inputs) {
 }
 
 export async function verify(passport, allowedSigners, question) {
-    const { valid, id, not_asked, remarks, checks } = parsed(await call("verify", passport, allowedSigners, question));
-    return { valid, id, not_asked, remarks, checks };
+    const { file, ...verdict } = parsed(await call("verify", passport, allowedSigners, question));
+    return verdict;
 }
 
 export async function content(passport, allowedSigners, question) {

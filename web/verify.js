@@ -24,7 +24,8 @@ async function asked() {
     const at = place[0] === undefined ? undefined : place.map(Number);
     if (at?.some(Number.isNaN)) throw new Error("latitude and longitude are numbers with a decimal point");
     const revoked = await Promise.all([...byId("revoked").files].map(read));
-    const question = { serial: value("serial"), time: value("time"), at, revoked };
+    const register = await read(file("register"));
+    const question = { serial: value("serial"), time: value("time"), at, revoked, register };
     return Object.fromEntries(Object.entries(question).filter(([, given]) => given !== undefined));
 }
 
@@ -84,9 +85,13 @@ async function answer() {
     const soFar = ["stand", "place", "register"].some((name) => verdict.not_asked.includes(name));
     const large = element("p", verdict.valid ? (soFar ? "VALID SO FAR" : "VALID") : "REFUSED");
     large.className = `answer ${verdict.valid ? "valid" : "refused"}`;
+    const { register } = verdict;
+    const used = register && `register ${register.sequence} of ${register.issued_at}, SHA-256 ${register.sha256}`;
+    const fresh = register?.fresh_until ? `, fresh until ${register.fresh_until}` : "";
     const mark = ({ passed, code }) => (passed === null ? code.replace("_", " ") : passed ? "ok" : "FAILED");
     const rows = verdict.checks.map((check) => [mark(check), check.name, check.code, check.detail]);
     const parts = [element("h2", "Answer"), large, element("p", verdict.id ?? "(id not verified)"),
+        ...(used ? [element("p", used + fresh)] : []),
         ...verdict.remarks.map((words) => element("strong", words)),
         table(["result", "check", "code", "detail"], rows)];
     if (!verdict.valid) return parts;
@@ -122,7 +127,8 @@ byId("question").addEventListener("input", clear);
 // The content of a dropped file tells what it is, never its name.
 const kinds = [
     ["passport", "a passport", /^format: *"?dtg-passport\//m],
-    ["revoked", "a revocation list", /^\s*(SSHKRL|(#.*\r?\n\s*)*(format: *"?dtg-revocation\/|(sk-)?(ssh|ecdsa)-\S+\s+AAAA))/],
+    ["register", "a register", /^format: *"?dtg-register\//m],
+    ["revoked", "a list of revoked keys", /^\s*(SSHKRL|(#.*\r?\n\s*)*(sk-)?(ssh|ecdsa)-\S+\s+AAAA)/],
     ["signers-file", "a list of trusted keys", /^(?!#).*\s(sk-)?ssh-ed25519(@openssh\.com)?\s+AAAA/m],
     ["currents", "a table of currents", /^(?!#).*\bjx_ma\b/im],
     ["order", "an order", /^\s*\{/],
@@ -134,8 +140,8 @@ async function accept(files) {
         const text = await one.text();
         const [id, what] = kinds.find(([, , form]) => form.test(text)) ?? [];
         const refuse = (why) => { throw new Error(`${one.name}: ${why}; none of the dropped files was taken`); };
-        if (id === undefined) refuse("neither a passport nor trusted keys, currents or an order");
-        if (id === "revoked") refuse(`${what}, which must be chosen under Revocation lists`);
+        if (id === undefined) refuse("neither a passport nor a register, trusted keys, currents or an order");
+        if (id === "revoked") refuse(`${what}, which must be chosen under Lists of revoked keys`);
         if (given.has(id)) refuse(`${what}, as is ${given.get(id).name}; drop only one`);
         const chosen = id === "signers-file" && (file(id) || byId("signers").value.trim());
         if (chosen) refuse("trusted keys, which are already chosen above; to use others, choose them there");

@@ -7,7 +7,7 @@
 
 use passports::interface::{Enquiry, Failed, calibrate, matrix, parameters};
 use passports::jiff::Timestamp;
-use passports::passport::Content;
+use passports::passport::{Content, RegisterUsed};
 use passports::text::LARGEST_DOCUMENT_BYTES;
 use passports::trust::LARGEST_TRUST_FILE_BYTES;
 use std::borrow::Cow;
@@ -30,20 +30,23 @@ pub const DTG_UNUSABLE: c_int = 2;
 pub struct dtg_passport {
     content: Content,
     verified_as_of: Timestamp,
+    register: Option<RegisterUsed>,
 }
 
 /// Reads a passport and verifies it.
 ///
 /// `question_json` is NULL or JSON, `{"time": "2026-11-20T00:00:00Z", "serial": "0017", "at": [55.7660, 37.6850],
-/// "issuer": "…", "revoked": ["content of a revocation list", …]}`; every key may be absent, none null. `time` is by default now,
-/// `at` is latitude and longitude in degrees. `time` may also be a UTC date, and an element of `revoked` a list of bytes.
+/// "issuer": "…", "revoked": ["content of a list of revoked keys", …], "register": "content of the stand's register"}`;
+/// every key may be absent, none null. `time` is by default now, and may also be a UTC date; `at` is latitude and longitude in degrees;
+/// `register` and an element of `revoked` may also be a list of bytes.
 ///
 /// Returns DTG_OK and the passport in `*out`, to be freed with dtg_free; DTG_REFUSED if a check failed; DTG_UNUSABLE if
 /// an argument, the question or a file cannot be used. `*out` is NULL unless DTG_OK is returned.
 ///
 /// `report_json`, unless NULL, receives a text to be freed with dtg_string_free: `{"file", "valid", "id", "not_asked": [name
-/// of a check, …], "remarks": [sentence, …], "checks": [{"name", "passed", "code", "detail"}, …]}`, or after
-/// DTG_UNUSABLE `{"error": {"code", "message", "problems": [{"file", "line", "column", "message"}, …]}}`.
+/// of a check, …], "remarks": [sentence, …], "register": {"sequence", "sha256", "issued_at", "fresh_until"}, "checks":
+/// [{"name", "passed", "code", "detail"}, …]}`, with `register` only if one was asked and accepted; or after DTG_UNUSABLE
+/// `{"error": {"code", "message", "problems": [{"file", "line", "column", "message"}, …]}}`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dtg_load(
     path: *const c_char,
@@ -92,7 +95,8 @@ unsafe fn loaded<'a>(
         let enquiry = Enquiry::new((&signers_name, &signers), &[], question, Timestamp::now())?;
         let answer = enquiry.verify(&name, &passport);
         let Some(passport) = answer.verification.passport() else { return Ok((DTG_REFUSED, answer.to_json())) };
-        let passport = dtg_passport { content: passport.content().clone(), verified_as_of: answer.time };
+        let register = answer.verification.register().cloned();
+        let passport = dtg_passport { content: passport.content().clone(), verified_as_of: answer.time, register };
         give(out, Box::into_raw(Box::new(passport)));
         Ok((DTG_OK, answer.to_json()))
     })
@@ -230,8 +234,8 @@ pub unsafe extern "C" fn dtg_string_free(text: *mut c_char) {
 }
 
 fn calibrated(passport: &dtg_passport, csv: &str, order: &str) -> Result<(c_int, String), Failed> {
-    let (verified_as_of, csv) = (Some(passport.verified_as_of), ("currents", csv.as_bytes()));
-    Ok((DTG_OK, calibrate(&passport.content, verified_as_of, csv, &order.parse()?)?.json))
+    let verified = Some((passport.verified_as_of, passport.register.as_ref()));
+    Ok((DTG_OK, calibrate(&passport.content, verified, ("currents", csv.as_bytes()), &order.parse()?)?.json))
 }
 
 /// Runs `work`, hands out its text, and returns its code. A panic becomes DTG_UNUSABLE.

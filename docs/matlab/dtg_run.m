@@ -1,6 +1,6 @@
 function text = dtg_run(verb, words, signers, options, known, files)
 % DTG_RUN  Run dtg-passport and return its JSON; used by dtg_load and dtg_calibrate.
-    known = [{'serial', 'at', 'time', 'issuer', 'revoked'}, known];
+    known = [{'serial', 'at', 'time', 'issuer', 'revoked', 'register'}, known];
     if mod(numel(options), 2) ~= 0
         error('dtg:option', 'expected pairs of the name of an option and its value');
     end

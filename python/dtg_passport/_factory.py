@@ -63,7 +63,8 @@ def issue(
 ) -> Issued:
     """Issue the signed passport of a stand for a site: the same bytes as `dtg-passport issue`.
 
-    An equal passport that exists is left unchanged, and no file is replaced.
+    An equal passport that exists is left unchanged, and no passport is replaced. The register of the stand, beside it,
+    then lists it.
 
     Args:
         stand: Certified stand, `dtg-stand/1`: path of the file, or a mapping.
@@ -76,6 +77,7 @@ def issue(
         accuracy: Whether to include the expected calibration uncertainty.
         gyro, laboratory: Gyro type and laboratory for `accuracy`: paths, or mappings. Default: the paper's.
         trust: Allowed_signers, a path or content as bytes: the passport is written only if it passes verification with it.
+            The key needs the namespaces dtg-passport and dtg-register.
         allow_uncalibratable: Whether to issue even if the positions do not determine the parameters of a gyro.
         passphrase: Passphrase of an encrypted key. Default: the environment variable DTG_PASSPORT_PASSPHRASE.
 

@@ -23,7 +23,7 @@ def _enquiry(
     time: str | datetime.date | None,
     issuer: str | None,
     revoked: Path | bytes | Iterable[Path | bytes],
-    register: Path | None,
+    register: Path | bytes | None,
 ) -> _dtg_passport.Enquiry:
     if isinstance(revoked, (str, bytes, os.PathLike)):
         revoked = (revoked,)
@@ -57,7 +57,7 @@ def load(
     time: str | datetime.date | None = None,
     issuer: str | None = None,
     revoked: Path | bytes | Iterable[Path | bytes] = (),
-    register: Path | None = None,
+    register: Path | bytes | None = None,
 ) -> Passport:
     """Read a passport and verify it.
 
@@ -68,13 +68,14 @@ def load(
         at: Place of the stand: latitude and longitude in degrees, north and east positive.
         time: Time to verify for: RFC 3339 in whole seconds, a UTC date, or a `datetime` with a time zone. Default: now.
         issuer: Required issuer.
-        revoked: Revocation lists: paths of OpenSSH KRLs, lists of public keys, or lists of withdrawn passports, or
-            their contents as bytes.
-        register: Folder of passports: a passport that another one there supersedes is refused.
+        revoked: Lists of revoked keys: paths of OpenSSH KRLs or of lists of public keys, or their contents as bytes.
+        register: Register of the stand, which lists the passports that count: its path, the path of a folder of
+            passports with their registers, or the bytes of a register. Any other passport is refused, and every
+            passport if the register is missing or not accepted.
 
     Raises:
         Refused: If a check failed. `checks` states which, and why.
-        ValueError: If the trust, a revocation list or an argument cannot be used.
+        ValueError: If the trust, a list of revoked keys or an argument cannot be used.
         OSError: If a file cannot be read.
 
     Examples:
@@ -96,7 +97,7 @@ def loads(
     time: str | datetime.date | None = None,
     issuer: str | None = None,
     revoked: Path | bytes | Iterable[Path | bytes] = (),
-    register: Path | None = None,
+    register: Path | bytes | None = None,
 ) -> Passport:
     """Verify a passport that is in memory; all else as in `load`.
 
@@ -123,12 +124,12 @@ def verify(
     time: str | datetime.date | None = None,
     issuer: str | None = None,
     revoked: Path | bytes | Iterable[Path | bytes] = (),
-    register: Path | None = None,
+    register: Path | bytes | None = None,
 ) -> Verification:
     """Verify a passport and return every check, passed or not; parameters as in `load`.
 
     Raises:
-        ValueError: If the trust, a revocation list or an argument cannot be used.
+        ValueError: If the trust, a list of revoked keys or an argument cannot be used.
         OSError: If a file cannot be read.
 
     Examples:
@@ -153,7 +154,7 @@ def load_many(
     time: str | datetime.date | None = None,
     issuer: str | None = None,
     revoked: Path | bytes | Iterable[Path | bytes] = (),
-    register: Path | None = None,
+    register: Path | bytes | None = None,
 ) -> Iterator[Passport]:
     """Read and verify many passports on several threads, in the order of `paths`; parameters as in `load`.
 

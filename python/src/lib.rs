@@ -5,13 +5,14 @@ use dtg_passport::gyro::{GyroParameters, GyroType};
 use dtg_passport::interface::{self, Failed, Order};
 use dtg_passport::jiff::Timestamp;
 use dtg_passport::laboratory::Laboratory;
-use dtg_passport::passport::{Content as Passport, SelfCheck};
+use dtg_passport::passport::{Content as Passport, RegisterUsed, SelfCheck};
 use dtg_passport::signing::{KeyFileError, signer};
 use dtg_passport::uncertainty::Trials;
-use pyo3::exceptions::{PyOSError, PyUserWarning, PyValueError};
+use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::pybacked::PyBackedBytes;
 use pyo3::types::{PyBytes, PyTuple};
-use std::ffi::{CString, OsString};
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -59,8 +60,8 @@ fn answered(found: &interface::Answer) -> Answer {
     let verification = &found.verification;
     let checks = verification.checks().iter();
     let checks = checks.map(|check| (check.name.as_str(), check.passed(), check.code.as_str(), check.detail.clone()));
-    let verified_as_of = Some(found.time);
-    let content = verification.passport().map(|of| Content { passport: of.content().clone(), verified_as_of });
+    let verified = Some((found.time, verification.register().cloned()));
+    let content = verification.passport().map(|of| Content { passport: of.content().clone(), verified });
     (verification.id_from_anyone().map(str::to_owned), found.sha256.clone(), checks.collect(), content)
 }
 
@@ -81,25 +82,29 @@ fn os_error(py: Python, error: &FileError) -> PyErr {
     known.map_or_else(|| PyOSError::new_err(error.to_string()), PyOSError::new_err)
 }
 
+/// Register of a stand, or the path of one or of a folder of passports with their registers.
+#[derive(FromPyObject)]
+enum Register {
+    Content(PyBackedBytes),
+    Path(PathBuf),
+}
+
 /// Trusted keys and the question to verify passports for.
 #[pyclass(frozen)]
 struct Enquiry(interface::Enquiry);
 
 #[pymethods]
 impl Enquiry {
-    /// Each remark on the lists becomes a warning to the caller of the caller.
     #[new]
-    fn new(py: Python, trust: File, revoked: Vec<File>, question: &str, register: Option<PathBuf>) -> PyResult<Self> {
+    fn new(trust: File, revoked: Vec<File>, question: &str, register: Option<Register>) -> PyResult<Self> {
         let revoked: Vec<_> = revoked.into_iter().map(|File(name, bytes)| (name, bytes)).collect();
         let enquiry = interface::Enquiry::new(trust.given(), &revoked, question, Timestamp::now());
-        let mut enquiry = enquiry.map_err(failed)?;
-        if let Some(folder) = register {
-            enquiry = py.detach(|| enquiry.with_register(&folder)).map_err(|error| os_error(py, &error))?;
-        }
-        for remark in &enquiry.remarks {
-            PyErr::warn(py, &py.get_type::<PyUserWarning>(), &CString::new(remark.as_str())?, 3)?;
-        }
-        Ok(Self(enquiry))
+        let enquiry = enquiry.map_err(failed)?;
+        Ok(Self(match register {
+            Some(Register::Content(bytes)) => enquiry.with_register_text("register", &bytes),
+            Some(Register::Path(path)) => enquiry.with_register(&path),
+            None => enquiry,
+        }))
     }
 
     fn verify(&self, py: Python, file: &str, data: &[u8]) -> Answer {
@@ -126,7 +131,8 @@ impl Enquiry {
 #[pyclass(frozen)]
 struct Content {
     passport: Passport,
-    verified_as_of: Option<Timestamp>,
+    /// Time for which the passport was verified, and the register that was asked.
+    verified: Option<(Timestamp, Option<RegisterUsed>)>,
 }
 
 #[pymethods]
@@ -151,14 +157,15 @@ impl Content {
         files: [Option<File>; 2],
     ) -> PyResult<(String, Bound<'py, PyBytes>, Distributions)> {
         let [gyro, laboratory] = files;
-        let Self { passport, verified_as_of } = slf.get();
+        let Self { passport, verified } = slf.get();
+        let verified = verified.as_ref().map(|(time, register)| (*time, register.as_ref()));
         let done = py.detach(|| {
             let mut order: Order = order.parse()?;
             order.gyro = gyro.map(|File(name, bytes)| GyroType::from_yaml(&name, &bytes)).transpose()?;
             if let Some(File(name, bytes)) = laboratory {
                 order.laboratory = Laboratory::from_yaml(&name, &bytes)?;
             }
-            Ok((interface::calibrate(passport, *verified_as_of, currents.given(), &order)?, order))
+            Ok((interface::calibrate(passport, verified, currents.given(), &order)?, order))
         });
         let (found, order) = done.map_err(failed)?;
         let covariance = float64(py, found.covariance.into_iter().flatten());
@@ -213,7 +220,7 @@ impl Distributions {
 #[pyfunction]
 fn unverified(file: File) -> PyResult<Answer> {
     let (passport, sha256) = interface::unverified(&file.0, &file.1).map_err(failed)?;
-    Ok((Some(passport.passport.id.clone()), sha256, Vec::new(), Some(Content { passport, verified_as_of: None })))
+    Ok((Some(passport.passport.id.clone()), sha256, Vec::new(), Some(Content { passport, verified: None })))
 }
 
 /// Issues a passport; `files` are its stand and site, and `accuracy` a gyro type and a laboratory. Returns its id, path and

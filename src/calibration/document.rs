@@ -32,6 +32,7 @@ use super::{
 };
 use crate::coefficients::PositionIndex;
 use crate::gyro::GyroType;
+use crate::passport::RegisterUsed;
 use crate::stand::Certificate;
 use crate::statistics::distributions::normal_below;
 use crate::text::Unreadable;
@@ -53,6 +54,8 @@ result! {
         pub(crate) passport_id: String,
         /// `true` if the passport was verified.
         pub(crate) passport_verified: bool,
+        /// Register by which the passport was checked, if one was asked.
+        pub(crate) register: Option<RegisterUsed> = default,
         /// Value of g to which g-sensitive drifts refer, m/s².
         pub(crate) gravity_m_per_s2: f64,
         /// Standard uncertainty of g, m/s²; absent if it is not stated.

@@ -260,7 +260,8 @@ impl Bench<'_> {
         exclude(options, &name, &mut prepared.readings)?;
         prepared.readings.remarks.iter().for_each(|remark| output::say(remark));
         let asked = options.asked();
-        let done = prepared.run(&asked, self.subject(), &self.previous)?;
+        let mut done = prepared.run(&asked, self.subject(), &self.previous)?;
+        done.document.register = self.passport.verification.as_ref().and_then(Verification::register).cloned();
         let tolerance = self.gyro_type.as_ref().map(|gyro_type| &gyro_type.tolerance);
         let asked = (&asked, tolerance);
         let uncertainty = options.uncertainty.find(&done.setup, &done.readings, &done.calibration, asked)?;

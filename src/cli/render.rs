@@ -60,7 +60,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         let name = name_of(passport);
         let page = PassportPage::of(&bytes, &enquiry.question, enquiry.verification(&name, &bytes))
             .map_err(|refused| Failure::verdict("no page was written", &name, &refused))?;
-        let verdict = verdict::Verdict::of(&name, &page.verification, &enquiry.all_remarks());
+        let verdict = verdict::Verdict::of(&name, &page.verification, &enquiry.remarks());
         let in_folder = || Some(folder.as_ref()?.path_of_id(verdict.id.as_deref()?)?.with_extension("html"));
         let output = output.map(Path::to_owned).or_else(in_folder);
         let output = output.ok_or_else(|| Failure::usage("missing -o FILE.html or --out DIR"))?;

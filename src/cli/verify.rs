@@ -44,13 +44,13 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
             Ok((name, bytes)) => {
                 let verification = enquiry.verification(&name, &bytes);
                 code = code.max(if verification.valid() { 0 } else { REFUSED });
-                let verdict = verdict::Verdict::of(&name, &verification, &enquiry.all_remarks());
+                let verdict = verdict::Verdict::of(&name, &verification, &enquiry.remarks());
                 text += &verdict::text(&verdict);
                 verdicts.push(verdict);
             }
             Err((name, words)) => {
                 code = code.max(UNUSABLE);
-                let refused = verdict::Verdict::of(&name, &enquiry.unreadable(&words), &enquiry.all_remarks());
+                let refused = verdict::Verdict::of(&name, &enquiry.unreadable(&words), &enquiry.remarks());
                 text += &verdict::not_read(&refused);
                 verdicts.push(refused);
                 unread.push(words);

@@ -14,7 +14,7 @@ use crate::calibration::{
 use crate::document::sha256_hex;
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
-use crate::passport::Content;
+use crate::passport::{Content, RegisterUsed};
 use crate::text::printable;
 use crate::uncertainty::Budget;
 #[cfg(feature = "monte-carlo")]
@@ -36,8 +36,8 @@ pub struct Calibrated {
     pub remarks: Vec<String>,
 }
 
-/// Calibrates a gyro with the content of a passport. `verified_as_of` is the time for which the passport was verified, or
-/// `None` if it was not.
+/// Calibrates a gyro with the content of a passport. `verified` is the time for which the passport was verified and the
+/// register that was asked, or `None` if the passport was not verified.
 ///
 /// `currents` are the name and content of a CSV file with the columns `i`, `j`, `jx_ma`, `jy_ma`, and if present `cycle`,
 /// `visit`, `time_s`.
@@ -47,12 +47,14 @@ pub struct Calibrated {
 /// determine the parameters.
 pub fn calibrate(
     content: &Content,
-    verified_as_of: Option<Timestamp>,
+    verified: Option<(Timestamp, Option<&RegisterUsed>)>,
     currents: (&str, &[u8]),
     order: &Order,
 ) -> Result<Calibrated, Failed> {
-    let subject = Subject { passport_verified_as_of: verified_as_of, ..order.subject.clone() };
-    let done = prepared(content, currents, order)?.run(&order.options, subject, &order.previous)?;
+    let (time, register) = verified.unzip();
+    let subject = Subject { passport_verified_as_of: time, ..order.subject.clone() };
+    let mut done = prepared(content, currents, order)?.run(&order.options, subject, &order.previous)?;
+    done.document.register = register.flatten().cloned();
     // The document has an answer, so the calibration has one.
     let result = done.calibration.adopted().ok_or_else(|| Failed::refused("no result"))?;
     let columns = Parameter::EIGHT.map(|parameter| result.model.column(parameter));

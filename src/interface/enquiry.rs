@@ -27,8 +27,6 @@ pub struct Enquiry {
     pub trust: Trust,
     /// Question to verify passports for.
     pub question: Question,
-    /// Remarks for the user on the revocation lists and the register, one sentence each.
-    pub remarks: Vec<String>,
     pub(crate) register: Option<Source>,
 }
 
@@ -53,7 +51,7 @@ pub struct Answer {
     pub sha256: String,
     /// Time for which the passport was verified.
     pub time: Timestamp,
-    /// Remarks for the user on the revocation lists and the register, one sentence each.
+    /// Remarks for the user on the registers that were read, one sentence each.
     pub remarks: Vec<String>,
 }
 
@@ -104,8 +102,7 @@ impl Enquiry {
 
     /// Creates an enquiry without a register.
     pub(crate) fn of(trust: Trust, question: Question) -> Self {
-        let remarks = trust.skipped().into_iter().collect();
-        Self { trust, question, remarks, register: None }
+        Self { trust, question, register: None }
     }
 
     /// Adds the register of the stand, the content of a file of this name. One that is not accepted makes no passport valid.
@@ -133,17 +130,17 @@ impl Enquiry {
     pub fn verify(&self, file: &str, bytes: &[u8]) -> Answer {
         let verification = self.verification(file, bytes);
         let sha256 = verification.sha256().to_owned();
-        Answer { file: file.to_owned(), verification, sha256, time: self.question.time, remarks: self.all_remarks() }
+        Answer { file: file.to_owned(), verification, sha256, time: self.question.time, remarks: self.remarks() }
     }
 
-    /// Returns the remarks on the revocation lists and on the registers that were read.
-    pub(crate) fn all_remarks(&self) -> Vec<String> {
+    /// Returns the remarks on skipped keys and on the registers that were read.
+    pub(crate) fn remarks(&self) -> Vec<String> {
         let of_registers = match &self.register {
             #[cfg(feature = "factory")]
             Some(Source::Files(registers)) => registers.remarks(),
             _ => Vec::new(),
         };
-        [&self.remarks[..], &of_registers].concat()
+        self.trust.skipped().into_iter().chain(of_registers).collect()
     }
 
     pub(crate) fn verification(&self, file: &str, bytes: &[u8]) -> Verification {

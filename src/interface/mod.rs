@@ -23,7 +23,8 @@
 //! assert!(content_json(passport.content()).contains("b_deg_per_h"));
 //! let currents = include_bytes!("../../docs/currents.csv");
 //! let order = r#"{"method": "least-squares"}"#.parse()?;
-//! let found = calibrate(passport.content(), Some(answer.time), ("currents.csv", currents), &order)?;
+//! let verified = Some((answer.time, answer.verification.register()));
+//! let found = calibrate(passport.content(), verified, ("currents.csv", currents), &order)?;
 //! assert!(found.json.contains("chi_square"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

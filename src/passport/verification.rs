@@ -15,7 +15,7 @@ use crate::text::{first_few, printable};
 use crate::trust::{AllowedSigners, NotAuthorised, PublicKey, RevokedKeys};
 use jiff::Timestamp;
 use jiff::civil::Date;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::fmt::Display;
 
@@ -92,7 +92,7 @@ pub struct Verification {
 }
 
 /// Register by which a passport was checked.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RegisterUsed {
     /// Sequence number.
     pub sequence: u64,

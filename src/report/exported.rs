@@ -1,7 +1,7 @@
 //! Passport as one JSON object for programs that compute with it, with the result of its verification.
 
 use crate::passport::verification::not_run;
-use crate::passport::{Check, Content, Verification};
+use crate::passport::{Check, Content, RegisterUsed, Verification};
 use crate::stand::{CertifiedPosition, TypeB};
 use crate::text::record::Record;
 use crate::text::{Field, Node};
@@ -12,16 +12,19 @@ use serde::Serialize;
 struct Outcome {
     verified: bool,
     sha256: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    register: Option<RegisterUsed>,
     checks: Vec<Check>,
 }
 
 impl Outcome {
     fn of(sha256: String, verification: &Verification) -> Self {
-        Self { verified: verification.valid(), sha256, checks: verification.checks().to_vec() }
+        let (register, checks) = (verification.register().cloned(), verification.checks().to_vec());
+        Self { verified: verification.valid(), sha256, register, checks }
     }
 }
 
-/// Returns a passport as JSON: `{file, verified, sha256, checks, …}`, then the keys of the passport if every check
+/// Returns a passport as JSON: `{file, verified, sha256, register, checks, …}`, then the keys of the passport if every check
 /// passed. The objects in a list have the same keys, null where a value is absent, so that programs such as MATLAB read
 /// the list as an array.
 pub(crate) fn json(file: &str, sha256: String, verification: &Verification) -> impl Serialize {
@@ -37,8 +40,8 @@ pub(crate) fn json(file: &str, sha256: String, verification: &Verification) -> i
     Exported { file, outcome: Outcome::of(sha256, verification), content }
 }
 
-/// Returns a passport as JSON with the keys of its file, in their order, and then `verified`, `sha256` and `checks`, as
-/// [`json`] writes them; without `verification` no check was run.
+/// Returns a passport as JSON with the keys of its file, in their order, and then `verified`, `sha256`, `register` and `checks`,
+/// as [`json`] writes them; without `verification` no check was run.
 pub(crate) fn shown(content: &Content, sha256: String, verification: Option<&Verification>) -> impl Serialize + use<> {
     #[derive(Serialize)]
     struct Shown {

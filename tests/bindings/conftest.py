@@ -1,12 +1,14 @@
-"""What the tests of all languages share: the program, and a corpus of good and altered passports."""
+"""What the tests of all languages share: the program, a corpus of good and altered passports, and registers."""
 
 from __future__ import annotations
 
+import datetime
 import json
 import os
 import random
 import subprocess
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 
@@ -95,3 +97,97 @@ class Corpus:
 @pytest.fixture(scope="session")
 def corpus(tmp_path_factory: pytest.TempPathFactory) -> Corpus:
     return Corpus(tmp_path_factory.mktemp("corpus"))
+
+
+class Asked(NamedTuple):
+    """A passport of which a register is asked, with the answer that is due."""
+
+    name: str
+    passport: Path
+    signers: Path
+    register: Path
+    time: str
+    code: str
+    """Code of the check `register`, by the rules of registers."""
+
+    def options(self) -> list[object]:
+        return ["--trust", self.signers, "--register", self.register, "--time", self.time, "--format", "json"]
+
+    def verdict(self) -> dict:
+        """Return the answer of the program."""
+        [found] = json.loads(program("verify", self.passport, *self.options(), accept=(0, 1)))
+        assert (found["checks"][-1]["name"], found["checks"][-1]["code"]) == ("register", self.code), (self.name, found)
+        return found
+
+    def verdict_on_content(self) -> dict:
+        """Return the answer of the program, with the names that content without a path has in other languages."""
+        text = json.dumps(self.verdict()).replace(str(self.passport), "passport").replace(str(self.register), "register")
+        return json.loads(text)
+
+    def question(self) -> dict:
+        return {"time": self.time, "register": list(self.register.read_bytes())}
+
+
+class Registers:
+    """Passports of two stands and their registers, signed by a key of their own, and registers that are not accepted."""
+
+    def __init__(self, folder: Path) -> None:
+        # A register has the time of the clock, from which a successor counts.
+        now = datetime.datetime.now(datetime.timezone.utc)
+        time = f"{now + datetime.timedelta(hours=1):%Y-%m-%dT%H:%M:%SZ}"
+        key, self.signers, self.passports = folder / "key", folder / "allowed_signers", folder / "passports"
+        who = ["--key", key, "--identity", "factory@example.org"]
+        program("keygen", key, "--identity", "factory@example.org", "--no-passphrase", "--allowed-signers", self.signers)
+        (folder / "sites").mkdir()
+        for number in range(5):
+            site = SITE.format(number=number, latitude=50.0 + 3.0 * number)
+            (folder / "sites" / f"site-{number}.yaml").write_text(site)
+        stands = [PROJECT / "passports/SPS-1/0203/stand.yaml", PROJECT / "passports/SPS-2/0017/stand.yaml"]
+        at = ["--issued-at", "2026-11-10T00:00:00Z"]
+        program("issue", *stands, "--site", folder / "sites", *who, *at, "--out", self.passports)
+        of_stand = self.passports / "SPS-2/0017"
+        good, old, left, withdrawn, unlisted = (of_stand / f"site-{number}-1.yaml" for number in range(5))
+        trust = ["--trust", self.signers]
+        program("reissue", old, "--same-content", "--reason", "test", *who, *trust)
+        there = ["--site", PROJECT / "sites/beijing-nim.yaml"]
+        program("reissue", left, *there, "--moved", "--reason", "test", *who, *trust)
+        program("revoke", "SPS-2/0017/site-3/1", "--reason", "test", "--passports", self.passports, *who, *trust)
+        program("reissue", unlisted, *there, "--without-register", "--same-content", "--reason", "test", *who, *trust)
+        self.fresh_until = f"{now + datetime.timedelta(days=30):%Y-%m-%d}"
+        program("register", self.passports, "--renew", "--fresh-until", self.fresh_until, *who, *trust)
+        strange = folder / "strange"
+        program("issue", stands[1], "--site", folder / "sites/site-0.yaml", *who, "--issued-at", "2026-11-11T00:00:00Z", "--out", strange)
+
+        whole = (of_stand / "register.yaml").read_bytes()
+        alone = folder / "alone"
+        alone.write_text(self.signers.read_text().replace("dtg-passport,dtg-register", "dtg-passport"))
+        stale = f"{now + datetime.timedelta(days=40):%Y-%m-%dT%H:%M:%SZ}"
+        cases = [
+            ("good", good, whole, "ok"),
+            ("superseded", old, whole, "superseded"),
+            ("moved", left, whole, "moved"),
+            ("withdrawn", withdrawn, whole, "withdrawn"),
+            ("not listed", of_stand / "beijing-nim-2.yaml", whole, "not_listed"),
+            ("listed with other bytes", strange / "SPS-2/0017/site-0-1.yaml", whole, "not_listed"),
+            ("stale", good, whole, "register_stale"),
+            ("of another stand", good, (self.passports / "SPS-1/0203/register.yaml").read_bytes(), "register_unknown"),
+            ("of a key without dtg-register", good, whole, "register_unknown"),
+            ("changed", good, whole.replace(b'"current"', b'"cUrrent"', 1), "register_unknown"),
+            ("not text", good, whole.replace(b"sequence", b"sequ\xffnce", 1), "register_unknown"),
+            ("cut", good, whole[:-100], "register_unknown"),
+            ("empty", good, b"", "register_unknown"),
+            ("a passport", good, good.read_bytes(), "register_unknown"),
+        ]
+        self.asked = []
+        for name, passport, content, code in cases:
+            register = folder / name / "register"
+            register.parent.mkdir()
+            register.write_bytes(content)
+            signers = alone if name == "of a key without dtg-register" else self.signers
+            self.asked.append(Asked(name, passport, signers, register, stale if name == "stale" else time, code))
+        [self.good, self.withdrawn] = (asked for asked in self.asked if asked.name in ("good", "withdrawn"))
+
+
+@pytest.fixture(scope="session")
+def registers(tmp_path_factory: pytest.TempPathFactory) -> Registers:
+    return Registers(tmp_path_factory.mktemp("registers"))

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
-from conftest import PROJECT, SIGNERS, TIME, Corpus, program
+from conftest import PROJECT, SIGNERS, TIME, Corpus, Registers, program
 from orders import CURRENTS, GYRO, LABORATORY, ORDERS, PASSPORT, REFUSED, RUN, calibrated
 
 LIBRARIES = PROJECT / "target/debug"
@@ -155,9 +155,44 @@ def test_every_question_is_asked() -> None:
         got = c.dtg_load(*paths, text(question), ctypes.byref(passport), ctypes.byref(report))
         codes = [check["code"] for check in json.loads(report.value)["checks"]]
         assert code in codes and got == (0 if code == "ok" else 1) and bool(passport) == (got == 0)
-        assert "remarks" not in json.loads(report.value)
+        assert json.loads(report.value)["remarks"] == []
         c.dtg_string_free(report)
         c.dtg_free(passport)
+
+
+def test_every_register_gives_the_answer_of_the_program(registers: Registers) -> None:
+    """As text, and as a list of bytes where it is no text."""
+    import ctypes
+
+    c = ctypes.CDLL(str(LIBRARIES / "libdtg_passport.so"))
+    c.dtg_calibrate_csv.argtypes = [ctypes.c_void_p, ctypes.c_char_p, ctypes.c_char_p, ctypes.c_void_p]
+    for asked in registers.asked:
+        due, content = asked.verdict_on_content(), asked.register.read_bytes()
+        questions = [asked.question()]
+        if asked.name != "not text":
+            questions.append({"time": asked.time, "register": content.decode()})
+        for question in questions:
+            passport, report, result = ctypes.c_void_p(), ctypes.c_char_p(), ctypes.c_char_p()
+            text = (asked.passport.read_bytes(), asked.signers.read_bytes(), json.dumps(question).encode())
+            code = c.dtg_loads(*text, ctypes.byref(passport), ctypes.byref(report))
+            assert json.loads(report.value) == due, asked.name
+            assert code == (0 if due["valid"] else 1) and bool(passport) == due["valid"]
+            c.dtg_string_free(report)
+            if due["valid"]:
+                options = [*asked.options(), "--method=least-squares"]
+                assert c.dtg_calibrate_csv(passport, CURRENTS.read_bytes(), None, ctypes.byref(result)) == 0
+                assert result.value.decode() == program("calibrate", asked.passport, CURRENTS, *options)[:-1]
+                assert json.loads(result.value)["register"] == due["register"]
+                c.dtg_string_free(result)
+            c.dtg_free(passport)
+    good = registers.good
+    paths = (str(good.passport).encode(), str(good.signers).encode())
+    for register, words in ((17, "found 17, expected the content of a register"), ({}, "found a mapping"), ([256], "found a list")):
+        passport, report = ctypes.c_void_p(), ctypes.c_char_p()
+        question = json.dumps({"register": register}).encode()
+        assert c.dtg_load(*paths, question, ctypes.byref(passport), ctypes.byref(report)) == 2 and not passport
+        assert f"register: {words}" in json.loads(report.value)["error"]["message"]
+        c.dtg_string_free(report)
 
 
 def test_the_parameters_are_numbers_and_say_whether_they_may_be_used() -> None:
@@ -348,3 +383,30 @@ def test_octave_and_matlab_functions(tmp_path: Path) -> None:
     ulp(of_the_run, [*np.ravel(due["k_deg_per_h_per_ma"]), due["standard_uncertainty"]["omega_g_deg_per_h_per_g"],
                      *due["drift_deg_per_h_per_h"]])  # fmt: skip
     assert (absent, verdict, why, celsius) == ("0", drift["verdict"]["overall"], "door opened", "21.500")
+
+
+def test_every_register_gives_the_answer_of_the_program_in_octave(registers: Registers, tmp_path: Path) -> None:
+    good = registers.good
+    lines = [f"addpath('{PROJECT}/docs/matlab');"]
+    for asked in registers.asked:
+        options = f"'{asked.signers}', 'time', '{asked.time}', 'register', '{asked.register}'"
+        lines.append(f"try, p = dtg_load('{asked.passport}', {options}); printf('%s\\n', p.checks(end).code);")
+        lines.append("catch e, printf('%s %s\\n', e.identifier, e.message); end")
+    signers, options = f"'{good.signers}'", f"'time', '{good.time}', 'register', '{registers.passports}'"
+    lines += [
+        f"p = dtg_load('{good.passport}', {signers}, {options}); printf('%s %d\\n', p.register.sha256, p.register.sequence);",
+        f"c = dtg_calibrate('{good.passport}', {signers}, '{CURRENTS}', {options});",
+        "printf('%s\\n', c.document.register.sha256);",
+        f"try, dtg_calibrate('{registers.withdrawn.passport}', {signers}, '{CURRENTS}', {options});",
+        "catch e, printf('%s %s\\n', e.identifier, e.message); end",
+    ]
+    script = tmp_path / "test.m"
+    script.write_text("\n".join(lines))
+    answers = octave(script).splitlines()
+    loaded, calibrated, refused, *checks = answers[len(registers.asked) :]
+    for asked, answer in zip(registers.asked, answers):
+        due = asked.verdict()
+        assert answer == ("ok" if due["valid"] else f"dtg:refused exit code 1: {due['checks'][-1]['detail']}"), asked.name
+    used = good.verdict()["register"]
+    assert (loaded, calibrated) == (f"{used['sha256']} {used['sequence']}", used["sha256"])
+    assert refused.startswith("dtg:refused exit code 1: ") and any("withdrawn at" in check for check in checks)

@@ -20,7 +20,7 @@ import dtg_passport
 import numpy as np
 import pytest
 import yaml
-from conftest import PROJECT, SHIPPED, SIGNERS, TIME, Corpus, program
+from conftest import PROJECT, SHIPPED, SIGNERS, TIME, Corpus, Registers, program
 from orders import CURRENTS, ORDERS, PASSPORT, REFUSED, RUN, calibrated, plain
 
 def load(path: Path = PASSPORT, **asked: object) -> dtg_passport.Passport:
@@ -175,7 +175,7 @@ def test_good_questions_pass_every_check() -> None:
     passport = load(serial="0017", issuer="examples@dtg-passport.test", at=(55.7660, 37.6850))
     passed = [check.name for check in passport.checks if check.passed and check.code == "ok"]
     assert passed == ["grammar", "signature", "schema", "signer", "recomputed", "in_force", "issuer", "stand", "place"]
-    # No list and no register were given, so nothing is known about them.
+    # No list of revoked keys and no register were given, so nothing is known about them.
     others = [(check.name, check.code) for check in passport.checks if check.passed is None]
     assert others == [("revocation", "not_asked"), ("register", "not_asked")] and passport.verified
 
@@ -207,30 +207,77 @@ def test_a_str_is_always_a_path_and_bytes_are_always_content(corpus: Corpus, tmp
         dtg_passport.load(PASSPORT, corpus.signers, time=TIME)
 
 
-def test_revocations_and_registers_count(corpus: Corpus, tmp_path: Path) -> None:
-    [old] = [path for path in corpus.good if path.parts[-2:] == ("0017", "site-60-1.yaml")]
-    key = corpus.folder / "key"
-    trust = ("--trust", corpus.signers, "--time", TIME)
-    who = ("--key", key, "--identity", "factory@example.org")
-    program("reissue", old, "--reason", "test", *who, *trust, "--out", tmp_path, "--issued-at", "2026-11-11T00:00:00Z",
-            "--site", corpus.folder / "sites/site-60.yaml", "--same-content")  # fmt: skip
-    (tmp_path / "SPS-2/0017/site-60-1.yaml").write_bytes(old.read_bytes())
-    assert dtg_passport.load(old, corpus.signers, time=TIME).verified
-    with pytest.raises(dtg_passport.Refused, match="superseded"):
-        dtg_passport.load(old, corpus.signers, time=TIME, register=tmp_path)
-
-    new = tmp_path / "SPS-2/0017/site-60-2.yaml"
-    assert dtg_passport.load(new, corpus.signers, time=TIME, register=tmp_path).verified
-    program("revoke", new, "--reason", "test", "--list", tmp_path, *who, *trust)
-    [withdrawn] = tmp_path.glob("revocation-*.yaml")
-    for revoked in (withdrawn, [str(withdrawn)], [withdrawn.read_bytes()]):
-        with pytest.raises(dtg_passport.Refused, match="passport_revoked"):
-            dtg_passport.load(new, corpus.signers, time="2027-11-20", revoked=revoked)
-    keys = f"{key}.pub"
-    with pytest.raises(dtg_passport.Refused, match="key_revoked"):
-        dtg_passport.load(new, corpus.signers, time=TIME, revoked=[keys])
+def test_revoked_keys_count(registers: Registers) -> None:
+    good = registers.good
+    keys = Path(f"{good.signers.with_name('key')}.pub")
+    for revoked in (keys, str(keys), [keys.read_bytes()]):
+        with pytest.raises(dtg_passport.Refused, match="key_revoked"):
+            dtg_passport.load(good.passport, good.signers, time=good.time, revoked=revoked)
     with pytest.raises(ValueError, match="currents.csv"):
-        dtg_passport.load(new, corpus.signers, time=TIME, revoked=[CURRENTS])
+        dtg_passport.load(good.passport, good.signers, time=good.time, revoked=[CURRENTS])
+
+
+def test_every_register_gives_the_answer_of_the_program(registers: Registers) -> None:
+    """As a path, as text with the path, and as bytes; by every function."""
+    for asked in registers.asked:
+        of_file, of_content = asked.verdict(), asked.verdict_on_content()
+        content = asked.register.read_bytes()
+        for register, due in ((asked.register, of_file), (str(asked.register), of_file), (content, of_content)):
+            options = {"time": asked.time, "register": register}
+            answer = dtg_passport.verify(asked.passport, asked.signers, **options)
+            assert (answer.valid, answer.id) == (due["valid"], due["id"]) and (answer.passport is None) == (not due["valid"])
+            assert [check._asdict() for check in answer.checks] == due["checks"], asked.name
+            found = [
+                lambda: dtg_passport.load(asked.passport, asked.signers, **options),
+                lambda: dtg_passport.loads(asked.passport.read_bytes(), asked.signers, **options),
+                lambda: next(dtg_passport.load_many([asked.passport], asked.signers, **options)),
+            ]
+            for load in found:
+                if due["valid"]:
+                    assert load().verified and load().checks == answer.checks
+                    continue
+                with pytest.raises(dtg_passport.Refused) as refused:
+                    load()
+                assert refused.value.checks == answer.checks
+
+
+def test_a_folder_of_passports_has_a_register_for_each_stand(registers: Registers, tmp_path: Path) -> None:
+    paths = sorted(registers.passports.glob("*/*/*-[0-9].yaml"))
+    time, trust, folder = registers.good.time, registers.signers, registers.passports
+    options = ["--trust", trust, "--register", folder, "--time", time, "--format", "json"]
+    due = json.loads(program("verify", *paths, *options, accept=(1,)))
+    found = [dtg_passport.verify(path, trust, time=time, register=str(folder)) for path in paths]
+    assert [[check._asdict() for check in answer.checks] for answer in found] == [verdict["checks"] for verdict in due]
+    # The five of one stand; of the other the good one and the two successors.
+    current = [path for path, answer in zip(paths, found) if answer.valid]
+    assert len(current) == 8
+    assert [passport.verified for passport in dtg_passport.load_many(current, trust, time=time, register=folder)] == [True] * 8
+    with pytest.raises(dtg_passport.Refused, match="superseded"):
+        list(dtg_passport.load_many([*current, registers.asked[1].passport], trust, time=time, register=folder))
+    # A missing register makes nothing valid, and what is no register is no argument.
+    for nothing in (tmp_path, tmp_path / "nowhere", "", os.devnull):
+        answer = dtg_passport.verify(current[0], trust, time=time, register=nothing)
+        assert not answer.valid and answer.checks[-1].code == "register_unknown"
+    for wrong in (17, ["register.yaml"], True):
+        with pytest.raises(TypeError):
+            dtg_passport.verify(current[0], trust, time=time, register=wrong)  # type: ignore[arg-type]
+
+
+def test_a_calibration_states_the_register(registers: Registers) -> None:
+    good = registers.good
+    due = program("calibrate", good.passport, CURRENTS, *good.options(), "--method=least-squares", accept=(0, 1))
+    for register in (good.register, good.register.read_bytes()):
+        passport = dtg_passport.load(good.passport, good.signers, time=good.time, register=register)
+        document = passport.calibrate(CURRENTS).document
+        assert document == json.loads(due) and document["register"] == good.verdict()["register"]
+    assert document["register"]["fresh_until"] == registers.fresh_until
+    unasked = dtg_passport.load(good.passport, good.signers, time=good.time).calibrate(CURRENTS)
+    assert "register" not in unasked.document
+    # Such a result is read again, as an earlier one.
+    assert "change" in passport.calibrate(CURRENTS, gyro=PROJECT / "docs/gvk-6.yaml", previous=[document]).document
+    # `show` states it as `verify` does.
+    shown = json.loads(program("show", good.passport, *good.options()))
+    assert shown["register"] == document["register"]
 
 
 def test_an_unverified_passport_says_so() -> None:
@@ -651,7 +698,7 @@ def test_an_issued_passport_has_the_bytes_of_the_program(corpus: Corpus, tmp_pat
     assert path.read_bytes() == Path(due["file"]).read_bytes()
     assert (found.id, found.path, found.sha256, found.new) == (due["id"], str(path), due["sha256"], True)
     assert found.remarks == tuple(due["absences"])
-    assert dtg_passport.load(path, corpus.signers, time=TIME).id == found.id
+    assert dtg_passport.load(path, corpus.signers, time=TIME, register=tmp_path / "found").id == found.id
     again = issue(corpus, tmp_path / "found", **asked)
     assert again == found._replace(new=False, remarks=())
 

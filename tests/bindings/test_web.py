@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
-from conftest import PROJECT, SIGNERS, TIME, Corpus, program
+from conftest import PROJECT, SIGNERS, TIME, Corpus, Registers, program
 from orders import CURRENTS, ORDERS, PASSPORT, REFUSED, RUN, calibrated
 
 WEB = PROJECT / "target/web"
@@ -150,12 +150,12 @@ def test_every_order_is_carried_out_as_by_the_program_or_refused(tmp_path: Path)
 TYPED = """
     import { calibrate, content, print, verify, type Order, type Question } from "./dtg_passport.mjs";
     const passport = new Uint8Array();
-    const question: Question = { serial: "0017", time: new Date(), at: [55.766, 37.685], revoked: [passport, "text"] };
+    const question: Question = { serial: "0017", time: new Date(), at: [55.766, 37.685], revoked: [passport, "text"], register: passport };
     const visit = { i: 2, j: 4, visit: 1, why: "door opened" };
     const order: Order = { method: "least-squares", model: "general", drift: true, exclude: [visit], laboratory: {}, gyro: {}, date: "2026-11-19" };
-    const { valid, checks } = await verify(passport, "signers", question);
+    const { valid, checks, register } = await verify(passport, "signers", question);
     const found = await calibrate(passport.buffer, passport, "i,j,jx_ma,jy_ma", question, order);
-    const said: string[] = [...(found.remarks ?? []), await print(passport, "signers"), ...checks.map(({ code }) => code)];
+    const said: string[] = [...(found.remarks ?? []), register?.sha256 ?? "", found.register?.issued_at ?? "", await print(passport, "signers"), ...checks.map(({ code }) => code)];
     const numbers: number[] = found.results[0]?.["omega0_deg_per_h"];
     export { valid, said, numbers, content };
 """
@@ -176,11 +176,11 @@ def test_the_types_for_typescript_hold(tmp_path: Path) -> None:
 MISUSED = """
     import { readFileSync } from "node:fs";
     import * as dtg from "%s";
-    const [passport, signers, currents, one, other] = %s.map((path) => readFileSync(path));
+    const [passport, signers, currents] = %s.map((path) => readFileSync(path));
     class Stand { get serial() { return "0018"; } }
     const wrong = [new Map([["serial", "0018"]]), new URLSearchParams("serial=0018"), Object.create({ serial: "0018" }),
         new Stand(), { serial: () => "0018" }, { serial: Symbol("0018") }, { serial: undefined }, { serial: null }, { serial: "" },
-        { serial: 18 }, { at: [NaN, 37] }, { at: "55,37" }, ["0018"], null, "0018"];
+        { serial: 18 }, { register: undefined }, { register: 17 }, { register: {} }, { at: [NaN, 37] }, { at: "55,37" }, ["0018"], null, "0018"];
     const said = (question) => dtg.verify(passport, signers, question).then(({ valid }) => `valid ${valid}`, (error) => error.message);
     const other_world = (await import("node:vm")).runInNewContext("({ time: '2026-11-20', serial: '0018' })");
     const semicolons = currents.toString().replaceAll(".", "¤").replaceAll(",", ";").replaceAll("¤", ",");
@@ -189,31 +189,69 @@ MISUSED = """
     console.log(JSON.stringify({
         refused: await Promise.all(wrong.map(said)),
         other_world: await said(other_world),
-        forked: await dtg.verify(passport, signers, { time: "2027-11-20", revoked: [one, other] }),
         semicolons: await calibrated(semicolons),
         amperes: await calibrated(amperes),
     }));
 """
 
 
-def test_a_question_is_never_left_out_and_remarks_are_handed_on(corpus: Corpus, tmp_path: Path) -> None:
+def test_a_question_is_never_left_out_and_remarks_are_handed_on(corpus: Corpus) -> None:
     """A check that is silently left out would make a passport of another stand valid."""
-    who = ("--key", corpus.folder / "key", "--identity", "factory@example.org", "--trust", corpus.signers)
-    lists = []
-    for name, passport in zip(("a", "b"), corpus.good):
-        program("revoke", passport, "--reason", name, "--list", tmp_path / name, *who)
-        lists += (tmp_path / name).glob("revocation-*.yaml")
     [mine] = [path for path in corpus.good if path.parts[-2:] == ("0017", "site-60-1.yaml")]
-    paths = json.dumps([str(path) for path in (mine, corpus.signers, CURRENTS, *lists)])
+    paths = json.dumps([str(path) for path in (mine, corpus.signers, CURRENTS)])
     found = json.loads(node(MISUSED % (WEB / "dtg_passport.mjs", paths)).stdout)
     assert not [said for said in found["refused"] if said.startswith("valid")], found["refused"]
     for words in ("question: found Map", "serial: found undefined; leave the key out", "serial: found null", "serial: found empty text",
-                  "serial: found 18, expected text", "0: found NaN"):  # fmt: skip
+                  "serial: found 18, expected text", "register: found undefined; leave the key out",
+                  "register: found 17, expected the content of a register", "register: found a mapping", "0: found NaN"):  # fmt: skip
         assert any(words in said for said in found["refused"]), (words, found["refused"])
     assert found["other_world"] == "valid false"
-    assert any("ALARM: fork" in remark for remark in found["forked"]["remarks"])
     assert any("decimal commas" in remark for remark in found["semicolons"]["remarks"])
     assert "too small by a factor of 1000" in found["amperes"]["remarks"][0] and found["amperes"]["mistake"]
+
+
+REGISTERED = """
+    import { readFileSync } from "node:fs";
+    import * as dtg from "%s";
+    const currents = readFileSync("%s");
+    const cases = JSON.parse(readFileSync(0, "utf8"));
+    const answer = (what) => what.catch((error) => error.cause ?? error.message);
+    for (const { passport, signers, register, time } of cases) {
+        const files = [readFileSync(passport), readFileSync(signers, "utf8")];
+        const content = readFileSync(register);
+        const text = content.toString("utf8");
+        const shapes = [content, content.buffer.slice(content.byteOffset, content.byteOffset + content.length)];
+        if (Buffer.from(text).equals(content)) shapes.push(text);
+        const found = [];
+        for (const given of shapes) {
+            const question = { time, register: given };
+            found.push([await dtg.verify(...files, question), await answer(dtg.content(...files, question)),
+                await answer(dtg.calibrate(...files, currents, question)), await answer(dtg.print(...files, question))]);
+        }
+        console.log(JSON.stringify(found));
+    }
+"""
+
+
+def test_every_register_gives_the_answer_of_the_program(registers: Registers, tmp_path: Path) -> None:
+    cases = [{key: str(value) for key, value in asked._asdict().items()} for asked in registers.asked]
+    lines = node(REGISTERED % (WEB / "dtg_passport.mjs", CURRENTS), cases).stdout.splitlines()
+    for asked, line in zip(registers.asked, lines, strict=True):
+        due = asked.verdict_on_content()
+        del due["file"]
+        program("render", asked.passport, "-o", tmp_path / "due.html", "--force", *asked.options()[:-2], accept=(0, 1))
+        page = (tmp_path / "due.html").read_text().replace(str(asked.register), "register")
+        found = json.loads(line)
+        assert len(found) == (2 if asked.name == "not text" else 3)
+        for verdict, content, calibration, printed in found:
+            assert verdict == due and list(verdict) == list(due), asked.name
+            assert printed == page, asked.name
+            if due["valid"]:
+                options = [*asked.options(), "--method=least-squares"]
+                assert calibration == json.loads(program("calibrate", asked.passport, CURRENTS, *options))
+                assert calibration["register"] == due["register"] and content["passport"]["id"] == due["id"]
+            else:
+                assert content == calibration == {"valid": False, "id": due["id"], "checks": due["checks"]}
 
 
 def test_the_printed_passport_is_that_of_the_program(tmp_path: Path) -> None:
@@ -227,7 +265,7 @@ def test_the_printed_passport_is_that_of_the_program(tmp_path: Path) -> None:
     assert node(script).stdout == (tmp_path / "due.html").read_text()
 
 
-def test_the_page_in_chromium(tmp_path: Path) -> None:
+def test_the_page_in_chromium(registers: Registers, tmp_path: Path) -> None:
     altered = tmp_path / "altered.yaml"
     altered.write_bytes(PASSPORT.read_bytes().replace(b"alpha_arcsec: 12.4", b"alpha_arcsec: 12.5", 1))
     hostile = tmp_path / "<img src=x onerror=alert(1)>.yaml"
@@ -249,8 +287,15 @@ def test_the_page_in_chromium(tmp_path: Path) -> None:
         {"files": files, "fields": asked},
         {"files": {}, "fields": serial, "drops": [[str(PASSPORT), str(SIGNERS), str(RUN), str(tmp_path / "order.json")]]},
     ]
+    registered = [{"files": {"passport": str(one.passport), "signers-file": str(one.signers), "register": str(one.register)}, "fields": {"time": one.time}}
+                  for one in registers.asked]  # fmt: skip
+    # A dropped register is told from a passport by its name.
+    [given] = registered[:1]
+    whole = registers.passports / "SPS-2/0017/register.yaml"
+    dropped = {"files": {"passport": [given["files"]["passport"], given["files"]["signers-file"], str(whole)]}, "fields": given["fields"], "drop": True}
+    cases += [dropped, *registered]
     found = json.loads(node(str(PROJECT / "tests/bindings/page.cjs"), {"page": str(WEB / "verify.html"), "cases": cases}).stdout)
-    good, changed, withdrawn, strange, no_time, typed, nothing, dropped, again, general = found["results"]
+    good, changed, withdrawn, strange, no_time, typed, nothing, dropped, again, general, *registered = found["results"]
     for result in (good, typed, dropped, again):
         assert "VALID SO FAR" in result["text"] and result["headings"][:2] == ["Answer", "Numbers"]
         assert result["frame"] > 10_000 and "SPS-2/0017/moscow-bmstu/1" in result["text"]
@@ -278,6 +323,15 @@ def test_the_page_in_chromium(tmp_path: Path) -> None:
     for result, code in ((changed, "altered"), (withdrawn, "key_revoked"), (strange, "malformed")):
         assert "REFUSED" in result["text"] and code in [row[2] for row in result["rows"][0]]
         assert result["headings"] == ["Answer"] and result["frame"] is None
+    for result, asked in zip(registered, [registers.good, *registers.asked], strict=True):
+        due = asked.verdict_on_content()
+        assert ("VALID SO FAR" if due["valid"] else "REFUSED") in result["text"], asked.name
+        *_, (mark, *answer) = result["rows"][0]
+        check = due["checks"][-1]
+        assert mark == ("ok" if due["valid"] else "FAILED") and answer == [check["name"], check["code"], check["detail"]]
+        used = due.get("register")
+        words = f"register {used['sequence']} of {used['issued_at']}, SHA-256 {used['sha256']}, fresh until {used['fresh_until']}" if used else ""
+        assert words in result["text"] and ("SHA-256" in result["text"]) == bool(used), asked.name
     assert no_time["headings"] == ["No answer"] and "expected a time" in no_time["text"]
     assert nothing["headings"] == ["No answer"] and "choose a passport" in nothing["text"]
     assert all(result["scripts"] == 0 for result in found["results"])

@@ -50,7 +50,7 @@ pub extern "C" fn content(inputs: &Inputs, now_s: f64) -> *const Slice {
 /// not authentic.
 #[unsafe(no_mangle)]
 pub extern "C" fn print(inputs: &Inputs, now_s: f64) -> *const Slice {
-    run(inputs, now_s, |Enquiry { trust, question, .. }, answer| {
+    run(inputs, now_s, |Enquiry { question, .. }, answer| {
         let page = PassportPage::of(inputs.passport.bytes(), question, answer.verification.clone());
         Ok(page.map_or_else(|_| answer.to_json(), |page| page.html(&Languages::from(Language::English))))
     })
@@ -63,7 +63,8 @@ pub extern "C" fn calibrated(inputs: &Inputs, now_s: f64) -> *const Slice {
     run(inputs, now_s, |_, answer| {
         let order = inputs.order.text()?.parse()?;
         let Some(passport) = answer.verification.passport() else { return Ok(answer.to_json()) };
-        Ok(calibrate(passport.content(), Some(answer.time), ("currents", inputs.currents.bytes()), &order)?.json)
+        let verified = Some((answer.time, answer.verification.register()));
+        Ok(calibrate(passport.content(), verified, ("currents", inputs.currents.bytes()), &order)?.json)
     })
 }
 
