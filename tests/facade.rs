@@ -7,6 +7,7 @@ use dtg_passport::earth::Place;
 use dtg_passport::interface;
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::passport::{CheckName, Code, Question, Trust, verify};
+use dtg_passport::register::VerifiedRegister;
 use dtg_passport::trust::AllowedSigners;
 use std::fs;
 
@@ -32,6 +33,38 @@ fn a_signed_passport_is_verified_and_an_altered_one_refused() {
     let answer = verify("altered", altered.as_bytes(), &trust(), &question());
     assert_eq!(answer.code(CheckName::Signature), Some(Code::Altered));
     assert!(answer.passport().is_none());
+}
+
+/// Expected: the shipped register lists the shipped passports of its stand, as current, and answers for no other stand. One
+/// that is altered makes no passport valid. The same by the interface of the other languages.
+#[test]
+fn a_register_is_asked() {
+    const PASSPORT: &str = "passports/SPS-2/0017/moscow-bmstu-1.yaml";
+    let question = question();
+    let verified = |bytes: &[u8]| VerifiedRegister::verify("register.yaml", bytes, &trust(), question.now);
+    let bytes = read("passports/SPS-2/0017/register.yaml");
+    let register = verified(&bytes).unwrap();
+    let answer =
+        |path: &str| verify(path, &read(path), &trust(), &question).with_register(Ok((&register, None)), &question);
+    let [good, other] = [PASSPORT, "passports/SPS-1/0203/moscow-bmstu-1.yaml"].map(answer);
+    assert!(good.valid() && good.code(CheckName::Register) == Some(Code::Ok), "{:#?}", good.checks());
+    assert!(!other.valid() && other.code(CheckName::Register) == Some(Code::RegisterUnknown));
+
+    let altered = String::from_utf8(bytes.clone()).unwrap().replacen("2026-11-09", "2026-11-10", 1).into_bytes();
+    let refused = verified(&altered).unwrap_err();
+    let answer = verify(PASSPORT, &read(PASSPORT), &trust(), &question).with_register(Err(&refused), &question);
+    assert!(!answer.valid() && answer.code(CheckName::Register) == Some(Code::RegisterUnknown));
+
+    for (register, valid, code) in [(&bytes, true, "ok"), (&altered, false, "register_unknown")] {
+        let asked = serde_json::json!({ "register": String::from_utf8(register.clone()).unwrap() }).to_string();
+        let signers = read("docs/allowed_signers");
+        let enquiry = interface::Enquiry::new(("allowed_signers", &signers), &[], &asked, question.now).unwrap();
+        let answer: serde_json::Value =
+            serde_json::from_str(&enquiry.verify(PASSPORT, &read(PASSPORT)).to_json()).unwrap();
+        let checks = answer["checks"].as_array().unwrap();
+        let check = checks.iter().find(|check| check["name"] == "register").unwrap();
+        assert_eq!((&answer["valid"], &check["code"]), (&valid.into(), &code.into()), "{answer}");
+    }
 }
 
 /// Expected: the coordinates of sites/moscow-bmstu.yaml, in the wrong order, and those of Beijing.

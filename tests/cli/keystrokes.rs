@@ -181,7 +181,10 @@ impl Way {
             serde_json::from_str(&self.run(&format!("dtg-passport register passports {trust} --format json"))).unwrap();
         let lines = register["stands"][0]["rows"].as_array().unwrap().iter();
         let states = lines.map(|line| format!("{} {}", line["id"].as_str().unwrap(), line["state"].as_str().unwrap()));
-        (contents.collect(), states.collect())
+        // The two ways issue in another order.
+        let mut states: Vec<String> = states.collect();
+        states.sort();
+        (contents.collect(), states)
     }
 }
 

@@ -63,7 +63,8 @@ impl Factory {
     fn passports(&self) -> BTreeMap<String, Vec<u8>> {
         let folder = self.path("passports/SPS-2/0017");
         let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-        files.map(|path| (path.file_name().unwrap().to_str().unwrap().to_owned(), fs::read(path).unwrap())).collect()
+        let named = files.map(|path| (path.file_name().unwrap().to_str().unwrap().to_owned(), fs::read(path).unwrap()));
+        named.filter(|(name, _)| name != ".register.lock").collect()
     }
 
     fn states(&self) -> Vec<String> {
@@ -106,8 +107,8 @@ fn all_places_get_the_new_certificate() {
         factory.states(),
         [
             "SPS-2/0017/here/1 superseded",
-            "SPS-2/0017/here/2 current",
             "SPS-2/0017/there/1 superseded",
+            "SPS-2/0017/here/2 current",
             "SPS-2/0017/there/2 current"
         ]
     );
@@ -116,6 +117,7 @@ fn all_places_get_the_new_certificate() {
     let expected = [
         "here-1.yaml",
         "here-2.yaml",
+        "register.yaml",
         "stand-C-2026-0143.superseded.yaml",
         "stand.yaml",
         "there-1.yaml",
@@ -123,7 +125,9 @@ fn all_places_get_the_new_certificate() {
     ];
     assert_eq!(names, expected);
     assert_eq!(after["stand-C-2026-0143.superseded.yaml"], before["stand.yaml"]);
-    before.iter().filter(|(name, _)| *name != "stand.yaml").for_each(|(name, bytes)| assert_eq!(&after[name], bytes));
+    let replaced = ["stand.yaml", "register.yaml"];
+    let kept = before.iter().filter(|(name, _)| !replaced.contains(&name.as_str()));
+    kept.for_each(|(name, bytes)| assert_eq!(&after[name], bytes));
 
     // Expected: `certify` with a header that omits the results and the dates of the old measurement.
     let header = fs::read_to_string(factory.path("header.yaml")).unwrap();
@@ -158,12 +162,28 @@ fn all_places_get_the_new_certificate() {
     let again = factory.json(&format!("{recertify} --key key"));
     assert!(again["passports"].as_array().unwrap().iter().all(|at| at["state"] == "unchanged"), "{again}");
     assert_eq!(factory.passports(), after);
-    fs::remove_file(factory.path("passports/SPS-2/0017/there-2.yaml")).unwrap();
-    fs::write(factory.path("passports/SPS-2/0017/stand.yaml"), &before["stand.yaml"]).unwrap();
-    let completed = factory.json(&format!("{recertify} --key key"));
-    let states: Vec<&Value> = completed["passports"].as_array().unwrap().iter().map(|at| &at["state"]).collect();
-    assert_eq!(states, ["unchanged", "issued"]);
+    let put_back = |names: &[&str]| {
+        let folder = factory.path("passports/SPS-2/0017");
+        names.iter().for_each(|name| fs::write(folder.join(name), &before[*name]).unwrap());
+        let completed = factory.json(&format!("{recertify} --key key"));
+        let states = completed["passports"].as_array().unwrap().iter();
+        states.map(|at| at["state"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    // Before the stand file, after the register.
+    assert_eq!(put_back(&["stand.yaml"]), ["unchanged", "unchanged"]);
     assert_eq!(factory.passports(), after, "the same files, byte by byte");
+    // Before the register, which has another time now, and between two passports.
+    fs::remove_file(factory.path("passports/SPS-2/0017/there-2.yaml")).unwrap();
+    assert_eq!(put_back(&["stand.yaml", "register.yaml"]), ["unchanged", "issued"]);
+    let mut completed = factory.passports();
+    assert!(completed.contains_key("register.yaml"));
+    completed.insert("register.yaml".to_owned(), after["register.yaml"].clone());
+    assert_eq!(completed, after, "the same files, byte by byte");
+    assert_eq!(factory.states().iter().filter(|state| state.ends_with("current")).count(), 2);
+    // A listed passport that is gone is not made again by itself.
+    fs::remove_file(factory.path("passports/SPS-2/0017/there-2.yaml")).unwrap();
+    let (code, _, said) = factory.run(&format!("{recertify} --key key"));
+    assert!(code == 2 && said.contains("there-2.yaml: cannot be read"), "{code}: {said}");
 }
 
 #[test]
@@ -206,7 +226,7 @@ fn an_expired_passport_is_recertified() {
     let recertify = format!("recertify {HERE} new.csv {ORDER} {SIGN} {late}");
     let found = factory.json(&recertify);
     let ids: Vec<&str> = found["passports"].as_array().unwrap().iter().map(|at| at["id"].as_str().unwrap()).collect();
-    assert_eq!((ids, &found["remaining"]), (vec!["SPS-2/0017/again/2", "SPS-2/0017/here/2"], &Value::Array(vec![])));
+    assert_eq!((ids, &found["remaining"]), (vec!["SPS-2/0017/here/2", "SPS-2/0017/again/2"], &Value::Array(vec![])));
     let shown = factory.json(&format!("show passports/SPS-2/0017/here-2.yaml {late}"));
     let changed = shown["passport"]["reissued_from"]["changed"].as_str().unwrap();
     assert!(changed.contains("certificate number 'C-2026-0143' -> 'C-2026-0300'"), "{changed}");
@@ -350,7 +370,7 @@ fn a_superseded_stand_file_is_kept() {
     assert_eq!(factory.passports()["stand-C-2026-0143.superseded.yaml"], old);
     // The same file again is not superseded.
     factory.good(certify);
-    assert_eq!(factory.passports().len(), 4);
+    assert_eq!(factory.passports().len(), 5);
     assert!(factory.states().iter().all(|line| line.ends_with("current")));
 }
 
@@ -361,9 +381,10 @@ fn nothing_else_is_left() {
     factory.good(&format!("recertify {HERE} new.csv {ORDER} {SIGN} {TRUST} --out renewed"));
     let there: Vec<_> =
         fs::read_dir(factory.path("renewed/SPS-2/0017")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
-    assert_eq!(there.len(), 3, "{there:?}");
+    // Two passports, the stand file, the register and its lock.
+    assert_eq!(there.len(), 5, "{there:?}");
     assert!(Path::new(&factory.path("renewed/SPS-2/0017/stand.yaml")).is_file());
-    assert_eq!(factory.passports().len(), 3);
+    assert_eq!(factory.passports().len(), 4);
 }
 
 /// The record of the certification shows what has changed, and the exclusion is in the certificate.
