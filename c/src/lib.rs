@@ -35,8 +35,9 @@ pub struct dtg_passport {
 /// Reads a passport and verifies it.
 ///
 /// `question_json` is NULL or JSON, `{"time": "2026-11-20T00:00:00Z", "serial": "0017", "at": [55.7660, 37.6850],
-/// "issuer": "…", "revoked": ["content of a revocation list", …]}`; every key may be absent, none null. `time` is by default now,
-/// `at` is latitude and longitude in degrees. `time` may also be a UTC date, and an element of `revoked` a list of bytes.
+/// "issuer": "…", "revoked": ["content of a revocation list", …]}`; every key may be absent, none null. `time` is by
+/// default now, `at` is latitude and longitude in degrees. `time` may also be a UTC date, and an element of `revoked` a list
+/// of bytes.
 ///
 /// Returns DTG_OK and the passport in `*out`, to be freed with dtg_free; DTG_REFUSED if a check failed; DTG_UNUSABLE if
 /// an argument, the question or a file cannot be used. `*out` is NULL unless DTG_OK is returned.

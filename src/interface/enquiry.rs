@@ -61,7 +61,8 @@ impl Enquiry {
     ///
     /// `revoked` are names and contents of revocation lists: OpenSSH KRLs, lists of public keys, lists of withdrawn
     /// passports. `question` is JSON, `{time, serial, at: [latitude, longitude], issuer, revoked: [text or bytes, …]}`,
-    /// in which every key may be absent, but not null: `time` in RFC 3339 or as a UTC date, by default `now`; `at` in degrees.
+    /// in which every key may be absent, but not null: `time` in RFC 3339 or as a UTC date, by default `now`; `at` in
+    /// degrees.
     ///
     /// # Errors
     /// Returns [`Failed`] if the question, the signers or a revocation list cannot be used.
