@@ -207,7 +207,7 @@ pub fn read(path: &std::path::Path) -> Result<Vec<u8>, FileError> {
     files::read(path, LARGEST_TRUST_FILE_BYTES)
 }
 
-/// Question or order, a JSON object, whose keys may all be absent. Null is refused, because it may be a value that got lost.
+/// Question or order, a JSON object, whose keys may all be absent. Null is refused: it may be a value that got lost.
 struct Asked {
     /// Name in messages.
     what: &'static str,
