@@ -29,23 +29,33 @@ fn signatures(bench: &Bench) -> usize {
     bench.read("told").lines().filter(|line| line.starts_with("called ssh-keygen -Y sign")).count()
 }
 
-/// `issue` with a key, in an environment, then `verify` with its public half.
+/// `issue` with a key, in an environment; with the trust in `signers`, if there is that file.
 fn issue(bench: &Bench, key: &str, environment: &[(&str, &Path)]) -> Finished {
     let project = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut program = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
     program.arg("issue").arg(project.join("passports/SPS-2/0017/stand.yaml"));
     program.arg("--site").arg(project.join("sites/braunschweig-ptb.yaml"));
     program.args(["--key", key, "--identity", "factory", "--issued-at", "2026-11-09T09:00:00Z", "--out", "out"]);
+    if bench.path("signers").exists() {
+        program.args(["--trust", "signers"]);
+    }
     program.env_remove("SSH_AUTH_SOCK").envs(environment.iter().copied());
     bench.run(&mut program, b"")
 }
 
-fn assert_issued(bench: &Bench, issued: &Finished) {
-    assert!(issued.good && issued.output.starts_with("● issued"), "{}{}", issued.output, issued.errors);
+/// Writes the trust in the key.
+fn trust(bench: &Bench) {
     let key = PublicKey::from_openssh(&bench.read("key.pub")).unwrap();
     bench.write("signers", format!("factory {}\n", key.to_openssh()));
+}
+
+/// The passport was issued, and is current in its register, by the public half of the key.
+fn assert_issued(bench: &Bench, issued: &Finished) {
+    assert!(issued.good && issued.output.starts_with("● issued"), "{}{}", issued.output, issued.errors);
+    trust(bench);
     let mut program = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
     program.args(["verify", "out/SPS-2/0017/braunschweig-ptb-1.yaml", "--trust", "signers", "--time", "2026-12-01"]);
+    program.args(["--register", "out"]);
     let verified = bench.run(&mut program, b"");
     assert!(verified.good && verified.output.starts_with("◐ VALID SO FAR"), "{}{}", verified.output, verified.errors);
 }
@@ -78,6 +88,11 @@ fn a_token_signs_a_passport_by_its_handle_file() {
     keygen.env("SSH_SK_PROVIDER", provider()).args(["-q", "-t", "ed25519-sk", "-N", "", "-C", "token", "-f", "key"]);
     let made = bench.run(&mut keygen, b"");
     assert!(made.good, "{}{}", made.output, made.errors);
+    // The handle does not tell the public half, so what is written cannot be verified without trust.
+    let issued = issue(&bench, "key", &[("SSH_SK_PROVIDER", provider())]);
+    assert!(!issued.good && issued.errors.contains("specify --trust"), "{}", issued.errors);
+    assert!(!bench.path("out").exists());
+    trust(&bench);
     assert_issued(&bench, &issue(&bench, "key", &[("SSH_SK_PROVIDER", provider())]));
 }
 
@@ -103,7 +118,8 @@ fn no_program_that_is_started_inherits_the_passphrase() {
     let environment =
         [("SSH_AUTH_SOCK", agent.socket.as_path()), ("DTG_PASSPORT_PASSPHRASE", passphrase), ("PATH", &path)];
     assert_issued(&bench, &issue(&bench, "key.pub", &environment));
-    assert_eq!(signatures(&bench), 1);
+    // Of the passport, and of the register.
+    assert_eq!(signatures(&bench), 2);
     let told = bench.read("told");
     assert!(told.contains("SSH_AUTH_SOCK=") && !told.contains("horse"), "{told}");
 }
