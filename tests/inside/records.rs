@@ -67,9 +67,9 @@ fn a_record_is_written_and_read_as_text_and_as_a_tree() {
         assert_eq!(place.open && place.remark.is_some(), length == 5);
         assert_eq!(place.write(), Some(tree));
         assert_eq!(crate::text::canonical::write_bare(&place), written);
-        assert_eq!(crate::text::canonical::read(&written), Ok(place));
+        assert_eq!(crate::text::canonical::read(&written, crate::text::Limits::DOCUMENT), Ok(place));
         let unnamed = written.replacen("a \\\"b\\\" \\\\ c", "", 1);
-        assert!(unnamed.starts_with("name: \"\"\n") && crate::text::canonical::read::<Place>(&unnamed).is_err());
+        assert!(unnamed.starts_with("name: \"\"\n") && crate::text::canonical::read::<Place>(&unnamed, crate::text::Limits::DOCUMENT).is_err());
     }
 }
 
