@@ -13,7 +13,7 @@ use crate::passport::issue::{Draft as Passport, Issue, PreparedStand};
 use crate::passport::reissue::Successor;
 use crate::passport::{Content, Question, verify};
 use crate::register::draft::Draft;
-use crate::register::{Doubt, Entry, FILE_NAME, RegisterRefused, State, VerifiedRegister};
+use crate::register::{Doubt, Entry, FILE_NAME, NoRegister, RegisterRefused, State, VerifiedRegister};
 use crate::site::Site;
 use crate::text::{LARGEST_DOCUMENT_BYTES, first_few, name_of, shown};
 use std::collections::BTreeMap;
@@ -68,6 +68,12 @@ impl<'a> StandFolder<'a> {
         planned: impl Fn(&str) -> bool,
     ) -> Result<Self, FolderRefused> {
         let (this, names) = Self::listed(folder, stand, authority)?;
+        if let Some(key) = authority.register_signer.and_then(|signer| signer.public_key()) {
+            // Otherwise the passports would be written, and then not be listed.
+            let name = name_of(&this.path.join(FILE_NAME));
+            let checked = VerifiedRegister::check_key(&name, &key, authority.issuer, authority.trust, authority.now());
+            checked.map_err(NoRegister::from)?;
+        }
         if names.iter().any(|name| name == FILE_NAME) {
             return Ok(Self { register: Some(this.read_register()?), ..this });
         }

@@ -27,7 +27,7 @@ pub struct Enquiry {
     pub trust: Trust,
     /// Question to verify passports for.
     pub question: Question,
-    /// Remarks for the user on the revocation lists and the register, one sentence each.
+    /// Remarks for the user on the lists of revoked keys and the register, one sentence each.
     pub remarks: Vec<String>,
     pub(crate) register: Option<Source>,
 }
@@ -53,7 +53,7 @@ pub struct Answer {
     pub sha256: String,
     /// Time for which the passport was verified.
     pub time: Timestamp,
-    /// Remarks for the user on the revocation lists and the register, one sentence each.
+    /// Remarks for the user on the lists of revoked keys and the register, one sentence each.
     pub remarks: Vec<String>,
 }
 
@@ -67,12 +67,12 @@ impl Answer {
 impl Enquiry {
     /// Creates an enquiry that trusts `signers`, the name and content of an allowed_signers file.
     ///
-    /// `revoked` are names and contents of revocation lists: OpenSSH KRLs, lists of public keys. `question` is JSON,
+    /// `revoked` are names and contents of lists of revoked keys: OpenSSH KRLs, lists of public keys. `question` is JSON,
     /// `{time, serial, at: [latitude, longitude], issuer, revoked: [text or bytes, …], register: text or bytes}`, in which
     /// every key may be absent: `time` in RFC 3339 or as a UTC date, by default `now`; `at` in degrees.
     ///
     /// # Errors
-    /// Returns [`Failed`] if the question, the signers or a revocation list cannot be used.
+    /// Returns [`Failed`] if the question, the signers or a list of revoked keys cannot be used.
     pub fn new(
         signers: (&str, &[u8]),
         revoked: &[(String, Vec<u8>)],
@@ -135,7 +135,7 @@ impl Enquiry {
         Answer { file: file.to_owned(), verification, sha256, time: self.question.time, remarks: self.all_remarks() }
     }
 
-    /// Returns the remarks on the revocation lists and on the registers that were read.
+    /// Returns the remarks on the lists of revoked keys and on the registers that were read.
     pub(crate) fn all_remarks(&self) -> Vec<String> {
         let of_registers = match &self.register {
             #[cfg(feature = "factory")]
@@ -207,7 +207,7 @@ fn content(node: &Node, at: &Path, problems: &mut Problems) -> Option<Vec<u8>> {
     content
 }
 
-/// Reads revocation lists, each as text or as a list of its bytes.
+/// Reads lists of revoked keys, each as text or as a list of its bytes.
 fn lists(node: &Node, at: &Path, problems: &mut Problems) -> Option<Vec<Vec<u8>>> {
     let lists = if let Node::List(all) = node { all.iter().map(content_of).collect() } else { None };
     if lists.is_none() {

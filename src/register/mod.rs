@@ -356,16 +356,26 @@ impl VerifiedRegister {
     pub fn verify(name: &str, bytes: &[u8], trust: &Trust, now: Timestamp) -> Result<Self, RegisterRefused> {
         let register = Self::take_over(name, bytes, trust)?;
         let (key, header) = (register.key(), register.header());
-        if let Some(why) = trust.revoked.iter().find_map(|keys| keys.revokes(key)) {
-            return Err(RegisterRefused::KeyRevoked { name: name.to_owned(), key: Box::new(key.clone()), why });
-        }
-        if let Err(miss) = trust.signers.authorise(key, &header.issuer, NAMESPACE, now) {
-            return Err(RegisterRefused::not_authorised(name, &miss, key, header, now));
-        }
+        Self::check_key(name, key, &header.issuer, trust, now)?;
         if header.issued_at.duration_since(now) > CLOCKS_DIFFER {
             return Err(RegisterRefused::FromTheFuture { name: name.to_owned(), issued_at: header.issued_at, now });
         }
         Ok(register)
+    }
+
+    /// Checks that a key may sign registers of an issuer now.
+    pub(crate) fn check_key(
+        name: &str,
+        key: &PublicKey,
+        issuer: &str,
+        trust: &Trust,
+        now: Timestamp,
+    ) -> Result<(), RegisterRefused> {
+        if let Some(why) = trust.revoked.iter().find_map(|keys| keys.revokes(key)) {
+            return Err(RegisterRefused::KeyRevoked { name: name.to_owned(), key: Box::new(key.clone()), why });
+        }
+        let miss = trust.signers.authorise(key, issuer, NAMESPACE, now);
+        miss.map_err(|miss| RegisterRefused::not_authorised(name, &miss, key, issuer, now))
     }
 
     /// Verifies the bytes of a register that a person takes over, although its key has expired or was revoked since.
@@ -379,7 +389,7 @@ impl VerifiedRegister {
         let content: Register = document::parse(name, payload, FORM.limits, Register::check)?;
         let (key, header) = (text.key(), content.header());
         let miss = trust.signers.authorise(key, &header.issuer, NAMESPACE, header.issued_at);
-        miss.map_err(|miss| RegisterRefused::not_authorised(name, &miss, key, header, header.issued_at))?;
+        miss.map_err(|miss| RegisterRefused::not_authorised(name, &miss, key, &header.issuer, header.issued_at))?;
         let places = content.passports.iter().map(|entry| entry.id.clone()).zip(0..).collect();
         Ok(Self { key: key.clone(), sha256: sha256_hex(bytes), places, content })
     }
@@ -422,10 +432,10 @@ impl VerifiedRegister {
 
 impl RegisterRefused {
     /// Returns the refusal of a key, with the line that allowed_signers needs if the key lacks this purpose only.
-    fn not_authorised(name: &str, miss: &NotAuthorised, key: &PublicKey, header: &Header, at: Timestamp) -> Self {
-        let mut why = miss.of_document(key, &header.issuer, at);
+    fn not_authorised(name: &str, miss: &NotAuthorised, key: &PublicKey, issuer: &str, at: Timestamp) -> Self {
+        let mut why = miss.of_document(key, issuer, at);
         if let NotAuthorised::WrongNamespace(allowed) = miss {
-            let line = format!("{} namespaces=\"{allowed},{NAMESPACE}\" {}", header.issuer, key.to_openssh());
+            let line = format!("{issuer} namespaces=\"{allowed},{NAMESPACE}\" {}", key.to_openssh());
             why += &format!("; if this key may sign registers, change its line in allowed_signers to: {line}");
         }
         Self::NotAuthorised { name: name.to_owned(), why }
