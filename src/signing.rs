@@ -226,7 +226,7 @@ pub(crate) fn protection_remark(path: &Path) -> Option<String> {
     cfg!(windows).then(|| format!("{words} `icacls {} /inheritance:r /grant:r \"%USERNAME%:R\"`", shown(path)))
 }
 
-/// Returns the line of allowed_signers that trusts `key` as `identity` for passports and their revocation lists.
+/// Returns the line of allowed_signers that trusts `key` as `identity` for passports and registers.
 ///
 /// # Errors
 /// Returns [`BadIdentity`] if the identity could be read as a pattern of several identities.

@@ -138,7 +138,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     for words in [no_such_stand(serial, &overview), options.no_such_site(&overview)].into_iter().flatten() {
         output::say(&words);
     }
-    let listed = overview.rows().count();
+    let listed = overview.stands.iter().map(|stand| stand.listed).sum();
     // The filters select rows; alarms concern all passports.
     for stand in &mut overview.stands {
         stand.rows.retain(|row| options.selects(row, question.time));

@@ -45,6 +45,9 @@ pub(crate) struct StandRows {
     pub rows: Vec<Row>,
     #[serde(skip)]
     pub issuer: String,
+    /// Number of passports, with those that the question does not concern.
+    #[serde(skip)]
+    pub listed: usize,
 }
 
 words! {
@@ -428,6 +431,7 @@ impl Query<'_> {
             fresh_until: header.fresh_until,
             rows,
             issuer: header.issuer.clone(),
+            listed: register.entries().len(),
         });
     }
 

@@ -89,13 +89,10 @@ pub enum FolderRefused {
     NoNewRegister(#[from] NoRegister),
     /// Register whose key has expired or was revoked, its SHA-256, and why it is not accepted.
     #[error(
-        "{}: {why}; if this is the last register, take it over with --adopt {sha256}; otherwise restore the last one from \
-         the backup",
-        shown(path)
+        "{why}; if this is the last register, take it over with --adopt {sha256}; otherwise restore the last one from the \
+         backup"
     )]
     Outdated {
-        /// Path of the register.
-        path: PathBuf,
         /// SHA-256 of the register.
         sha256: String,
         /// Reason why it is not accepted.

@@ -144,8 +144,8 @@ impl Registers {
     }
 
     fn found(&self, stand: &str) -> Result<Found, RegisterRefused> {
-        let bytes = self.bytes_of(stand)?;
-        let register = VerifiedRegister::verify(&name_of(&self.path), &bytes, &self.trust, self.now)?;
+        let (path, bytes) = self.bytes_of(stand)?;
+        let register = VerifiedRegister::verify(&name_of(&path), &bytes, &self.trust, self.now)?;
         let Some(memory) = self.memory.as_ref().filter(|_| register.header().stand == stand) else {
             return Ok(Found { register, doubt: None, remark: None });
         };
@@ -156,9 +156,10 @@ impl Registers {
         Ok(Found { register, doubt, remark })
     }
 
-    fn bytes_of(&self, stand: &str) -> Result<Vec<u8>, RegisterRefused> {
+    fn bytes_of(&self, stand: &str) -> Result<(PathBuf, Vec<u8>), RegisterRefused> {
+        let read = |path: PathBuf| bytes(&path).map(|bytes| (path, bytes));
         if !self.path.is_dir() {
-            return bytes(&self.path);
+            return read(self.path.clone());
         }
         let of_stand = self.path.join(stand);
         let way = [of_stand.parent().unwrap_or(&self.path), &of_stand];
@@ -166,9 +167,9 @@ impl Registers {
             let why = format!("{}: is a link, which is not followed", shown(link));
             return Err(RegisterRefused::Unreadable(why));
         }
-        match bytes(&of_stand.join(FILE_NAME)) {
+        match read(of_stand.join(FILE_NAME)) {
             Err(missing @ RegisterRefused::Missing(_)) => {
-                bytes(&self.path.join(FILE_NAME)).map_err(|other| match other {
+                read(self.path.join(FILE_NAME)).map_err(|other| match other {
                     RegisterRefused::Missing(_) => missing,
                     other => other,
                 })

@@ -258,9 +258,7 @@ impl Renewal {
                 }
                 Ok(register)
             }
-            Ok(_) if outdated => {
-                Err(NotRenewed::Folder(FolderRefused::Outdated { path, sha256, why: refused.to_string() }))
-            }
+            Ok(_) if outdated => Err(NotRenewed::Folder(FolderRefused::Outdated { sha256, why: refused.to_string() })),
             _ => Err(refused.into()),
         }
     }

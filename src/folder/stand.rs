@@ -6,14 +6,14 @@
 use super::refused::FolderRefused;
 use super::registers::{self, doubt};
 use super::{Authority, Existing, Folder, Issued, Next, Sealed};
-use crate::document::{Signer, sha256_hex};
+use crate::document::sha256_hex;
 use crate::files::{self, Access, FileError};
 use crate::passport::checks::for_the_issuer;
 use crate::passport::issue::{Draft as Passport, Issue, PreparedStand};
 use crate::passport::reissue::Successor;
 use crate::passport::{Content, Question, content_from_anyone, verify};
 use crate::register::draft::Draft;
-use crate::register::{Doubt, Entry, FILE_NAME, RegisterRefused, State, VerifiedRegister};
+use crate::register::{Doubt, Entry, FILE_NAME, NoRegister, RegisterRefused, State, VerifiedRegister};
 use crate::site::Site;
 use crate::text::{LARGEST_DOCUMENT_BYTES, first_few, name_of, shown};
 use std::collections::BTreeMap;
@@ -67,13 +67,13 @@ impl<'a> StandFolder<'a> {
         authority: &'a Authority<'a>,
         planned: impl Fn(&str) -> bool,
     ) -> Result<Self, FolderRefused> {
-        // No passport is written that no register could list.
-        let key = authority.register_signer.and_then(Signer::public_key);
-        if let Some(key) = key {
-            let Authority { issuer, trust, .. } = *authority;
-            RegisterRefused::unless_authorised(FILE_NAME, trust, &key, issuer, authority.now())?;
-        }
         let (this, names) = Self::listed(folder, stand, authority)?;
+        if let Some(key) = authority.register_signer.and_then(|signer| signer.public_key()) {
+            // Otherwise the passports would be written, and then not be listed.
+            let name = name_of(&this.path.join(FILE_NAME));
+            let checked = VerifiedRegister::check_key(&name, &key, authority.issuer, authority.trust, authority.now());
+            checked.map_err(NoRegister::from)?;
+        }
         if names.iter().any(|name| name == FILE_NAME) {
             return Ok(Self { register: Some(this.read_register()?), ..this });
         }

@@ -65,12 +65,12 @@ impl Answer {
 impl Enquiry {
     /// Creates an enquiry that trusts `signers`, the name and content of an allowed_signers file.
     ///
-    /// `revoked` are names and contents of revocation lists: OpenSSH KRLs, lists of public keys. `question` is JSON,
+    /// `revoked` are names and contents of lists of revoked keys: OpenSSH KRLs, lists of public keys. `question` is JSON,
     /// `{time, serial, at: [latitude, longitude], issuer, revoked: [text or bytes, …], register: text or bytes}`, in which
     /// every key may be absent, but not null: `time` in RFC 3339 or as a UTC date, by default `now`; `at` in degrees.
     ///
     /// # Errors
-    /// Returns [`Failed`] if the question, the signers or a revocation list cannot be used.
+    /// Returns [`Failed`] if the question, the signers or a list of revoked keys cannot be used.
     pub fn new(
         signers: (&str, &[u8]),
         revoked: &[(String, Vec<u8>)],
@@ -205,7 +205,7 @@ fn content(node: &Node, at: &Path, problems: &mut Problems) -> Option<Vec<u8>> {
     content
 }
 
-/// Reads revocation lists, each as text or as a list of its bytes.
+/// Reads lists of revoked keys, each as text or as a list of its bytes.
 fn lists(node: &Node, at: &Path, problems: &mut Problems) -> Option<Vec<Vec<u8>>> {
     let lists = if let Node::List(all) = node { all.iter().map(content_of).collect() } else { None };
     if lists.is_none() {

@@ -87,7 +87,7 @@ pub enum NoRegister {
     #[error(transparent)]
     Identity(#[from] BadIdentity),
     /// The new register failed verification.
-    #[error("the new register failed verification ({0}); nothing was written")]
+    #[error("the new register failed verification ({0}); nothing was written; check the keys, --identity and --trust")]
     Refused(#[from] RegisterRefused),
     /// The signer produced no signature.
     #[error(transparent)]

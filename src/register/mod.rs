@@ -357,14 +357,25 @@ impl VerifiedRegister {
     pub fn verify(name: &str, bytes: &[u8], trust: &Trust, now: Timestamp) -> Result<Self, RegisterRefused> {
         let register = Self::take_over(name, bytes, trust)?;
         let (key, header) = (register.key(), register.header());
-        if let Some(why) = trust.revoked.iter().find_map(|keys| keys.revokes(key)) {
-            return Err(RegisterRefused::KeyRevoked { name: name.to_owned(), key: Box::new(key.clone()), why });
-        }
-        RegisterRefused::unless_authorised(name, trust, key, &header.issuer, now)?;
+        Self::check_key(name, key, &header.issuer, trust, now)?;
         if header.issued_at.duration_since(now) > CLOCKS_DIFFER {
             return Err(RegisterRefused::FromTheFuture { name: name.to_owned(), issued_at: header.issued_at, now });
         }
         Ok(register)
+    }
+
+    /// Checks that a key may sign registers of an issuer now.
+    pub(crate) fn check_key(
+        name: &str,
+        key: &PublicKey,
+        issuer: &str,
+        trust: &Trust,
+        now: Timestamp,
+    ) -> Result<(), RegisterRefused> {
+        if let Some(why) = trust.revoked.iter().find_map(|keys| keys.revokes(key)) {
+            return Err(RegisterRefused::KeyRevoked { name: name.to_owned(), key: Box::new(key.clone()), why });
+        }
+        RegisterRefused::unless_authorised(name, trust, key, issuer, now)
     }
 
     /// Verifies the bytes of a register that a person takes over, although its key has expired or was revoked since.

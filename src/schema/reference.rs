@@ -57,7 +57,9 @@ impl Section<'_> {
     }
 
     fn definition(&self, name: &str) -> Option<Map<String, Value>> {
-        self.schema.pointer(&format!("/$defs/{name}"))?.as_object().cloned()
+        let found = self.schema.pointer(&format!("/$defs/{name}"))?.as_object()?;
+        // A record on one line refers to the record.
+        reference(found).map_or_else(|| Some(found.clone()), |record| self.definition(record))
     }
 
     /// Returns the kind of a value, in words.

@@ -2,8 +2,8 @@
 //!
 //! In a fenced block `console` a line `$ …` is typed into `sh`, and below it stand the lines that come back: standard
 //! output first, then standard error with `! ` before each line, then `? 2` when the exit code is 2 instead of 0.
-//! Every heading begins in a fresh folder with the files of `tests/cmd/files` and the published test key. SHA-256
-//! sums and the program's version are shown as `[sha256]` and `[version]`, for they change with the text of a passport.
+//! Every heading begins in a fresh folder with the files of `tests/cmd/files` and the published test key. SHA-256,
+//! the program's version, and times of the run itself are shown as `[sha256]`, `[version]` and `[now]`.
 //!
 //! `TRANSCRIPTS=write cargo test --test cli transcripts` writes what comes back into the transcripts: read the difference.
 //!
@@ -164,6 +164,8 @@ fn play(told: &str) -> String {
 /// A fresh folder.
 struct Stage {
     folder: tempfile::TempDir,
+    /// Time at which the heading began, as RFC 3339.
+    begun: String,
 }
 
 impl Stage {
@@ -175,7 +177,7 @@ impl Stage {
         // Git does not keep this mode, and a private key that others can read is refused.
         let mode = Command::new("chmod").arg("600").arg(folder.path().join("key")).status().unwrap();
         assert!(mode.success());
-        Self { folder }
+        Self { folder, begun: now() }
     }
 
     fn run(&self, command: &str) -> String {
@@ -218,13 +220,28 @@ impl Stage {
                 digits.push(c);
                 continue;
             }
-            lasting += if digits.len() == 64 { "[sha256]" } else { &digits };
+            let is_sha256 = digits.len() == 64 || (digits.len() == 16 && c == '…');
+            lasting += if is_sha256 { "[sha256]" } else { &digits };
             digits.clear();
             lasting.push(c);
         }
         lasting.pop();
-        lasting
+        // Registers are dated by the clock.
+        let ended = now();
+        let of_run = |start: usize| {
+            lasting.get(start..start + ended.len()).filter(|time| (&*self.begun..=&*ended).contains(time))
+        };
+        let mut times: Vec<String> =
+            lasting.match_indices(&ended[..2]).filter_map(|(start, _)| of_run(start)).map(str::to_owned).collect();
+        times.dedup();
+        times.iter().fold(lasting, |text, time| text.replace(time, "[now]"))
     }
+}
+
+/// Returns the time in UTC as RFC 3339, in whole seconds.
+fn now() -> String {
+    let output = Command::new("date").args(["-u", "+%FT%TZ"]).output().unwrap();
+    String::from_utf8(output.stdout).unwrap().trim().to_owned()
 }
 
 fn copy(from: &Path, to: &Path) {
