@@ -58,6 +58,16 @@ fn assert_issued(bench: &Bench, issued: &Finished) {
     program.args(["--register", "out"]);
     let verified = bench.run(&mut program, b"");
     assert!(verified.good && verified.output.starts_with("◐ VALID SO FAR"), "{}{}", verified.output, verified.errors);
+    // The real OpenSSH accepts the register too, and only as one.
+    let register = bench.read("out/SPS-2/0017/register.yaml");
+    let (payload, armor) = register.split_once("signature: |\n").unwrap();
+    bench.write("register.sig", armor.replace("  ", ""));
+    for (namespace, good) in [("dtg-register", true), ("dtg-passport", false)] {
+        let mut openssh = Command::new("ssh-keygen");
+        openssh.args(["-Y", "verify", "-n", namespace, "-I", "factory", "-s", "register.sig", "-f", "signers"]);
+        let verified = bench.run(&mut openssh, payload.as_bytes());
+        assert_eq!(verified.good, good, "{namespace}: {}{}", verified.output, verified.errors);
+    }
 }
 
 #[test]
