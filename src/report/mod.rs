@@ -33,6 +33,7 @@ pub(crate) mod deviations;
 pub(crate) mod difference;
 pub(crate) mod exported;
 pub(crate) mod gyros;
+#[cfg(feature = "factory")]
 pub(crate) mod history;
 #[cfg(feature = "factory")]
 pub(crate) mod issued;
@@ -45,6 +46,7 @@ pub(crate) mod plan;
 #[cfg(feature = "factory")]
 pub(crate) mod recertification;
 pub(crate) mod recorded;
+#[cfg(feature = "factory")]
 pub(crate) mod register;
 mod scatter;
 pub(crate) mod selftest;

@@ -140,7 +140,7 @@ class Registers:
         program("keygen", key, "--identity", "factory@example.org", "--no-passphrase", "--allowed-signers", self.signers)
         (folder / "sites").mkdir()
         for number in range(5):
-            site = SITE.format(number=number, latitude=50.0 + 3.0 * number)
+            site = SITE.format(number=number, latitude=f"{55.766 + 3.0 * number:.3f}")
             (folder / "sites" / f"site-{number}.yaml").write_text(site)
         stands = [PROJECT / "passports/SPS-1/0203/stand.yaml", PROJECT / "passports/SPS-2/0017/stand.yaml"]
         at = ["--issued-at", "2026-11-10T00:00:00Z"]

@@ -153,7 +153,7 @@ TYPED = """
     const question: Question = { serial: "0017", time: new Date(), at: [55.766, 37.685], revoked: [passport, "text"], register: passport };
     const visit = { i: 2, j: 4, visit: 1, why: "door opened" };
     const order: Order = { method: "least-squares", model: "general", drift: true, exclude: [visit], laboratory: {}, gyro: {}, date: "2026-11-19" };
-    const { valid, checks, register } = await verify(passport, "signers", question);
+    const { valid, register, checks } = await verify(passport, "signers", question);
     const found = await calibrate(passport.buffer, passport, "i,j,jx_ma,jy_ma", question, order);
     const said: string[] = [...(found.remarks ?? []), register?.sha256 ?? "", found.register?.issued_at ?? "", await print(passport, "signers"), ...checks.map(({ code }) => code)];
     const numbers: number[] = found.results[0]?.["omega0_deg_per_h"];

@@ -10,7 +10,7 @@
 //! * [`place`]: the area where the passport is valid.
 //! * [`accuracy`]: the expected calibration uncertainty.
 //! * [`residuals`], [`tolerances`], [`convergence`]: pictures of a calibration.
-//! * [`budget`], [`simulation`], `plan`, [`history`]: picture files of a budget, of the paper's Fig. 4, of a plan, and of
+//! * [`budget`], [`simulation`], `plan`, `history`: picture files of a budget, of the paper's Fig. 4, of a plan, and of
 //!   a stand over the years.
 //! * [`drawing`], [`file`], [`label`]: common parts.
 
@@ -20,6 +20,7 @@ pub(crate) mod convergence;
 pub(crate) mod deviations;
 pub(crate) mod drawing;
 pub(crate) mod file;
+#[cfg(feature = "factory")]
 pub(crate) mod history;
 pub(crate) mod label;
 pub(crate) mod place;
