@@ -50,7 +50,7 @@ pub extern "C" fn content(inputs: &Inputs, now_s: f64) -> *const Slice {
 /// not authentic.
 #[unsafe(no_mangle)]
 pub extern "C" fn print(inputs: &Inputs, now_s: f64) -> *const Slice {
-    run(inputs, now_s, |Enquiry { trust, question, .. }, answer| {
+    run(inputs, now_s, |Enquiry { question, .. }, answer| {
         let page = PassportPage::of(inputs.passport.bytes(), question, answer.verification.clone());
         Ok(page.map_or_else(|_| answer.to_json(), |page| page.html(&Languages::from(Language::English))))
     })
