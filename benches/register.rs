@@ -63,7 +63,7 @@ fn main() {
     say("register", &ours);
     say("floor   ", &floor);
     println!(
-        "register / floor: {:.2}; {:.2} by processor time (asked for: floor / register at least 0.45)",
+        "floor / register: {:.2}; {:.2} by processor time (asked for: 0.45)",
         ratio(|time| time.wall),
         ratio(|time| time.processor)
     );

@@ -30,6 +30,9 @@ fn now() -> Timestamp {
     day(10)
 }
 
+/// Change of a register before it is signed.
+type Change<'a> = &'a dyn Fn(&mut Register);
+
 /// Factory with a folder of passports: `here/1`, superseded by `here/2`; `there/1`, withdrawn; `hall/1`, current.
 struct Factory {
     folder: tempfile::TempDir,
@@ -323,7 +326,7 @@ fn no_other_signature_and_no_broken_rule_is_accepted() {
         move |register: &mut Register, change: &dyn Fn(&mut Entry)| change(&mut register.passports[place])
     };
     let first = entry(0);
-    let changes: [(&str, &dyn Fn(&mut Register)); 9] = [
+    let changes: [(&str, Change); 9] = [
         ("nothing", &|_| {}),
         ("sequence", &|register| register.register.0.sequence += 1),
         ("previous_sha256", &|register| register.register.0.previous_sha256 = Some("0".repeat(64))),
@@ -349,7 +352,7 @@ fn no_other_signature_and_no_broken_rule_is_accepted() {
         factory.attacked("signed by another key", "for passports", UNKNOWN);
     });
     let by = Some("SPS-2/0017/here/2".to_owned());
-    let broken: [(&str, &dyn Fn(&mut Register)); 22] = [
+    let broken: [(&str, Change); 22] = [
         ("another format", &|register| register.format = "dtg-register/2".to_owned()),
         ("sequence 0", &|register| register.register.0.sequence = 0),
         ("no SHA-256 of the one before", &|register| register.register.0.previous_sha256 = None),
@@ -472,7 +475,7 @@ fn an_older_register_does_not_count_where_a_later_one_is_known() {
     fs::write(factory.register(), &last).unwrap();
     // Contradictions, signed by the right key.
     let good = factory.content();
-    let cases: [(&str, u64, &dyn Fn(&mut Register)); 5] = [
+    let cases: [(&str, u64, Change); 5] = [
         ("two of one number", 0, &|register| register.register.0.fresh_until = Some("2099-01-01".parse().unwrap())),
         ("an entry is lost", 1, &|register| drop(register.passports.remove(2))),
         ("a state goes back", 1, &|register| {
