@@ -69,7 +69,10 @@ fn a_record_is_written_and_read_as_text_and_as_a_tree() {
         assert_eq!(crate::text::canonical::write_bare(&place), written);
         assert_eq!(crate::text::canonical::read(&written, crate::text::Limits::DOCUMENT), Ok(place));
         let unnamed = written.replacen("a \\\"b\\\" \\\\ c", "", 1);
-        assert!(unnamed.starts_with("name: \"\"\n") && crate::text::canonical::read::<Place>(&unnamed, crate::text::Limits::DOCUMENT).is_err());
+        assert!(
+            unnamed.starts_with("name: \"\"\n")
+                && crate::text::canonical::read::<Place>(&unnamed, crate::text::Limits::DOCUMENT).is_err()
+        );
     }
 }
 
