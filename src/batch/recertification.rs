@@ -112,7 +112,7 @@ pub(crate) enum NotRecertified {
     Unreadable(#[from] Unreadable),
     /// Successor that cannot be issued.
     #[error("{0}: {1}; nothing was written")]
-    Folder(String, FolderRefused),
+    Folder(String, Box<FolderRefused>),
     #[error(transparent)]
     File(#[from] FileError),
 }
@@ -156,7 +156,7 @@ impl Recertification<'_> {
         let text = certification.to_yaml(&name_of(&stand_file))?;
         stands.check_place(&stand_file).map_err(refused)?;
         self.check_there(&stand_file, &certification)?;
-        let failed = |refused| NotRecertified::Folder(old_stand.stand.id(), refused);
+        let failed = |refused| NotRecertified::Folder(old_stand.stand.id(), Box::new(refused));
         let source = match Folder::root_of(self.passport, &old_stand.stand) {
             Ok(above) => Folder::new(above),
             Err(_) => Folder::new(&root),
@@ -180,7 +180,7 @@ impl Recertification<'_> {
             Some(_) => {
                 let sealed = next.into_iter().map(|next| {
                     let id = next.id().to_owned();
-                    to.seal(next).map_err(|refused| NotRecertified::Folder(id, refused))
+                    to.seal(next).map_err(|refused| NotRecertified::Folder(id, Box::new(refused)))
                 });
                 let sealed = sealed.collect::<Result<Vec<_>, _>>()?;
                 if self.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed)) {
@@ -380,7 +380,7 @@ impl Recertification<'_> {
             before_expiry(&old.path, &old.bytes, self.authority.trust, &Question::at(self.question.time));
         let next = successor(&old.bytes, &verification, &order)
             .map_err(|why| refused(format!("{}: {why}", shown(&old.path))))?;
-        to.next_successor(&next).map_err(|why| NotRecertified::Folder(old.content.passport.id.clone(), why))
+        to.next_successor(&next).map_err(|why| NotRecertified::Folder(old.content.passport.id.clone(), Box::new(why)))
     }
 }
 
@@ -470,6 +470,6 @@ fn write(
     }
     written.map_err(|refused| match refused {
         FolderRefused::File(error) => NotRecertified::File(error),
-        refused => NotRecertified::Folder(to.stand().to_owned(), refused),
+        refused => NotRecertified::Folder(to.stand().to_owned(), Box::new(refused)),
     })
 }

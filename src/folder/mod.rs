@@ -102,7 +102,7 @@ pub struct Issued {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Next {
     /// Equal passport that already exists, and its entry if the register does not list it.
-    There { issued: Issued, listing: Option<Listing> },
+    There { issued: Issued, listing: Option<Box<Listing>> },
     /// New passport, computed and checked, which is yet to be signed and written, and the one that it supersedes.
     New { path: PathBuf, draft: Box<Draft>, superseded: Option<(String, State)> },
 }

@@ -246,7 +246,7 @@ impl<'a> StandFolder<'a> {
             Some(entry) if entry.sha256 != there.sha256 => return Err(FolderRefused::OtherFile(there.path)),
             Some(entry) if entry.state == State::Current => None,
             Some(entry) => return Err(FolderRefused::ended(there.path, entry)),
-            None => Some(Listing { entry: Draft::entry_of(&there.content, &there.sha256), superseded }),
+            None => Some(Box::new(Listing { entry: Draft::entry_of(&there.content, &there.sha256), superseded })),
         };
         Ok(Next::There { issued: there.left(draft), listing })
     }
@@ -346,7 +346,7 @@ impl<'a> StandFolder<'a> {
     pub(crate) fn seal(&self, next: Next) -> Result<Sealed, FolderRefused> {
         match next {
             Next::There { issued, listing } => {
-                self.listings.lock().unwrap_or_else(PoisonError::into_inner).extend(listing);
+                self.listings.lock().unwrap_or_else(PoisonError::into_inner).extend(listing.map(|listing| *listing));
                 Ok(Sealed { issued, text: None })
             }
             Next::New { path, draft, superseded } => {

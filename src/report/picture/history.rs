@@ -236,10 +236,10 @@ fn in_words(history: &History) -> String {
     let certificates = history.certificates.iter().map(|at| {
         format!("certificate {} measured on {}", at.stand.certificate.number, at.stand.certificate.measured())
     });
-    let passports = history.passports.iter().filter_map(|at| {
+    let passports = history.passports.iter().map(|at| {
         let expires = at.expires_at.map_or_else(String::new, |end| format!(", expires {end}"));
         let ended = at.ended_at.map_or_else(|| format!("in force{expires}"), |end| format!("until {end}"));
-        Some(format!("passport {} from {}, {ended}", at.row.id, at.row.issued_at))
+        format!("passport {} from {}, {ended}", at.row.id, at.row.issued_at)
     });
     let drifts = history.drift.series.iter().filter_map(|series| {
         let fitted = series.line.as_ref()?;
