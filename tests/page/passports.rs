@@ -152,7 +152,7 @@ const CHECKS: [[&str; 2]; 11] = [
     ["Signature", "Подпись"],
     ["Content", "Содержание"],
     ["Signing key", "Ключ подписи"],
-    ["Withdrawal", "Отзыв"],
+    ["Revocation of the key", "Отзыв ключа"],
     ["Numbers", "Числа"],
     ["Validity period", "Срок действия"],
     ["Issuer", "Организация"],
@@ -161,7 +161,7 @@ const CHECKS: [[&str; 2]; 11] = [
     ["Register", "Реестр"],
 ];
 
-/// What was not asked is said so: no case has a list of withdrawals or a register, and only some ask for issuer, stand and place.
+/// What was not asked is said so: no case has a list of revoked keys or a register, and only some ask for issuer, stand and place.
 #[test]
 fn what_was_not_asked_is_not_called_passed() {
     for (case, found) in PASSPORTS.each() {
