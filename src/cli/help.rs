@@ -226,8 +226,8 @@ mod tests {
         }
         // An option and its value stay together, and every word is there.
         let (_, revoke) = all.iter().find(|(name, _)| name == "dtg-passport revoke -h").unwrap();
-        let usage = "Usage: dtg-passport revoke [OPTIONS] --reason <TEXT> --list <FOLDER> --key <KEY>\n  \
-                     --identity <WHO> --trust <SIGNERS> <PASSPORT-ID>...\n";
+        let usage = "Usage: dtg-passport revoke [OPTIONS] --reason <TEXT> --identity <WHO>\n  \
+                     --trust <SIGNERS> <PASSPORT-ID>...\n";
         assert!(revoke.contains(usage), "{revoke}");
     }
 

@@ -58,11 +58,11 @@ const STATES: [&str; 5] = ["current", "superseded", "moved", "withdrawn", "expir
 
 #[derive(Args)]
 struct RenewalOptions {
-    /// With --renew: last day on which the new registers count as fresh (inclusive), or `never` [default: as before]
+    /// With --renew: date until which the new registers count as fresh (inclusive), or `never` [default: as before]
     #[arg(long, value_name = "DATE|never", value_parser = fresh_until, requires = "renew")]
     fresh_until: Option<Fresh>,
-    /// With --renew: take over the passport that is not listed, or the register whose key is no longer trusted, with this
-    /// SHA-256 (repeatable)
+    /// With --renew: take over the passport that is not listed, or the register under a signing key that is no longer
+    /// trusted, with this SHA-256 (repeatable)
     #[arg(long, value_name = "SHA256", requires = "renew")]
     adopt: Vec<String>,
     /// With --renew: join with another register of the same stand

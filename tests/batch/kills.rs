@@ -221,7 +221,8 @@ fn temporary_files_that_are_taken_away_cost_nothing() {
     assert!(taken > 0, "nothing was taken away");
     // Whoever lost his file four times in a row says so.
     assert_eq!(code == 0, said.ids("refused").is_empty(), "{}", said.words);
-    assert_eq!(workshop.sound("passports"), said.ids("issued"));
+    // What is refused may be there whole: its register was lost, so it does not count.
+    assert!(workshop.sound("passports").is_superset(&said.ids("issued")), "{}", said.words);
     workshop.run(&format!("issue stands --site sites {SIGN}"), 0);
     assert_eq!(workshop.sound("passports").len(), 120);
 }

@@ -319,7 +319,7 @@ fn a_refusal_writes_nothing() {
         (
             format!("{HERE} new.csv {}", good.replace("--identity factory", "--identity somebody")),
             1,
-            "failed verification (signer",
+            "the signing key belongs to factory, not to this issuer",
         ),
         (format!("{HERE} new.csv {}", good.replace("--issued 2026-11-20", "--issued 2026-11-21")), 1, "certificate"),
         (format!("{HERE} new.csv {}", good.replace("--time 2026-11-21", "--time 2026-11-01")), 1, "in_force"),
