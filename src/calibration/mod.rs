@@ -34,8 +34,8 @@
 //! let laboratory = Laboratory::paper();
 //! let uncertainty = InputUncertainty::of_meter((&laboratory.meter).into());
 //! let setup = Setup::new(&stand, EarthRate::at_astronomic_latitude(55.7658), uncertainty)?;
-//! # let csv = "i,j,jx_ma,jy_ma\n1,1,-0.2010,-0.1014\n1,2,-0.1014,-0.2010\n1,3,-0.1809,-0.2814\n1,4,-0.2814,-0.1809\n\
-//! #            2,1,-0.0883,-0.1761\n2,2,-0.1596,-0.2997\n2,3,-0.2937,-0.2067\n2,4,-0.2224,-0.0831\n";
+//! # let csv = "i,j,jx_ma,jy_ma\n1,1,-0.1993,-0.1007\n1,2,-0.1015,-0.1996\n1,3,-0.1828,-0.2819\n1,4,-0.2807,-0.1829\n\
+//! #            2,1,-0.0884,-0.1775\n2,2,-0.1581,-0.2994\n2,3,-0.2937,-0.2051\n2,4,-0.2240,-0.0832\n";
 //!
 //! let readings = Readings::from_csv("currents.csv", csv.as_bytes(), setup.coefficients(), laboratory.meter.range_ma)?;
 //! let calibration = calibrate(&setup, &readings, &Options::default())?;

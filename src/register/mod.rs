@@ -215,7 +215,7 @@ fn is_past(last: Date, time: Timestamp) -> bool {
 
 impl Register {
     /// Returns identity, sequence and time of the register.
-    pub fn header(&self) -> &Header {
+    pub(crate) fn header(&self) -> &Header {
         &self.register.0
     }
 

@@ -152,7 +152,7 @@ const CHECKS: [[&str; 2]; 11] = [
     ["Signature", "Подпись"],
     ["Content", "Содержание"],
     ["Signing key", "Ключ подписи"],
-    ["Revocation of the key", "Отзыв ключа"],
+    ["Revocation", "Отзыв"],
     ["Numbers", "Числа"],
     ["Validity period", "Срок действия"],
     ["Issuer", "Организация"],

@@ -72,10 +72,10 @@ texts! {
     }
     NOT_TESTED {
         en: "Without a gyro type these errors are not recognised: columns of currents that are exchanged or reversed, a unit of \
-             the currents that is wrong by a factor below 1000, a passport of another site, a rotated gyro or base, and \
+             the currents that is wrong by a factor below a thousand, a passport of another site, a rotated gyro or base, and \
              positions numbered differently.",
         ru: "Без типа гироскопа не распознаются перестановка токов x и y, обратный знак тока, неверная единица тока (менее чем \
-             в 1000 раз), паспорт другого места установки, поворот гироскопа или основания и другая нумерация положений."
+             в тысячу раз), паспорт другого места установки, поворот гироскопа или основания и другая нумерация положений."
     }
     MISTAKE { en: "These are not the parameters of this gyro", ru: "Параметры не относятся к данному гироскопу" }
     MISTAKE_CURRENTS {

@@ -47,7 +47,7 @@ texts! {
     }
     SIGNER { en: "Signing key", ru: "Ключ подписи" }
     SIGNER_OK { en: "the key belongs to {issuer}", ru: "владелец ключа: {issuer}" }
-    REVOCATION { en: "Revocation of the key", ru: "Отзыв ключа" }
+    REVOCATION { en: "Revocation", ru: "Отзыв" }
     REVOCATION_NO_LIST { en: "no list of revoked keys was given", ru: "список отозванных ключей не предъявлен" }
     REVOCATION_OK { en: "the key is not revoked", ru: "ключ не отозван" }
     RECOMPUTED { en: "Numbers", ru: "Числа" }
