@@ -289,10 +289,10 @@ def test_the_page_in_chromium(registers: Registers, tmp_path: Path) -> None:
     ]
     registered = [{"files": {"passport": str(one.passport), "signers-file": str(one.signers), "register": str(one.register)}, "fields": {"time": one.time}}
                   for one in registers.asked]  # fmt: skip
-    # A dropped register is told from a passport by its name.
+    # A dropped register is told from a passport by its content.
     [given] = registered[:1]
     whole = registers.passports / "SPS-2/0017/register.yaml"
-    dropped = {"files": {"passport": [given["files"]["passport"], given["files"]["signers-file"], str(whole)]}, "fields": given["fields"], "drop": True}
+    dropped = {"files": {}, "fields": {**given["fields"], "serial": "0017"}, "drops": [[given["files"]["passport"], given["files"]["signers-file"], str(whole)]]}
     cases += [dropped, *registered]
     found = json.loads(node(str(PROJECT / "tests/bindings/page.cjs"), {"page": str(WEB / "verify.html"), "cases": cases}).stdout)
     good, changed, withdrawn, strange, no_time, typed, nothing, dropped, again, general, *registered = found["results"]
@@ -380,7 +380,7 @@ def test_dropped_files_and_late_answers(tmp_path: Path) -> None:
     names = {"passport": "passport.csv", "currents": "currents.yaml", "signers-file": "signers.json", "order": "order"}
     assert all(by_content["chosen"][id] == [name] for id, name in names.items())
     # Nothing was taken, and no answer stands beside the refusal.
-    refused = ((two, "a passport, as is"), (strange, "notes.yaml: neither a passport"), (revoked, "a revocation list, which must be chosen"),
+    refused = ((two, "a passport, as is"), (strange, "notes.yaml: neither a passport"), (revoked, "a list of revoked keys, which must be chosen"),
                (chosen, "already chosen above"), (typed, "already chosen above"))  # fmt: skip
     for result, words in refused:
         assert result["headings"] == ["No answer"] and words in result["text"] and "VALID" not in result["text"], result["text"]
