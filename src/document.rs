@@ -10,6 +10,9 @@ use crate::text::{Field, Kind, Limits, Location, Printable, Problem, Problems, U
 use crate::trust::{AllowedSigners, Message, PublicKey, Signature, SignatureError};
 #[cfg(feature = "factory")]
 use crate::trust::{KeyError, KeyPoint, SigningKey};
+use jiff::Timestamp;
+use jiff::civil::Date;
+use serde::{Deserialize, Serialize};
 
 /// Kind of signed document.
 #[derive(Debug, Clone, Copy)]
@@ -21,6 +24,19 @@ pub(crate) struct Form {
     pub limits: Limits,
     /// Noun phrase of what was expected instead of another file.
     pub expected: &'static str,
+}
+
+/// Register by which a passport was checked.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RegisterUsed {
+    /// Sequence number.
+    pub sequence: u64,
+    /// SHA-256 of the whole file, in lower-case hexadecimal.
+    pub sha256: String,
+    /// Time of issue.
+    pub issued_at: Timestamp,
+    /// Last day on which the register counts as fresh (inclusive), if it states one.
+    pub fresh_until: Option<Date>,
 }
 
 /// Line that ends the payload.

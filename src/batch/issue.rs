@@ -119,7 +119,7 @@ impl<'a> Run<'a> {
                     remarks.into_iter().for_each(|words| tell(Event::Remark { file: id.clone(), words }));
                     works.push(Work { folder, stand, outcomes: Vec::new() });
                 }
-                Err(why) => self.lost(Failure::of(id, why.to_string(), why.is_unusable()), each_costs, tell),
+                Err(why) => self.lost(Failure::folder(id, &why), each_costs, tell),
             }
         }
         works
@@ -192,7 +192,7 @@ impl<'a> Run<'a> {
             true => folder.next_first(stand, site, order).map(Outcome::from),
         };
         let id = || passport_id(&stand.stand().stand, &site.id, order.revision);
-        settled.unwrap_or_else(|why| Outcome::Failed(Failure::of(id(), why.to_string(), why.is_unusable())))
+        settled.unwrap_or_else(|why| Outcome::Failed(Failure::folder(id(), &why)))
     }
 }
 

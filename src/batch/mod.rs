@@ -25,7 +25,7 @@ use shard::Shard;
 
 use crate::files::walk::Visited;
 use crate::files::{Durability, FileError, leftovers};
-use crate::folder::{self, Authority, Issued, Next, StandFolder};
+use crate::folder::{self, Authority, FolderRefused, Issued, Next, StandFolder};
 use crate::parallel;
 use crate::passport::issue::Remarks;
 use crate::text::{Unreadable, name_of};
@@ -158,6 +158,10 @@ impl Failure {
         Self::unusable(error.path(), error.with_nearest())
     }
 
+    fn folder(what: String, why: &FolderRefused) -> Self {
+        Self::of(what, why.to_string(), why.is_unusable())
+    }
+
     fn of(what: String, why: String, unusable: bool) -> Self {
         Self { what, why, unusable, passports: None, unreadable: None }
     }
@@ -193,7 +197,7 @@ impl Batch<'_> {
         if self.is_dry() {
             return Ok(());
         }
-        folder.list().map_err(|why| Failure::of(folder.stand().to_owned(), why.to_string(), why.is_unusable()))
+        folder.list().map_err(|why| Failure::folder(folder.stand().to_owned(), &why))
     }
 }
 

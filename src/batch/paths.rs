@@ -5,7 +5,7 @@ use crate::files;
 use crate::files::leftovers::is_lasting;
 use crate::files::walk::{Entry, LINK, SPECIAL, Walk};
 use crate::files::{FileError, reason};
-use crate::folder::stand::numbered;
+use crate::folder::place::numbered;
 use crate::text::node::{is_utf16, without_byte_order_mark};
 use crate::text::{Cause, Kind, Printable, Unreadable, shown, without_secrets};
 use std::ffi::OsStr;

@@ -9,8 +9,8 @@ use super::{Batch, Event, Failure, Listener, Outcome, Purpose, fail, parallel, p
 use crate::document::sha256_hex;
 use crate::files;
 use crate::files::walk::{Visited, Walk};
-use crate::folder::stand::numbered;
-use crate::folder::{Folder, Issued, StandFolder, renewal};
+use crate::folder::place::{self, numbered};
+use crate::folder::{Folder, Issued, StandFolder};
 use crate::passport::checks::for_the_issuer;
 use crate::passport::issue::PreparedStand;
 use crate::passport::place::distant_correction;
@@ -147,7 +147,7 @@ impl Run<'_> {
 
     /// Adds the stands of a folder.
     fn folder(&mut self, root: &Path, tell: Listener) {
-        let stands = match renewal::stands(root) {
+        let stands = match place::stands(root) {
             Ok(stands) if stands.is_empty() => return self.failed(paths::contains_no(root, "passport"), tell),
             Ok(stands) => stands,
             Err(error) => return self.failed(Failure::file(error), tell),
@@ -238,7 +238,7 @@ impl Run<'_> {
         }
         let open = |folder| {
             let opened = StandFolder::open(folder, &job.stand, authority, |_| false);
-            opened.map_err(|why| Failure::of(job.stand.clone(), why.to_string(), why.is_unusable()))
+            opened.map_err(|why| Failure::folder(job.stand.clone(), &why))
         };
         if !self.batch.is_dry() {
             sweep(&self.swept, job.to.root());
@@ -280,10 +280,7 @@ impl Run<'_> {
         }
         let synced = self.batch.sync(outcomes.iter().filter_map(|(outcome, ..)| outcome.as_ref()).collect());
         if let Err(failure) = self.batch.list(&to, &synced) {
-            outcomes
-                .iter_mut()
-                .filter_map(|(outcome, ..)| outcome.as_mut())
-                .for_each(|outcome| outcome.not_listed(&failure));
+            outcomes.iter_mut().flat_map(|(outcome, ..)| outcome).for_each(|outcome| outcome.not_listed(&failure));
         }
         Ok(outcomes)
     }
@@ -296,10 +293,7 @@ impl Run<'_> {
             false => to.reissue(successor).map(Outcome::There),
             true => to.next_successor(successor).map(Outcome::from),
         };
-        Some(
-            settled
-                .unwrap_or_else(|why| Outcome::Failed(Failure::of(name.clone(), why.to_string(), why.is_unusable()))),
-        )
+        Some(settled.unwrap_or_else(|why| Outcome::Failed(Failure::folder(name.clone(), &why))))
     }
 
     fn examine(&self, candidate: &Candidate, job: &Job, from: &StandFolder) -> Result<Examined, Failure> {

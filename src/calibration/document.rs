@@ -31,8 +31,8 @@ use super::{
     against_type,
 };
 use crate::coefficients::PositionIndex;
+use crate::document::RegisterUsed;
 use crate::gyro::GyroType;
-use crate::passport::RegisterUsed;
 use crate::stand::Certificate;
 use crate::statistics::distributions::normal_below;
 use crate::text::Unreadable;

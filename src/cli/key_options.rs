@@ -106,9 +106,9 @@ impl Keys<'_> {
         match &self.public {
             Some(public) => {
                 let own = signing::own_trust(&self.options.identity, public, self.register_public.as_ref());
-                Ok(own.unwrap_or_else(|| Trust::of(AllowedSigners::nobody())))
+                Ok(own.unwrap_or_else(|| Trust::of(AllowedSigners::empty())))
             }
-            None if self.signer.is_none() => Ok(Trust::of(AllowedSigners::nobody())),
+            None if self.signer.is_none() => Ok(Trust::of(AllowedSigners::empty())),
             None => Err(Failure::unusable("the public half of the key is not known before it signs; specify --trust")),
         }
     }

@@ -89,7 +89,7 @@ mod tests {
         std::fs::write(&path, "not a stand").unwrap();
         assert_eq!(Superseded::of(&path, b"new").unwrap(), None);
         // Neither a stand nor a passport by its name.
-        assert_eq!(crate::folder::stand::numbered(old.path.file_name().unwrap()), None);
+        assert_eq!(crate::folder::place::numbered(old.path.file_name().unwrap()), None);
         assert_eq!(in_a_name("№ 12/34"), "__12_34");
     }
 }

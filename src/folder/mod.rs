@@ -5,12 +5,14 @@
 //! * `registers`: registers as readers of passports ask them, and the memory of a workspace.
 //! * `overview`: the registers of all stands, compared with the files.
 //! * `renewal`: registers signed again, first registers, and withdrawals.
+//! * `place`: the places of passports, and the stands that a folder has.
 //! * `archive`: stand files that a new certificate supersedes.
 //! * `refused`: reasons why a passport or a register is not written.
 
 pub(crate) mod archive;
 mod names;
 pub(crate) mod overview;
+pub(crate) mod place;
 pub(crate) mod refused;
 pub(crate) mod registers;
 pub(crate) mod renewal;
@@ -175,7 +177,7 @@ impl Folder {
 
     /// Returns the path of the passport of a stand for a site.
     pub fn path_of(&self, stand: &Identity, site: &Identifier, revision: u32) -> PathBuf {
-        self.of_stand(stand).join(format!("{site}-{revision}.yaml"))
+        self.of_stand(stand).join(place::file_name(site.as_str(), revision))
     }
 
     /// Returns the path of the file of a stand.
@@ -190,7 +192,7 @@ impl Folder {
         let names = [model, serial, site].map(|name| Identifier::new(name).ok());
         let [Some(model), Some(serial), Some(site)] = names else { return None };
         let revision: u32 = revision.parse().ok()?;
-        Some(self.root.join(model.as_str()).join(serial.as_str()).join(format!("{site}-{revision}.yaml")))
+        Some(self.root.join(model.as_str()).join(serial.as_str()).join(place::file_name(site.as_str(), revision)))
     }
 
     /// Issues revision 1 of a stand for a site, and lists it in the register of the stand.

@@ -1,9 +1,8 @@
 //! Names that differ only in case, which some systems do not distinguish.
 
+use super::place;
 use crate::files::FileError;
 use std::collections::HashMap;
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -45,18 +44,10 @@ impl Names {
     }
 
     fn list(&self, folder: &Path) -> Result<HashMap<String, String>, FileError> {
-        let failed = |error| FileError::Read(folder.to_owned(), error);
-        let entries = match fs::read_dir(folder) {
-            // A file in place of the folder is reported when the passport itself is looked up.
-            Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
-                return Ok(HashMap::new());
-            }
-            entries => entries.map_err(failed)?,
-        };
         let mut names = HashMap::new();
-        for entry in entries {
-            let entry = entry.map_err(failed)?;
-            let is_folder = entry.file_type().map_err(failed)?.is_dir();
+        for entry in place::entries(folder)? {
+            let file_type = entry.file_type().map_err(|error| FileError::Read(folder.to_owned(), error))?;
+            let is_folder = file_type.is_dir();
             if is_folder == self.of_folders
                 && let Ok(name) = entry.file_name().into_string()
             {

@@ -2,8 +2,8 @@
 //!
 //! Each folder is read by itself, so memory grows with the entries of accepted registers only, not with other files.
 
+use super::place::{self, file_name, is_in_place, numbered, path_of_id, stand_of};
 use super::registers::{self, Memory, doubt};
-use super::stand::numbered;
 use crate::document::sha256_hex;
 use crate::files::leftovers::is_lasting;
 use crate::files::walk::{Entry as Listed, LINK, SPECIAL, Walk};
@@ -192,22 +192,12 @@ fn folders(root: &Path) -> Result<(Vec<PathBuf>, Vec<FileError>), FileError> {
     Ok((folders.into_iter().collect(), unreadable))
 }
 
-/// Returns the stand whose folder a path is, `<model>/<serial>`, by its last two names.
-pub(crate) fn stand_of(folder: &Path) -> Option<String> {
-    let folder = folder.canonicalize().ok()?;
-    let mut names = folder.iter().rev().map(|name| name.to_str());
-    let (serial, model) = (names.next()??, names.next()??);
-    Some(format!("{model}/{serial}"))
-}
-
 impl Query<'_> {
     fn folder(&self, root: &Path, folder: &Path) -> Found {
         let mut found = Found::default();
         let register_path = folder.join(FILE_NAME);
-        let register = match register_path.symlink_metadata() {
-            Err(_) => None,
-            Ok(_) => self.register(root, &register_path, &mut found),
-        };
+        let is_there = register_path.symlink_metadata().is_ok();
+        let register = is_there.then(|| self.register(root, &register_path, &mut found)).flatten();
         let mut rows: Vec<Row> = Vec::new();
         let mut places: HashMap<PathBuf, usize> = HashMap::new();
         let time = self.question.time;
@@ -215,11 +205,10 @@ impl Query<'_> {
             rows.extend(register.entries().iter().map(|entry| Row::of(entry, time)));
             let path = |entry: &Entry| {
                 let (site, revision) = entry.site_and_revision();
-                folder.join(format!("{site}-{revision}.yaml"))
+                folder.join(file_name(site, revision))
             };
             places.extend(register.entries().iter().map(path).zip(0..));
         }
-        let is_known = register.is_some() || register_path.symlink_metadata().is_ok();
         let mut bytes = Vec::new();
         let mut is_told = false;
         for entry in Walk::flat(folder, is_lasting) {
@@ -261,7 +250,7 @@ impl Query<'_> {
             } else if kind == Some(Kind::Passport) || numbered(name).is_some() {
                 let id = listed.map(|place| rows[place].id.as_str());
                 let is_good = self.unlisted(&path, &bytes, id, register.as_ref(), &mut found);
-                if is_good && !is_known && !is_told {
+                if is_good && !is_there && !is_told {
                     is_told = true;
                     let detail = "has passports, but no register; make it with `register DIR --renew`, or restore it from \
                                   the backup";
@@ -324,11 +313,10 @@ impl Query<'_> {
         row.file = Some(name_of(path));
         let angles = fingerprint(bytes);
         let number = row.certificate.clone();
-        let others = |known: &&(String, u64)| known.0 == number && Some(known.1) != angles;
         if row.state != State::Withdrawn
             && let Some(angles) = angles
         {
-            if found.angles.iter().any(|known| others(&known)) {
+            if found.angles.iter().any(|(other, known)| *other == number && *known != angles) {
                 let detail = format!("{} states other angles under the number of certificate {number}", row.id);
                 found.alarm(AlarmCode::Certificates, Some(&register.header().stand), path, detail);
             }
@@ -389,8 +377,8 @@ impl Query<'_> {
             found.alarm(AlarmCode::RegisterStale, stand, &folder.join(FILE_NAME), detail);
         }
         for row in rows.iter().filter(|row| row.file.is_none()) {
-            let (site, _) = row.id.rsplit_once('/').unwrap_or((&row.id, ""));
-            let path = folder.join(path_of_id(&row.id).rsplit('/').next().unwrap_or(site));
+            let due = path_of_id(&row.id);
+            let path = folder.join(due.rsplit('/').next().unwrap_or(&due));
             if path.symlink_metadata().is_ok() {
                 continue;
             }
@@ -451,19 +439,6 @@ impl Query<'_> {
     }
 }
 
-/// Returns the path of a passport in a folder of passports, with slashes.
-fn path_of_id(id: &str) -> String {
-    let (series, revision) = id.rsplit_once('/').unwrap_or((id, ""));
-    format!("{series}-{revision}.yaml")
-}
-
-/// Returns `true` if a file is where its identifier requires, as far as its path shows.
-fn is_in_place(path: &Path, due: &str) -> bool {
-    let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-    let names: Vec<_> = whole.iter().rev().take(3).map(|name| name.to_string_lossy()).collect();
-    due.split('/').rev().zip(&names).all(|(due, name)| due == name)
-}
-
 /// Returns a fingerprint of the certified angles in the text of a passport, which is in canonical form.
 fn fingerprint(bytes: &[u8]) -> Option<u64> {
     const POSITIONS: &[u8] = b"\npositions:\n";
@@ -489,7 +464,7 @@ pub(crate) fn history(
     let overview = Overview::of(folder, query)?;
     let is_incomplete = overview.is_incomplete();
     let Some(found) = overview.stands.into_iter().find(|found| found.stand == stand) else {
-        let known = super::renewal::stands(root)?.into_iter().map(|(_, stand)| stand).collect();
+        let known = place::stands(root)?.into_iter().map(|(_, stand)| stand).collect();
         return Ok((Err(known), is_incomplete));
     };
     let recorded = parallel::map(&found.rows, query.threads, |row| {

@@ -1,9 +1,9 @@
 //! Changes of registers alone: signed again, made for the first time, joined, taken over; and passports withdrawn.
 
-use super::overview::stand_of;
+use super::place;
 use super::refused::FolderRefused;
 use super::registers;
-use super::stand::{StandFolder, numbered};
+use super::stand::StandFolder;
 use super::{Authority, Folder};
 use crate::document::sha256_hex;
 use crate::files::leftovers::is_lasting;
@@ -82,29 +82,6 @@ impl NotRenewed {
     }
 }
 
-/// Returns the stands with a folder under `root` in which there is a register or a file named like a passport, each with
-/// the root of its folder of passports.
-pub(crate) fn stands(root: &Path) -> Result<Vec<(PathBuf, String)>, FileError> {
-    let mut found = BTreeSet::new();
-    for entry in Walk::deep(root, |name| name == FILE_NAME || numbered(name).is_some()) {
-        let path = match entry {
-            Ok(crate::files::walk::Entry::File(path) | crate::files::walk::Entry::Link(path)) => path,
-            Ok(crate::files::walk::Entry::Special(_)) => continue,
-            Err(error) => return Err(error),
-        };
-        let folder = files::folder_of(&path);
-        if let Some(stand) = stand_of(folder)
-            && stand.split('/').all(|name| crate::text::Identifier::new(name).is_ok())
-        {
-            let levels = folder.ancestors().nth(2).map(Path::to_owned);
-            let above = if folder.iter().count() > 2 { levels } else { None };
-            let above = above.or_else(|| folder.canonicalize().ok()?.ancestors().nth(2).map(Path::to_owned));
-            found.extend(above.map(|above| (above, stand)));
-        }
-    }
-    Ok(found.into_iter().collect())
-}
-
 impl Renewal {
     /// Signs every register under `root` again, and makes first ones where there are passports without any. Nothing is
     /// written without a signer of registers.
@@ -113,7 +90,7 @@ impl Renewal {
     /// Returns [`NotRenewed`]; registers of stands before the one that is refused were written.
     pub(crate) fn run(&self, root: &Path, authority: &Authority) -> Result<Vec<Renewed>, NotRenewed> {
         self.check_old_lists(root)?;
-        let stands = stands(root)?;
+        let stands = place::stands(root)?;
         if stands.is_empty() {
             return Err(NotRenewed::Empty(root.to_owned()));
         }
@@ -135,14 +112,7 @@ impl Renewal {
         for (folder, draft, conclusions) in prepared.into_iter().flatten() {
             let (stand, sequence) = (folder.stand().to_owned(), draft.sequence());
             let entries = draft.entries().to_vec();
-            folder.write(
-                true,
-                |new| {
-                    new.take_from(draft);
-                    Ok(())
-                },
-                |path, text| Ok(files::replace(path, text)?),
-            )?;
+            folder.write(true, |new| Ok(new.take_from(draft)?), |path, text| Ok(files::replace(path, text)?))?;
             renewed.push(Renewed { stand, sequence, entries, conclusions });
         }
         Ok(renewed)
@@ -333,7 +303,7 @@ impl Withdrawal<'_> {
                 [model, serial, _, _] if !is_pattern(model) && !is_pattern(serial) => {
                     stands.insert(format!("{model}/{serial}"));
                 }
-                _ => stands.extend(self::stands(root)?.into_iter().map(|(_, stand)| stand)),
+                _ => stands.extend(place::stands(root)?.into_iter().map(|(_, stand)| stand)),
             }
         }
         stands.retain(|stand| folder.root().join(stand).join(FILE_NAME).symlink_metadata().is_ok());

@@ -3,6 +3,7 @@
 //! A command decides on this snapshot. It then writes its passports, and last one new register that lists them all. If it is
 //! killed in between, the passports are there but not listed, and so do not count; the same command again lists them.
 
+use super::place::{self, file_name, numbered};
 use super::refused::FolderRefused;
 use super::registers::{self, doubt};
 use super::{Authority, Existing, Folder, Issued, Next, Sealed};
@@ -95,7 +96,9 @@ impl<'a> StandFolder<'a> {
     ) -> Result<(Self, Vec<String>), FolderRefused> {
         let path = folder.root.join(stand);
         folder.check_folder(&path)?;
-        let names = list(&path)?;
+        let mut names: Vec<String> =
+            place::entries(&path)?.iter().filter_map(|entry| entry.file_name().into_string().ok()).collect();
+        names.sort_unstable();
         let mut sites: BTreeMap<String, (String, u32)> = BTreeMap::new();
         for (site, revision) in names.iter().filter_map(|name| numbered(OsStr::new(name))) {
             let last = &mut sites.entry(site.to_ascii_lowercase()).or_insert((site.to_owned(), 0)).1;
@@ -190,7 +193,7 @@ impl<'a> StandFolder<'a> {
     }
 
     pub(crate) fn path_of(&self, site: &str, revision: u32) -> PathBuf {
-        self.path.join(format!("{site}-{revision}.yaml"))
+        self.path.join(file_name(site, revision))
     }
 
     /// Returns the sites that listed passports state, for remarks only: at most `most`.
@@ -414,8 +417,7 @@ impl<'a> StandFolder<'a> {
         settle_once()
     }
 
-    /// Writes the register with every passport that was issued or found unlisted; nothing, if there is none. `beside` are
-    /// the other files of the command, which are written with it: new ones before the register, and one after it.
+    /// Writes the register with every passport that was issued or found unlisted; nothing, if there is none.
     ///
     /// # Errors
     /// Returns [`FolderRefused`] if the register cannot be written; the passports are then not listed.
@@ -542,32 +544,6 @@ fn add(draft: &mut Draft, mut listings: Vec<Listing>) -> Result<(), FolderRefuse
         }
     }
     Ok(())
-}
-
-/// Returns the names in a folder; none if it does not exist.
-fn list(folder: &Path) -> Result<Vec<String>, FileError> {
-    let failed = |error| FileError::Read(folder.to_owned(), error);
-    let entries = match fs::read_dir(folder) {
-        // A file in place of the folder is reported when the passport itself is looked up.
-        Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
-            return Ok(Vec::new());
-        }
-        entries => entries.map_err(failed)?,
-    };
-    let mut names = Vec::new();
-    for entry in entries {
-        names.extend(entry.map_err(failed)?.file_name().into_string());
-    }
-    names.sort_unstable();
-    Ok(names)
-}
-
-/// Returns the name and the number in `<name>-<number>.yaml`, 0 for a number that no revision has, or `None` if the name has
-/// another form.
-pub(crate) fn numbered(name: &OsStr) -> Option<(&str, u32)> {
-    let (name, number) = name.to_str()?.strip_suffix(".yaml")?.rsplit_once('-')?;
-    let is_number = !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit());
-    is_number.then(|| (name, number.parse().unwrap_or(0)))
 }
 
 /// Locks the register in a folder, which is created if it does not exist. On a file system without locks nothing is locked;

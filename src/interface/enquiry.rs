@@ -33,7 +33,7 @@ pub struct Enquiry {
 /// Registers that are asked.
 #[derive(Debug)]
 pub(crate) enum Source {
-    /// One register, or why it is not accepted.
+    /// Verified register, or the reason why it is not accepted.
     Given(Box<Result<VerifiedRegister, RegisterRefused>>),
     /// Register in a file, or that of each stand in a folder.
     #[cfg(feature = "factory")]

@@ -28,7 +28,7 @@ pub mod reissue;
 pub(crate) mod verification;
 
 use crate::document::Form;
-pub use crate::document::{Malformed, OtherSignature};
+pub use crate::document::{Malformed, OtherSignature, RegisterUsed};
 use crate::text::Limits;
 pub use accuracy::{Accuracy, NoAccuracy, Stated};
 pub use checks::{Check, CheckName, Code};
@@ -36,7 +36,7 @@ pub use content::{
     Content, Dated, Header, MatrixRows, PositionCurrents, PositionVectors, Predecessor, Rows, SelfCheck,
     content_from_anyone,
 };
-pub use verification::{Question, RegisterUsed, Trust, Verification, VerifiedPassport, verify};
+pub use verification::{Question, Trust, Verification, VerifiedPassport, verify};
 
 /// Namespace of the signatures of passports.
 pub const NAMESPACE: &str = "dtg-passport";

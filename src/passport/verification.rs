@@ -8,14 +8,12 @@ use super::checks::{Check, CheckName, Code, REQUEST_FROM_THE_ISSUER};
 use super::content::{Content, Dated, PASSPORT_FORMAT};
 use super::{FORM, NAMESPACE, content, place, recomputed};
 use crate::coefficients::Coefficients;
-use crate::document::{OtherSignature, SignedText, sha256_hex};
+use crate::document::{OtherSignature, RegisterUsed, SignedText, sha256_hex};
 use crate::earth::Place;
 use crate::text::scalar::day;
 use crate::text::{first_few, printable};
 use crate::trust::{AllowedSigners, NotAuthorised, PublicKey, RevokedKeys};
 use jiff::Timestamp;
-use jiff::civil::Date;
-use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::fmt::Display;
 
@@ -89,19 +87,6 @@ pub struct Verification {
     content: Option<Box<Content>>,
     sha256: String,
     register: Option<RegisterUsed>,
-}
-
-/// Register by which a passport was checked.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct RegisterUsed {
-    /// Sequence number.
-    pub sequence: u64,
-    /// SHA-256 of the whole file, in lower-case hexadecimal.
-    pub sha256: String,
-    /// Time of issue.
-    pub issued_at: Timestamp,
-    /// Last day on which the register counts as fresh (inclusive), if it states one.
-    pub fresh_until: Option<Date>,
 }
 
 /// Passport that passed every requested check.

@@ -21,7 +21,7 @@ const SIGNATURE_BYTES: usize = 1024;
 #[non_exhaustive]
 pub enum NoRegister {
     /// The entry with this identifier exists, with another file or in an ended state.
-    #[error("{id}: listed in the register as {}, with {}; nothing was written", state.key(), if *same { "this file" } else { "another file" })]
+    #[error("{id}: listed in the register as {}, with {}", state.key(), if *same { "this file" } else { "another file" })]
     Listed {
         /// Identifier of the passport.
         id: String,
@@ -65,6 +65,9 @@ pub enum NoRegister {
          signed files; state it in plain words"
     )]
     BadReason(String),
+    /// Another run has replaced the register since it was read.
+    #[error("another run has replaced the register meanwhile; run the command again")]
+    Replaced,
     /// The register would be dated before another time.
     #[error("the register would be issued at {now}, before {of}, issued at {at}; check the clock")]
     Before {
@@ -87,7 +90,7 @@ pub enum NoRegister {
     #[error(transparent)]
     Identity(#[from] BadIdentity),
     /// The new register failed verification.
-    #[error("the new register failed verification ({0}); nothing was written; check the keys, --identity and --trust")]
+    #[error("the new register failed verification ({0}); check the keys, --identity and --trust")]
     Refused(#[from] RegisterRefused),
     /// The signer produced no signature.
     #[error(transparent)]
@@ -246,11 +249,18 @@ impl Draft {
     }
 
     /// Takes entries, freshness and number from a draft that was made from the same register.
-    pub(crate) fn take_from(&mut self, other: Self) {
+    ///
+    /// # Errors
+    /// Returns [`NoRegister::Replaced`] if that draft follows another register, whose later entries it would lose.
+    pub(crate) fn take_from(&mut self, other: Self) -> Result<(), NoRegister> {
+        if self.header.previous_sha256 != other.header.previous_sha256 {
+            return Err(NoRegister::Replaced);
+        }
         self.header.fresh_until = other.header.fresh_until;
         self.header.sequence = self.header.sequence.max(other.header.sequence);
         self.previous_issued_at = self.previous_issued_at.max(other.previous_issued_at);
         self.set(other.entries);
+        Ok(())
     }
 
     /// Adds the entries of another register of the same stand, and the stricter state of each.

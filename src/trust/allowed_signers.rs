@@ -72,9 +72,9 @@ impl AllowedSigners {
         Ok(signers)
     }
 
-    /// Creates a list without any key, which trusts nobody.
+    /// Creates a list without any key.
     #[cfg(feature = "factory")]
-    pub(crate) fn nobody() -> Self {
+    pub(crate) fn empty() -> Self {
         Self { lines: Vec::new(), skipped: Vec::new() }
     }
 

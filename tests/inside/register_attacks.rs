@@ -18,6 +18,7 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 const STAND: &str = "SPS-2/0017";
 
@@ -514,6 +515,30 @@ fn an_older_register_does_not_count_where_a_later_one_is_known() {
     assert_eq!(factory.code_at("there", 1, &question, Some(memory)), "withdrawn");
     factory.note("older register", "that withdraws");
     assert_counted(&factory, 10, 3);
+}
+
+/// Another run lists a passport after the renewal has read the register: that passport is not lost.
+#[test]
+fn a_renewal_keeps_what_another_run_lists_meanwhile() {
+    let factory = Factory::new();
+    let Factory { key, trust, .. } = &factory;
+    let (root, calls) = (factory.root(), AtomicUsize::new(0));
+    // The first call precedes the reading of the register, and the second one follows it.
+    let clock = || {
+        if calls.fetch_add(1, Ordering::Relaxed) == 1 {
+            let (stand, order) = (PreparedStand::new(stand(ARC_MINUTES)), Issue::first(ISSUER, day(0)));
+            let other = Authority::new(ISSUER, key, trust, &now);
+            Folder::new(&root).issue(&stand, &site_named("bench"), &order, &other).unwrap();
+        }
+        now()
+    };
+    let authority = Authority::new(ISSUER, key, trust, &clock);
+    let refused = Renewal::default().run(&root, &authority).unwrap_err();
+    assert!(refused.to_string().contains("another run has replaced the register"), "{refused}");
+    let is_listed = || factory.content().passports.iter().any(|entry| entry.id == "SPS-2/0017/bench/1");
+    assert!(is_listed());
+    Renewal::default().run(&root, &authority).unwrap();
+    assert!(is_listed());
 }
 
 /// Freshness is judged now, whatever time is asked about; `since` only decides about superseded passports.
