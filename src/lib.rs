@@ -72,12 +72,14 @@
 //! | `schema` | JSON Schemas of the formats; what makes them with `generate` | `cli` |
 //! | `template` | commented files to begin with | `cli` |
 //! | `workspace` | a folder that states key, trust and folders; its contents | `cli` |
+//! | `pdf` | a page as PDF, printed by an installed browser | `cli` |
 //! | `demonstration` | the whole story on a built-in example | `cli` |
 //! | [`cli`] | the command line: read, call, write | `cli` |
 //!
 //! The feature `cli`, which has all the others and is the default, builds the program. Only `files`, `signing`, `folder`,
-//! `batch`, `workspace` and `demonstration` touch the file system or start a program; nothing reads the
-//! clock, prints, or looks at the environment (`ssh-keygen`, where it signs, looks for its agent there).
+//! `batch`, `workspace`, `pdf` and `demonstration` touch the file system or start a program; nothing reads the
+//! clock, prints, or looks at the environment (`ssh-keygen`, where it signs, looks for its agent there, and `pdf` for the
+//! browser).
 //!
 //! # What it refuses
 //!
@@ -121,6 +123,8 @@ pub mod interface;
 pub mod laboratory;
 pub(crate) mod parallel;
 pub mod passport;
+#[cfg(feature = "cli")]
+pub(crate) mod pdf;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 pub(crate) mod plan;
 pub mod register;

@@ -47,6 +47,9 @@ impl AtSite {
     }
 }
 
+/// Function that makes the record of a certification from its check and the changed deviations.
+pub(crate) type Record<'a> = dyn Fn(&Certification, &Comparison, &[NumberDifference]) -> Result<(), FileError> + 'a;
+
 #[derive(Clone)]
 pub(crate) struct Recertification<'a> {
     /// Passport of the stand, which is in force or has expired.
@@ -75,6 +78,8 @@ pub(crate) struct Recertification<'a> {
     pub out: Option<PathBuf>,
     /// Root of the stand file; that of the new files if `None`.
     pub stands: Option<PathBuf>,
+    /// Makes the record of the certification before anything is written, so that nothing is if it fails.
+    pub record: &'a Record<'a>,
     /// Flag that cancels the recertification before anything is written.
     pub cancel: Option<&'a AtomicBool>,
 }
@@ -175,6 +180,8 @@ impl Recertification<'_> {
             next.push(self.next(predecessor, to, &prepared)?);
         }
         let superseded = Superseded::of(&stand_file, text.as_bytes())?;
+        let changes = of_deviations(&old_stand, &new);
+        (self.record)(&certification, &comparison, &changes)?;
         let passports = match self.authority.signer {
             None => next.into_iter().map(Outcome::from).collect(),
             Some(_) => {
@@ -191,7 +198,7 @@ impl Recertification<'_> {
             }
         };
         Ok(Recertified {
-            changes: of_deviations(&old_stand, &new),
+            changes,
             old_number: old_stand.certificate.number,
             certification,
             comparison,

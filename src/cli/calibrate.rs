@@ -112,8 +112,9 @@ pub(super) struct Options {
     anisoelasticity: bool,
     #[command(flatten)]
     uncertainty: uncertainty::UncertaintyOptions,
-    /// Write a report for paper, screen and phone, with fields for handwritten signatures
-    #[arg(long, value_name = "FILE.html", value_parser = output::path_of("html"))]
+    /// Write a report for paper, screen and phone, with fields for handwritten signatures; FILE.pdf is printed by an
+    /// installed Chromium, Chrome or Edge
+    #[arg(long, value_name = "FILE.html", value_parser = output::path_of(output::PAGE))]
     report: Option<PathBuf>,
     /// Write a Digital Calibration Certificate of the gyro; needs --gyro-serial, --administrative and a verified passport
     #[arg(long, value_name = "FILE.xml", conflicts_with_all = ["no_verify", "anisoelasticity", "drift"])]
@@ -269,21 +270,24 @@ impl Bench<'_> {
     }
 
     fn one(&self, path: &Path) -> Result<Code, Failure> {
-        let (options, content) = (self.options, &self.passport.content);
+        let options = self.options;
         // Nothing is written if one of the files cannot be.
         let files = || options.report.iter().chain(&options.dcc).chain(&options.uncertainty.budget_svg);
         files::check_distinct(files())?;
         files::check_replaceable(files(), options.uncertainty.force)?;
         let found = self.calibrate(path)?;
-        let done = &found.done;
+        let (done, force) = (&found.done, options.uncertainty.force);
+        let svg = options.uncertainty.budget_svg.iter().zip(&found.uncertainty.budget_svg);
+        let mut written: Vec<_> = svg.map(|(path, svg)| (path, svg.clone().into_bytes())).collect();
         if let Some(path) = &options.dcc {
-            let laboratory = options.laboratory.is_some().then_some(&self.laboratory);
-            let sha256 = sha256_hex(&self.passport.bytes);
-            let calibrated = Calibrated::new(content, &sha256, laboratory, self.gyro_type.as_ref(), done);
-            self.write_dcc(path, &calibrated.map_err(Failure::refused)?)?;
+            written.push((path, self.dcc(done)?.into_bytes()));
         }
         if let Some(path) = &options.report {
-            output::saved_too(path, &self.page(&found)?, options.uncertainty.force)?;
+            written.push((path, output::page(path, self.page(&found)?, force)?));
+        }
+        written.iter().try_for_each(|(path, bytes)| output::saved_too(path, bytes, force))?;
+        if options.dcc.is_some() {
+            output::say_after("the DCC is not signed; the passport of the stand is, and its SHA-256 is in the DCC");
         }
         let trials = found.uncertainty.monte_carlo.as_ref();
         match options.format {
@@ -398,12 +402,13 @@ impl Bench<'_> {
         Ok(page.html(&languages(&self.options.lang)))
     }
 
-    fn write_dcc(&self, path: &Path, calibrated: &Calibrated) -> Result<(), Failure> {
-        let dcc = dcc::of_gyro(calibrated, self.administrative.content.as_ref(), Some(&languages(&self.options.lang)));
-        let dcc = dcc.map_err(|problems| self.administrative.refuse(problems))?;
-        output::saved_too(path, &dcc.xml, self.options.uncertainty.force)?;
-        output::say_after("the DCC is not signed; the passport of the stand is, and its SHA-256 is in the DCC");
-        Ok(())
+    fn dcc(&self, done: &Done) -> Result<String, Failure> {
+        let laboratory = self.options.laboratory.is_some().then_some(&self.laboratory);
+        let sha256 = sha256_hex(&self.passport.bytes);
+        let calibrated = Calibrated::new(&self.passport.content, &sha256, laboratory, self.gyro_type.as_ref(), done);
+        let (calibrated, languages) = (calibrated.map_err(Failure::refused)?, languages(&self.options.lang));
+        let dcc = dcc::of_gyro(&calibrated, self.administrative.content.as_ref(), Some(&languages));
+        Ok(dcc.map_err(|problems| self.administrative.refuse(problems))?.xml)
     }
 }
 

@@ -60,8 +60,9 @@ pub(super) struct Options {
     trust: OptionalTrust,
     #[command(flatten)]
     exclusions: ExclusionOptions,
-    /// Write a printable record of the certification: readings, tests, uncertainty, signature lines. It needs two runs or more
-    #[arg(long, value_name = "FILE.html", value_parser = output::path_of("html"))]
+    /// Write a printable record of the certification: readings, tests, uncertainty, signature lines. It needs two runs or more;
+    /// FILE.pdf is printed by an installed Chromium, Chrome or Edge
+    #[arg(long, value_name = "FILE.html", value_parser = output::path_of(output::PAGE))]
     report: Option<PathBuf>,
     /// Languages of the record; the first sets the number format
     #[arg(long, value_enum, value_delimiter = ',', default_value = "en", value_name = "LANGUAGE")]
@@ -194,9 +195,10 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
         let change = comparison.as_ref().zip(against.as_ref());
         let change = change.map(|(comparison, old)| (comparison, of_deviations(old, &certified.stand)));
         let page = CertificationPage { certification: certified, readings: (&name, &bytes), change, dry_run: false };
-        (path, page.html(&languages(&options.lang)))
+        Ok::<_, Failure>((path, output::page(path, page.html(&languages(&options.lang)), options.force)?))
     });
     // Nothing is written if the record cannot be.
+    let page = page.transpose()?;
     files::check_replaceable(page.as_ref().map(|(path, _)| *path), options.force)?;
     if let (Some(path), Some(certified)) = (&options.output, &certified) {
         if options.stand.is_none() {

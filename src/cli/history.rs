@@ -25,7 +25,7 @@ pub(super) struct Options {
     #[command(flatten)]
     trust: TrustOptions,
     /// Write a picture of the timeline and of the drift
-    #[arg(short, long, value_name = "FILE.svg", value_parser = output::path_of("svg"))]
+    #[arg(short, long, value_name = "FILE.svg", value_parser = output::path_of(output::PICTURE))]
     output: Option<PathBuf>,
     /// Replace an existing picture
     #[arg(long)]
@@ -67,7 +67,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         ))
     })?;
     if let Some(path) = &options.output {
-        output::saved_too(path, &picture::history(&history, question.time), options.force)?;
+        output::saved_too(path, picture::history(&history, question.time), options.force)?;
     }
     options.format.write(|| report::to_json(&history), || report::text(&history))?;
     Ok(code(is_incomplete, false))

@@ -1,7 +1,8 @@
 //! Output: results to standard output, messages to standard error. A closed pipe is not an error.
 
-use super::Failure;
-use crate::files;
+use super::{Failure, long_run};
+use crate::files::{self, FileError};
+use crate::pdf;
 use crate::report::{columns, style};
 use crate::text::{excerpt, printable, shown};
 use clap::ValueEnum;
@@ -37,21 +38,26 @@ impl Format {
 /// Names of formats that are not written: a viewer would not open such a file.
 const OTHER_FORMATS: [&str; 10] = ["pdf", "png", "jpg", "jpeg", "gif", "eps", "doc", "docx", "svg", "html"];
 
-/// Parser of the path of a picture (`svg`) or a page (`html`) to write; the name of another format is refused.
-pub(super) fn path_of(format: &'static str) -> impl TypedValueParser<Value = PathBuf> {
+/// Formats of pages, and of pictures.
+pub(super) const PAGE: &[&str] = &["html", "pdf"];
+pub(super) const PICTURE: &[&str] = &["svg"];
+
+/// Parser of the path of a page or a picture to write; the name of another format is refused.
+pub(super) fn path_of(formats: &'static [&'static str]) -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().try_map(move |path| {
         let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-        match extension.filter(|named| named != format && OTHER_FORMATS.contains(&named.as_str())) {
+        match extension.filter(|named| !formats.contains(&named.as_str()) && OTHER_FORMATS.contains(&named.as_str())) {
             None => Ok(path),
             Some(_) => {
-                Err(format!("expected a name ending in .{format}, such as {}", shown(&path.with_extension(format))))
+                let example = path.with_extension(formats[0]);
+                Err(format!("expected a name ending in .{}, such as {}", formats.join(" or ."), shown(&example)))
             }
         }
     })
 }
 
 /// Extensions of files that this program reads or writes: no folder is to be made with such a name.
-const FILES: [&str; 6] = ["json", "html", "csv", "yaml", "xml", "svg"];
+const FILES: [&str; 7] = ["json", "html", "pdf", "csv", "yaml", "xml", "svg"];
 
 /// Parser of the path of a folder to write to; the name of a file is refused, with `advice` on how to write one file.
 pub(super) fn folder(advice: &'static str) -> impl TypedValueParser<Value = PathBuf> {
@@ -116,13 +122,25 @@ pub(super) fn failure(failure: &Failure) {
 }
 
 /// Writes a result to a file. An existing file is replaced only on request.
-pub(super) fn file(path: &Path, text: &str, force: bool) -> Result<(), Failure> {
-    files::write_replaceable(path, text.as_bytes(), force).map_err(Failure::from)
+pub(super) fn file(path: &Path, bytes: impl AsRef<[u8]>, force: bool) -> Result<(), Failure> {
+    files::write_replaceable(path, bytes.as_ref(), force).map_err(Failure::from)
+}
+
+/// Returns a page in the format that the suffix of its path states: HTML, or PDF.
+pub(super) fn page(path: &Path, html: String, force: bool) -> Result<Vec<u8>, FileError> {
+    if !path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("pdf")) {
+        return Ok(html.into_bytes());
+    }
+    // Before a browser starts, which takes seconds.
+    files::check_replaceable([path], force)?;
+    // Ctrl-C then ends the browser, but not this program, which has to remove the browser's folder.
+    let _ = long_run::cancelled_by_ctrl_c();
+    pdf::print(&html, path, std::env::var(pdf::BROWSER_VARIABLE).ok().as_deref())
 }
 
 /// Writes a file in addition to the result of a verb as [`file`] does, and says so after the result.
-pub(super) fn saved_too(path: &Path, text: &str, force: bool) -> Result<(), Failure> {
-    file(path, text, force)?;
+pub(super) fn saved_too(path: &Path, bytes: impl AsRef<[u8]>, force: bool) -> Result<(), Failure> {
+    file(path, bytes, force)?;
     say_after(&format!("wrote {}", shown(path)));
     Ok(())
 }

@@ -42,7 +42,7 @@ pub(super) struct Options {
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
     /// Write a picture of the plan
-    #[arg(short, long, value_name = "FILE.svg", value_parser = output::path_of("svg"))]
+    #[arg(short, long, value_name = "FILE.svg", value_parser = output::path_of(output::PICTURE))]
     output: Option<PathBuf>,
     /// Replace an existing picture
     #[arg(long)]
@@ -90,7 +90,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     };
     let found = plan(&question).map_err(Failure::refused)?;
     if let Some(path) = &options.output {
-        output::saved_too(path, &picture::plan(&found, site.id.as_str()), options.force)?;
+        output::saved_too(path, picture::plan(&found, site.id.as_str()), options.force)?;
     }
     let of_site = site.frame_axis_azimuth_deg();
     let assumed = [options.gyro.is_none(), options.laboratory.is_none()];

@@ -7,8 +7,9 @@ use super::trust_options::{self, TrustOptions};
 use super::{Code, Failure, Format, defaults, inputs, long_run, output};
 use crate::batch::Outcome;
 use crate::batch::recertification::{AtSite, NotRecertified, Recertification, check};
-use crate::certification::Header;
+use crate::certification::{Certification, Comparison, Header};
 use crate::files;
+use crate::passport::difference::NumberDifference;
 use crate::passport::issue::time_of_issue;
 use crate::report::Language;
 use crate::report::issued::Told;
@@ -19,6 +20,7 @@ use crate::text::{Identifier, Kind, name_of};
 use clap::Args;
 use jiff::Timestamp;
 use jiff::civil::Date;
+use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
 /// Recertify a stand: check it against its certificate, issue a new one, and re-issue its passports in force
@@ -68,8 +70,9 @@ pub(super) struct Options {
     out: Option<PathBuf>,
     #[command(flatten)]
     exclusions: ExclusionOptions,
-    /// Write a printable record of the certification, with a table and a picture of the changes
-    #[arg(long, value_name = "FILE.html", value_parser = output::path_of("html"))]
+    /// Write a printable record of the certification, with a table and a picture of the changes; FILE.pdf is printed
+    /// by an installed Chromium, Chrome or Edge
+    #[arg(long, value_name = "FILE.html", value_parser = output::path_of(output::PAGE))]
     report: Option<PathBuf>,
     /// Languages of the record; the first sets the number format
     #[arg(long, value_enum, value_delimiter = ',', default_value = "en", value_name = "LANGUAGE")]
@@ -105,6 +108,15 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if let Some(public) = keys.public.as_ref().filter(|_| options.issuer.dry_run) {
         refuse_distrusted(&trust, public, &options.issuer.identity, issued_at)?;
     }
+    let dry_run = options.issuer.dry_run;
+    let record = RefCell::new(None);
+    let print = |certification: &Certification, comparison: &Comparison, changes: &[NumberDifference]| {
+        let Some(path) = &options.report else { return Ok(()) };
+        let change = Some((comparison, changes.to_vec()));
+        let page = CertificationPage { certification, readings: (&name, &bytes), change, dry_run };
+        record.replace(Some((path, output::page(path, page.html(&languages(&options.lang)), options.force)?)));
+        Ok(())
+    };
     let order = Recertification {
         passport: &options.passport,
         readings: (&name, &bytes),
@@ -121,15 +133,12 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         question,
         out: options.out.clone(),
         stands: stands(options),
+        record: &print,
         cancel: Some(&cancel),
     };
     let found = order.run().map_err(failure)?;
-    let dry_run = options.issuer.dry_run;
-    if let Some(path) = &options.report {
-        let change = Some((&found.comparison, found.changes.clone()));
-        let page =
-            CertificationPage { certification: &found.certification, readings: (&name, &bytes), change, dry_run };
-        output::saved_too(path, &page.html(&languages(&options.lang)), options.force)?;
+    if let Some((path, page)) = record.take() {
+        output::saved_too(path, page, options.force)?;
     }
     options.format.write(|| report::to_json(&found, dry_run), || report::text(&found, dry_run))?;
     let mut told = Told::default();

@@ -10,7 +10,7 @@ use clap::Args;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// Write the printed passport: one HTML file for paper, screen and phone
+/// Write the printed passport: one HTML file for paper, screen and phone, or a PDF
 ///
 /// With --out, PASSPORT is a file, a quoted pattern, or a folder; a - reads a list of paths from standard input.
 #[derive(Args)]
@@ -18,8 +18,8 @@ pub(super) struct Options {
     /// Passport files; in a workspace also their identifiers
     #[arg(required = true, value_name = "PASSPORT", value_parser = defaults::passport())]
     passports: Vec<PathBuf>,
-    /// Write the page of one passport to this file
-    #[arg(short, long, value_name = "FILE.html", value_parser = output::path_of("html"), required_unless_present = "out", conflicts_with = "out")]
+    /// Write the page of one passport to this file; FILE.pdf is printed by an installed Chromium, Chrome or Edge
+    #[arg(short, long, value_name = "FILE.html", value_parser = output::path_of(output::PAGE), required_unless_present = "out", conflicts_with = "out")]
     output: Option<PathBuf>,
     /// Folder for the pages of several passports: <model>/<serial>/<site>-<revision>.html
     #[arg(long, value_name = "DIR", value_parser = output::folder("; for one page use -o FILE.html"))]
@@ -65,7 +65,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         let output = output.map(Path::to_owned).or_else(in_folder);
         let output = output.ok_or_else(|| Failure::usage("missing -o FILE.html or --out DIR"))?;
         folder.iter().try_for_each(|folder| folder.check_place(&output)).map_err(Failure::refused)?;
-        output::file(&output, &page.html(&languages(&options.lang)), options.force)?;
+        let html = page.html(&languages(&options.lang));
+        output::file(&output, output::page(&output, html, options.force)?, options.force)?;
         if options.format == Format::Text && !verdict.valid {
             output::say_verdict(&style::plain(&verdict::text(&verdict)));
         }

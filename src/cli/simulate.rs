@@ -86,7 +86,7 @@ struct ConvergenceArguments {
     #[command(flatten)]
     run: RunArguments,
     /// Write a figure
-    #[arg(short, long, value_name = "FILE.svg", value_parser = output::path_of("svg"))]
+    #[arg(short, long, value_name = "FILE.svg", value_parser = output::path_of(output::PICTURE))]
     output: Option<PathBuf>,
     /// Replace an existing figure
     #[arg(long)]

@@ -25,7 +25,7 @@ pub(super) struct UncertaintyOptions {
     #[arg(long)]
     pub budget: bool,
     /// Write a picture of the budget
-    #[arg(long, value_name = "FILE.svg", value_parser = output::path_of("svg"), requires = "budget")]
+    #[arg(long, value_name = "FILE.svg", value_parser = output::path_of(output::PICTURE), requires = "budget")]
     pub budget_svg: Option<PathBuf>,
     /// Replace existing results, reports and pictures
     #[arg(long)]
@@ -56,6 +56,8 @@ fn trials(text: &str) -> Result<u64, String> {
 pub(super) struct Found {
     /// The budget, and the sentence on what would reduce the uncertainty most.
     pub budget: Option<(Budget, Option<String>)>,
+    /// Picture of the budget, to be written.
+    pub budget_svg: Option<String>,
     pub monte_carlo: Option<MonteCarlo>,
 }
 
@@ -86,7 +88,7 @@ pub(super) struct WholeDocument<'a> {
 }
 
 impl UncertaintyOptions {
-    /// Computes the requested budget and Monte Carlo result, and writes the picture of the budget.
+    /// Computes the requested budget and Monte Carlo result, and draws the picture of the budget.
     pub(super) fn find(
         &self,
         setup: &Setup,
@@ -95,24 +97,20 @@ impl UncertaintyOptions {
         (options, tolerance): (&CalibrationOptions, Option<&Tolerance>),
     ) -> Result<Found, Failure> {
         if !self.budget && !self.monte_carlo {
-            return Ok(Found { budget: None, monte_carlo: None });
+            return Ok(Found { budget: None, budget_svg: None, monte_carlo: None });
         }
         let method = calibration.adopted().map_or(Method::LeastSquares, |answer| answer.method);
-        // Before the picture is written.
         if let Some(why) = self.monte_carlo.then(|| refused_model(options)).flatten() {
             let advice = "omit --monte-carlo, or --anisoelasticity, --drift and --model general";
             return Err(Failure::unusable(format!("{why}; {advice}")));
         }
         let budget = Budget::new(setup, readings, method, options).map_err(Failure::refused)?;
-        if let Some(path) = &self.budget_svg {
-            let svg = picture::budget::budget(&budget);
-            let svg =
-                svg.ok_or_else(|| Failure::unusable("the picture could not be drawn: no input has an uncertainty"))?;
-            output::saved_too(path, &svg, self.force)?;
-        }
+        let no_picture = || Failure::unusable("the picture could not be drawn: no input has an uncertainty");
+        let draw = |_| picture::budget::budget(&budget).ok_or_else(no_picture);
+        let budget_svg = self.budget_svg.as_ref().map(draw).transpose()?;
         let trials = self.monte_carlo.then(|| self.trials(setup, readings, (&budget, options))).transpose()?;
         let sentence = Dominant::of(&budget, tolerance).map(|remedy| remedy.sentence());
-        Ok(Found { budget: self.budget.then_some((budget, sentence)), monte_carlo: trials })
+        Ok(Found { budget: self.budget.then_some((budget, sentence)), budget_svg, monte_carlo: trials })
     }
 
     /// Runs the trials, and announces a run that takes long.

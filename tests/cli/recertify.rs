@@ -44,6 +44,7 @@ impl Factory {
     fn run(&self, arguments: &str) -> (i32, String, String) {
         let mut command = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
         command.args(arguments.split(' ')).current_dir(self.0.path()).stdin(Stdio::null());
+        command.env("DTG_PASSPORT_BROWSER", "absent-browser");
         let output = command.output().unwrap();
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
         (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
@@ -397,6 +398,8 @@ fn the_record_shows_the_change_and_the_exclusion() {
     assert_eq!(factory.passports(), before, "a dry run writes the record alone");
     let (code, _, said) = factory.run(&format!("{recertify} --key key"));
     assert!(code == 1 && said.contains("record.html: already exists") && factory.passports() == before, "{said}");
+    let (code, _, said) = factory.run(&format!("{recertify} --key key").replace(".html", ".pdf"));
+    assert!(code == 2 && said.contains("absent-browser") && factory.passports() == before, "{said}");
     let found = factory.json(&format!("{recertify} --key key --force --exclude 2,3,4 --why lamp"));
     let page = fs::read_to_string(factory.path("record.html")).unwrap();
     // Expected: the number of the JSON, and one bar for each of the 24 deviations above the axis.

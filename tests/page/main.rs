@@ -22,6 +22,8 @@ mod figures;
 mod language;
 mod pages;
 mod passports;
+#[cfg(unix)]
+mod pdf;
 mod printed;
 mod refused;
 mod reports;
