@@ -5,8 +5,9 @@
 use crate::coefficients::PositionCoefficients;
 use crate::earth::STANDARD_GRAVITY_M_PER_S2;
 use crate::text::{Document, Path, Problems, record};
+use crate::wording::Language;
 use crate::wording::number::Number;
-use crate::wording::{Language, implausible, values};
+use crate::wording::texts::implausible;
 use nalgebra::{Matrix2, Vector2};
 
 /// Parameters of a dynamically tuned gyro in rate mode.
@@ -183,7 +184,7 @@ impl GyroType {
         let words = each
             .into_iter()
             .filter(|(_, value, largest)| value > largest)
-            .map(|(key, value, _)| implausible::OF_TYPE.filled(language, values! { key, value: Number::exact(value) }));
+            .map(|(key, value, _)| implausible::of_type(key, Number::exact(value)).plain(language));
         words.collect()
     }
 

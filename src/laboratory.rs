@@ -1,8 +1,9 @@
 //! The laboratory file (`dtg-laboratory/1`): current meter, gyro seat and base.
 
 use crate::text::{Document, Path, Problems, record};
+use crate::wording::Language;
 use crate::wording::number::Number;
-use crate::wording::{Language, implausible, values};
+use crate::wording::texts::implausible;
 
 /// Lowest and highest temperature of a laboratory, °C.
 pub(crate) const TEMPERATURES_C: [f64; 2] = [-90.0, 100.0];
@@ -132,7 +133,7 @@ impl Laboratory {
             let space = if unit == implausible::ARCSECONDS { "" } else { "\u{a0}" };
             let with_unit = |value| format!("{}{space}{}", Number::exact(value).text(language), unit.of(language));
             let [value, largest] = [value, largest].map(with_unit);
-            implausible::OF_LABORATORY.filled(language, values! { key, value, largest })
+            implausible::of_laboratory(key, value, largest).plain(language)
         });
         words.collect()
     }

@@ -46,9 +46,9 @@
 //! | `units` | angles and rates: the one place that converts | |
 //! | `parallel` | the same work on many things at once | |
 //! | [`text`] | one canonical form out and in, tables, errors that point into the file; hand-written YAML with `factory` | |
-//! | `wording` | words for people in each language, with their numbers | `factory` or `report` |
 //! | [`attitude`] | eq. (3), (4): A, E, Ã | |
 //! | [`coefficients`] | eq. (5), (9)-(13): n, ω_3, Δ, B, C | |
+//! | `wording` | what is said to people, in each language, with its numbers; the texts are in `texts/` | `factory` or `report` |
 //! | [`earth`] | Earth rate, gravity, deflection, geodesics | |
 //! | [`site`], [`stand`] | the place where a stand is used; a stand and its certified deviations | |
 //! | [`gyro`], [`laboratory`] | eq. (2): parameters and currents, types of gyro; the meter and the seat | |

@@ -141,6 +141,24 @@ impl Certificate {
     }
 }
 
+impl Certificate {
+    /// Returns a position with the standard uncertainties of its certified values in place of their own parts: combined
+    /// with the common parts ([GUM](crate::bibliography::Bibliography::Gum), 5.1.2), `None` where a part is not stated.
+    pub(crate) fn combined(&self, at: &CertifiedPosition) -> CertifiedPosition {
+        let common = self.common_platform_arcsec.zip(self.common_base_arcsec);
+        let common = common.map(|(platform, base)| libm::hypot(platform, base));
+        // A rotation about every axis changes α and γ, whose axes are not perpendicular, by 1/cos β of what it changes β.
+        let cos_beta = libm::cos(radians_from_arcseconds(at.beta_arcsec));
+        let with_common = |own: Option<f64>, cosine: f64| Some(libm::hypot(own?, common? / cosine));
+        CertifiedPosition {
+            u_alpha_arcsec: with_common(at.u_alpha_arcsec, cos_beta),
+            u_beta_arcsec: with_common(at.u_beta_arcsec, 1.0),
+            u_gamma_arcsec: with_common(at.u_gamma_arcsec, cos_beta),
+            ..at.clone()
+        }
+    }
+}
+
 impl CertifiedPosition {
     /// Returns the index (i, j) of the position.
     pub fn index(&self) -> PositionIndex {

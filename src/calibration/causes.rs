@@ -12,7 +12,9 @@ use super::scatter::Repeats;
 use super::sensitivity::Sensitivity;
 use crate::attitude::ANGLES;
 use crate::coefficients::PositionIndex;
-use crate::wording::{Language, Text, values};
+use crate::wording::Language;
+use crate::wording::Words;
+use crate::wording::texts::causes as names;
 use nalgebra::DMatrix;
 
 /// Uncertain input quantity. Axes are counted from 0.
@@ -59,36 +61,6 @@ pub enum Cause {
 
 const XYZ: [&str; 3] = ["x", "y", "z"];
 
-/// Names of the causes.
-pub(crate) mod names {
-    crate::wording::texts! {
-        ANGLE { en: "certified angles", ru: "отклонения по сертификату" }
-        RETURN { en: "repeatability of positioning", ru: "повторяемость положений" }
-        READING { en: "meter, specification", ru: "измеритель, погрешность показания" }
-        FLOOR { en: "meter, floor", ru: "измеритель, постоянная часть" }
-        VISITS { en: "gyro, visits", ru: "гироскоп, установки в положение" }
-        DIFFERENCES { en: "differences between visits", ru: "разности между установками в положение" }
-        TURN_ON { en: "gyro, turn-ons about {axis}", ru: "гироскоп, среднее по запускам, ось {axis}" }
-        NOISE { en: "meter, noise", ru: "измеритель, шум показаний" }
-        PLATFORM { en: "platform about {axis}", ru: "платформа (общая составляющая), вокруг {axis}" }
-        SEAT { en: "gyro seat about {axis}", ru: "угол посадки гироскопа вокруг {axis}" }
-        BASE { en: "base of the stand about {axis}", ru: "основание (общая составляющая), вокруг {axis}" }
-        ABOUT_EAST { en: "east", ru: "направления на восток" }
-        ABOUT_NORTH { en: "north", ru: "направления на север" }
-        ABOUT_UP { en: "up", ru: "вертикали" }
-        LEVEL { en: "level of the base about {axis}", ru: "наклон основания вокруг {axis}" }
-        AZIMUTH { en: "azimuth of the base", ru: "азимут основания" }
-        MARK { en: "azimuth of the mark", ru: "азимут ориентирного пункта" }
-        LATITUDE { en: "latitude", ru: "широта" }
-        DEFLECTION { en: "deflection of the vertical", ru: "уклонение отвесной линии" }
-        GAIN { en: "meter, gain", ru: "измеритель, коэффициент преобразования" }
-        OFFSET { en: "meter, offset", ru: "измеритель, смещение нуля" }
-    }
-
-    // No letters of the base axes, because the frame's axis ξ may point to any azimuth.
-    pub(super) const ABOUT: [crate::wording::Text; 3] = [ABOUT_EAST, ABOUT_NORTH, ABOUT_UP];
-}
-
 impl Cause {
     /// Returns the name of the cause, including its position.
     pub(crate) fn name(self) -> String {
@@ -104,42 +76,49 @@ impl Cause {
     }
 
     /// Returns the kind, the source and the unit.
-    fn words(self) -> (Text, &'static str, &'static str) {
+    fn words(self) -> (Words, &'static str, &'static str) {
+        // No letters of the base axes, because the frame's axis ξ may point to any azimuth.
+        let axis: Words = match self {
+            Self::TurnOn(axis) | Self::Platform(axis) | Self::Seat(axis) => XYZ[axis].into(),
+            Self::Base(axis) | Self::Level(axis) => {
+                [names::ABOUT_EAST, names::ABOUT_NORTH, names::ABOUT_UP][axis].into()
+            }
+            _ => "".into(),
+        };
         match self {
-            Self::Angle(..) => (names::ANGLE, "certificate: u_alpha_arcsec, u_beta_arcsec, u_gamma_arcsec", "arcsec"),
-            Self::Return(..) => (names::RETURN, "certificate: repeatability_arcsec", "arcsec"),
-            Self::Reading(..) => (names::READING, "laboratory: meter.reading_percent", "%"),
-            Self::Floor(..) => (names::FLOOR, "laboratory: meter.floor_ma, or the last digit recorded", "mA"),
-            Self::Noise(..) => (names::NOISE, "laboratory: meter.noise_ma, or repeated rows", "mA"),
-            Self::Visits(..) => (names::VISITS, "gyro type: noise.visit_deg_per_h, or repeated visits", "deg/h"),
-            Self::Differences(_) => (names::DIFFERENCES, "all of a visit", "1"),
-            Self::TurnOn(_) => (names::TURN_ON, "gyro type: noise.turn_on_deg_per_h, or repeated turn-ons", "deg/h"),
-            Self::Platform(_) => (names::PLATFORM, "certificate: common_platform_arcsec", "arcsec"),
-            Self::Seat(_) => (names::SEAT, "laboratory: seating_arcsec", "arcsec"),
-            Self::Base(_) => (names::BASE, "certificate: common_base_arcsec", "arcsec"),
-            Self::Level(_) => (names::LEVEL, "laboratory or site: level_arcsec", "arcsec"),
-            Self::Azimuth => (names::AZIMUTH, "laboratory or site: azimuth_arcsec", "arcsec"),
-            Self::Mark => (names::MARK, "passport: earth.azimuth_u_arcsec", "arcsec"),
-            Self::Latitude => (names::LATITUDE, "site: uncertainty.latitude_arcsec", "arcsec"),
-            Self::Deflection => (names::DEFLECTION, "site: deflection_arcsec.u (10 if unknown)", "arcsec"),
-            Self::Gain => (names::GAIN, "laboratory: meter.gain_percent", "%"),
-            Self::Offset => (names::OFFSET, "laboratory: meter.offset_ma", "mA"),
+            Self::Angle(..) => {
+                (names::ANGLE.into(), "certificate: u_alpha_arcsec, u_beta_arcsec, u_gamma_arcsec", "arcsec")
+            }
+            Self::Return(..) => (names::RETURN.into(), "certificate: repeatability_arcsec", "arcsec"),
+            Self::Reading(..) => (names::READING.into(), "laboratory: meter.reading_percent", "%"),
+            Self::Floor(..) => (names::FLOOR.into(), "laboratory: meter.floor_ma, or the last digit recorded", "mA"),
+            Self::Noise(..) => (names::NOISE.into(), "laboratory: meter.noise_ma, or repeated rows", "mA"),
+            Self::Visits(..) => (names::VISITS.into(), "gyro type: noise.visit_deg_per_h, or repeated visits", "deg/h"),
+            Self::Differences(_) => (names::DIFFERENCES.into(), "all of a visit", "1"),
+            Self::TurnOn(_) => {
+                (names::turn_on(axis), "gyro type: noise.turn_on_deg_per_h, or repeated turn-ons", "deg/h")
+            }
+            Self::Platform(_) => (names::platform(axis), "certificate: common_platform_arcsec", "arcsec"),
+            Self::Seat(_) => (names::seat(axis), "laboratory: seating_arcsec", "arcsec"),
+            Self::Base(_) => (names::base(axis), "certificate: common_base_arcsec", "arcsec"),
+            Self::Level(_) => (names::level(axis), "laboratory or site: level_arcsec", "arcsec"),
+            Self::Azimuth => (names::AZIMUTH.into(), "laboratory or site: azimuth_arcsec", "arcsec"),
+            Self::Mark => (names::MARK.into(), "passport: earth.azimuth_u_arcsec", "arcsec"),
+            Self::Latitude => (names::LATITUDE.into(), "site: uncertainty.latitude_arcsec", "arcsec"),
+            Self::Deflection => (names::DEFLECTION.into(), "site: deflection_arcsec.u (10 if unknown)", "arcsec"),
+            Self::Gain => (names::GAIN.into(), "laboratory: meter.gain_percent", "%"),
+            Self::Offset => (names::OFFSET.into(), "laboratory: meter.offset_ma", "mA"),
         }
     }
 
     /// Returns the name of the kind of cause, which is the name of its line in a budget.
     pub(crate) fn kind(self) -> String {
-        self.kind_in(Language::English)
+        self.kind_words().plain(Language::English)
     }
 
-    /// Returns the [kind](Self::kind) in `language`.
-    pub(crate) fn kind_in(self, language: Language) -> String {
-        let axis = match self {
-            Self::TurnOn(axis) | Self::Platform(axis) | Self::Seat(axis) => XYZ[axis],
-            Self::Base(axis) | Self::Level(axis) => names::ABOUT[axis].of(language),
-            _ => "",
-        };
-        self.words().0.filled(language, values! { axis })
+    /// Returns the [kind](Self::kind) in every language.
+    pub(crate) fn kind_words(self) -> Words {
+        self.words().0
     }
 
     /// Returns the file that states the uncertainty, and the key.

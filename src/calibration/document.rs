@@ -38,7 +38,9 @@ use crate::statistics::distributions::normal_below;
 use crate::text::Unreadable;
 use crate::text::node::from_json;
 use crate::text::printable::printable;
-use crate::wording::{Language, Text, comparison, values};
+use crate::wording::Language;
+use crate::wording::Words;
+use crate::wording::texts::comparison;
 use jiff::civil::Date;
 use jiff::tz::TimeZone;
 use jiff::{SignedDuration, Timestamp};
@@ -370,21 +372,24 @@ impl CalibrationDocument {
 
     /// Returns what limits a comparison with `earlier`, in words with the inputs that they are about: noise of the gyro that
     /// only one of the results includes, and inputs that only the earlier one leaves out.
-    pub(crate) fn limits_of_change(&self, earlier: &Self) -> impl Iterator<Item = (Text, Vec<NotStated>)> {
+    pub(crate) fn limits_of_change(
+        &self,
+        earlier: &Self,
+    ) -> impl Iterator<Item = (fn(Words) -> Words, Vec<NotStated>)> {
         let noises: Vec<NotStated> = self.noises_of_one(earlier).into_iter().map(|(what, ..)| what).collect();
         let left_out = |one: &Self, what: &NotStated| one.not_stated.iter().any(|words| words == what.words());
         let only_before = |what: &NotStated| left_out(earlier, what) && !left_out(self, what) && !noises.contains(what);
         let before = NotStated::ALL.into_iter().filter(only_before).collect();
-        [(comparison::NOISE_OF_ONE, noises), (comparison::LEFT_OUT_BEFORE, before)]
+        [(comparison::noise_of_one as fn(Words) -> Words, noises), (comparison::left_out_before, before)]
             .into_iter()
             .filter(|(_, inputs)| !inputs.is_empty())
     }
 
     /// Returns the limits of a comparison with `earlier` in words, a sentence each.
     pub(crate) fn limits_in_words(&self, earlier: &Self) -> Vec<String> {
-        let sentence = |(words, inputs): (Text, Vec<NotStated>)| {
+        let sentence = |(words, inputs): (fn(Words) -> Words, Vec<NotStated>)| {
             let names = inputs.into_iter().map(NotStated::words).collect::<Vec<_>>().join("; ");
-            words.filled(Language::English, values! { names })
+            words(names.into()).plain(Language::English)
         };
         self.limits_of_change(earlier).map(sentence).collect()
     }

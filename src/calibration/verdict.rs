@@ -98,14 +98,6 @@ impl ParameterVerdict {
         self.expanded_uncertainty_from_gravity.map(|expanded| expanded / self.coverage_factor)
     }
 
-    /// Returns `true` if the parameter is undecided because of its uncertainty, not because the result is not valid.
-    pub(crate) fn is_close(&self) -> bool {
-        let within = |deviation: f64| deviation <= self.tolerance;
-        let (least, most) =
-            (self.deviation.abs() - self.expanded_uncertainty, self.deviation.abs() + self.expanded_uncertainty);
-        self.guarded == Decision::Undecided && within(least) && !within(most)
-    }
-
     /// Returns the share of the variance that comes from the local g.
     pub(crate) fn share_of_gravity(&self) -> f64 {
         let part = self.expanded_uncertainty_from_gravity.unwrap_or(0.0) / self.expanded_uncertainty;

@@ -8,10 +8,11 @@ use super::rotated_runs::{Pattern, RotatedRuns};
 use super::shared_settings::Setting;
 use super::split_run::SplitRun;
 use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
-use super::texts;
 use crate::coefficients::PositionIndex;
+use crate::wording::Language;
+use crate::wording::Words;
 use crate::wording::number::{Number, Probability};
-use crate::wording::{Language, Text, Values, values};
+use crate::wording::texts::remarks as texts;
 use std::fmt::{Display, Formatter};
 
 /// Ratio of the scatter of a check to the certified one above which nothing is decided.
@@ -69,7 +70,7 @@ pub(crate) enum Finding {
 /// The English sentences without the last full stop, with advice: the wording of terminals.
 impl Display for Finding {
     fn fmt(&self, to: &mut Formatter<'_>) -> std::fmt::Result {
-        to.write_str(&advised(&self.words(Language::English), self.advice()))
+        to.write_str(&advised(&self.words().plain(Language::English), self.advice()))
     }
 }
 
@@ -97,61 +98,62 @@ pub(crate) enum Untested {
 
 impl Finding {
     /// Returns the finding as sentences.
-    pub(crate) fn words(&self, language: Language) -> String {
-        let fill = |text: Text, values: Values| text.filled(language, values);
+    pub(crate) fn words(&self) -> Words {
         match self {
             Self::Changed(ComparedPosition { index, turn_arcsec, u_arcsec, .. })
             | Self::Straggler(ComparedPosition { index, turn_arcsec, u_arcsec, .. }) => {
                 let [x, y, z] = std::array::from_fn(|axis| Number::measured(turn_arcsec[axis], u_arcsec[axis]));
-                let text = if self.is_change() { texts::POSITION_CHANGED } else { texts::POSITION_STRAGGLES };
-                fill(text, values! { index, x, y, z })
+                match self.is_change() {
+                    true => texts::position_changed(*index, x, y, z),
+                    false => texts::position_straggles(*index, x, y, z),
+                }
             }
             Self::ScattersMore { of_check_arcsec, certified_arcsec, probability } => {
                 let [found, certified] =
                     [of_check_arcsec, certified_arcsec].map(|value| Number::significant(*value, 2));
-                fill(texts::SCATTERS_MORE, values! { found, certified, p: Probability(*probability) })
+                texts::scatters_more(found, certified, Probability(*probability))
             }
             Self::RotatedRuns(at) => {
                 let [x, y, z] = together(at.turns_arcsec);
                 let [of_x, of_y, of_z] = together(at.in_the_mean_arcsec());
-                let (text, run, after) = match at.pattern {
-                    Pattern::One(run) => (texts::CHECK_BUMPED, run, 0),
-                    Pattern::Move(before, after) => (texts::CHECK_MOVED, before, after),
-                    Pattern::Drift => (texts::CHECK_DRIFTS, 0, 0),
-                };
-                fill(text, values! { run, after, axes: at.axis.names(), x, y, z, of_x, of_y, of_z })
+                let axes = at.axis.names();
+                match at.pattern {
+                    Pattern::One(run) => texts::check_bumped(run, x, y, z, axes, of_x, of_y, of_z),
+                    Pattern::Move(run, after) => texts::check_moved(run, after, x, y, z, axes),
+                    Pattern::Drift => texts::check_drifts(x, y, z, axes),
+                }
             }
-            Self::SplitRun(at) => at.filled(texts::CHECK_SPLIT, language),
+            Self::SplitRun(at) => at.words(true),
             Self::Outlier { out, of_mean_arcsec, u_arcsec } => {
                 let (residual, mean) = (arcsec(out.residual_arcsec), Number::measured(*of_mean_arcsec, *u_arcsec));
-                let (index, run, axis) = (&out.index, &out.run, AXES[out.axis]);
-                fill(texts::CHECK_OUTLIER, values! { index, run, residual, axis, mean })
+                let (index, run, axis) = (out.index, out.run, AXES[out.axis]);
+                texts::check_outlier(index, run, residual, axis, mean)
             }
-            Self::Exchanged([one, other]) => fill(texts::EXCHANGED, values! { one, other }),
-            Self::Misread(misread) => misread.words(language),
+            Self::Exchanged([one, other]) => texts::exchanged(*one, *other),
+            Self::Misread(misread) => misread.words(),
             Self::Setting(ChangedSetting { setting, angle_deg, turn_arcsec }) => {
                 let (symbol, angle, turn) = (setting.symbol(), Number::exact(*angle_deg), arcsec(*turn_arcsec));
-                fill(texts::SETTING_CHANGED, values! { symbol, angle, turn })
+                texts::setting_changed(symbol, angle, turn)
             }
-            Self::Worn(correlation) => fill(texts::WORN, values! { r: Number::fixed(*correlation, 2) }),
-            Self::AnotherStand => texts::ANOTHER_STAND.words(language),
-            Self::ChangedTogether => texts::CHANGED_TOGETHER.words(language),
-            Self::Slightly => texts::CHANGED_SLIGHTLY.words(language),
-            Self::Rotated => texts::ROTATED.words(language),
-            Self::RotatedSlightly => texts::ROTATED_SLIGHTLY.words(language),
-            Self::NotTested(Untested::Variation) => texts::NOT_TESTED_VARIATION.words(language),
-            Self::NotTested(Untested::NumberOfRuns) => texts::NOT_TESTED_RUNS.words(language),
-            Self::NotTested(Untested::CommonParts) => texts::NOT_TESTED_COMMON_PARTS.words(language),
+            Self::Worn(correlation) => texts::worn(Number::fixed(*correlation, 2)),
+            Self::AnotherStand => texts::ANOTHER_STAND.into(),
+            Self::ChangedTogether => texts::CHANGED_TOGETHER.into(),
+            Self::Slightly => texts::CHANGED_SLIGHTLY.into(),
+            Self::Rotated => texts::ROTATED.into(),
+            Self::RotatedSlightly => texts::ROTATED_SLIGHTLY.into(),
+            Self::NotTested(Untested::Variation) => texts::NOT_TESTED_VARIATION.into(),
+            Self::NotTested(Untested::NumberOfRuns) => texts::NOT_TESTED_RUNS.into(),
+            Self::NotTested(Untested::CommonParts) => texts::NOT_TESTED_COMMON_PARTS.into(),
             Self::Detects { position_arcsec, platform_arcsec } => {
                 let position = Number::significant(*position_arcsec, 2);
                 match platform_arcsec.map(|turn| Number::significant(turn, 2)) {
-                    Some(platform) => fill(texts::DETECTS, values! { position, platform }),
-                    None => fill(texts::DETECTS_OF_POSITION, values! { position }),
+                    Some(platform) => texts::detects(position, platform),
+                    None => texts::detects_of_position(position),
                 }
             }
-            Self::TreatedAsExact => texts::TREATED_AS_EXACT.words(language),
-            Self::SameReadings => texts::SAME_READINGS.words(language),
-            Self::TooClose => texts::TOO_CLOSE.words(language),
+            Self::TreatedAsExact => texts::TREATED_AS_EXACT.into(),
+            Self::SameReadings => texts::SAME_READINGS.into(),
+            Self::TooClose => texts::TOO_CLOSE.into(),
         }
     }
 

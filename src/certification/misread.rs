@@ -1,10 +1,10 @@
 //! Errors of a whole file of readings that a certificate shows: another unit, the opposite sign, exchanged or reversed axes.
 
 use super::readings::whole_runs::{Axes, CLEARLY, UNITS, axes_of_runs, differing};
-use super::texts;
 use crate::attitude::ANGLE_SYMBOLS;
+use crate::wording::Words;
 use crate::wording::number::Number;
-use crate::wording::{Language, Text, values};
+use crate::wording::texts::remarks as texts;
 use nalgebra::Vector3;
 
 /// Units of autocollimators near an arcsecond, with their factors. Converted twice, they would be taken for one another.
@@ -61,17 +61,17 @@ impl Misread {
     }
 
     /// Returns the error as a sentence.
-    pub(super) fn words(&self, language: Language) -> String {
-        let times = |text: Text, by: f64| text.filled(language, values! { factor: Number::whole_or_two_digits(by) });
+    pub(super) fn words(&self) -> Words {
+        let factor = |by: &f64| Number::whole_or_two_digits(*by);
         match self {
-            Self::Smaller(by, _) => times(texts::SMALLER_UNIT, *by),
-            Self::SmallerUnit(by, _) | Self::Larger(by, _) => times(texts::LARGER_UNIT, *by),
-            Self::Sign => texts::OPPOSITE_SIGN.words(language),
+            Self::Smaller(by, _) => texts::smaller_unit(factor(by)),
+            Self::SmallerUnit(by, _) | Self::Larger(by, _) => texts::larger_unit(factor(by)),
+            Self::Sign => texts::OPPOSITE_SIGN.into(),
             Self::Axes(axes) => {
                 let each = differing(axes).map(|(axis, column, sign)| {
                     format!("{}{} → {}", sign.replace('-', "−"), ANGLE_SYMBOLS[column], ANGLE_SYMBOLS[axis])
                 });
-                texts::OTHER_AXES.filled(language, values! { columns: each.collect::<Vec<_>>().join(", ") })
+                texts::other_axes(each.collect::<Vec<_>>().join(", "))
             }
         }
     }

@@ -34,7 +34,6 @@ pub(crate) mod rotated_runs;
 pub(crate) mod shared_settings;
 pub(crate) mod split_run;
 pub(crate) mod suspects;
-pub(crate) mod texts;
 pub(crate) mod unequal_axes;
 pub(crate) mod worse_groups;
 

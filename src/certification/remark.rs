@@ -4,7 +4,6 @@ use super::rotated_runs::{Pattern, RotatedRuns};
 use super::shared_settings::SharedSetting;
 use super::split_run::SplitRun;
 use super::suspects::{AXES, OUTLIER, Outlier, Suspects, WorsePosition};
-use super::texts;
 use super::unequal_axes::UnequalAxis;
 use super::worse_groups::WorseGroup;
 use crate::attitude::ANGLE_SYMBOLS;
@@ -12,8 +11,10 @@ use crate::calibration::recorded::rounding_of;
 use crate::stand::remarks::Odd;
 use crate::statistics::outlier::Bartlett;
 use crate::text::number::decimals;
+use crate::wording::Words;
 use crate::wording::number::{Number, Probability};
-use crate::wording::{Language, Text, Values, date_text, plain, values};
+use crate::wording::texts::remarks as texts;
+use crate::wording::{Language, plain};
 use jiff::civil::Date;
 use std::fmt::{Display, Formatter};
 
@@ -65,7 +66,7 @@ impl Display for Remark {
     fn fmt(&self, to: &mut Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Odd(odd) => odd.fmt(to),
-            _ => to.write_str(&advised(&self.words(Language::English), self.advice())),
+            _ => to.write_str(&advised(&self.words().plain(Language::English), self.advice())),
         }
     }
 }
@@ -98,86 +99,79 @@ impl Remark {
     }
 
     /// Returns the remark as sentences.
-    pub(crate) fn words(&self, language: Language) -> String {
-        let fill = |text: Text, values: Values| text.filled(language, values);
+    pub(crate) fn words(&self) -> Words {
         let (fixed, exact) = (Number::fixed, Number::exact);
-        let day = |date: Date| date_text(language, date);
-        // A suspect value: how suspect, and its probability.
-        let suspect = |text: Text, p: f64, values: Values| {
-            let grade = if p < OUTLIER { texts::OUTLIER } else { texts::STRAGGLER };
-            fill(text, &[values, values! { grade, p: Probability(p) }].concat())
-        };
+        // How suspect a value is, and its probability.
+        let grade = |p: f64| (if p < OUTLIER { texts::OUTLIER } else { texts::STRAGGLER }, Probability(p));
         match self {
             Self::Worse(at) => {
-                suspect(texts::WORSE, at.probability, values! { index: at.index, ratio: fixed(at.ratio, 1) })
+                let (grade, p) = grade(at.probability);
+                texts::worse(grade, at.index, fixed(at.ratio, 1), p)
             }
             Self::WorseGroup(at) => {
                 let (theta, ratio) = (exact(at.theta_deg), fixed(at.ratio, 1));
-                fill(texts::WORSE_GROUP, values! { theta, ratio, p: Probability(at.probability) })
+                texts::worse_group(theta, ratio, Probability(at.probability))
             }
             Self::Outlier(out) => {
-                let (text, line) = match out.line {
-                    Some(line) => (texts::OUTLIER_IN_LINE, line),
-                    None => (texts::OUTLIER_READING, 0),
-                };
-                let (residual, axis) = (arcsec(out.residual_arcsec), AXES[out.axis]);
-                let values = values! { index: out.index, run: out.run, residual, axis, line };
-                suspect(text, out.probability, values)
+                let (grade, p) = grade(out.probability);
+                let (index, run, residual, axis) = (out.index, out.run, arcsec(out.residual_arcsec), AXES[out.axis]);
+                match out.line {
+                    Some(line) => texts::outlier_in_line(grade, index, run, line, residual, axis, p),
+                    None => texts::outlier_reading(grade, index, run, residual, axis, p),
+                }
             }
             Self::RotatedRuns(at) => {
                 let ([x, y, z], mean) = (together(at.turns_arcsec), arcsec(at.largest_effect_arcsec()));
-                let (text, run, after) = match at.pattern {
-                    Pattern::One(run) => (texts::BUMPED_RUN, run, 0),
-                    Pattern::Move(before, after) => (texts::MOVED, before, after),
-                    Pattern::Drift => (texts::DRIFTS, 0, 0),
-                };
-                suspect(text, at.probability, values! { run, after, x, y, z, axes: at.axis.names(), mean })
+                let ((grade, p), axes) = (grade(at.probability), at.axis.names());
+                match at.pattern {
+                    Pattern::One(run) => texts::bumped_run(grade, run, x, y, z, axes, p, mean),
+                    Pattern::Move(run, after) => texts::moved(run, after, x, y, z, axes, p),
+                    Pattern::Drift => texts::drifts(x, y, z, axes, p),
+                }
             }
-            Self::SplitRun(at) => at.filled(texts::SPLIT_RUN, language),
-            Self::TwoRuns(one, other) => fill(texts::TWO_RUNS, values! { one, other }),
-            Self::NotCompared => fill(texts::NOT_COMPARED, &[]),
-            Self::Twins(one, other) => fill(texts::TWINS, values! { one, other }),
-            Self::AxesDiffer(p) => fill(texts::AXES_DIFFER, values! { p: Probability(*p) }),
-            Self::PositionsDiffer(p) => fill(texts::POSITIONS_DIFFER, values! { p: Probability(*p) }),
+            Self::SplitRun(at) => at.words(false),
+            Self::TwoRuns(one, other) => texts::two_runs(*one, *other),
+            Self::NotCompared => texts::NOT_COMPARED.into(),
+            Self::Twins(one, other) => texts::twins(*one, *other),
+            Self::AxesDiffer(p) => texts::axes_differ(Probability(*p)),
+            Self::PositionsDiffer(p) => texts::positions_differ(Probability(*p)),
             Self::RunAxesDiffer(at) => {
-                let text = if at.axis.is_of_the_base() { texts::BASE_AXES_DIFFER } else { texts::PLATFORM_AXES_DIFFER };
+                let is_of_the_base = at.axis.is_of_the_base();
                 let [own, others, missing] = [at.deviation_arcsec, at.others_arcsec, at.missing_arcsec].map(arcsec);
                 let (p, freedom) = (Probability(at.probability), at.degrees_of_freedom);
-                fill(text, values! { axis: at.axis.word(), own, others, p, missing, freedom })
+                let axis = at.axis.word();
+                match is_of_the_base {
+                    true => texts::base_axes_differ(own, axis, others, p, missing, freedom),
+                    false => texts::platform_axes_differ(own, axis, others, p, missing, freedom),
+                }
             }
             Self::SharedSetting(at) => {
                 let (angle, u) = (at.setting.symbol(), arcsec(at.deviation_arcsec));
-                fill(texts::SHARED_SETTING, values! { angle, u, p: Probability(at.probability) })
+                texts::shared_setting(angle, u, Probability(at.probability))
             }
             Self::FewRuns { runs, degrees_of_freedom: freedom } => {
                 let doubt = fixed(Self::doubt_percent(*freedom), 0);
-                fill(texts::FEW_RUNS, values! { runs, freedom, doubt })
+                texts::few_runs(*runs, *freedom, doubt)
             }
-            Self::BaseAxes(0) => fill(texts::BASE_NOT_SEEN, &[]),
-            Self::BaseAxes(axes) => fill(texts::BASE_IN_PART, values! { axes }),
+            Self::BaseAxes(0) => texts::BASE_NOT_SEEN.into(),
+            Self::BaseAxes(axes) => texts::base_in_part(*axes),
             Self::Rounding { angles, of, step_arcsec } => {
                 let (step, u) = (exact(*step_arcsec), arcsec(rounding_of(*step_arcsec)));
-                fill(texts::ROUNDING, values! { angles, all: of, step, u })
+                texts::rounding(*angles, *of, step, u)
             }
-            Self::SmallAngles(largest) => fill(texts::SMALL_ANGLES, values! { largest: hundredths_above(*largest) }),
-            Self::LittleScatter(scatter) => {
-                fill(texts::LITTLE_SCATTER, values! { scatter: hundredths_above(*scatter) })
-            }
+            Self::SmallAngles(largest) => texts::small_angles(hundredths_above(*largest)),
+            Self::LittleScatter(scatter) => texts::little_scatter(hundredths_above(*scatter)),
             Self::Odd(Odd::FarAngle { angle, index, arcsec, usual_arcsec }) => {
                 let (angle, value, usual) = (ANGLE_SYMBOLS[*angle], fixed(*arcsec, 0), fixed(*usual_arcsec, 0));
-                fill(texts::FAR_ANGLE, values! { angle, index, value, usual })
+                texts::far_angle(angle, *index, value, usual)
             }
-            Self::NotDated => fill(texts::NOT_DATED, &[]),
-            Self::NoExpiry(until) => fill(texts::NO_EXPIRY, values! { until: day(*until) }),
-            Self::Odd(Odd::Temperature { celsius, .. }) => fill(texts::TEMPERATURE, values! { value: exact(*celsius) }),
-            Self::Odd(Odd::OldMeasurement { performed, issued }) => {
-                fill(texts::OLD_MEASUREMENT, values! { performed: day(*performed), issued: day(*issued) })
-            }
-            Self::Odd(Odd::LongValidity { valid_until, issued }) => {
-                fill(texts::LONG_VALIDITY, values! { until: day(*valid_until), issued: day(*issued) })
-            }
+            Self::NotDated => texts::NOT_DATED.into(),
+            Self::NoExpiry(until) => texts::no_expiry(*until),
+            Self::Odd(Odd::Temperature { celsius, .. }) => texts::temperature(exact(*celsius)),
+            Self::Odd(Odd::OldMeasurement { performed, issued }) => texts::old_measurement(*performed, *issued),
+            Self::Odd(Odd::LongValidity { valid_until, issued }) => texts::long_validity(*issued, *valid_until),
             Self::Odd(Odd::OutsideRange { celsius, range: [low, high] }) => {
-                fill(texts::OUTSIDE_RANGE, values! { value: exact(*celsius), low: exact(*low), high: exact(*high) })
+                texts::outside_range(exact(*celsius), exact(*low), exact(*high))
             }
         }
     }

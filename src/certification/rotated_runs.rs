@@ -16,11 +16,13 @@
 //! leaves. Bonferroni's bound counts them with the runs, and only the least probable is named, so a cause has one name. A
 //! move after the first or before the last run is that run's.
 
+use super::AngleReadings;
 use super::components::{Components, RunTurn};
 use super::suspects::{AXES, OUTLIER, Outlier, STEPS_OF_ROUNDING, STRAGGLER};
-use super::{AngleReadings, texts};
 use crate::statistics::outlier::bonferroni_student;
-use crate::wording::{Text, compass};
+use crate::wording::Text;
+use crate::wording::texts::compass;
+use crate::wording::texts::remarks as texts;
 use nalgebra::Vector3;
 use std::ops::Range;
 
@@ -217,7 +219,7 @@ struct Fit {
 
 impl Pattern {
     /// Returns `true` for a pattern that depends on the order of the runs.
-    fn is_in_order(self) -> bool {
+    pub(crate) fn is_in_order(self) -> bool {
         !matches!(self, Self::One(_))
     }
 }

@@ -12,8 +12,9 @@ use super::{AngleReadings, Header};
 use crate::calibration::inputs::Turn;
 use crate::coefficients::PositionIndex;
 use crate::statistics::student::{effective_degrees_of_freedom, f_beyond};
+use crate::wording::Words;
 use crate::wording::number::Probability;
-use crate::wording::{Language, Text, values};
+use crate::wording::texts::remarks as texts;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// Fewest positions before the change, and after it: one alone is a suspect reading.
@@ -36,10 +37,14 @@ pub(crate) struct SplitRun {
 }
 
 impl SplitRun {
-    pub(super) fn filled(&self, text: Text, language: Language) -> String {
-        let ([before, after], [x, y, z]) = (self.between, together(self.turns_arcsec));
-        let (axes, p) = (self.axis.names(), Probability(self.probability));
-        text.filled(language, values! { run: self.run, before, after, axes, x, y, z, p })
+    /// Returns the remark on the run, or with `of_check` the finding of a check.
+    pub(super) fn words(&self, of_check: bool) -> Words {
+        let (run, [before, after], [x, y, z]) = (self.run, self.between, together(self.turns_arcsec));
+        let axes = self.axis.names();
+        match of_check {
+            true => texts::check_split(run, after, x, y, z, axes, before),
+            false => texts::split_run(run, after, x, y, z, axes, before, Probability(self.probability)),
+        }
     }
 }
 

@@ -122,7 +122,11 @@ pub(super) struct Options {
     /// Administrative data of --dcc (dtg-dcc/1); `new dcc` writes a template
     #[arg(long, value_name = "FILE", requires = "dcc")]
     administrative: Option<PathBuf>,
-    /// Languages of --report and --dcc; the first sets the number format: en, ru, or en,ru for both side by side
+    /// Print all that the report has: risks, residuals, the paper's methods and what the residuals do not show
+    #[arg(long)]
+    details: bool,
+    /// Language of the text, and languages of --report and --dcc; the first sets the number format: en, ru, or en,ru for both
+    /// side by side
     #[arg(long, value_enum, value_delimiter = ',', default_value = "en", value_name = "LANGUAGE")]
     lang: Vec<Language>,
     /// Output format
@@ -269,6 +273,11 @@ impl Bench<'_> {
         Ok(Found { currents: (name, sha256_hex(&bytes)), done, uncertainty })
     }
 
+    /// Returns the language of the text: the first of those of the report.
+    fn language(&self) -> Language {
+        languages(&self.options.lang).first()
+    }
+
     fn one(&self, path: &Path) -> Result<Code, Failure> {
         let options = self.options;
         // Nothing is written if one of the files cannot be.
@@ -292,12 +301,17 @@ impl Bench<'_> {
         let trials = found.uncertainty.monte_carlo.as_ref();
         match options.format {
             Format::Json => {
-                report::warnings(done, trials).iter().for_each(|warning| output::complain(&plain(warning)));
+                report::doubts(done, trials)
+                    .iter()
+                    .for_each(|doubt| output::complain(&plain(&doubt.plain(self.language()))));
                 output::json(&found.whole())?;
             }
             Format::Text => {
-                let text = report::text(done, trials, self.gyro_name(), options.laboratory.is_none(), self.checks());
-                output::text(&(text + &found.uncertainty.text(&done.document)))?;
+                let of = report::Report::of(done, self.gyro_type.as_ref(), &self.previous, options.details);
+                let (language, checks) = (self.language(), self.checks());
+                let how = report::Said { language, meter_assumed: options.laboratory.is_none(), checks };
+                let text = report::text(done, trials, &of, &how);
+                output::text(&(text + &found.uncertainty.text(self.gyro_type.as_ref(), &done.document, language)))?;
             }
         }
         Ok(found.code())
@@ -312,7 +326,7 @@ impl Bench<'_> {
         }
         let mut written = HashMap::new();
         let mut calibrated = Once::new();
-        let (mut all, mut failed) = (Gyros::default(), Vec::new());
+        let (mut all, mut failed) = (Gyros::new(self.language()), Vec::new());
         let calibrate = |path: &Path| {
             let found = self.calibrate(path)?;
             calibrated
@@ -322,7 +336,7 @@ impl Bench<'_> {
                 self.write(folder, path, &found, &mut written)?;
             }
             let trials = found.uncertainty.monte_carlo.as_ref();
-            let text = gyros::line(&found.currents.0, &found.done, trials, self.gyro_name());
+            let text = gyros::line(&found.currents.0, &found.done, trials, self.gyro_name(), self.language());
             let result = serde_json::to_value(found.whole()).map_err(Failure::unusable)?;
             all.add(&found.done, self.gyro_name(), self.checks());
             Ok(((Line { file: found.currents.0.clone(), result }, text), found.code()))
@@ -398,6 +412,7 @@ impl Bench<'_> {
             previous: &self.previous,
             budget: found.uncertainty.budget.as_ref().map(|(budget, _)| budget),
             monte_carlo: found.uncertainty.monte_carlo.as_ref(),
+            details: self.options.details,
         };
         Ok(page.html(&languages(&self.options.lang)))
     }

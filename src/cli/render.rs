@@ -29,6 +29,12 @@ pub(super) struct Options {
     /// Page languages; the first sets the number format: en, ru, or en,ru for both side by side
     #[arg(long, value_enum, value_delimiter = ',', default_value = "en", value_name = "LANGUAGE")]
     lang: Vec<Language>,
+    /// Print the signed file verbatim too; the page has it for the screen and as a download in any case
+    #[arg(long)]
+    annex: bool,
+    /// Print the blank forms of GOST R 2.610 in any language; with --lang ru alone they are always printed
+    #[arg(long)]
+    forms: bool,
     /// Replace an existing page
     #[arg(long)]
     force: bool,
@@ -58,8 +64,9 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let write = |passport: &Path, output: Option<&Path>| {
         let bytes = inputs::bytes(passport, Kind::Passport.words())?;
         let name = name_of(passport);
-        let page = PassportPage::of(&bytes, &enquiry.question, enquiry.verification(&name, &bytes))
+        let mut page = PassportPage::of(&bytes, &enquiry.question, enquiry.verification(&name, &bytes))
             .map_err(|refused| Failure::verdict("no page was written", &name, &refused))?;
+        (page.prints_annex, page.prints_forms) = (options.annex, options.forms);
         let verdict = verdict::Verdict::of(&name, &page.verification, &enquiry.remarks());
         let in_folder = || Some(folder.as_ref()?.path_of_id(verdict.id.as_deref()?)?.with_extension("html"));
         let output = output.map(Path::to_owned).or_else(in_folder);

@@ -6,8 +6,9 @@ use super::{Code, Failure, Format, defaults, output};
 use crate::batch::{Purpose, paths};
 use crate::document::sha256_hex;
 use crate::passport::{Content, Verification, content_from_anyone};
-use crate::report::{exported, passport_table};
+use crate::report::{exported, passport};
 use crate::text::{Kind, name_of};
+use crate::wording::Language;
 use clap::{ArgGroup, Args};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -23,6 +24,9 @@ pub(super) struct Options {
     passports: Vec<PathBuf>,
     #[command(flatten)]
     whom: Whom,
+    /// Language of the text
+    #[arg(long, value_enum, default_value = "en")]
+    lang: Language,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -87,7 +91,7 @@ impl Read {
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let enquiry = options.whom.load()?;
     let read = |path: &Path| Read::of(path, enquiry.as_ref());
-    let table = |read: &Read| passport_table::text(&read.content, read.verification.as_ref());
+    let table = |read: &Read| passport::text(&read.content, read.verification.as_ref(), options.lang);
     if let Some(path) = paths::one_file(&options.passports) {
         let read = read(path)?;
         return options.format.write(|| read.for_programs(), || table(&read)).map(|()| 0);

@@ -2,12 +2,13 @@
 
 use super::{Failure, long_run, output};
 use crate::calibration::{Calibration, CalibrationDocument, Method, Options as CalibrationOptions, Readings, Setup};
-use crate::gyro::Tolerance;
+use crate::gyro::{GyroType, Tolerance};
 use crate::interface::calibrated::distributions;
 use crate::report::{picture, uncertainty as report};
 use crate::uncertainty::dominant::Dominant;
 use crate::uncertainty::monte_carlo::{Trials, refused_model};
 use crate::uncertainty::{Budget, MonteCarlo};
+use crate::wording::Language;
 use clap::Args;
 use indicatif::HumanDuration;
 use serde::Serialize;
@@ -63,10 +64,9 @@ pub(super) struct Found {
 
 impl Found {
     /// Returns the results as text; empty if none was requested.
-    pub(super) fn text(&self, document: &CalibrationDocument) -> String {
-        let budget = self.budget.as_ref().map(|(budget, words)| report::budget(budget, words.as_deref(), document));
-        let trials = self.monte_carlo.as_ref().map(report::monte_carlo);
-        budget.unwrap_or_default() + &trials.unwrap_or_default()
+    pub(super) fn text(&self, gyro: Option<&GyroType>, document: &CalibrationDocument, language: Language) -> String {
+        let budget = self.budget.as_ref().map(|(budget, _)| budget);
+        report::text(budget, self.monte_carlo.as_ref(), (gyro, document), language)
     }
 
     /// Returns the result of a calibration with these, as JSON.

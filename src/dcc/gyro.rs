@@ -1,9 +1,9 @@
 //! DCC of a gyro: parameters, their standard uncertainties, and the decisions of its type.
 
 use super::facts::{Facts, Known, stated};
-use super::parts::{self, Subject, filled, in_words, quantity, real, units};
+use super::parts::{self, Subject, in_words, quantity, real, units};
 use super::xml::Element;
-use super::{Administrative, Dcc, words};
+use super::{Administrative, Dcc};
 use crate::calibration::document::Subject as GyroSubject;
 use crate::calibration::readings::Exclusion;
 use crate::calibration::stated::TemperatureOutside;
@@ -13,10 +13,12 @@ use crate::interface::calibrated::Done;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
 use crate::report::Languages;
-use crate::report::page::calibration::{not_stated, suspicion};
-use crate::report::page::language::{Text, values};
-use crate::report::page::texts::calibration as texts;
+use crate::report::calibration::{not_stated, suspicion};
+use crate::report::page::language::Text;
 use crate::text::Problems;
+use crate::wording::texts::calibration as texts;
+use crate::wording::texts::dcc as words;
+use crate::wording::words::joined;
 
 /// Publication of the drift model and of the equations.
 const PAPER: &str = "https://doi.org/10.18698/2308-6033-2017-10-1691";
@@ -107,7 +109,7 @@ fn statements(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
         Element::new("dcc:statement")
             .with("id", RULE_ID)
             .with("refType", "basic_conformity")
-            .and(filled("dcc:name", words::CONFORMITY, values! { type: gyro_type.r#type }, languages))
+            .and(in_words("dcc:name", words::conformity(&gyro_type.r#type), languages))
             .and(in_words("dcc:declaration", words::RULE, languages))
             .and(Element::text("dcc:conformity", decided(verdict.overall, verdict.parameters.iter().all(passes))))
     });
@@ -118,13 +120,13 @@ fn statements(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
         parts::statement(texts::EXCLUDED, Some(&visit), languages)
     });
     let suspects = calibrated.done.document.suspects.iter().map(|suspect| {
-        let declaration = parts::said("dcc:declaration", |language| suspicion(suspect, language), languages);
+        let declaration = in_words("dcc:declaration", joined(suspicion(suspect), " "), languages);
         parts::statement(words::SUSPECT, None, languages).and(declaration)
     });
     let dependent = calibrated.judged.map_or_else(Vec::new, |(_, verdict)| verdict.dependent());
     let dependent = (!dependent.is_empty()).then(|| {
         let names = dependent.iter().map(|one| one.symbol()).collect::<Vec<_>>().join(", ");
-        let declaration = filled("dcc:declaration", texts::DEPENDENT, values! { names }, languages);
+        let declaration = in_words("dcc:declaration", texts::dependent(names), languages);
         parts::statement(words::CONFORMITY_OPEN, None, languages).and(declaration)
     });
     let missing = calibrated.done.missing.iter().map(|what| {
@@ -134,8 +136,7 @@ fn statements(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
     let certificate = &calibrated.content.certificate;
     let outside = TemperatureOutside::of(certificate, calibrated.subject, calibrated.laboratory).map(|outside| {
         let TemperatureOutside { here_c, low_c, high_c } = outside;
-        let values = values! { here: here_c, low: low_c, high: high_c };
-        let declaration = filled("dcc:declaration", texts::TEMPERATURE_OUTSIDE, values, languages);
+        let declaration = in_words("dcc:declaration", texts::temperature_outside(here_c, low_c, high_c), languages);
         parts::statement(texts::TEMPERATURE_IS_OUTSIDE, None, languages).and(declaration)
     });
     conformity

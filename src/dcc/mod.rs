@@ -15,8 +15,7 @@ mod facts;
 mod gyro;
 mod parts;
 mod stand;
-pub(crate) mod words;
-mod xml;
+pub(crate) mod xml;
 
 pub(crate) use administrative::Administrative;
 pub(crate) use gyro::{Calibrated, of_gyro};

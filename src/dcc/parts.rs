@@ -2,10 +2,11 @@
 
 use super::administrative::Contact;
 use super::facts::{Facts, stated};
-use super::words;
 use super::xml::Element;
 use crate::report::Languages;
-use crate::report::page::language::{Language, Text, Values};
+use crate::report::page::language::{Language, Text};
+use crate::wording::Words;
+use crate::wording::texts::dcc as words;
 
 const SCHEMA_VERSION: &str = "3.3.0";
 
@@ -25,14 +26,10 @@ pub(super) mod units {
     pub(in crate::dcc) const DEG_PER_H_PER_M_PER_S2: &str = r"\degree\hour\tothe{-1}\metre\tothe{-1}\second\tothe{2}";
 }
 
-/// Returns an element with a text in every language of the DCC.
-pub(super) fn in_words(name: &'static str, text: Text, languages: &Languages) -> Element {
-    filled(name, text, &[], languages)
-}
-
-/// Returns an element with a text in every language of the DCC, with values in it.
-pub(super) fn filled(name: &'static str, text: Text, values: Values, languages: &Languages) -> Element {
-    said(name, |language| text.filled(language, values), languages)
+/// Returns an element with words in every language of the DCC.
+pub(super) fn in_words(name: &'static str, words: impl Into<Words>, languages: &Languages) -> Element {
+    let words = words.into();
+    said(name, |language| words.plain(language), languages)
 }
 
 /// Returns an element with the words that `words` returns for every language of the DCC.

@@ -3,14 +3,15 @@
 use super::facts::{Facts, Known, stated};
 use super::parts::{self, Subject, in_words, plain, quantity, real, reals, units};
 use super::xml::Element;
-use super::{Administrative, Dcc, words};
+use super::{Administrative, Dcc};
 use crate::document::sha256_hex;
 use crate::passport::Content;
 use crate::report::Languages;
-use crate::report::page::language::{Text, values};
-use crate::report::page::texts::calibration as texts;
+use crate::report::page::language::Text;
 use crate::stand::{CertifiedPosition, Datum};
 use crate::text::Problems;
+use crate::wording::texts::calibration as texts;
+use crate::wording::texts::dcc as words;
 use base64ct::{Base64, Encoding};
 
 /// Returns the DCC of the certificate in a verified passport; `bytes` is the signed file, which the DCC contains.
@@ -36,7 +37,7 @@ pub(crate) fn of_stand(
     let file_name = format!("{}-{}.yaml", content.site.id, content.passport.revision);
     let document = Element::new("dcc:document")
         .and(in_words("dcc:name", words::PASSPORT, languages))
-        .and(parts::filled("dcc:description", words::PASSPORT_NOTE, values! { id, sha256 }, languages))
+        .and(in_words("dcc:description", words::passport_note(id, sha256), languages))
         .and(Element::text("dcc:fileName", file_name))
         .and(Element::text("dcc:mimeType", "application/yaml"))
         .and(Element::text("dcc:dataBase64", Base64::encode_string(bytes)));

@@ -298,6 +298,13 @@ fn is_irreplaceable(path: &Path) -> bool {
     key || lines.any(|line| DOCUMENTS.iter().any(|format| line.starts_with(format)))
 }
 
+/// Returns a path without links and relative parts, as people write it: on Windows without the prefix `\\?\`.
+pub(crate) fn resolved(path: &Path) -> io::Result<PathBuf> {
+    let path = path.canonicalize()?;
+    let plain = path.to_str().and_then(|path| path.strip_prefix(r"\\?\").filter(|rest| !rest.starts_with("UNC")));
+    Ok(plain.map_or_else(|| path.clone(), PathBuf::from))
+}
+
 /// Replaces the content of a file, or creates it. Its permissions are kept; for a link, the target is replaced.
 ///
 /// # Errors

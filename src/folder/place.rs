@@ -59,7 +59,7 @@ pub(crate) fn stands(root: &Path) -> Result<Vec<(PathBuf, String)>, FileError> {
         {
             let levels = folder.ancestors().nth(2).map(Path::to_owned);
             let above = if folder.iter().count() > 2 { levels } else { None };
-            let above = above.or_else(|| folder.canonicalize().ok()?.ancestors().nth(2).map(Path::to_owned));
+            let above = above.or_else(|| files::resolved(folder).ok()?.ancestors().nth(2).map(Path::to_owned));
             found.extend(above.map(|above| (above, stand)));
         }
     }

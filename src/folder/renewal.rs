@@ -235,7 +235,7 @@ impl Renewal {
 
     /// Checks that every passport in lists of an earlier version is decided on. Nothing else in these lists is believed.
     fn check_old_lists(&self, root: &Path) -> Result<(), NotRenewed> {
-        let beside = root.canonicalize().ok().and_then(|root| Some(root.parent()?.join("revocations")));
+        let beside = files::resolved(root).ok().and_then(|root| Some(root.parent()?.join("revocations")));
         let places = [Some(root.to_owned()), beside, self.workspace.clone()];
         let (mut files, mut undecided) = (Vec::new(), BTreeSet::new());
         let mut seen = BTreeSet::new();

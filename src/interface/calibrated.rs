@@ -20,7 +20,8 @@ use crate::uncertainty::Budget;
 #[cfg(feature = "monte-carlo")]
 use crate::uncertainty::{self, Engine, MonteCarlo, ReadingShape, Trials};
 use crate::wording::number::Number;
-use crate::wording::{Language, comparison, plain, values};
+use crate::wording::texts::comparison;
+use crate::wording::{Language, plain};
 use jiff::Timestamp;
 use std::collections::BTreeMap;
 
@@ -174,10 +175,6 @@ pub(crate) struct Done {
     pub earlier: Option<(CalibrationDocument, Option<NoChange>)>,
     /// Warning that the earlier result may be that of another gyro, because a serial number is missing.
     pub unknown_gyro: Option<String>,
-    /// Warning that parameters have changed more than chance explains, if no type decides on the change.
-    pub unexplained: Option<String>,
-    /// Warning that all scale factors are wrong by one factor.
-    pub common_factor: Option<String>,
     /// Parameter that suffers most from positions without a reading, and the ratio of its uncertainty.
     pub cost_of_missing: Option<(Parameter, f64)>,
     /// Parameter whose uncertainty takes most of its tolerance, and the single visit that would reduce it most.
@@ -324,15 +321,12 @@ impl<'a> Prepared<'a> {
         let unexplained = last.map_or_else(Vec::new, |earlier| document.unexplained_change(earlier));
         let unexplained = (!unexplained.is_empty()).then(|| {
             let names = unexplained.iter().map(|parameter| parameter.symbol()).collect::<Vec<_>>().join(", ");
-            comparison::UNEXPLAINED.filled(Language::English, values! { names })
+            comparison::unexplained(names).plain(Language::English)
         });
         let of_verdict = document.verdict.as_ref().filter(|verdict| !verdict.withheld);
-        let common_factor = of_verdict.and_then(Verdict::common_factor).map(|factor| {
-            plain(
-                &comparison::COMMON_FACTOR
-                    .filled(Language::English, values! { factor: Number::significant(factor, 3) }),
-            )
-        });
+        let common_factor = of_verdict
+            .and_then(Verdict::common_factor)
+            .map(|factor| plain(&comparison::common_factor(Number::significant(factor, 3)).plain(Language::English)));
         document.remarks.extend(unexplained.iter().chain(&common_factor).cloned());
         let limits = last.map_or_else(Vec::new, |earlier| document.limits_in_words(earlier));
         document.remarks.extend(limits);
@@ -359,8 +353,6 @@ impl<'a> Prepared<'a> {
             document,
             earlier,
             unknown_gyro,
-            unexplained,
-            common_factor,
             cost_of_missing,
             further,
             warning,

@@ -336,13 +336,6 @@ pub(crate) fn degrees_of_freedom(value: f64) -> String {
     printed.strip_suffix(".0").map_or_else(|| printed.clone(), str::to_owned)
 }
 
-/// Returns the number of degrees of freedom with its noun.
-pub(crate) fn freedom(number: impl std::fmt::Display) -> String {
-    let number = number.to_string();
-    let plural = if number == "1" { "" } else { "s" };
-    format!("{number} degree{plural} of freedom")
-}
-
 /// Formats a probability with two digits, or as `< 10⁻⁶`.
 pub(crate) fn probability(p: f64) -> String {
     if p < 1e-6 {
@@ -352,11 +345,6 @@ pub(crate) fn probability(p: f64) -> String {
     } else {
         format!("{p:.2}")
     }
-}
-
-/// Formats a sum of squares in units of its variance: to two decimals, and a large one without decimals.
-pub(crate) fn chi_square(value: f64) -> String {
-    decimals_of_chi_square(value).map_or_else(|| two_digits(value), |decimals| format!("{value:.decimals$}"))
 }
 
 /// Returns the decimals of a sum of squares in units of its variance, or `None` if it needs a power of ten.
@@ -416,15 +404,6 @@ mod tests {
             assert_eq!(fixed(value, 4), due);
         }
         assert_eq!((fixed(-0.4, 0), fixed(-0.6, 0)), ("0".to_owned(), "-1".to_owned()));
-    }
-
-    /// By hand.
-    #[test]
-    fn a_large_chi_square_has_no_decimals() {
-        for (value, due) in [(0.0, "0.00"), (8.371, "8.37"), (99.994, "99.99"), (99.996, "100"), (8534.75, "8535")] {
-            assert_eq!(chi_square(value), due, "{value}");
-        }
-        assert_eq!(chi_square(100_419_738.45), "1.0×10⁸");
     }
 
     /// By hand, with 40 columns: the gap in the quotation is no column of a table, and no line ends within it.

@@ -2,7 +2,7 @@
 
 use crate::passport::Content;
 use crate::passport::difference::{Differences, NumberDifference, OtherDifference};
-use crate::report::page::passport::numbers::DECIMALS;
+use crate::report::passport::numbers::DECIMALS;
 use crate::report::{columns, style};
 use crate::text::{Node, Printable, number};
 use serde_json::{Value, json};

@@ -5,7 +5,7 @@
 
 use super::columns::{csv_row, grouped, with_plain_spaces};
 use super::page::language::Language;
-use super::page::passport::accuracy;
+use super::passport::accuracy;
 use super::style;
 use crate::batch::{Failure, Outcome};
 use crate::calibration::prediction::NoiseGrowth;
@@ -127,7 +127,8 @@ pub(crate) fn failure(failure: &Failure) -> String {
     let what = Printable(what);
     match unreadable {
         Some(unreadable) => unreadable.with_lines(&cost),
-        None if why.starts_with(&format!("{what}:")) => format!("{why}{cost}"),
+        // On Windows a path may be written with either separator.
+        None if why.replace('\\', "/").starts_with(&format!("{what}:").replace('\\', "/")) => format!("{why}{cost}"),
         None => format!("{what}: {why}{cost}"),
     }
 }
@@ -315,7 +316,7 @@ impl Told {
 
     /// Adds the remarks on a new passport.
     pub(crate) fn add_all(&mut self, id: &str, remarks: &Remarks) {
-        let words = |absence: &Absence| with_plain_spaces(&accuracy::plain(*absence, Language::English));
+        let words = |absence: &Absence| with_plain_spaces(&accuracy::sentence(*absence).plain(Language::English));
         let missing = remarks.missing.iter().map(words);
         remarks.warnings().into_iter().chain(missing).for_each(|words| self.add(id, words));
     }

@@ -1,28 +1,28 @@
 //! Output for people: verdicts, tables, sentences about a result, pages and pictures.
 //!
 //! * `verdict`: the answer of `verify`.
-//! * `calibration`: the result of a calibration.
+//! * `calibration`: the report of a calibration.
 //! * `certification`: a certified stand, and a check run.
 //! * `columns`: text in columns.
 //! * `deviations`: the certified deviations, drawn in block characters.
 //! * `difference`: differences of two passports.
+//! * `doc`: a document before it has a medium or a language, and its two renderers.
 //! * `exported`: a verified passport as JSON, with what its verification found.
 //! * `gyros`: the results of several gyros on one stand.
 //! * `history`: one stand over the years.
 //! * `mistake`: the explanation of a result that is not the gyro's.
 //! * `issued`: the outcomes of the orders of a batch.
 //! * `page`: pages for print and screen, in several languages.
-//! * `passport_table`: a passport in a terminal.
+//! * `passport`: a passport.
 //! * `plan`: the best positions, and what they cannot see.
 //! * `picture`: the contents of a document as pictures.
 //! * `recertification`: a new certificate of a stand, and the successors of its passports.
 //! * `recorded`: what the digits of the currents show.
 //! * `register`: the passports in a folder and their states.
-//! * `scatter`: agreement of repeated readings with what was stated.
 //! * `selftest`: the reference cases.
 //! * `simulation`: the tables of simulations.
 //! * `style`: emphasis in a terminal.
-//! * `tolerance`: decisions on the tolerances of a gyro type.
+//! * `tolerance`: decisions on the tolerances of a gyro type in a line.
 //! * `uncertainty`: the uncertainty budget; coverage intervals, and the test of linear propagation.
 
 pub(crate) mod calibration;
@@ -31,6 +31,7 @@ pub(crate) mod certification;
 pub(crate) mod columns;
 pub(crate) mod deviations;
 pub(crate) mod difference;
+pub(crate) mod doc;
 pub(crate) mod exported;
 pub(crate) mod gyros;
 #[cfg(feature = "factory")]
@@ -39,7 +40,7 @@ pub(crate) mod history;
 pub(crate) mod issued;
 pub(crate) mod mistake;
 pub(crate) mod page;
-pub(crate) mod passport_table;
+pub(crate) mod passport;
 pub(crate) mod picture;
 #[cfg(feature = "factory")]
 pub(crate) mod plan;
@@ -48,7 +49,6 @@ pub(crate) mod recertification;
 pub(crate) mod recorded;
 #[cfg(feature = "factory")]
 pub(crate) mod register;
-mod scatter;
 pub(crate) mod selftest;
 pub(crate) mod simulation;
 pub(crate) mod style;

@@ -1,10 +1,12 @@
 //! Result of a recertification, as text and as JSON.
 
 use crate::batch::recertification::Recertified;
+use crate::report::certification::{self, change};
 use crate::report::issued::{self, Report, State};
 use crate::report::style::Outcome;
-use crate::report::{certification, columns, difference, style};
+use crate::report::{columns, difference, doc, style};
 use crate::text::{name_of, shown};
+use crate::wording::Language;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -59,9 +61,8 @@ pub(crate) fn text(found: &Recertified, dry_run: bool) -> String {
     );
     out += &certification::certification(&found.certification);
     let _ = write!(out, "\n{}", certification::comparison(&found.comparison, None));
-    let heading = format!("Change of the deviations from certificate {} (A) to {number} (B), ″", found.old_number);
-    let _ = writeln!(out, "\n{}", style::heading(&heading));
-    difference::numbers(&mut out, &found.changes);
+    let _ = writeln!(out);
+    doc::text(&mut out, &change::deviations(&found.old_number, &found.changes), Language::English);
     let _ = writeln!(out);
     out.extend(reports(found).map(|report| issued::named(&report)));
     let done = |verb| if dry_run { issued::marked(None, "planned") } else { issued::marked(Some(true), verb) };

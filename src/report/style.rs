@@ -1,5 +1,7 @@
 //! Emphasis in a terminal: ANSI codes around whole words and lines. [`plain`] removes them for output without emphasis.
 
+pub(crate) use crate::wording::words::Outcome;
+
 use crate::calibration::Decision;
 use crate::text::printable;
 use anstyle::{AnsiColor, Style};
@@ -20,16 +22,6 @@ pub(crate) fn good(words: &str) -> String {
 /// Formats a bad result or a warning.
 pub(crate) fn bad(words: &str) -> String {
     styled(AnsiColor::Red.on_default().bold(), words)
-}
-
-/// Outcome of a check, a test or a decision.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Outcome {
-    Passed,
-    Failed,
-    /// Asked, but not decided.
-    Undecided,
-    NotAsked,
 }
 
 impl From<Option<bool>> for Outcome {
@@ -56,20 +48,9 @@ impl Outcome {
     }
 }
 
-/// Returns the mark of an outcome, in a terminal and on paper. The mark only repeats the words next to it, so that they
-/// can be read without it.
-pub(crate) fn mark(outcome: Outcome) -> &'static str {
-    match outcome {
-        Outcome::Passed => "●",
-        Outcome::Failed => "✕",
-        Outcome::Undecided => "◐",
-        Outcome::NotAsked => "○",
-    }
-}
-
 pub(crate) fn marked(outcome: impl Into<Outcome>, words: &str) -> String {
     let outcome = outcome.into();
-    let words = format!("{} {words}", mark(outcome));
+    let words = format!("{} {words}", outcome.mark());
     match outcome {
         Outcome::Passed => good(&words),
         Outcome::Failed => bad(&words),

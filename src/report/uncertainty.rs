@@ -1,123 +1,267 @@
-//! Uncertainty budget as text and as JSON, and result of a Monte Carlo run as text.
+//! Uncertainty budget and Monte Carlo with the test of linear propagation, both on request; the budget also as JSON.
 
-use crate::calibration::CalibrationDocument;
-use crate::calibration::Parameter;
+use crate::calibration::causes::Cause;
 use crate::calibration::document::finite;
-use crate::calibration::verdict::ParameterVerdict;
-use crate::report::columns::{self, grouped};
+use crate::calibration::verdict::{ParameterVerdict, Verdict};
+use crate::calibration::{CalibrationDocument, Parameter};
+use crate::gyro::GyroType;
+use crate::report::calibration::parameters;
+use crate::report::doc::{self, Block, On, Rows, Words, drawn, heading, in_unit, marked, say, symbol, told};
 use crate::report::page::Language;
-use crate::report::page::texts::calibration as texts;
-use crate::report::style::{self, Outcome};
+use crate::report::page::number::Number;
+use crate::report::picture::accuracy::unit;
+use crate::report::picture::drawing::legend_with;
+use crate::report::picture::shares as strips;
+use crate::report::picture::tolerances::unit_at_type;
+use crate::report::style::Outcome;
 use crate::uncertainty::budget::COVERAGE;
+use crate::uncertainty::dominant::{Dominant, Effect, Part, percent};
 use crate::uncertainty::monte_carlo::Distribution;
 use crate::uncertainty::{Budget, Contribution, MonteCarlo, ParameterBudget};
-use crate::units::{printed, quantity};
+use crate::wording::texts::{calibration as texts, units, words};
+use crate::wording::words::listed;
 use serde_json::{Value, json};
-use std::fmt::Write;
 
 /// Effective degrees of freedom above which ∞ is printed.
-pub(crate) const MANY: f64 = 1e4;
+const MANY: f64 = 1e4;
 
-/// Share of the variance below which contributions are combined into one line.
-const SHARE_SHOWN: f64 = 5e-4;
+/// Least share of a variance with which a kind of input has a part of the strips, and a row of the table.
+const LEAST_NAMED: f64 = 0.02;
+const LEAST_SHOWN: f64 = 1e-3;
 
-/// Returns `sentence` and the budget of every parameter, the largest contribution first; below those of the drifts that
-/// the verdict of `document` refers to another g, what the local g adds.
-pub(crate) fn budget(budget: &Budget, sentence: Option<&str>, document: &CalibrationDocument) -> String {
-    let verdict = document.verdict.as_ref();
+/// A quantity of each of the eight parameters.
+type Row = (Words, [Option<Words>; 8]);
+
+/// Returns the requested parts as text.
+pub(crate) fn text(
+    budgeted: Option<&Budget>,
+    trials: Option<&MonteCarlo>,
+    (gyro, document): (Option<&GyroType>, &CalibrationDocument),
+    language: Language,
+) -> String {
     let mut out = String::new();
-    let _ = writeln!(out, "\nUncertainty budget ({}), linear approximation, drifts at local g", budget.method.key());
-    if let Some(sentence) = sentence {
-        let relative = match verdict {
-            None => "its value",
-            Some(verdict) if verdict.parameters.iter().any(ParameterVerdict::is_mostly_from_gravity) => {
-                "its tolerance, excluding local g"
-            }
-            Some(_) => "its tolerance",
-        };
-        columns::paragraph(
-            &mut out,
-            "",
-            &columns::powers(&format!("Largest uncertainty relative to {relative}: {sentence}.")),
-        );
-    }
-    if document.scatter.is_some() {
-        columns::paragraph(&mut out, "", texts::BUDGET_MEANS.of(Language::English));
-    }
-    for line in Parameter::in_paper_order(&budget.parameters, |line| line.parameter) {
-        parameter(&mut out, line);
-        if let Some(verdict) = verdict
-            && let Some(row) = verdict.parameter(line.parameter)
-            && let Some(part) = row.u_from_gravity()
-        {
-            let (g, u) = (verdict.gravity_m_per_s2, row.standard_uncertainty);
-            let digits = columns::decimals(u);
-            let more = digits + 1;
-            let words = format!("at g₀ = {g} m/s²: contribution of local g {part:.more$}; combined u = {u:.digits$}.");
-            columns::paragraph(&mut out, "  ", &words);
-        }
+    let of_budget = budgeted.map(|found| (texts::BUDGET, budget(found, gyro, document)));
+    for (name, blocks) in of_budget.into_iter().chain(trials.map(|found| (texts::MONTE_CARLO, monte_carlo(found)))) {
+        doc::text(&mut out, &[vec![heading(name)], blocks].concat(), language);
     }
     out
 }
 
-/// Width of a terminal that has room for the number of inputs of each kind.
-const WITH_COUNTS: usize = 80;
-
-fn parameter(out: &mut String, line: &ParameterBudget) {
-    let u = line.standard_uncertainty;
-    let digits = columns::decimals(u);
-    let freedom = match line.effective_degrees_of_freedom {
-        known if known > MANY => "∞".to_owned(),
-        known => columns::degrees_of_freedom(known),
+/// The budget: what is most of it, the shares, the contributions.
+pub(crate) fn budget(budget: &Budget, gyro: Option<&GyroType>, document: &CalibrationDocument) -> Vec<Block> {
+    let verdict = gyro.and(document.verdict.as_ref());
+    let worst = match verdict {
+        None => texts::budget_worst_of_size,
+        Some(verdict) if verdict.parameters.iter().any(ParameterVerdict::is_mostly_from_gravity) => {
+            texts::budget_worst_but_gravity
+        }
+        Some(_) => texts::budget_worst,
     };
-    let _ = writeln!(
-        out,
-        "\n{} = {:.digits$} {}, u = {u:.digits$}; degrees of freedom: {freedom}",
-        line.parameter.symbol(),
-        line.value,
-        printed(line.parameter.unit()),
+    let remedy = Dominant::of(budget, gyro.map(|gyro| &gyro.tolerance));
+    let (large, small): (Vec<_>, Vec<_>) = kinds(budget).into_iter().partition(|kind| kind.share >= LEAST_SHOWN);
+    let names = small
+        .iter()
+        .enumerate()
+        .flat_map(|(place, kind)| (place > 0).then(|| Words::from("; ")).into_iter().chain([kind.cause.kind_words()]));
+    let names: Vec<Words> = names.collect();
+    let notes = [
+        Some(texts::BUDGET_DASH.into()),
+        document.scatter.map(|_| texts::BUDGET_MEANS.into()),
+        (!small.is_empty()).then(|| texts::budget_not_shown(names)),
+    ];
+    let mut doc = vec![say(remedy.iter().flat_map(|remedy| sentences(remedy, worst)))];
+    doc.extend(shares(budget, verdict).map(|block| block.only(On::Page)));
+    let u_of_gravity = document.gravity_u_m_per_s2.unwrap_or(0.0);
+    doc.push(
+        parameters(&rows(budget, large, verdict, u_of_gravity)).captioned(texts::BUDGET_CAPTION, texts::BUDGET_CAPTION),
     );
-    let large = line.contributions.iter().filter(|part| part.share >= SHARE_SHOWN).count();
-    // A single small contribution is printed as it is.
-    let shown = if large + 1 == line.contributions.len() { large + 1 } else { large };
-    let (shown, rest) = line.contributions.split_at(shown);
-    // One digit more than u has: the small ones can be told from 0.
-    let digits = digits + 1;
-    let mut rows: Vec<Vec<String>> = shown.iter().map(|part| contribution(part, digits)).collect();
-    if !rest.is_empty() {
-        let sum: f64 = rest.iter().map(|part| part.contribution * part.contribution).sum();
-        let share: f64 = rest.iter().map(|part| part.share).sum();
-        let share = if share < SHARE_SHOWN { "< 0.1".to_owned() } else { format!("{:.1}", 100.0 * share) };
-        let name = format!("{} others", rest.len());
-        rows.push(vec![name, String::new(), String::new(), format!("{:.digits$}", sum.sqrt()), share]);
+    doc.push(say(notes.into_iter().flatten().collect::<Vec<Words>>()));
+    doc
+}
+
+/// The dominant contribution to the budget and the effect of reducing it.
+fn sentences(remedy: &Dominant, worst: fn(Words, Words) -> Words) -> [Words; 3] {
+    let (line, first) = (remedy.worst, remedy.first);
+    let share = match remedy.part() {
+        Part::NearlyAll => texts::budget_nearly_all,
+        Part::Most => texts::budget_most,
+        Part::Largest => texts::budget_largest,
+    };
+    let amount = |u: f64| {
+        let (u, unit) = percent(line, u).map_or_else(|| (u, unit(line.parameter)), |percent| (percent, units::PERCENT));
+        Words::Quantity(Number::scientific(u, 2), unit)
+    };
+    let effect = match remedy.effect {
+        Effect::HalvesAt(limit) => texts::budget_halves(told(of_input(first.cause, limit))),
+        Effect::Leaves(rest) => texts::budget_leaves(told(amount(rest))),
+    };
+    let share = share(told(Number::fixed(100.0 * first.share, 0)), first.cause.kind_words());
+    [worst(symbol(line.parameter.symbol()), told(amount(line.standard_uncertainty))), share, effect]
+}
+
+/// Which kinds of input each variance comes from; where a type is given, at its g, to which the decision refers.
+fn shares(budget: &Budget, verdict: Option<&Verdict>) -> [Block; 2] {
+    let lines = Parameter::AS_IN_THE_PAPER.into_iter().filter_map(|parameter| line_of(budget, parameter));
+    let lines: Vec<&ParameterBudget> = lines.collect();
+    let converted = |line: &ParameterBudget| {
+        let row = verdict.and_then(|verdict| verdict.parameter(line.parameter));
+        row.filter(|row| row.share_of_gravity() > 0.0)
+    };
+    let at_type = lines.iter().any(|line| converted(line).is_some());
+    let kinds = kinds(budget);
+    let of_gravity = |line: &ParameterBudget| converted(line).map_or(0.0, ParameterVerdict::share_of_gravity);
+    let share = |line: &ParameterBudget, kind: &Contribution| {
+        let part = line.contributions.iter().find(|part| part.cause.kind() == kind.cause.kind());
+        part.map_or(0.0, |part| (1.0 - of_gravity(line)) * part.share)
+    };
+    let largest = |kind: &Contribution| lines.iter().map(|line| share(line, kind)).fold(0.0, f64::max);
+    let mut named: Vec<&Contribution> = kinds.iter().copied().filter(|kind| largest(kind) >= LEAST_NAMED).collect();
+    named.sort_by(|one, other| largest(other).total_cmp(&largest(one)));
+    named.truncate(strips::LETTERS.len() - usize::from(at_type));
+    let parts = |line: &ParameterBudget| {
+        let inputs = named.iter().map(|kind| share(line, kind));
+        at_type.then(|| of_gravity(line)).into_iter().chain(inputs).collect::<Vec<f64>>()
+    };
+    let table = Rows::of(&lines, "numbers shares")
+        .named(texts::PARAMETER, |line| {
+            let unit = if at_type { unit_at_type(line.parameter) } else { unit(line.parameter) };
+            in_unit(symbol(line.parameter.symbol()), unit)
+        })
+        .column(symbol("u"), |line| {
+            Number::uncertainty(converted(line).map_or(line.standard_uncertainty, |row| row.standard_uncertainty))
+        })
+        .strips(texts::SHARES, |line| strips::shares(&parts(line)), strips::axis);
+    let mut names: Vec<Words> = at_type.then(|| texts::SHARE_OF_GRAVITY.into()).into_iter().collect();
+    names.extend(named.iter().map(|kind| kind.cause.kind_words()));
+    let letters = names.len();
+    names.extend((kinds.len() > named.len()).then(|| Words::from(texts::OTHER_INPUTS)));
+    let legend = drawn(move |languages| {
+        let samples: Vec<_> =
+            (0..names.len()).map(|place| strips::sample(Some(place).filter(|place| *place < letters))).collect();
+        legend_with(samples.iter().zip(names.iter().map(|name| name.label(languages))))
+    });
+    let caption = if at_type { texts::SHARES_CAPTION_AT_TYPE } else { texts::SHARES_CAPTION };
+    [table.captioned(caption, caption), Block::Drawn(legend)]
+}
+
+fn line_of(budget: &Budget, parameter: Parameter) -> Option<&ParameterBudget> {
+    budget.parameters.iter().find(|line| line.parameter == parameter)
+}
+
+/// The rows of the table: one for each kind of input, the largest first, then the totals; after them what the local g adds
+/// in the decision.
+fn rows(budget: &Budget, kinds: Vec<&Contribution>, verdict: Option<&Verdict>, u_of_gravity: f64) -> Vec<Row> {
+    let each = |cell: &dyn Fn(&ParameterBudget) -> Option<Words>| {
+        Parameter::AS_IN_THE_PAPER.map(|parameter| line_of(budget, parameter).and_then(cell))
+    };
+    let strong = |name: crate::wording::Text| Words::Strong(Box::new(name.into()));
+    // The number stands once.
+    let input = |name: Words, relation: &str, u: Words| {
+        let u = vec![": ".into(), symbol("u"), format!("\u{a0}{relation}\u{a0}").into(), u];
+        Words::All(vec![name, Words::First(Box::new(told(u)))])
+    };
+    let mut rows: Vec<Row> = kinds
+        .into_iter()
+        .map(|kind| {
+            let contribution = |line: &ParameterBudget| {
+                let part = line.contributions.iter().find(|part| part.cause.kind() == kind.cause.kind())?;
+                // One digit more than u has, so that their squares add up to its square.
+                let number = Number::to_place(part.contribution, Number::place_of(line.standard_uncertainty) - 1);
+                Some(number).filter(|number| !number.is_printed_as_zero()).map(Words::from)
+            };
+            let largest = of_input(kind.cause, kind.cause.shown(kind.standard_uncertainty[1]));
+            let name = Words::Capital(Box::new(kind.cause.kind_words()));
+            (input(name, if kind.has_several_sizes() { "≤" } else { "=" }, largest), each(&contribution))
+        })
+        .collect();
+    rows.push((strong(texts::COMBINED), each(&|line| Some(Number::uncertainty(line.standard_uncertainty).into()))));
+    rows.push((
+        texts::EFFECTIVE_FREEDOM.into(),
+        each(&|line| {
+            Some(match line.effective_degrees_of_freedom {
+                known if known > MANY => "∞".into(),
+                // Aligned with contributions of many decimals, its column would be too wide.
+                known if known >= 1000.0 => "> 1000".into(),
+                // Rounding to tens would print a number that differs from the one in the result.
+                known => Number::whole_or_two_digits(known).into(),
+            })
+        }),
+    ));
+    if let Some(verdict) = verdict.filter(|all| all.parameters.iter().any(|row| row.u_from_gravity().is_some())) {
+        let each = |cell: &dyn Fn(&ParameterVerdict) -> Option<Number>| {
+            each(&|line| verdict.parameter(line.parameter).and_then(cell).map(Words::from))
+        };
+        let u = Words::Quantity(Number::uncertainty(u_of_gravity), units::M_PER_S2);
+        let of_gravity = |row: &ParameterVerdict| {
+            Some(Number::to_place(row.u_from_gravity()?, Number::place_of(row.standard_uncertainty) - 1))
+        };
+        rows.push((input(texts::BUDGET_GRAVITY.into(), "=", u), each(&of_gravity)));
+        let combined = each(&|row| Some(Number::uncertainty(row.standard_uncertainty)));
+        rows.push((strong(texts::COMBINED_AT_G0), combined));
     }
-    let mut names = vec!["input", "u of input", "inputs", "contribution", "share, %"];
-    if columns::width() < WITH_COUNTS {
-        names.remove(2);
-        rows.iter_mut().for_each(|row| {
-            row.remove(2);
+    rows
+}
+
+/// Returns one contribution for each kind of input, the largest of that kind, sorted by descending share of a variance.
+fn kinds(budget: &Budget) -> Vec<&Contribution> {
+    let mut kinds: Vec<&Contribution> = Vec::new();
+    for part in budget.parameters.iter().flat_map(|line| &line.contributions) {
+        match kinds.iter_mut().find(|known| known.cause.kind() == part.cause.kind()) {
+            Some(known) if part.share > known.share => *known = part,
+            Some(_) => {}
+            None => kinds.push(part),
+        }
+    }
+    kinds.sort_by(|one, other| other.share.total_cmp(&one.share));
+    kinds
+}
+
+/// Returns the uncertainty of an input with its unit.
+fn of_input(cause: Cause, u: f64) -> Words {
+    let unit = match cause.unit() {
+        "%" => units::PERCENT,
+        "mA" => units::MILLIAMPERES,
+        "deg/h" => units::DEG_PER_H,
+        "1" => return Number::scientific(u, 2).into(),
+        _ => units::ARCSEC,
+    };
+    Words::Quantity(Number::scientific(u, 2), unit)
+}
+
+/// The coverage intervals, and for every parameter whether the linear approximation is valid.
+pub(crate) fn monte_carlo(found: &MonteCarlo) -> Vec<Block> {
+    let line = |parameter: Parameter| found.parameters.iter().find(|line| line.parameter == parameter);
+    let each =
+        |cell: &dyn Fn(&Distribution) -> Words| Parameter::AS_IN_THE_PAPER.map(|parameter| line(parameter).map(cell));
+    let measured = |value: f64, line: &Distribution| Number::measured(value, line.standard_uncertainty).into();
+    let mut rows: Vec<Row> = vec![
+        (texts::MEAN.into(), each(&|line| measured(line.mean, line))),
+        (symbol("u"), each(&|line| Number::uncertainty(line.standard_uncertainty).into())),
+        (texts::LOWER.into(), each(&|line| measured(line.symmetric[0], line))),
+        (texts::UPPER.into(), each(&|line| measured(line.symmetric[1], line))),
+    ];
+    // Too few trials decide nothing.
+    let decided = found.parameters.iter().filter(|line| line.first_order.valid.is_some()).count();
+    if decided > 0 {
+        let valid = each(&|line| match line.first_order.valid {
+            Some(valid) => {
+                let word = if valid { words::YES } else { words::NO };
+                marked(Some(valid), Words::First(Box::new(word.into())))
+            }
+            None => marked(Outcome::Undecided, ""),
         });
+        rows.push((texts::FIRST_ORDER.into(), valid));
     }
-    columns::table(out, &names, rows);
-}
-
-fn contribution(part: &Contribution, digits: usize) -> Vec<String> {
-    let [low, high] = part.standard_uncertainty.map(|u| part.cause.shown(u));
-    let size = if part.has_several_sizes() { format!("{}–{}", short(low), short(high)) } else { short(high) };
+    let caption = texts::monte_carlo_caption(told(Number::fixed(found.trials as f64, 0)), found.seed);
+    let some = (1..found.parameters.len()).contains(&decided);
+    let failed = told(Number::fixed(found.failed as f64, 0));
+    let warning = |words: Words| vec![Words::Either(Box::new("".into()), Box::new("WARNING: ".into())), words];
     vec![
-        part.cause.kind(),
-        match part.cause.unit() {
-            "1" => size,
-            unit => quantity(&size, unit),
-        },
-        part.inputs.to_string(),
-        format!("{:.digits$}", part.contribution),
-        format!("{:.1}", 100.0 * part.share),
+        parameters(&rows).captioned(texts::MONTE_CARLO, caption),
+        say(some.then_some(texts::FIRST_ORDER_UNDECIDED)),
+        say((!found.stable).then(|| warning(texts::NOT_STABLE.into()))),
+        say((found.failed > 0).then(|| warning(texts::failed_trials(failed)))),
     ]
-}
-
-fn short(value: f64) -> String {
-    if value < 1e-3 { columns::two_digits(value) } else { format!("{:.*}", columns::decimals(value).max(1), value) }
 }
 
 /// Returns a budget as JSON, `{method, sentence, parameters, covariance, inputs}`: the key `budget` of `calibrate`. The
@@ -168,57 +312,9 @@ fn stated(mut object: Value) -> Value {
 
 /// Returns which parameters the linear approximation is not valid for (JCGM 101, clause 8) and what to use in its place, or
 /// `None` if there are none.
-pub(crate) fn not_linear(found: &MonteCarlo) -> Option<String> {
+pub(crate) fn not_linear(found: &MonteCarlo) -> Option<Words> {
     let lines = Parameter::in_paper_order(&found.parameters, |line| line.parameter);
     let invalid = lines.into_iter().filter(|line| line.first_order.valid == Some(false));
-    let names: Vec<&str> = invalid.map(|line| line.parameter.symbol()).collect();
-    let names = (!names.is_empty()).then(|| names.join(", "))?;
-    Some(texts::NOT_LINEAR.of(Language::English).replace("{names}", &names))
-}
-
-/// Returns uncertainties and coverage intervals, and for every parameter whether the linear approximation is valid.
-pub(crate) fn monte_carlo(found: &MonteCarlo) -> String {
-    let mut out = String::new();
-    let _ = writeln!(
-        out,
-        "\nMonte Carlo ({}), {} trials, seed {}; {:.0} % coverage intervals, drifts at local g",
-        found.method.key(),
-        grouped(found.trials),
-        found.seed,
-        100.0 * COVERAGE
-    );
-    let names = ["", "mean", "u", "symmetric", "shortest", "difference", "allowed", "linear"];
-    let rows = Parameter::in_paper_order(&found.parameters, |line| line.parameter);
-    columns::table(&mut out, &names, rows.into_iter().map(distribution));
-    let words = "difference: of the ends of the interval by linear approximation from those of the symmetric one (the \
-                 larger of the two); allowed: half a unit of the second digit of u (JCGM 101, clause 8); linear: \
-                 whether the linear approximation is valid (undecided: too few trials).";
-    columns::paragraph(&mut out, "  ", words);
-    if !found.stable {
-        columns::paragraph(&mut out, "  ", &format!("WARNING: {}", texts::NOT_STABLE.of(Language::English)));
-    }
-    if found.failed > 0 {
-        let words = format!("WARNING: {} trials gave no finite parameters and were excluded.", grouped(found.failed));
-        columns::paragraph(&mut out, "  ", &words);
-    }
-    out
-}
-
-fn distribution(line: &Distribution) -> Vec<String> {
-    let digits = columns::decimals(line.standard_uncertainty);
-    let interval = |[low, high]: [f64; 2]| format!("{low:.digits$} to {high:.digits$}");
-    let first = &line.first_order;
-    vec![
-        line.parameter.symbol().to_owned(),
-        format!("{:.digits$}", line.mean),
-        format!("{:.digits$}", line.standard_uncertainty),
-        interval(line.symmetric),
-        interval(line.shortest),
-        format!("{:.*}", digits + 2, first.differences[0].max(first.differences[1])),
-        format!("{:.*}", digits + 1, first.tolerance),
-        match first.valid {
-            None => style::marked(Outcome::Undecided, "undecided"),
-            valid => style::marked(valid, if valid == Some(true) { "valid" } else { "NOT VALID" }),
-        },
-    ]
+    let names: Vec<Words> = invalid.map(|line| symbol(line.parameter.symbol())).collect();
+    (!names.is_empty()).then(|| texts::not_linear(listed(names)))
 }

@@ -3,8 +3,7 @@
 //! [JCGM 100](crate::bibliography::Bibliography::Gum), 7.2.6: an uncertainty has two significant digits, and its value
 //! ends at the same decimal place. A narrow non-breaking space separates groups of three digits (SI Brochure, 5.4.4).
 
-use super::spacing::BLANK;
-use super::{Language, Text, Value};
+use super::{Language, Text};
 use crate::text::number;
 
 /// Largest angle that is printed in arcseconds alone.
@@ -171,13 +170,6 @@ impl Number {
 
 /// A probability as the value of a text, with its relation: `p = 0.012`, `p < 10⁻⁶`.
 pub(crate) struct Probability(pub f64);
-
-impl Value for Probability {
-    fn said(&self, language: Language) -> String {
-        let relation = if self.0 < LEAST_PROBABILITY { '<' } else { '=' };
-        format!("p{BLANK}{relation}{BLANK}{}", Number::probability(self.0).text(language))
-    }
-}
 
 /// Converts scientific notation with fewer decimals than its exponent to plain digits: `1.23e5` to `123000`.
 fn scaled(scientific: &str) -> String {

@@ -169,7 +169,7 @@ fn form_does_not_matter() {
     fs::write(folder.join("r.csv"), turned.join("\r\n")).unwrap();
     let (code, text, said) = run(&folder, "r.csv --stand header.yaml -o other.yaml");
     assert_eq!(code, 0, "{said}");
-    assert!(text.contains("of the same visit: 1."), "{text}");
+    assert!(text.contains("of the same visit: 1\n"), "{text}");
     assert_eq!(run(&folder, "angles.csv --stand header.yaml -o stand.yaml").0, 0);
     // The digest alone tells that it was another file.
     let read = |name: &str| {

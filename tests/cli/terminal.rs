@@ -156,3 +156,61 @@ fn every_line_fits_the_terminal_and_no_word_is_broken() {
         }
     }
 }
+
+/// `calibrate` without `--details`: the verdict first, no line above 80 columns, at most 40 lines; also of readings that do
+/// not fit, of exchanged columns, without a gyro type, and after an earlier calibration.
+#[test]
+fn a_calibration_fits_on_a_screen() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let currents = std::fs::read_to_string("docs/currents.csv").unwrap();
+    let changed = |each: &dyn Fn(usize, Vec<&str>) -> String| {
+        let rows =
+            currents.lines().enumerate().map(|(place, line)| match line.starts_with(|c: char| c.is_ascii_digit()) {
+                true => each(place, line.split(',').collect()),
+                false => line.to_owned(),
+            });
+        rows.collect::<Vec<_>>().join("\n") + "\n"
+    };
+    let first = currents.lines().position(|line| line.starts_with(|c: char| c.is_ascii_digit())).unwrap();
+    let off = file(
+        "off.csv",
+        &changed(&|place, row| match place == first {
+            true => format!("{},{},{},{}", row[0], row[1], row[2].parse::<f64>().unwrap() + 0.05, row[3]),
+            false => row.join(","),
+        }),
+    );
+    let swapped = file("swapped.csv", &changed(&|_, row| format!("{},{},{},{}", row[0], row[1], row[3], row[2])));
+    let json = Command::new(program())
+        .args(["calibrate", SHOW[1]])
+        .args(CALIBRATE.split(' '))
+        .args(TRUST.split(' '))
+        .args(["--format", "json"])
+        .output()
+        .unwrap();
+    let earlier = file("earlier.json", &String::from_utf8(json.stdout).unwrap());
+    let without_type = CALIBRATE.replace(" --gyro docs/gvk-6.yaml", "");
+    assert_ne!(without_type, CALIBRATE);
+    let cases = [
+        (CALIBRATE.to_owned(), ["UNDECIDED", "НЕ ОПРЕДЕЛЕНО"]),
+        (CALIBRATE.replace("docs/currents.csv", &off), ["INVALID", "НЕДЕЙСТВИТЕЛЬНО"]),
+        (CALIBRATE.replace("docs/currents.csv", &swapped), ["INVALID", "НЕДЕЙСТВИТЕЛЬНО"]),
+        (without_type.clone(), ["CALIBRATED", "ОТКАЛИБРОВАН"]),
+        (format!("{without_type} --previous {earlier}"), ["CALIBRATED", "ОТКАЛИБРОВАН"]),
+    ];
+    for (given, words) in cases {
+        for (language, word) in ["en", "ru"].into_iter().zip(words) {
+            let mut calibrate = Command::new(program());
+            calibrate.args(["calibrate", SHOW[1], "--lang", language]).args(given.split(' ')).args(TRUST.split(' '));
+            let text = calibrate.env("COLUMNS", "80").output().unwrap().stdout;
+            let text = String::from_utf8(text).unwrap();
+            assert!(text.lines().next().is_some_and(|line| line.contains(word)), "{given}\n{text}");
+            assert!(text.lines().all(|line| line.chars().count() <= 80), "{given}\n{text}");
+            assert!(text.lines().count() <= 40, "{} lines\n{given}\n{text}", text.lines().count());
+        }
+    }
+}

@@ -19,7 +19,7 @@ use dtg_passport::laboratory::Laboratory;
 use dtg_passport::passport::issue::{Issue, draft};
 use dtg_passport::passport::{FORM, NAMESPACE, Question, Trust, annotations, content, content_from_anyone, verify};
 use dtg_passport::register::{self, VerifiedRegister};
-use dtg_passport::report::passport_table;
+use dtg_passport::report::passport as printed;
 use dtg_passport::site::Site;
 use dtg_passport::stand::Stand;
 use dtg_passport::text::record::{Document, File};
@@ -197,7 +197,7 @@ fn content(bytes: &[u8]) -> bool {
     assert_eq!(rule::differs(payload, &written(&content)), None);
     let written = annotations::payload(&content);
     assert_eq!(content::read("written", &written).as_ref(), Ok(&content));
-    assert!(!passport_table::text(&content, None).is_empty());
+    assert!(!printed::text(&content, None, dtg_passport::wording::Language::English).is_empty());
     let _ = content.coefficients();
     true
 }

@@ -257,7 +257,7 @@ fn a_remark_says_the_same_in_both_languages() {
         Remark::Odd(Odd::OutsideRange { celsius: 25.5, range: [18.0, 22.0] }),
     ];
     for remark in &remarks {
-        let [en, ru] = [Language::English, Language::Russian].map(|language| remark.words(language));
+        let [en, ru] = [Language::English, Language::Russian].map(|language| remark.words().plain(language));
         assert!(!en.chars().any(cyrillic) && ru.chars().any(cyrillic), "{en}\n{ru}");
         assert!(latin_words(&ru).all(|word| LATIN_IN_RUSSIAN.contains(&word)), "{ru}");
         assert!([&en, &ru].iter().all(|said| said.ends_with('.') && !said.contains(['{', '}'])), "{en}\n{ru}");
@@ -270,6 +270,6 @@ fn a_remark_says_the_same_in_both_languages() {
         assert!(least.iter().all(|number| ru.contains(number)), "{en}: {ru:?}");
     }
     // Expected: 1/√(2·6) = 0.2887 (GUM, E.4.3).
-    assert!(remarks[16].words(Language::Russian).contains("29\u{a0}%"));
-    assert!(remarks[2].words(Language::Russian).contains("\u{2212}14″"));
+    assert!(remarks[16].words().plain(Language::Russian).contains("29\u{a0}%"));
+    assert!(remarks[2].words().plain(Language::Russian).contains("\u{2212}14″"));
 }

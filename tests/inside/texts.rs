@@ -1,22 +1,8 @@
 //! The table of texts: no Russian in English, no English in Russian, the same values in both.
 
 use crate::inside::language::{LATIN_IN_RUSSIAN, cyrillic, latin_words};
-use dtg_passport::report::page::language::Text;
-use dtg_passport::report::page::texts;
+use dtg_passport::wording::texts::TABLES;
 use std::collections::BTreeSet;
-
-type Table = (&'static str, &'static [(&'static str, Text)]);
-
-/// Texts of digital certificates, which only the program has.
-#[cfg(feature = "cli")]
-const CERTIFICATES: &[Table] = &[("dcc", dtg_passport::dcc::words::ALL)];
-#[cfg(not(feature = "cli"))]
-const CERTIFICATES: &[Table] = &[];
-
-/// All tables of texts: those of pages, and of digital certificates.
-fn tables() -> impl Iterator<Item = Table> {
-    texts::TABLES.iter().chain(CERTIFICATES).copied()
-}
 
 /// The names in braces.
 fn names(text: &str) -> BTreeSet<&str> {
@@ -30,8 +16,8 @@ fn without_names(text: &str) -> String {
 #[test]
 fn every_text_is_in_its_own_language_with_the_same_values() {
     let mut count = 0;
-    for (table, texts) in tables() {
-        for (name, text) in texts {
+    for (table, texts) in TABLES {
+        for (name, text) in *texts {
             count += 1;
             let (en, ru) = (without_names(text.en), without_names(text.ru));
             assert!(!en.chars().any(cyrillic), "{table}::{name}: Cyrillic in {en:?}");
@@ -94,8 +80,8 @@ fn one_term_for_each_concept() {
     assert!(says("The last days of it", "last day*") && !says("at last, daylight", "last day"));
     assert!(says("Столб, отмеченный", "столб") && !says("столбец x", "столб"));
     let mut found = Vec::new();
-    for (table, texts) in tables() {
-        for (name, text) in texts {
+    for (table, texts) in TABLES {
+        for (name, text) in *texts {
             for (language, said) in [("en", text.en), ("ru", text.ru)] {
                 let said = without_names(said).replace('\u{a0}', " ");
                 found.extend(wrong(language, &format!("{table}::{name}"), &said));

@@ -1,11 +1,13 @@
 //! Uncertainty of type B in a certificate, and the readings it was made from: read, written, added once, printed.
 
 use crate::inside::{fixtures, written};
+use dtg_passport::attitude::{Deviation, deviation};
 use dtg_passport::certification::{AngleReadings, Certification, Header, certify};
 use dtg_passport::passport::verify;
-use dtg_passport::report::passport_table;
-use dtg_passport::stand::{ActsOn, Stand};
+use dtg_passport::report::passport as printed;
+use dtg_passport::stand::{ActsOn, Certificate, CertifiedPosition, Stand};
 use dtg_passport::trust::SigningKey;
+use nalgebra::{Matrix3, Rotation3, Vector3};
 
 const READINGS: &str = include_str!("../../docs/angles.csv");
 const HEADER: &str = include_str!("../../docs/header.yaml");
@@ -117,9 +119,9 @@ fn it_goes_through_every_document() {
     let content = passport.content();
     assert_eq!(content.certificate, found.stand.certificate);
     assert_eq!(content.certificate.type_b_on(ActsOn::Platform).count(), 1);
-    let shown = passport_table::text(content, None);
+    let shown = printed::text(content, None, dtg_passport::wording::Language::English);
     for words in
-        ["type B, platform, ″", "0.6: mirror cube", "0.4 (8 degrees of freedom): mirror flatness", "5 runs, SHA-256"]
+        ["Type B, common part of the platform", "0.6″: mirror cube", "0.4″, ν = 8: mirror flatness", "5, SHA-256"]
     {
         assert!(shown.contains(words), "no {words:?} in\n{shown}");
     }
@@ -173,4 +175,52 @@ fn a_header_has_type_b_and_no_evidence() {
     let text = with_type_b(HEADER).replace("datum:", evidence);
     let said = Header::from_yaml("header.yaml", text.as_bytes()).unwrap_err().to_string();
     assert!(said.contains("certificate.evidence") && said.contains("it is computed from the readings"), "{said}");
+}
+
+/// α, β, γ of E = Rz(γ)·Ry(β)·Rx(α), eq. (4).
+fn angles(e: &Matrix3<f64>) -> [f64; 3] {
+    [libm::atan2(-e.m32, e.m33), libm::asin(e.m31), libm::atan2(-e.m21, e.m11)]
+}
+
+/// Expected: small rotations about each axis of the platform and of the base, applied to E.
+#[test]
+fn common_parts_turn_the_angles_of_a_tilted_platform() {
+    let arcsec = [72_000.0, 108_000.0, -36_000.0];
+    let [alpha_arcsec, beta_arcsec, gamma_arcsec] = arcsec;
+    let [alpha, beta, gamma] = arcsec.map(|arcsec| (arcsec / 3600.0_f64).to_radians());
+    let e = deviation(&Deviation { alpha_rad: alpha, beta_rad: beta, gamma_rad: gamma });
+    assert!(angles(&e).iter().zip([alpha, beta, gamma]).all(|(found, due)| (found - due).abs() < 1e-12));
+    let (platform, base, own, turn) = (0.8, 0.3, 1.2, 1e-6);
+    let mut squares = [own * own; 3];
+    for axis in 0..3 {
+        let rotation = Rotation3::new(Vector3::ith(axis, turn)).into_inner();
+        for (turned, u) in [(rotation * e, platform), (e * rotation, base)] {
+            let [a, b, c] = angles(&turned);
+            for (square, change) in squares.iter_mut().zip([a - alpha, b - beta, c - gamma]) {
+                *square += (change / turn * u) * (change / turn * u);
+            }
+        }
+    }
+    let stand = fixtures::stand(fixtures::ARC_MINUTES);
+    let certificate = Certificate {
+        common_platform_arcsec: Some(platform),
+        common_base_arcsec: Some(base),
+        ..stand.certificate.clone()
+    };
+    let u = Some(own);
+    let [u_alpha_arcsec, u_beta_arcsec, u_gamma_arcsec] = [u; 3];
+    let at = CertifiedPosition {
+        alpha_arcsec,
+        beta_arcsec,
+        gamma_arcsec,
+        u_alpha_arcsec,
+        u_beta_arcsec,
+        u_gamma_arcsec,
+        ..stand.positions[0].clone()
+    };
+    for (found, due) in certificate.combined(&at).u_arcsec().into_iter().zip(squares) {
+        assert!((found.unwrap() - due.sqrt()).abs() < 1e-5, "{found:?} {}", due.sqrt());
+    }
+    let without = Certificate { common_base_arcsec: None, ..certificate };
+    assert_eq!(without.combined(&at).u_arcsec(), [None; 3]);
 }

@@ -66,7 +66,7 @@ function said() {
       text: text(data),
       // A coordinate has a letter instead of a sign.
       negative: /°\u00a0(?:S|W|ю|з)/.test((data.closest(".quantity") ?? data).textContent),
-      lang: (data.closest("p[lang], dd span[lang]") ?? document.documentElement).lang,
+      lang: (data.closest("p[lang], :is(dd, li, caption) span[lang]") ?? document.documentElement).lang,
     })),
     tables: all("table").map((table) => ({
       caption: table.caption ? table.caption.textContent : "",
@@ -88,8 +88,8 @@ function said() {
       .filter((block) => !block.closest(".unseen, .save, .screen, svg, tfoot") && !block.querySelector("sub, sup, p, .pad, .unseen, .save, svg text"))
       .map(printed),
     annex: document.querySelector("pre").textContent,
+    annexPrinted: document.querySelector("pre").closest(".save") === null,
     download: { name: link.download, address: link.href },
-    checked: document.querySelector(".checked")?.textContent ?? "",
     greens: all(".passed").map(text),
     // The serial number of the gyro among the fields, where it is seen.
     serials: all("dt").filter((name) => /^(Serial number of the gyro|Заводской номер гироскопа)/.test(name.textContent) && name.checkVisibility())

@@ -19,13 +19,17 @@ pub struct Case {
     pub trust: Trust,
     pub question: Question,
     pub languages: Languages,
+    /// With the annex and the forms in print.
+    pub in_full: bool,
 }
 
 impl Case {
     /// The page, or the test's failure with what verification said.
     pub fn html(&self) -> String {
         let page = PassportPage::verified(self.name, self.passport.as_bytes(), &self.trust, &self.question);
-        page.unwrap_or_else(|refused| panic!("{}: {:?}", self.name, refused.checks())).html(&self.languages)
+        let mut page = page.unwrap_or_else(|refused| panic!("{}: {:?}", self.name, refused.checks()));
+        (page.prints_annex, page.prints_forms) = (self.in_full, self.in_full);
+        page.html(&self.languages)
     }
 
     fn asking(self, question: Question) -> Self {
@@ -48,6 +52,8 @@ pub fn all() -> Vec<Case> {
         usual("usual-en", &[English]),
         usual("usual-ru", &[Russian]),
         usual("usual-both", &[English, Russian]),
+        Case { in_full: true, ..usual("in-full-en", &[English]) },
+        Case { in_full: true, ..full("in-full-both", &[English, Russian]) },
         full("full-en", &[English]).asking(right.clone()),
         full("full-ru", &[Russian]).asking(right),
         case("hostile-both", &hostile(fixtures::ARC_MINUTES), fixtures::SITE, &[Russian, English]),
@@ -71,7 +77,7 @@ pub fn usual(name: &'static str, languages: &[Language]) -> Case {
     let signers = include_bytes!("../../docs/allowed_signers");
     let trust = Trust::of(AllowedSigners::parse("allowed_signers", signers).unwrap());
     let question = Question::at(fixtures::at("2026-11-20T12:00:00Z"));
-    Case { name, passport, trust, question, languages: of(languages) }
+    Case { name, passport, trust, question, languages: of(languages), in_full: false }
 }
 
 /// Hardly anything stated, and no expiry date.
@@ -92,7 +98,8 @@ fn case(name: &'static str, stand: &str, site: &str, languages: &[Language]) -> 
 fn issued(name: &'static str, stand: &str, site: &str, order: &Issue, languages: &[Language]) -> Case {
     let key = SigningKey::generate().unwrap();
     let passport = draft(&fixtures::stand(stand), &fixtures::site(site), order).unwrap().sign(&key).unwrap();
-    Case { name, passport, trust: fixtures::trust(&key), question: fixtures::question(), languages: of(languages) }
+    let (trust, question, languages) = (fixtures::trust(&key), fixtures::question(), of(languages));
+    Case { name, passport, trust, question, languages, in_full: false }
 }
 
 /// Twenty-four positions at a surveyed site, with the expected uncertainty.

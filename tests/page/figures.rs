@@ -31,7 +31,7 @@ static CALIBRATED: LazyLock<(String, Value)> = LazyLock::new(|| {
     };
     std::fs::write(&earlier, programs::output(calibrate(&currents))).unwrap();
     let mut calibrate = calibrate("docs/currents.csv".as_ref());
-    calibrate.arg("--previous").arg(&earlier).args(["--budget", "--report"]).arg(&page);
+    calibrate.arg("--previous").arg(&earlier).args(["--budget", "--details", "--report"]).arg(&page);
     let result = serde_json::from_str(&programs::output(calibrate)).unwrap();
     (std::fs::read_to_string(&page).unwrap(), result)
 });

@@ -68,7 +68,7 @@ fn a_page_is_small() {
         println!("{:<15} {:>7} bytes", case.name, bytes);
         // Twenty-four positions are drawn twenty-four times.
         let most = match case.name {
-            "usual-both" => 200_000,
+            "usual-both" => 165_000,
             many if many.starts_with("many") => 450_000,
             _ => 300_000,
         };
@@ -195,13 +195,6 @@ fn what_was_not_asked_is_not_called_passed() {
         // Those that were not asked have one row.
         let count = |mark: &str| states.iter().filter(|state| state.starts_with(mark)).count();
         assert_eq!(rows.len(), 11 + 1 - count("○ "), "{}", case.name);
-        let line = found["said"]["checked"].as_str().unwrap().replace('\u{a0}', " ");
-        let words = if english { ["passed", "not asked"] } else { ["пройдено", "не запрошено"] };
-        for (mark, word) in ["● ", "○ "].into_iter().zip(words) {
-            let counted = if english { format!("{} {word}", count(mark)) } else { format!("{word} {}", count(mark)) };
-            assert!(line.contains(&counted), "{}: {counted} in {line}", case.name);
-            assert_eq!(line.matches(mark.trim()).count(), count(mark), "{}: {line}", case.name);
-        }
         assert!(found["said"]["greens"].as_array().unwrap().iter().all(|green| !green.as_str().unwrap().contains('○')));
     }
 }

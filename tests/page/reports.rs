@@ -43,6 +43,17 @@ const PREVIOUS: &[&str] = &["--previous", "@earlier.json"];
 const SEVERAL: &[&str] = &["--previous", "@earlier.json", "--previous", "@older.json"];
 
 const REPORTS: &[Report] = &[
+    Report { name: "brief-en", languages: &[English], asked: &[USUAL, CURRENTS, LABORATORY, GYRO] },
+    Report {
+        name: "brief-budget-en",
+        languages: &[English],
+        asked: &[USUAL, CURRENTS, LABORATORY, GYRO, &["--budget"]],
+    },
+    Report {
+        name: "brief-both",
+        languages: &[Russian, English],
+        asked: &[USUAL, CURRENTS, LABORATORY, GYRO, PREVIOUS],
+    },
     Report { name: "calibrated-en", languages: &[English], asked: &[USUAL, CURRENTS, LABORATORY, GYRO] },
     Report { name: "calibrated-ru", languages: &[Russian], asked: &[USUAL, CURRENTS, LABORATORY, GYRO] },
     Report { name: "whole-ru", languages: &[Russian], asked: &[USUAL, CURRENTS, LABORATORY, GYRO, WHOLE, PREVIOUS] },
@@ -141,12 +152,17 @@ impl Report {
         format!("{:x}", Sha256::digest(bytes))[..8].to_owned()
     }
 
+    /// All that a report can have, but for the usual ones.
+    fn details(&self) -> Option<&'static str> {
+        (!self.name.starts_with("brief") && self.name != "coarse-both").then_some("--details")
+    }
+
     /// Has the program write the page, and the result for programs.
     fn write(&self, folder: &Path) {
         let tags: Vec<&str> = self.languages.iter().map(|language| language.tag()).collect();
         let page = folder.join(format!("{}.html", self.name));
         let mut calibrate = calibrate(folder, &self.asked.concat());
-        calibrate.args(["--lang", &tags.join(","), "--format", "json", "--report"]).arg(&page);
+        calibrate.args(self.details()).args(["--lang", &tags.join(","), "--format", "json", "--report"]).arg(&page);
         let output = calibrate.output().unwrap();
         assert!(page.exists(), "{}: {}", self.name, String::from_utf8_lossy(&output.stderr));
         fs::write(folder.join(format!("{}.json", self.name)), output.stdout).unwrap();
@@ -449,6 +465,7 @@ fn every_number_is_that_of_the_result() {
         python.arg(programs::project("tests/page/result.py")).arg(&pages).arg(report.name);
         python.arg(REPORTED.folder.join(format!("{}.json", report.name)));
         python.current_dir(programs::project("")).args(words(&REPORTED.folder, &report.asked.concat()));
+        python.args(report.details());
         assert_eq!(programs::output(python).trim(), "", "{}", report.name);
     }
 }

@@ -240,7 +240,9 @@ class Report:
 
     def tables(self):
         found = [self.table(table) for table in self.said["tables"]]
-        due = {"parameters", "residuals", *(part for part in ("verdict", "change") if self.result.get(part))}
+        # The usual report has what the decision rests on; the rest has details.
+        due = set() if self.usual else {"parameters", "residuals"}
+        due |= {*(part for part in ("verdict", "change") if self.result.get(part))}
         due |= {"course"} if self.course else set()
         due |= {"alone"} if self.alone else set()
         if not due <= set(found):
@@ -476,7 +478,7 @@ class Report:
             + (f"; несоответствие: {fails}." if fails else "."),
         }
         said = "".join(words["text"] for words in self.said["words"]).replace("\u00a0", " ")
-        shown = self.is_simple(part)
+        shown = self.is_simple(part) and not self.usual
         if shown != (due[self.said["lang"]] in said):
             self.wrong.append(f"{part}: {due[self.said['lang']]!r} is{'' if shown else ' not'} to be on the page")
 
@@ -513,7 +515,10 @@ def main():
     earlier = [json.load(open(file, encoding="utf-8")) for option, file in zip(asked, asked[1:]) if option == "--previous"]
     types = [yaml.safe_load(open(file, encoding="utf-8")) for option, file in zip(asked, asked[1:]) if option == "--gyro"]
     gravity = types[0].get("gravity_m_per_s2", 9.80665) if types else None
+    # Limits that sentences name: of the probability of chi-square, and of the differences between methods.
+    values += [0.005, 3]
     report = Report(said, result, values, days, earlier, gravity)
+    report.usual = "--details" not in asked
     if len(said["numbers"]) < 60:
         report.wrong.append(f"only {len(said['numbers'])} numbers on the page")
     for number in said["numbers"]:

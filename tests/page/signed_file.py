@@ -64,6 +64,22 @@ def derived(content):
     return [arcsec, *(abs(earth[f"{other}_deg_per_h"]) * u for other in ("vertical", "horizontal"))]
 
 
+def expanded(content):
+    """U = 2u of every certified value, from its own part and both common parts: rotations about the axes, of which alpha and gamma
+    take the part that the angle beta leaves them."""
+    certificate = content["certificate"]
+    common = [certificate.get(f"common_{part}_arcsec") for part in ("platform", "base")]
+    found = []
+    for at in content["positions"]:
+        for angle in ("alpha", "beta", "gamma"):
+            own = at.get(f"u_{angle}_arcsec")
+            if own is None or None in common:
+                continue
+            share = 1 if angle == "beta" else math.cos(math.radians(at["beta_arcsec"] / 3600))
+            found.append(2 * math.sqrt(own**2 + sum((u / share) ** 2 for u in common)))
+    return found
+
+
 def of_the_mark(content):
     """Coordinates that only the azimuth mark has, and the place of the second digit of their uncertainty."""
     mark = content["site"].get("azimuth_mark") or {}
@@ -96,13 +112,17 @@ def main():
         digits = -digits if number["negative"] else digits
         if Decimal(value) in in_comments or digits in in_comments:
             continue
-        if any(math.isclose(float(value), u, rel_tol=1e-12) for u in derived(content)):
+        if any(math.isclose(float(value), u, rel_tol=1e-12) for u in derived(content) + expanded(content)):
             floats.add(float(value))
         if float(value) not in floats:
             wrong.append(f"{value} is on the page and not in the file")
         elif digits != Decimal(float(value)).quantize(Decimal(1).scaleb(place), ROUND_HALF_EVEN) and float(digits) != float(value):
             wrong.append(f"{shown} is not {value} rounded")
 
+    on_the_page = [float(number["value"]) for number in said["numbers"]]
+    for u in expanded(content):
+        if not any(math.isclose(value, u, rel_tol=1e-12) for value in on_the_page):
+            wrong.append(f"the expanded uncertainty {u} is not on the page")
     latitude_u, *_ = derived(content)
     if latitude_u and not any(math.isclose(float(number["value"]), latitude_u, rel_tol=1e-12) for number in said["numbers"]):
         wrong.append(f"the uncertainty of the astronomic latitude, {latitude_u}, is not on the page")

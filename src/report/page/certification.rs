@@ -1,24 +1,25 @@
 //! Record of a certification, which the laboratory keeps ([ISO/IEC
 //! 17025:2017](crate::bibliography::Bibliography::Iso17025), 7.5.1): readings, exclusions, tests, components and budget of
 //! the uncertainty, the change since the previous certificate, and signature lines.
-//!
-//! * `evidence`: readings, exclusions, components, tests.
-//! * `change`: comparison with the last certificate.
 
-mod change;
-mod evidence;
-
-use super::language::{Languages, Text, values};
+use super::language::{Language, Languages, Text};
 use super::number::Number;
 use super::parts::{
-    Section, band, boxed, contents, data_address, date, file_name, given, heading, marked, not_stated, numbered,
+    self, Section, band, boxed, contents, data_address, date, file_name, given, not_stated, numbered, outcome_box,
     quantity, section, signatures, symbol, verbatim,
 };
-use super::passport::{characteristics, general};
 use super::shell::{Margins, document};
-use super::texts::{calibration as calibration_texts, certification as texts, passport as passport_texts, units};
+use crate::certification::finding::Finding;
+use crate::certification::remark::Remark;
 use crate::certification::{Certification, Comparison};
 use crate::passport::difference::NumberDifference;
+use crate::report::certification::{change, evidence, outcome_of, outcome_of_certification};
+use crate::report::doc::{self, Block, Words, heading, marked, say};
+use crate::report::passport::{deviations, general};
+use crate::report::style::Outcome;
+use crate::wording::texts::{
+    calibration as calibration_texts, certification as texts, passport as passport_texts, units,
+};
 use maud::{Markup, html};
 
 /// Id of the section of the uncertainty.
@@ -42,9 +43,9 @@ impl CertificationPage<'_> {
     pub(crate) fn html(&self, languages: &Languages) -> String {
         let number = &self.certification.stand.certificate.number;
         let margins = Margins {
-            top_left: texts::MARGIN.filled(languages.first(), values! { number }),
-            top_right: if self.dry_run { languages.plain(texts::DRAFT) } else { change::running_head(self, languages) },
-            bottom_left: texts::MARGIN_SHA256.filled(languages.first(), values! { sha256: self.sha256() }),
+            top_left: texts::margin(number).plain(languages.first()),
+            top_right: if self.dry_run { languages.plain(texts::DRAFT) } else { self.running_head(languages.first()) },
+            bottom_left: texts::margin_sha256(self.sha256()).plain(languages.first()),
         };
         let title = format!("{} {number}", languages.plain(texts::TITLE));
         document(languages, &title, &margins, &self.body(languages))
@@ -59,12 +60,17 @@ impl CertificationPage<'_> {
         let stand = &self.certification.stand;
         let who = [texts::MEASURED_BY, texts::CHECKED_BY, passport_texts::AUTHORISED_BY];
         let address = data_address("text/csv", self.readings.1);
+        let (outcome, headline, reasons) = self.verdict();
+        let composed = |id, heading, words: Vec<Block>| (id, heading, doc::blocks(&words, languages));
         let mut sections = vec![("result", texts::RESULT, self.result(languages))];
-        sections.extend(change::section(self, languages).map(|change| ("change", texts::CHANGE, change)));
+        sections.extend(self.change.as_ref().map(|(found, changes)| {
+            let of_deviations = change::deviations(&found.certificate, changes);
+            composed("change", texts::CHANGE, [change::rotations(found), of_deviations.into()].concat())
+        }));
         sections.extend([
-            (UNCERTAINTY, texts::UNCERTAINTY, evidence::uncertainty(self, languages)),
-            ("tests", texts::TESTS, evidence::tests(self, languages)),
-            ("readings", texts::READINGS, evidence::readings(self, languages)),
+            (UNCERTAINTY, texts::UNCERTAINTY, self.uncertainty(languages)),
+            composed("tests", texts::TESTS, self.tests()),
+            composed("readings", texts::READINGS, self.readings()),
             ("subject", texts::SUBJECT, self.subject(languages)),
         ]);
         html! {
@@ -77,7 +83,7 @@ impl CertificationPage<'_> {
                 @if self.dry_run {
                     (boxed("verdict refused", languages.label(texts::DRAFT), languages.paragraph(texts::DRAFT_WORDS)))
                 }
-                (change::verdict(self, languages))
+                (outcome_box(outcome, &headline.label(languages), doc::blocks(&reasons, languages)))
                 (self.band(languages, &sections))
                 (contents(languages, texts::SAVE, (&address, file_name(self.readings.0)), &sections, texts::ANNEX))
                 (numbered(languages, &sections))
@@ -86,6 +92,34 @@ impl CertificationPage<'_> {
                 }
                 (self.annex(languages))
             }
+        }
+    }
+
+    /// Returns whether the stand has changed since its last certificate, in a headline, and the reasons.
+    fn verdict(&self) -> (Outcome, Words, Vec<Block>) {
+        let warnings = say([texts::warnings_counted(self.certification.remarks.len(), texts::TESTS)]);
+        let Some((found, _)) = &self.change else {
+            let headline = texts::certified(self.certification.stand.positions.len(), self.certification.runs.len());
+            let not_compared = say([marked(Outcome::NotAsked, texts::NOT_COMPARED)]);
+            return (outcome_of_certification(self.certification), headline, vec![not_compared, warnings]);
+        };
+        let outcome = outcome_of(found, found.same_stand);
+        let (verdict, remedy) = match outcome {
+            Outcome::Passed => (texts::same(&found.certificate), None),
+            Outcome::Failed => (texts::changed(&found.certificate), Some(texts::CHANGED_WORDS)),
+            Outcome::Undecided | Outcome::NotAsked => {
+                (texts::undecided(&found.certificate), Some(texts::UNDECIDED_WORDS))
+            }
+        };
+        let findings = found.findings.iter().map(Finding::words).collect();
+        (outcome, verdict, vec![Block::List(findings), say(remedy), warnings])
+    }
+
+    /// Returns the headline of a stand that has changed, for the head of every sheet; otherwise nothing.
+    fn running_head(&self, language: Language) -> String {
+        match self.verdict() {
+            (Outcome::Failed, headline, _) => headline.plain(language),
+            _ => String::new(),
         }
     }
 
@@ -135,10 +169,10 @@ impl CertificationPage<'_> {
                         p {
                             (symbol("ν", "")) "\u{a0}=\u{a0}" (of_part(of_platform)) "; " (of_part(of_base))
                             @if is_few {
-                                " (" (languages.inline_with(|language| texts::FEW.filled(language, values! { number }))) ")"
+                                " (" (languages.inline_with(|language| texts::few(number).plain(language))) ")"
                             }
                         }
-                        @if is_zero { p { (languages.label_with(|language| texts::ZERO.filled(language, values! { number }))) } }
+                        @if is_zero { p { (languages.label_with(|language| texts::zero(number).plain(language))) } }
                     },
                 ),
             ],
@@ -147,39 +181,46 @@ impl CertificationPage<'_> {
 
     fn subject(&self, languages: &Languages) -> Markup {
         let stand = &self.certification.stand;
-        html! {
-            (general::stand(&stand.stand, languages))
-            (general::certificate(&stand.certificate, languages))
-            (heading(languages, passport_texts::DATUM))
-            (characteristics::datum(stand.datum.as_ref(), languages))
-        }
+        let mut all = general::stand(&stand.stand);
+        all.extend([general::certificate(&stand.certificate), doc::heading(passport_texts::DATUM)]);
+        all.push(deviations::datum(stand.datum.as_ref()));
+        doc::blocks(&all, languages)
     }
 
     fn result(&self, languages: &Languages) -> Markup {
+        let positions = &self.certification.stand.positions;
         html! {
-            (characteristics::positions(&self.certification.stand.positions, languages))
-            (characteristics::deviations_note(&self.certification.stand.positions, false, languages))
-            (self.outliers(languages))
+            (doc::blocks(&deviations::table(positions, "u"), languages))
+            (doc::blocks(&[deviations::note(positions, false)], languages))
+            (doc::blocks(&[evidence::outliers(self.certification)], languages))
         }
     }
 
-    /// Writes which readings in the means the tests name.
-    fn outliers(&self, languages: &Languages) -> Markup {
-        let mut named: Vec<_> =
-            self.certification.suspects.outliers.iter().map(|out| (out.index, out.run, out.probability)).collect();
-        named.dedup_by_key(|(index, run, _)| (*index, *run));
-        let Some(worst) = named.iter().map(|(.., p)| *p).reduce(f64::min) else { return html! {} };
-        languages.paragraph_with(|language| {
-            let readings: Vec<String> = named
-                .iter()
-                .map(|(index, run, _)| texts::READING_OF.filled(language, values! { index, run }))
-                .collect();
-            let (readings, section) = (readings.join(", "), texts::TESTS);
-            marked(
-                evidence::graded(worst),
-                &html! { (texts::WITH_OUTLIERS.filled(language, values! { readings, section })) },
-            )
-        })
+    fn uncertainty(&self, languages: &Languages) -> Markup {
+        html! {
+            (parts::heading(languages, texts::BUDGET))
+            (doc::blocks(&[deviations::common(&self.certification.stand.certificate)], languages))
+            (doc::blocks(&evidence::components(self.certification), languages))
+        }
+    }
+
+    fn tests(&self) -> Vec<Block> {
+        let remarks: Vec<Words> = self.certification.remarks.iter().map(Remark::words).collect();
+        let warnings = if remarks.is_empty() { None } else { Some([heading(texts::WARNINGS), Block::List(remarks)]) };
+        evidence::tests(self.certification).into_iter().chain(warnings.into_iter().flatten()).collect()
+    }
+
+    fn readings(&self) -> Vec<Block> {
+        let Certification { runs, repeated_rows, stand, .. } = self.certification;
+        let each = runs.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
+        let fields = [
+            (texts::FILE, Words::Given(file_name(self.readings.0).to_owned()), false),
+            (texts::RUNS, format!("{} ({each})", runs.len()).into(), false),
+            (texts::POSITIONS, stand.positions.len().into(), false),
+            (texts::REPEATED, (*repeated_rows).into(), false),
+            (texts::FILE_SHA256, Words::Code(self.sha256()), true),
+        ];
+        [vec![Block::Fields(fields.into())], evidence::exclusions(self.certification)].concat()
     }
 
     /// Writes the file of readings verbatim.
@@ -187,7 +228,7 @@ impl CertificationPage<'_> {
         let (_, bytes) = self.readings;
         let number = &self.certification.stand.certificate.number;
         let text = String::from_utf8_lossy(bytes).replace("\r\n", "\n");
-        let end = languages.label_with(|language| texts::END.filled(language, values! { number }));
+        let end = languages.label_with(|language| texts::end(number).plain(language));
         let body = html! { (languages.paragraph(texts::ANNEX_NOTE)) (verbatim("", &text, &end)) };
         section(languages, "annex", texts::ANNEX, body)
     }

@@ -1,34 +1,10 @@
 //! Languages of a page, and texts in each of them as elements of the page.
 
-use super::number::Number;
 use super::symbols::italic;
-use crate::wording::{Piece, pieces};
 use maud::{Markup, html};
 
 pub use crate::wording::Language;
-pub(crate) use crate::wording::{Text, Values, capital, texts, values};
-
-impl Text {
-    /// Returns the text in `language` with every `{name}` replaced by a number, with the marks of that language.
-    pub(crate) fn with_numbers(&self, language: Language, numbers: &[(&str, Number)]) -> Markup {
-        let alone = Languages::from(language);
-        let values: Vec<_> = numbers.iter().map(|(name, number)| (*name, number.markup(&alone))).collect();
-        self.marked_up(language, &values)
-    }
-
-    /// Returns the text in `language` with every `{name}` replaced by an element of the page.
-    pub(crate) fn marked_up(&self, language: Language, values: &[(&str, Markup)]) -> Markup {
-        let value = |name: &str| values.iter().find(|(key, _)| *key == name).map(|(_, value)| value);
-        html! {
-            @for piece in pieces(&self.words(language)) {
-                @match piece {
-                    Piece::Words(words) => (italic(words)),
-                    Piece::Name(name) => @if let Some(value) = value(name) { (value) },
-                }
-            }
-        }
-    }
-}
+pub(crate) use crate::wording::{Text, capital};
 
 /// The languages of one page, in order. The first one sets the format of numbers and dates.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -156,8 +132,8 @@ impl Languages {
         }
     }
 
-    /// Returns the language tag of a part, or `None` if the page has only one language.
+    /// Returns the language tag of a part, or `None` if it is the language of the page.
     fn marked(&self, language: Language) -> Option<&'static str> {
-        (!self.single()).then(|| language.tag())
+        (language != self.first).then(|| language.tag())
     }
 }

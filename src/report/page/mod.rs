@@ -23,7 +23,6 @@ pub(crate) mod passport;
 pub(crate) mod shell;
 pub(crate) mod spacing;
 pub(crate) mod symbols;
-pub(crate) mod texts;
 
 pub use calibration::{CalibrationPage, UsedPassport};
 pub use language::{Language, Languages};

@@ -2,14 +2,12 @@
 
 use super::language::{Languages, Text};
 use super::spacing::BLANK;
-use super::texts::units;
 use crate::report::columns::decimals_of_chi_square;
 use crate::text::number;
+use crate::wording::texts::units;
 use maud::{Markup, html};
 
-pub(crate) use crate::wording::number::{
-    LARGEST_IN_ARCSEC, LEAST_PROBABILITY, Number, THIN_BLANK, localised, superscripts,
-};
+pub(crate) use crate::wording::number::{LARGEST_IN_ARCSEC, Number, THIN_BLANK, localised, superscripts};
 
 /// Hemispheres of a latitude and of a longitude: of positive numbers, and of negative ones.
 pub(crate) const LATITUDES: [Text; 2] = [units::NORTH_LATITUDE, units::SOUTH_LATITUDE];
@@ -96,17 +94,6 @@ impl Cell {
     pub(crate) fn none() -> Self {
         Self::Words(html! { "–" })
     }
-
-    /// Returns the cell of a probability.
-    pub(crate) fn probability(p: f64) -> Self {
-        let number = Number::probability(p);
-        if p < LEAST_PROBABILITY { Self::Below(number) } else { Self::Number(number) }
-    }
-}
-
-/// Writes a probability with two digits, or as less than the least that is printed.
-pub(crate) fn probability(languages: &Languages, p: f64) -> Markup {
-    column(languages, [Cell::probability(p)]).remove(0)
 }
 
 impl From<Number> for Cell {
@@ -133,24 +120,28 @@ pub(crate) fn column(languages: &Languages, cells: impl IntoIterator<Item = impl
         Cell::Number(number) => number.aligned(languages, &longest),
         Cell::Below(limit) => limit.below(languages),
         Cell::WithUnit(number, unit) => {
-            html! { (number.markup(languages)) span.unit { (BLANK) (unit) } (number.pad(languages, &longest)) }
+            // No space before the mark of an angle (SI Brochure, 5.4.3).
+            let close = unit.0 == "″";
+            html! { (number.markup(languages)) span.unit { @if !close { (BLANK) } (unit) } (number.pad(languages, &longest)) }
         }
         Cell::Words(words) => words,
     });
     written.collect()
 }
 
-/// Writes the cells of a column of quantities, as [`column`] does.
-pub(crate) fn column_with_units(
-    languages: &Languages,
-    cells: impl IntoIterator<Item = (Number, Markup)>,
-) -> Vec<Markup> {
-    column(languages, cells.into_iter().map(|(number, unit)| Cell::WithUnit(number, unit)))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::wording::{Language, plain};
+
+    /// By hand.
+    #[test]
+    fn a_large_chi_square_has_no_decimals() {
+        let cases = [(0.0, "0.00"), (8.371, "8.37"), (99.994, "99.99"), (99.996, "100"), (8534.75, "8535")];
+        for (value, due) in cases.into_iter().chain([(100_419_738.45, "1.0×10⁸")]) {
+            assert_eq!(plain(&Number::chi_square(value).text(Language::English)), due, "{value}");
+        }
+    }
 
     /// By hand: the longest tail has five decimals in two groups and a power of ten.
     #[test]

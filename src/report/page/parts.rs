@@ -4,13 +4,12 @@ use super::language::{Language, Languages, Text};
 use super::number::Number;
 use super::spacing::{BLANK, unbroken};
 use super::symbols::index;
-use super::texts::{calibration, record, units, words};
-use crate::report::style::{self, Outcome};
-use crate::wording::date_text;
+use crate::report::style::Outcome;
+use crate::wording::texts::{calibration, record, units, words};
+use crate::wording::{date_text, time_text};
 use base64ct::{Base64, Encoding};
 use jiff::Timestamp;
 use jiff::civil::Date;
-use jiff::tz::TimeZone;
 use maud::{Markup, html};
 use std::path::Path;
 
@@ -77,12 +76,7 @@ fn field_of(class: Option<&str>, languages: &Languages, name: Text, value: Optio
     }
 }
 
-/// Writes a name and its value, or that the signed file does not state it: it is not to be completed by hand.
-pub(crate) fn stated(languages: &Languages, name: Text, value: Option<Markup>) -> Markup {
-    field(languages, name, Some(value.unwrap_or_else(|| not_stated(languages))))
-}
-
-/// Writes a field as [`stated`] does, over the full width.
+/// Writes a field over the full width, or that the file does not state its value: it is not to be completed by hand.
 pub(crate) fn wide_stated(languages: &Languages, name: Text, value: Option<Markup>) -> Markup {
     wide_field(languages, name, Some(value.unwrap_or_else(|| not_stated(languages))))
 }
@@ -100,7 +94,7 @@ pub(crate) fn mark(outcome: impl Into<Outcome>) -> Markup {
         Outcome::Failed => "state failed",
         Outcome::Undecided | Outcome::NotAsked => "state",
     };
-    html! { span class=(class) aria-hidden="true" { (style::mark(outcome)) } }
+    html! { span class=(class) aria-hidden="true" { (outcome.mark()) } }
 }
 
 /// Writes words with the mark of their outcome before them.
@@ -169,11 +163,6 @@ pub(crate) fn in_hemisphere(languages: &Languages, degrees: Number, hemispheres:
     html! { span.quantity { (number.markup(languages)) "°" (BLANK) (languages.inline(hemisphere)) } }
 }
 
-/// Writes elements with commas between them.
-pub(crate) fn listed(each: impl IntoIterator<Item = Markup>) -> Markup {
-    html! { @for (place, one) in each.into_iter().enumerate() { @if place > 0 { ", " } (one) } }
-}
-
 /// Writes a number and its unit without a line break between them.
 pub(crate) fn quantity(languages: &Languages, number: &Number, unit: Text) -> Markup {
     // No space before the marks of angles (SI Brochure, 5.4.3).
@@ -196,19 +185,8 @@ pub(crate) fn time(languages: &Languages, time: Timestamp) -> Markup {
     html! { time datetime=(time) { (unbroken(&time_text(of_dates(languages), time))) } }
 }
 
-/// Returns a time in UTC in the format of `language`.
-pub(crate) fn time_text(language: Language, time: Timestamp) -> String {
-    let at = time.to_zoned(TimeZone::UTC);
-    format!("{} {}{BLANK}UTC", date_text(language, at.date()), at.strftime("%H:%M:%S"))
-}
-
 pub(crate) fn symbol(letter: &str, subscript: &str) -> Markup {
     html! { span.symbol { i { (letter) } @if !subscript.is_empty() { (index(subscript)) } } }
-}
-
-/// Writes a symbol with its unit for the head of a column; a second language's unit is below the first.
-pub(crate) fn symbol_and_unit(languages: &Languages, symbol: &Markup, unit: Text) -> Markup {
-    html! { (symbol) "," (BLANK) (languages.label(unit)) }
 }
 
 /// Writes a picture with its caption, which the style sheet numbers; `id` is its name there. The picture contains its own description for
@@ -247,7 +225,7 @@ pub(crate) fn verbatim(lang: &str, text: &str, end: &Markup) -> Markup {
         div.file {
             pre lang=(lang) translate="no" tabindex="0" aria-labelledby="annex-heading" {
                 @for line in text.split_inclusive('\n') {
-                    span class=[kind(line)] { span { (unbroken(line)) } }
+                    span class=[kind(line)] { span { (line) } }
                 }
             }
             p.end { (end) }
@@ -302,28 +280,6 @@ pub(crate) struct Table {
     pub class: &'static str,
 }
 
-/// A column of a table after the names of its rows.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Column {
-    pub heading: Markup,
-    /// A cell for each row.
-    pub cells: Vec<Markup>,
-    /// Content below the cells, such as the axis of strips; empty in most columns.
-    pub foot: Markup,
-}
-
-impl Column {
-    /// Creates a column with a text as its heading.
-    pub(crate) fn named(languages: &Languages, heading: Text, cells: Vec<Markup>) -> Self {
-        Self::new(languages.label(heading), cells)
-    }
-
-    /// Creates a column with nothing below it.
-    pub(crate) fn new(heading: Markup, cells: Vec<Markup>) -> Self {
-        Self { heading, cells, foot: html! {} }
-    }
-}
-
 /// Returns the rows with which a group of equal values begins, after the first.
 pub(crate) fn starts<T: PartialEq>(values: impl IntoIterator<Item = T>) -> Vec<usize> {
     let values: Vec<T> = values.into_iter().collect();
@@ -331,25 +287,6 @@ pub(crate) fn starts<T: PartialEq>(values: impl IntoIterator<Item = T>) -> Vec<u
 }
 
 impl Table {
-    /// Creates a table from the names of its rows, with the headings above them, and its columns.
-    pub(crate) fn of(above: Vec<Markup>, names: Vec<Vec<Markup>>, columns: &[Column]) -> Self {
-        let cells = |row: usize| columns.iter().map(move |column| column.cells[row].clone());
-        let rows = names.into_iter().enumerate().map(|(row, name)| name.into_iter().chain(cells(row)).collect());
-        let rows = rows.collect();
-        let row_headings = above.len();
-        let foot = match columns.iter().any(|column| !column.foot.0.is_empty()) {
-            true => above.iter().map(|_| html! {}).chain(columns.iter().map(|column| column.foot.clone())).collect(),
-            false => Vec::new(),
-        };
-        let headings = above.into_iter().chain(columns.iter().map(|column| column.heading.clone())).collect();
-        Self { headings, rows, foot, row_headings, class: "numbers", ..Self::default() }
-    }
-
-    /// Writes the table with a caption, which is its name for screen readers too.
-    pub(crate) fn captioned(self, languages: &Languages, caption: Text) -> Markup {
-        Self { caption: Some(languages.label(caption)), ..self }.markup(languages.spoken(caption))
-    }
-
     /// Writes the table. It scrolls sideways on a narrow screen, and the keyboard can then focus it.
     pub(crate) fn markup(&self, name: &str) -> Markup {
         html! {

@@ -4,6 +4,7 @@ use super::language::Languages;
 use crate::report::picture;
 use crate::text::printable;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+use std::collections::HashSet;
 use std::fmt::Write;
 use std::sync::LazyLock;
 
@@ -35,7 +36,7 @@ pub(crate) fn document(languages: &Languages, title: &str, margins: &Margins, bo
                 meta name="color-scheme" content="light dark";
                 meta name="generator" content=(concat!("dtg-passport ", env!("CARGO_PKG_VERSION")));
                 title { (title) }
-                style { (PreEscaped(STYLE.as_str())) (PreEscaped(margins.css())) }
+                style { (PreEscaped(used(&STYLE, &body.0))) (PreEscaped(margins.css())) }
             }
             body { (body) }
         }
@@ -67,8 +68,39 @@ fn compact(css: &str) -> String {
     let without = |part: &str| part.split_once("*/").map_or(part, |(_, rest)| rest).to_owned();
     let css: String = css.split("/*").map(without).collect();
     let css: Vec<&str> = css.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
-    let shorter = [(" { ", "{"), (" {", "{"), ("; }", "}"), (" }", "}"), ("; ", ";")];
+    let shorter = [(" { ", "{"), (" {", "{"), ("; }", "}"), (" }", "}"), ("; ", ";"), (": ", ":")];
     shorter.into_iter().fold(css.join("\n") + "\n", |css, (long, short)| css.replace(long, short))
+}
+
+/// Returns a style sheet without the rules for classes and ids that nothing on the page has.
+fn used(style: &str, body: &str) -> String {
+    let of = |key: &'static str| body.split(key).skip(1).filter_map(|rest| rest.split_once('"'));
+    let names: HashSet<&str> = of(" class=\"").chain(of(" id=\"")).flat_map(|(names, _)| names.split(' ')).collect();
+    let is_letter = |c: char| c.is_ascii_alphanumeric() || c == '-';
+    // What stands before any function or state of a selector.
+    let matches = |selector: &str| {
+        let simple = selector.split(['(', ':']).next().unwrap_or_default();
+        simple
+            .split(['.', '#'])
+            .skip(1)
+            .all(|name| names.contains(name.split(|c| !is_letter(c)).next().unwrap_or(name)))
+    };
+    let mut goes_on = false;
+    let is_used = |line: &&str| {
+        let (begins, ends) = (!std::mem::replace(&mut goes_on, line.ends_with(',')), line.ends_with('}'));
+        let Some((selectors, _)) =
+            line.split_once('{').filter(|(selectors, _)| begins && ends && !selectors.starts_with('@'))
+        else {
+            return true;
+        };
+        let mut depth = 0;
+        let between = |c| {
+            depth += i32::from(c == '(') - i32::from(c == ')');
+            c == ',' && depth == 0
+        };
+        selectors.split(between).any(matches)
+    };
+    style.lines().filter(is_used).collect::<Vec<_>>().join("\n") + "\n"
 }
 
 /// Returns a CSS string. Characters that could end it, or the style element, are written as escapes (CSS Syntax,
@@ -92,7 +124,14 @@ mod tests {
     #[test]
     fn a_style_sheet_loses_only_what_nothing_shows() {
         let css = "/* Why. */\na b { c: d e; f: \"g\" h; }\n\n@media x {\n  /* And why. */\n  i,\n  j { k: l }\n}\n";
-        assert_eq!(compact(css), "a b{c: d e;f: \"g\" h}\n@media x{\ni,\nj{k: l}\n}\n");
+        assert_eq!(compact(css), "a b{c:d e;f:\"g\" h}\n@media x{\ni,\nj{k:l}\n}\n");
+    }
+
+    #[test]
+    fn a_style_sheet_has_the_rules_that_a_page_uses() {
+        let css = "p{a:b}\n.x,.y:is(.z, u){c:d}\n#w .x{e:f}\n.x:has(.q){g:h}\n.q,\n.x{i:j}\n.q:not(.x, .y){k:l}\n";
+        let expected = "p{a:b}\n.x,.y:is(.z, u){c:d}\n.x:has(.q){g:h}\n.q,\n.x{i:j}\n";
+        assert_eq!(used(css, "<p class=\"r x\" id=\"v\">.q</p>"), expected);
     }
 
     #[test]

@@ -4,8 +4,8 @@ use super::drawing::{Anchor, Field, Look, Panel, Point, Scale, Ticks, label, leg
 use crate::calibration::document::ResultDocument;
 use crate::calibration::iterative::{StepChange, StopRule};
 use crate::report::page::Number;
-use crate::report::page::language::{Language, Languages, values};
-use crate::report::page::texts::pictures as texts;
+use crate::report::page::language::{Language, Languages};
+use crate::wording::texts::pictures as texts;
 use maud::{Markup, html};
 
 const PANEL_PIXELS: u32 = 240;
@@ -113,9 +113,9 @@ fn in_words(language: Language, changes: &[StepChange], rule: &StopRule) -> Stri
     let each = changes.iter().map(|change| {
         let [k, g] = [change.main_scale_factors_percent, change.g_drifts_deg_per_h_per_g]
             .map(|value| Number::scientific(value, 2));
-        texts::CONVERGENCE_IN_WORDS.filled(language, values! { step: change.step, k, g })
+        texts::convergence_in_words(change.step, k, g).plain(language)
     });
     let list = each.collect::<Vec<_>>().join("; ");
     let [k, g] = [rule.delta1_percent, rule.delta2_deg_per_h].map(Number::exact);
-    texts::CONVERGENCE_DESCRIPTION.filled(language, values! { list, k, g })
+    texts::convergence_description(k, g, list).plain(language)
 }

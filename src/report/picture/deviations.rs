@@ -2,14 +2,12 @@
 
 use super::drawing::{Scale, Ticks, legend, line, rectangle, strip, strip_axis, whisker};
 use crate::calibration::verdict::COVERAGE_FACTOR;
+use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::LARGEST_IN_ARCSEC;
-use crate::report::page::parts::{symbol, symbol_and_unit};
-use crate::report::page::spacing::BLANK;
-use crate::report::page::texts::pictures as texts;
-use crate::report::page::texts::units;
-use crate::report::page::{Language, Languages};
 use crate::stand::CertifiedPosition;
 use crate::units::ARCSECONDS_PER_DEGREE;
+use crate::wording::texts::pictures as texts;
+use crate::wording::texts::units;
 use maud::{Markup, html};
 
 const WIDTH: f64 = 116.0;
@@ -34,6 +32,7 @@ fn widened([low, high]: [f64; 2]) -> Scale {
 }
 
 /// Bars of all deviations of a stand or of a passport, with their uncertainties if stated.
+#[derive(Clone, Copy)]
 pub(crate) struct Bars {
     scale: Scale,
     /// Largest uncertainty, if one is stated.
@@ -77,26 +76,31 @@ impl Bars {
         strip_axis(languages, &Scale { values, ..self.scale }, WIDTH)
     }
 
-    /// Returns the heading of a column of bars, with the unit of their axis.
-    pub(crate) fn heading(&self, languages: &Languages, name: &str) -> Markup {
-        let unit = if self.is_in_degrees() { units::DEGREES } else { units::ARCSEC };
-        let drawn =
-            html! { (symbol(name, "")) @if self.largest_u.is_some() { (BLANK) "±" (BLANK) "2" (symbol("u", "")) } };
-        symbol_and_unit(languages, &drawn, unit)
+    /// Returns the unit of the axis.
+    pub(crate) fn unit(&self) -> Text {
+        if self.is_in_degrees() { units::DEGREES } else { units::ARCSEC }
+    }
+
+    /// Returns `true` if an uncertainty is stated.
+    pub(crate) fn has_u(&self) -> bool {
+        self.largest_u.is_some()
     }
 
     fn is_in_degrees(&self) -> bool {
         self.scale.values[1].max(-self.scale.values[0]) > LARGEST_IN_ARCSEC
     }
 
-    /// Draws what bars and whiskers mean.
-    pub(crate) fn key(&self, languages: &Languages) -> Markup {
+    /// Draws what bars and whiskers mean, the whiskers expanded uncertainties or twice an own part.
+    pub(crate) fn key(&self, languages: &Languages, is_expanded: bool) -> Markup {
         let bar = rectangle([2.0, 2.5], [26.0, 11.5], "bar", None);
         let whisker = whisker([2.0, 26.0], [true; 2], 7.0, 3.0);
         let length = |u: f64| self.scale.place(COVERAGE_FACTOR * u) - self.scale.place(-COVERAGE_FACTOR * u);
         let second = match self.largest_u.map(length) {
             None => (html! {}, texts::DEVIATION_NO_U),
-            Some(length) if length < SHORTEST_SEEN => (html! {}, texts::DEVIATION_WHISKER_UNSEEN),
+            Some(length) if length < SHORTEST_SEEN => {
+                (html! {}, if is_expanded { texts::DEVIATION_EXPANDED_UNSEEN } else { texts::DEVIATION_WHISKER_UNSEEN })
+            }
+            Some(_) if is_expanded => (whisker, texts::DEVIATION_WHISKER_EXPANDED),
             Some(_) => (whisker, texts::DEVIATION_WHISKER),
         };
         legend(languages, &[(bar, texts::DEVIATION_BAR), second])

@@ -4,7 +4,6 @@
 //! readable if a narrow screen puts the panels below each other. Nothing has a fixed colour: the classes are defined in
 //! `style.css`.
 
-use crate::report::columns::stacked;
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::{Number, localised};
 use crate::report::page::symbols::{Piece, index_letters, pieces};
@@ -68,20 +67,6 @@ impl Panel<'_> {
     ) -> Markup {
         let svg = self.svg(|language| title.of(language).to_owned(), description, drawing);
         panels(1, pixels, &[svg], legend)
-    }
-
-    /// Draws a hatch pattern with the id of `part`, for a `fill` by [`Panel::filled_with`].
-    pub(crate) fn hatch(&self, part: &str) -> Markup {
-        html! {
-            pattern id=(self.id(part)) width="5" height="5" patternUnits="userSpaceOnUse" patternTransform="rotate(45)" {
-                line.hatch x1="0" y1="0" x2="0" y2="5" {}
-            }
-        }
-    }
-
-    /// Returns the `fill` of a hatched shape.
-    pub(crate) fn filled_with(&self, part: &str) -> String {
-        format!("url(#{})", self.id(part))
     }
 }
 
@@ -248,25 +233,6 @@ pub(crate) fn symbols(words: &str) -> Markup {
 /// Returns a symbol of the paper for plain text: `K_x` becomes Kx.
 pub(crate) fn plain_symbol(name: &str) -> String {
     name.replace('_', "")
-}
-
-/// Draws a title, in lines for each language, and returns it with the height of all lines after the first.
-/// `say` gives its words in each.
-pub(crate) fn heading_with(languages: &Languages, at: Point, say: impl Fn(Language) -> String) -> (Markup, f64) {
-    const LINE: f64 = 16.0;
-    // Characters of a line that is not wider than a panel.
-    const LONGEST: usize = 42;
-    let classes = std::iter::once("title").chain(std::iter::repeat("small"));
-    let sayings = classes.zip(languages.sayings(say));
-    let lines =
-        sayings.flat_map(|(class, (_, words))| stacked(&words, LONGEST).into_iter().map(move |line| (class, line)));
-    let lines: Vec<(&str, String)> = lines.collect();
-    let drawn = html! {
-        @for (row, (class, line)) in lines.iter().enumerate() {
-            (label([at[0], at[1] + LINE * row as f64], Anchor::Start, class, &symbols(line)))
-        }
-    };
-    (drawn, LINE * (lines.len() - 1) as f64)
 }
 
 /// Draws a line with a head at its end. If the line is shorter than its head, only the head is drawn; if it has no

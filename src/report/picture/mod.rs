@@ -6,9 +6,7 @@
 //! * [`stand`]: the stand with its parts, axes and angles named.
 //! * [`positions`]: the positions of the stand, drawn.
 //! * [`deviations`]: α, β and γ of every position.
-//! * [`vectors`]: Earth rate and specific force, compared with the nominal ones.
-//! * [`place`]: the area where the passport is valid.
-//! * [`accuracy`]: the expected calibration uncertainty.
+//! * [`accuracy`]: the expected calibration uncertainty, as shares of the tolerances.
 //! * [`residuals`], [`tolerances`], [`convergence`]: pictures of a calibration.
 //! * [`budget`], [`simulation`], `plan`, `history`: picture files of a budget, of the paper's Fig. 4, of a plan, and of
 //!   a stand over the years.
@@ -23,7 +21,6 @@ pub(crate) mod file;
 #[cfg(feature = "factory")]
 pub(crate) mod history;
 pub(crate) mod label;
-pub(crate) mod place;
 #[cfg(feature = "factory")]
 pub(crate) mod plan;
 pub(crate) mod positions;
@@ -32,7 +29,6 @@ pub(crate) mod shares;
 pub(crate) mod simulation;
 pub(crate) mod stand;
 pub(crate) mod tolerances;
-pub(crate) mod vectors;
 
 /// Style of the pictures within a page; it uses the colours of the page.
 pub(crate) const STYLE: &str = include_str!("style.css");

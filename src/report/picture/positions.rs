@@ -9,11 +9,11 @@ use super::drawing::{Anchor, Panel, Point, arrow, label, legend, line, panels, p
 use super::label::Area;
 use crate::attitude::{self, Deviation};
 use crate::report::page::Number;
-use crate::report::page::language::{Language, Languages, Text, values};
-use crate::report::page::texts::pictures as texts;
+use crate::report::page::language::{Language, Languages, Text};
 use crate::stand::CertifiedPosition;
 use crate::units::{ARCSECONDS_PER_DEGREE, degrees_from_radians, sin_cos_of_degrees};
-use crate::wording::compass;
+use crate::wording::texts::compass;
+use crate::wording::texts::pictures as texts;
 use maud::{Markup, html};
 use nalgebra::{Matrix3, Vector3};
 
@@ -165,7 +165,7 @@ fn position(languages: &Languages, at: &CertifiedPosition, base_axes: &Matrix3<f
         axes(&view, &designed, &real),
     ];
     panel.svg(
-        |language| texts::POSITION_TITLE.filled(language, values! { index: position.index }),
+        |language| texts::position_title(position.index).plain(language),
         |language| in_words(language, at, &true_axes),
         &drawing,
     )
@@ -285,7 +285,7 @@ pub(super) fn rows(matrix: &Matrix3<f64>) -> [Vector3<f64>; 3] {
 fn in_words(language: Language, at: &CertifiedPosition, real: &Matrix3<f64>) -> String {
     let [theta, phi] = [at.theta_deg, at.phi_deg].map(Number::exact);
     let [(x, x_angle), (y, y_angle), (z, z_angle)] = rows(real).map(|axis| nearest(&axis));
-    texts::POSITION_DESCRIPTION.filled(language, values! { theta, phi, x, y, z, x_angle, y_angle, z_angle })
+    texts::position_description(theta, phi, x, x_angle, y, y_angle, z, z_angle).plain(language)
 }
 
 /// Returns the nearest of six directions, and the angle from it in degrees.

@@ -4,7 +4,7 @@
 use super::drawing::{Anchor, Scale, Ticks, crowding, legend, line, power_of_ten, rectangle, strip, with_power, words};
 use crate::calibration::document::{ResidualDocument, ResultDocument};
 use crate::report::page::language::{Languages, Text};
-use crate::report::page::texts::pictures as texts;
+use crate::wording::texts::pictures as texts;
 use maud::{Markup, html};
 
 const WIDTH: f64 = 170.0;
@@ -22,6 +22,7 @@ pub(crate) type Along = fn(&ResidualDocument) -> (f64, Option<f64>);
 pub(crate) const AXES: [(&str, Along); 2] = [("x", |at| (at.x, at.u_x)), ("y", |at| (at.y, at.u_y))];
 
 /// Bars of values that are 0 but for their uncertainty, to one scale.
+#[derive(Clone, Copy)]
 pub(crate) struct Bars(Scale);
 
 impl Bars {

@@ -6,9 +6,10 @@ use super::label::width;
 use super::positions::{AXIS, AXIS_HEIGHT, GYRO, GYRO_HEIGHT, View, plate, rows, stand as parts};
 use crate::attitude;
 use crate::report::page::Number;
-use crate::report::page::language::{Languages, values};
-use crate::report::page::texts::pictures as texts;
-use crate::wording::compass;
+use crate::report::page::language::Languages;
+use crate::wording::Words;
+use crate::wording::texts::compass;
+use crate::wording::texts::pictures as texts;
 use maud::{Markup, html};
 use nalgebra::{Matrix3, Vector3};
 
@@ -46,15 +47,15 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
     };
     let azimuth = Number::exact(frame_axis_azimuth_deg);
     let named = [
-        (texts::PART_FRAME, across * 0.8 + xi * 0.4, true),
-        (texts::PART_PLATFORM, x * -0.12 - y * 0.5, true),
-        (texts::PART_PINS, x * -0.5, true),
-        (texts::PART_GYRO, z * GYRO_HEIGHT, true),
-        (texts::PART_BASE, near_the_right_corner(&view, &base), true),
-        (texts::PART_AXIS, xi * 1.5, false),
+        (texts::PART_FRAME.into(), across * 0.8 + xi * 0.4, true),
+        (texts::PART_PLATFORM.into(), x * -0.12 - y * 0.5, true),
+        (texts::PART_PINS.into(), x * -0.5, true),
+        (texts::PART_GYRO.into(), z * GYRO_HEIGHT, true),
+        (texts::PART_BASE.into(), near_the_right_corner(&view, &base), true),
+        (texts::part_axis(&azimuth), xi * 1.5, false),
     ];
-    let named = named.map(|(text, at, within)| {
-        let name = |language| text.filled(language, values! { azimuth });
+    let named = named.map(|(text, at, within): (Words, _, _)| {
+        let name = |language| text.plain(language);
         Part { names: languages.iter().map(name).collect(), at: view.point(&at), within }
     });
     let drawing = [
@@ -75,7 +76,7 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
         leaders(&named),
     ];
     let panel = Panel { name: "stand", languages, size: SIZE };
-    let description = |language| texts::STAND_DESCRIPTION.filled(language, values! { azimuth });
+    let description = |language| texts::stand_description(&azimuth).plain(language);
     panel.alone(PANEL_PIXELS, texts::STAND_TITLE, description, &drawing, &html! {})
 }
 

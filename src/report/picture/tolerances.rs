@@ -6,7 +6,7 @@ use super::drawing::{Point, Scale, arrow, coordinate, legend, line, polygon, rec
 use crate::calibration::{Decision, Parameter, ParameterVerdict, Verdict};
 use crate::report::page::Number;
 use crate::report::page::language::{Languages, Text};
-use crate::report::page::texts::{pictures as texts, units};
+use crate::wording::texts::{pictures as texts, units};
 use maud::{Markup, html};
 
 const HEIGHT: f64 = 17.0;

@@ -4,9 +4,9 @@ use crate::inside::picture::{Axis, both, end, english, number, of_class, reach, 
 use dtg_passport::calibration::Parameter;
 use dtg_passport::calibration::document::{CalibrationDocument, ResultDocument};
 use dtg_passport::calibration::verdict::{Decision, ParameterVerdict, Verdict};
-use dtg_passport::report::page::texts::units;
 use dtg_passport::report::picture::tolerances::BESIDE_DECISIONS;
 use dtg_passport::report::picture::{convergence, residuals};
+use dtg_passport::wording::texts::units;
 use roxmltree::Document;
 
 /// A result as a file holds it, its numbers made up: two positions, and three steps that fall by 1000 and by 100.

@@ -14,6 +14,7 @@ use dtg_passport::statistics::random::Stream;
 use dtg_passport::uncertainty::engine::{Engine, ReadingShape};
 use dtg_passport::uncertainty::{Budget, monte_carlo};
 use dtg_passport::units::radians_from_arcseconds;
+use dtg_passport::wording::Language;
 use nalgebra::{DMatrix, Matrix2, Vector2};
 
 const REPEATABILITY_ARCSEC: f64 = 4.0;
@@ -56,8 +57,6 @@ fn done(setup: &Setup, readings: Readings, calibration: Calibration) -> Done {
         calibration,
         earlier: None,
         unknown_gyro: None,
-        unexplained: None,
-        common_factor: None,
         cost_of_missing: None,
         further: None,
         warning: None,
@@ -66,9 +65,13 @@ fn done(setup: &Setup, readings: Readings, calibration: Calibration) -> Done {
     }
 }
 
+/// All that the text of a result has.
+const DETAILS: report::Said = report::Said { language: Language::English, meter_assumed: false, checks: &[] };
+
 fn text_of(setup: &Setup, rows: &[Reading], calibration: Calibration) -> String {
     let readings = Readings::of_rows(setup.coefficients(), rows).unwrap();
-    report::text(&done(setup, readings, calibration), None, None, false, &[])
+    let done = done(setup, readings, calibration);
+    report::text(&done, None, &report::Report::of(&done, None, &[], true), &DETAILS)
 }
 
 fn u(calibration: &Calibration, parameter: Parameter) -> f64 {
@@ -281,7 +284,7 @@ fn too_few_readings_to_judge() {
     let bytes = serde_json::to_vec(&document).unwrap();
     assert_eq!(CalibrationDocument::from_json("earlier.json", &bytes).unwrap(), document);
     let done = done(&setup, readings(&setup, &exact), found);
-    let text = report::text(&done, None, None, false, &[]);
+    let text = report::text(&done, None, &report::Report::of(&done, None, &[], true), &DETAILS);
     assert!(text.contains("The fit cannot be tested") && !text.contains("chi-square"), "{text}");
     assert!(!text.contains("x, °/h"), "{text}");
 }

@@ -1,9 +1,9 @@
 //! Signature lines of the calibration report, and its annex: the result as JSON.
 
 use super::CalibrationPage;
-use crate::report::page::language::{Languages, values};
+use crate::report::page::language::Languages;
 use crate::report::page::parts::{section, signatures, verbatim};
-use crate::report::page::texts::calibration as texts;
+use crate::wording::texts::calibration as texts;
 use maud::{Markup, html};
 use serde::Serialize;
 use serde_json::Serializer;
@@ -34,9 +34,11 @@ pub(super) fn json(page: &CalibrationPage) -> String {
 }
 
 fn annex(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let end = languages.label_with(|language| texts::END.filled(language, values! { name: page.name(language) }));
+    let end = languages.label_with(|language| texts::end(page.name(language)).plain(language));
     let body = html! { (languages.paragraph(texts::ANNEX_NOTE)) (verbatim("en", &json(page), &end)) };
-    section(languages, "annex", texts::ANNEX, body)
+    let annex = section(languages, "annex", texts::ANNEX, body);
+    // In print with details only; the screen has it in any case.
+    html! { @if page.details { (annex) } @else { p.end { (end) } div.save { (annex) } } }
 }
 
 /// A JSON formatter that writes each key of the document and of each result on its own line, and so each object of a list.

@@ -2,43 +2,34 @@
 //!
 //! The numbers are those of [`CalibrationDocument`], which `calibrate --format json` writes; the annex is that file.
 //!
-//! * `conformity`: the result, compared with the gyro type and with an earlier result.
-//! * `history`: all calibrations of the gyro, if there are several earlier results.
-//! * `fit`: chi-square, residuals, possible causes of disagreement, errors that the residuals do not show.
-//! * `uncertainty`: budget and Monte Carlo.
-//! * `parameters`: parameters by every method.
 //! * `subject`: gyro, stand, passport and its verification, currents, laboratory.
 //! * `closing`: signatures, and the annex.
 
 mod closing;
-mod conformity;
-mod fit;
-mod history;
-mod parameters;
 mod subject;
-mod uncertainty;
 
-pub(crate) use fit::{not_stated, suspicion};
-
-use self::parameters::name_of;
-use super::language::{Language, Languages, Text, values};
-use super::parts::{Section, boxed, contents, data_address, listed, marked, numbered, outcome_box};
+use super::language::{Language, Languages, Text};
+use super::parts::{Section, boxed, contents, data_address, marked, numbered, outcome_box};
 use super::passport::PassportPage;
 use super::shell::{Margins, document};
 use super::symbols::italic;
-use super::texts::calibration as texts;
-use crate::calibration::document::{CalibrationDocument, NoChange, ResultDocument};
+use crate::calibration::Calibration;
+use crate::calibration::document::{CalibrationDocument, NoChange};
 use crate::calibration::parameter::Parameter;
 use crate::calibration::stated::NotStated;
 use crate::calibration::verdict::{Decision, Verdict};
-use crate::calibration::{Calibration, Method};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
-use crate::report::mistake;
+use crate::report::calibration::{Report, counted, what_may_be_wrong};
 use crate::report::style::Outcome;
+use crate::report::{doc, mistake, uncertainty};
 use crate::uncertainty::{Budget, MonteCarlo};
-use crate::wording::{comparison, date_text};
+use crate::wording::Words;
+use crate::wording::date_text;
+use crate::wording::texts::calibration as texts;
+use crate::wording::texts::comparison;
+use crate::wording::words;
 use jiff::Timestamp;
 use maud::{Markup, html};
 
@@ -101,6 +92,8 @@ pub struct CalibrationPage<'a> {
     pub budget: Option<&'a Budget>,
     /// Coverage intervals from a Monte Carlo run, if requested.
     pub monte_carlo: Option<&'a MonteCarlo>,
+    /// `true` for residuals that fit, methods that agree, and the risk of simple acceptance too.
+    pub details: bool,
 }
 
 impl CalibrationPage<'_> {
@@ -108,14 +101,14 @@ impl CalibrationPage<'_> {
     pub fn html(&self, languages: &Languages) -> String {
         let name = self.name(languages.first());
         let margins = Margins {
-            top_left: texts::MARGIN.filled(languages.first(), values! { name }),
+            top_left: texts::margin(&name).plain(languages.first()),
             top_right: match (self.verified(), self.fits(), &self.document.mistake) {
                 (false, ..) => languages.plain(texts::NOT_VERIFIED),
                 (true, false, _) => languages.plain(texts::DOES_NOT_FIT),
                 (true, true, Some(_)) => languages.plain(texts::MISTAKE),
                 (true, true, None) => self.reservation(languages),
             },
-            bottom_left: texts::MARGIN_SHA256.filled(languages.first(), values! { sha256: self.currents.1 }),
+            bottom_left: texts::margin_sha256(&self.currents.1).plain(languages.first()),
         };
         let title = format!("{}: {name}", languages.plain(texts::TITLE));
         document(languages, &title, &margins, &self.body(languages))
@@ -125,7 +118,7 @@ impl CalibrationPage<'_> {
     /// sheet.
     fn reservation(&self, languages: &Languages) -> String {
         match self.judged().filter(|(_, verdict)| verdict.overall == Decision::Fail) {
-            Some((gyro, _)) => texts::CONFORMS_NOT.filled(languages.first(), values! { type: gyro.r#type }),
+            Some((gyro, _)) => texts::conforms_not(&gyro.r#type).plain(languages.first()),
             None if subject::outside(self).is_some() => languages.plain(texts::TEMPERATURE_IS_OUTSIDE),
             None => String::new(),
         }
@@ -135,20 +128,44 @@ impl CalibrationPage<'_> {
         self.passport.content()
     }
 
+    fn report(&self) -> Report<'_> {
+        let (calibration, missing, document) = (self.calibration, self.missing, self.document);
+        let without_height = self.content().site.is_gravity_without_height();
+        Report {
+            calibration,
+            missing,
+            document,
+            gyro: self.gyro,
+            previous: self.previous,
+            without_height,
+            details: self.details,
+        }
+    }
+
     /// Returns the numbered sections: those on request only if they were requested.
     fn sections(&self, languages: &Languages) -> Vec<Section> {
-        let mut sections = vec![
-            ("result", texts::RESULT, conformity::section(self, languages)),
-            ("fit", texts::FIT, fit::section(self, languages)),
-            ("blind", texts::BLIND, fit::blind(self, languages)),
-        ];
+        let report = self.report();
+        let mut sections: Vec<Section> = report
+            .sections()
+            .into_iter()
+            .map(|(id, heading, blocks)| (id, heading, doc::blocks(&blocks, languages)))
+            .collect();
+        let methods = (sections.len() > 3).then(|| sections.pop()).flatten();
         if let Some(budget) = self.budget {
-            sections.push(("budget", texts::BUDGET, uncertainty::budget(self, budget, languages)));
+            sections.push((
+                "budget",
+                texts::BUDGET,
+                doc::blocks(&uncertainty::budget(budget, self.gyro, self.document), languages),
+            ));
         }
         if let Some(found) = self.monte_carlo {
-            sections.push(("monte-carlo", texts::MONTE_CARLO, uncertainty::monte_carlo(found, languages)));
+            sections.push((
+                "monte-carlo",
+                texts::MONTE_CARLO,
+                doc::blocks(&uncertainty::monte_carlo(found), languages),
+            ));
         }
-        sections.push(("methods", texts::METHODS, parameters::section(self, languages)));
+        sections.extend(methods);
         sections.push(("subject", texts::SUBJECT, subject::section(self, languages)));
         sections
     }
@@ -156,10 +173,6 @@ impl CalibrationPage<'_> {
     /// Returns the gyro type and the verdict against it, or `None` if no type was specified.
     fn judged(&self) -> Option<(&GyroType, &Verdict)> {
         self.gyro.zip(self.document.verdict.as_ref())
-    }
-
-    fn adopted(&self) -> Option<&ResultDocument> {
-        self.document.best()
     }
 
     /// Returns the serial number of the gyro, if it was stated.
@@ -180,7 +193,7 @@ impl CalibrationPage<'_> {
         let day = self.document.date().map(|day| date_text(language, day));
         let gyro = [self.gyro_name(language)].into_iter().chain(day).collect::<Vec<_>>().join(", ");
         let sha256 = self.currents.1.get(..NAMED_DIGITS).unwrap_or(&self.currents.1);
-        texts::NAME.filled(language, values! { gyro, sha256 })
+        texts::name(gyro, sha256).plain(language)
     }
 
     fn verified(&self) -> bool {
@@ -218,11 +231,11 @@ impl CalibrationPage<'_> {
                 (boxed("verdict refused", headline, languages.paragraph(texts::NOT_VERIFIED_WORDS)))
             }
             @if let Some(hint) = &self.calibration.hint {
-                @let words = html! { (languages.paragraph(texts::DOES_NOT_FIT_WORDS)) (fit::what_may_be_wrong(hint, languages)) };
+                @let words = html! { (languages.paragraph(texts::DOES_NOT_FIT_WORDS)) (doc::blocks(&what_may_be_wrong(hint), languages)) };
                 (outcome_box(Outcome::Failed, &languages.label(texts::DOES_NOT_FIT), words))
             }
             @if let Some(mistake) = &self.document.mistake {
-                @let words = languages.paragraph_with(|language| italic(&mistake::words(mistake, language)));
+                @let words = languages.said_in_paragraph(&mistake::words(mistake));
                 (outcome_box(Outcome::Failed, &languages.label(texts::MISTAKE), words))
             }
             @if let Some(why) = self.previous.iter().rev().find_map(|earlier| self.document.no_change(earlier)) {
@@ -259,30 +272,51 @@ impl CalibrationPage<'_> {
             return outcome_box(Outcome::NotAsked, &languages.label(texts::NO_TYPE), words);
         };
         if verdict.withheld {
-            let name = |language: Language| texts::NO_STATEMENT.filled(language, values! { type: gyro.r#type });
+            let name = |language: Language| texts::no_statement(&gyro.r#type).plain(language);
             return outcome_box(Outcome::NotAsked, &languages.label_with(name), self.implausible(languages));
         }
         let change = self.document.stated_change();
-        let text = match (verdict.overall, change.map(|change| change.overall)) {
-            (Decision::Fail, _) => texts::CONFORMS_NOT,
-            (_, Some(Decision::Fail)) => texts::CHANGED_TOO_MUCH,
-            (Decision::Undecided, _) => texts::UNDECIDED,
-            (Decision::Pass, Some(Decision::Undecided)) => texts::CHANGE_UNDECIDED,
-            (Decision::Pass, _) => texts::CONFORMS,
+        let kind = &gyro.r#type;
+        let name = match (verdict.overall, change.map(|change| change.overall)) {
+            (Decision::Fail, _) => texts::conforms_not(kind),
+            (_, Some(Decision::Fail)) => texts::changed_too_much(kind),
+            (Decision::Undecided, _) => texts::undecided(kind),
+            (Decision::Pass, Some(Decision::Undecided)) => texts::change_undecided(kind),
+            (Decision::Pass, _) => texts::conforms(kind),
         };
         let worst = verdict.with_change(change);
-        let name = |language: Language| text.filled(language, values! { type: gyro.r#type });
         let words = html! {
-            (conformity::counted(verdict, texts::PASSED, |language| self.not_in_u(language), languages))
+            (self.counted(verdict, texts::passed, |language| self.not_in_u(language), languages))
             @if let Some(change) = change {
-                @let then = |language| conformity::gyro_not_confirmed(self, language);
-                (conformity::counted(change, texts::CHANGE_PASSED, then, languages))
+                @let then = |language| html! { @if !self.report().is_same_gyro() { " " (texts::SAME_GYRO_NOT_SHOWN.words(language)) } };
+                (self.counted(change, texts::change_passed, then, languages))
             }
             (self.not_linear(languages))
             (self.implausible(languages))
             (languages.paragraph(texts::RULE))
         };
-        outcome_box(worst, &languages.label_with(name), words)
+        outcome_box(worst, &name.label(languages), words)
+    }
+
+    /// Writes how many parameters pass, and which were not assessed; `then` is what follows.
+    fn counted(
+        &self,
+        verdict: &Verdict,
+        passed: fn(usize, usize) -> Words,
+        then: impl Fn(Language) -> Markup,
+        languages: &Languages,
+    ) -> Markup {
+        let counted = counted(verdict, |row| row.guarded, passed);
+        let not_found = words::listed(verdict.not_found().iter().map(|one| words::symbol(one.symbol())));
+        languages.paragraph_with(|language| {
+            html! {
+                (counted.html(language, languages))
+                @if !verdict.not_found().is_empty() {
+                    "; " (texts::not_in_the_model(not_found.clone()).html(language, languages))
+                }
+                "." (then(language))
+            }
+        })
     }
 
     /// Writes how many inputs U does not include, after a sentence; nothing if there are none.
@@ -290,7 +324,7 @@ impl CalibrationPage<'_> {
         let count = self.missing.len();
         let more = subject::outside(self).map(|_| texts::AND_TEMPERATURE.words(language)).unwrap_or_default();
         html! {
-            @if count > 0 { " " (italic(&texts::NOT_IN_U.filled(language, values! { count, more }))) }
+            @if count > 0 { " " (italic(&texts::not_in_u(count, more).plain(language))) }
             @if self.laboratory.is_none() { " " (texts::METER_IS_ASSUMED.words(language)) }
         }
     }
@@ -301,8 +335,8 @@ impl CalibrationPage<'_> {
         if changed.is_empty() {
             return html! {};
         }
-        let names = listed(changed.iter().map(|parameter| name_of(parameter.symbol())));
-        languages.paragraph_with(|language| comparison::UNEXPLAINED.marked_up(language, &[("names", names.clone())]))
+        let names = words::listed(changed.iter().map(|parameter| words::symbol(parameter.symbol())));
+        languages.said_in_paragraph(&comparison::unexplained(names))
     }
 
     /// Writes the parameters for which a Monte Carlo run shows that the linear approximation is not valid.
@@ -313,8 +347,8 @@ impl CalibrationPage<'_> {
         if refuted.is_empty() {
             return html! {};
         }
-        let names = listed(refuted.iter().map(|line| name_of(line.parameter.symbol())));
-        languages.paragraph_with(|language| texts::NOT_LINEAR.marked_up(language, &[("names", names.clone())]))
+        let names = words::listed(refuted.iter().map(|line| words::symbol(line.parameter.symbol())));
+        languages.said_in_paragraph(&texts::not_linear(names))
     }
 }
 
@@ -325,15 +359,5 @@ pub(crate) fn why_no_change(why: NoChange) -> Text {
         NoChange::EarlierNotValid => texts::EARLIER_NOT_VALID,
         NoChange::EarlierSuspect => texts::EARLIER_SUSPECT,
         NoChange::EarlierNotVerified => texts::EARLIER_NOT_VERIFIED,
-    }
-}
-
-/// Returns the name of a method from its key in results.
-fn method(key: &str) -> Text {
-    let is = |method: Method| method.key() == key;
-    match () {
-        () if is(Method::LeastSquares) => texts::LEAST_SQUARES_NAME,
-        () if is(Method::Analytic) => texts::ANALYTIC,
-        () => texts::ITERATIVE,
     }
 }

@@ -1,20 +1,22 @@
 //! Object of the calibration: gyro, stand, passport and readings.
 
 use super::{CalibrationPage, UsedPassport};
-use crate::calibration::readings::Exclusion;
 use crate::calibration::stated::{TemperatureOutside, temperature_c};
 use crate::laboratory::Laboratory;
-use crate::report::page::language::{Languages, values};
+use crate::report::doc;
+use crate::report::page::language::Languages;
 use crate::report::page::number::Number;
 use crate::report::page::parts::{
     self, blank, boxed, date, field, fields, file_name, given, heading, marked, not_stated, outcome_box, quantity,
     time, wide_field, wide_stated,
 };
+use crate::report::page::passport::checks;
 use crate::report::page::passport::checks::withdrawal_not_checked;
-use crate::report::page::passport::{accuracy, characteristics, checks};
-use crate::report::page::texts::{calibration as texts, passport as passport_texts, record, units};
+use crate::report::passport::{accuracy, site};
 use crate::report::style::Outcome;
-use crate::wording::date_text;
+use crate::wording::Words;
+use crate::wording::texts::{calibration as texts, passport as passport_texts, record, units};
+use crate::wording::{date_text, time_text};
 use maud::{Markup, html};
 
 pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
@@ -51,11 +53,12 @@ pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
     let id = || given(&content.passport.id);
     let certificate = match &page.passport {
         UsedPassport::Verified(passport) => languages.lines_with(|language| {
-            let values = [("id", id()), ("time", time(&language.into(), page.time))];
-            match withdrawal_not_checked(passport) {
-                true => texts::VERIFIED_NOT_WITHDRAWAL.marked_up(language, &values),
-                false => texts::VERIFIED_AS_OF.marked_up(language, &values),
-            }
+            let (id, time) = (Words::Given(content.passport.id.clone()), time_text(language, page.time));
+            let words = match withdrawal_not_checked(passport) {
+                true => texts::verified_not_withdrawal(id, time),
+                false => texts::verified_as_of(id, time),
+            };
+            words.html(language, languages)
         }),
         UsedPassport::NotVerified { .. } => html! { p { (id()) } p.failed { (languages.inline(texts::NOT_VERIFIED)) } },
     };
@@ -107,23 +110,6 @@ fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
     ])
 }
 
-/// Writes the visits that were excluded and the positions without a reading, if there are any.
-pub(super) fn left_out(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let excluded = |at: &Exclusion| {
-        let cycle = at.cycle.map(|cycle| format!(", {cycle}")).unwrap_or_default();
-        format!("({}, {}), {}{cycle}: {}", at.i, at.j, at.visit, at.why)
-    };
-    let excluded: Vec<String> = page.document.excluded.iter().map(excluded).collect();
-    let left_out: Vec<String> = page.document.left_out.iter().map(|at| format!("({}, {})", at.i, at.j)).collect();
-    let each = [(texts::EXCLUDED, excluded), (texts::LEFT_OUT, left_out)];
-    let each: Vec<_> = each.into_iter().filter(|(_, each)| !each.is_empty()).collect();
-    html! {
-        @if !each.is_empty() {
-            (fields(each.into_iter().map(|(name, each)| wide_field(languages, name, Some(given(&each.join("; ")))))))
-        }
-    }
-}
-
 fn passport(page: &CalibrationPage, languages: &Languages) -> Markup {
     let header = &page.content().passport;
     let signed = match &page.passport {
@@ -143,7 +129,7 @@ fn passport(page: &CalibrationPage, languages: &Languages) -> Markup {
             field(languages, passport_texts::ISSUED, Some(time(languages, header.issued_at))),
             wide_field(languages, texts::PASSPORT_SHA256, Some(html! { code { (page.passport.sha256()) } })),
         ].into_iter().chain(signer)))
-        @if let Some(passport) = signed { (checks::table(passport, languages)) }
+        @if let Some(passport) = signed { (doc::blocks(&[checks::table(passport)], languages)) }
     }
 }
 
@@ -151,15 +137,15 @@ fn laboratory(page: &CalibrationPage, languages: &Languages) -> Markup {
     let laboratory = page.laboratory.cloned().unwrap_or_else(Laboratory::paper);
     let (g, u) = (page.document.gravity_m_per_s2, page.document.gravity_u_m_per_s2);
     // Section 3 names those that are not stated.
-    let angles = accuracy::angles(&laboratory, languages).into_iter();
-    let angles = angles.filter_map(|(name, value)| Some(field(languages, name, Some(value?))));
-    let meter = wide_field(languages, passport_texts::METER, Some(accuracy::meter(&laboratory, languages)));
+    let angles = accuracy::angles(&laboratory).into_iter().flatten();
+    let angles = angles.map(|(name, value, _)| field(languages, name, Some(value.cell(languages))));
+    let meter = wide_field(languages, passport_texts::METER, Some(accuracy::meter(&laboratory).cell(languages)));
     html! {
         (fields([
             laboratory.name.as_deref().map(|name| field(languages, passport_texts::NAME, Some(given(name)))).unwrap_or_default(),
             field(languages, passport_texts::ADDRESS, None),
             field(languages, texts::PROCEDURE, None),
-            field(languages, passport_texts::GRAVITY, Some(characteristics::gravity(g, u, languages))),
+            field(languages, passport_texts::GRAVITY, Some(site::gravity(g, u).cell(languages))),
         ].into_iter().chain(angles).chain([field(languages, texts::METER_IDENTITY, None), meter])))
         @if page.laboratory.is_none() { div.statement { (languages.paragraph(texts::METER_ASSUMED)) } }
     }
@@ -173,7 +159,7 @@ pub(super) fn date_of_readings(page: &CalibrationPage, languages: &Languages) ->
     };
     let words = languages.paragraph_with(|language| {
         let [date, performed] = days.map(|day| date_text(language, day));
-        html! { (texts::READINGS_OLDER.filled(language, values! { date, performed })) }
+        html! { (texts::readings_older(date, performed).plain(language)) }
     });
     outcome_box(Outcome::Undecided, &languages.label(texts::READINGS_ARE_OLDER), words)
 }
@@ -186,8 +172,7 @@ pub(super) fn outside(page: &CalibrationPage) -> Option<TemperatureOutside> {
 /// Writes a warning if the deviations are certified for other temperatures.
 pub(super) fn temperature(page: &CalibrationPage, languages: &Languages) -> Markup {
     let Some(TemperatureOutside { here_c, low_c, high_c }) = outside(page) else { return html! {} };
-    let values = [("here", here_c), ("low", low_c), ("high", high_c)]
-        .map(|(name, c)| (name, Number::exact(c).markup(languages)));
-    let words = languages.paragraph_with(|language| texts::TEMPERATURE_OUTSIDE.marked_up(language, &values));
+    let [here, low, high] = [here_c, low_c, high_c].map(Number::exact);
+    let words = languages.said_in_paragraph(&texts::temperature_outside(here, low, high));
     boxed("verdict warned", marked(Outcome::Failed, &languages.label(texts::TEMPERATURE_IS_OUTSIDE)), words)
 }

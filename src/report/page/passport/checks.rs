@@ -4,12 +4,11 @@
 use super::PassportPage;
 use crate::passport::place::Nearness;
 use crate::passport::{Check, CheckName, Code, Dated};
-use crate::report::page::language::{Language, Languages, Text, values};
+use crate::report::doc::{Block, Rows, Words, listed, marked, told};
+use crate::report::page::language::{Languages, Text};
 use crate::report::page::number::Number;
-use crate::report::page::parts::{Table, boxed, marked, time_text};
-use crate::report::page::spacing::BLANK;
-use crate::report::page::texts::{checks as texts, units};
-use crate::wording::date_text;
+use crate::report::page::parts;
+use crate::wording::texts::{checks as texts, units};
 use maud::{Markup, html};
 
 fn word(passed: Option<bool>) -> Text {
@@ -25,57 +24,33 @@ pub(crate) fn withdrawal_not_checked(page: &PassportPage) -> bool {
     page.verification.code(CheckName::Revocation) == Some(Code::NotAsked)
 }
 
-/// Writes every check as a mark with its name, and the number of checks with each result.
-pub(crate) fn line(page: &PassportPage, languages: &Languages) -> Markup {
-    let checks = page.verification.checks();
-    let count = |result| checks.iter().filter(|check| check.passed() == result).count();
-    let counted = |language: Language| {
-        let [passed, not_asked, failed] = [Some(true), None, Some(false)].map(count);
-        let text = if failed == 0 { texts::COUNTED } else { texts::COUNTED_FAILED };
-        let time = time_text(language, page.question.time);
-        text.filled(language, values! { time, passed, not_asked, failed })
-    };
-    html! {
-        (languages.paragraph_with(|language| html! { (counted(language)) }))
-        ul.marks {
-            @for check in checks {
-                li {
-                    (marked(check.passed(), &languages.inline(name(check.name))))
-                    span.unseen { ": " (languages.spoken(word(check.passed()))) }
-                }
-            }
-        }
-    }
-}
-
 /// Writes why the passport may not be used, in large letters; nothing if it may.
-pub(crate) fn refusal(page: &PassportPage, languages: &Languages) -> Markup {
+pub(super) fn refusal(page: &PassportPage, languages: &Languages) -> Markup {
     if page.verification.valid() {
         return html! {};
     }
-    let time = |language| texts::GENUINE.filled(language, values! { time: time_text(language, page.question.time) });
+    let time = told(texts::genuine(Words::Time(page.question.time)));
     let why = html! {
-        p { (languages.label_with(time)) }
-        ul { @for check in failed(page) { li { (languages.label_with(|language| words(page, check, language))) } } }
+        p { (time.label(languages)) }
+        ul { @for check in failed(page) { li { (told(words(page, check)).label(languages)) } } }
     };
-    let headline = languages.label_with(|language| headline(page, language));
-    boxed("verdict refused", marked(Some(false), &headline), why)
+    parts::boxed("verdict refused", parts::marked(Some(false), &headline(page).label(languages)), why)
 }
 
-/// Returns "In force", or the reasons why the passport may not be used.
-pub(crate) fn headline(page: &PassportPage, language: Language) -> String {
-    let failed: Vec<String> = failed(page).map(|check| reason(check.code).words(language)).collect();
-    if failed.is_empty() {
-        return texts::IN_FORCE.words(language);
+/// "In force", or the reasons why the passport may not be used.
+fn headline(page: &PassportPage) -> Words {
+    let failed: Vec<Text> = failed(page).map(|check| reason(check.code)).collect();
+    match failed.is_empty() {
+        true => texts::IN_FORCE.into(),
+        false => told(vec![texts::NOT_TO_BE_USED.into(), ": ".into(), listed(failed)]),
     }
-    format!("{}: {}", texts::NOT_TO_BE_USED.words(language), failed.join(", "))
 }
 
 /// Returns the warning for the head of every sheet, empty for a valid passport; in two languages it has no room for reasons.
-pub(crate) fn warning(page: &PassportPage, languages: &Languages) -> String {
+pub(super) fn warning(page: &PassportPage, languages: &Languages) -> String {
     match (page.verification.valid(), languages.single()) {
         (true, _) => String::new(),
-        (false, true) => headline(page, languages.first()),
+        (false, true) => headline(page).plain(languages.first()),
         (false, false) => languages.plain(texts::NOT_TO_BE_USED),
     }
 }
@@ -97,39 +72,21 @@ fn reason(code: Code) -> Text {
     }
 }
 
-/// Writes every check with its result; those that were not asked have one row.
-pub(crate) fn table(page: &PassportPage, languages: &Languages) -> Markup {
-    let caption = languages.label_with(|language| {
-        texts::CAPTION.filled(language, values! { time: time_text(language, page.question.time) })
-    });
-    let named = |passed| marked(passed, &languages.label(word(passed)));
+/// Every check with its result; those that were not asked have one row.
+pub(crate) fn table(page: &PassportPage) -> Block {
     let (not_asked, asked): (Vec<&Check>, Vec<_>) =
         page.verification.checks().iter().partition(|check| check.passed().is_none());
-    let row = |check: &Check| {
-        let words = languages.label_with(|language| words(page, check, language));
-        vec![languages.label(name(check.name)), named(check.passed()), words]
-    };
-    let mut rows: Vec<_> = asked.into_iter().map(row).collect();
+    let row = |check: &Check| (Words::from(name(check.name)), check.passed(), told(words(page, check)));
+    let mut rows: Vec<(Words, Option<bool>, Words)> = asked.into_iter().map(row).collect();
     if !not_asked.is_empty() {
-        let joined = |of: fn(CheckName) -> Text, between| {
-            // Only the first name of a list has its capital letter.
-            let words = |language| {
-                let words = not_asked.iter().map(|check| of(check.name).words(language)).enumerate();
-                words.map(|(place, words)| if place == 0 { words } else { words.to_lowercase() }).collect::<Vec<_>>()
-            };
-            languages.label_with(|language| words(language).join(between))
-        };
-        rows.push(vec![joined(name, ", "), marked(None, &languages.label(texts::NOT_ASKED)), joined(absent, "; ")]);
+        let joined = |of: fn(CheckName) -> Text| told(listed(not_asked.iter().map(|check| of(check.name))));
+        rows.push((joined(name), None, joined(absent)));
     }
-    let table = Table {
-        headings: [texts::CHECK, texts::RESULT, texts::FOUND].map(|text| languages.label(text)).into(),
-        rows,
-        row_headings: 1,
-        class: "checks",
-        ..Table::default()
-    };
-    // Not a caption, which some browsers part from its table in print.
-    html! { p.caption { (caption) } (table.markup(languages.spoken(texts::CHECK))) }
+    let table = Rows::of(&rows, "checks")
+        .named(texts::CHECK, |(name, ..)| name.clone())
+        .column(texts::RESULT, |(_, passed, _)| marked(*passed, word(*passed)))
+        .column(texts::FOUND, |(.., found)| found.clone());
+    table.captioned(texts::CHECK, told(texts::caption(Words::Time(page.question.time))))
 }
 
 fn name(check: CheckName) -> Text {
@@ -160,27 +117,26 @@ fn absent(check: CheckName) -> Text {
     }
 }
 
-fn words(page: &PassportPage, check: &Check, language: Language) -> String {
+fn words(page: &PassportPage, check: &Check) -> Words {
     let content = &page.content;
     let issuer = content.passport.issuer.as_str();
-    let plain = |text: Text| text.words(language);
     match check.name {
-        CheckName::Grammar => plain(texts::GRAMMAR_OK),
-        CheckName::Signature => plain(texts::SIGNATURE_OK),
-        CheckName::Schema => texts::SCHEMA_OK.filled(language, values! { format: content.format }),
-        CheckName::Signer => texts::SIGNER_OK.filled(language, values! { issuer }),
-        CheckName::Recomputed => plain(texts::RECOMPUTED_OK),
-        CheckName::Revocation => plain(texts::REVOCATION_OK),
-        CheckName::InForce => validity(page, check.code, language),
-        CheckName::Issuer => texts::ISSUER_OK.filled(language, values! { issuer }),
-        CheckName::Stand => stand(page, check.code, language),
-        CheckName::Place => place(page, language),
-        CheckName::Register => register(page, check.code, language),
+        CheckName::Grammar => texts::GRAMMAR_OK.into(),
+        CheckName::Signature => texts::SIGNATURE_OK.into(),
+        CheckName::Schema => texts::schema_ok(&content.format),
+        CheckName::Signer => texts::signer_ok(issuer),
+        CheckName::Recomputed => texts::RECOMPUTED_OK.into(),
+        CheckName::Revocation => texts::REVOCATION_OK.into(),
+        CheckName::InForce => validity(page, check.code),
+        CheckName::Issuer => texts::issuer_ok(issuer),
+        CheckName::Stand => stand(page, check.code),
+        CheckName::Place => place(page),
+        CheckName::Register => register(page, check.code),
     }
 }
 
-/// Returns what the register says, with its number, time, SHA-256 and freshness.
-fn register(page: &PassportPage, code: Code, language: Language) -> String {
+/// What the register says, with its number, time, SHA-256 and freshness.
+fn register(page: &PassportPage, code: Code) -> Words {
     let text = match code {
         Code::Ok => texts::REGISTER_OK,
         Code::Superseded => texts::REGISTER_SUPERSEDED,
@@ -192,48 +148,36 @@ fn register(page: &PassportPage, code: Code, language: Language) -> String {
         Code::RegisterContradicted => texts::REGISTER_CONTRADICTED,
         _ => texts::REGISTER_UNKNOWN,
     };
-    let Some(used) = page.verification.register() else { return text.words(language) };
-    let time = time_text(language, used.issued_at);
-    let fresh = used.fresh_until.map_or_else(String::new, |last| {
-        texts::REGISTER_FRESH.filled(language, values! { day: date_text(language, last) })
-    });
-    let sha256 = &used.sha256[..16];
-    let used = texts::REGISTER_USED.filled(language, values! { sequence: used.sequence, time, sha256, fresh });
-    format!("{}; {used}", text.words(language))
+    let Some(used) = page.verification.register() else { return text.into() };
+    let fresh = used.fresh_until.map_or_else(|| "".into(), texts::register_fresh);
+    let used = texts::register_used(used.sequence, Words::Time(used.issued_at), &used.sha256[..16], fresh);
+    vec![text.into(), "; ".into(), used].into()
 }
 
-fn validity(page: &PassportPage, code: Code, language: Language) -> String {
-    let last = page.content.last_day();
-    let day = last.map(|(day, _)| date_text(language, day)).unwrap_or_default();
-    let text = match (code, last) {
-        (Code::NotYetValid, _) => {
-            let time = time_text(language, page.content.passport.issued_at);
-            return texts::VALIDITY_NOT_YET.filled(language, values! { time });
-        }
-        (Code::Ok, None) => texts::VALIDITY_NO_END,
-        (Code::Ok, Some(_)) => texts::VALIDITY_OK,
-        (_, Some((_, Dated::Certificate))) => texts::VALIDITY_CERTIFICATE_EXPIRED,
-        _ => texts::VALIDITY_EXPIRED,
-    };
-    text.filled(language, values! { day })
+fn validity(page: &PassportPage, code: Code) -> Words {
+    match (code, page.content.last_day()) {
+        (Code::NotYetValid, _) => texts::validity_not_yet(Words::Time(page.content.passport.issued_at)),
+        (_, None) => texts::VALIDITY_NO_END.into(),
+        (Code::Ok, Some((day, _))) => texts::validity_ok(day),
+        (_, Some((day, Dated::Certificate))) => texts::validity_certificate_expired(day),
+        (_, Some((day, _))) => texts::validity_expired(day),
+    }
 }
 
-fn stand(page: &PassportPage, code: Code, language: Language) -> String {
-    let text = if code == Code::Ok { texts::STAND_OK } else { texts::STAND_WRONG };
-    let asked = page.question.serial.as_deref().unwrap_or_default();
-    text.filled(language, values! { serial: page.content.stand.serial, asked })
+fn stand(page: &PassportPage, code: Code) -> Words {
+    let (serial, asked) = (&page.content.stand.serial, page.question.serial.as_deref().unwrap_or_default());
+    if code == Code::Ok { texts::stand_ok(serial) } else { texts::stand_wrong(serial, asked) }
 }
 
-fn place(page: &PassportPage, language: Language) -> String {
-    let Some(place) = page.question.place else { return String::new() };
+fn place(page: &PassportPage) -> Words {
+    let Some(place) = page.question.place else { return "".into() };
     let nearness = Nearness::of(&page.content, place);
-    let text = if nearness.within() { texts::PLACE_OK } else { texts::PLACE_WRONG };
-    let [distance, radius] = [nearness.distance_m, nearness.radius_m].map(|metres| length(metres, language));
-    text.filled(language, values! { distance, radius })
+    let [distance, radius] = [nearness.distance_m, nearness.radius_m].map(length);
+    if nearness.within() { texts::place_ok(distance, radius) } else { texts::place_wrong(distance, radius) }
 }
 
 /// Returns a length in metres, or in kilometres above 10 km.
-fn length(metres: f64, language: Language) -> String {
+fn length(metres: f64) -> Words {
     let (value, unit) = if metres < 1e4 { (metres, units::METRES) } else { (metres / 1000.0, units::KILOMETRES) };
-    format!("{}{BLANK}{}", Number::fixed(value, 0).text(language), unit.words(language))
+    Words::Quantity(Number::fixed(value, 0), unit)
 }

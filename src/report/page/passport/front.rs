@@ -1,15 +1,15 @@
 //! First page: what the passport is for, until when it is in force, where, on whose word, and how to check it.
 
 use super::{PassportPage, checks};
+use crate::report::doc;
 use crate::report::page::code;
-use crate::report::page::language::{Language, Languages, Text, values};
+use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::{LATITUDES, LONGITUDES, Number};
-use crate::report::page::parts::{
-    band, coordinate, date, fields, figure, given, marked, quantity, signature, stated, time, wide_stated,
-};
-use crate::report::page::texts::{checks as check_texts, passport as texts, record, units, words};
+use crate::report::page::parts::{band, coordinate, date, figure, given, marked, quantity, signature};
+use crate::report::passport::{deviations, general};
 use crate::report::picture::stand::stand as picture;
 use crate::wording::date_text;
+use crate::wording::texts::{checks as check_texts, passport as texts, record, units};
 use maud::{Markup, html};
 
 /// Writes the head of the page: kind of the document, the stand, and the id.
@@ -39,9 +39,8 @@ pub(super) fn section(page: &PassportPage, languages: &Languages, contents: &Mar
                 (proof(page, languages))
                 div.note { (languages.paragraph(texts::PAPER_IS_NOT_SIGNED)) }
             }
-            div.checked { (checks::line(page, languages)) }
-            (signed(page, languages))
-            (predecessor(page, languages))
+            (doc::blocks(&[checks::table(page)], languages))
+            (doc::blocks(&general::of_the_passport(&page.content.passport, Some(&page.key)), languages))
         }
     }
 }
@@ -74,7 +73,7 @@ fn answers(page: &PassportPage, languages: &Languages) -> Markup {
         }
         // Below "Not to be used", "until" would say that it may be used later.
         Some((day, _)) => html! {
-            p { (languages.label_with(|language| texts::PERIOD.filled(language, values! { day: date_text(language, day) }))) }
+            p { (languages.label_with(|language| texts::period(date_text(language, day)).plain(language))) }
         },
         None if valid => {
             let rest = if unchecked { texts::NO_END_NOT_CHECKED } else { texts::NO_END };
@@ -96,13 +95,11 @@ fn answers(page: &PassportPage, languages: &Languages) -> Markup {
         (languages.lines_with(coordinates))
         p { (given(site.name.as_deref().unwrap_or(site.id.as_str()))) }
     };
+    let u =
+        deviations::expanded_range(content).map_or_else(|| texts::WITHOUT_UNCERTAINTY.into(), texts::expanded_of_each);
     let word = html! {
         p { (given(&certificate.laboratory)) }
-        @if content.positions.iter().any(|at| at.u_alpha_arcsec.is_none()) {
-            p { (languages.label(texts::WITHOUT_UNCERTAINTY)) }
-        }
-        p.name { (languages.label(texts::PASSPORT_ISSUER)) }
-        p { (given(&content.passport.issuer)) }
+        p { (u.label(languages)) }
     };
     let radius = quantity(languages, &Number::fixed(content.earth.valid_radius_m, 0), units::METRES);
     band(
@@ -112,44 +109,21 @@ fn answers(page: &PassportPage, languages: &Languages) -> Markup {
             // Below "Not to be used", "use within" would contradict.
             (if valid { texts::WHERE } else { texts::RADIUS }, radius, place),
             (texts::WORD, given(&certificate.number), word),
-            (texts::CHECKING, html! { "SHA-256" }, html! { p { (languages.label(texts::CHECKING_HOW)) } }),
+            (
+                texts::CHECKING,
+                html! { "SHA-256" },
+                html! { p.sha256 { code { (page.sha256) } } p { (languages.label(texts::CHECKING_HOW)) } },
+            ),
         ],
     )
 }
 
-/// Writes the SHA-256 as a QR code and as text, next to the fields for signature and stamp.
+/// Writes the SHA-256 as a QR code, next to the fields for signature and stamp.
 fn proof(page: &PassportPage, languages: &Languages) -> Markup {
     html! {
         div.proof {
             @if let Some(picture) = code::picture(&page.sha256, languages.spoken(texts::CODE)) { (picture) }
             (signature(languages, record::ISSUED_BY))
-            div.sum {
-                p.sum-name { (languages.label(texts::SHA256)) }
-                p.sha256 { code { (page.sha256) } }
-            }
         }
     }
-}
-
-fn signed(page: &PassportPage, languages: &Languages) -> Markup {
-    let header = &page.content.passport;
-    fields([
-        stated(languages, texts::REVISION, Some(html! { (header.revision) })),
-        stated(languages, texts::ISSUED, Some(time(languages, header.issued_at))),
-        stated(languages, texts::VALID_UNTIL, header.valid_until.map(|day| date(languages, day))),
-        stated(languages, texts::ISSUED_WITH, header.issued_with.as_deref().map(given)),
-        wide_stated(languages, texts::KEY, Some(html! { code { (page.key.fingerprint()) } })),
-    ])
-}
-
-fn predecessor(page: &PassportPage, languages: &Languages) -> Markup {
-    let Some(old) = &page.content.passport.reissued_from else { return html! {} };
-    let superseded = if page.content.passport.supersedes == Some(true) { words::YES } else { words::NO };
-    fields([
-        stated(languages, texts::REISSUED_FROM, Some(given(&old.id))),
-        stated(languages, texts::REISSUE_SUPERSEDES, Some(languages.inline(superseded))),
-        wide_stated(languages, texts::REISSUE_REASON, Some(given(&old.reason))),
-        wide_stated(languages, texts::REISSUE_CHANGED, Some(given(&old.changed))),
-        wide_stated(languages, texts::REISSUED_SHA256, Some(html! { code { (old.sha256) } })),
-    ])
 }

@@ -6,28 +6,22 @@
 //!
 //! * `front`: identification, signer, result of verification.
 //! * `checks`: each check in words.
-//! * `general`: the stand and its certificate.
-//! * `characteristics`: the certified deviations, the site.
-//! * `numbers`: the numbers that a calibration uses.
-//! * `accuracy`: expected calibration uncertainty, inputs that are not stated.
 //! * `record`: the parts to fill in by hand.
 
-pub(crate) mod accuracy;
-pub(super) mod characteristics;
-pub(super) mod checks;
+pub(crate) mod checks;
 mod front;
-pub(super) mod general;
-pub(crate) mod numbers;
 mod record;
 
-use super::language::{Languages, values};
-use super::parts::{contents, data_address, numbered, section, verbatim};
+use super::language::{Language, Languages};
+use super::parts::{Section, contents, data_address, numbered, section, verbatim};
 use super::shell::{Margins, document};
 use super::symbols::italic;
-use super::texts::{passport as texts, record as record_texts};
 use crate::document::sha256_hex;
 use crate::passport::{Content, Question, Trust, Verification, verify};
+use crate::report::doc;
+use crate::report::passport;
 use crate::trust::PublicKey;
+use crate::wording::texts::{passport as texts, record as record_texts};
 use maud::{Markup, html};
 
 /// The printed form of a verified passport.
@@ -41,6 +35,11 @@ pub struct PassportPage<'a> {
     pub(crate) content: Content,
     /// Key that signed the passport.
     pub(crate) key: PublicKey,
+    /// `true` to print the signed file verbatim too; otherwise it is on the screen and as a download only.
+    pub prints_annex: bool,
+    /// `true` to print the blank forms of [GOST R 2.610](crate::bibliography::Bibliography::GostR2610) in any language;
+    /// otherwise a page has them in Russian alone.
+    pub prints_forms: bool,
 }
 
 impl<'a> PassportPage<'a> {
@@ -66,7 +65,17 @@ impl<'a> PassportPage<'a> {
         let genuine = verification.authentic().map(|(content, key)| (content.clone(), key.clone()));
         match text.zip(genuine) {
             Some((text, (content, key))) => {
-                Ok(Self { text, sha256: sha256_hex(bytes), question, verification, content, key })
+                let sha256 = sha256_hex(bytes);
+                Ok(Self {
+                    text,
+                    sha256,
+                    question,
+                    verification,
+                    content,
+                    key,
+                    prints_annex: false,
+                    prints_forms: false,
+                })
             }
             None => Err(Box::new(verification)),
         }
@@ -78,7 +87,7 @@ impl<'a> PassportPage<'a> {
         let margins = Margins {
             top_left: self.margin(languages),
             top_right: checks::warning(self, languages),
-            bottom_left: texts::MARGIN_SHA256.filled(languages.first(), values! { sha256: self.sha256 }),
+            bottom_left: texts::margin_sha256(&self.sha256).plain(languages.first()),
         };
         let title = format!("{} {}", languages.spoken(texts::TITLE), header.id);
         document(languages, &title, &margins, &self.body(languages))
@@ -93,18 +102,18 @@ impl<'a> PassportPage<'a> {
         let (stand, site) = (&self.content.stand, &self.content.site.id);
         let stand = format!("{}/{}", stand.model, stand.serial);
         let revision = &self.content.passport.revision;
-        texts::MARGIN_PASSPORT.filled(languages.first(), values! { stand, site, revision })
+        texts::margin_passport(stand, site, revision).plain(languages.first())
     }
 
     fn body(&self, languages: &Languages) -> Markup {
         let address = data_address("application/yaml", self.text.as_bytes());
-        let sections = [
-            ("general", texts::GENERAL, general::section(self, languages)),
-            ("characteristics", texts::CHARACTERISTICS, characteristics::section(self, languages)),
-            ("numbers", texts::NUMBERS, numbers::section(self, languages)),
-            ("accuracy", texts::ACCURACY, accuracy::section(self, languages)),
-            ("record", record_texts::RECORD, record::section(self, languages)),
-        ];
+        let sections = passport::sections(&self.content);
+        let mut sections: Vec<Section> =
+            sections.map(|(id, heading, blocks)| (id, heading, doc::blocks(&blocks, languages))).into();
+        if self.prints_forms || (languages.single() && languages.first() == Language::Russian) {
+            let forms = record::section(&self.content.stand, &self.content.passport.id);
+            sections.push(("record", record_texts::RECORD, doc::blocks(&forms, languages)));
+        }
         let contents = contents(languages, texts::SAVE, (&address, &self.file_name()), &sections, texts::ANNEX);
         html! {
             (front::title(self, languages))
@@ -119,12 +128,14 @@ impl<'a> PassportPage<'a> {
     /// Writes the signed file verbatim, to read, to copy and to save.
     fn annex(&self, languages: &Languages) -> Markup {
         let (id, name) = (&self.content.passport.id, self.file_name());
-        let end = languages.label_with(|language| texts::END.filled(language, values! { id }));
+        let end = languages.label_with(|language| texts::end(id).plain(language));
         let body = html! {
-            (checks::table(self, languages))
-            (languages.paragraph_with(|language| italic(&texts::ANNEX_NOTE.filled(language, values! { name }))))
+            (languages.paragraph_with(|language| italic(&texts::annex_note(&name).plain(language))))
             (verbatim("en", self.text, &end))
         };
-        section(languages, "annex", texts::ANNEX, body)
+        let annex = section(languages, "annex", texts::ANNEX, body);
+        html! {
+            @if self.prints_annex { (annex) } @else { p.end { (end) } div.save { (annex) } }
+        }
     }
 }

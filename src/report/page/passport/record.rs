@@ -2,93 +2,86 @@
 //! 2.610-2019](crate::bibliography::Bibliography::GostR2610) that are filled in by hand. Fields unknown to the file
 //! stay empty.
 
-use super::PassportPage;
-use crate::report::page::language::{Languages, Text};
-use crate::report::page::parts::{Table, blank, field, fields, given, heading};
-use crate::report::page::texts::{passport, record as texts};
-use maud::{Markup, html};
+use crate::report::doc::{Block, Cell, Column, On, Rows, Table, Words, blank, given, heading, record, say};
+use crate::report::page::language::Text;
+use crate::stand::Identity;
+use crate::wording::texts::{passport, record as texts};
 
-pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
-    let form = |heading, class, headings: &[Text], rows| table(languages, heading, class, headings, rows);
-    let words = |heading_text, names: &[Text]| {
-        html! {
-            div.part.pen {
-                (heading(languages, heading_text))
-                (fields(names.iter().map(|name| field(languages, *name, None))))
-            }
-        }
-    };
-    html! {
-        p.save { (languages.inline(texts::ON_PAPER)) }
-        (completeness(page, languages))
-        (words(texts::WARRANTY, &[
-            texts::SERVICE_LIFE, texts::STORAGE_LIFE, texts::WARRANTY_PERIOD, texts::WARRANTY_TERMS,
-        ]))
-        (form(texts::PRESERVATION, "form dated third", &[texts::DATE, texts::WORK, texts::PERIOD, texts::WHO], empty(1, 4)))
-        div.pair {
-            (certificate(page, languages, texts::PACKING, texts::PACKING_WORDS))
-            (certificate(page, languages, texts::ACCEPTANCE, texts::ACCEPTANCE_WORDS))
-        }
-        div.statement.pen { (languages.paragraph(texts::VALID_WHEN_SIGNED)) }
-        (words(texts::STORAGE, &[texts::STORAGE_CONDITIONS, texts::TRANSPORT_CONDITIONS]))
-        (form(
+/// The forms for a stand, with the id of its passport.
+pub(super) fn section(stand: &Identity, id: &str) -> Vec<Block> {
+    let words = |name: Text, names: &[Text]| part(name, record(names.iter().map(|name| blank(*name))));
+    let lines = |name: Text| part(name, Block::Within("lines", vec![say([Words::Blank])]));
+    let statement = |text: Text| Block::Within("statement", vec![say([text])]);
+    vec![
+        Block::Within("save", vec![say([texts::ON_PAPER])]),
+        completeness(stand, id),
+        words(
+            texts::WARRANTY,
+            &[
+                texts::MANUFACTURED,
+                texts::SERVICE_LIFE,
+                texts::STORAGE_LIFE,
+                texts::WARRANTY_PERIOD,
+                texts::WARRANTY_TERMS,
+            ],
+        ),
+        form(texts::PRESERVATION, "form dated third", &[texts::DATE, texts::WORK, texts::PERIOD, texts::WHO], 1),
+        Block::Within(
+            "pair",
+            vec![
+                certificate(stand, texts::PACKING, texts::packing_words),
+                certificate(stand, texts::ACCEPTANCE, texts::acceptance_words),
+            ],
+        ),
+        statement(texts::VALID_WHEN_SIGNED),
+        words(texts::STORAGE, &[texts::STORAGE_CONDITIONS, texts::TRANSPORT_CONDITIONS]),
+        form(
             texts::MOVEMENT,
             "form dated third",
             &[texts::INSTALLED, texts::SITE, texts::REMOVED, texts::WHY_REMOVED, texts::WHO],
-            empty(2, 5),
-        ))
-        (form(
-            texts::REPAIRS,
-            "form dated",
-            &[texts::DATE, texts::REPAIR, texts::CERTIFIED_AGAIN, texts::WHO],
-            empty(2, 4),
-        ))
-        div.statement { (languages.paragraph(texts::AFTER_A_MOVE)) }
-        (form(texts::NOTES, "form dated", &[texts::DATE, texts::NOTE, texts::WHO], empty(2, 3)))
-        div.pair {
-            div.part.pen { (heading(languages, texts::DISPOSAL)) (lines(languages)) }
-            div.part.pen { (heading(languages, texts::SPECIAL)) (lines(languages)) }
-        }
-    }
+            2,
+        ),
+        form(texts::REPAIRS, "form dated", &[texts::DATE, texts::REPAIR, texts::CERTIFIED_AGAIN, texts::WHO], 2),
+        statement(texts::AFTER_A_MOVE),
+        form(texts::NOTES, "form dated", &[texts::DATE, texts::NOTE, texts::WHO], 2),
+        Block::Within("pair", vec![lines(texts::DISPOSAL), lines(texts::SPECIAL)]),
+    ]
 }
 
-fn empty(rows: usize, columns: usize) -> Vec<Vec<Markup>> {
-    vec![vec![html! {}; columns]; rows]
+fn part(name: Text, block: Block) -> Block {
+    Block::Within("part pen", vec![heading(name), block])
 }
 
-fn lines(languages: &Languages) -> Markup {
-    html! { p.lines { (blank(languages)) } }
+/// A form of empty rows. Its class has the widths of its columns: `dated` begins with a date, whose width the `third`
+/// column has too.
+fn form(name: Text, class: &'static str, headings: &[Text], rows: usize) -> Block {
+    let column = |heading: &Text| {
+        let cells = vec![Cell::Words("".into()); rows];
+        Column { heading: (*heading).into(), cells, foot: None, on: On::Page }
+    };
+    let columns = headings.iter().map(column).collect();
+    part(name, Block::Table(Table { name: Some(name), class, columns, ..Table::default() }))
 }
 
-/// Writes a form. Its class has the widths of its columns: `dated` begins with a date, whose width the `third` column has
-/// too.
-fn table(languages: &Languages, name: Text, class: &'static str, headings: &[Text], rows: Vec<Vec<Markup>>) -> Markup {
-    let headings = headings.iter().map(|text| languages.label(*text)).collect();
-    let table = Table { headings, rows, class, ..Table::default() };
-    html! { div.part.pen { (heading(languages, name)) (table.markup(languages.spoken(name))) } }
-}
-
-fn completeness(page: &PassportPage, languages: &Languages) -> Markup {
-    let stand = &page.content.stand;
-    let name = stand.name.as_deref().map_or_else(|| languages.label(texts::TEST_STAND), given);
-    let rows = vec![
-        vec![given(stand.model.as_str()), name, html! {}, given(stand.serial.as_str()), html! {}],
-        vec![given(&page.content.passport.id), languages.label(texts::THIS_PASSPORT), html! {}, html! {}, html! {}],
-        vec![html! {}; 5],
+fn completeness(stand: &Identity, id: &str) -> Block {
+    let name = stand.name.as_ref().map_or_else(|| texts::TEST_STAND.into(), given);
+    let empty = || Words::from("");
+    let rows = [
+        [given(stand.model.as_str()), name, given(stand.serial.as_str())],
+        [given(id), texts::THIS_PASSPORT.into(), empty()],
+        [empty(), empty(), empty()],
     ];
-    let headings = [texts::DESIGNATION, texts::ITEM, texts::QUANTITY, passport::SERIAL, texts::NOTE];
-    table(languages, texts::COMPLETENESS, "form complete", &headings, rows)
+    let table = Rows::of(&rows, "form complete")
+        .column(texts::DESIGNATION, |[designation, ..]| designation.clone())
+        .column(texts::ITEM, |[_, item, _]| item.clone())
+        .column(texts::QUANTITY, |_| empty())
+        .column(passport::SERIAL, |[.., serial]| serial.clone())
+        .column(texts::NOTE, |_| empty());
+    part(texts::COMPLETENESS, table.called(texts::COMPLETENESS))
 }
 
-fn certificate(page: &PassportPage, languages: &Languages, name: Text, words: Text) -> Markup {
-    let stand = &page.content.stand;
-    let values = [("model", given(stand.model.as_str())), ("serial", given(stand.serial.as_str()))];
+fn certificate(stand: &Identity, name: Text, words: fn(Words, Words) -> Words) -> Block {
+    let said = say([words(given(stand.model.as_str()), given(stand.serial.as_str()))]);
     let names = [texts::ORGANISATION, texts::WHO, texts::DATE, texts::STAMP];
-    html! {
-        div.part.pen {
-            (heading(languages, name))
-            (languages.paragraph_with(|language| words.marked_up(language, &values)))
-            (fields(names.map(|name| field(languages, name, None))))
-        }
-    }
+    Block::Within("part pen", vec![heading(name), said, record(names.map(blank))])
 }

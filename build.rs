@@ -1,0 +1,68 @@
+//! Makes the texts of `texts/*.txt` items of the crate: a constant for each text, or a function whose parameters are its
+//! placeholders. So a value that is missing or has another name does not compile, and an unused text is a warning.
+//!
+//! A text is a line `NAME: English`, and below it, two blanks deep, the Russian. `{name}` is a placeholder; both languages
+//! have the same ones. `\u{a0}` is a non-breaking space. Lines that begin with `#` are comments.
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+use std::{env, error::Error, fs, path::Path};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    println!("cargo::rerun-if-changed=texts");
+    let out = env::var("OUT_DIR")?;
+    for file in fs::read_dir("texts")? {
+        let path = file?.path();
+        let stem = path.file_stem().and_then(|stem| stem.to_str()).ok_or("the name of a table is not UTF-8")?;
+        let rust = table(&fs::read_to_string(&path)?).map_err(|why| format!("{}: {why}", path.display()))?;
+        fs::write(Path::new(&out).join(format!("{stem}.rs")), rust)?;
+    }
+    Ok(())
+}
+
+/// Returns the items of a table.
+fn table(text: &str) -> Result<String, String> {
+    let (mut rust, mut all, mut known) = (String::new(), String::new(), BTreeSet::new());
+    let mut lines = (1..).zip(text.lines()).filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
+    while let Some((number, first)) = lines.next() {
+        let wrong = |what: &str| format!("line {number}: {what}: {first}");
+        let (name, en) = first.split_once(": ").ok_or_else(|| wrong("no `NAME: English`"))?;
+        let ru = lines.next().and_then(|(_, line)| line.strip_prefix("  ")).ok_or_else(|| wrong("no Russian below"))?;
+        let [en, ru] = [en, ru].map(|words| words.replace("\\u{a0}", "\u{a0}"));
+        let [values, in_russian] = [&en, &ru].map(|words| placeholders(words));
+        let sorted = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<BTreeSet<_>>();
+        if sorted(&values) != sorted(&in_russian) {
+            return Err(wrong("the languages have other placeholders"));
+        }
+        if !known.insert(name.to_owned()) {
+            return Err(wrong("this name occurs twice"));
+        }
+        let text = format!("crate::wording::Text {{ en: {en:?}, ru: {ru:?} }}");
+        let written = if values.is_empty() {
+            write!(rust, "#[doc = {en:?}]\npub(crate) const {name}: crate::wording::Text = {text};\n")
+        } else {
+            let parameters = values.iter().map(|name| format!("r#{name}: impl Into<crate::wording::Words>"));
+            let filled = values.iter().map(|name| format!("({name:?}, r#{name}.into())"));
+            let [parameters, filled] = [parameters.collect::<Vec<_>>(), filled.collect()].map(|each| each.join(", "));
+            let name = name.to_lowercase();
+            write!(
+                rust,
+                "#[doc = {en:?}]\npub(crate) fn r#{name}({parameters}) -> crate::wording::Words {{\n    \
+                 crate::wording::Words::Text({text}, vec![{filled}])\n}}\n"
+            )
+        };
+        written.and_then(|()| write!(all, "({name:?}, {text}), ")).map_err(|why| why.to_string())?;
+    }
+    Ok(format!("{rust}#[cfg(test)]\npub(crate) const ALL: &[(&str, crate::wording::Text)] = &[{all}];\n"))
+}
+
+/// Returns the names of the placeholders in their order, each once.
+fn placeholders(words: &str) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    for name in words.split('{').skip(1).filter_map(|rest| rest.split_once('}')).map(|(name, _)| name) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}

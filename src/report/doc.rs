@@ -1,0 +1,176 @@
+//! A document before it has a medium or a language: blocks of words, numbers and tables, composed once.
+//!
+//! * `html`: the document as part of a page.
+//! * `terminal`: the document as text.
+
+mod html;
+mod terminal;
+
+pub(crate) use crate::wording::words::{Words, given, in_unit, joined, listed, marked, probability, symbol, told};
+pub(crate) use html::blocks;
+pub(crate) use terminal::{sentence, text};
+
+use super::page::language::{Languages, Text};
+use maud::Markup;
+
+/// Where a block or a column is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum On {
+    #[default]
+    Both,
+    Page,
+    Terminal,
+}
+
+/// Name, value, and whether it has the full width.
+pub(crate) type Field = (Text, Words, bool);
+
+#[derive(Clone)]
+pub(crate) enum Block {
+    Heading(Words),
+    /// Sentences of a paragraph; without any, nothing is written.
+    Paragraph(Vec<Words>),
+    /// Names, values, and whether a field has the full width.
+    Fields(Vec<Field>),
+    /// Names and values as [`Block::Fields`], in a terminal a line each.
+    Record(Vec<Field>),
+    Table(Table),
+    /// Blocks in an element of this class.
+    Within(&'static str, Vec<Block>),
+    /// What only a terminal can show, such as a chart in block characters.
+    Typed(String),
+    /// What only a page can show, such as a legend or a figure, in the languages of the page.
+    Drawn(Drawn),
+    /// A block and a figure next to it, if there is one.
+    Beside(Box<Block>, Option<Drawn>),
+    List(Vec<Words>),
+    On(On, Box<Block>),
+}
+
+pub(crate) type Drawn = std::rc::Rc<dyn Fn(&Languages) -> Markup>;
+
+pub(crate) fn heading(words: impl Into<Words>) -> Block {
+    Block::Heading(words.into())
+}
+
+/// A paragraph of one text, of several, or of none.
+pub(crate) fn say<W: Into<Words>>(all: impl IntoIterator<Item = W>) -> Block {
+    Block::Paragraph(all.into_iter().map(Into::into).collect())
+}
+
+/// A field; what is not stated is left out.
+pub(crate) fn field(name: Text, value: Option<impl Into<Words>>) -> Option<Field> {
+    value.map(|value| (name, value.into(), false))
+}
+
+/// A field over the full width, for long texts.
+pub(crate) fn wide(name: Text, value: Option<impl Into<Words>>) -> Option<Field> {
+    value.map(|value| (name, value.into(), true))
+}
+
+pub(crate) fn record(fields: impl IntoIterator<Item = Option<Field>>) -> Block {
+    Block::Record(fields.into_iter().flatten().collect())
+}
+
+/// An empty space to fill in by hand.
+pub(crate) fn blank(name: Text) -> Option<Field> {
+    Some((name, Words::Blank, false))
+}
+
+pub(crate) fn drawn(draw: impl Fn(&Languages) -> Markup + 'static) -> Drawn {
+    std::rc::Rc::new(draw)
+}
+
+impl Block {
+    pub(crate) fn only(self, on: On) -> Self {
+        Self::On(on, Box::new(self))
+    }
+}
+
+#[derive(Clone, Default)]
+pub(crate) struct Table {
+    /// Name for screen readers; the caption, if there is no other.
+    pub name: Option<Text>,
+    pub caption: Option<Words>,
+    pub class: &'static str,
+    /// Number of columns with the names of the rows.
+    pub names: usize,
+    pub columns: Vec<Column>,
+    /// Headings over several columns after the names: number of columns, and heading, empty over columns that have none.
+    pub groups: Vec<(usize, Words)>,
+    /// Rows with which a group begins.
+    pub starts: Vec<usize>,
+}
+
+#[derive(Clone)]
+pub(crate) struct Column {
+    pub heading: Words,
+    pub cells: Vec<Cell>,
+    pub foot: Option<Drawn>,
+    pub on: On,
+}
+
+#[derive(Clone)]
+pub(crate) enum Cell {
+    Words(Words),
+    Drawn(Markup),
+}
+
+/// A table that is built column by column from its rows.
+pub(crate) struct Rows<'a, T> {
+    rows: &'a [T],
+    pub table: Table,
+}
+
+impl<'a, T> Rows<'a, T> {
+    pub(crate) fn of(rows: &'a [T], class: &'static str) -> Self {
+        Self { rows, table: Table { class, ..Table::default() } }
+    }
+
+    pub(crate) fn named<W: Into<Words>>(mut self, heading: impl Into<Words>, name: impl Fn(&T) -> W) -> Self {
+        self.table.names += 1;
+        self.column(heading, name)
+    }
+
+    pub(crate) fn column<W: Into<Words>>(mut self, heading: impl Into<Words>, cell: impl Fn(&T) -> W) -> Self {
+        let cells = self.rows.iter().map(|row| Cell::Words(cell(row).into())).collect();
+        self.table.columns.push(Column { heading: heading.into(), cells, foot: None, on: On::Both });
+        self
+    }
+
+    /// Adds a column of strips with their axis.
+    pub(crate) fn strips(
+        mut self,
+        heading: impl Into<Words>,
+        strip: impl Fn(&T) -> Markup,
+        axis: impl Fn(&Languages) -> Markup + 'static,
+    ) -> Self {
+        let cells = self.rows.iter().map(|row| Cell::Drawn(strip(row))).collect();
+        let foot = Some(drawn(axis));
+        self.table.columns.push(Column { heading: heading.into(), cells, foot, on: On::Page });
+        self
+    }
+
+    /// Leaves the last column out unless `is`.
+    pub(crate) fn only_if(mut self, is: bool) -> Self {
+        if !is {
+            self.table.columns.pop();
+        }
+        self
+    }
+
+    /// Shows the last column in one medium only.
+    pub(crate) fn on(mut self, on: On) -> Self {
+        self.table.columns.last_mut().into_iter().for_each(|column| column.on = on);
+        self
+    }
+
+    /// Returns the table without a caption.
+    pub(crate) fn called(self, name: Text) -> Block {
+        Block::Table(Table { name: Some(name), ..self.table })
+    }
+
+    pub(crate) fn captioned(self, name: Text, caption: impl Into<Words>) -> Block {
+        Block::Table(Table { name: Some(name), caption: Some(caption.into()), ..self.table })
+    }
+}

@@ -1,0 +1,54 @@
+//! Every text in all languages, from the tables in `texts/`; `build.rs` makes an item of each.
+
+/// Takes the tables, and lists them for the tests.
+macro_rules! tables {
+    ($($(#[$what:meta])* $name:ident)*) => {
+        $(
+            $(#[$what])*
+            // Features use parts of a table; in the whole program an unused text is a warning.
+            #[cfg_attr(not(feature = "cli"), allow(dead_code))]
+            // A text has as many values as its sentence needs.
+            #[allow(clippy::too_many_arguments)]
+            pub(crate) mod $name {
+                include!(concat!(env!("OUT_DIR"), "/", stringify!($name), ".rs"));
+            }
+        )*
+        /// Every table with its name.
+        #[cfg(test)]
+        pub(crate) const TABLES: &[(&str, &[(&str, super::Text)])] = &[$((stringify!($name), $name::ALL)),*];
+    };
+}
+
+tables! {
+    /// Inputs that a passport does not state, and the effect of each.
+    absences
+    /// The report of a calibration.
+    calibration
+    /// Names of the causes in an uncertainty budget.
+    causes
+    /// The record of a certification.
+    certification
+    /// The checks of a verification and their results; failures for which no page is made are not included.
+    checks
+    /// Findings of a comparison that are warnings, not decisions.
+    comparison
+    /// Directions at a site.
+    compass
+    /// A digital calibration certificate.
+    dcc
+    /// Stated values that are possible, but usually in another unit, such as parts per million instead of percent.
+    implausible
+    /// The printed passport: content of the signed file.
+    passport
+    /// Words in pictures, and their descriptions.
+    pictures
+    /// The printed passport: parts to fill in by hand.
+    record
+    /// Remarks on a certification, and the findings of a comparison with the last certificate. `{p}` is a probability with
+    /// its relation.
+    remarks
+    /// Units, and the hemispheres of coordinates. Units of angles are the same in every language.
+    units
+    /// Words that occur on any page.
+    words
+}
