@@ -102,7 +102,7 @@ pub(crate) fn scatter(calibration: &Calibration) -> Vec<(Weight, Block)> {
     if let Some(rows) = &calibration.row_scatter {
         let s = Words::Quantity(Number::scientific(rows.standard_deviation_ma, 2), units::MILLIAMPERES);
         doc.extend(match &rows.against_stated {
-            Some(stated) => agreement(stated, texts::ROW_SCATTER),
+            Some(stated) => agreement(stated, texts::ROW_SCATTER, texts::ROWS_LESS_THAN_STATED),
             None => {
                 let freedom = (texts::FREEDOM, rows.degrees_of_freedom.into(), false);
                 vec![(Usual, Block::Fields(vec![(texts::ROW_DEVIATION, s, false), freedom]))]
@@ -110,11 +110,19 @@ pub(crate) fn scatter(calibration: &Calibration) -> Vec<(Weight, Block)> {
         });
     }
     if let Some(visits) = &calibration.scatter {
-        doc.extend(agreement(visits, texts::SCATTER));
+        // Of several turn-ons the visits are those that were meant to be.
+        let has_turn_ons = calibration.adopted().is_some_and(|answer| answer.cycles.len() > 1);
+        let less = if has_turn_ons { texts::NOISE_LESS_THAN_STATED } else { texts::LESS_THAN_STATED };
+        doc.extend(agreement(visits, texts::SCATTER, less));
         let is_more = visits.agreement() == Agreement::More && calibration.visit_noise.source == NoiseSource::Estimated;
         doc.push((Remark, say(is_more.then_some(texts::NOISE_ADDED))));
     }
-    doc.extend(calibration.turn_on_scatter.iter().flat_map(|turn_ons| agreement(turn_ons, texts::TURN_ON_SCATTER)));
+    doc.extend(
+        calibration
+            .turn_on_scatter
+            .iter()
+            .flat_map(|turn_ons| agreement(turn_ons, texts::TURN_ON_SCATTER, texts::NOISE_LESS_THAN_STATED)),
+    );
     doc.extend(calibration.suspects.iter().map(|suspect| (Warning, say(with_advice(suspect)))));
     let noises = [(texts::VISIT_NOISE, &calibration.visit_noise), (texts::TURN_ON_NOISE, &calibration.turn_on_noise)];
     let is_estimated = noises.iter().any(|(_, noise)| noise.source == NoiseSource::Estimated);
@@ -200,8 +208,8 @@ fn noise(each: [(Text, &DriftNoise); 2]) -> Block {
     )
 }
 
-/// The comparison of an observed scatter with the stated uncertainty.
-fn agreement(found: &Scatter, what: Text) -> Vec<(Weight, Block)> {
+/// The comparison of an observed scatter with the stated uncertainty; `less` says what to check if it is smaller.
+fn agreement(found: &Scatter, what: Text, less: Text) -> Vec<(Weight, Block)> {
     let weight = if found.agreement() == Agreement::AsStated { Usual } else { Remark };
     // A factor of 1 changes nothing.
     let factor = (found.variance_factor > 1.0).then(|| Number::significant(found.variance_factor, 2).into());
@@ -211,7 +219,7 @@ fn agreement(found: &Scatter, what: Text) -> Vec<(Weight, Block)> {
         (texts::PROBABILITY, probability(found.probability), false),
     ];
     each.extend(factor.map(|factor| (texts::ENLARGED, factor, false)));
-    let less = (found.agreement() == Agreement::Less).then_some(texts::LESS_THAN_STATED);
+    let less = (found.agreement() == Agreement::Less).then_some(less);
     vec![(weight, Block::Fields(each)), (weight, say(less))]
 }
 

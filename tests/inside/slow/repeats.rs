@@ -206,13 +206,16 @@ fn scatter_is_judged_in_both_tails() {
     let (visits, rows, factor, text) = with(0.0, 1e-6);
     assert_eq!((visits, rows, factor), (Agreement::Less, Agreement::Less, 1.0));
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(text.contains("less than stated; if these readings were taken without leaving the position"), "{text}");
-    assert!(text.contains("less than stated; check whether they are copies of one reading"), "{text}");
+    assert!(
+        text.contains("less than stated. Readings taken without leaving the position belong to one visit"),
+        "{text}"
+    );
+    assert!(text.contains("less than stated. Check whether the readings are copies of one reading"), "{text}");
     let (visits, rows, factor, text) = with(1e-3, 2e-4);
     assert_eq!((visits, rows), (Agreement::More, Agreement::More));
     // By hand: ten times the stated standard deviation; 192 degrees of freedom leave 10 %.
     assert!((factor / 100.0 - 1.0).abs() < 0.35, "{factor}");
-    assert!(text.contains("more than stated, so the variance"), "{text}");
+    assert!(text.contains("factor applied to the variance"), "{text}");
 }
 
 /// What nobody states of rows or visits, repeated readings show; expected by hand.
@@ -286,7 +289,7 @@ fn too_few_readings_to_judge() {
     let done = done(&setup, readings(&setup, &exact), found);
     let text = report::text(&done, None, &report::Report::of(&done, None, &[], true), &DETAILS);
     assert!(text.contains("The fit cannot be tested") && !text.contains("chi-square"), "{text}");
-    assert!(!text.contains("x, °/h"), "{text}");
+    assert!(!text.contains("x/u_x"), "{text}");
 }
 
 /// Runs in which the gyro drifts from visit to visit by 0.001 °/h, not stated, with `cycles` turn-ons (0.01 °/h), `visits`
