@@ -575,7 +575,7 @@ def test_remarks_are_handed_on() -> None:
     few = load().calibrate(frame.iloc[[0, 1, 2, 4]])
     assert few.dof == 0 and any("cannot be tested" in remark for remark in few.remarks)
     again = pandas.concat([frame.assign(visit=1), frame.iloc[[7]].assign(visit=2, jx_ma=0.5, jy_ma=0.5)])
-    assert any("more than stand and meter explain" in remark for remark in load().calibrate(again).remarks)
+    assert any("larger than the stated uncertainties explain" in remark for remark in load().calibrate(again).remarks)
     for found in (amperes, few):
         assert not any("{" in remark for remark in found.remarks) and found.document["remarks"] == list(found.remarks)
 
