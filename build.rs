@@ -30,8 +30,8 @@ fn table(text: &str) -> Result<String, String> {
         let ru = lines.next().and_then(|(_, line)| line.strip_prefix("  ")).ok_or_else(|| wrong("no Russian below"))?;
         let [en, ru] = [en, ru].map(|words| words.replace("\\u{a0}", "\u{a0}"));
         let [values, in_russian] = [&en, &ru].map(|words| placeholders(words));
-        let sorted = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<BTreeSet<_>>();
-        if sorted(&values) != sorted(&in_russian) {
+        let set = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<BTreeSet<_>>();
+        if set(&values) != set(&in_russian) {
             return Err(wrong("the languages have other placeholders"));
         }
         if !known.insert(name.to_owned()) {

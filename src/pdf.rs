@@ -62,7 +62,7 @@ const WAIT: Duration = Duration::from_millis(50);
 /// Number of attempts to remove the folder, into which processes of the browser may write until they have ended too.
 const REMOVALS: u32 = 40;
 
-/// What to do without a browser that prints.
+/// Advice if no browser is found, or if the one that was found prints nothing.
 const ADVICE: &str = "install Chromium, Google Chrome or Microsoft Edge, specify one by DTG_PASSPORT_BROWSER, or write \
                       .html and print that";
 

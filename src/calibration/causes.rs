@@ -12,9 +12,8 @@ use super::scatter::Repeats;
 use super::sensitivity::Sensitivity;
 use crate::attitude::ANGLES;
 use crate::coefficients::PositionIndex;
-use crate::wording::Language;
-use crate::wording::Words;
 use crate::wording::texts::causes as names;
+use crate::wording::{Language, Words};
 use nalgebra::DMatrix;
 
 /// Uncertain input quantity. Axes are counted from 0.

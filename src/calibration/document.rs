@@ -38,9 +38,9 @@ use crate::statistics::distributions::normal_below;
 use crate::text::Unreadable;
 use crate::text::node::from_json;
 use crate::text::printable::printable;
-use crate::wording::Language;
-use crate::wording::Words;
 use crate::wording::texts::comparison;
+use crate::wording::words::{listed, symbol};
+use crate::wording::{Language, Words};
 use jiff::civil::Date;
 use jiff::tz::TimeZone;
 use jiff::{SignedDuration, Timestamp};
@@ -383,6 +383,13 @@ impl CalibrationDocument {
         [(comparison::noise_of_one as fn(Words) -> Words, noises), (comparison::left_out_before, before)]
             .into_iter()
             .filter(|(_, inputs)| !inputs.is_empty())
+    }
+
+    /// Returns the sentence on parameters that have changed since `earlier` more than the uncertainties explain.
+    pub(crate) fn unexplained_in_words(&self, earlier: &Self) -> Option<Words> {
+        let changed = self.unexplained_change(earlier);
+        let names = listed(changed.iter().map(|parameter| symbol(parameter.symbol())));
+        (!changed.is_empty()).then(|| comparison::unexplained(names))
     }
 
     /// Returns the limits of a comparison with `earlier` in words, a sentence each.

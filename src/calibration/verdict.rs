@@ -8,6 +8,9 @@
 use super::parameter::Parameter;
 use crate::gyro::{GyroParameters, GyroType};
 use crate::statistics::student::{effective_degrees_of_freedom, student_beyond, student_factor};
+use crate::wording::Words;
+use crate::wording::number::Number;
+use crate::wording::texts::comparison;
 use serde::Serialize;
 
 /// Coverage factor of expanded uncertainties with unlimited degrees of freedom.
@@ -298,6 +301,11 @@ impl Verdict {
             row.guarded == Decision::Fail && (row.deviation * sum / difference).abs() <= row.tolerance
         };
         self.parameters.iter().filter(is_opposite).map(|row| row.parameter).collect()
+    }
+
+    /// Returns the sentence on a [common factor](Self::common_factor).
+    pub(crate) fn common_factor_in_words(&self) -> Option<Words> {
+        self.common_factor().map(|factor| comparison::common_factor(Number::significant(factor, 3)))
     }
 
     /// Returns the ratio of the scale factors to those of the type, if all four fail and would be within tolerance and

@@ -9,10 +9,9 @@ use super::shared_settings::Setting;
 use super::split_run::SplitRun;
 use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
 use crate::coefficients::PositionIndex;
-use crate::wording::Language;
-use crate::wording::Words;
 use crate::wording::number::{Number, Probability};
 use crate::wording::texts::remarks as texts;
+use crate::wording::{Language, Words};
 use std::fmt::{Display, Formatter};
 
 /// Ratio of the scatter of a check to the certified one above which nothing is decided.

@@ -11,10 +11,9 @@ use crate::calibration::recorded::rounding_of;
 use crate::stand::remarks::Odd;
 use crate::statistics::outlier::Bartlett;
 use crate::text::number::decimals;
-use crate::wording::Words;
 use crate::wording::number::{Number, Probability};
 use crate::wording::texts::remarks as texts;
-use crate::wording::{Language, plain};
+use crate::wording::{Language, Words, plain};
 use jiff::civil::Date;
 use std::fmt::{Display, Formatter};
 

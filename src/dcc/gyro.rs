@@ -13,7 +13,7 @@ use crate::interface::calibrated::Done;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
 use crate::report::Languages;
-use crate::report::calibration::{not_stated, suspicion};
+use crate::report::calibration::{not_stated, suspicion, temperature_outside};
 use crate::report::page::language::Text;
 use crate::text::Problems;
 use crate::wording::texts::calibration as texts;
@@ -135,8 +135,7 @@ fn statements(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
     });
     let certificate = &calibrated.content.certificate;
     let outside = TemperatureOutside::of(certificate, calibrated.subject, calibrated.laboratory).map(|outside| {
-        let TemperatureOutside { here_c, low_c, high_c } = outside;
-        let declaration = in_words("dcc:declaration", texts::temperature_outside(here_c, low_c, high_c), languages);
+        let declaration = in_words("dcc:declaration", temperature_outside(&outside), languages);
         parts::statement(texts::TEMPERATURE_IS_OUTSIDE, None, languages).and(declaration)
     });
     conformity

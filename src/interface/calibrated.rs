@@ -19,8 +19,6 @@ use crate::text::printable;
 use crate::uncertainty::Budget;
 #[cfg(feature = "monte-carlo")]
 use crate::uncertainty::{self, Engine, MonteCarlo, ReadingShape, Trials};
-use crate::wording::number::Number;
-use crate::wording::texts::comparison;
 use crate::wording::{Language, plain};
 use jiff::Timestamp;
 use std::collections::BTreeMap;
@@ -318,16 +316,12 @@ impl<'a> Prepared<'a> {
             let change = last.and_then(|earlier| agreed(&|found| found.changed(earlier, gyro_type)));
             (document.verdict, document.change) = (verdict, change);
         }
-        let unexplained = last.map_or_else(Vec::new, |earlier| document.unexplained_change(earlier));
-        let unexplained = (!unexplained.is_empty()).then(|| {
-            let names = unexplained.iter().map(|parameter| parameter.symbol()).collect::<Vec<_>>().join(", ");
-            comparison::unexplained(names).plain(Language::English)
-        });
+        let unexplained = last.and_then(|earlier| document.unexplained_in_words(earlier));
         let of_verdict = document.verdict.as_ref().filter(|verdict| !verdict.withheld);
-        let common_factor = of_verdict
-            .and_then(Verdict::common_factor)
-            .map(|factor| plain(&comparison::common_factor(Number::significant(factor, 3)).plain(Language::English)));
-        document.remarks.extend(unexplained.iter().chain(&common_factor).cloned());
+        let common_factor = of_verdict.and_then(Verdict::common_factor_in_words);
+        let of_change =
+            unexplained.into_iter().chain(common_factor).map(|words| plain(&words.plain(Language::English)));
+        document.remarks.extend(of_change);
         let limits = last.map_or_else(Vec::new, |earlier| document.limits_in_words(earlier));
         document.remarks.extend(limits);
         let earlier = last.map(|earlier| (earlier.clone(), document.no_change(earlier)));

@@ -1,16 +1,19 @@
 //! Report of a calibration, composed once for a terminal and for its printed page.
 //!
 //! * `result`: parameters within their tolerances, the change since an earlier result.
+//! * `headline`: the decision and its reasons in a line.
 //! * `fit`: agreement of the readings with the model, inputs that are not stated.
 //! * `methods`: the paper's methods beside least squares.
 //! * `history`: the gyro over several calibrations.
 
 mod fit;
+mod headline;
 mod history;
 mod methods;
 mod result;
 
 pub(crate) use fit::{not_stated, suspicion, what_may_be_wrong};
+pub(super) use headline::headline;
 pub(crate) use methods::parameters;
 pub(crate) use result::counted;
 
@@ -18,10 +21,9 @@ use self::fit::Weight;
 use super::doc::{self, Block, Words};
 use super::page::language::Text;
 use super::page::number::Number;
-use super::tolerance::headline;
 use super::uncertainty::not_linear;
 use crate::calibration::diagnosis::INCONSISTENT;
-use crate::calibration::document::{CalibrationDocument, ResultDocument, Subject};
+use crate::calibration::document::{CalibrationDocument, NoChange, ResultDocument, Subject};
 use crate::calibration::prediction::FurtherVisit;
 use crate::calibration::readings::Exclusion;
 use crate::calibration::stated::TemperatureOutside;
@@ -30,13 +32,11 @@ use crate::calibration::{Calibration, Method, NotStated, Parameter, Readings, Ve
 use crate::gyro::GyroType;
 use crate::interface::calibrated::Done;
 use crate::passport::{Check, Code};
-use crate::report::page::calibration::why_no_change;
 use crate::report::page::language::{Language, capital};
 use crate::report::{columns, mistake, style};
 use crate::uncertainty::MonteCarlo;
 use crate::wording::plain;
 use crate::wording::texts::calibration as texts;
-use crate::wording::texts::comparison;
 use std::fmt::Write;
 
 /// A calibration with what its report states, in a terminal and on a page.
@@ -78,11 +78,9 @@ impl<'a> Report<'a> {
         sections
     }
 
-    /// Returns what fits on a screen: a row for each parameter, and the fit.
+    /// Returns what fits on a screen: a row for each parameter, the fit, and the paper's methods where they do not agree.
     fn brief(&self) -> Vec<Block> {
-        let mut doc = result::brief(self);
-        doc.extend(fit::brief(self));
-        doc
+        [result::brief(self), fit::brief(self), methods::brief(self)].concat()
     }
 
     /// Returns the name of the gyro type and the verdict against it, or `None` if no type was specified.
@@ -144,7 +142,7 @@ fn coverage_factor(factors: impl Iterator<Item = f64>) -> Words {
 /// Least effect of a further visit that is worth the time, percent of the standard uncertainty.
 const LEAST_EFFECT_PERCENT: f64 = 1.0;
 
-/// What the text of a result is written with, beside the result.
+/// Language of the text of a result, and what the text states about its inputs.
 pub(crate) struct Said<'a> {
     pub language: Language,
     /// `true` if the meter of the paper was assumed, because no laboratory is stated.
@@ -159,29 +157,24 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, report: &Report, ho
     let language = how.language;
     let gyro_type = report.gyro.map(|gyro| gyro.r#type.as_str());
     let ((outcome, word), reasons) = headline(&done.document, gyro_type);
-    let mut out = format!("{}  ", style::marked(outcome, word.of(language)));
-    let column = out.len();
-    out += &plain(&reasons.plain(language));
-    out = columns::hanging(&out, column.min(2), columns::width());
+    let first = format!("{}  {}", style::marked(outcome, word.of(language)), plain(&reasons.plain(language)));
+    let mut out = columns::hanging(&first, 2, columns::width());
     let say = |out: &mut String, words: &Words| columns::paragraph(out, "", &plain(&words.plain(language)));
     for (place, warning) in doubts(done, trials).iter().enumerate() {
         say(&mut out, warning);
         if let Some(hint) = done.calibration.hint.as_ref().filter(|_| place == 0) {
-            let each = what_may_be_wrong(hint);
-            each.iter()
-                .filter_map(|cause| doc::sentence(cause, language))
-                .for_each(|cause| columns::paragraph(&mut out, "  ", &cause));
+            doc::text(&mut out, &what_may_be_wrong(hint), language);
         }
     }
-    let mut first: Vec<Words> = done.document.subject.as_ref().and_then(conditions).into_iter().collect();
-    first.push(passport(&done.document, how.checks));
-    first.extend(without_reading(&done.readings).map(|words| {
+    let mut inputs: Vec<Words> = done.document.subject.as_ref().and_then(conditions).into_iter().collect();
+    inputs.push(passport(&done.document, how.checks));
+    inputs.extend(without_reading(&done.readings).map(|words| {
         let cost = done
             .cost_of_missing
             .map(|(parameter, ratio)| texts::cost_of_missing(doc::symbol(parameter.symbol()), Number::fixed(ratio, 2)));
         Words::All([words].into_iter().chain(cost).chain([".".into()]).collect())
     }));
-    first.iter().for_each(|words| columns::paragraph(&mut out, "", &capital(&plain(&words.plain(language)))));
+    inputs.iter().for_each(|words| columns::paragraph(&mut out, "", &capital(&plain(&words.plain(language)))));
     if report.details {
         for (_, heading, blocks) in report.sections() {
             let _ = writeln!(out, "\n{}", style::heading(heading.of(language)));
@@ -252,19 +245,32 @@ pub(crate) fn doubts(done: &Done, trials: Option<&MonteCarlo>) -> Vec<Words> {
     let mistake = calibration.mistake.iter().map(mistake::words);
     let why = earlier.as_ref().and_then(|(_, why)| Some(why_no_change((*why)?).into()));
     let of_scatter = fit::warnings(calibration);
-    let outside = warning.iter().map(|TemperatureOutside { here_c, low_c, high_c }| {
-        texts::temperature_outside(Number::exact(*here_c), Number::exact(*low_c), Number::exact(*high_c))
-    });
-    let unexplained = earlier.as_ref().map_or_else(Vec::new, |(earlier, _)| document.unexplained_change(earlier));
-    let unexplained = (!unexplained.is_empty()).then(|| comparison::unexplained(symbols(unexplained)));
-    let factor = document.verdict.as_ref().filter(|verdict| !verdict.withheld).and_then(Verdict::common_factor);
-    let factor = factor.map(|factor| comparison::common_factor(Number::significant(factor, 3)));
+    let outside = warning.as_ref().map(temperature_outside);
+    let unexplained = earlier.as_ref().and_then(|(earlier, _)| document.unexplained_in_words(earlier));
+    let factor =
+        document.verdict.as_ref().filter(|verdict| !verdict.withheld).and_then(Verdict::common_factor_in_words);
     let all = hint.chain(mistake).chain(why).chain(of_scatter).chain(outside).chain(unexplained).chain(factor);
     all.chain(trials.and_then(not_linear)).map(texts::warning).collect()
 }
 
+/// Returns the sentence on a temperature for which the deviations are not certified.
+pub(crate) fn temperature_outside(found: &TemperatureOutside) -> Words {
+    let [here, low, high] = [found.here_c, found.low_c, found.high_c].map(Number::exact);
+    texts::temperature_outside(here, low, high)
+}
+
+/// Returns the sentence why a difference from an earlier result is no change.
+pub(crate) fn why_no_change(why: NoChange) -> Text {
+    match why {
+        NoChange::SameReadings => texts::SAME_READINGS,
+        NoChange::EarlierNotValid => texts::EARLIER_NOT_VALID,
+        NoChange::EarlierSuspect => texts::EARLIER_SUSPECT,
+        NoChange::EarlierNotVerified => texts::EARLIER_NOT_VERIFIED,
+    }
+}
+
 /// Returns the symbols of parameters with commas between them.
-pub(super) fn symbols(parameters: impl IntoIterator<Item = Parameter>) -> Words {
+pub(crate) fn symbols(parameters: impl IntoIterator<Item = Parameter>) -> Words {
     doc::listed(parameters.into_iter().map(|parameter| doc::symbol(parameter.symbol())))
 }
 

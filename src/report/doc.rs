@@ -13,7 +13,7 @@ pub(crate) use terminal::{sentence, text};
 use super::page::language::{Languages, Text};
 use maud::Markup;
 
-/// Where a block or a column is.
+/// Medium that shows a block or a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum On {
     #[default]
@@ -37,9 +37,9 @@ pub(crate) enum Block {
     Table(Table),
     /// Blocks in an element of this class.
     Within(&'static str, Vec<Block>),
-    /// What only a terminal can show, such as a chart in block characters.
+    /// Lines for a terminal alone, such as a chart in block characters.
     Typed(String),
-    /// What only a page can show, such as a legend or a figure, in the languages of the page.
+    /// Elements of a page alone, such as a legend or a figure, in its languages.
     Drawn(Drawn),
     /// A block and a figure next to it, if there is one.
     Beside(Box<Block>, Option<Drawn>),

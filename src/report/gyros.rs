@@ -1,9 +1,8 @@
 //! Results of several gyros on one stand as text: a line for each, and what they have in common.
 
-use super::calibration::{assumed, doubts, not_included, not_stated, passport, without_reading};
+use super::calibration::{assumed, doubts, headline, not_included, not_stated, passport, without_reading};
 use super::doc;
 use super::style::Outcome;
-use super::tolerance::headline;
 use crate::calibration::NotStated;
 use crate::interface::calibrated::Done;
 use crate::passport::Check;

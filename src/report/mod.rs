@@ -22,7 +22,6 @@
 //! * `selftest`: the reference cases.
 //! * `simulation`: the tables of simulations.
 //! * `style`: emphasis in a terminal.
-//! * `tolerance`: decisions on the tolerances of a gyro type in a line.
 //! * `uncertainty`: the uncertainty budget; coverage intervals, and the test of linear propagation.
 
 pub(crate) mod calibration;
@@ -52,7 +51,6 @@ pub(crate) mod register;
 pub(crate) mod selftest;
 pub(crate) mod simulation;
 pub(crate) mod style;
-mod tolerance;
 pub(crate) mod uncertainty;
 pub(crate) mod verdict;
 

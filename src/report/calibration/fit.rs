@@ -51,7 +51,7 @@ pub(super) fn brief(of: &Report) -> Vec<Block> {
     doc
 }
 
-/// What the scatter of the readings makes doubtful.
+/// Warnings about the scatter of the readings.
 pub(super) fn warnings(calibration: &Calibration) -> Vec<Words> {
     let all = [(Warning, correlated(calibration))].into_iter().chain(scatter(calibration));
     let all = all.filter(|(weight, _)| *weight == Warning);
@@ -96,7 +96,7 @@ pub(crate) enum Weight {
 }
 use Weight::{Remark, Usual, Warning};
 
-/// What the scatter of the readings tells.
+/// Statements about the scatter of the readings, each with its weight.
 pub(crate) fn scatter(calibration: &Calibration) -> Vec<(Weight, Block)> {
     let mut doc = vec![(Remark, say(calibration.digits.iter().flat_map(recorded::said)))];
     if let Some(rows) = &calibration.row_scatter {

@@ -18,13 +18,20 @@ pub(super) fn section(of: &Report) -> Vec<Block> {
     let is_compared = results.iter().any(|result| result.from_least_squares.is_some()) && has_least_squares(results);
     let mut doc = vec![table(of), say(is_compared.then_some(texts::OFF_BY_NOTE))];
     doc.extend(results.iter().flat_map(iteration));
-    doc.extend(
-        of.calibration
-            .refused
-            .iter()
-            .map(|(method, why)| say([texts::no_result(super::method(method.key()), reason(why))])),
-    );
+    doc.extend(refused(of));
     doc
+}
+
+/// The methods of a result that is not [in agreement](agreement): their values if there are several, and those that gave none.
+pub(super) fn brief(of: &Report) -> Vec<Block> {
+    let is_compared = of.document.results.len() > 1 && agreement(of).is_none();
+    is_compared.then(|| table(of)).into_iter().chain(refused(of)).collect()
+}
+
+/// A sentence on each method that gave no result.
+fn refused(of: &Report) -> impl Iterator<Item = Block> {
+    let refused = of.calibration.refused.iter();
+    refused.map(|(method, why)| say([texts::no_result(super::method(method.key()), reason(why))]))
 }
 
 /// The reason why a method gave no result.
@@ -48,7 +55,8 @@ fn has_least_squares(results: &[ResultDocument]) -> bool {
     results.iter().any(|result| result.method == Method::LeastSquares.key())
 }
 
-/// That the paper's methods agree with the adopted one, which is then stated alone; nothing if they do not, or with details.
+/// The sentence that the paper's methods agree with least squares, whose values are then stated alone; `None` if they do not,
+/// or with details.
 pub(super) fn agreement(of: &Report) -> Option<Words> {
     let results = &of.document.results;
     let are_compared = results.len() > 1 && of.calibration.refused.is_empty() && has_least_squares(results);

@@ -1,7 +1,7 @@
 //! The result: every parameter with its expanded uncertainty, within the tolerance of the type if one was specified, its
 //! change since an earlier result, and the terms of a larger model.
 
-use super::{Report, history, with_u};
+use super::{Report, history, symbols, with_u};
 use crate::calibration::document::ResultDocument;
 use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::calibration::{NotStated, Parameter};
@@ -12,7 +12,6 @@ use crate::report::picture::accuracy::unit;
 use crate::report::picture::tolerances::{BESIDE_DECISIONS, decision, key, printed, unit_at_type, unit_of};
 use crate::report::style::Outcome;
 use crate::wording::number::Probability;
-use crate::wording::texts::comparison;
 use crate::wording::texts::{calibration as texts, units};
 
 pub(super) fn section(of: &Report) -> Vec<Block> {
@@ -112,8 +111,8 @@ pub(crate) fn counted(
 
 /// A sentence about some parameters; `None` if there are none.
 fn names(text: fn(Words) -> Words, which: impl IntoIterator<Item = Parameter>) -> Option<Words> {
-    let names: Vec<Words> = which.into_iter().map(|one| symbol(one.symbol())).collect();
-    (!names.is_empty()).then(|| text(listed(names)))
+    let which: Vec<Parameter> = which.into_iter().collect();
+    (!which.is_empty()).then(|| text(symbols(which)))
 }
 
 /// Simple acceptance, a note on the risks, and the parameters that no gyro could pass, would pass with the other sign, or
@@ -125,14 +124,13 @@ fn simple(verdict: &Verdict, note: Option<Text>, details: bool) -> Block {
     let full_stop = |words: Words| Words::All(vec![words, ".".into()]);
     let has = verdict.has_simple();
     let by_simple = (has && details).then(|| full_stop(counted(verdict, |row| row.simple, texts::passed_by_simple)));
-    let factor = verdict.common_factor().map(|factor| comparison::common_factor(Number::significant(factor, 3)));
     let all = [
         by_simple,
         note.filter(|_| has).map(Words::from),
         names(texts::too_uncertain, verdict.too_uncertain()),
         (!has).then(|| texts::NO_RISK.into()),
         names(texts::opposite, verdict.opposite()),
-        factor,
+        verdict.common_factor_in_words(),
         names(texts::dependent, verdict.dependent()),
     ];
     say(all.into_iter().flatten())

@@ -8,28 +8,24 @@
 mod closing;
 mod subject;
 
-use super::language::{Language, Languages, Text};
+use super::language::{Language, Languages};
 use super::parts::{Section, boxed, contents, data_address, marked, numbered, outcome_box};
 use super::passport::PassportPage;
 use super::shell::{Margins, document};
 use super::symbols::italic;
 use crate::calibration::Calibration;
-use crate::calibration::document::{CalibrationDocument, NoChange};
-use crate::calibration::parameter::Parameter;
+use crate::calibration::document::CalibrationDocument;
 use crate::calibration::stated::NotStated;
 use crate::calibration::verdict::{Decision, Verdict};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
-use crate::report::calibration::{Report, counted, what_may_be_wrong};
+use crate::report::calibration::{Report, counted, symbols, what_may_be_wrong, why_no_change};
 use crate::report::style::Outcome;
 use crate::report::{doc, mistake, uncertainty};
 use crate::uncertainty::{Budget, MonteCarlo};
-use crate::wording::Words;
-use crate::wording::date_text;
 use crate::wording::texts::calibration as texts;
-use crate::wording::texts::comparison;
-use crate::wording::words;
+use crate::wording::{Words, date_text};
 use jiff::Timestamp;
 use maud::{Markup, html};
 
@@ -152,18 +148,12 @@ impl CalibrationPage<'_> {
             .collect();
         let methods = (sections.len() > 3).then(|| sections.pop()).flatten();
         if let Some(budget) = self.budget {
-            sections.push((
-                "budget",
-                texts::BUDGET,
-                doc::blocks(&uncertainty::budget(budget, self.gyro, self.document), languages),
-            ));
+            let blocks = uncertainty::budget(budget, self.gyro, self.document);
+            sections.push(("budget", texts::BUDGET, doc::blocks(&blocks, languages)));
         }
         if let Some(found) = self.monte_carlo {
-            sections.push((
-                "monte-carlo",
-                texts::MONTE_CARLO,
-                doc::blocks(&uncertainty::monte_carlo(found), languages),
-            ));
+            let blocks = uncertainty::monte_carlo(found);
+            sections.push(("monte-carlo", texts::MONTE_CARLO, doc::blocks(&blocks, languages)));
         }
         sections.extend(methods);
         sections.push(("subject", texts::SUBJECT, subject::section(self, languages)));
@@ -307,7 +297,7 @@ impl CalibrationPage<'_> {
         languages: &Languages,
     ) -> Markup {
         let counted = counted(verdict, |row| row.guarded, passed);
-        let not_found = words::listed(verdict.not_found().iter().map(|one| words::symbol(one.symbol())));
+        let not_found = symbols(verdict.not_found());
         languages.paragraph_with(|language| {
             html! {
                 (counted.html(language, languages))
@@ -331,33 +321,13 @@ impl CalibrationPage<'_> {
 
     /// Writes the parameters that have changed more than chance explains, if no type decides on the change.
     fn unexplained_change(&self, languages: &Languages) -> Markup {
-        let changed = self.previous.last().map_or_else(Vec::new, |earlier| self.document.unexplained_change(earlier));
-        if changed.is_empty() {
-            return html! {};
-        }
-        let names = words::listed(changed.iter().map(|parameter| words::symbol(parameter.symbol())));
-        languages.said_in_paragraph(&comparison::unexplained(names))
+        let words = self.previous.last().and_then(|earlier| self.document.unexplained_in_words(earlier));
+        html! { @if let Some(words) = words { (languages.said_in_paragraph(&words)) } }
     }
 
     /// Writes the parameters for which a Monte Carlo run shows that the linear approximation is not valid.
     fn not_linear(&self, languages: &Languages) -> Markup {
-        let lines = self.monte_carlo.iter().flat_map(|found| &found.parameters);
-        let refuted = lines.filter(|line| line.first_order.valid == Some(false));
-        let refuted = Parameter::in_paper_order(refuted, |line| line.parameter);
-        if refuted.is_empty() {
-            return html! {};
-        }
-        let names = words::listed(refuted.iter().map(|line| words::symbol(line.parameter.symbol())));
-        languages.said_in_paragraph(&texts::not_linear(names))
-    }
-}
-
-/// Returns the sentence why a difference from an earlier result is no change.
-pub(crate) fn why_no_change(why: NoChange) -> Text {
-    match why {
-        NoChange::SameReadings => texts::SAME_READINGS,
-        NoChange::EarlierNotValid => texts::EARLIER_NOT_VALID,
-        NoChange::EarlierSuspect => texts::EARLIER_SUSPECT,
-        NoChange::EarlierNotVerified => texts::EARLIER_NOT_VERIFIED,
+        let words = self.monte_carlo.and_then(uncertainty::not_linear);
+        html! { @if let Some(words) = words { (languages.said_in_paragraph(&words)) } }
     }
 }

@@ -3,6 +3,7 @@
 use super::{CalibrationPage, UsedPassport};
 use crate::calibration::stated::{TemperatureOutside, temperature_c};
 use crate::laboratory::Laboratory;
+use crate::report::calibration::temperature_outside;
 use crate::report::doc;
 use crate::report::page::language::Languages;
 use crate::report::page::number::Number;
@@ -14,9 +15,8 @@ use crate::report::page::passport::checks;
 use crate::report::page::passport::checks::withdrawal_not_checked;
 use crate::report::passport::{accuracy, site};
 use crate::report::style::Outcome;
-use crate::wording::Words;
 use crate::wording::texts::{calibration as texts, passport as passport_texts, record, units};
-use crate::wording::{date_text, time_text};
+use crate::wording::{Words, date_text, time_text};
 use maud::{Markup, html};
 
 pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
@@ -171,8 +171,7 @@ pub(super) fn outside(page: &CalibrationPage) -> Option<TemperatureOutside> {
 
 /// Writes a warning if the deviations are certified for other temperatures.
 pub(super) fn temperature(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let Some(TemperatureOutside { here_c, low_c, high_c }) = outside(page) else { return html! {} };
-    let [here, low, high] = [here_c, low_c, high_c].map(Number::exact);
-    let words = languages.said_in_paragraph(&texts::temperature_outside(here, low, high));
+    let Some(found) = outside(page) else { return html! {} };
+    let words = languages.said_in_paragraph(&temperature_outside(&found));
     boxed("verdict warned", marked(Outcome::Failed, &languages.label(texts::TEMPERATURE_IS_OUTSIDE)), words)
 }

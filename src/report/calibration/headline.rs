@@ -1,14 +1,15 @@
-//! Decisions on the tolerances of a gyro type in a line.
+//! The decision on a gyro in a line: its word and its reasons.
 
-use super::calibration::{counted, symbols};
-use super::style::Outcome;
+use super::{counted, symbols};
 use crate::calibration::{CalibrationDocument, Decision};
+use crate::report::doc::joined;
+use crate::report::style::Outcome;
 use crate::wording::texts::calibration as texts;
 use crate::wording::{Text, Words};
 
 /// Returns the outcome of a calibration with its word, and the reasons: which parameters pass, fail and are undecided by
 /// their values and by their change, or why no statement is made.
-pub(super) fn headline(document: &CalibrationDocument, gyro_type: Option<&str>) -> ((Outcome, Text), Words) {
+pub(in crate::report) fn headline(document: &CalibrationDocument, gyro_type: Option<&str>) -> ((Outcome, Text), Words) {
     let judged = gyro_type.zip(document.verdict.as_ref());
     let (outcome, word, words): (Outcome, Text, Words) = match judged {
         _ if document.hint.is_some() => (Outcome::Failed, texts::INVALID, texts::DOES_NOT_FIT.into()),
@@ -25,15 +26,15 @@ pub(super) fn headline(document: &CalibrationDocument, gyro_type: Option<&str>) 
             let of_values = counted(verdict, |row| row.guarded, texts::passed);
             let not_found = verdict.not_found();
             let not_found = (!not_found.is_empty()).then(|| texts::not_in_the_model(symbols(not_found)));
-            let of_values = super::doc::joined([of_values].into_iter().chain(not_found), "; ");
+            let of_values = joined([of_values].into_iter().chain(not_found), "; ");
             let name = Words::Given(name.to_owned());
             let words = [texts::of_type_name(name, of_values)].into_iter().chain(of_change);
-            (worst.into(), word(worst), super::doc::joined(words, ". "))
+            (worst.into(), word(worst), joined(words, ". "))
         }
     };
     let withheld = judged.filter(|(_, verdict)| verdict.withheld);
     let withheld = withheld.map(|(name, _)| texts::no_statement(Words::Given(name.to_owned())));
-    ((outcome, word), super::doc::joined([words].into_iter().chain(withheld), ". "))
+    ((outcome, word), joined([words].into_iter().chain(withheld), ". "))
 }
 
 fn word(decision: Decision) -> Text {
