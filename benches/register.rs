@@ -3,6 +3,9 @@
 //! 50 stands x 200 sites. Floor: every file read, SHA-256 of the file, SHA-512 of its text, Ed25519 verification of its
 //! signature with a prepared key, on the same number of threads; the end of the text and the signature are given. The
 //! program verifies 50 registers, and compares every file with its entry.
+//!
+//! Then `verify` of one passport, with `--register` of the whole folder and without it, in pairs; and the same for a
+//! stand whose register has 10,000 entries.
 
 mod fleet;
 
@@ -16,10 +19,14 @@ use std::fs;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::time::Instant;
 
 const STANDS: usize = 50;
 const SITES: usize = 200;
 const ROUNDS: usize = 7;
+/// Entries of the register of the stand that has many.
+const ENTRIES: usize = 10_000;
+const PAIRS: usize = 60;
 /// Within the validity of every passport.
 const TIME: &str = "2027-06-01";
 
@@ -37,7 +44,7 @@ fn main() {
     let key = SigningKey::from_openssh(&fleet::openssh_key(), None).expect("a key");
     let line = allowed_signers_line(fleet::ISSUER, &key.public_key()).expect("a line");
     fs::write(root.join("allowed_signers"), line).expect("a list");
-    let files = issue(&root, &secret);
+    let files = issue(&root, &secret, STANDS, SITES);
     let ours = || {
         timed(|| {
             let mut command = program(&root);
@@ -67,6 +74,33 @@ fn main() {
         ratio(|time| time.wall),
         ratio(|time| time.processor)
     );
+    verify(&root, "one of 50 registers of 200 entries");
+    let other = scratch("bench-register-long");
+    fs::copy(root.join("allowed_signers"), other.join("allowed_signers")).expect("a list");
+    issue(&other, &secret, 1, ENTRIES);
+    verify(&other, "a register of 10,000 entries");
+}
+
+/// Verifies one passport with the register of its stand and without, in pairs.
+fn verify(root: &Path, what: &str) {
+    let passport = "passports/SPS-2/00000/laboratory-00000-1.yaml";
+    let process = |register: &[&str]| {
+        let mut command = program(root);
+        command.args(["verify", passport, "--trust", "allowed_signers", "--time", TIME]).args(register);
+        let start = Instant::now();
+        let status = command.stdout(Stdio::null()).status().expect("the program");
+        assert!(status.success(), "{register:?}");
+        start.elapsed().as_secs_f64()
+    };
+    process(&["--register", "passports"]);
+    let times: Vec<(f64, f64)> = (0..PAIRS).map(|_| (process(&["--register", "passports"]), process(&[]))).collect();
+    let ratio = median(&times.iter().map(|(with, without)| with / without).collect::<Vec<_>>());
+    let (with, without): (Vec<f64>, Vec<f64>) = times.into_iter().unzip();
+    println!(
+        "verify, {what}: {:.2} ms with --register, {:.2} ms without, ratio {ratio:.2}",
+        1e3 * median(&with),
+        1e3 * median(&without)
+    );
 }
 
 /// Returns the program, run in a folder. It uses all processors, so `--threads` is for the floor.
@@ -78,18 +112,18 @@ fn program(folder: &Path) -> Command {
 }
 
 /// Issues the fleet into `passports/` with the program, registers included.
-fn issue(root: &Path, secret: &ed25519_dalek::SigningKey) -> Vec<File> {
+fn issue(root: &Path, secret: &ed25519_dalek::SigningKey, stands: usize, sites: usize) -> Vec<File> {
     fleet::write_key(&root.join("key")).expect("a key");
     let write = |path: PathBuf, mut file: serde_json::Value, format: &str| {
         file["format"] = json!(format);
         fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
         fs::write(path, file.to_string()).expect("a file");
     };
-    for stand in fleet::stands(STANDS) {
+    for stand in fleet::stands(stands) {
         let path = root.join("stands").join(stand.stand.serial.as_str()).join("stand.yaml");
         write(path, json!(stand), "dtg-stand/1");
     }
-    for site in fleet::sites(SITES) {
+    for site in fleet::sites(sites) {
         write(root.join(format!("sites/{}.yaml", site.id)), json!(site), "dtg-site/1");
     }
     let mut command = program(root);
@@ -97,9 +131,9 @@ fn issue(root: &Path, secret: &ed25519_dalek::SigningKey) -> Vec<File> {
     command.args(["--issued-at", fleet::ISSUED_AT]).stdout(Stdio::null());
     assert!(command.status().expect("the program").success());
     let mut files = Vec::new();
-    for stand in fleet::stands(STANDS) {
+    for stand in fleet::stands(stands) {
         let folder = root.join("passports").join(stand.stand.model.as_str()).join(stand.stand.serial.as_str());
-        for site in fleet::sites(SITES) {
+        for site in fleet::sites(sites) {
             let path = folder.join(format!("{}-1.yaml", site.id));
             let text = fs::read_to_string(&path).expect("a passport");
             let text_bytes = text.find("signature: |\n").expect("a signature");

@@ -54,7 +54,7 @@
 //! | [`gyro`], [`laboratory`] | eq. (2): parameters and currents, types of gyro; the meter and the seat | |
 //! | `statistics` | least squares, distributions; random streams with `monte-carlo`: no gyro in it | |
 //! | [`calibration`] | from currents to parameters, their uncertainty, the fit | |
-//! | [`uncertainty`] | the budget of the uncertainty; 95 % intervals with `monte-carlo` | |
+//! | [`uncertainty`] | the budget of the uncertainty; 95 % intervals with `monte-carlo`, whose trials the crate `trials` makes | |
 //! | [`simulation`] | the paper's table and its Fig. 4 | `monte-carlo` |
 //! | `selftest` | the reference cases of the mathematics, found again on the user's own machine | `monte-carlo` |
 //! | [`trust`] | signatures, allowed signers, revocation: bytes and time in, a verdict out; private keys with `factory` | |

@@ -30,7 +30,13 @@ expected = {(packages[name]["name"], packages[name]["version"]) for name in foun
 
 if expected != set(named):
     sys.exit(f"missing: {sorted(expected - set(named))}\nnot used: {sorted(set(named) - expected)}")
-bare = [name for name, component in named.items() if not component.get("licenses") or not component.get("hashes")]
+# The project's own crate of the trials comes from no registry, which would state its hash.
+own = {(package["name"], package["version"]) for package in packages.values() if package["source"] is None}
+bare = [
+    name
+    for name, component in named.items()
+    if not component.get("licenses") or not (component.get("hashes") or name in own)
+]
 if bare:
     sys.exit(f"without a licence or a hash: {sorted(bare)}")
-print(f"{bill_path}: valid CycloneDX 1.5, {len(named)} components, each with licence and SHA-256")
+print(f"{bill_path}: valid CycloneDX 1.5, {len(named)} components, each with a licence, all from a registry with SHA-256")

@@ -7,15 +7,13 @@
 //! * [`outlier`]: Bartlett's test for unequal variances, Cochran's for the largest variance, Grubbs' for an outlier.
 //! * `coincidences`: readings that are copies of earlier ones.
 //! * [`random`]: streams of random numbers that do not depend on the number of threads or on the platform.
-//! * [`wide_random`]: many random numbers at a time; [`elementary`]: the sine, cosine and logarithm for them.
+//! * `wide_random`: many random numbers at a time.
 //! * [`straight_line`]: a straight line through points of known uncertainty; Holm's correction for many tests.
-//! * [`bins`]: quantiles and coverage intervals of a sample of any size.
+//! * `bins`: quantiles and coverage intervals of a sample of any size.
 //! * [`summary`]: largest value, mean, standard deviation, percentiles, and the standard error of a share.
 
-pub(crate) mod bins;
 pub(crate) mod coincidences;
 pub(crate) mod distributions;
-pub(crate) mod elementary;
 pub(crate) mod least_squares;
 pub(crate) mod outlier;
 #[cfg(feature = "monte-carlo")]
@@ -25,4 +23,4 @@ pub(crate) mod straight_line;
 pub(crate) mod student;
 pub(crate) mod summary;
 #[cfg(feature = "monte-carlo")]
-pub(crate) mod wide_random;
+pub(crate) use dtg_passport_trials::{bins, wide_random};

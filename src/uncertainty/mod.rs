@@ -2,12 +2,10 @@
 //!
 //! * `budget`: first-order contributions of every input, effective degrees of freedom, covariance.
 //! * `dominant`: the dominant contribution of a budget, and what would halve an uncertainty.
-//! * `engine`: vectorised trials of a Monte Carlo.
+//! * `engine`: what the trials of a Monte Carlo draw and compute.
 //! * `entries`: covariance of the numbers of a passport.
-//! * `monte_carlo`: distributions by Monte Carlo, and whether first order is valid; `accumulator`: sums over trials.
+//! * `monte_carlo`: distributions by Monte Carlo, and whether first order is valid.
 
-#[cfg(feature = "monte-carlo")]
-pub(crate) mod accumulator;
 pub(crate) mod budget;
 pub(crate) mod dominant;
 #[cfg(feature = "monte-carlo")]

@@ -5,7 +5,6 @@
 //! 8 (validation of first order). A seed gives the same bytes on any number of threads. Memory does not grow with the
 //! number of trials.
 
-use super::accumulator::{Accumulator, BlockSummary, Histograms, Scale};
 use super::budget::{Budget, COVERAGE, ParameterBudget};
 use super::engine::{BLOCK, Engine, PAIRS, PARAMETERS, pair};
 use crate::calibration::{Method, Model, Options, Parameter};
@@ -14,6 +13,7 @@ use crate::statistics::bins::{quantile, shortest};
 use crate::statistics::student::student_factor;
 use crate::statistics::wide_random::WideRandom;
 use crate::text::number::exponent_as_printed;
+use dtg_passport_trials::accumulator::{Accumulator, BlockSummary, Histograms, Scale};
 use nalgebra::DMatrix;
 use serde::{Serialize, Serializer};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -178,14 +178,7 @@ pub fn monte_carlo(engine: &Engine, budget: &Budget, run: &Trials) -> MonteCarlo
 
 /// Computes the scale of every parameter from the first block.
 fn pilot(engine: &Engine, seed: u64) -> Scale {
-    let mut samples: [Vec<f64>; 8] = Default::default();
-    let mut work = engine.workspace();
-    engine.block(&mut WideRandom::new(seed), &mut work, |solutions| {
-        for (sample, column) in samples.iter_mut().zip(solutions) {
-            sample.extend_from_slice(column);
-        }
-    });
-    Scale::of_pilot(samples)
+    Scale::of_pilot(engine.computation.samples(&mut WideRandom::new(seed), false))
 }
 
 /// Accumulated results of all blocks, of a fixed size.
@@ -228,12 +221,12 @@ impl Series {
         });
         let own_lanes: Vec<WideRandom> = own_lanes.collect();
         let histograms = Mutex::new(&mut self.histograms);
-        let of_thread = || (Accumulator::new(self.scale), engine.workspace());
+        let of_thread = || (Accumulator::new(self.scale), engine.computation.workspace());
         let summaries = parallel::map_with(&own_lanes, run.threads, of_thread, |(tally, work), lanes| {
             if run.is_cancelled() {
                 return None;
             }
-            engine.block(&mut lanes.clone(), work, |solutions| tally.add(solutions));
+            engine.computation.block(&mut lanes.clone(), work, tally);
             Some(tally.end_of_block(&mut histograms.lock().unwrap_or_else(PoisonError::into_inner)))
         });
         summaries.iter().flatten().for_each(|summary| self.add(summary));

@@ -77,6 +77,8 @@ mod templates;
 mod text_rule;
 #[cfg(feature = "report")]
 pub(crate) mod texts;
+#[cfg(feature = "monte-carlo")]
+mod trials;
 #[cfg(feature = "factory")]
 mod trust_files;
 #[cfg(all(feature = "factory", feature = "report"))]

@@ -4,15 +4,12 @@
 //! uncertainty is known (6.4.7), uniform between limits (6.4.2), and scaled t if the uncertainty was estimated with few
 //! degrees of freedom (6.4.9).
 
-use super::{ReadingShape, student};
+use super::ReadingShape;
 use crate::calibration::estimates::Estimates;
 use crate::calibration::scatter::Repeats;
 use crate::calibration::{Basis, Cause, Input, Setup};
-use crate::statistics::wide_random::{Column, WIDTH, WideRandom};
+use dtg_passport_trials::draw::{Draw, Input as Drawn, Slot};
 use nalgebra::Vector2;
-
-/// Place of a column of standard deviates; column 0 is all zeros.
-pub(crate) type Slot = usize;
 
 /// Causes at the site that add to [`Cause::Base`] about the axes east, north and up: level, level, and azimuth with the
 /// mark.
@@ -26,10 +23,8 @@ pub(crate) struct Plan {
     /// takes the base of the stand, unless that uncertainty is an estimate with few degrees of freedom. A reading is
     /// drawn with its floor, the latitude with the deflection.
     pub(crate) inputs: Vec<Input>,
-    /// Distribution of [`Cause::Reading`].
-    shape: ReadingShape,
-    /// Degrees of freedom of the estimates that some inputs depend on.
-    estimates: Vec<f64>,
+    /// Distribution of each input.
+    pub(crate) draw: Draw,
 }
 
 impl Plan {
@@ -76,75 +71,16 @@ impl Plan {
         for axis in 0..2 {
             add(Cause::TurnOn(axis), repeats.turn_on_of_mean_deg_per_h(), estimates.turn_ons);
         }
-        Self { inputs, shape, estimates: estimates.degrees_of_freedom }
-    }
-
-    /// Returns the number of columns of standard deviates, including the column of zeros and one for each estimate.
-    pub(crate) fn columns(&self) -> usize {
-        self.inputs.len() + 1 + self.estimates.len()
+        let drawn = inputs.iter().map(|input| Drawn {
+            uniform: shape == ReadingShape::Uniform && matches!(input.cause, Cause::Reading(..)),
+            estimates: input.basis.shares().collect(),
+        });
+        Self { draw: Draw { inputs: drawn.collect(), estimates: estimates.degrees_of_freedom }, inputs }
     }
 
     /// Returns the column of an input's deviates and its standard uncertainty; zeros if it is not drawn.
     pub(crate) fn slot(&self, cause: Cause) -> (Slot, f64) {
         let found = self.inputs.iter().position(|input| input.cause == cause);
         found.map_or((0, 0.0), |place| (place + 1, self.inputs[place].standard_uncertainty))
-    }
-
-    /// Returns `true` if some deviates have no practical bound, because t has long tails.
-    pub(crate) fn has_long_tails(&self) -> bool {
-        !self.estimates.is_empty()
-    }
-
-    /// Draws new standard deviates: with variance 1, or by Student's t.
-    #[inline(always)]
-    pub(crate) fn draw(&self, lanes: &mut WideRandom, deviates: &mut [Column]) {
-        const ROOT_OF_THREE: f64 = 1.732_050_807_568_877_2;
-        let mut waiting: Option<usize> = None;
-        for (place, input) in self.inputs.iter().enumerate() {
-            let slot = place + 1;
-            let shape = if matches!(input.cause, Cause::Reading(..)) { self.shape } else { ReadingShape::Normal };
-            match (shape, waiting) {
-                (ReadingShape::Uniform, _) => {
-                    lanes.uniform(&mut deviates[slot]);
-                    deviates[slot].iter_mut().for_each(|value| *value *= ROOT_OF_THREE);
-                }
-                (ReadingShape::Normal, None) => waiting = Some(slot),
-                (ReadingShape::Normal, Some(first)) => {
-                    let (before, after) = deviates.split_at_mut(slot);
-                    lanes.normals(&mut before[first], &mut after[0]);
-                    waiting = None;
-                }
-            }
-        }
-        if let Some(last) = waiting {
-            let mut spare = [0.0; WIDTH];
-            lanes.normals(&mut deviates[last], &mut spare);
-        }
-        if self.has_long_tails() {
-            self.scale(lanes, deviates);
-        }
-    }
-
-    /// Scales inputs that depend on estimates to Student's t, with one χ² per trial for all inputs of one estimate.
-    #[inline(always)]
-    fn scale(&self, lanes: &mut WideRandom, deviates: &mut [Column]) {
-        let (drawn, factors) = deviates.split_at_mut(self.inputs.len() + 1);
-        for (factor, degrees_of_freedom) in factors.iter_mut().zip(&self.estimates) {
-            student::variance(lanes, factor, *degrees_of_freedom);
-        }
-        for (deviates, input) in drawn[1..].iter_mut().zip(&self.inputs) {
-            if input.basis == Basis::Known {
-                continue;
-            }
-            let mut variance = [0.0; WIDTH];
-            for (place, share) in input.basis.shares() {
-                for trial in 0..WIDTH {
-                    variance[trial] += share * factors[place][trial];
-                }
-            }
-            for trial in 0..WIDTH {
-                deviates[trial] *= variance[trial].sqrt();
-            }
-        }
     }
 }

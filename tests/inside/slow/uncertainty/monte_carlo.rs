@@ -31,7 +31,7 @@ fn rotation(turn: Vector3<f64>) -> Matrix3<f64> {
 
 /// Coefficients and currents of one trial, by nalgebra and libm, one thing after the other.
 fn exactly(case: &Case, engine: &Engine, deviates: &[f64]) -> (Coefficients, Vec<Vector2<f64>>) {
-    let inputs = &engine.plan.inputs;
+    let inputs = &engine.inputs;
     let value = |cause: Cause| {
         let place = inputs.iter().position(|input| input.cause == cause);
         place.map_or(0.0, |place| deviates[place] * inputs[place].standard_uncertainty)
@@ -82,7 +82,7 @@ fn exactly(case: &Case, engine: &Engine, deviates: &[f64]) -> (Coefficients, Vec
 /// Standard deviates of as many trials as run side by side.
 fn deviates(engine: &Engine, seed: u64, factor: f64) -> Vec<Vec<f64>> {
     let mut stream = Stream::new(seed);
-    (0..WIDTH).map(|_| engine.plan.inputs.iter().map(|_| factor * stream.normal()).collect()).collect()
+    (0..WIDTH).map(|_| engine.inputs.iter().map(|_| factor * stream.normal()).collect()).collect()
 }
 
 /// Expected: the same trials by nalgebra, libm and the library's own closed solution, 1e-12 of each parameter; the last
@@ -96,17 +96,17 @@ fn the_fast_path_agrees_with_the_exact_one() {
             // Currents far off would make a singular gyro: only angles are made large.
             let mut trials = deviates(&engine, seed, 1.0);
             for trial in &mut trials {
-                for (deviate, input) in trial.iter_mut().zip(&engine.plan.inputs) {
+                for (deviate, input) in trial.iter_mut().zip(&engine.inputs) {
                     if matches!(input.cause, Cause::Angle(..) | Cause::Seat(_)) || BASE_AT_SITE.contains(&input.cause) {
                         *deviate *= factor;
                     }
                 }
             }
-            let long_tails = engine.plan.inputs.iter().any(|input| input.degrees_of_freedom.is_finite());
+            let long_tails = engine.inputs.iter().any(|input| input.degrees_of_freedom.is_finite());
             if factor > 10.0 && !long_tails {
                 continue; // Normal deviates never come this far, and the engine relies on it.
             }
-            for (trial, found) in trials.iter().zip(engine.solutions_for(&trials)) {
+            for (trial, found) in trials.iter().zip(engine.computation.solutions_for(&trials)) {
                 let (coefficients, currents) = exactly(&case, &engine, trial);
                 let due = analytic::solve(&coefficients, &currents).unwrap().parameters.to_vector();
                 for (found, due) in found.iter().zip(due) {
@@ -132,7 +132,7 @@ fn the_refit_is_that_of_least_squares() {
     let engine = Engine::new(&case.setup, &case.readings, Method::LeastSquares, ReadingShape::Normal).unwrap();
     let budget = Budget::new(&case.setup, &case.readings, Method::LeastSquares, &Options::default()).unwrap();
     let trials = deviates(&engine, 5, 1.0);
-    for (trial, found) in trials.iter().zip(engine.solutions_for(&trials)) {
+    for (trial, found) in trials.iter().zip(engine.computation.solutions_for(&trials)) {
         let (coefficients, currents) = exactly(&case, &engine, trial);
         let due = least_squares::solve(&coefficients, &currents, &paper_meter(), Model::Paper).unwrap();
         for ((found, due), line) in found.iter().zip(due.to_vector()).zip(&budget.parameters) {

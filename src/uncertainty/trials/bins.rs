@@ -6,14 +6,14 @@
 //! 97.5 %.
 
 /// Number of bins; a power of two.
-pub(crate) const BINS: usize = 4096;
+pub const BINS: usize = 4096;
 
 /// Upper end of the last bin, in units of the values; the lower end of the first bin is its negative.
-pub(crate) const REACH: f64 = 10.0;
+pub const REACH: f64 = 10.0;
 
 /// Returns the bin of a value: the first or the last bin for values beyond ±[`REACH`].
 #[inline(always)]
-pub(crate) fn bin(value: f64) -> usize {
+pub fn bin(value: f64) -> usize {
     const PER_UNIT: f64 = BINS as f64 / (2.0 * REACH);
     // Adding 2^52 rounds a value to a whole number, which is then in the lowest bits of the mantissa.
     const WHOLE: f64 = 4_503_599_627_370_496.0;
@@ -34,7 +34,7 @@ fn total<T: Copy + Into<u64>>(counts: &[T]) -> f64 {
 
 /// Returns the value that `share` of a sample does not exceed, given the counts of its [`BINS`] bins, the lowest first; 0
 /// for an empty sample.
-pub(crate) fn quantile<T: Copy + Into<u64>>(counts: &[T], share: f64) -> f64 {
+pub fn quantile<T: Copy + Into<u64>>(counts: &[T], share: f64) -> f64 {
     let due = share * total(counts);
     let mut below = 0.0;
     for (bin, count) in counts.iter().enumerate() {
@@ -48,8 +48,8 @@ pub(crate) fn quantile<T: Copy + Into<u64>>(counts: &[T], share: f64) -> f64 {
 }
 
 /// Returns the shortest interval that contains `share` of a sample, given the counts of its bins
-/// ([JCGM 101](crate::bibliography::Bibliography::Jcgm101), 5.3.4 and 7.7.3).
-pub(crate) fn shortest<T: Copy + Into<u64>>(counts: &[T], share: f64) -> [f64; 2] {
+/// (JCGM 101, 5.3.4 and 7.7.3).
+pub fn shortest<T: Copy + Into<u64>>(counts: &[T], share: f64) -> [f64; 2] {
     let total = total(counts);
     let (mut best, mut width) = ([quantile(counts, 0.0), quantile(counts, 1.0)], f64::INFINITY);
     let mut below = 0.0;
@@ -73,30 +73,4 @@ pub(crate) fn shortest<T: Copy + Into<u64>>(counts: &[T], share: f64) -> [f64; 2
         below += (*count).into() as f64;
     }
     best
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::statistics::distributions::normal_quantile;
-
-    /// Expected: quantiles of the normal distribution by `normal_quantile`, of a sample that is its own quantiles; the
-    /// shortest interval of a symmetric density is the symmetric one, of an exponential one it begins at its beginning.
-    #[test]
-    fn intervals() {
-        let shares = (0..200_000).map(|rank| (f64::from(rank) + 0.5) / 200_000.0);
-        let mut counts = vec![0_u32; BINS];
-        shares.clone().for_each(|share| counts[bin(normal_quantile(share))] += 1);
-        for share in [0.025, 0.3, 0.5, 0.975] {
-            assert!((quantile(&counts, share) - normal_quantile(share)).abs() < 2e-4, "{share}");
-        }
-        let [low, high] = shortest(&counts, 0.95);
-        assert!((high - low - 2.0 * 1.959_964).abs() < 1e-3 && (low + 1.96).abs() < 0.05, "{low} {high}");
-        let mut counts = vec![0_u32; BINS];
-        shares.for_each(|share| counts[bin(-libm::log(share))] += 1);
-        let [low, high] = shortest(&counts, 0.95);
-        assert!(low.abs() < 0.005 && (high + libm::log(0.05)).abs() < 0.01, "{low} {high}");
-        assert_eq!(quantile(&[0_u32; BINS], 0.5), 0.0);
-        assert_eq!([-1e300, f64::NEG_INFINITY, 1e300].map(bin), [0, 0, BINS - 1]);
-    }
 }

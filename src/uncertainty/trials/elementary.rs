@@ -4,7 +4,7 @@
 use std::f64::consts::LN_2;
 
 /// Largest angle for [`small_sin`] and [`small_cos_less_one`], radians: about 4,100 arcseconds.
-pub(crate) const SMALL_RAD: f64 = 0.02;
+pub const SMALL_RAD: f64 = 0.02;
 
 /// Returns sin x for |x| ≤ [`SMALL_RAD`], in radians, within 0.51 units of the last place.
 ///
@@ -12,7 +12,7 @@ pub(crate) const SMALL_RAD: f64 = 0.02;
 /// below x²/6 = 6.7e-5 of it and has a relative error below 8 · 2⁻⁵³, so it adds less than 0.001 units to the half unit
 /// of the last sum.
 #[inline(always)]
-pub(crate) fn small_sin(x: f64) -> f64 {
+pub fn small_sin(x: f64) -> f64 {
     let square = x * x;
     let rest = square * (-1.0 / 6.0 + square * (1.0 / 120.0 + square * (-1.0 / 5040.0)));
     x + x * rest
@@ -23,7 +23,7 @@ pub(crate) fn small_sin(x: f64) -> f64 {
 ///
 /// The error of the series after x⁸ is at most x¹⁰/3628800, 5.7e-21 of x²/2.
 #[inline(always)]
-pub(crate) fn small_cos_less_one(x: f64) -> f64 {
+pub fn small_cos_less_one(x: f64) -> f64 {
     let square = x * x;
     square * (-0.5 + square * (1.0 / 24.0 + square * (-1.0 / 720.0 + square * (1.0 / 40320.0))))
 }
@@ -32,7 +32,7 @@ pub(crate) fn small_cos_less_one(x: f64) -> f64 {
 ///
 /// The errors of the series after x¹⁵ and x¹⁶ are at most 6.5e-17 and 2.9e-18 of the result.
 #[inline(always)]
-pub(crate) fn octant_sin_cos(x: f64) -> (f64, f64) {
+pub fn octant_sin_cos(x: f64) -> (f64, f64) {
     let s = x * x;
     let sin = -1.0 / 6.0
         + s * (1.0 / 120.0
@@ -54,7 +54,7 @@ pub(crate) fn octant_sin_cos(x: f64) -> (f64, f64) {
 /// x = 2ᵏ z with √½ ≤ z < √2, and ln z = 2 artanh((z − 1)/(z + 1)), whose argument is below 0.1716. The error of the
 /// series after the 19th power is at most 2.3e-17 of the result.
 #[inline(always)]
-pub(crate) fn ln(x: f64) -> f64 {
+pub fn ln(x: f64) -> f64 {
     const ROOT_HALF: u64 = 0x3fe6_a09e_0000_0000;
     const TO_ONE: u64 = 0x3ff0_0000_0000_0000 - ROOT_HALF;
     const MANTISSA: u64 = 0x000f_ffff_ffff_ffff;
@@ -76,50 +76,10 @@ pub(crate) fn ln(x: f64) -> f64 {
 
 /// Returns (sin, cos) of π/4 · `share`, `share` in [0, 1), in the octant given by the lowest three bits of `octant`.
 #[inline(always)]
-pub(crate) fn on_circle(share: f64, octant: u64) -> (f64, f64) {
+pub fn on_circle(share: f64, octant: u64) -> (f64, f64) {
     let (sin, cos) = octant_sin_cos(std::f64::consts::FRAC_PI_4 * share);
     let (sin, cos) = (sin.to_bits(), cos.to_bits());
     let exchanged = (sin ^ cos) & 0_u64.wrapping_sub(octant & 1);
     let sign = |bit: u64| (octant << bit) & (1 << 63);
     (f64::from_bits(sin ^ exchanged ^ sign(62)), f64::from_bits(cos ^ exchanged ^ sign(61)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// In units of the last place of `due`.
-    fn units(found: f64, due: f64) -> f64 {
-        let unit = f64::from_bits(due.abs().to_bits() + 1) - due.abs();
-        (found - due).abs() / unit
-    }
-
-    /// Expected: libm, which is within one unit itself.
-    #[test]
-    fn sines_and_cosines() {
-        for step in -20_000_i32..=20_000 {
-            let x = SMALL_RAD * f64::from(step) / 20_000.0;
-            assert!(x == 0.0 || units(small_sin(x), libm::sin(x)) <= 1.0, "{x}");
-            assert!(units(1.0 + small_cos_less_one(x), libm::cos(x)) <= 1.0, "{x}");
-            let x = std::f64::consts::FRAC_PI_4 * f64::from(step.abs()) / 20_000.0;
-            let (sin, cos) = octant_sin_cos(x);
-            assert!(x == 0.0 || units(sin, libm::sin(x)) <= 2.0, "{x}");
-            assert!(units(cos, libm::cos(x)) <= 2.0, "{x}");
-        }
-    }
-
-    /// Expected: libm.
-    #[test]
-    fn logarithms() {
-        let mut x = 1e-300_f64;
-        while x < 1e300 {
-            let due = libm::log(x);
-            assert!((ln(x) - due).abs() <= 4.5e-16 * due.abs().max(1.0), "{x}");
-            x *= 1.000_37 * (1.0 + x.fract().abs() * 0.01);
-        }
-        assert_eq!(ln(1.0), 0.0);
-        for x in [f64::from_bits(0x3ff0_0000_0000_0001), 0.999_999, 0.70, 0.71, 2.0_f64.powi(-52)] {
-            assert!((ln(x) / libm::log(x) - 1.0).abs() < 1e-15, "{x}");
-        }
-    }
 }

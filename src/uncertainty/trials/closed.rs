@@ -1,9 +1,9 @@
 //! The paper's coefficients and its analytic solution in every trial of a chunk (paper, eq. (8)-(16)), with 2×2
 //! matrices written out.
 
-use super::Solutions;
-use super::kernel::At;
-use crate::statistics::wide_random::WIDTH;
+use crate::Solutions;
+use crate::kernel::At;
+use crate::wide_random::WIDTH;
 
 /// 2×2 matrix, row by row.
 type M2 = [f64; 4];
@@ -26,7 +26,7 @@ fn inverse(a: &M2) -> M2 {
 
 /// Solves for the parameters of every trial; `eight` are the places of the eight positions.
 #[inline(always)]
-pub(crate) fn solve(eight: &[usize; 8], positions: &[At], solutions: &mut Solutions) {
+pub fn solve(eight: &[usize; 8], positions: &[At], solutions: &mut Solutions) {
     let e = eight.map(|place| &positions[place]);
     let mut found = [[0.0; WIDTH]; 8];
     // Sums over all positions, for eq. (8).
@@ -72,7 +72,7 @@ pub(crate) fn solve(eight: &[usize; 8], positions: &[At], solutions: &mut Soluti
 #[inline(always)]
 fn pair<'a>(
     trial: usize,
-    of: impl Fn(&'a At, usize) -> &'a crate::statistics::wide_random::Column,
+    of: impl Fn(&'a At, usize) -> &'a crate::wide_random::Column,
     [p, q, r, s]: [&'a At; 4],
 ) -> M2 {
     let difference = |one: &'a At, other: &'a At, axis: usize| of(one, axis)[trial] - of(other, axis)[trial];

@@ -1,39 +1,30 @@
 //! Weighted least squares in every trial of a chunk.
 //!
-//! The estimator is that of [`calibrate`](crate::calibration::calibrate) with the weights of its best fit. The
+//! The estimator is that of a calibration with the weights of its best fit. The
 //! regressors are the currents that the solution gives, so each step uses the currents of the step before. The normal
 //! equations are solved for the change from the best fit, so they lose only digits of a small number. Their matrix is
 //! that of the first step; its change from step to step has only a third-order effect.
 
-use super::kernel::At;
-use super::{PAIRS, Solutions, pair};
-use crate::calibration::least_squares::Fit;
-use crate::statistics::wide_random::{Column, WIDTH};
-use nalgebra::Matrix2;
+use crate::kernel::At;
+use crate::wide_random::{Column, WIDTH};
+use crate::{PAIRS, Solutions, pair};
 
 /// Number of steps from the best fit; the remaining error is of third order in the uncertainties.
-pub(crate) const STEPS: usize = 2;
+const STEPS: usize = 2;
 
 /// Least-squares solver, with the best fit and its weights.
 #[derive(Debug, Clone)]
-pub(crate) struct Refit {
+pub struct Refit {
     /// Parameters of the best fit: K_x, K_xy, K_yx, K_y, ω_0x, ω_0y, ω_g, ω_k.
-    start: [f64; 8],
+    pub start: [f64; 8],
     /// Weights P = W'W of every position: p11, p12, p22.
-    weights: Vec<[f64; 3]>,
+    pub weights: Vec<[f64; 3]>,
 }
 
 impl Refit {
-    pub(crate) fn new(fit: &Fit) -> Self {
-        let weights = fit.whitening.iter().map(|whiten| {
-            let p: Matrix2<f64> = whiten.transpose() * whiten;
-            [p.m11, p.m12, p.m22]
-        });
-        Self { start: fit.unknowns.parameters.to_vector(), weights: weights.collect() }
-    }
-
+    /// Computes the parameters of every trial.
     #[inline(always)]
-    pub(crate) fn solve(&self, positions: &[At], solutions: &mut Solutions) {
+    pub fn solve(&self, positions: &[At], solutions: &mut Solutions) {
         let mut parameters = self.start.map(|value| [value; WIDTH]);
         let mut normal = [[0.0; WIDTH]; PAIRS];
         for (at, weight) in positions.iter().zip(&self.weights) {
@@ -60,7 +51,10 @@ impl Refit {
 /// parameters.
 #[inline(always)]
 fn balance(at: &At, trial: usize, parameters: &Solutions) -> ([f64; 2], [f64; 2]) {
-    let [kx, kxy, kyx, ky, o_x, o_y, w_g, w_k] = [0, 1, 2, 3, 4, 5, 6, 7].map(|p| parameters[p][trial]);
+    // Not `map` over the columns: it may be called instead of inlined, and then the loop over the trials is not wide.
+    let [kx, kxy, kyx, ky, o_x, o_y, w_g, w_k] = parameters;
+    let (kx, kxy, kyx, ky) = (kx[trial], kxy[trial], kyx[trial], ky[trial]);
+    let (o_x, o_y, w_g, w_k) = (o_x[trial], o_y[trial], w_g[trial], w_k[trial]);
     let (nx, ny) = (at.n[0][trial], at.n[1][trial]);
     let x = at.omega[0][trial] - o_x - (w_g * nx - w_k * ny);
     let y = at.omega[1][trial] - o_y - (w_k * nx + w_g * ny);
@@ -101,10 +95,10 @@ fn add_normal(at: &At, &[p11, p12, p22]: &[f64; 3], parameters: &Solutions, norm
 fn add_right(at: &At, &[p11, p12, p22]: &[f64; 3], parameters: &Solutions, right: &mut Solutions) {
     for trial in 0..WIDTH {
         let ([torqued_x, torqued_y], [jx, jy]) = balance(at, trial, parameters);
-        let [kx, kxy, kyx, ky] = [0, 1, 2, 3].map(|p| parameters[p][trial]);
+        let [kx, kxy, kyx, ky, ..] = parameters;
         let (read_x, read_y) = (at.current[0][trial], at.current[1][trial]);
-        let error_x = torqued_x - (kx * read_x + kxy * read_y);
-        let error_y = torqued_y - (kyx * read_x + ky * read_y);
+        let error_x = torqued_x - (kx[trial] * read_x + kxy[trial] * read_y);
+        let error_y = torqued_y - (kyx[trial] * read_x + ky[trial] * read_y);
         let (e1, e2) = (p11 * error_x + p12 * error_y, p12 * error_x + p22 * error_y);
         let (nx, ny) = (at.n[0][trial], at.n[1][trial]);
         let errors = [jx * e1, jy * e1, jx * e2, jy * e2, e1, e2, nx * e1 + ny * e2, nx * e2 - ny * e1];

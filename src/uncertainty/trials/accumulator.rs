@@ -1,18 +1,18 @@
 //! Accumulated results of Monte Carlo trials: sums, products and histograms, whose size does not depend on the number
 //! of trials.
 //!
-//! Values are counted in [bins](crate::statistics::bins) in units of the standard deviations of a pilot run. Means,
+//! Values are counted in [bins](crate::bins) in units of the standard deviations of a pilot run. Means,
 //! variances and covariances are computed from the values themselves, not from the bins.
 
 #![allow(clippy::needless_range_loop, reason = "a loop over trials that indexes several columns is what becomes wide")]
 
-use super::engine::{PAIRS, PARAMETERS, Solutions};
-use crate::statistics::bins::{BINS, bin, quantile};
-use crate::statistics::wide_random::{Column, WIDTH};
+use crate::bins::{BINS, bin, quantile};
+use crate::wide_random::{Column, WIDTH};
+use crate::{PAIRS, PARAMETERS, Solutions};
 
 /// Centre and unit of the histogram of every parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Scale {
+pub struct Scale {
     /// Value at the middle of the histogram.
     pub centre: [f64; PARAMETERS],
     /// Standard deviation in the pilot sample.
@@ -22,7 +22,7 @@ pub(crate) struct Scale {
 impl Scale {
     /// Computes the scale from a pilot sample of every parameter: the median, and the width of the middle 95 % divided
     /// by 3.92 (its width in standard deviations of a normal distribution).
-    pub(crate) fn of_pilot(mut samples: [Vec<f64>; PARAMETERS]) -> Self {
+    pub fn of_pilot(mut samples: [Vec<f64>; PARAMETERS]) -> Self {
         let (mut centre, mut unit) = ([0.0; PARAMETERS], [1.0; PARAMETERS]);
         for (place, sample) in samples.iter_mut().enumerate() {
             sample.retain(|value| value.is_finite());
@@ -38,11 +38,12 @@ impl Scale {
 
 /// Sums, products and quantiles of one block, in units of the scale.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct BlockSummary {
+pub struct BlockSummary {
     /// Number of trials with finite parameters.
     pub count: u64,
     /// Number of trials without finite parameters.
     pub failed: u64,
+    /// Sums of the values.
     pub sums: [f64; PARAMETERS],
     /// Sums of products, row by row of the lower triangle.
     pub products: [f64; PAIRS],
@@ -50,8 +51,9 @@ pub(crate) struct BlockSummary {
     pub quantiles: [[f64; 2]; PARAMETERS],
 }
 
+/// Counts of all blocks.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Histograms {
+pub struct Histograms {
     counts: Vec<u64>,
 }
 
@@ -63,14 +65,14 @@ impl Default for Histograms {
 
 impl Histograms {
     /// Returns the counts of the bins of a parameter.
-    pub(crate) fn of(&self, place: usize) -> &[u64] {
+    pub fn of(&self, place: usize) -> &[u64] {
         &self.counts[place * BINS..(place + 1) * BINS]
     }
 }
 
 /// Accumulator for the trials of one thread.
 #[derive(Debug, Clone)]
-pub(crate) struct Accumulator {
+pub struct Accumulator {
     scale: Scale,
     /// Counts of the current block.
     block: Vec<u32>,
@@ -81,7 +83,8 @@ pub(crate) struct Accumulator {
 }
 
 impl Accumulator {
-    pub(crate) fn new(scale: Scale) -> Self {
+    /// Creates an accumulator of nothing.
+    pub fn new(scale: Scale) -> Self {
         Self {
             scale,
             block: vec![0; PARAMETERS * BINS],
@@ -92,8 +95,9 @@ impl Accumulator {
         }
     }
 
+    /// Adds the trials of a chunk.
     #[inline(always)]
-    pub(crate) fn add(&mut self, solutions: &Solutions) {
+    pub fn add(&mut self, solutions: &Solutions) {
         let mut scaled = [[0.0; WIDTH]; PARAMETERS];
         let mut together = [0.0; WIDTH];
         for place in 0..PARAMETERS {
@@ -154,7 +158,7 @@ impl Accumulator {
     }
 
     /// Returns the summary of the block, adds its counts to those of `all` blocks, and starts the next one.
-    pub(crate) fn end_of_block(&mut self, all: &mut Histograms) -> BlockSummary {
+    pub fn end_of_block(&mut self, all: &mut Histograms) -> BlockSummary {
         let quantiles = std::array::from_fn(|place| {
             let counts = &self.block[place * BINS..(place + 1) * BINS];
             [0.025, 0.975].map(|share| quantile(counts, share))
@@ -180,51 +184,5 @@ fn leave_out_failures(scaled: &mut Solutions, together: &Column) {
         for column in scaled.iter_mut() {
             column[trial] = 0.0;
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Expected: moments and quantiles of the normal distribution, of a sample that is its own quantiles.
-    #[test]
-    fn moments_and_quantiles_of_a_normal_sample() {
-        use crate::statistics::distributions::normal_quantile;
-        let scale = Scale { centre: [5.0; PARAMETERS], unit: [2.0; PARAMETERS] };
-        let mut tally = Accumulator::new(scale);
-        let chunks = 4000;
-        for chunk in 0..chunks {
-            let column = std::array::from_fn(|trial| {
-                let share = ((chunk * WIDTH + trial) as f64 + 0.5) / (chunks * WIDTH) as f64;
-                5.0 + 2.0 * normal_quantile(share)
-            });
-            tally.add(&[column; PARAMETERS]);
-        }
-        let mut all = Histograms::default();
-        let summary = tally.end_of_block(&mut all);
-        assert_eq!((summary.count, summary.failed), ((chunks * WIDTH) as u64, 0));
-        for place in 0..PARAMETERS {
-            for found in [summary.quantiles[place][1], quantile(all.of(place), 0.975)] {
-                assert!((found - 1.959_964).abs() < 2e-4, "{found}");
-            }
-            assert!(summary.sums[place].abs() < 1e-6);
-        }
-        assert!((summary.products[0] / summary.count as f64 - 1.0).abs() < 1e-3);
-    }
-
-    #[test]
-    fn a_trial_that_fails_is_told() {
-        let mut tally = Accumulator::new(Scale { centre: [0.0; PARAMETERS], unit: [1.0; PARAMETERS] });
-        let mut column = [0.5; WIDTH];
-        column[3] = f64::NAN;
-        column[4] = f64::INFINITY;
-        tally.add(&[column; PARAMETERS]);
-        let summary = tally.end_of_block(&mut Histograms::default());
-        assert_eq!((summary.count, summary.failed), (WIDTH as u64 - 2, 2));
-        assert!((summary.sums[0] - 15.0).abs() < 1e-12);
-        // The rest is all in one bin: so are its lowest and its highest value.
-        let [low, high] = summary.quantiles[0];
-        assert!(low > 0.49 && high < 0.51, "{low} {high}");
     }
 }
