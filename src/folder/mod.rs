@@ -276,16 +276,18 @@ pub(crate) fn sync_names<'a>(
     Ok(())
 }
 
-/// Verifies a passport before it is written, because one that fails verification is useless.
-fn check_verifiable(path: &Path, text: &str, draft: &Draft, trust: &Trust) -> Result<(), FolderRefused> {
+/// Signs a passport and verifies it before it is written, as every reader will: one that fails verification is useless.
+/// Returns the text and its SHA-256.
+fn sign(path: &Path, draft: &Draft, signer: &dyn Signer, trust: &Trust) -> Result<(String, String), FolderRefused> {
+    let text = draft.sign_unverified(signer)?;
     let question = Question::at(draft.content().passport.issued_at);
     let verification = verify(&name_of(path), text.as_bytes(), trust, &question);
-    match verification.failed() {
-        None => Ok(()),
-        Some(failed) => {
-            Err(FolderRefused::NotVerifiable(failed.name.as_str(), for_the_issuer(&failed.detail).to_owned()))
-        }
+    if let Some(failed) = verification.failed() {
+        let why = for_the_issuer(&failed.detail).to_owned();
+        return Err(FolderRefused::NotVerifiable(failed.name.as_str(), why));
     }
+    verification.content_from_anyone().map_or(Ok(()), |content| draft.check_same(content))?;
+    Ok((text, verification.sha256().to_owned()))
 }
 
 struct Existing {

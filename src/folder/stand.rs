@@ -22,7 +22,7 @@ use std::ffi::OsStr;
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 /// Name of the file that is locked while a register is replaced.
@@ -44,8 +44,8 @@ pub(crate) struct StandFolder<'a> {
     register: Option<VerifiedRegister>,
     /// Sites by their lower-case names, each with its spelling and its last revision.
     sites: Mutex<BTreeMap<String, (String, u32)>>,
-    /// Entries to add to the register.
-    listings: Mutex<Vec<Listing>>,
+    /// Entries to add to the register, by their ids.
+    listings: Mutex<BTreeMap<String, Listing>>,
 }
 
 /// Entry to add to a register, and the passport that it supersedes.
@@ -285,7 +285,7 @@ impl<'a> StandFolder<'a> {
 
     /// Returns the next step of [`Self::issue`]; nothing is signed or written.
     pub(crate) fn next_first(&self, stand: &PreparedStand, site: &Site, order: &Issue) -> Result<Next, FolderRefused> {
-        let draft = Box::new(stand.draft(site, order)?);
+        let draft = Box::new(stand.compose(site, order)?);
         let (name, revision) = (site.id.as_str(), order.revision);
         let later = self.later(name, revision);
         match self.existing(name, revision)? {
@@ -318,7 +318,7 @@ impl<'a> StandFolder<'a> {
         let site = successor.site.id.as_str();
         let mut revision = successor.first_revision();
         loop {
-            let draft = Box::new(successor.draft(revision)?);
+            let draft = Box::new(successor.compose(revision)?);
             let later = self.later(site, revision);
             let Some(there) = self.existing(site, revision)? else {
                 let path = self.path_of(site, revision);
@@ -365,14 +365,13 @@ impl<'a> StandFolder<'a> {
     pub(crate) fn seal(&self, next: Next) -> Result<Sealed, FolderRefused> {
         match next {
             Next::There { issued, listing } => {
-                self.listings.lock().unwrap_or_else(PoisonError::into_inner).extend(listing.map(|listing| *listing));
+                listing.into_iter().for_each(|listing| self.add(*listing));
                 Ok(Sealed { issued, text: None })
             }
             Next::New { path, draft, superseded } => {
                 let signer = self.authority.signer.ok_or(FolderRefused::NoSigner)?;
-                let text = draft.sign(signer)?;
-                super::check_verifiable(&path, &text, &draft, self.authority.trust)?;
-                let (content, sha256) = (draft.content(), sha256_hex(text.as_bytes()));
+                let (text, sha256) = super::sign(&path, &draft, signer, self.authority.trust)?;
+                let content = draft.content();
                 let listing = Listing { entry: Draft::entry_of(content, &sha256), superseded };
                 let issued =
                     Issued { id: content.passport.id.clone(), path, sha256, new: true, remarks: draft.remarks() };
@@ -382,11 +381,16 @@ impl<'a> StandFolder<'a> {
         }
     }
 
+    fn listings(&self) -> MutexGuard<'_, BTreeMap<String, Listing>> {
+        self.listings.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn add(&self, listing: Listing) {
+        self.listings().insert(listing.entry.id.clone(), listing);
+    }
+
     fn note(&self, site: &Site, revision: u32, listing: Listing) {
-        let mut listings = self.listings.lock().unwrap_or_else(PoisonError::into_inner);
-        listings.retain(|other| other.entry.id != listing.entry.id);
-        listings.push(listing);
-        drop(listings);
+        self.add(listing);
         let mut sites = self.sites.lock().unwrap_or_else(PoisonError::into_inner);
         let known = sites.entry(site.id.as_str().to_ascii_lowercase()).or_insert((site.id.to_string(), 0));
         known.1 = known.1.max(revision);
@@ -401,8 +405,7 @@ impl<'a> StandFolder<'a> {
                 let written =
                     files::write_new_as(&issued.path, text.as_bytes(), Access::Shared, self.folder.durability);
                 if let Err(error) = written {
-                    let mut listings = self.listings.lock().unwrap_or_else(PoisonError::into_inner);
-                    listings.retain(|listing| listing.entry.id != issued.id);
+                    self.listings().remove(&issued.id);
                     return Err(error.into());
                 }
             }
@@ -422,7 +425,7 @@ impl<'a> StandFolder<'a> {
     /// # Errors
     /// Returns [`FolderRefused`] if the register cannot be written; the passports are then not listed.
     pub(crate) fn list(&self) -> Result<(), FolderRefused> {
-        let listings = std::mem::take(&mut *self.listings.lock().unwrap_or_else(PoisonError::into_inner));
+        let listings = std::mem::take(&mut *self.listings());
         if listings.is_empty() {
             return Ok(());
         }
@@ -440,7 +443,7 @@ impl<'a> StandFolder<'a> {
         new: &[(PathBuf, Vec<u8>)],
         last: (PathBuf, Vec<u8>),
     ) -> Result<(), FolderRefused> {
-        let listings = std::mem::take(&mut *self.listings.lock().unwrap_or_else(PoisonError::into_inner));
+        let listings = std::mem::take(&mut *self.listings());
         let together = |register: Option<(&Path, &[u8])>| {
             let register = register.map(|(path, text)| (path.to_owned(), text.to_owned()));
             let replaced: Vec<_> = register.into_iter().chain([last.clone()]).collect();
@@ -534,7 +537,8 @@ impl<'a> StandFolder<'a> {
 }
 
 /// Adds the entries, in the order of their sites and revisions, whatever order the threads had.
-fn add(draft: &mut Draft, mut listings: Vec<Listing>) -> Result<(), FolderRefused> {
+fn add(draft: &mut Draft, listings: BTreeMap<String, Listing>) -> Result<(), FolderRefused> {
+    let mut listings: Vec<Listing> = listings.into_values().collect();
     listings.sort_by(|a, b| a.entry.site_and_revision().cmp(&b.entry.site_and_revision()));
     for Listing { entry, superseded } in listings {
         let id = entry.id.clone();

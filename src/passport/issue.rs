@@ -14,7 +14,7 @@ use crate::site::Site;
 use crate::stand::{self, CertifiedPosition, Stand};
 use crate::text::scalar::day;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Path, Problems, Unreadable, rule};
-use crate::trust::{BadIdentity, SignatureError, check_identity};
+use crate::trust::{BadIdentity, Message, SignatureError, check_identity};
 use crate::wording::number::Number;
 use crate::wording::{Language, plain};
 use jiff::Timestamp;
@@ -220,6 +220,13 @@ impl PreparedStand {
     /// # Errors
     /// Returns [`IssueRefused`] if an input breaks a rule, the self-check fails, or the text read back differs.
     pub fn draft(&self, site: &Site, issue: &Issue) -> Result<Draft, IssueRefused> {
+        let draft = self.compose(site, issue)?;
+        draft.read_back()?;
+        Ok(draft)
+    }
+
+    /// Computes all numbers and writes the text. It is not read back: the signed file is verified as a whole.
+    pub(crate) fn compose(&self, site: &Site, issue: &Issue) -> Result<Draft, IssueRefused> {
         check_identity(&issue.issuer)?;
         check_site(site)?;
         let (geometry, text) = self.geometry.as_ref().map_err(|singular| *singular)?;
@@ -233,9 +240,8 @@ impl PreparedStand {
         if payload.len() + LONGEST_SIGNATURE > LARGEST_DOCUMENT_BYTES {
             return Err(IssueRefused::TooLarge(payload.len()));
         }
-        let read_back = read_back(&payload, &content)?;
-        if let Some(self_check) = &read_back.self_check {
-            let error = self_check.error(&read_back.coefficients());
+        if let Some(self_check) = &content.self_check {
+            let error = self_check.error(&content.coefficients());
             if error.is_nan() || error > SelfCheck::LIMIT {
                 return Err(IssueRefused::SelfCheckFails { error, growth: site.uncertainty_growth() });
             }
@@ -313,19 +319,24 @@ fn check_dates(content: &Content) -> Result<(), IssueRefused> {
     }
 }
 
-/// Reads the written text with the verifier's reader and compares its content with the original.
-fn read_back(payload: &str, content: &Content) -> Result<Content, IssueRefused> {
-    const NAME: &str = "the new passport";
-    rule::check(NAME, payload.as_bytes(), LARGEST_DOCUMENT_BYTES).map_err(IssueRefused::ReadBack)?;
-    let read = content::read(NAME, payload).map_err(IssueRefused::ReadBack)?;
-    if read != *content {
-        let fault = Unreadable::whole(NAME, None, "other content", "the content that was written", "");
-        return Err(IssueRefused::ReadBack(fault));
-    }
-    Ok(read)
-}
-
 impl Draft {
+    /// Reads the written text with the verifier's reader and compares its content with the original.
+    fn read_back(&self) -> Result<(), IssueRefused> {
+        const NAME: &str = "the new passport";
+        rule::check(NAME, self.payload.as_bytes(), LARGEST_DOCUMENT_BYTES).map_err(IssueRefused::ReadBack)?;
+        let read = content::read(NAME, &self.payload).map_err(IssueRefused::ReadBack)?;
+        self.check_same(&read)
+    }
+
+    /// Checks that the content read is the original.
+    pub(crate) fn check_same(&self, read: &Content) -> Result<(), IssueRefused> {
+        if *read == self.content {
+            return Ok(());
+        }
+        let fault = Unreadable::whole("the new passport", None, "other content", "the content that was written", "");
+        Err(IssueRefused::ReadBack(fault))
+    }
+
     /// Returns the content of the passport.
     pub fn content(&self) -> &Content {
         &self.content
@@ -343,6 +354,12 @@ impl Draft {
     /// wrong.
     pub fn sign(&self, signer: &dyn Signer) -> Result<String, IssueRefused> {
         document::sign(&self.payload, NAMESPACE, signer)
+    }
+
+    /// Signs the text. The caller verifies the file, and with it the signature.
+    pub(crate) fn sign_unverified(&self, signer: &dyn Signer) -> Result<String, IssueRefused> {
+        let signature = signer.sign_message(&Message::new(NAMESPACE, self.payload.as_bytes()))?;
+        Ok(document::join(&self.payload, &signature))
     }
 
     /// Computes remarks on the passport for the factory: noise of a calibration relative to the ideal stand, missing
