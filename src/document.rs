@@ -13,6 +13,7 @@ use crate::trust::{KeyError, KeyPoint, SigningKey};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// Kind of signed document.
 #[derive(Debug, Clone, Copy)]
@@ -223,8 +224,14 @@ impl<'a> SignedText<'a> {
     ///
     /// # Errors
     /// Returns [`SignatureError`] if the text is not the one that was signed.
-    pub(crate) fn signed_payload(&self, signers: Option<&AllowedSigners>) -> Result<&'a str, SignatureError> {
-        let message = Message::new(self.signature.namespace(), self.payload.as_bytes());
+    pub(crate) fn signed_payload(
+        &self,
+        signers: Option<&AllowedSigners>,
+        hashed: Option<&Message>,
+    ) -> Result<&'a str, SignatureError> {
+        let (namespace, bytes) = (self.signature.namespace(), self.payload.as_bytes());
+        let hashed = hashed.filter(|message| (message.namespace, message.bytes) == (namespace, bytes));
+        let message = hashed.map_or_else(|| Cow::Owned(Message::new(namespace, bytes)), Cow::Borrowed);
         self.signature.verify_message(&message, signers.and_then(|signers| signers.point(self.key())))?;
         Ok(self.payload)
     }
@@ -305,7 +312,7 @@ mod tests {
     fn what_was_joined_is_split_again() {
         let text = signed("a: 1\n");
         let split = SignedText::split("x", text.as_bytes(), &FORM).unwrap();
-        assert_eq!(split.signed_payload(None).unwrap(), "a: 1\n");
+        assert_eq!(split.signed_payload(None, None).unwrap(), "a: 1\n");
     }
 
     #[test]

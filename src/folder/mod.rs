@@ -29,7 +29,7 @@ use crate::files::{self, or_here};
 use crate::passport::checks::for_the_issuer;
 use crate::passport::issue::{Draft, Issue, PreparedStand, Remarks};
 use crate::passport::reissue::{NO_CHANGES, Successor, changes};
-use crate::passport::{Content, Question, Trust, verify};
+use crate::passport::{Content, Trust};
 use crate::register::State;
 use crate::site::Site;
 use crate::stand::{Identity, Stand};
@@ -279,14 +279,11 @@ pub(crate) fn sync_names<'a>(
 /// Signs a passport and verifies it before it is written, as every reader will: one that fails verification is useless.
 /// Returns the text and its SHA-256.
 fn sign(path: &Path, draft: &Draft, signer: &dyn Signer, trust: &Trust) -> Result<(String, String), FolderRefused> {
-    let text = draft.sign_unverified(signer)?;
-    let question = Question::at(draft.content().passport.issued_at);
-    let verification = verify(&name_of(path), text.as_bytes(), trust, &question);
+    let (text, verification) = draft.sign_and_verify(&name_of(path), signer, trust)?;
     if let Some(failed) = verification.failed() {
         let why = for_the_issuer(&failed.detail).to_owned();
         return Err(FolderRefused::NotVerifiable(failed.name.as_str(), why));
     }
-    verification.content_from_anyone().map_or(Ok(()), |content| draft.check_same(content))?;
     Ok((text, verification.sha256().to_owned()))
 }
 

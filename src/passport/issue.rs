@@ -3,6 +3,7 @@
 use super::accuracy::NoAccuracy;
 use super::annotations::{self, Absence, absences, absent};
 use super::content::{Dated, PASSPORT_FORMAT, REFERENCE_GYRO, derive_from, passport_id};
+use super::verification::{Question, Trust, Verification, verify_hashed};
 use super::{Content, Header, NAMESPACE, Predecessor, SelfCheck, Stated, content};
 use crate::attitude::Deviation;
 use crate::calibration::prediction::{NoiseGrowth, noise_growth};
@@ -329,7 +330,7 @@ impl Draft {
     }
 
     /// Checks that the content read is the original.
-    pub(crate) fn check_same(&self, read: &Content) -> Result<(), IssueRefused> {
+    fn check_same(&self, read: &Content) -> Result<(), IssueRefused> {
         if *read == self.content {
             return Ok(());
         }
@@ -356,10 +357,19 @@ impl Draft {
         document::sign(&self.payload, NAMESPACE, signer)
     }
 
-    /// Signs the text. The caller verifies the file, and with it the signature.
-    pub(crate) fn sign_unverified(&self, signer: &dyn Signer) -> Result<String, IssueRefused> {
-        let signature = signer.sign_message(&Message::new(NAMESPACE, self.payload.as_bytes()))?;
-        Ok(document::join(&self.payload, &signature))
+    /// Signs the text and verifies the whole file, at the time of issue, as every reader will; its text is hashed once.
+    pub(crate) fn sign_and_verify(
+        &self,
+        name: &str,
+        signer: &dyn Signer,
+        trust: &Trust,
+    ) -> Result<(String, Verification), IssueRefused> {
+        let message = Message::new(NAMESPACE, self.payload.as_bytes());
+        let text = document::join(&self.payload, &signer.sign_message(&message)?);
+        let question = Question::at(self.content.passport.issued_at);
+        let verification = verify_hashed(name, text.as_bytes(), Some(&message), trust, &question);
+        verification.content_from_anyone().map_or(Ok(()), |content| self.check_same(content))?;
+        Ok((text, verification))
     }
 
     /// Computes remarks on the passport for the factory: noise of a calibration relative to the ideal stand, missing

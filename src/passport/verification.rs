@@ -12,7 +12,7 @@ use crate::document::{OtherSignature, RegisterUsed, SignedText, sha256_hex};
 use crate::earth::Place;
 use crate::text::scalar::day;
 use crate::text::{first_few, printable};
-use crate::trust::{AllowedSigners, NotAuthorised, PublicKey, RevokedKeys};
+use crate::trust::{AllowedSigners, Message, NotAuthorised, PublicKey, RevokedKeys};
 use jiff::Timestamp;
 use std::collections::BTreeSet;
 use std::fmt::Display;
@@ -217,11 +217,22 @@ impl Verification {
 /// `revocation` and `in_force`. Every number is then recomputed, and the requirements of the question are compared. If
 /// the signer is not trusted or the key is revoked, `recomputed`, `in_force` and these requirements are not checked.
 pub fn verify(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> Verification {
+    verify_hashed(name, bytes, None, trust, question)
+}
+
+/// Verifies a passport whose text may have been hashed before, when it was signed.
+pub(crate) fn verify_hashed(
+    name: &str,
+    bytes: &[u8],
+    hashed: Option<&Message>,
+    trust: &Trust,
+    question: &Question,
+) -> Verification {
     let mut run = Run { checks: Vec::new() };
     let (mut key, mut content) = (None, None);
     if let Some(text) = run.grammar(name, bytes) {
         key = Some(text.key().clone());
-        if let Some(payload) = run.signature(&text, trust) {
+        if let Some(payload) = run.signature(&text, hashed, trust) {
             content = run.schema(name, payload).map(Box::new);
             let counts = run.revocation(text.key(), trust);
             if let Some(content) = &content
@@ -277,8 +288,8 @@ impl Run {
         split.ok()
     }
 
-    fn signature<'a>(&mut self, text: &SignedText<'a>, trust: &Trust) -> Option<&'a str> {
-        let payload = text.signed_payload(Some(&trust.signers));
+    fn signature<'a>(&mut self, text: &SignedText<'a>, hashed: Option<&Message>, trust: &Trust) -> Option<&'a str> {
+        let payload = text.signed_payload(Some(&trust.signers), hashed);
         let (code, detail) = match &payload {
             Ok(_) => (Code::Ok, format!("the text has not changed since {} signed it", text.key().fingerprint())),
             Err(error) => (Code::Altered, format!("{error}; get the file from the issuer again")),

@@ -384,7 +384,7 @@ impl VerifiedRegister {
     /// Returns [`RegisterRefused`] if the register is damaged, or if allowed_signers does not give its key to its issuer.
     pub(crate) fn take_over(name: &str, bytes: &[u8], trust: &Trust) -> Result<Self, RegisterRefused> {
         let text = SignedText::split(name, bytes, &FORM).map_err(RegisterRefused::Malformed)?;
-        let payload = text.signed_payload(Some(&trust.signers));
+        let payload = text.signed_payload(Some(&trust.signers), None);
         let payload = payload.map_err(|error| RegisterRefused::Altered(name.to_owned(), error))?;
         let content: Register = document::parse(name, payload, &FORM, Register::check)?;
         let (key, header) = (text.key(), content.header());

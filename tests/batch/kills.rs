@@ -1,6 +1,7 @@
 //! Killed at any moment: every passport that is there verifies, what was reported is there, nothing that was there has
 //! changed, what is listed is there, whole, and stays listed, and the same command again does the rest and clears up.
 
+use crate::programs;
 use crate::workshop::{Passports, SIGN, Said, Workshop};
 use dtg_passport::register::State;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -15,13 +16,19 @@ const STANDS: usize = 3;
 const SITES: usize = 70;
 const PASSPORTS: usize = STANDS * SITES;
 
-/// What a job does: every passport is issued, then issued anew, and then withdrawn.
+/// What a job does: every passport is issued, then issued anew, every register is renewed, the stand `SPS-2/0017` is
+/// certified anew, and then every passport is withdrawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Part {
     Issue,
     Reissue,
+    Renew,
+    Recertify,
     Revoke,
 }
+
+/// A number of passports of the stand that is certified anew.
+const OF_RECERTIFIED: usize = 20;
 
 /// A job that is killed again and again until it is done.
 struct Job {
@@ -31,6 +38,8 @@ struct Job {
     /// What was listed after the last kill.
     listed: BTreeMap<String, State>,
     part: Part,
+    /// Sequences of the registers when this part began.
+    sequences: Vec<u64>,
 }
 
 /// What the kills met.
@@ -50,7 +59,19 @@ impl Job {
             let text = fs::read_to_string(workshop.path(&format!("stands/{number:04}/stand.yaml"))).unwrap();
             workshop.write(&format!("new/{number:04}/stand.yaml"), &text.replace("C-2026-0142", "C-2027-0001"));
         }
-        Self { workshop, known: Passports::new(), listed: BTreeMap::new(), part: Part::Issue }
+        fs::copy(programs::project("docs/header.yaml"), workshop.path("header.yaml")).unwrap();
+        let readings = fs::read_to_string(programs::project("docs/angles.csv")).unwrap();
+        workshop.write("angles.csv", &readings);
+        workshop.write("again.csv", &shifted(&readings));
+        Self { workshop, known: Passports::new(), listed: BTreeMap::new(), part: Part::Issue, sequences: Vec::new() }
+    }
+
+    /// Certifies the stand that is certified anew, and issues its first passports.
+    fn certify(&mut self) {
+        let stand = "passports/SPS-2/0017/stand.yaml";
+        self.workshop.run(&format!("certify angles.csv --stand header.yaml -o {stand}"), 0);
+        self.workshop
+            .run(&format!("issue {stand} --site sites/site-0000*.yaml --site sites/site-0001*.yaml {SIGN}"), 0);
     }
 
     fn arguments(&self) -> String {
@@ -61,6 +82,11 @@ impl Job {
                 let anew = SIGN.replace("2026-11-03", "2026-11-20");
                 format!("reissue passports --stand new --reason recertified {anew} {trust} --format csv")
             }
+            Part::Renew => format!("register passports --renew --key key --identity factory {trust}"),
+            Part::Recertify => format!(
+                "recertify passports/SPS-2/0017/site-00000-1.yaml again.csv --number C-2027-0002 --issued 2026-11-20 \
+                 --issued-at 2026-11-21 --reason recertified --key key --identity factory {trust} --time 2026-11-21"
+            ),
             Part::Revoke => format!("revoke SPS-2/*/*/* --reason wrong --key key --identity factory {trust}"),
         }
     }
@@ -71,8 +97,22 @@ impl Job {
         match self.part {
             Part::Issue => count(State::Current) == PASSPORTS,
             Part::Reissue => self.listed.len() == 2 * PASSPORTS,
-            Part::Revoke => count(State::Withdrawn) == 2 * PASSPORTS,
+            Part::Renew => self.now().iter().zip(&self.sequences).all(|(now, then)| now > then),
+            Part::Recertify => {
+                let stand = fs::read_to_string(self.workshop.path("passports/SPS-2/0017/stand.yaml")).unwrap();
+                self.listed.len() == 2 * PASSPORTS + 2 * OF_RECERTIFIED && stand.contains("C-2027-0002")
+            }
+            Part::Revoke => count(State::Withdrawn) == 2 * PASSPORTS + 2 * OF_RECERTIFIED,
         }
+    }
+
+    /// Sequences of the registers.
+    fn now(&self) -> Vec<u64> {
+        let text =
+            |number| fs::read_to_string(self.workshop.path(&format!("passports/SPS-2/{number:04}/register.yaml")));
+        let texts = (0..STANDS).map(|number| text(number).unwrap());
+        let line = |text: String| text.split_once("sequence: ")?.1.split_once(',')?.0.parse().ok();
+        texts.map(|text| line(text).expect("a sequence")).collect()
     }
 
     /// Runs the job and kills it once so many new files have come and a moment has passed, unless it is done before.
@@ -93,7 +133,7 @@ impl Job {
 
     /// Files in the folders of the stands, temporary ones too.
     fn files(&self) -> usize {
-        let folders = (0..STANDS).map(|number| self.workshop.path(&format!("passports/SPS-2/{number:04}")));
+        let folders = (0..STANDS).chain([17]).map(|number| self.workshop.path(&format!("passports/SPS-2/{number:04}")));
         folders.map(|folder| fs::read_dir(folder).map_or(0, Iterator::count)).sum()
     }
 
@@ -115,7 +155,7 @@ impl Job {
         // The last line may be cut; all others are whole.
         let report = fs::read_to_string(self.workshop.path("report")).unwrap();
         let whole = &report[..report.rfind('\n').map_or(0, |end| end + 1)];
-        let lines = whole.lines().skip(1).filter(|_| self.part != Part::Revoke);
+        let lines = whole.lines().skip(1).filter(|_| matches!(self.part, Part::Issue | Part::Reissue));
         for line in lines {
             let cells: Vec<&str> = line.split(',').collect();
             let [state, id, file, hash, ..] = cells[..] else { panic!("{line}") };
@@ -132,7 +172,7 @@ impl Job {
     /// Not killed, the job is done, and nothing is left over.
     fn finish(&mut self) {
         let said = self.workshop.run(&self.arguments(), 0);
-        if self.part != Part::Revoke {
+        if matches!(self.part, Part::Issue | Part::Reissue) {
             let (done, skipped) = (said.ids("issued").len() + said.ids("unchanged").len(), said.ids("skipped").len());
             assert_eq!(done, PASSPORTS, "{}", said.words);
             assert!(skipped <= PASSPORTS);
@@ -151,9 +191,14 @@ fn kill(kills: usize, seed: u64) -> Accumulator {
     let mut tally = Accumulator::default();
     let mut job = Job::new();
     while tally.kills < kills {
-        // A withdrawal writes nothing but registers.
-        let files = if job.part == Part::Revoke { 1 } else { below(PASSPORTS / 3) };
-        let killed = job.run_and_kill(files, Duration::from_micros(below(5000) as u64));
+        let (files, microseconds) = match job.part {
+            Part::Issue | Part::Reissue => (below(PASSPORTS / 3), below(5000)),
+            // Several files at once.
+            Part::Recertify => (below(OF_RECERTIFIED), below(5000)),
+            // These write nothing but registers.
+            Part::Renew | Part::Revoke => (1, below(5000)),
+        };
+        let killed = job.run_and_kill(files, Duration::from_micros(microseconds as u64));
         tally.kills += usize::from(killed);
         tally.at_work += usize::from(job.check() > 0 && killed);
         tally.leftovers += job.workshop.leftovers("passports").len();
@@ -164,12 +209,31 @@ fn kill(kills: usize, seed: u64) -> Accumulator {
         tally.jobs += 1;
         match job.part {
             Part::Issue => job.part = Part::Reissue,
-            Part::Reissue => job.part = Part::Revoke,
+            Part::Reissue => (job.sequences, job.part) = (job.now(), Part::Renew),
+            Part::Renew => {
+                job.certify();
+                job.part = Part::Recertify;
+            }
+            Part::Recertify => job.part = Part::Revoke,
             Part::Revoke => job = Job::new(),
         }
     }
     job.finish();
     tally
+}
+
+/// Readings i, j, run, α, β, γ of a stand of which position (2, 3) has turned by 6 arcsec, and that differ by up to 0.5
+/// arcsec.
+fn shifted(readings: &str) -> String {
+    let line = |(number, line): (usize, &str)| {
+        let turned = if line.starts_with("2,3,") { 6.0 } else { 0.0 };
+        let cells = line.split(',').enumerate().map(|(column, cell)| match (column, cell.parse::<f64>()) {
+            (3.., Ok(angle)) => format!("{:.3}", angle + turned + ((number * 7 + column * 5) % 13) as f64 / 26.0),
+            _ => cell.to_owned(),
+        });
+        cells.collect::<Vec<_>>().join(",") + "\n"
+    };
+    readings.lines().enumerate().map(line).collect()
 }
 
 #[test]
