@@ -12,6 +12,7 @@ use crate::passport::issue::{Issue, PreparedStand};
 use crate::passport::reissue::{Order, successor};
 use crate::passport::{CheckName, Question, Trust, Verification, verify};
 use crate::report::columns::decimals;
+use crate::report::doc::said;
 use crate::report::style::marked;
 use crate::report::verdict::{self, counts_with_names};
 use crate::report::{Language, Languages, PassportPage};
@@ -262,8 +263,8 @@ impl Stage<'_> {
         match failed {
             None => self.line(&format!(
                 "   {}: {}",
-                verdict::answer(true, answer.checks()),
-                counts_with_names(answer.checks())
+                said(&verdict::answer(true, answer.checks()), Language::English),
+                said(&counts_with_names(answer.checks()), Language::English)
             )),
             Some(check) => {
                 self.line(&format!("   {}: {}: {}", marked(Some(false), "REFUSED"), check.name.as_str(), check.detail))

@@ -3,15 +3,16 @@
 use super::Certification;
 use super::comparison::{CommonTurn, ComparedPosition, Test};
 use super::misread::Misread;
-use super::remark::{advised, arcsec, together};
+use super::remark::{advised, arcsec, in_english, together};
 use super::rotated_runs::{Pattern, RotatedRuns};
 use super::shared_settings::Setting;
 use super::split_run::SplitRun;
 use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
 use crate::coefficients::PositionIndex;
+use crate::wording::Words;
 use crate::wording::number::{Number, Probability};
 use crate::wording::texts::remarks as texts;
-use crate::wording::{Language, Words};
+use crate::wording::words::code;
 use std::fmt::{Display, Formatter};
 
 /// Ratio of the scatter of a check to the certified one above which nothing is decided.
@@ -69,7 +70,7 @@ pub(crate) enum Finding {
 /// The English sentences without the last full stop, with advice: the wording of terminals.
 impl Display for Finding {
     fn fmt(&self, to: &mut Formatter<'_>) -> std::fmt::Result {
-        to.write_str(&advised(&self.words().plain(Language::English), self.advice()))
+        to.write_str(&in_english(&self.advised()))
     }
 }
 
@@ -157,29 +158,36 @@ impl Finding {
     }
 
     /// Returns what to do at a terminal, with the keys and options of files and commands.
-    fn advice(&self) -> Option<String> {
-        let without = |run: u32| format!("Measure the run again, or exclude it with --exclude {run} and --why.");
-        let advice = match self {
-            Self::RotatedRuns(RotatedRuns { pattern: Pattern::One(run), .. }) => return Some(without(*run)),
-            Self::SplitRun(at) => return Some(without(at.run)),
+    fn advice(&self) -> Option<Words> {
+        let without = |run: u32| texts::do_run_again(code(format!("--exclude {run}")), code("--why"));
+        Some(match self {
+            Self::RotatedRuns(RotatedRuns { pattern: Pattern::One(run), .. }) => without(*run),
+            Self::SplitRun(at) => without(at.run),
             Self::Outlier { out: Outlier { index, run, .. }, .. } => {
-                let of_reading = format!("{},{},{run}", index.i, index.j);
-                let words = "Measure the run again, or exclude the reading with --exclude";
-                return Some(format!("{words} {of_reading} and --why."));
+                texts::do_exclude_of_run(code(format!("--exclude {},{},{run}", index.i, index.j)), code("--why"))
             }
-            Self::Misread(misread) => return Some(misread.advice()),
-            Self::Setting(_) => "Check how this angle is set.",
-            Self::Worn(_) => "Check the serial number, and have the stand recertified.",
-            Self::Exchanged(_) => "Check the rows of the readings, and the directions in which theta and phi increase.",
-            Self::ScattersMore { .. } => "Read one position several times without moving the stand to tell which.",
-            Self::RotatedRuns(_) => "Find the cause and measure again.",
-            Self::NotTested(Untested::NumberOfRuns) => "Measure two runs or more.",
-            Self::NotTested(Untested::CommonParts) => "They are common_platform_arcsec and common_base_arcsec.",
-            Self::TreatedAsExact => "The uncertainties are u_alpha_arcsec, u_beta_arcsec and u_gamma_arcsec.",
-            Self::TooClose => "Check this, and measure the stand again.",
+            Self::Misread(misread) => misread.advice(),
+            Self::Setting(_) => texts::DO_CHECK_SETTING.into(),
+            Self::Worn(_) => texts::DO_RECERTIFY.into(),
+            Self::Exchanged(_) => texts::DO_CHECK_ROWS.into(),
+            Self::ScattersMore { .. } => texts::DO_TELL_WHICH.into(),
+            Self::RotatedRuns(_) => texts::DO_FIND_AND_MEASURE.into(),
+            Self::NotTested(Untested::NumberOfRuns) => texts::DO_TWO_RUNS.into(),
+            Self::NotTested(Untested::CommonParts) => {
+                texts::do_common_parts(code("common_platform_arcsec"), code("common_base_arcsec"))
+            }
+            Self::TreatedAsExact => {
+                let [alpha, beta, gamma] = ["u_alpha_arcsec", "u_beta_arcsec", "u_gamma_arcsec"].map(code);
+                texts::do_state_u(alpha, beta, gamma)
+            }
+            Self::TooClose => texts::DO_CHECK_AND_MEASURE.into(),
             _ => return None,
-        };
-        Some(advice.to_owned())
+        })
+    }
+
+    /// Returns the finding and what to do, as a terminal says it.
+    pub(crate) fn advised(&self) -> Words {
+        advised(self.words(), self.advice())
     }
 
     /// Returns `true` for readings that are not a new measurement, with which nothing is decided.

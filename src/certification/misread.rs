@@ -11,6 +11,17 @@ use nalgebra::Vector3;
 const NEAR_AN_ARCSECOND: [Misread; 2] =
     [Misread::Smaller(3.6, "millidegrees"), Misread::SmallerUnit(4.848_136_811, "microradians")];
 
+/// Returns the name of a unit in every language.
+fn unit_words(unit: &str) -> Words {
+    match unit {
+        "millidegrees" => texts::MILLIDEGREES.into(),
+        "microradians" => texts::MICRORADIANS.into(),
+        "arcminutes" => texts::ARCMINUTES.into(),
+        "degrees" => texts::DEGREES.into(),
+        _ => texts::MILLIRADIANS.into(),
+    }
+}
+
 /// Way in which all angles of a file differ from those of the certificate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Misread {
@@ -76,12 +87,12 @@ impl Misread {
         }
     }
 
-    pub(super) fn advice(&self) -> String {
+    pub(super) fn advice(&self) -> Words {
         match self {
-            Self::Smaller(_, unit) | Self::SmallerUnit(_, unit) => format!("Convert them from {unit} to arcseconds."),
-            Self::Larger(_, unit) => format!("Convert them from {unit} to arcseconds only once."),
-            Self::Sign => "Correct the sign.".to_owned(),
-            Self::Axes(_) => "Put the angles into their columns, with their signs.".to_owned(),
+            Self::Smaller(_, unit) | Self::SmallerUnit(_, unit) => texts::do_convert(unit_words(unit)),
+            Self::Larger(_, unit) => texts::do_convert_once(unit_words(unit)),
+            Self::Sign => texts::DO_SIGN.into(),
+            Self::Axes(_) => texts::DO_COLUMNS.into(),
         }
     }
 }

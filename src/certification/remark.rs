@@ -13,6 +13,7 @@ use crate::statistics::outlier::Bartlett;
 use crate::text::number::decimals;
 use crate::wording::number::{Number, Probability};
 use crate::wording::texts::remarks as texts;
+use crate::wording::words::code;
 use crate::wording::{Language, Words, plain};
 use jiff::civil::Date;
 use std::fmt::{Display, Formatter};
@@ -65,7 +66,7 @@ impl Display for Remark {
     fn fmt(&self, to: &mut Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Odd(odd) => odd.fmt(to),
-            _ => to.write_str(&advised(&self.words().plain(Language::English), self.advice())),
+            _ => to.write_str(&in_english(&self.advised())),
         }
     }
 }
@@ -176,45 +177,53 @@ impl Remark {
     }
 
     /// Returns what to do at a terminal, with the keys and options of files and commands.
-    fn advice(&self) -> Option<String> {
+    fn advice(&self) -> Option<Words> {
         Some(match self {
-            Self::WorseGroup(_) => "Find the cause.".to_owned(),
+            Self::WorseGroup(_) => texts::DO_FIND.into(),
             Self::Outlier(out) => {
                 let Outlier { index, run, .. } = out;
-                format!("Measure it again, or exclude it with --exclude {},{},{run} and --why.", index.i, index.j)
+                texts::do_exclude_reading(code(format!("--exclude {},{},{run}", index.i, index.j)), code("--why"))
             }
             Self::RotatedRuns(at) => match at.pattern {
                 Pattern::One(run) => without_run(run),
-                Pattern::Move(_, after) => format!(
-                    "Find the cause and measure again, or certify the runs from {after} on by themselves: exclude each \
-                     earlier one with --exclude and --why."
-                ),
-                Pattern::Drift => "Find the cause and measure again.".to_owned(),
+                Pattern::Move(_, after) => texts::do_certify_later_runs(after, code("--exclude"), code("--why")),
+                Pattern::Drift => texts::DO_FIND_AND_MEASURE.into(),
             },
             Self::SplitRun(at) => without_run(at.run),
-            Self::RunAxesDiffer(at) => format!(
-                "State a line of type_b that acts on the {}, of {}″, or find the cause and measure again.",
-                at.axis.part(),
-                arcsec(at.missing_arcsec).text(Language::English)
-            ),
-            Self::SharedSetting(_) => "Measure again.".to_owned(),
-            Self::BaseAxes(0) => "Therefore common_base_arcsec is absent.".to_owned(),
-            Self::NotDated => "State performed in the header, or --performed of `recertify`.".to_owned(),
-            Self::NoExpiry(_) => "State it with --valid-until.".to_owned(),
-            Self::Rounding { .. } => "Record more digits.".to_owned(),
+            Self::RunAxesDiffer(at) => {
+                let of_base = at.axis.is_of_the_base();
+                let state = if of_base { texts::do_state_type_b_base } else { texts::do_state_type_b_platform };
+                state(code("type_b"), arcsec(at.missing_arcsec))
+            }
+            Self::SharedSetting(_) => texts::DO_MEASURE.into(),
+            Self::BaseAxes(0) => texts::do_without_base(code("common_base_arcsec")),
+            Self::NotDated => texts::do_date(code("performed"), code("--performed"), code("`recertify`")),
+            Self::NoExpiry(_) => texts::do_expiry(code("--valid-until")),
+            Self::Rounding { .. } => texts::DO_DIGITS.into(),
             _ => return None,
         })
     }
+
+    /// Returns the remark and what to do, as a terminal says it; an implausible value with its key in English.
+    pub(crate) fn advised(&self) -> Words {
+        let advised = advised(self.words(), self.advice());
+        if let Self::Odd(_) = self { Words::OfLibrary(format!("{self}."), Box::new(advised)) } else { advised }
+    }
 }
 
-/// Returns sentences and what to do, without the last full stop, as terminals write them.
-pub(super) fn advised(words: &str, advice: Option<String>) -> String {
-    let said = plain(words) + &advice.map_or_else(String::new, |advice| format!(" {advice}"));
-    said.trim_end_matches('.').to_owned()
+/// Returns sentences and what to do.
+pub(super) fn advised(words: Words, advice: Option<Words>) -> Words {
+    let advice = advice.into_iter().flat_map(|advice| [" ".into(), advice]);
+    Words::All([words].into_iter().chain(advice).collect())
 }
 
-fn without_run(run: u32) -> String {
-    format!("Find the cause, then measure the run again, or exclude it with --exclude {run} and --why.")
+/// Returns sentences in English without the last full stop.
+pub(super) fn in_english(words: &Words) -> String {
+    plain(&words.plain(Language::English)).trim_end_matches('.').to_owned()
+}
+
+fn without_run(run: u32) -> Words {
+    texts::do_exclude_run(code(format!("--exclude {run}")), code("--why"))
 }
 
 /// Returns an angle in arcseconds, whole or with two significant digits.

@@ -1,7 +1,7 @@
 //! The arguments: completed from the environment and the workspace, and parsed. What cannot be parsed is reported here.
 
 use super::failure::Failure;
-use super::{Cli, UNUSABLE, defaults, help, output};
+use super::{Cli, UNUSABLE, defaults, help, lang, output};
 use crate::text::{printable, shown};
 use crate::workspace::WORKSPACE_FILE;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -31,6 +31,7 @@ pub(super) fn parse(mut arguments: Vec<OsString>) -> Result<Parsed, ExitCode> {
     };
     let parsed = |arguments: &[OsString]| {
         let matches = help::command().try_get_matches_from(arguments)?;
+        lang::set(&matches);
         Ok((Cli::from_arg_matches(&matches)?, asks_for_json(&matches)))
     };
     let error: clap::Error = match parsed(&arguments) {

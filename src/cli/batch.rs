@@ -1,6 +1,7 @@
 //! Common part of `issue` and `reissue`: running a batch and reporting its progress.
 
 use super::key_options::{IssuerOptions, Keys};
+use super::lang::{self, Lang};
 use super::{Code, Failure, REFUSED, UNUSABLE, long_run, output};
 use crate::batch::shard::Shard;
 use crate::batch::{Batch, Event, Listener, Outcome};
@@ -34,6 +35,8 @@ pub(super) struct BatchOptions {
     /// Number of threads [default: one for each processor]
     #[arg(short = 'j', long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
+    #[command(flatten)]
+    _lang: Lang,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Form,
@@ -122,8 +125,8 @@ impl Reporter {
         bar.set_draw_target(ProgressDrawTarget::hidden());
         let out = if form == Form::Text { output::text } else { output::result };
         Ok(Self {
-            reports: Reports::new(form),
-            told: Told::default(),
+            reports: Reports::new(form, lang::of_text()),
+            told: Told::new(lang::of_text()),
             held: Vec::new(),
             bar,
             code: 0,
@@ -142,7 +145,10 @@ impl Reporter {
                 self.bar.inc_length(more);
             }
             Event::Lost(less) => self.bar.dec_length(less),
-            Event::Remark { file, words } => self.told.add(&file, words),
+            Event::Remark { file, words } => {
+                let is_warning = words.starts_with("WARNING: ");
+                self.told.add(&file, words, is_warning);
+            }
             Event::Done(outcome) => {
                 // An input that cannot be used is not one of the passports.
                 let is_input = matches!(&outcome, Some(Outcome::Failed(failure)) if failure.passports.is_some());

@@ -1,7 +1,7 @@
 //! Verb `calibrate`: the gyro's parameters from a passport and currents, or those of several gyros.
 
 use super::inputs::{self, AdministrativeFile, Each};
-use super::render::languages;
+use super::lang::{self, Lang};
 use super::show::{Read, Whom};
 use super::trust_options::{Enquiry, date};
 use super::{Code, Failure, Format, REFUSED, defaults, exclusion, output, uncertainty};
@@ -25,7 +25,7 @@ use crate::laboratory::{Laboratory, TEMPERATURES_C};
 use crate::passport::{Check, Verification};
 use crate::report::calibration as report;
 use crate::report::gyros::{self, Gyros};
-use crate::report::{CalibrationPage, Language, PassportPage, UsedPassport};
+use crate::report::{CalibrationPage, PassportPage, UsedPassport};
 use crate::report::{issued, style};
 use crate::text::{Kind, Printable, name_of, printable, shown};
 use crate::wording::plain;
@@ -125,10 +125,8 @@ pub(super) struct Options {
     /// Print all that the report has: risks, residuals, the paper's methods and what the residuals do not show
     #[arg(long)]
     details: bool,
-    /// Language of the text, and languages of --report and --dcc; the first sets the number format: en, ru, or en,ru for both
-    /// side by side
-    #[arg(long, value_enum, value_delimiter = ',', default_value = "en", value_name = "LANGUAGE")]
-    lang: Vec<Language>,
+    #[command(flatten)]
+    lang: Lang,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -273,11 +271,6 @@ impl Bench<'_> {
         Ok(Found { currents: (name, sha256_hex(&bytes)), done, uncertainty })
     }
 
-    /// Returns the language of the text: the first of those of the report.
-    fn language(&self) -> Language {
-        languages(&self.options.lang).first()
-    }
-
     fn one(&self, path: &Path) -> Result<Code, Failure> {
         let options = self.options;
         // Nothing is written if one of the files cannot be.
@@ -303,12 +296,12 @@ impl Bench<'_> {
             Format::Json => {
                 report::doubts(done, trials)
                     .iter()
-                    .for_each(|doubt| output::complain(&plain(&doubt.plain(self.language()))));
+                    .for_each(|doubt| output::complain(&plain(&doubt.plain(lang::of_text()))));
                 output::json(&found.whole())?;
             }
             Format::Text => {
                 let of = report::Report::of(done, self.gyro_type.as_ref(), &self.previous, options.details);
-                let (language, checks) = (self.language(), self.checks());
+                let (language, checks) = (lang::of_text(), self.checks());
                 let how = report::Said { language, meter_assumed: options.laboratory.is_none(), checks };
                 let text = report::text(done, trials, &of, &how);
                 output::text(&(text + &found.uncertainty.text(self.gyro_type.as_ref(), &done.document, language)))?;
@@ -326,7 +319,7 @@ impl Bench<'_> {
         }
         let mut written = HashMap::new();
         let mut calibrated = Once::new();
-        let (mut all, mut failed) = (Gyros::new(self.language()), Vec::new());
+        let (mut all, mut failed) = (Gyros::new(lang::of_text()), Vec::new());
         let calibrate = |path: &Path| {
             let found = self.calibrate(path)?;
             calibrated
@@ -336,7 +329,7 @@ impl Bench<'_> {
                 self.write(folder, path, &found, &mut written)?;
             }
             let trials = found.uncertainty.monte_carlo.as_ref();
-            let text = gyros::line(&found.currents.0, &found.done, trials, self.gyro_name(), self.language());
+            let text = gyros::line(&found.currents.0, &found.done, trials, self.gyro_name(), lang::of_text());
             let result = serde_json::to_value(found.whole()).map_err(Failure::unusable)?;
             all.add(&found.done, self.gyro_name(), self.checks());
             Ok(((Line { file: found.currents.0.clone(), result }, text), found.code()))
@@ -414,14 +407,14 @@ impl Bench<'_> {
             monte_carlo: found.uncertainty.monte_carlo.as_ref(),
             details: self.options.details,
         };
-        Ok(page.html(&languages(&self.options.lang)))
+        Ok(page.html(&self.options.lang.languages()))
     }
 
     fn dcc(&self, done: &Done) -> Result<String, Failure> {
         let laboratory = self.options.laboratory.is_some().then_some(&self.laboratory);
         let sha256 = sha256_hex(&self.passport.bytes);
         let calibrated = Calibrated::new(&self.passport.content, &sha256, laboratory, self.gyro_type.as_ref(), done);
-        let (calibrated, languages) = (calibrated.map_err(Failure::refused)?, languages(&self.options.lang));
+        let (calibrated, languages) = (calibrated.map_err(Failure::refused)?, self.options.lang.languages());
         let dcc = dcc::of_gyro(&calibrated, self.administrative.content.as_ref(), Some(&languages));
         Ok(dcc.map_err(|problems| self.administrative.refuse(problems))?.xml)
     }

@@ -2,7 +2,7 @@
 
 use super::diff::past;
 use super::exclusion::ExclusionOptions;
-use super::render::languages;
+use super::lang::{self, Lang};
 use super::trust_options::OptionalTrust;
 use super::{Code, Failure, Format, REFUSED, defaults, inputs, output};
 use crate::batch::once::Once;
@@ -13,8 +13,8 @@ use crate::folder::Folder;
 use crate::folder::archive::Superseded;
 use crate::passport::content::claims_to_be_a_passport;
 use crate::passport::difference::of_deviations;
-use crate::report::Language;
 use crate::report::certification as report;
+use crate::report::doc::{self, Block};
 use crate::report::page::certification::CertificationPage;
 use crate::stand::Stand;
 use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, Printable, name_of, shown};
@@ -64,9 +64,8 @@ pub(super) struct Options {
     /// FILE.pdf is printed by an installed Chromium, Chrome or Edge
     #[arg(long, value_name = "FILE.html", value_parser = output::path_of(output::PAGE))]
     report: Option<PathBuf>,
-    /// Languages of the record; the first sets the number format
-    #[arg(long, value_enum, value_delimiter = ',', default_value = "en", value_name = "LANGUAGE")]
-    lang: Vec<Language>,
+    #[command(flatten)]
+    lang: Lang,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -124,7 +123,7 @@ fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
         let path = folder.stand_file(stand);
         folder.check_place(&path).map_err(Failure::refused)?;
         write(&path, &certified, &[], options.force)?;
-        let text = report::line(&certified, &name_of(&path));
+        let text = doc::typed(&report::line(&certified, &name_of(&path)), lang::of_text());
         let result = report::to_json(Some(&certified), None, None);
         Ok(((Line { file: name, stand_file: name_of(&path), result }, text), 0))
     };
@@ -195,7 +194,7 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
         let change = comparison.as_ref().zip(against.as_ref());
         let change = change.map(|(comparison, old)| (comparison, of_deviations(old, &certified.stand)));
         let page = CertificationPage { certification: certified, readings: (&name, &bytes), change, dry_run: false };
-        Ok::<_, Failure>((path, output::page(path, page.html(&languages(&options.lang)), options.force)?))
+        Ok::<_, Failure>((path, output::page(path, page.html(&options.lang.languages()), options.force)?))
     });
     // Nothing is written if the record cannot be.
     let page = page.transpose()?;
@@ -213,14 +212,15 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
     if let Some((path, page)) = &page {
         output::saved_too(path, page, options.force)?;
     }
-    let as_text = || {
+    let document = || {
         let shown = certified.as_ref().filter(|_| options.output.is_some()).map(report::certification);
-        let compared = comparison.as_ref().map(report::check);
+        let compared = comparison.as_ref().map(|found| report::comparison(found, true));
         // Whether the stand has changed comes first: it decides whether the new certificate is of any use.
-        compared.into_iter().chain(shown).collect::<Vec<_>>().join("\n")
+        let between = (compared.is_some() && shown.is_some()).then(|| vec![Block::Typed("\n".to_owned())]);
+        [compared, between, shown].into_iter().flatten().flatten().collect()
     };
     let as_json = || report::to_json(certified.as_ref(), refused.as_ref(), comparison.as_ref());
-    options.format.write(as_json, as_text)?;
+    options.format.show(as_json, document)?;
     Ok(if comparison.is_some_and(|comparison| !comparison.same_stand) { REFUSED } else { 0 })
 }
 

@@ -130,6 +130,8 @@ fn values(workspace: Option<&Workspace>, verb: &str) -> impl Iterator<Item = Add
         ("--register-key", true, stated(|workspace| workspace.register_key.clone().map(Into::into))),
         // `register` has its folder without an option.
         ("--passports", verb != "register", passports()),
+        // The file of a DCC states its language.
+        ("--lang", verb != "export", stated(|workspace| workspace.lang.map(|language| language.tag().into()))),
         // Otherwise a passport that the workspace itself withdrew could be used in it.
         ("--register", true, passports()),
     ];

@@ -1,5 +1,6 @@
 //! Verb `diff`: two passports, number by number.
 
+use super::lang::Lang;
 use super::trust_options::{Enquiry, TrustAmong};
 use super::{Code, Failure, Format, defaults, inputs, output};
 use crate::document::sha256_hex;
@@ -20,6 +21,8 @@ pub(super) struct Options {
     b: PathBuf,
     #[command(flatten)]
     trust: TrustAmong,
+    #[command(flatten)]
+    _lang: Lang,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -30,7 +33,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let a = past(&options.a, &enquiry)?;
     let b = past(&options.b, &enquiry)?;
     let found = Differences::of(&a.content, &b.content);
-    options.format.write(|| difference::to_json(&a, &b, &found), || difference::text(&a, &b, &found))?;
+    options.format.show(|| difference::to_json(&a, &b, &found), || difference::document(&a, &b, &found))?;
     Ok(0)
 }
 
@@ -41,7 +44,7 @@ pub(super) fn past(path: &Path, enquiry: &Enquiry) -> Result<Side, Failure> {
     let file = name_of(path);
     let verification = enquiry.verification(&file, &bytes);
     let Some(content) = verification.content_even_if_past().cloned() else {
-        return Err(Failure::verdict("", &file, &verification));
+        return Err(Failure::verdict("", &file, &verification, &enquiry.question));
     };
     for check in verification.checks().iter().filter(|check| check.passed() == Some(false)) {
         output::say(&format!("{}: {}", printable(&file), check.detail));

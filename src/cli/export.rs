@@ -1,7 +1,7 @@
 //! Verb `export`: verified passports in other forms: stand and site files, JSON, and a DCC.
 
 use super::inputs::{self, AdministrativeFile, Each};
-use super::render::languages;
+use super::lang::Lang;
 use super::trust_options::{Enquiry, TrustAmong};
 use super::{Code, Failure, Format, REFUSED, UNUSABLE, defaults, output};
 use crate::batch::{Purpose, paths};
@@ -14,7 +14,7 @@ use crate::interface::Failed;
 use crate::parallel;
 use crate::passport::export::{site_file, stand_file};
 use crate::passport::{Content, Verification};
-use crate::report::{Language, exported};
+use crate::report::exported;
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, printable, shown};
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
@@ -45,9 +45,8 @@ pub(super) struct Options {
     /// Administrative data of the DCC that no passport states (dtg-dcc/1); `new dcc` writes a template
     #[arg(long, value_name = "FILE")]
     administrative: Option<PathBuf>,
-    /// Languages of the DCC: en, ru, or en,ru for both [default: the language in FILE, or en]
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "LANGUAGE")]
-    lang: Vec<Language>,
+    #[command(flatten)]
+    lang: Lang,
     /// Replace existing files
     #[arg(long)]
     force: bool,
@@ -69,7 +68,7 @@ enum Form {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    if !options.to.contains(&Form::Dcc) && (options.administrative.is_some() || !options.lang.is_empty()) {
+    if !options.to.contains(&Form::Dcc) && (options.administrative.is_some() || options.lang.stated().is_some()) {
         return Err(Failure::usage("--administrative and --lang are for a DCC; add --to dcc, or omit them"));
     }
     let enquiry = options.trust.load()?;
@@ -181,7 +180,7 @@ impl Run<'_> {
             files.push((stand.with_file_name(name), json.to_owned()));
         }
         if self.options.to.contains(&Form::Dcc) {
-            let lang = (!self.options.lang.is_empty()).then(|| languages(&self.options.lang));
+            let lang = self.options.lang.stated();
             let dcc = dcc::of_stand(content, bytes, self.administrative.content.as_ref(), lang.as_ref());
             let dcc = dcc.map_err(|problems| self.administrative.refuse(problems))?;
             files.push((root.join(dcc.file_name()), dcc.xml));
@@ -194,7 +193,12 @@ impl Run<'_> {
         let Exported { path, verification, files, unread, line } = exported;
         let name = name_of(path);
         if !verification.valid() {
-            let failure = Failure::verdict(&format!("nothing was exported from {}", shown(path)), &name, verification);
+            let failure = Failure::verdict(
+                &format!("nothing was exported from {}", shown(path)),
+                &name,
+                verification,
+                &self.enquiry.question,
+            );
             let failure = Failure { code: if *unread { UNUSABLE } else { REFUSED }, ..failure };
             return self.failed(name, failure, line.is_some());
         }

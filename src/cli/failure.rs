@@ -1,11 +1,11 @@
 //! Failure of a verb: the message and an exit code for people, and the same as JSON for programs.
 
-use super::{Code, REFUSED, UNUSABLE, defaults, output};
+use super::{Code, REFUSED, UNUSABLE, defaults, lang, output};
 use crate::files::FileError;
 use crate::folder::Folder;
 use crate::interface::{self, Failed, Place};
-use crate::passport::{Check, Verification};
-use crate::report::{issued, style, verdict};
+use crate::passport::{Check, Question, Verification};
+use crate::report::{doc, issued, style, verdict};
 use crate::text::{Unreadable, name_of, shown};
 use std::path::Path;
 use std::process::ExitCode;
@@ -110,13 +110,14 @@ impl Failure {
     }
 
     /// Creates the failure for the passport `name`, which did not pass every check; `words` follow its verdict.
-    pub(super) fn verdict(words: &str, name: &str, verification: &Verification) -> Self {
+    pub(super) fn verdict(words: &str, name: &str, verification: &Verification, question: &Question) -> Self {
         let verdict = verdict::Verdict::of(name, verification, &[]);
         let failed: Vec<_> = verdict.checks.iter().filter(|check| check.passed() == Some(false)).collect();
         let kind = failed.first().map_or(interface::REFUSED, |check| check.code.as_str());
         let place = |check: &&Check| Place::file(name.to_owned(), format!("{}: {}", check.name.as_str(), check.detail));
         let problems = failed.iter().map(place).collect();
-        let words = style::plain(&verdict::text(&verdict)) + words;
+        let words =
+            style::plain(&doc::typed(&verdict::document(&verdict, verification, question), lang::of_text())) + words;
         Self { failed: Failed::new(kind, words.trim_end().to_owned(), problems), code: REFUSED, is_verdict: true }
     }
 }

@@ -47,8 +47,9 @@ fn with_sections(command: Command) -> Command {
     })
 }
 
-/// Help of options of trust that a verb uses for something else than to verify a passport, or not at all.
-const OTHER_HELP: [(&str, &str, &str); 6] = [
+/// Help of options that a verb uses for something else than others do, or not at all.
+const OTHER_HELP: [(&str, &str, &str); 7] = [
+    ("export", "lang", "Languages of the DCC: en, ru, or en,ru for both [default: the language in FILE, or en]"),
     ("register", "issuer", "Only passports of this issuer"),
     ("register", "serial", "Only passports of stands with this serial number"),
     ("register", "at", "Only passports for this place: latitude and longitude in degrees, north and east positive"),

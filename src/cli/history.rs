@@ -1,5 +1,6 @@
 //! Verb `history`: one stand over the years.
 
+use super::lang::Lang;
 use super::register::refuse_file;
 use super::trust_options::TrustOptions;
 use super::{Code, Failure, Format, code, defaults, output};
@@ -30,6 +31,8 @@ pub(super) struct Options {
     /// Replace an existing picture
     #[arg(long)]
     force: bool,
+    #[command(flatten)]
+    _lang: Lang,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -69,6 +72,6 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if let Some(path) = &options.output {
         output::saved_too(path, picture::history(&history, question.time), options.force)?;
     }
-    options.format.write(|| report::to_json(&history), || report::text(&history))?;
+    options.format.show(|| report::to_json(&history), || report::document(&history))?;
     Ok(code(is_incomplete, false))
 }

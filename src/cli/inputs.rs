@@ -1,6 +1,6 @@
 //! Input files of the verbs: documents read, and several inputs of which one that fails does not stop the others.
 
-use super::{Code, Failure, Format, output};
+use super::{Code, Failure, Format, lang, output};
 use crate::batch::catalogue::Listed as _;
 use crate::batch::{Purpose, paths};
 use crate::dcc::Administrative;
@@ -13,7 +13,7 @@ use crate::site::Site;
 use crate::stand::Stand;
 use crate::text::problem::MISSING;
 use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, Printable, Problems, Unreadable, name_of, printable, shown};
-use crate::wording::{Language, plain};
+use crate::wording::plain;
 use serde::Serialize;
 use std::ops::RangeBounds;
 use std::path::{Path, PathBuf};
@@ -53,7 +53,7 @@ pub(super) fn site(path: &Path) -> Result<Site, Failure> {
 
 pub(super) fn gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
     let gyro_type = path.map(|path| document(path, Kind::Gyro.words(), GyroType::from_yaml)).transpose()?;
-    gyro_type.iter().flat_map(|gyro| gyro.remarks(Language::English)).for_each(|words| output::warn(&plain(&words)));
+    gyro_type.iter().flat_map(|gyro| gyro.remarks(lang::of_text())).for_each(|words| output::warn(&plain(&words)));
     Ok(gyro_type)
 }
 
@@ -61,7 +61,7 @@ pub(super) fn gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
 pub(super) fn laboratory(path: Option<&Path>) -> Result<Laboratory, Failure> {
     let Some(path) = path else { return Ok(Laboratory::paper()) };
     let laboratory = document(path, Kind::Laboratory.words(), Laboratory::from_yaml)?;
-    laboratory.remarks(Language::English).iter().for_each(|words| output::warn(&plain(words)));
+    laboratory.remarks(lang::of_text()).iter().for_each(|words| output::warn(&plain(words)));
     Ok(laboratory)
 }
 
@@ -164,7 +164,9 @@ pub(super) fn json_line(value: &impl Serialize) -> Result<(), Failure> {
 pub(super) fn print<T: Serialize>(result: &Each<(T, String)>, format: Format) -> Result<(), Failure> {
     match (format, result) {
         (Format::Text, Each::Done((_, text))) => output::text(text),
-        (Format::Text, Each::Refused { file, refusal }) => output::text(&issued::failed_line(file, refusal)),
+        (Format::Text, Each::Refused { file, refusal }) => {
+            output::text(&issued::failed_line(file, refusal, lang::of_text()))
+        }
         (Format::Json, Each::Done((value, _))) => json_line(value),
         (Format::Json, refused @ Each::Refused { .. }) => json_line(refused),
     }

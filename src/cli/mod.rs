@@ -22,6 +22,7 @@ mod inputs;
 mod issue;
 mod key_options;
 mod keygen;
+mod lang;
 mod long_run;
 mod man;
 mod new;

@@ -1,8 +1,9 @@
 //! Output: results to standard output, messages to standard error. A closed pipe is not an error.
 
-use super::{Failure, long_run};
+use super::{Failure, lang, long_run};
 use crate::files::{self, FileError};
 use crate::pdf;
+use crate::report::doc::{self, Block};
 use crate::report::{columns, style};
 use crate::text::{excerpt, printable, shown};
 use clap::ValueEnum;
@@ -33,6 +34,20 @@ impl Format {
             Self::Text => text(&as_text()),
         }
     }
+
+    /// Writes a document for people, or its JSON.
+    pub(super) fn show<T: Serialize>(
+        self,
+        as_json: impl FnOnce() -> T,
+        composed: impl FnOnce() -> Vec<Block>,
+    ) -> Result<(), Failure> {
+        self.write(as_json, || doc::typed(&composed(), lang::of_text()))
+    }
+}
+
+/// Writes a document for people.
+pub(super) fn document(blocks: &[Block]) -> Result<(), Failure> {
+    text(&doc::typed(blocks, lang::of_text()))
 }
 
 /// Names of formats that are not written: a viewer would not open such a file.

@@ -1,5 +1,6 @@
 //! Verb `plan`: the best positions to certify, or of a certified stand's positions to read, and their order.
 
+use super::lang::Lang;
 use super::{Code, Failure, Format, defaults, inputs, output};
 use crate::gyro::GyroType;
 use crate::plan::candidates::Angles;
@@ -38,6 +39,8 @@ pub(super) struct Options {
     /// largest u/tolerance (worst)
     #[arg(long, value_enum, value_name = "WHICH", default_value = "a")]
     criterion: Criterion,
+    #[command(flatten)]
+    _lang: Lang,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -94,7 +97,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     }
     let of_site = site.frame_axis_azimuth_deg();
     let assumed = [options.gyro.is_none(), options.laboratory.is_none()];
-    let as_text = || report::text(&found, (site.id.as_str(), of_site), &gyro.r#type, assumed);
-    options.format.write(|| &found, as_text)?;
+    let document = || report::document(&found, (site.id.as_str(), of_site), &gyro.r#type, assumed);
+    options.format.show(|| &found, document)?;
     Ok(0)
 }

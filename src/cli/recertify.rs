@@ -2,7 +2,7 @@
 
 use super::exclusion::ExclusionOptions;
 use super::key_options::{IssuerOptions, refuse_distrusted};
-use super::render::languages;
+use super::lang::{self, Lang};
 use super::trust_options::{self, TrustOptions};
 use super::{Code, Failure, Format, defaults, inputs, long_run, output};
 use crate::batch::Outcome;
@@ -11,7 +11,6 @@ use crate::certification::{Certification, Comparison, Header};
 use crate::files;
 use crate::passport::difference::NumberDifference;
 use crate::passport::issue::time_of_issue;
-use crate::report::Language;
 use crate::report::issued::Told;
 use crate::report::page::certification::CertificationPage;
 use crate::report::recertification as report;
@@ -74,9 +73,8 @@ pub(super) struct Options {
     /// by an installed Chromium, Chrome or Edge
     #[arg(long, value_name = "FILE.html", value_parser = output::path_of(output::PAGE))]
     report: Option<PathBuf>,
-    /// Languages of the record; the first sets the number format
-    #[arg(long, value_enum, value_delimiter = ',', default_value = "en", value_name = "LANGUAGE")]
-    lang: Vec<Language>,
+    #[command(flatten)]
+    lang: Lang,
     /// Replace an existing record
     #[arg(long)]
     force: bool,
@@ -114,7 +112,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         let Some(path) = &options.report else { return Ok(()) };
         let change = Some((comparison, changes.to_vec()));
         let page = CertificationPage { certification, readings: (&name, &bytes), change, dry_run };
-        record.replace(Some((path, output::page(path, page.html(&languages(&options.lang)), options.force)?)));
+        record.replace(Some((path, output::page(path, page.html(&options.lang.languages()), options.force)?)));
         Ok(())
     };
     let order = Recertification {
@@ -140,8 +138,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if let Some((path, page)) = record.take() {
         output::saved_too(path, page, options.force)?;
     }
-    options.format.write(|| report::to_json(&found, dry_run), || report::text(&found, dry_run))?;
-    let mut told = Told::default();
+    options.format.show(|| report::to_json(&found, dry_run), || report::document(&found, dry_run))?;
+    let mut told = Told::new(lang::of_text());
     found.passports.iter().filter_map(Outcome::remarks).for_each(|(id, remarks)| told.add_all(id, remarks));
     told.lines(output::is_quiet()).iter().for_each(|line| output::complain(line));
     keys.say_without_register();

@@ -1,6 +1,7 @@
 //! Verb `register`: the passports in a folder by their registers, and the renewal of registers.
 
 use super::key_options::IssuerOptions;
+use super::lang::Lang;
 use super::trust_options::{TrustOptions, date};
 use super::{Code, Failure, code, defaults, output};
 use crate::folder::overview::{Overview, Query};
@@ -48,6 +49,8 @@ pub(super) struct Options {
     renew: bool,
     #[command(flatten)]
     renewal: RenewalOptions,
+    #[command(flatten)]
+    _lang: Lang,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Form,
@@ -149,7 +152,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         By::Issuer => overview.stands.sort_by(|a, b| a.issuer.cmp(&b.issuer)),
     }
     match options.format {
-        Form::Text => output::text(&report::text(&overview, listed))?,
+        Form::Text => output::document(&report::document(&overview, listed))?,
         Form::Json => output::json(&overview)?,
         Form::Csv => output::result(&report::csv(&overview))?,
     }
@@ -183,7 +186,7 @@ fn renew(options: &Options, folder: &Path) -> Result<Code, Failure> {
     let dry_run = options.renewal.keys.dry_run;
     match options.format {
         Form::Json => output::json(&report::renewed_json(&renewed))?,
-        _ => output::text(&report::renewed(&renewed, dry_run))?,
+        _ => output::document(&[report::renewed(&renewed, dry_run)])?,
     }
     Ok(0)
 }

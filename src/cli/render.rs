@@ -1,10 +1,11 @@
 //! Verb `render`: the printed form of a verified passport.
 
+use super::lang::{self, Lang};
 use super::trust_options::TrustAmong;
 use super::{Code, Failure, Format, defaults, inputs, output};
 use crate::batch::Purpose;
 use crate::folder::Folder;
-use crate::report::{Language, Languages, PassportPage, style, verdict};
+use crate::report::{PassportPage, doc, style, verdict};
 use crate::text::{Kind, name_of, shown};
 use clap::Args;
 use serde::Serialize;
@@ -26,9 +27,8 @@ pub(super) struct Options {
     out: Option<PathBuf>,
     #[command(flatten)]
     trust: TrustAmong,
-    /// Page languages; the first sets the number format: en, ru, or en,ru for both side by side
-    #[arg(long, value_enum, value_delimiter = ',', default_value = "en", value_name = "LANGUAGE")]
-    lang: Vec<Language>,
+    #[command(flatten)]
+    lang: Lang,
     /// Print the signed file verbatim too; the page has it for the screen and as a download in any case
     #[arg(long)]
     annex: bool,
@@ -51,13 +51,6 @@ struct Rendered {
     verdict: verdict::Verdict,
 }
 
-/// Returns the languages of a page: English if none is specified.
-pub(super) fn languages(written: &[Language]) -> Languages {
-    let mut languages = written.iter().copied();
-    let first = languages.next().unwrap_or(Language::English);
-    Languages::new(first, languages)
-}
-
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let enquiry = options.trust.load()?;
     let folder = options.out.as_deref().map(Folder::new);
@@ -65,17 +58,18 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         let bytes = inputs::bytes(passport, Kind::Passport.words())?;
         let name = name_of(passport);
         let mut page = PassportPage::of(&bytes, &enquiry.question, enquiry.verification(&name, &bytes))
-            .map_err(|refused| Failure::verdict("no page was written", &name, &refused))?;
+            .map_err(|refused| Failure::verdict("no page was written", &name, &refused, &enquiry.question))?;
         (page.prints_annex, page.prints_forms) = (options.annex, options.forms);
         let verdict = verdict::Verdict::of(&name, &page.verification, &enquiry.remarks());
         let in_folder = || Some(folder.as_ref()?.path_of_id(verdict.id.as_deref()?)?.with_extension("html"));
         let output = output.map(Path::to_owned).or_else(in_folder);
         let output = output.ok_or_else(|| Failure::usage("missing -o FILE.html or --out DIR"))?;
         folder.iter().try_for_each(|folder| folder.check_place(&output)).map_err(Failure::refused)?;
-        let html = page.html(&languages(&options.lang));
+        let html = page.html(&options.lang.languages());
         output::file(&output, output::page(&output, html, options.force)?, options.force)?;
         if options.format == Format::Text && !verdict.valid {
-            output::say_verdict(&style::plain(&verdict::text(&verdict)));
+            let document = verdict::document(&verdict, &page.verification, &enquiry.question);
+            output::say_verdict(&style::plain(&doc::typed(&document, lang::of_text())));
         }
         let so = if verdict.valid { "" } else { "; it says that the passport may not be used" };
         output::say(&format!("wrote {}{so}", shown(&output)));

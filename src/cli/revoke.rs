@@ -1,6 +1,7 @@
 //! Verb `revoke`: withdrawal of passports in the registers of their stands.
 
 use super::key_options::IssuerOptions;
+use super::lang::Lang;
 use super::register::not_renewed;
 use super::trust_options::TrustOptions;
 use super::{Code, Failure, Format, output};
@@ -25,6 +26,8 @@ pub(super) struct Options {
     issuer: IssuerOptions,
     #[command(flatten)]
     trust: TrustOptions,
+    #[command(flatten)]
+    _lang: Lang,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -39,7 +42,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         output::say("already withdrawn; nothing was written");
     }
     let dry_run = options.issuer.dry_run;
-    options.format.write(|| report::withdrawn_json(&withdrawn), || report::withdrawn(&withdrawn, dry_run))?;
+    options.format.show(|| report::withdrawn_json(&withdrawn), || vec![report::withdrawn(&withdrawn, dry_run)])?;
     withdrawn.iter().flat_map(|one| &one.alarms).for_each(|alarm| output::complain(&format!("ALARM: {alarm}")));
     Ok(0)
 }

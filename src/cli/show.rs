@@ -1,14 +1,14 @@
 //! Verb `show`: passports as tables, or in full as JSON.
 
 use super::inputs::{self, Each};
+use super::lang::{self, Lang};
 use super::trust_options::{Enquiry, OptionalTrust};
 use super::{Code, Failure, Format, defaults, output};
 use crate::batch::{Purpose, paths};
 use crate::document::sha256_hex;
 use crate::passport::{Content, Verification, content_from_anyone};
-use crate::report::{exported, passport};
+use crate::report::{doc, exported, passport};
 use crate::text::{Kind, name_of};
-use crate::wording::Language;
 use clap::{ArgGroup, Args};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -24,9 +24,8 @@ pub(super) struct Options {
     passports: Vec<PathBuf>,
     #[command(flatten)]
     whom: Whom,
-    /// Language of the text
-    #[arg(long, value_enum, default_value = "en")]
-    lang: Language,
+    #[command(flatten)]
+    _lang: Lang,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -78,7 +77,7 @@ impl Read {
                 let content = passport.content().clone();
                 Ok(Self { content, bytes, verification: Some(verification) })
             }
-            None => Err(Failure::verdict("", &name, &verification)),
+            None => Err(Failure::verdict("", &name, &verification, &enquiry.question)),
         }
     }
 
@@ -91,16 +90,18 @@ impl Read {
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let enquiry = options.whom.load()?;
     let read = |path: &Path| Read::of(path, enquiry.as_ref());
-    let table = |read: &Read| passport::text(&read.content, read.verification.as_ref(), options.lang);
+    let document = |read: &Read| passport::document(&read.content, read.verification.as_ref());
     if let Some(path) = paths::one_file(&options.passports) {
         let read = read(path)?;
-        return options.format.write(|| read.for_programs(), || table(&read)).map(|()| 0);
+        return options.format.show(|| read.for_programs(), || document(&read)).map(|()| 0);
     }
     let mut before = "";
     let show = |path: &Path| read(path).map(|read| (read, 0));
     inputs::each(&options.passports, Purpose::Passports, show, |shown| {
         let shown = match shown {
-            Each::Done(read) => Each::Done((read.for_programs(), format!("{before}{}", table(&read)))),
+            Each::Done(read) => {
+                Each::Done((read.for_programs(), format!("{before}{}", doc::typed(&document(&read), lang::of_text()))))
+            }
             Each::Refused { file, refusal } => Each::Refused { file, refusal },
         };
         before = "\n";

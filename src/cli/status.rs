@@ -1,5 +1,6 @@
 //! Verb `status`: the contents of a workspace.
 
+use super::lang::Lang;
 use super::trust_options::{self, time};
 use super::{Code, Failure, Format, code, defaults};
 use crate::workspace::status;
@@ -19,6 +20,8 @@ pub(super) struct Options {
     /// Verify as of this time: RFC 3339, or a UTC date (00:00) [default: now]
     #[arg(long, value_name = "TIME", value_parser = time)]
     time: Option<Timestamp>,
+    #[command(flatten)]
+    _lang: Lang,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -35,6 +38,6 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let time = options.time.unwrap_or(now);
     let trust = options.trust.as_deref().map(|path| trust_options::load(path, &options.revoked)).transpose()?;
     let status = status(workspace, trust.as_ref(), time, now)?;
-    options.format.write(|| &status, || status.text())?;
+    options.format.show(|| &status, || status.document())?;
     Ok(code(status.incomplete, status.needs_attention()))
 }

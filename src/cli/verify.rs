@@ -1,5 +1,6 @@
 //! Verb `verify`: the check that a passport is valid for this stand, place and time.
 
+use super::lang::Lang;
 use super::trust_options::TrustAmong;
 use super::{Code, Failure, Format, REFUSED, UNUSABLE, defaults, output};
 use crate::batch::paths;
@@ -20,6 +21,8 @@ pub(super) struct Options {
     passports: Vec<PathBuf>,
     #[command(flatten)]
     trust: TrustAmong,
+    #[command(flatten)]
+    _lang: Lang,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -28,7 +31,7 @@ pub(super) struct Options {
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let enquiry = options.trust.load()?;
     let mut code = 0;
-    let (mut verdicts, mut text, mut unread) = (Vec::new(), String::new(), Vec::new());
+    let (mut verdicts, mut blocks, mut unread) = (Vec::new(), Vec::new(), Vec::new());
     for path in paths::named(&options.passports, &mut io::stdin().lock()) {
         let read = path.map_err(|failed| (failed.what.clone(), Failure::input(&failed).failed.message));
         // One byte above the size limit is enough to show that the file is not a passport; the result is a normal
@@ -45,20 +48,20 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
                 let verification = enquiry.verification(&name, &bytes);
                 code = code.max(if verification.valid() { 0 } else { REFUSED });
                 let verdict = verdict::Verdict::of(&name, &verification, &enquiry.remarks());
-                text += &verdict::text(&verdict);
+                blocks.extend(verdict::document(&verdict, &verification, &enquiry.question));
                 verdicts.push(verdict);
             }
             Err((name, words)) => {
                 code = code.max(UNUSABLE);
                 let refused = verdict::Verdict::of(&name, &enquiry.unreadable(&words), &enquiry.remarks());
-                text += &verdict::not_read(&refused);
+                blocks.extend(verdict::not_read(&refused));
                 verdicts.push(refused);
                 unread.push(words);
             }
         }
     }
-    text += &verdict::summary(&verdicts, unread.len());
-    let written = options.format.write(|| &verdicts, || text);
+    blocks.extend(verdict::summary(&verdicts, unread.len()));
+    let written = options.format.show(|| &verdicts, || blocks);
     unread.iter().for_each(|words| output::complain(words));
     written.map(|()| code)
 }

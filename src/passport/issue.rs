@@ -17,7 +17,9 @@ use crate::text::scalar::day;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Path, Problems, Unreadable, rule};
 use crate::trust::{BadIdentity, Message, SignatureError, check_identity};
 use crate::wording::number::Number;
-use crate::wording::{Language, plain};
+use crate::wording::texts::calibration::warning;
+use crate::wording::texts::issued as texts;
+use crate::wording::{Language, Words, plain};
 use jiff::Timestamp;
 use jiff::civil::Date;
 
@@ -416,32 +418,22 @@ pub struct Remarks {
 }
 
 impl Remarks {
-    /// Returns warnings for the factory, and the inputs that the passport does not state, one sentence each.
+    /// Returns warnings for the factory, and the inputs that the passport does not state, one sentence each in English.
     pub(crate) fn words(&self) -> Vec<String> {
-        [self.warnings(), self.absences.clone()].concat()
+        let warnings = self.warnings().into_iter().map(|words| plain(&words.plain(Language::English)));
+        warnings.chain(self.absences.iter().cloned()).collect()
     }
 
     /// Returns warnings for the factory, one sentence each.
-    pub(crate) fn warnings(&self) -> Vec<String> {
-        let mut words = Vec::new();
-        match &self.noise {
-            None => words.push(
-                "WARNING: least squares cannot determine all parameters of a gyro from these positions at this site"
-                    .to_owned(),
-            ),
-            Some(growth) if growth.worst() > NOISE_WARNING => words.push(format!(
-                "WARNING: the noise of a calibration on this stand is up to {:.2} times that on an ideal stand",
-                growth.worst()
-            )),
-            Some(_) => {}
-        }
-        if self.uncertainty_growth > POLAR_WARNING {
-            words.push(format!(
-                "WARNING: at this latitude, near the pole, the uncertainty of K is {} times that at the equator",
-                plain(&Number::scientific(self.uncertainty_growth, 2).text(Language::English))
-            ));
-        }
-        words.extend(self.odd.iter().map(|odd| format!("WARNING: {odd}")));
-        words
+    pub(crate) fn warnings(&self) -> Vec<Words> {
+        let noise = match &self.noise {
+            None => Some(texts::NOT_DETERMINED.into()),
+            Some(growth) if growth.worst() > NOISE_WARNING => Some(texts::noisy(Number::fixed(growth.worst(), 2))),
+            Some(_) => None,
+        };
+        let is_near_the_pole = self.uncertainty_growth > POLAR_WARNING;
+        let polar = is_near_the_pole.then(|| texts::polar(Number::scientific(self.uncertainty_growth, 2)));
+        let odd = self.odd.iter().map(|odd| Words::Given(odd.clone()));
+        noise.into_iter().chain(polar).chain(odd).map(warning).collect()
     }
 }

@@ -215,8 +215,13 @@ fn remedies(done: &Done, report: &Report, how: &Said) -> Vec<Words> {
 
 /// Returns which inputs no uncertainty includes, in English with their keys; `None` if there are none.
 pub(super) fn not_included(missing: &[NotStated]) -> Option<Words> {
-    let each = missing.iter().map(|what| Text { en: what.words(), ru: not_stated(*what).ru });
+    let each = missing.iter().map(|what| with_key(*what));
     (!missing.is_empty()).then(|| texts::not_stated_short(doc::joined(each, "; ")))
+}
+
+/// Returns the name of an input, in English with its key.
+pub(super) fn with_key(what: NotStated) -> Text {
+    Text { en: what.words(), ru: not_stated(what).ru }
 }
 
 /// Returns that the meter was assumed, and which errors were not looked for without a gyro type.

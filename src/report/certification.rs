@@ -1,4 +1,4 @@
-//! Result of a certification, and of a check run, as text and as JSON.
+//! Result of a certification, and of a check run, also as JSON.
 //!
 //! * `change`: comparison with the last certificate.
 //! * `evidence`: readings in doubt, components, tests.
@@ -10,16 +10,14 @@ use crate::certification::components::{Common, Variance};
 use crate::certification::rotated_runs::Pattern;
 use crate::certification::suspects::AXES;
 use crate::certification::{Certification, Comparison, NotCertified};
-use crate::report::doc::{self, Block, heading, say};
-use crate::report::page::language::Text;
+use crate::report::doc::{self, Block, Words, given, heading, marked, say};
+use crate::report::gyros::of_input;
+use crate::report::passport::deviations;
 use crate::report::style::Outcome;
-use crate::report::{columns, deviations, style};
 use crate::text::record::File;
-use crate::text::{Field, Node, Printable};
-use crate::wording::Language;
-use crate::wording::texts::{certification as texts, passport};
+use crate::text::{Field, Node};
+use crate::wording::texts::{calibration, certification as texts};
 use serde_json::{Value, json};
-use std::fmt::Write;
 
 /// Returns everything as JSON: `{certification, not_certified, comparison}`; parts that do not apply are null.
 pub(crate) fn to_json(
@@ -107,60 +105,44 @@ fn certification_json(found: &Certification) -> Value {
     })
 }
 
-/// Returns the certification of one of several stands in one line; `file` is its stand file.
-pub(crate) fn line(found: &Certification, file: &str) -> String {
-    let (stand, runs) = (&found.stand, found.runs.len());
-    let certificate = Printable(&stand.certificate.number);
-    let certified = style::of_input(outcome_of_certification(found), "certified");
-    let mut out = format!(
-        "{certified}  {}  {}  certificate {certificate}, {} positions, {runs} runs\n",
-        stand.stand.id(),
-        Printable(file),
-        stand.positions.len()
-    );
-    every_warning(&mut out, "  ", found);
-    out
+/// The certification of one of several stands in one line; `file` is its stand file.
+pub(crate) fn line(found: &Certification, file: &str) -> Vec<Block> {
+    let stand = &found.stand;
+    let certificate = texts::line(given(&stand.certificate.number), stand.positions.len(), found.runs.len());
+    let certified = of_input(outcome_of_certification(found), texts::LINE_CERTIFIED);
+    let words =
+        vec![certified, "  ".into(), given(stand.stand.id()), "  ".into(), given(file), "  ".into(), certificate];
+    let first = Block::Whole("", vec![vec![words.into()]]);
+    [first].into_iter().chain(warnings(found).map(|warning| say([warning]))).collect()
 }
 
-/// Returns a certification as text.
-pub(crate) fn certification(found: &Certification) -> String {
-    let mut out = String::new();
-    let (stand, runs) = (&found.stand, found.runs.len());
-    let warnings = match found.remarks.len() {
-        0 => "no warnings".to_owned(),
-        count => format!("warnings: {count}"),
+/// A certification: warnings, deviations, evidence.
+pub(crate) fn certification(found: &Certification) -> Vec<Block> {
+    let (stand, identity) = (&found.stand, &found.stand.stand);
+    let warned = match found.remarks.len() {
+        0 => texts::NO_WARNINGS.into(),
+        count => texts::number_of_warnings(count),
     };
-    let _ = writeln!(
-        out,
-        "{}  {} {}: {} positions, {runs} runs; {warnings}",
-        style::marked(outcome_of_certification(found), "CERTIFIED"),
-        stand.stand.model,
-        stand.stand.serial,
-        stand.positions.len()
-    );
-    every_warning(&mut out, "", found);
-    let (headings, deviations) = deviations::columns(&stand.positions);
-    let names = [&["i", "j"], headings.as_slice(), &["ν"]].concat();
-    let rows = stand.positions.iter().zip(deviations).map(|(at, deviations)| {
-        let freedom = columns::degrees_of_freedom(at.degrees_of_freedom.unwrap_or(f64::INFINITY));
-        [vec![at.i.to_string(), at.j.to_string()], deviations, vec![freedom]].concat()
-    });
-    let _ = writeln!(out);
-    columns::table(&mut out, &names, rows);
+    let counted = texts::stand_counted(stand.positions.len(), found.runs.len(), warned);
+    let certified = marked(outcome_of_certification(found), texts::IS_CERTIFIED);
+    let name = format!("{} {}: ", identity.model, identity.serial);
     let repeated = Some(found.repeated_rows).filter(|rows| *rows > 0);
     let repeated = repeated.map(|rows| (texts::REPEATED, rows.into(), false));
-    let mut blocks = vec![
-        say([passport::DEVIATIONS_U_NOTE]),
+    let mut doc = vec![doc::line(vec![certified, "  ".into(), given(name), counted])];
+    doc.extend(warnings(found).map(doc::line));
+    doc.push(Block::Typed("\n".to_owned()));
+    doc.extend(deviations::table(&stand.positions, "u").into_iter().take(1));
+    doc.extend([
+        deviations::note(&stand.positions, false),
         evidence::certified(&stand.certificate),
         Block::Fields(repeated.into_iter().collect()),
         evidence::outliers(found),
-    ];
-    blocks.extend(evidence::components(found));
-    blocks.push(heading(texts::TESTS));
-    blocks.extend(evidence::tests(found));
-    blocks.extend(evidence::exclusions(found));
-    doc::text(&mut out, &blocks, Language::English);
-    out
+    ]);
+    doc.extend(evidence::components(found));
+    doc.push(heading(texts::TESTS));
+    doc.extend(evidence::tests(found));
+    doc.extend(evidence::exclusions(found));
+    doc
 }
 
 /// Returns the mark of a certification: with warnings, someone must decide whether it can be used.
@@ -168,10 +150,8 @@ pub(crate) fn outcome_of_certification(found: &Certification) -> Outcome {
     if found.remarks.is_empty() { Outcome::Passed } else { Outcome::Undecided }
 }
 
-fn every_warning(out: &mut String, indent: &str, found: &Certification) {
-    for warning in &found.remarks {
-        columns::paragraph(out, indent, &columns::powers(&format!("WARNING: {warning}.")));
-    }
+fn warnings(found: &Certification) -> impl Iterator<Item = Words> {
+    found.remarks.iter().map(|remark| calibration::warning(remark.advised()))
 }
 
 /// Returns the outcome of a check run, or of one of its positions, that repeats or does not. If the readings do not show
@@ -184,33 +164,20 @@ pub(crate) fn outcome_of(found: &Comparison, repeats: bool) -> Outcome {
     }
 }
 
-/// Returns the result of a comparison with the last certificate, in a word.
-pub(super) fn answer(found: &Comparison) -> (Outcome, &'static str) {
+/// A check run. `is_final` if the stand is not recertified from it: then it says what to do if the stand has changed.
+pub(crate) fn comparison(found: &Comparison, is_final: bool) -> Vec<Block> {
     let outcome = outcome_of(found, found.same_stand);
-    (outcome, change::word(outcome).of(Language::English))
-}
-
-/// Returns a check run as text, with what to do if the stand has changed and is not recertified from it.
-pub(crate) fn check(found: &Comparison) -> String {
-    comparison(found, Some(texts::DO_NOT_USE))
-}
-
-/// Returns a check run as text; `advice` is for a stand that has changed.
-pub(super) fn comparison(found: &Comparison, advice: Option<Text>) -> String {
-    let mut out = String::new();
-    let (outcome, answer) = answer(found);
-    let mut answer = answer.to_uppercase();
-    if outcome == Outcome::Passed && found.common.test.is_none() {
+    let answer = match outcome {
         // Rotation of the stand as a whole was not tested.
-        answer.insert_str(0, "POSITIONS ");
-    }
-    let answer = style::marked(outcome, &answer);
-    let runs = if found.runs == 1 { "run" } else { "runs" };
-    let _ = writeln!(out, "{answer}  check against certificate {}, {} {runs}", found.certificate, found.runs);
-    for words in &found.findings {
-        columns::paragraph(&mut out, "  ", &format!("{words}."));
-    }
-    let advice = say(advice.filter(|_| outcome == Outcome::Failed));
-    doc::text(&mut out, &[vec![advice], change::rotations(found)].concat(), Language::English);
-    out
+        Outcome::Passed if found.common.test.is_none() => texts::POSITIONS_UNCHANGED,
+        Outcome::Passed => texts::IS_UNCHANGED,
+        Outcome::Failed => texts::HAS_CHANGED,
+        Outcome::Undecided | Outcome::NotAsked => calibration::IS_UNDECIDED,
+    };
+    let check = texts::check_against(given(&found.certificate), found.runs);
+    let mut doc = vec![doc::line(vec![marked(outcome, answer), "  ".into(), check])];
+    doc.extend(found.findings.iter().map(|finding| say([finding.advised()])));
+    doc.push(say((is_final && outcome == Outcome::Failed).then_some(texts::DO_NOT_USE)));
+    doc.extend(change::rotations(found));
+    doc
 }

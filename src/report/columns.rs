@@ -4,13 +4,13 @@
 use super::page::number::{THIN_BLANK, superscripts};
 use super::style;
 use crate::text::excerpt::columns_of;
-pub(crate) use crate::text::number::{decimals, signed};
+pub(crate) use crate::text::number::decimals;
 use crate::text::printable;
 use std::fmt::Write;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Largest width of sentences, in however wide a terminal, because longer lines are hard to read; clap wraps help there too.
-const TEXT_COLUMNS: usize = 100;
+pub(crate) const TEXT_COLUMNS: usize = 100;
 
 /// Width of a terminal on which nothing is made narrower still.
 const LEAST_COLUMNS: usize = 40;
@@ -35,12 +35,30 @@ pub(crate) fn paragraph(out: &mut String, indent: &str, words: &str) {
     wrapped(out, indent, indent + HANG, words, width().min(TEXT_COLUMNS));
 }
 
-/// Appends a name padded to `name_columns` and its value. Further lines of the value align with its beginning.
-pub(crate) fn named(out: &mut String, name: &str, name_columns: usize, value: &str) {
-    let _ = write!(out, "  {name:<name_columns$}");
-    let column = 2 + name_columns;
-    // The value alone has the width of sentences, if the terminal has the room.
-    wrapped(out, column, column, value, width().min(column + TEXT_COLUMNS));
+/// Appends lines in columns after `indent`. The last cell of a line goes on below its beginning; the cells before it are as wide
+/// as the widest in their column. It is broken before `most` columns, if the terminal has the room, and never if that is the
+/// largest number.
+pub(crate) fn lines(out: &mut String, indent: &str, most: usize, lines: impl IntoIterator<Item = Vec<String>>) {
+    let lines: Vec<Vec<String>> = lines.into_iter().collect();
+    let before =
+        |line: &Vec<String>, place: usize| Some(shown_columns(line.get(place)?)).filter(|_| place + 1 < line.len());
+    let widest = |place: usize| lines.iter().filter_map(|line| before(line, place)).max().unwrap_or_default();
+    let columns: Vec<usize> = (0..lines.iter().map(Vec::len).max().unwrap_or_default()).map(widest).collect();
+    for line in &lines {
+        let Some((last, names)) = line.split_last() else { continue };
+        let mut text = indent.to_owned();
+        for (name, columns) in names.iter().zip(&columns) {
+            text += name;
+            text.extend(std::iter::repeat_n(' ', columns + 2 - shown_columns(name)));
+        }
+        if last.is_empty() {
+            text.truncate(text.trim_end().len());
+        }
+        let column = shown_columns(&text);
+        out.push_str(&text);
+        let most = if most == usize::MAX { most } else { width().min(column + most) };
+        wrapped(out, column, column, last, most);
+    }
 }
 
 /// Indent of the further lines of a sentence, relative to its first. A continued line keeps it in any case, so that no text
@@ -189,8 +207,8 @@ fn unbroken(text: &str) -> Vec<String> {
 
 /// Appends a table. Columns are as wide as their widest cell; numbers are aligned at their decimal points, words on the
 /// left. If the terminal is too narrow, headings take several lines; columns that still have no room follow below, with
-/// the headings of the rows again.
-pub(crate) fn table(out: &mut String, names: &[&str], rows: impl IntoIterator<Item = Vec<String>>) {
+/// the first `heads` again.
+pub(crate) fn table(out: &mut String, heads: usize, names: &[&str], rows: impl IntoIterator<Item = Vec<String>>) {
     let rows: Vec<Vec<String>> = rows.into_iter().collect();
     let all: Vec<Vec<String>> = (0..names.len())
         .map(|place| aligned(rows.iter().map(|row| row.get(place).map_or("", String::as_str)).collect()))
@@ -205,7 +223,6 @@ pub(crate) fn table(out: &mut String, names: &[&str], rows: impl IntoIterator<It
     let lines = headings.iter().map(Vec::len).max().unwrap_or(0);
     let columns: Vec<Vec<String>> =
         headings.into_iter().zip(all).map(|(heading, cells)| column(heading, lines, cells)).collect();
-    let heads = if names.starts_with(&["i", "j"]) { 2 + usize::from(names.get(2) == Some(&"angle")) } else { 1 };
     let mut next = heads.min(columns.len());
     loop {
         let end = end_of_part(names, &columns, heads, next);
@@ -266,8 +283,8 @@ pub(crate) fn stacked(words: &str, columns: usize) -> Vec<String> {
 
 /// Returns the cells of a column; plain numbers end with spaces so that their decimal points are in one line.
 fn aligned(cells: Vec<&str>) -> Vec<String> {
-    let decimals = |cell: &str| cell.find('.').map_or(0, |point| cell.len() - point);
-    let plain = |cell: &&str| cell.chars().all(|c| c.is_ascii_digit() || "+-.".contains(c));
+    let decimals = |cell: &str| cell.find(['.', ',']).map_or(0, |point| cell.len() - point);
+    let plain = |cell: &&str| cell.chars().all(|c| c.is_ascii_digit() || "+-.,".contains(c));
     let most = if cells.iter().all(plain) { cells.iter().map(|cell| decimals(cell)).max().unwrap_or(0) } else { 0 };
     let missing = |cell: &str| if cell.is_empty() { 0 } else { most.saturating_sub(decimals(cell)) };
     cells.iter().map(|cell| format!("{cell}{:1$}", "", missing(cell))).collect()
@@ -323,30 +340,6 @@ pub(crate) fn counts(counts: impl IntoIterator<Item = (usize, impl std::fmt::Dis
     counted.map(|(count, words)| format!("{count} {words}")).collect::<Vec<_>>().join(", ")
 }
 
-/// Formats a number with so many decimals; a zero that was rounded has no sign.
-pub(crate) fn fixed(value: f64, decimals: usize) -> String {
-    let printed = format!("{value:.decimals$}");
-    let is_zero = |digits: &&str| digits.bytes().all(|byte| matches!(byte, b'0' | b'.'));
-    printed.strip_prefix('-').filter(is_zero).map_or_else(|| printed.clone(), str::to_owned)
-}
-
-/// Formats degrees of freedom with one decimal, or none if it is 0.
-pub(crate) fn degrees_of_freedom(value: f64) -> String {
-    let printed = format!("{value:.1}");
-    printed.strip_suffix(".0").map_or_else(|| printed.clone(), str::to_owned)
-}
-
-/// Formats a probability with two digits, or as `< 10⁻⁶`.
-pub(crate) fn probability(p: f64) -> String {
-    if p < 1e-6 {
-        "< 10⁻⁶".to_owned()
-    } else if p < 0.1 {
-        two_digits(p)
-    } else {
-        format!("{p:.2}")
-    }
-}
-
 /// Returns the decimals of a sum of squares in units of its variance, or `None` if it needs a power of ten.
 pub(crate) fn decimals_of_chi_square(value: f64) -> Option<usize> {
     match value {
@@ -398,14 +391,6 @@ mod tests {
     use super::*;
 
     /// By hand.
-    #[test]
-    fn a_rounded_zero_has_no_sign() {
-        for (value, due) in [(-0.00004, "0.0000"), (-0.0, "0.0000"), (-0.00006, "-0.0001"), (-10.0, "-10.0000")] {
-            assert_eq!(fixed(value, 4), due);
-        }
-        assert_eq!((fixed(-0.4, 0), fixed(-0.6, 0)), ("0".to_owned(), "-1".to_owned()));
-    }
-
     /// By hand, with 40 columns: the gap in the quotation is no column of a table, and no line ends within it.
     #[test]
     fn a_quotation_stays_whole() {
@@ -426,22 +411,12 @@ mod tests {
     }
 
     #[test]
-    fn whole_degrees_of_freedom_have_no_decimal() {
-        for (value, due) in [(4.0, "4"), (20.0, "20"), (22.98, "23"), (7.25, "7.2"), (f64::INFINITY, "inf")] {
-            assert_eq!(degrees_of_freedom(value), due);
-        }
-    }
-
-    #[test]
     fn exponents_become_powers_of_ten() {
         assert_eq!(powers("one of 2 to 7.3e-5 mA; 1.0e12, x1e"), "one of 2 to 7.3×10⁻⁵ mA; 1.0×10¹², x1e");
         let cases =
             [(0.0, "0"), (0.001_34, "0.0013"), (-0.25, "-0.25"), (0.000_999_6, "1.0×10⁻³"), (4.6e-9, "4.6×10⁻⁹")];
         for (value, due) in cases {
             assert_eq!(two_digits(value), due, "{value}");
-        }
-        for (p, due) in [(0.45, "0.45"), (0.0036, "0.0036"), (1.3e-4, "1.3×10⁻⁴"), (1e-7, "< 10⁻⁶")] {
-            assert_eq!(probability(p), due, "{p}");
         }
     }
 
@@ -508,7 +483,7 @@ mod tests {
     fn numbers_are_aligned_at_their_points() {
         let rows = [["K_x", "94.99", "0.011", "pass"], ["ω_0", "-3", "0.0034", "undecided"]];
         let mut out = String::new();
-        table(&mut out, &["", "value", "u", "decision"], rows.map(|row| row.map(str::to_owned).to_vec()));
+        table(&mut out, 1, &["", "value", "u", "decision"], rows.map(|row| row.map(str::to_owned).to_vec()));
         let lines: Vec<String> = style::plain(&out).lines().map(str::to_owned).collect();
         assert_eq!(lines[1..], ["  K_x  94.99  0.011   pass", "  ω_0  -3     0.0034  undecided"]);
         assert_eq!(lines[0], "       value       u  decision");
@@ -524,7 +499,7 @@ mod tests {
         // A row that has nothing there is not repeated.
         let row = |last: &str| vec!["n".repeat(66), "1".repeat(30), last.to_owned()];
         let mut out = String::new();
-        table(&mut out, &["", "a", "b"], [row(""), row("2.5")]);
+        table(&mut out, 1, &["", "a", "b"], [row(""), row("2.5")]);
         let ends: Vec<String> =
             style::plain(&out).lines().filter_map(|line| line.split(' ').next_back().map(str::to_owned)).collect();
         let ones = "1".repeat(30);

@@ -6,11 +6,13 @@
 mod html;
 mod terminal;
 
-pub(crate) use crate::wording::words::{Words, given, in_unit, joined, listed, marked, probability, symbol, told};
+pub(crate) use crate::wording::words::{
+    Counted, Words, code, given, in_unit, joined, listed, longest, marked, padded, probability, strong, symbol, told,
+};
 pub(crate) use html::blocks;
-pub(crate) use terminal::{sentence, text};
+pub(crate) use terminal::{said, sentence, text};
 
-use super::page::language::{Languages, Text};
+use super::page::language::{Language, Languages, Text};
 use maud::Markup;
 
 /// Medium that shows a block or a column.
@@ -37,6 +39,13 @@ pub(crate) enum Block {
     Table(Table),
     /// Blocks in an element of this class.
     Within(&'static str, Vec<Block>),
+    /// A sentence at the margin of a terminal, or the first line of a document; on a page a paragraph.
+    Line(Words),
+    /// Lines of a terminal in columns, each after the indent. The last cell of a line goes on below itself, and the cells
+    /// before it are as wide as their column.
+    Lines(&'static str, Vec<Vec<Words>>),
+    /// As [`Block::Lines`], but no line is broken where there is no terminal, so that programs find whole ids and names.
+    Whole(&'static str, Vec<Vec<Words>>),
     /// Lines for a terminal alone, such as a chart in block characters.
     Typed(String),
     /// Elements of a page alone, such as a legend or a figure, in its languages.
@@ -56,6 +65,17 @@ pub(crate) fn heading(words: impl Into<Words>) -> Block {
 /// A paragraph of one text, of several, or of none.
 pub(crate) fn say<W: Into<Words>>(all: impl IntoIterator<Item = W>) -> Block {
     Block::Paragraph(all.into_iter().map(Into::into).collect())
+}
+
+pub(crate) fn line(words: impl Into<Words>) -> Block {
+    Block::Line(words.into())
+}
+
+/// Returns the blocks as the text of a terminal.
+pub(crate) fn typed(blocks: &[Block], language: Language) -> String {
+    let mut out = String::new();
+    text(&mut out, blocks, language);
+    out
 }
 
 /// A field; what is not stated is left out.

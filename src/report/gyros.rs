@@ -1,7 +1,7 @@
 //! Results of several gyros on one stand as text: a line for each, and what they have in common.
 
 use super::calibration::{assumed, doubts, headline, not_included, not_stated, passport, without_reading};
-use super::doc;
+use super::doc::{self, longest, marked, padded, said};
 use super::style::Outcome;
 use crate::calibration::NotStated;
 use crate::interface::calibrated::Done;
@@ -22,6 +22,11 @@ const WORDS: [Text; 7] = [
     texts::REFUSED,
     texts::NOT_WRITTEN,
 ];
+
+/// The word for the outcome of one of several inputs with its mark, as wide as the longest.
+pub(crate) fn of_input(outcome: impl Into<Outcome>, word: Text) -> Words {
+    marked(outcome, padded(word, |language| longest(WORDS, language)))
+}
 
 /// Returns the result for one of several gyros in one line: the decision for the type of this name, or the fit if there is
 /// none.
@@ -48,7 +53,7 @@ pub(crate) fn line(
     let digits = calibration.digits.iter().flat_map(recorded::said);
     let all = [reasons].into_iter().chain(doubts).chain(without_reading(readings)).chain(digits);
     let words = plain(&doc::joined(all, "; ").plain(language));
-    format!("{}  {}  {words}\n", style::of_input(outcome, word.of(language)), printable(file))
+    format!("{}  {}  {words}\n", said(&of_input(outcome, word), language), printable(file))
 }
 
 /// Outcomes of several gyros, and what the lines do not say because all or many have it in common.
@@ -79,10 +84,9 @@ impl Gyros {
         }
     }
 
-    /// Adds a gyro without a result; `word` is the English one of [`WORDS`].
-    pub(crate) fn add_failed(&mut self, word: &str) {
-        let text = WORDS.into_iter().find(|text| text.en == word);
-        self.outcomes.push((Outcome::Failed, text.unwrap_or(texts::REFUSED)));
+    /// Adds a gyro without a result.
+    pub(crate) fn add_failed(&mut self, word: Text) {
+        self.outcomes.push((Outcome::Failed, word));
     }
 
     /// Returns the counts of the outcomes with the mark of the worst; nothing for a single gyro.

@@ -1,15 +1,21 @@
-//! One stand over the years, as text and as JSON.
+//! One stand over the years: its time line, and the drift of each deviation; and as JSON.
 
 use crate::attitude::{ANGLE_SYMBOLS, ANGLES};
 use crate::calibration::document::finite;
 use crate::history::drift::{DRIFTS, Drift, Jump, SUSPECTED, Series};
 use crate::history::{History, PastCertificate, PastPassport};
-use crate::report::page::language::capital;
+use crate::report::columns::decimals;
+use crate::report::doc::{Block, Rows, Words, given, heading, line, marked, probability, say, strong, symbol};
+use crate::report::page::Number;
+use crate::report::register::state;
 use crate::report::style::Outcome;
-use crate::report::{columns, style};
-use crate::text::printable;
+use crate::wording::number::Probability;
+use crate::wording::texts::history as texts;
+use crate::wording::{Language, Text, plain};
+use jiff::Timestamp;
+use jiff::civil::Date;
+use jiff::tz::TimeZone;
 use serde_json::{Value, json};
-use std::fmt::Write;
 
 /// Returns the history as JSON: `{stand, certificates, passports, places, withdrawals, drift, remarks}`.
 pub(crate) fn to_json(history: &History) -> Value {
@@ -68,7 +74,7 @@ fn drift_json(drift: &Drift) -> Value {
         "tested": drift.tested(),
         "probability": worst.and_then(|series| series.corrected_probability),
         "detectable_arcsec_per_year": drift.detectable_arcsec_per_year(),
-        "sentence": sentence(drift, ANGLES),
+        "sentence": in_english(drift, ANGLES),
         "relative": drift.hidden_change().map(series_json),
         "deviations": drift.series.iter().map(series_json).collect::<Vec<_>>(),
     })
@@ -91,146 +97,130 @@ fn series_json(series: &Series) -> Value {
     })
 }
 
-/// Returns the result of the test for drift in words, with the given names of the angles α, β, γ.
-pub(crate) fn sentence(drift: &Drift, angles: [&str; 3]) -> String {
+/// Returns the result of the test for drift in English, with the given names of the angles α, β, γ.
+pub(crate) fn in_english(drift: &Drift, angles: [&str; 3]) -> String {
+    plain(&sentence(drift, angles).plain(Language::English))
+}
+
+/// Returns the result of the test for drift, with the given names of the angles α, β, γ, without a full stop.
+fn sentence(drift: &Drift, angles: [&str; 3]) -> Words {
     let of_each = match drift.worst_jump() {
         Some((series, jump)) if drift.most_significant().is_none() => jumped(drift, angles, series, jump),
-        Some((series, jump)) => {
-            format!("{}; of the other deviations: {}", jumped(drift, angles, series, jump), of_lines(drift, angles))
-        }
+        Some((series, jump)) => texts::and_others(jumped(drift, angles, series, jump), of_lines(drift, angles)),
         None => of_lines(drift, angles),
     };
     match drift.hidden_change() {
-        Some(series) => format!("{of_each}; but {}", relative(drift, angles, series)),
+        Some(series) => texts::but(of_each, relative(drift, angles, series)),
         None => of_each,
     }
 }
 
-/// Formats a change with its unit and its standard uncertainty.
-fn measured(value: f64, unit: &str, u: f64) -> String {
-    let decimals = columns::decimals(u);
-    format!("{}{unit} (u = {u:.decimals$})", columns::signed(value, decimals))
+/// A change or a rate with its standard uncertainty.
+fn measured(words: fn(Number, Number) -> Words, value: f64, u: f64) -> Words {
+    words(change_of(value, u), Number::fixed(u, decimals(u)))
 }
 
-/// Returns the sentence on a change of one deviation that the parts common to all positions hide.
-fn relative(drift: &Drift, angles: [&str; 3], series: &Series) -> String {
-    let name = format!("{} of position {}", angles[series.angle], series.index);
+fn change_of(value: f64, u: f64) -> Number {
+    Number::fixed(value, decimals(u)).signed()
+}
+
+fn name(angles: [&str; 3], series: &Series) -> Words {
+    texts::angle_of(angles[series.angle], series.index)
+}
+
+/// The sentence on a change of one deviation that the parts common to all positions hide.
+fn relative(drift: &Drift, angles: [&str; 3], series: &Series) -> Words {
     let (what, probability) = match (&series.jump, &series.line) {
         (Some(Jump { certificates: [from, to], change_arcsec, u_arcsec, corrected_probability, .. }), _) => {
-            let change = measured(*change_arcsec, "″", *u_arcsec);
-            (format!("has jumped by {change} between certificates {from} and {to}"), *corrected_probability)
+            let change = measured(texts::change_of, *change_arcsec, *u_arcsec);
+            (texts::has_jumped(change, given(from), given(to)), *corrected_probability)
         }
         (None, line) => {
             let (slope, u) = line.map_or((0.0, 0.0), |line| (line.slope, line.u_slope));
-            let slope = measured(slope, "″ per year", u);
-            (format!("drifts by {slope}"), series.corrected_probability.unwrap_or(1.0))
+            let rate = measured(texts::rate_of, slope, u);
+            (texts::drifts_by(rate), series.corrected_probability.unwrap_or(1.0))
         }
     };
-    format!(
-        "{name} {what} relative to the other positions, {}; the uncertainty common to all positions hides it",
-        by_chance(probability, drift.relative.len())
-    )
+    let by_chance = texts::by_chance(Probability(probability), drift.relative.len());
+    texts::hidden(name(angles, series), what, by_chance)
 }
 
-/// Returns a probability, what it is of, and for how many tests it is corrected.
-fn by_chance(probability: f64, tests: usize) -> String {
-    let p = columns::probability(probability);
-    let equals = if p.starts_with('<') { "" } else { "= " };
-    format!("p {equals}{p} (probability of a larger value by chance, corrected for {tests} tests)")
-}
-
-/// Returns the sentence on the deviations that are not on a line.
-fn jumped(drift: &Drift, angles: [&str; 3], series: &Series, jump: &Jump) -> String {
+/// The sentence on the deviations that are not on a line.
+fn jumped(drift: &Drift, angles: [&str; 3], series: &Series, jump: &Jump) -> Words {
     let [from, to] = &jump.certificates;
-    format!(
-        "the stand has jumped: {} of {} deviations are not on a straight line and have no rate of drift; the most significant \
-         is {} of position {}, {} between certificates {from} and {to}, chi-square of the line {:.1} with {} degrees of \
-         freedom, {}",
+    texts::the_stand_jumped(
         drift.jumps().count(),
         drift.tested(),
-        angles[series.angle],
-        series.index,
-        measured(jump.change_arcsec, "″", jump.u_arcsec),
-        jump.line.chi_square,
+        name(angles, series),
+        measured(texts::change_of, jump.change_arcsec, jump.u_arcsec),
+        given(from),
+        given(to),
+        Number::fixed(jump.line.chi_square, 1),
         jump.line.degrees_of_freedom,
-        by_chance(jump.corrected_probability, drift.tested())
+        texts::by_chance(Probability(jump.corrected_probability), drift.tested()),
     )
 }
 
-/// Returns the result of the test for drift of the deviations that are on a line.
-fn of_lines(drift: &Drift, angles: [&str; 3]) -> String {
+/// The result of the test for drift of the deviations that are on a line.
+fn of_lines(drift: &Drift, angles: [&str; 3]) -> Words {
     let tested = drift.most_significant().and_then(|worst| Some((worst, worst.corrected_probability?)));
-    let Some((worst, probability)) = tested else {
-        let what = "two certificates from different dates that state the uncertainties of the deviations";
-        return format!("drift was not tested: this needs {what}");
-    };
-    let name = format!("{} of position {}", angles[worst.angle], worst.index);
-    let tested = drift.tested();
-    let by = by_chance(probability, tested);
-    let slope = worst.line.map_or_else(String::new, |line| measured(line.slope, "″ per year", line.u_slope));
+    let Some((worst, probability)) = tested else { return texts::NEEDS_TWO.into() };
+    let (name, tested) = (name(angles, worst), drift.tested());
+    let by_chance = texts::by_chance(Probability(probability), tested);
+    let rate = worst.line.map_or_else(|| "".into(), |line| measured(texts::rate_of, line.slope, line.u_slope));
     let drifting = drift.series.iter().filter(|at| at.corrected_probability.is_some_and(|p| p < DRIFTS)).count();
     let between_two = worst.line.filter(|line| line.degrees_of_freedom == 0).and_then(|_| worst.change());
     if let Some((change, u)) = between_two.filter(|_| probability < DRIFTS) {
-        let change = measured(change, "″", u);
-        format!(
-            "the stand has changed: {drifting} of {tested} deviations; the most significant is {name}, {change}, {by}; two \
-             certificates do not show whether this is a drift or a jump"
-        )
+        texts::the_stand_changed(drifting, tested, name, measured(texts::change_of, change, u), by_chance)
     } else if probability < DRIFTS {
-        format!("the stand drifts: {drifting} of {tested} deviations; the most significant is {name}, {slope}, {by}")
+        texts::the_stand_drifts(drifting, tested, name, rate, by_chance)
     } else if probability < SUSPECTED {
-        format!("a drift is suspected: {name}, {slope}, {by}; recertify the stand earlier than planned")
+        texts::is_suspected(name, rate, by_chance)
     } else {
-        let found = drift.detectable_arcsec_per_year().map_or_else(String::new, |smallest| {
-            let smallest = columns::two_digits(smallest);
-            format!("; a drift of any deviation by {smallest}″ per year would be detected with a probability of 95 %")
-        });
-        format!("no drift was found: the most significant is {name}, {slope}, {by}{found}")
+        let smallest = drift.detectable_arcsec_per_year();
+        let found = smallest.map_or_else(|| "".into(), |rate| texts::detectable(Number::scientific(rate, 2)));
+        texts::none_found(name, rate, by_chance, found)
     }
 }
 
-/// Returns the history as text: the time line, the drift of each deviation, and the result of the test.
-pub(crate) fn text(history: &History) -> String {
-    let mut out = String::new();
-    let counts = [
-        (history.certificates.len(), "certificate"),
-        (history.passports.len(), "passport"),
-        (history.sites().len(), "site"),
-        (history.withdrawals().len(), "withdrawal"),
-    ];
-    let counts = counts.map(|(count, what)| format!("{count} {what}{}", if count == 1 { "" } else { "s" }));
-    let answer = answer(&history.drift);
-    let _ = writeln!(out, "{answer}  {}: {}", style::heading(&history.stand), counts.join(", "));
-    columns::paragraph(&mut out, "  ", &format!("{}.\n", capital(&sentence(&history.drift, ANGLE_SYMBOLS))));
-    for (when, what, words) in time_line(history) {
-        columns::named(&mut out, &format!("{when}  {what}"), 25, &printable(words));
-    }
-    let _ = writeln!(out, "\n{}", style::heading("Sites with a passport"));
-    for stay in &history.places {
+/// Returns the answer, the time line, the sites, and the drift of each deviation.
+pub(crate) fn document(history: &History) -> Vec<Block> {
+    let [certificates, passports, sites, withdrawals] =
+        [history.certificates.len(), history.passports.len(), history.sites().len(), history.withdrawals().len()];
+    let counts = texts::counts(certificates, passports, sites, withdrawals);
+    let first = vec![answer(&history.drift), "  ".into(), strong(history.stand.as_str()), ": ".into(), counts];
+    let sentence = Words::Capital(Box::new(sentence(&history.drift, ANGLE_SYMBOLS)));
+    let stays = history.places.iter().map(|stay| {
         let from = day(stay.from);
-        let time = stay.until.map_or_else(|| format!("from {from}"), |until| format!("{from} to {}", day(until)));
-        columns::named(&mut out, &time, 26, &stay.site);
-    }
-    drift(&mut out, &history.drift);
-    for remark in &history.remarks {
-        columns::paragraph(&mut out, "", &printable(format!("Remark: {remark}.")));
-    }
-    out
+        let time = stay.until.map_or_else(|| texts::from(from), |until| texts::from_to(from, day(until)));
+        vec![time, given(&stay.site)]
+    });
+    let mut doc = vec![
+        line(first),
+        say([vec![sentence, ".".into()]]),
+        Block::Typed("\n".to_owned()),
+        Block::Lines("  ", time_line(history)),
+        heading(texts::SITES),
+        Block::Lines("  ", stays.collect()),
+    ];
+    doc.extend(drift(&history.drift));
+    doc.extend(history.remarks.iter().map(|remark| line(texts::remark(given(remark)))));
+    doc
 }
 
-/// Returns the result of the test for drift in a word.
-fn answer(drift: &Drift) -> String {
+/// The result of the test for drift in a word.
+fn answer(drift: &Drift) -> Words {
     let least = drift.most_significant().and_then(|worst| worst.corrected_probability);
     let (outcome, word) = match drift.drifts() {
-        None => (Outcome::NotAsked, "NOT TESTED"),
+        None => (Outcome::NotAsked, texts::NOT_TESTED),
         Some(true) if drift.jumps().next().is_none() && drift.series.iter().any(is_steady) => {
-            (Outcome::Failed, "DRIFTS")
+            (Outcome::Failed, texts::DRIFTS)
         }
-        Some(_) if drift.has_changed() => (Outcome::Failed, "CHANGED"),
-        Some(_) if least.is_some_and(|p| p < SUSPECTED) => (Outcome::Undecided, "SUSPECTED"),
-        Some(_) => (Outcome::Passed, "NO DRIFT"),
+        Some(_) if drift.has_changed() => (Outcome::Failed, texts::CHANGED),
+        Some(_) if least.is_some_and(|p| p < SUSPECTED) => (Outcome::Undecided, texts::SUSPECTED),
+        Some(_) => (Outcome::Passed, texts::NO_DRIFT),
     };
-    style::marked(outcome, word)
+    marked(outcome, word)
 }
 
 /// Returns `true` if more than two certificates show a drift of a deviation; two do not show whether it is a jump.
@@ -239,91 +229,74 @@ fn is_steady(series: &Series) -> bool {
 }
 
 /// Returns the date of an instant, in UTC.
-fn day(time: jiff::Timestamp) -> String {
-    time.to_string().chars().take(10).collect()
+fn day(time: Timestamp) -> Date {
+    time.to_zoned(TimeZone::UTC).date()
 }
 
-/// Returns the events in the order of time: date, kind, words.
-fn time_line(history: &History) -> Vec<(String, &'static str, String)> {
-    let mut events = Vec::new();
+/// The events in the order of time: date, kind, words.
+fn time_line(history: &History) -> Vec<Vec<Words>> {
+    let mut events: Vec<(Option<Date>, Text, Words)> = Vec::new();
     for at in &history.certificates {
         let certificate = &at.stand.certificate;
-        let runs =
-            certificate.evidence.as_ref().map_or_else(String::new, |evidence| format!(", {} runs", evidence.runs));
-        let withdrawn = if at.counts { "" } else { "; all of its passports were withdrawn" };
-        let words = format!(
-            "{}, {}{runs}, issued {}{withdrawn}",
-            certificate.number, certificate.laboratory, certificate.issued
-        );
-        let kind = if certificate.performed.is_some() { "measured" } else { "certified" };
-        events.push((certificate.measured().to_string(), kind, words));
+        let runs = certificate.evidence.as_ref().map_or_else(|| "".into(), |evidence| texts::runs(evidence.runs));
+        let withdrawn = if at.counts { "".into() } else { Words::from(texts::ALL_WITHDRAWN) };
+        let (number, laboratory) = (given(&certificate.number), given(&certificate.laboratory));
+        let words = texts::certificate(number, laboratory, runs, certificate.issued, withdrawn);
+        let kind = if certificate.performed.is_some() { texts::MEASURED } else { texts::CERTIFIED };
+        events.push((Some(certificate.measured()), kind, words));
     }
     for passport in &history.passports {
-        events.push((day(passport.row.issued_at), "issued", issued_words(passport)));
+        events.push((Some(day(passport.row.issued_at)), texts::ISSUED, issued(passport)));
     }
     for row in history.withdrawals() {
-        let reason = row.reason.as_deref().unwrap_or_default();
-        events.push((row.since.map(day).unwrap_or_default(), "withdrawn", format!("{}: {reason}", row.id)));
+        let words = vec![given(&row.id), ": ".into(), given(row.reason.as_deref().unwrap_or_default())];
+        events.push((row.since.map(day), texts::WITHDRAWN, words.into()));
     }
     // The sort is stable: on one day the measurement comes before the passports, and these before a withdrawal.
-    events.sort_by(|a, b| a.0.cmp(&b.0));
-    events
+    events.sort_by_key(|(day, ..)| *day);
+    let cells = |(day, kind, words): (Option<Date>, Text, Words)| {
+        vec![day.map_or_else(|| "".into(), Words::Date), kind.into(), words]
+    };
+    events.into_iter().map(cells).collect()
 }
 
-fn issued_words(passport: &PastPassport) -> String {
+fn issued(passport: &PastPassport) -> Words {
     let row = &passport.row;
-    let reason = match (&passport.predecessor, &passport.reason) {
-        (Some(from), Some(reason)) => format!(", re-issued from {from}: {reason}"),
-        _ => String::new(),
+    let reissued = match (&passport.predecessor, &passport.reason) {
+        (Some(from), Some(reason)) => texts::reissued(given(from), given(reason)),
+        _ => "".into(),
     };
-    let until = match row.valid_until {
-        Some(day) if row.is_in_force() => format!(", valid until {day}, inclusive"),
-        _ => String::new(),
-    };
-    format!("{}, certificate {} ({}{until}){reason}", row.id, row.certificate, row.words())
+    let until = row.valid_until.filter(|_| row.is_in_force()).map_or_else(|| "".into(), texts::valid_until);
+    texts::passport(given(&row.id), given(&row.certificate), state(row), until, reissued)
 }
 
-/// Returns the row of a tested deviation, or `None` if it was not tested. One that has jumped has no rate.
-fn row(series: &Series) -> Option<Vec<String>> {
-    let rest = match (&series.jump, &series.line) {
-        (Some(_), _) => ["-", "-", "-", "-", &style::marked(Outcome::Failed, "JUMP")].map(str::to_owned),
-        (None, Some(line)) => {
-            let decimals = columns::decimals(line.u_slope);
-            let p = series.corrected_probability?;
-            let mark = if p < DRIFTS {
-                style::marked(Outcome::Failed, if is_steady(series) { "DRIFTS" } else { "CHANGED" })
-            } else if p < SUSPECTED {
-                style::marked(Outcome::Undecided, "suspected")
-            } else {
-                String::new()
-            };
-            [
-                columns::signed(line.slope, decimals),
-                format!("{:.decimals$}", line.u_slope),
-                columns::probability(line.probability()),
-                columns::probability(p),
-                mark,
-            ]
-        }
-        (None, None) => return None,
-    };
-    let (change, u_of_change) = series.change()?;
-    let mut row = vec![
-        series.index.i.to_string(),
-        series.index.j.to_string(),
-        ANGLE_SYMBOLS[series.angle].to_owned(),
-        series.tested_values().count().to_string(),
-        columns::signed(change, columns::decimals(u_of_change)),
-    ];
-    row.extend(rest);
-    Some(row)
-}
-
-fn drift(out: &mut String, drift: &Drift) {
-    let rows: Vec<_> = drift.series.iter().filter_map(row).collect();
-    if !rows.is_empty() {
-        let _ = writeln!(out, "\n{}", style::heading("Drift of the deviations (u: standard uncertainty, k = 1)"));
-        let names = ["i", "j", "angle", "values", "change, ″", "″/year", "u", "probability", "corrected", ""];
-        columns::table(out, &names, rows);
+/// The drift of each tested deviation. One that has jumped has no rate.
+fn drift(drift: &Drift) -> Vec<Block> {
+    let tested: Vec<&Series> =
+        drift.series.iter().filter(|series| series.jump.is_some() || series.line.is_some()).collect();
+    if tested.is_empty() {
+        return Vec::new();
     }
+    let line = |series: &&Series| series.line.filter(|_| series.jump.is_none());
+    let corrected = |series: &&Series| series.corrected_probability.filter(|_| series.jump.is_none());
+    let mark = |series: &&Series| match corrected(series) {
+        _ if series.jump.is_some() => marked(Outcome::Failed, texts::JUMP),
+        Some(p) if p < DRIFTS => {
+            marked(Outcome::Failed, if is_steady(series) { texts::DRIFTS } else { texts::CHANGED })
+        }
+        Some(p) if p < SUSPECTED => marked(Outcome::Undecided, texts::MAY_DRIFT),
+        _ => "".into(),
+    };
+    let table = Rows::of(&tested, "numbers")
+        .named(symbol("i"), |series| series.index.i)
+        .named(symbol("j"), |series| series.index.j)
+        .named(texts::ANGLE, |series| symbol(ANGLE_SYMBOLS[series.angle]))
+        .column(texts::VALUES, |series| series.tested_values().count())
+        .column(texts::CHANGE, |series| series.change().map(|(change, u)| change_of(change, u)))
+        .column(texts::RATE, |series| line(series).map(|line| change_of(line.slope, line.u_slope)))
+        .column(symbol("u"), |series| line(series).map(|line| Number::fixed(line.u_slope, decimals(line.u_slope))))
+        .column(texts::PROBABILITY, |series| line(series).map(|line| probability(line.probability())))
+        .column(texts::CORRECTED, |series| corrected(series).map(probability))
+        .column("", mark);
+    vec![heading(texts::DRIFT), table.called(texts::DRIFT)]
 }

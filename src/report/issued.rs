@@ -3,10 +3,12 @@
 //! Reports are written one after the other, so that not all are held in memory. For a few orders the text is complete;
 //! for many it contains only the failures and a summary.
 
-use super::columns::{csv_row, grouped, with_plain_spaces};
+use super::columns::csv_row;
+use super::doc::{Block, Words, given, line, listed, longest, marked, padded, said, typed};
+use super::gyros::of_input;
+use super::page::Number;
 use super::page::language::Language;
 use super::passport::accuracy;
-use super::style;
 use crate::batch::{Failure, Outcome};
 use crate::calibration::prediction::NoiseGrowth;
 use crate::folder::Issued;
@@ -16,11 +18,9 @@ use crate::passport::issue::Remarks;
 use crate::text::printable::json;
 use crate::text::words;
 use crate::text::{Cause, Printable, name_of, printable};
+use crate::wording::Text;
+use crate::wording::texts::{calibration, issued as texts};
 use serde::Serialize;
-use std::fmt::Write;
-
-/// Indent of the details of an order, below its id.
-const INDENT: &str = "             ";
 
 /// Largest number of orders for which the text is complete.
 const FEW: usize = 20;
@@ -53,6 +53,16 @@ impl State {
             Self::Issued | Self::Unchanged => Some(true),
             Self::Planned | Self::Skipped => None,
             Self::Refused => Some(false),
+        }
+    }
+
+    fn text(self) -> Text {
+        match self {
+            Self::Issued => texts::ISSUED,
+            Self::Unchanged => texts::UNCHANGED,
+            Self::Planned => texts::PLANNED,
+            Self::Skipped => texts::SKIPPED,
+            Self::Refused => texts::REFUSED,
         }
     }
 }
@@ -122,7 +132,7 @@ pub(crate) fn failure(failure: &Failure) -> String {
     let Failure { what, why, passports, unreadable, .. } = failure;
     let cost = match passports {
         None | Some(0 | 1) => String::new(),
-        Some(passports) => format!(" (passports not issued: {})", grouped(*passports)),
+        Some(passports) => format!(" (passports not issued: {})", Words::Count(*passports).plain(Language::English)),
     };
     let what = Printable(what);
     match unreadable {
@@ -133,53 +143,44 @@ pub(crate) fn failure(failure: &Failure) -> String {
     }
 }
 
-/// Returns the line of an order, and the SHA-256 of its passport below.
-pub(super) fn named(report: &Report) -> String {
-    let sha256 = report.sha256.as_ref().map(|sha256| format!("{INDENT}SHA-256 {sha256}\n"));
-    line(report) + &sha256.unwrap_or_default()
+/// The line of an order, and the SHA-256 of its passport below.
+pub(super) fn named(report: &Report) -> Vec<Vec<Words>> {
+    let sha256 = report.sha256.as_ref().map(|sha256| vec!["".into(), format!("SHA-256 {sha256}").into()]);
+    [first(report)].into_iter().chain(sha256).collect()
 }
 
-/// Returns the line of an order, and its details below.
-fn text(report: &Report) -> String {
-    let mut text = named(report);
-    if let Some(NoiseGrowth { k, omega0, omega_g, omega_k }) = report.noise_growth {
-        let _ = writeln!(
-            text,
-            "{INDENT}noise relative to an ideal stand: K {k:.2}, ω_0 {omega0:.2}, ω_g {omega_g:.2}, \
-             ω_k {omega_k:.2}"
-        );
-    }
-    if let (Some(why), State::Skipped) = (&report.reason, report.state) {
-        let _ = writeln!(text, "{INDENT}{}", Printable(why));
-    }
-    text
+/// The line of an order, and its details below.
+fn detailed(report: &Report) -> Vec<Vec<Words>> {
+    let noise = report.noise_growth.map(|NoiseGrowth { k, omega0, omega_g, omega_k }| {
+        let [k, omega0, omega_g, omega_k] = [k, omega0, omega_g, omega_k].map(|growth| Number::fixed(growth, 2));
+        vec!["".into(), texts::noise(k, omega0, omega_g, omega_k)]
+    });
+    let why = report.reason.as_ref().filter(|_| report.state == State::Skipped);
+    named(report).into_iter().chain(noise).chain(why.map(|why| vec!["".into(), given(why)])).collect()
 }
 
-/// Word for an order or an input that was refused.
-const REFUSED: &str = "REFUSED";
-
-/// Returns the word for an outcome with its mark, padded to the width of the longest.
-pub(super) fn marked(passed: Option<bool>, word: &str) -> String {
-    style::marked(passed, &format!("{word:<9}"))
+fn first(report: &Report) -> Vec<Words> {
+    let file = report.file.as_ref().map_or_else(|| texts::NOTHING_WRITTEN.into(), given);
+    vec![done(report.state.passed(), report.state.text()), Words::All(vec![given(&report.id), "  ".into(), file])]
 }
 
-fn line(report: &Report) -> String {
-    let file = report.file.as_deref().unwrap_or("nothing was written");
-    let state = match report.state {
-        State::Refused => marked(Some(false), REFUSED),
-        state => marked(state.passed(), state.key()),
-    };
-    format!("{state}  {}  {}\n", Printable(&report.id), Printable(file))
+/// What was done in a word with its mark, as wide as the longest of [`State`].
+pub(super) fn done(passed: Option<bool>, word: Text) -> Words {
+    marked(passed, padded(word, |language| longest(State::ALL.map(State::text), language)))
 }
 
 /// Returns the line of an input without a result.
-pub(crate) fn failed_line(file: &str, failed: &Failed) -> String {
-    format!("{}  {}\n", style::of_input(Some(false), outcome(failed)), Printable(file))
+pub(crate) fn failed_line(file: &str, failed: &Failed, language: Language) -> String {
+    format!("{}  {}\n", said(&of_input(Some(false), outcome(failed)), language), Printable(file))
 }
 
 /// Returns the word for an input without a result: refused, unless only its files could not be written.
-pub(crate) fn outcome(failed: &Failed) -> &'static str {
-    if matches!(failed.code, interface::EXISTS | interface::UNWRITABLE) { "NOT WRITTEN" } else { REFUSED }
+pub(crate) fn outcome(failed: &Failed) -> Text {
+    if matches!(failed.code, interface::EXISTS | interface::UNWRITABLE) {
+        calibration::NOT_WRITTEN
+    } else {
+        calibration::REFUSED
+    }
 }
 
 /// Number of orders for each outcome, in the order of [`State::ALL`], and of inputs that cannot be used.
@@ -195,21 +196,19 @@ impl Totals {
         self.inputs += u64::from(report.passports.is_some());
     }
 
-    fn summary(self) -> String {
+    fn summary(self) -> Words {
         let Self { orders: [issued, unchanged, planned, skipped, refused], inputs } = self;
         let mark = Some(refused == 0).filter(|passed| !passed || issued + unchanged > 0);
-        let mut words = match planned {
-            0 => format!("issued {}, unchanged {}", grouped(issued), grouped(unchanged)),
-            planned => format!("planned {}, unchanged {}", grouped(planned), grouped(unchanged)),
-        };
-        if skipped > 0 {
-            let _ = write!(words, ", skipped {}", grouped(skipped));
-        }
-        let _ = write!(words, ", refused {}", grouped(refused));
-        if inputs > 0 {
-            let _ = write!(words, " (inputs that cannot be used: {})", grouped(inputs));
-        }
-        style::marked(mark, &words) + "\n"
+        let count = |words: fn(Words) -> Words, count: u64| words(Words::Count(count));
+        let mut counts = vec![match planned {
+            0 => count(texts::number_issued, issued),
+            planned => count(texts::number_planned, planned),
+        }];
+        counts.push(count(texts::number_unchanged, unchanged));
+        counts.extend((skipped > 0).then(|| count(texts::number_skipped, skipped)));
+        counts.push(count(texts::number_refused, refused));
+        let counts = listed(counts);
+        marked(mark, if inputs > 0 { texts::inputs(counts, Words::Count(inputs)) } else { counts })
     }
 }
 
@@ -229,14 +228,15 @@ pub(crate) enum Form {
 #[derive(Debug)]
 pub(crate) struct Reports {
     form: Form,
+    language: Language,
     count: usize,
     held: Vec<Report>,
     totals: Totals,
 }
 
 impl Reports {
-    pub(crate) fn new(form: Form) -> Self {
-        Self { form, count: 0, held: Vec::new(), totals: Totals::default() }
+    pub(crate) fn new(form: Form, language: Language) -> Self {
+        Self { form, language, count: 0, held: Vec::new(), totals: Totals::default() }
     }
 
     /// Returns `true` if nothing was reported.
@@ -269,7 +269,8 @@ impl Reports {
             }
             Form::Text => {
                 let failed = self.held.drain(..).chain([report]).filter(|report| report.state == State::Refused);
-                failed.map(|report| line(&report)).collect()
+                let failed: Vec<_> = failed.map(|report| first(&report)).collect();
+                typed(&[Block::Whole("", failed)], self.language)
             }
         }
     }
@@ -288,9 +289,11 @@ impl Reports {
             Form::Csv if self.count == 0 => CSV_HEADER.to_owned(),
             Form::Csv => String::new(),
             // There were no orders and no unusable inputs, so the text says that there was nothing to do.
-            Form::Text if self.totals == Totals::default() => self.totals.summary(),
-            Form::Text if self.count <= FEW => self.held.iter().map(text).collect(),
-            Form::Text => self.totals.summary(),
+            Form::Text if self.totals != Totals::default() && self.count <= FEW => {
+                let lines = self.held.iter().flat_map(detailed).collect();
+                typed(&[Block::Whole("", lines)], self.language)
+            }
+            Form::Text => typed(&[line(self.totals.summary())], self.language),
         }
     }
 }
@@ -298,56 +301,59 @@ impl Reports {
 const CSV_HEADER: &str = "state,id,file,sha256,reason\n";
 
 /// Remarks, each printed once with the number of passports that it applies to.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Told {
-    remarks: Vec<(String, String, u64)>,
+    language: Language,
+    /// Words, whether they are a warning, and what they were first said about, and how often.
+    remarks: Vec<(String, bool, String, u64)>,
     others: u64,
 }
 
 impl Told {
+    pub(crate) fn new(language: Language) -> Self {
+        Self { language, remarks: Vec::new(), others: 0 }
+    }
+
     /// Adds a remark about a passport or a file.
-    pub(crate) fn add(&mut self, about: &str, words: String) {
+    pub(crate) fn add(&mut self, about: &str, words: impl Into<Words>, is_warning: bool) {
+        let words = said(&words.into(), self.language);
         match self.remarks.iter().position(|(known, ..)| *known == words) {
-            Some(known) => self.remarks[known].2 += 1,
+            Some(known) => self.remarks[known].3 += 1,
             None if self.remarks.len() == REMARKS_TOLD => self.others += 1,
-            None => self.remarks.push((words, about.to_owned(), 1)),
+            None => self.remarks.push((words, is_warning, about.to_owned(), 1)),
         }
     }
 
     /// Adds the remarks on a new passport.
     pub(crate) fn add_all(&mut self, id: &str, remarks: &Remarks) {
-        let words = |absence: &Absence| with_plain_spaces(&accuracy::sentence(*absence).plain(Language::English));
-        let missing = remarks.missing.iter().map(words);
-        remarks.warnings().into_iter().chain(missing).for_each(|words| self.add(id, words));
+        remarks.warnings().into_iter().for_each(|words| self.add(id, words, true));
+        remarks.missing.iter().for_each(|absence: &Absence| self.add(id, accuracy::sentence(*absence), false));
     }
 
     /// Returns the remarks, one line each, or only the warnings among them.
     pub(crate) fn lines(&self, only_warnings: bool) -> Vec<String> {
-        let told = self.remarks.iter().filter(|(words, ..)| !only_warnings || words.starts_with("WARNING: "));
-        let told = told.map(|(words, first, count)| match count {
-            1 => format!("{first}: {words}"),
-            count => format!("{first} and {} more: {words}", grouped(count - 1)),
+        let told = self.remarks.iter().filter(|(_, is_warning, ..)| !only_warnings || *is_warning);
+        let told = told.map(|(words, _, first, count)| {
+            let about = match count {
+                1 => given(first),
+                count => texts::and_more(given(first), Words::Count(count - 1)),
+            };
+            format!("{}: {words}", said(&about, self.language))
         });
-        let others = (self.others > 0 && !only_warnings).then(|| format!("and {} other remarks", grouped(self.others)));
-        told.chain(others).map(printable).collect()
+        let others = (self.others > 0 && !only_warnings).then(|| texts::other_remarks(Words::Count(self.others)));
+        told.chain(others.map(|words| said(&words, self.language))).map(printable).collect()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn thousands_have_commas() {
-        for (number, words) in [(0, "0"), (999, "999"), (1000, "1,000"), (9998, "9,998"), (1_234_567, "1,234,567")] {
-            assert_eq!(grouped(number), words);
-        }
-    }
+    use crate::report::style;
 
     #[test]
     fn reports_in_a_stream_are_one_json_list() {
         for count in [0, 1, 3] {
-            let mut reports = Reports::new(Form::Json);
+            let mut reports = Reports::new(Form::Json, Language::English);
             let mut text = String::new();
             for number in 0..count {
                 text += &reports.add(Report::new(number.to_string(), State::Issued));
@@ -362,7 +368,7 @@ mod tests {
 
     #[test]
     fn of_many_only_what_failed_is_said() {
-        let mut reports = Reports::new(Form::Text);
+        let mut reports = Reports::new(Form::Text, Language::English);
         let mut text = String::new();
         for number in 0..2000 {
             let state = if number % 1000 == 7 { State::Refused } else { State::Issued };
@@ -376,10 +382,10 @@ mod tests {
 
     #[test]
     fn remarks_are_said_once() {
-        let mut told = Told::default();
+        let mut told = Told::new(Language::English);
         for number in 0..1000 {
-            told.add(&number.to_string(), "the same".to_owned());
-            told.add(&number.to_string(), format!("another, {number}"));
+            told.add(&number.to_string(), "the same", false);
+            told.add(&number.to_string(), format!("another, {number}"), false);
         }
         let lines = told.lines(false);
         assert_eq!(lines[0], "0 and 999 more: the same");
@@ -387,9 +393,9 @@ mod tests {
         assert_eq!(lines.len(), REMARKS_TOLD + 1);
         assert_eq!(lines[REMARKS_TOLD], "and 951 other remarks");
 
-        let mut told = Told::default();
-        told.add("WARNING: a file", "a remark".to_owned());
-        told.add("a", "WARNING: near the pole".to_owned());
+        let mut told = Told::new(Language::English);
+        told.add("WARNING: a file", "a remark", false);
+        told.add("a", "WARNING: near the pole", true);
         assert_eq!(told.lines(true), ["a: WARNING: near the pole"]);
     }
 }

@@ -4,7 +4,6 @@
 //! * `calibration`: the report of a calibration.
 //! * `certification`: a certified stand, and a check run.
 //! * `columns`: text in columns.
-//! * `deviations`: the certified deviations, drawn in block characters.
 //! * `difference`: differences of two passports.
 //! * `doc`: a document before it has a medium or a language, and its two renderers.
 //! * `exported`: a verified passport as JSON, with what its verification found.
@@ -28,7 +27,6 @@ pub(crate) mod calibration;
 #[cfg(feature = "factory")]
 pub(crate) mod certification;
 pub(crate) mod columns;
-pub(crate) mod deviations;
 pub(crate) mod difference;
 pub(crate) mod doc;
 pub(crate) mod exported;

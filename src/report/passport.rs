@@ -1,23 +1,25 @@
 //! A passport, composed once for a terminal and for its printed page.
 //!
 //! * `general`: the passport itself, the stand and its certificate.
+//! * `chart`: the deviations as a chart in block characters.
 //! * `deviations`: the certified deviations with their uncertainty, and the datum surfaces.
 //! * `site`: the site and the Earth there.
 //! * `numbers`: the numbers that a calibration uses.
 //! * `accuracy`: expected calibration uncertainty, inputs that are not stated.
 
 pub(crate) mod accuracy;
+mod chart;
 pub(crate) mod deviations;
 pub(crate) mod general;
 pub(crate) mod numbers;
 pub(crate) mod site;
 
 use crate::passport::{Content, Verification};
-use crate::report::doc::{self, Block, heading};
-use crate::report::page::language::{Language, Text};
-use crate::report::{style, verdict};
-use crate::wording::texts::passport as texts;
-use std::fmt::Write;
+use crate::report::doc::{Block, given, heading, line, marked, say, strong};
+use crate::report::page::language::Text;
+use crate::report::style::Outcome;
+use crate::report::verdict;
+use crate::wording::texts::{passport as texts, verdict as verdicts};
 
 /// Returns the sections: anchor, heading, content.
 pub(crate) fn sections(content: &Content) -> [(&'static str, Text, Vec<Block>); 4] {
@@ -30,23 +32,20 @@ pub(crate) fn sections(content: &Content) -> [(&'static str, Text, Vec<Block>); 
     ]
 }
 
-/// Returns the whole passport for a terminal, after the answer of `verification`; `None` if it was not verified.
-pub(crate) fn text(content: &Content, verification: Option<&Verification>, language: Language) -> String {
-    let mut out = String::new();
+/// Returns the whole passport, after the answer of `verification`, or that it was not verified.
+pub(crate) fn document(content: &Content, verification: Option<&Verification>) -> Vec<Block> {
     let answer = match verification {
         Some(verification) => verdict::answer(verification.valid(), verification.checks()),
-        None => style::marked(None, &style::bad("NOT VERIFIED")),
+        None => marked(Outcome::NotAsked, strong(verdicts::NOT_VERIFIED)),
     };
-    let _ = writeln!(out, "{answer}  {}", style::heading(&content.passport.id));
-    if let Some(verification) = verification {
-        let _ = writeln!(out, "  {}", verdict::counts_with_names(verification.checks()));
-    }
-    doc::text(&mut out, &general::of_the_passport(&content.passport, None), language);
+    let mut doc = vec![line(vec![answer, "  ".into(), strong(given(&content.passport.id))])];
+    doc.push(say(verification.map(|verification| verdict::counts_with_names(verification.checks()))));
+    doc.extend(general::of_the_passport(&content.passport, None));
     for (_, name, blocks) in sections(content) {
         // A heading directly below another says nothing more here.
         let is_headed = matches!(blocks.first(), Some(Block::Heading(_) | Block::Within(..)));
-        doc::text(&mut out, &if is_headed { Vec::new() } else { vec![heading(name)] }, language);
-        doc::text(&mut out, &blocks, language);
+        doc.extend((!is_headed).then(|| heading(name)));
+        doc.extend(blocks);
     }
-    out
+    doc
 }

@@ -1,230 +1,185 @@
-//! A plan as text.
+//! A plan: positions, order, uncertainties next to those of the paper's eight, and what it cannot see.
 
+use super::calibration::{symbols, with_key};
+use super::doc::{Block, On, Rows, Words, code, given, heading, in_unit, joined, line, listed, marked, say, symbol};
+use super::page::Number;
+use super::picture::accuracy::unit;
 use super::style::Outcome;
-use super::{columns, style};
+use super::uncertainty::unit_of;
 use crate::calibration::Parameter;
 use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::plan::criterion::Criterion;
-use crate::plan::sensitivity::{CommonError, Effect};
-use crate::plan::{Plan, Visited};
+use crate::plan::sensitivity::Effect;
+use crate::plan::{Evaluation, Plan, Visited};
 use crate::text::number::decimal;
-use crate::text::printable;
-use crate::units::{printed, quantity};
-use std::fmt::Write;
+use crate::wording::Text;
+use crate::wording::texts::{compass, plan as texts, units};
 
-/// Rise of ω_0 during the run for which the text states its effect, °/h.
+/// Rise of ω_0 during the run for which its effect is stated, °/h.
 const DRIFT_DEG_PER_H: f64 = 0.01;
 
-/// Share of the tolerance from which the text states an uncertainty that no reading reduces.
+/// Share of the tolerance from which an uncertainty that no reading reduces is stated.
 const LARGE_SHARE: f64 = 0.1;
 
-/// Returns the plan: positions, order, uncertainties next to those of the paper's eight, and what it cannot see.
-/// `site` is the identifier of the site, and `site_azimuth_deg` its azimuth of the frame's axis. `assumed` says whether the
-/// gyro type and the laboratory were assumed.
-pub(crate) fn text(plan: &Plan, (site, site_azimuth_deg): (&str, f64), gyro_type: &str, assumed: [bool; 2]) -> String {
-    let gyro_type = printable(gyro_type);
-    let mut out = String::new();
-    let readings: u32 = plan.readings.iter().map(|at| at.visits).sum();
-    let how = match plan.exhaustive {
-        true => "the best of all choices",
-        false => "the best found by exchanging positions (not all choices were compared)",
-    };
-    let mut turn_ons = turn_ons(plan);
-    if let Some(sentence) = no_gyro_can_pass(plan, &gyro_type) {
-        columns::paragraph(&mut out, "", &style::marked(Outcome::Failed, &sentence));
-        turn_ons.take().iter().for_each(|sentence| columns::paragraph(&mut out, "", sentence));
+/// Returns the plan. `site` is the identifier of the site, and `site_azimuth_deg` its azimuth of the frame's axis. `assumed`
+/// says whether the gyro type and the laboratory were assumed.
+pub(crate) fn document(
+    plan: &Plan,
+    (site, site_azimuth_deg): (&str, f64),
+    gyro_type: &str,
+    assumed: [bool; 2],
+) -> Vec<Block> {
+    let failed = |words: Words| line(marked(Outcome::Failed, words));
+    let mut turn_ons = turn_ons(plan).map(line);
+    let mut doc = Vec::new();
+    if let Some(sentence) = no_gyro_can_pass(plan, gyro_type) {
+        doc.push(failed(sentence));
+        doc.extend(turn_ons.take());
     }
     if gravity_prevents_a_pass(plan) {
-        let sentence = format!(
-            "No gyro of type {gyro_type} can pass by guarded acceptance at this site: the uncertainty of local g alone makes \
-             U (k = 2) of ω_g or ω_k {} % of the tolerance at the g of the type. To reduce it, state the height of the site, \
-             or measure g.",
-            percent(COVERAGE_FACTOR * plan.gravity_over_tolerance)
-        );
-        columns::paragraph(&mut out, "", &style::marked(Outcome::Failed, &sentence));
+        let share = percent(COVERAGE_FACTOR * plan.gravity_over_tolerance);
+        doc.push(failed(texts::gravity_prevents(given(gyro_type), share)));
     }
-    let _ = writeln!(
-        out,
-        "Plan for {site}: {readings} readings in {} of {} positions, frame's axis at {}",
-        plan.readings.len(),
-        plan.candidates,
-        azimuth(plan.frame_axis_azimuth_deg)
-    );
-    let [gyro, meter] = assumed;
-    let gyro = if gyro { " (assumed; --gyro states another)" } else { "" };
-    let meter =
-        if meter { ", and a meter with an error within ±0.015 % (assumed; --laboratory states another)" } else { "" };
-    columns::paragraph(&mut out, "", &format!("For gyro type {gyro_type}{gyro}{meter}."));
+    let readings: u32 = plan.readings.iter().map(|at| at.visits).sum();
+    let azimuth_of_plan = azimuth(plan.frame_axis_azimuth_deg);
+    doc.push(line(texts::plan_for(given(site), readings, plan.readings.len(), plan.candidates, azimuth_of_plan)));
+    let [is_gyro_assumed, is_meter_assumed] = assumed;
+    let mut inputs = given(gyro_type);
+    if is_gyro_assumed {
+        inputs = texts::type_assumed(inputs, code("--gyro"));
+    }
+    if is_meter_assumed {
+        inputs = texts::meter_assumed(inputs, code("--laboratory"));
+    }
     let value = plan.evaluation.value;
-    let mut words = format!("Criterion {}: {}, {how}.", of_criterion(plan.criterion), significant(value));
-    if let Some(paper) = &plan.paper {
-        let ratio = plan.criterion.ratio(value, paper.value);
-        let paper = significant(paper.value);
-        let _ = write!(
-            words,
-            " The paper's eight positions with the axis east: {paper}. The overall uncertainty of the plan is {ratio:.3} times \
-             that of the paper's eight."
-        );
-    }
-    columns::paragraph(&mut out, "", &words);
-    out.push('\n');
-    positions(&mut out, plan);
-    uncertainties(&mut out, plan);
-    common_errors(&mut out, plan);
-    out.push('\n');
-    for sentence in turn_ons.into_iter().chain(remarks(plan, site_azimuth_deg)) {
-        columns::paragraph(&mut out, "", &sentence);
-    }
-    out
-}
-
-fn azimuth(azimuth_deg: f64) -> String {
-    let name = match azimuth_deg {
-        0.0 => " (north)",
-        90.0 => " (east)",
-        180.0 => " (south)",
-        270.0 => " (west)",
-        _ => "",
-    };
-    format!("{azimuth_deg}°{name}")
-}
-
-fn of_criterion(criterion: Criterion) -> &'static str {
-    match criterion {
-        Criterion::A => "a, sum of (u/tolerance)²",
-        Criterion::D => "d, ln det of the covariance in units of the tolerances",
-        Criterion::Worst => "worst, largest u/tolerance",
-    }
-}
-
-fn positions(out: &mut String, plan: &Plan) {
-    let certified = plan.readings.iter().any(|at| at.index.is_some());
-    let mut names = vec!["θ, °", "φ, °", "visits"];
-    if certified {
-        names.splice(0..0, ["i", "j"]);
-    }
-    let row = |at: &Visited| {
-        let mut row: Vec<String> =
-            at.index.iter().flat_map(|index| [index.i.to_string(), index.j.to_string()]).collect();
-        row.extend([at.theta_deg.to_string(), at.phi_deg.to_string(), at.visits.to_string()]);
-        row
-    };
-    columns::table(out, &names, plan.readings.iter().map(row));
-    let visit = |place: &usize| {
-        let at = &plan.readings[*place];
-        match at.index {
-            // Without a space, so that both numbers stay on one line.
-            Some(index) => format!("({},{})", index.i, index.j),
-            None => format!("({},{})", at.theta_deg, at.phi_deg),
-        }
-    };
-    let order: Vec<String> = plan.order.places.iter().map(visit).collect();
-    let names = if certified { "(i,j)" } else { "(θ,φ)" };
-    out.push('\n');
-    columns::paragraph(out, "", &format!("Order of the visits {names}: {}", order.join(", ")));
-    out.push('\n');
-}
-
-fn uncertainties(out: &mut String, plan: &Plan) {
-    let mut names = vec!["", "unit", "u", "% of tolerance"];
-    if plan.paper.is_some() {
-        names.extend(["u, paper's eight", "ratio"]);
-    }
-    let row = |parameter: Parameter| {
-        let place = parameter.place();
-        let u = plan.evaluation.standard_uncertainty[place];
-        let shown = |u: f64| format!("{u:.*}", columns::decimals(u));
-        let mut row = vec![
-            parameter.symbol().to_owned(),
-            printed(parameter.unit()),
-            shown(u),
-            percent_of_tolerance(u / plan.tolerance[place]),
-        ];
-        if let Some(paper) = &plan.paper {
-            let other = paper.standard_uncertainty[place];
-            row.extend([shown(other), format!("{:.2}", u / other)]);
-        }
-        row
-    };
-    columns::table(out, &names, Parameter::AS_IN_THE_PAPER.map(row));
-    let turn_on = if plan.turn_on_over_tolerance > 0.0 { " and of a single turn-on" } else { "" };
-    let words = format!(
-        "u: standard uncertainty (k = 1) from errors of single readings{turn_on}, drifts at local g; `calibrate` adds the \
-         errors below, as far as they are stated."
-    );
-    columns::paragraph(out, "  ", &words);
-}
-
-/// Formats a value with four significant digits.
-fn significant(value: f64) -> String {
-    let digits = if value == 0.0 { 0.0 } else { 3.0 - libm::floor(libm::log10(value.abs())) };
-    format!("{value:.*}", digits.clamp(0.0, 12.0) as usize)
-}
-
-fn common_errors(out: &mut String, plan: &Plan) {
-    out.push_str(
-        "\nErrors common to all positions: largest change of a parameter in % of its tolerance, largest residual\n",
-    );
-    let mut names = vec!["error", "size", "change, %", "residual, °/h"];
-    if plan.paper.is_some() {
-        names.extend(["paper: change, %", "paper: residual, °/h"]);
-    }
-    let cells = |effect: &Effect| {
-        // Rounding leaves about 1e-15.
-        let residual = effect.largest_residual_deg_per_h;
-        let residual = if residual < 1e-12 { "0".to_owned() } else { columns::two_digits(residual) };
-        [percent(effect.largest_over_tolerance), residual]
-    };
-    let rows = plan.evaluation.effects.iter().enumerate().map(|(place, effect)| {
-        let mut row = vec![effect.error.name.to_owned(), size(effect)];
-        row.extend(cells(effect));
-        row.extend(plan.paper.iter().flat_map(|paper| cells(&paper.effects[place])));
-        row
+    let how = if plan.exhaustive { texts::BEST_OF_ALL } else { texts::BEST_FOUND };
+    let criterion = texts::criterion(of_criterion(plan.criterion), Number::significant(value, 4), how);
+    let of_paper = plan.paper.as_ref().map(|paper| {
+        let ratio = Number::fixed(plan.criterion.ratio(value, paper.value), 3);
+        texts::of_the_paper(Number::significant(paper.value, 4), ratio)
     });
-    columns::table(out, &names, rows);
+    doc.extend([line(texts::for_type(inputs)), line(joined([criterion].into_iter().chain(of_paper), " "))]);
+    doc.extend(positions(plan));
+    doc.extend(uncertainties(plan));
+    doc.extend(common_errors(plan));
+    doc.push(Block::Typed("\n".to_owned()));
+    doc.extend(turn_ons.into_iter().chain(remarks(plan, site_azimuth_deg).into_iter().map(line)));
+    doc
 }
 
-/// Returns the size of an error with its unit.
-pub(crate) fn size(effect: &Effect) -> String {
-    let CommonError { size, cause, .. } = effect.error;
-    quantity(&size.to_string(), cause.unit())
+fn azimuth(azimuth_deg: f64) -> Words {
+    let degrees = Number::exact(azimuth_deg);
+    let direction = match azimuth_deg {
+        0.0 => compass::NORTH,
+        90.0 => compass::EAST,
+        180.0 => compass::SOUTH,
+        270.0 => compass::WEST,
+        _ => return Words::Quantity(degrees, units::DEGREES),
+    };
+    texts::at(degrees, direction)
 }
 
-/// Formats a standard uncertainty as a share of the tolerance, in percent.
-pub(crate) fn percent_of_tolerance(share: f64) -> String {
-    format!("{:.1}", 100.0 * share)
+fn of_criterion(criterion: Criterion) -> Words {
+    let words = match criterion {
+        Criterion::A => texts::criterion_a,
+        Criterion::D => texts::criterion_d,
+        Criterion::Worst => texts::criterion_worst,
+    };
+    words(code(criterion.key()))
 }
 
-/// Formats a share in percent: two digits, or 0 where only rounding is left.
-pub(crate) fn percent(share: f64) -> String {
-    let percent = 100.0 * share;
-    match percent {
-        small if small < 1e-6 => "0".to_owned(),
-        small if small < 0.095 => columns::two_digits(small),
-        small if small < 9.5 => format!("{small:.1}"),
-        large => format!("{large:.0}"),
+fn positions(plan: &Plan) -> [Block; 3] {
+    let is_certified = plan.readings.iter().any(|at| at.index.is_some());
+    let table = Rows::of(&plan.readings, "numbers")
+        .named(symbol("i"), |at| at.index.map(|index| index.i))
+        .only_if(is_certified)
+        .named(symbol("j"), |at| at.index.map(|index| index.j))
+        .only_if(is_certified)
+        .column(in_unit(symbol("θ"), units::DEGREES), |at| Number::exact(at.theta_deg))
+        .column(in_unit(symbol("φ"), units::DEGREES), |at| Number::exact(at.phi_deg))
+        .column(texts::VISITS, |at| at.visits);
+    // Without a space, so that both numbers stay on one line.
+    let visit = |place: &usize| match &plan.readings[*place] {
+        Visited { index: Some(index), .. } => format!("({},{})", index.i, index.j),
+        Visited { theta_deg, phi_deg, .. } => format!("({theta_deg},{phi_deg})"),
+    };
+    let names = if is_certified { "(i,j)" } else { "(θ,φ)" };
+    let blank = || Block::Typed("\n".to_owned());
+    let order = line(texts::order(names, listed(plan.order.places.iter().map(visit))));
+    [Block::Within("", vec![blank(), table.called(texts::VISITS), blank()]), order, blank()]
+}
+
+fn uncertainties(plan: &Plan) -> [Block; 2] {
+    let u = |of: &Evaluation, parameter: &Parameter| of.standard_uncertainty[parameter.place()];
+    let own = |parameter: &Parameter| u(&plan.evaluation, parameter);
+    let of_paper = |parameter: &Parameter| plan.paper.as_ref().map(|paper| u(paper, parameter));
+    let table = Rows::of(&Parameter::AS_IN_THE_PAPER, "numbers")
+        .named("", |parameter| symbol(parameter.symbol()))
+        .column(texts::UNIT, |parameter| unit(*parameter))
+        .column(symbol("u"), |parameter| Number::uncertainty(own(parameter)))
+        .column(texts::OF_TOLERANCE, |parameter| {
+            percent_of_tolerance(own(parameter) / plan.tolerance[parameter.place()])
+        })
+        .column(texts::U_OF_THE_PAPER, |parameter| of_paper(parameter).map(Number::uncertainty))
+        .only_if(plan.paper.is_some())
+        .column(texts::RATIO, |parameter| of_paper(parameter).map(|paper| Number::fixed(own(parameter) / paper, 2)))
+        .only_if(plan.paper.is_some());
+    let note = if plan.turn_on_over_tolerance > 0.0 { texts::u_note_turn_on } else { texts::u_note };
+    [table.called(texts::OF_TOLERANCE), say([note(code("`calibrate`"))])]
+}
+
+fn common_errors(plan: &Plan) -> [Block; 2] {
+    let rows: Vec<(usize, &Effect)> = plan.evaluation.effects.iter().enumerate().collect();
+    let residual = |effect: &Effect| match effect.largest_residual_deg_per_h {
+        // Rounding leaves about 1e-15.
+        rounding if rounding < 1e-12 => Number::fixed(0.0, 0),
+        residual => Number::scientific(residual, 2),
+    };
+    let of_paper = |place: usize| plan.paper.as_ref().map(|paper| &paper.effects[place]);
+    let table = Rows::of(&rows, "numbers")
+        .named(texts::ERROR, |(_, effect)| effect.error.cause.kind_words())
+        .column(texts::SIZE, |(_, effect)| {
+            Words::Quantity(Number::exact(effect.error.size), unit_of(effect.error.cause))
+        })
+        .column(texts::CHANGE, |(_, effect)| percent(effect.largest_over_tolerance))
+        .column(texts::RESIDUAL, |(_, effect)| residual(effect))
+        .column(texts::PAPER_CHANGE, |(place, _)| of_paper(*place).map(|effect| percent(effect.largest_over_tolerance)))
+        .only_if(plan.paper.is_some())
+        .column(texts::PAPER_RESIDUAL, |(place, _)| of_paper(*place).map(residual))
+        .only_if(plan.paper.is_some());
+    [heading(texts::COMMON_ERRORS).only(On::Terminal), table.called(texts::COMMON_ERRORS)]
+}
+
+/// Returns a standard uncertainty as a share of the tolerance, in percent.
+pub(crate) fn percent_of_tolerance(share: f64) -> Number {
+    Number::fixed(100.0 * share, 1)
+}
+
+/// Returns a share in percent: two digits, or 0 where only rounding is left.
+pub(crate) fn percent(share: f64) -> Number {
+    match 100.0 * share {
+        small if small < 1e-6 => Number::fixed(0.0, 0),
+        small if small < 0.095 => Number::scientific(small, 2),
+        small if small < 9.5 => Number::fixed(small, 1),
+        large => Number::fixed(large, 0),
     }
 }
 
 /// Which effects a sentence names.
 type Named = fn(&Effect) -> bool;
+/// The sentence.
+type Said = fn(Words) -> Words;
 
-/// Returns the parameters of which no value can be found within the tolerance, in a sentence, if there are any.
-fn no_gyro_can_pass(plan: &Plan, gyro_type: &str) -> Option<String> {
+/// The parameters of which no value can be found within the tolerance, if there are any.
+fn no_gyro_can_pass(plan: &Plan, gyro_type: &str) -> Option<Words> {
     let of_tolerance = |parameter: &Parameter| {
         plan.evaluation.standard_uncertainty[parameter.place()] / plan.tolerance[parameter.place()]
     };
     let beyond =
         Parameter::AS_IN_THE_PAPER.into_iter().filter(|parameter| COVERAGE_FACTOR * of_tolerance(parameter) > 1.0);
-    let beyond: Vec<&str> = beyond.map(Parameter::symbol).collect();
-    let no_other = if plan.exhaustive { "; no other choice of as many readings is better" } else { "" };
-    (!beyond.is_empty()).then(|| {
-        format!(
-            "No gyro of type {gyro_type} can pass by guarded acceptance with these readings, because 2 u is larger than the \
-             tolerance of {}{no_other}.",
-            beyond.join(", ")
-        )
-    })
+    let beyond: Vec<Parameter> = beyond.collect();
+    let no_other = if plan.exhaustive { Words::from(texts::NO_OTHER) } else { "".into() };
+    (!beyond.is_empty()).then(|| texts::no_gyro_can_pass(given(gyro_type), symbols(beyond), no_other))
 }
 
 /// Returns `true` if the uncertainty of local g alone exceeds a tolerance.
@@ -232,96 +187,57 @@ fn gravity_prevents_a_pass(plan: &Plan) -> bool {
     COVERAGE_FACTOR * plan.gravity_over_tolerance > 1.0
 }
 
-/// Returns what the uncertainty of local g contributes.
-fn gravity(plan: &Plan) -> String {
-    format!(
-        "The standard uncertainty of local g alone makes u of ω_g or ω_k {} % of the tolerance at the g of the type; to \
-         reduce it, state the height of the site, or measure g.",
-        percent(plan.gravity_over_tolerance)
-    )
+/// What the noise between turn-ons contributes, if it is much.
+fn turn_ons(plan: &Plan) -> Option<Words> {
+    (plan.turn_on_over_tolerance > LARGE_SHARE).then(|| texts::turn_ons(percent(plan.turn_on_over_tolerance)))
 }
 
-/// Returns what the noise between turn-ons contributes, if it is much.
-fn turn_ons(plan: &Plan) -> Option<String> {
-    (plan.turn_on_over_tolerance > LARGE_SHARE).then(|| {
-        format!(
-            "The gyro noise between turn-ons alone makes u of ω_0 {} % of the tolerance. More readings do not reduce it; \
-             several turn-ons do.",
-            percent(plan.turn_on_over_tolerance)
-        )
-    })
-}
-
-/// Returns what a user of the plan must know besides the numbers.
-fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<String> {
+/// What a user of the plan must know besides the numbers.
+fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<Words> {
     let mut remarks = Vec::new();
     if plan.gravity_over_tolerance > LARGE_SHARE && !gravity_prevents_a_pass(plan) {
-        remarks.push(gravity(plan));
+        remarks.push(texts::gravity(percent(plan.gravity_over_tolerance)));
     }
     if plan.beyond_range > 0 {
-        let positions = match plan.beyond_range {
-            1 => "One position is".to_owned(),
-            some => format!("{some} positions are"),
-        };
-        remarks.push(format!("{positions} left out: the gyro needs more current there than meter.range_ma."));
+        remarks.push(texts::beyond_range(code("meter.range_ma"), plan.beyond_range));
     }
-    let kinds: [(&str, Named); 3] = [
-        (
-            "The residuals of the following errors are too small to be seen next to the noise of the readings",
-            |effect| effect.matters() && effect.is_hidden(),
-        ),
-        ("The residuals show errors of this size", |effect| effect.matters() && !effect.is_hidden()),
-        ("These errors have almost no effect (below 0.1 % of every tolerance)", |effect| !effect.matters()),
+    let kinds: [(Said, Named); 3] = [
+        (texts::hidden, |effect| effect.matters() && effect.is_hidden()),
+        (texts::shown, |effect| effect.matters() && !effect.is_hidden()),
+        (texts::no_effect, |effect| !effect.matters()),
     ];
     for (words, is) in kinds {
         let effects = plan.evaluation.effects.iter().filter(|effect| is(effect));
-        let names: Vec<&str> = effects.map(|effect| effect.error.name).collect();
-        if !names.is_empty() {
-            remarks.push(format!("{words}: {}.", names.join(", ")));
-        }
+        // The names of some inputs have commas.
+        let names: Vec<Words> = effects.map(|effect| effect.error.cause.kind_words()).collect();
+        remarks.extend((!names.is_empty()).then(|| words(joined(names, "; "))));
     }
-    let worse: Vec<String> =
-        plan.worse().iter().map(|(parameter, ratio)| format!("{} ({ratio:.2} times)", parameter.symbol())).collect();
-    match (&plan.paper, worse.as_slice()) {
-        (None, _) => {}
-        (Some(_), []) => remarks.push("No parameter is more uncertain than with the paper's eight.".to_owned()),
-        (Some(_), worse) => {
-            remarks.push(format!("Uncertainties larger than with the paper's eight: {}.", worse.join(", ")));
-        }
-    }
-    if !plan.has_matrices {
-        remarks.push(
-            "The plan lacks some of the paper's eight positions: without them a passport has no matrices, and only least \
-             squares applies."
-                .to_owned(),
-        );
-    }
-    if !plan.has_general_model {
-        remarks.push("It does not determine the general model, the full matrix of g-sensitive drift.".to_owned());
-    }
-    if 2 * plan.readings.len() == Parameter::EIGHT.len() {
-        remarks.push("Four positions leave no degrees of freedom: the fit cannot be tested.".to_owned());
-    }
-    remarks.push(format!(
-        "In this order an ω_0 that rises or falls by {DRIFT_DEG_PER_H} °/h on each axis during the run changes no parameter by \
-         more than {} % of its tolerance.",
-        percent(DRIFT_DEG_PER_H * plan.order.largest_over_tolerance)
-    ));
+    let worse = plan.worse().into_iter();
+    let worse: Vec<Words> =
+        worse.map(|(parameter, ratio)| texts::times(symbol(parameter.symbol()), Number::fixed(ratio, 2))).collect();
+    remarks.extend(plan.paper.as_ref().map(|_| match worse.is_empty() {
+        true => texts::NONE_WORSE.into(),
+        false => texts::worse(listed(worse)),
+    }));
+    let may_be_said: [(bool, Text); 3] = [
+        (!plan.has_matrices, texts::NO_MATRICES),
+        (!plan.has_general_model, texts::NO_GENERAL_MODEL),
+        (2 * plan.readings.len() == Parameter::EIGHT.len(), texts::NO_FREEDOM),
+    ];
+    remarks.extend(may_be_said.into_iter().filter(|(is, _)| *is).map(|(_, text)| text.into()));
+    let change = percent(DRIFT_DEG_PER_H * plan.order.largest_over_tolerance);
+    remarks.push(texts::if_drifts(Number::exact(DRIFT_DEG_PER_H), change));
     if plan.frame_axis_azimuth_deg != site_azimuth_deg {
-        remarks.push(format!(
-            "The site file has the frame's axis at {}; for this plan set up the base so that the axis points to {}, and state \
-             frame_axis_azimuth_deg: {}.",
-            azimuth(site_azimuth_deg),
-            azimuth(plan.frame_axis_azimuth_deg),
-            decimal(plan.frame_axis_azimuth_deg)
-        ));
+        let key = format!("frame_axis_azimuth_deg: {}", decimal(plan.frame_axis_azimuth_deg));
+        let [of_site, of_plan] = [site_azimuth_deg, plan.frame_axis_azimuth_deg].map(azimuth);
+        remarks.push(texts::other_azimuth(of_site, of_plan, code(key)));
     }
     if !plan.has_matrices && plan.readings.iter().all(|at| at.index.is_none()) {
-        remarks.push("The stand must have these positions certified; the paper's eight are not enough.".to_owned());
+        remarks.push(texts::TO_BE_CERTIFIED.into());
     }
-    let not_stated: Vec<&str> = plan.not_stated().collect();
-    if !not_stated.is_empty() {
-        remarks.push(format!("Not stated, and taken as 0: {}.", not_stated.join("; ")));
-    }
+    let noise = plan.noise_not_stated.then(|| texts::noise(code("noise.visit_deg_per_h")));
+    let of_positions = plan.of_positions_not_stated.iter().map(|what| with_key(*what).into());
+    let not_stated: Vec<Words> = noise.into_iter().chain(of_positions).collect();
+    remarks.extend((!not_stated.is_empty()).then(|| texts::not_stated(joined(not_stated, "; "))));
     remarks
 }

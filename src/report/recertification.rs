@@ -1,14 +1,15 @@
-//! Result of a recertification, as text and as JSON.
+//! Result of a recertification, also as JSON.
 
 use crate::batch::recertification::Recertified;
 use crate::report::certification::{self, change};
+use crate::report::difference;
+use crate::report::doc::{Block, Words, code, given, line, listed, marked};
 use crate::report::issued::{self, Report, State};
 use crate::report::style::Outcome;
-use crate::report::{columns, difference, doc, style};
 use crate::text::{name_of, shown};
-use crate::wording::Language;
+use crate::wording::texts::{calibration, issued as texts};
 use serde_json::{Value, json};
-use std::fmt::Write;
+use std::path::Path;
 
 fn reports(found: &Recertified) -> impl Iterator<Item = Report> {
     let done = found.done.iter().map(|row| Report {
@@ -38,45 +39,42 @@ pub(crate) fn to_json(found: &Recertified, dry_run: bool) -> Value {
     })
 }
 
-/// Returns the result as text: the new certificate, the check against the old one, what has changed, and the passports.
-pub(crate) fn text(found: &Recertified, dry_run: bool) -> String {
-    let mut out = String::new();
+/// The new certificate, the check against the old one, what has changed, and the passports.
+pub(crate) fn document(found: &Recertified, dry_run: bool) -> Vec<Block> {
     let stand = &found.certification.stand;
-    let number = &stand.certificate.number;
-    let (outcome, answer) = certification::answer(&found.comparison);
+    let [number, old] = [&stand.certificate.number, &found.old_number].map(given);
+    let checked = certification::outcome_of(&found.comparison, found.comparison.same_stand);
     // The work is done even if the stand has changed: a cross would say that it failed.
-    let outcome = match (outcome, certification::outcome_of_certification(&found.certification)) {
+    let outcome = match (checked, certification::outcome_of_certification(&found.certification)) {
         (Outcome::Passed, of_readings) => of_readings,
         _ => Outcome::Undecided,
     };
-    let (outcome, work) = if dry_run { (Outcome::NotAsked, "PLANNED") } else { (outcome, "RECERTIFIED") };
-    let _ = writeln!(
-        out,
-        "{}  {} {}: certificate {number}; check against certificate {}: {answer}; passports: {}\n",
-        style::marked(outcome, work),
-        stand.stand.model,
-        stand.stand.serial,
-        found.old_number,
-        reports(found).count()
-    );
-    out += &certification::certification(&found.certification);
-    let _ = write!(out, "\n{}", certification::comparison(&found.comparison, None));
-    let _ = writeln!(out);
-    doc::text(&mut out, &change::deviations(&found.old_number, &found.changes), Language::English);
-    let _ = writeln!(out);
-    out.extend(reports(found).map(|report| issued::named(&report)));
-    let done = |verb| if dry_run { issued::marked(None, "planned") } else { issued::marked(Some(true), verb) };
-    let _ = writeln!(out, "{}  certificate {number}  {}", done("certified"), shown(&found.stand_file));
-    if let Some(path) = &found.superseded {
-        let _ = writeln!(out, "{}  certificate {}  {}", done("kept"), found.old_number, shown(path));
-    }
+    let (outcome, work) = if dry_run { (Outcome::NotAsked, texts::IS_PLANNED) } else { (outcome, texts::RECERTIFIED) };
+    let (of_check, count) = (change::word(checked), reports(found).count());
+    let certificate = texts::new_certificate(number.clone(), old.clone(), of_check, count);
+    let name = format!("{} {}: ", stand.stand.model, stand.stand.serial);
+    let blank = || Block::Typed("\n".to_owned());
+    let mut doc = vec![line(vec![marked(outcome, work), "  ".into(), given(name), certificate]), blank()];
+    doc.extend(certification::certification(&found.certification));
+    doc.push(blank());
+    doc.extend(certification::comparison(&found.comparison, false));
+    doc.push(blank());
+    doc.extend(change::deviations(&found.old_number, &found.changes));
+    doc.push(blank());
+    let done = |verb| match dry_run {
+        true => issued::done(None, texts::PLANNED),
+        false => issued::done(Some(true), verb),
+    };
+    let file = |number: &Words, path: &Path| {
+        Words::All(vec![texts::certificate(number.clone()), "  ".into(), shown(path).to_string().into()])
+    };
+    let mut lines: Vec<Vec<Words>> = reports(found).flat_map(|report| issued::named(&report)).collect();
+    lines.push(vec![done(texts::CERTIFIED), file(&number, &found.stand_file)]);
+    lines.extend(found.superseded.iter().map(|path| vec![done(texts::KEPT), file(&old, path)]));
+    doc.push(Block::Whole("", lines));
     if !found.remaining.is_empty() {
-        let words = format!(
-            "WARNING: in force under certificate {} still: {}; recertify them too, or withdraw them with `revoke`.",
-            found.old_number,
-            found.remaining.join(", ")
-        );
-        columns::paragraph(&mut out, "", &words);
+        let still = texts::still_in_force(old, listed(found.remaining.iter().map(given)), code("`revoke`"));
+        doc.push(line(calibration::warning(still)));
     }
-    out
+    doc
 }

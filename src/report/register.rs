@@ -1,62 +1,100 @@
-//! Registers of a folder as text for a terminal and as CSV, and their renewal.
+//! Registers of a folder, also as CSV, and their renewal.
 
-use crate::folder::overview::Overview;
+use crate::folder::overview::{Alarm, AlarmCode, Overview};
 use crate::folder::renewal::{Renewed, Withdrawn};
 use crate::register::{Row, State};
+use crate::report::columns;
+use crate::report::doc::{Block, Words, given, line, listed, longest, marked, padded};
 use crate::report::style::Outcome;
-use crate::report::{columns, style};
-use crate::text::{Printable, printable, shown};
+use crate::text::shown;
+use crate::wording::Text;
+use crate::wording::texts::{checks, register as texts};
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
-use std::fmt::Write;
 
-/// Returns whether the passport of a row may be used.
-fn outcome(row: &Row) -> Outcome {
-    match (row.state, row.expired) {
-        (State::Current, false) => Outcome::Passed,
-        _ => Outcome::Failed,
+/// The states of passports, in the order in which they are counted.
+const STATES: [Text; 5] = [texts::EXPIRED, texts::IN_FORCE, texts::MOVED, texts::SUPERSEDED, texts::WITHDRAWN];
+
+/// Returns the state of a passport, with the expiry of a current one.
+pub(crate) fn state(row: &Row) -> Text {
+    match row.state {
+        State::Current if row.expired => texts::EXPIRED,
+        State::Current => texts::IN_FORCE,
+        State::Superseded => texts::SUPERSEDED,
+        State::Moved => texts::MOVED,
+        State::Withdrawn => texts::WITHDRAWN,
     }
 }
 
-/// Returns the number of passports in each state and of alarms, the register and the passports of each stand, and last the
-/// alarms, which a terminal then shows however long the list is. `listed` is the number of passports before any was
-/// filtered out.
-pub(crate) fn text(overview: &Overview, listed: usize) -> String {
-    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-    overview.rows().for_each(|row| *counts.entry(row.words()).or_insert(0) += 1);
-    let counts = columns::counts(counts.into_iter().map(|(words, count)| (count, words.to_owned())));
-    let summary = match listed {
-        _ if !counts.is_empty() => counts,
-        0 => "no passports".to_owned(),
-        listed => format!("no passport is selected, of {listed}"),
+/// The reason for the state; empty for a passport that never expires.
+fn why(row: &Row) -> Words {
+    match (&row.by, &row.reason) {
+        (Some(by), _) => texts::since_by(row.since, given(by)),
+        (None, Some(reason)) => texts::since(row.since, given(reason)),
+        (None, None) => row.valid_until.map_or_else(|| "".into(), texts::valid_until),
+    }
+}
+
+/// The alarm with its code and its file; the detail of the library is English.
+pub(crate) fn alarm(alarm: &Alarm) -> Words {
+    let detail = match alarm.code {
+        AlarmCode::NotListed => texts::ALARM_NOT_LISTED,
+        AlarmCode::Differs => texts::ALARM_DIFFERS,
+        AlarmCode::Missing => texts::ALARM_MISSING,
+        AlarmCode::NoRegister => texts::ALARM_NO_REGISTER,
+        AlarmCode::RegisterUnknown => texts::ALARM_UNKNOWN,
+        AlarmCode::RegisterStale => texts::ALARM_STALE,
+        AlarmCode::RegisterOlder => texts::ALARM_OLDER,
+        AlarmCode::RegisterContradicted => texts::ALARM_CONTRADICTED,
+        AlarmCode::Certificates => texts::ALARM_CERTIFICATES,
+        AlarmCode::Misplaced => texts::ALARM_MISPLACED,
+        AlarmCode::RevocationList => texts::ALARM_REVOCATION_LIST,
+        AlarmCode::Unreadable => texts::ALARM_UNREADABLE,
     };
-    let is_empty = listed == 0 && overview.alarms.is_empty();
-    let outcome_of_all = match overview.needs_attention() {
+    let file = alarm.file.as_ref().map_or_else(|| "".into(), |file| Words::All(vec![given(file), ": ".into()]));
+    let detail = Words::OfLibrary(alarm.detail.clone(), Box::new(detail.into()));
+    marked(Outcome::Failed, texts::alarm(alarm.code.key(), file, detail))
+}
+
+/// The number of passports in each state and of alarms, the register and the passports of each stand, and last the alarms, which
+/// a terminal then shows however long the list is. `listed` is the number of passports before any was filtered out.
+pub(crate) fn document(overview: &Overview, listed_rows: usize) -> Vec<Block> {
+    let count = |wanted: Text| overview.rows().filter(|row| state(row) == wanted).count();
+    let counts = STATES.into_iter().map(|state| (state, count(state))).filter(|(_, count)| *count > 0);
+    let counts: Vec<Words> = counts.map(|(state, count)| texts::counted(count, state)).collect();
+    let passports = match listed_rows {
+        _ if !counts.is_empty() => listed(counts),
+        0 => texts::NO_PASSPORTS.into(),
+        all => texts::none_selected(all),
+    };
+    let is_empty = listed_rows == 0 && overview.alarms.is_empty();
+    let outcome = match overview.needs_attention() {
         // A folder without passports may be the wrong one.
         _ if is_empty => Outcome::NotAsked,
         needs_attention => Some(!needs_attention).into(),
     };
-    let mut out = style::marked(outcome_of_all, &format!("{summary}; alarms: {}", overview.alarms.len())) + "\n";
-    if is_empty {
-        out.push_str("The folder contains no passport; check its path.\n");
-    }
+    let mut lines = Vec::new();
     for stand in overview.stands.iter().filter(|stand| !stand.rows.is_empty()) {
-        let fresh = stand.fresh_until.map_or_else(String::new, |last| format!(", fresh until {last} (inclusive)"));
-        let _ = writeln!(out, "{}  register {} of {}{fresh}", stand.stand, stand.sequence, stand.issued_at);
+        let fresh = stand.fresh_until.map_or_else(|| "".into(), checks::register_fresh);
+        let register = texts::register_of(stand.sequence, stand.issued_at, fresh);
+        lines.push(vec![Words::All(vec![given(&stand.stand), "  ".into(), register])]);
         for row in &stand.rows {
-            let state = style::marked(outcome(row), &format!("{:<10}", row.words()));
-            let file = row.file.as_deref().unwrap_or("(no file)");
-            let _ = writeln!(out, "  {state}  {}  {}", row.id, Printable(file));
-            let why = row.why();
-            if !why.is_empty() {
-                columns::paragraph(&mut out, "                ", &printable(&why));
+            let is_used = Some(row.is_in_force());
+            let file = row.file.as_ref().map_or_else(|| texts::NO_FILE.into(), given);
+            let state = Words::All(vec![
+                "  ".into(),
+                marked(is_used, padded(state(row), |language| longest(STATES, language))),
+            ]);
+            lines.push(vec![state, Words::All(vec![given(&row.id), "  ".into(), file])]);
+            if row.by.is_some() || row.reason.is_some() || row.valid_until.is_some() {
+                lines.push(vec!["".into(), why(row)]);
             }
         }
     }
-    for alarm in &overview.alarms {
-        columns::paragraph(&mut out, "", &style::marked(Some(false), &alarm.to_string()));
-    }
-    out
+    let mut doc = vec![line(marked(outcome, texts::summary(passports, overview.alarms.len())))];
+    doc.extend(is_empty.then(|| line(texts::EMPTY_FOLDER)));
+    doc.push(Block::Whole("", lines));
+    doc.extend(overview.alarms.iter().map(|one| line(alarm(one))));
+    doc
 }
 
 /// Returns the passports as CSV with the header
@@ -98,17 +136,19 @@ pub(crate) fn renewed_json(renewed: &[Renewed]) -> Value {
     renewed.iter().map(of).collect()
 }
 
-/// Returns the renewed registers as text, with what was concluded for each.
-pub(crate) fn renewed(renewed: &[Renewed], dry_run: bool) -> String {
-    let mut out = String::new();
-    for one in renewed {
-        let mark = if dry_run { style::marked(None, "planned") } else { style::marked(Some(true), "renewed") };
-        let _ = writeln!(out, "{mark}  {}  register {}, passports: {}", one.stand, one.sequence, one.entries.len());
-        for conclusion in &one.conclusions {
-            columns::paragraph(&mut out, "           ", &printable(conclusion));
-        }
-    }
-    out
+/// The renewed registers, with what was concluded for each.
+pub(crate) fn renewed(renewed: &[Renewed], dry_run: bool) -> Block {
+    let done = || done(dry_run, texts::RENEWED);
+    let lines = renewed.iter().flat_map(|one| {
+        let register = texts::renewed_as(one.sequence, one.entries.len());
+        let first = vec![done(), Words::All(vec![given(&one.stand), "  ".into(), register])];
+        [first].into_iter().chain(one.conclusions.iter().map(|words| vec!["".into(), given(words)]))
+    });
+    Block::Whole("", lines.collect())
+}
+
+fn done(dry_run: bool, what: Text) -> Words {
+    if dry_run { marked(None, texts::PLANNED) } else { marked(Some(true), what) }
 }
 
 /// Returns the withdrawn passports as JSON: `[{register, sequence, revoked, alarms}]`.
@@ -121,14 +161,15 @@ pub(crate) fn withdrawn_json(withdrawn: &[Withdrawn]) -> Value {
     withdrawn.iter().map(of).collect()
 }
 
-/// Returns the withdrawn passports as text, one line each.
-pub(crate) fn withdrawn(withdrawn: &[Withdrawn], dry_run: bool) -> String {
-    let mut out = String::new();
-    for one in withdrawn {
-        let mark = if dry_run { style::marked(None, "planned") } else { style::marked(Some(true), "withdrawn") };
-        for id in &one.ids {
-            let _ = writeln!(out, "{mark}  {id}  register {}  {}", one.sequence, shown(&one.register));
-        }
-    }
-    out
+/// The withdrawn passports, one line each.
+pub(crate) fn withdrawn(withdrawn: &[Withdrawn], dry_run: bool) -> Block {
+    let lines = withdrawn.iter().flat_map(|one| {
+        let register = || texts::in_register(one.sequence);
+        let file = || shown(&one.register).to_string();
+        one.ids.iter().map(move |id| {
+            let words = vec![given(id), "  ".into(), register(), "  ".into(), file().into()];
+            vec![done(dry_run, texts::WITHDRAWN), words.into()]
+        })
+    });
+    Block::Whole("", lines.collect())
 }

@@ -32,7 +32,7 @@ pub(crate) fn text(cases: &[Case]) -> String {
         let digits = group.iter().any(|case| case.digits.is_some());
         let last = if digits { "digits" } else { "tolerance" };
         let rows = group.iter().map(|case| row(case, digits));
-        columns::table(&mut out, &["", "expected", "found", last, ""], rows);
+        columns::table(&mut out, 1, &["", "expected", "found", last, ""], rows);
         columns::paragraph(&mut out, "  ", &format!("Source: {}.", sources(group)));
     }
     out

@@ -73,7 +73,7 @@ pub(crate) fn accuracy(found: &Accuracy, options: &AccuracyOptions) -> String {
             judged.into_iter().chain(without).collect::<Vec<_>>().join("; "),
         ]
     });
-    columns::table(&mut out, &["method", "parameter", "unit", "worst", "std. dev.", "paper's bound", ""], rows);
+    columns::table(&mut out, 1, &["method", "parameter", "unit", "worst", "std. dev.", "paper's bound", ""], rows);
     out
 }
 
@@ -95,7 +95,7 @@ pub(crate) fn convergence(found: &Convergence) -> String {
             if row.stands < found.trials { format!("{} stands", grouped(row.stands)) } else { String::new() },
         ]
     });
-    columns::table(&mut out, &["limit, °", "angles", "mean", "95th perc.", "maximum", "not converged, %", ""], rows);
+    columns::table(&mut out, 1, &["limit, °", "angles", "mean", "95th perc.", "maximum", "not converged, %", ""], rows);
     out.push_str("  mean, 95th percentile, maximum: of the stands that converged\n");
     out.push_str("  ±: standard uncertainty; < and >: limit at 95 %, where all stands converged or none did\n");
     out

@@ -58,11 +58,6 @@ pub(crate) fn marked(outcome: impl Into<Outcome>, words: &str) -> String {
     }
 }
 
-/// Returns the word for the outcome of one of several inputs as [`marked`] does, padded to the longest, `NOT WRITTEN`.
-pub(crate) fn of_input(outcome: impl Into<Outcome>, word: &str) -> String {
-    marked(outcome, &format!("{word:<11}"))
-}
-
 /// ANSI codes used here, without the escape character; [`outgoing`] lets no other code pass.
 const CODES: [&str; 5] = ["[0m", "[1m", "[2m", "[31m", "[32m"];
 

@@ -218,14 +218,18 @@ fn kinds(budget: &Budget) -> Vec<&Contribution> {
 
 /// Returns the uncertainty of an input with its unit.
 fn of_input(cause: Cause, u: f64) -> Words {
-    let unit = match cause.unit() {
+    let number = Number::scientific(u, 2);
+    if cause.unit() == "1" { number.into() } else { Words::Quantity(number, unit_of(cause)) }
+}
+
+/// Returns the unit of the uncertainty of an input.
+pub(crate) fn unit_of(cause: Cause) -> crate::wording::Text {
+    match cause.unit() {
         "%" => units::PERCENT,
         "mA" => units::MILLIAMPERES,
         "deg/h" => units::DEG_PER_H,
-        "1" => return Number::scientific(u, 2).into(),
         _ => units::ARCSEC,
-    };
-    Words::Quantity(Number::scientific(u, 2), unit)
+    }
 }
 
 /// The coverage intervals, and for every parameter whether the linear approximation is valid.

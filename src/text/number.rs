@@ -32,13 +32,6 @@ pub(crate) fn decimals(u: f64) -> usize {
     usize::try_from(1 - exponent_as_printed(u, 2)).unwrap_or(0).min(12)
 }
 
-/// Formats a value with its sign; a value that rounds to zero has none.
-pub(crate) fn signed(value: f64, decimals: usize) -> String {
-    let printed = format!("{value:+.decimals$}");
-    let is_zero = printed.chars().all(|c| matches!(c, '+' | '-' | '0' | '.'));
-    if is_zero { format!("{:.decimals$}", 0.0) } else { printed }
-}
-
 /// Returns the power of ten of the first digit of a value as printed with `digits` significant digits: that of 0.0996 is
 /// −2 with three digits, and −1 with two, because it rounds to 0.10.
 pub(crate) fn exponent_as_printed(value: f64, digits: i32) -> i32 {

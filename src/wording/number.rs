@@ -60,6 +60,12 @@ impl Number {
         Self::new(value, without_minus_zero(format!("{value:.decimals$}")))
     }
 
+    /// Returns the number with its sign also where it is positive, as of a change.
+    pub(crate) fn signed(self) -> Self {
+        let before = if self.value > 0.0 && !self.is_printed_as_zero() { "+" } else { "" };
+        Self { before: before.to_owned(), ..self }
+    }
+
     /// Creates a number with `digits` significant digits.
     pub(crate) fn significant(value: f64, digits: i32) -> Self {
         Self::to_place(value, number::exponent_as_printed(value, digits) - digits + 1)
@@ -284,6 +290,14 @@ mod tests {
     fn what_rounds_to_zero_is_printed_as_zero() {
         for (value, zero) in [(4.9e-4, true), (-4.9e-4, true), (0.0, true), (5.1e-4, false), (-1.0, false)] {
             assert_eq!(Number::to_place(value, -3).is_printed_as_zero(), zero, "{value}");
+        }
+    }
+
+    #[test]
+    fn a_rounded_zero_has_no_sign() {
+        for (value, due) in [(-0.00004, "0.0000"), (-0.0, "0.0000"), (-0.00006, "\u{2212}0.0001"), (0.0001, "+0.0001")]
+        {
+            assert_eq!(english(&Number::fixed(value, 4).signed()), due);
         }
     }
 

@@ -36,6 +36,10 @@ tables! {
     compass
     /// A digital calibration certificate.
     dcc
+    /// Differences of two passports.
+    difference
+    /// A stand over the years.
+    history
     /// Stated values that are possible, but usually in another unit, such as parts per million instead of percent.
     implausible
     /// The printed passport: content of the signed file.
@@ -44,11 +48,21 @@ tables! {
     pictures
     /// The printed passport: parts to fill in by hand.
     record
+    /// Orders of a batch, and a recertification.
+    issued
+    /// A plan of positions.
+    plan
+    /// Registers of a folder, and the states of passports.
+    register
     /// Remarks on a certification, and the findings of a comparison with the last certificate. `{p}` is a probability with
     /// its relation.
     remarks
+    /// The contents of a workspace.
+    status
     /// Units, and the hemispheres of coordinates. Units of angles are the same in every language.
     units
+    /// The answer of a verification.
+    verdict
     /// Words that occur on any page.
     words
 }

@@ -31,6 +31,9 @@ impl Outcome {
     }
 }
 
+/// A text about a number of things.
+pub(crate) type Counted = fn(usize) -> Words;
+
 /// What is said, in every language at once.
 #[derive(Debug, Clone)]
 pub(crate) enum Words {
@@ -64,6 +67,13 @@ pub(crate) enum Words {
     OnTelephones(Outcome),
     /// Words for screen readers only.
     Unseen(Box<Words>),
+    /// A sentence of the library, which programs get too and a terminal shows in English, and what is said in its place on
+    /// pages and in other languages.
+    OfLibrary(String, Box<Words>),
+    /// A number of things, in a terminal with its thousands apart.
+    Count(u64),
+    /// Words and blanks, as many characters as there are in the longest word of a language.
+    Padded(Box<Words>, fn(Language) -> Option<usize>),
     /// An empty space to fill in by hand.
     Blank,
     /// Words on a page only, and words in a terminal only.
@@ -125,6 +135,25 @@ pub(crate) fn told(words: impl Into<Words>) -> Words {
     Words::Told(Box::new(words.into()))
 }
 
+/// Words of the program as they are written in it: an option, a key of a file.
+pub(crate) fn code(words: impl Into<String>) -> Words {
+    Words::Code(words.into())
+}
+
+pub(crate) fn strong(words: impl Into<Words>) -> Words {
+    Words::Strong(Box::new(words.into()))
+}
+
+/// A word as wide as the longest of these.
+pub(crate) fn padded(word: impl Into<Words>, longest: fn(Language) -> Option<usize>) -> Words {
+    Words::Padded(Box::new(word.into()), longest)
+}
+
+/// Returns the length of the longest of some words in a language.
+pub(crate) fn longest<const N: usize>(words: [Text; N], language: Language) -> Option<usize> {
+    words.map(|word| word.of(language).chars().count()).into_iter().max()
+}
+
 pub(crate) fn symbol(name: &str) -> Words {
     Words::Symbol(name.to_owned())
 }
@@ -149,15 +178,24 @@ pub(crate) fn marked(outcome: impl Into<Outcome>, words: impl Into<Words>) -> Wo
     Words::Marked(outcome.into(), Box::new(words.into()))
 }
 
+/// Returns a whole number with `between` before every group of three digits.
+fn grouped(number: u64, between: &str) -> String {
+    let digits = number.to_string();
+    let groups = digits.as_bytes().rchunks(3).rev().map(String::from_utf8_lossy);
+    groups.collect::<Vec<_>>().join(between)
+}
+
 impl Words {
     /// Returns the words as plain text in one language.
     pub(crate) fn plain(&self, language: Language) -> String {
-        self.written(language, &|outcome, words| format!("{} {words}", outcome.mark()))
+        self.written(language, &|outcome, words| {
+            outcome.map_or_else(|| words.to_owned(), |of| format!("{} {words}", of.mark()))
+        })
     }
 
-    /// Returns the words as text in one language; `marked` writes those with the mark of an outcome.
-    pub(crate) fn written(&self, language: Language, marked: &dyn Fn(Outcome, &str) -> String) -> String {
-        let written = |words: &Self| words.written(language, marked);
+    /// Returns the words as text in one language; `emphasised` writes those with the mark of an outcome, and strong ones.
+    pub(crate) fn written(&self, language: Language, emphasised: &dyn Fn(Option<Outcome>, &str) -> String) -> String {
+        let written = |words: &Self| words.written(language, emphasised);
         match self {
             Self::Text(text, values) => {
                 let piece = |piece| match piece {
@@ -184,11 +222,42 @@ impl Words {
             }
             Self::Told(words) => written(words),
             Self::Either(_, terminal) => written(terminal),
-            Self::Marked(outcome, words) => marked(*outcome, &written(words)),
-            Self::Strong(words) | Self::First(words) => written(words),
+            Self::Marked(outcome, words) => emphasised(Some(*outcome), &written(words)),
+            Self::Strong(words) => emphasised(None, &written(words)),
+            Self::First(words) => written(words),
+            Self::OfLibrary(words, _) if language == Language::English => printable(words),
+            Self::OfLibrary(_, words) => written(words),
+            Self::Padded(words, longest) => {
+                format!("{:1$}", written(words), longest(language).unwrap_or_default())
+            }
+            Self::Count(count) => match language {
+                Language::English => grouped(*count, ","),
+                Language::Russian => grouped(*count, "\u{a0}"),
+            },
             Self::Capital(words) => super::capital(&written(words)),
             Self::Others(_) | Self::OnTelephones(_) | Self::Unseen(_) | Self::Blank => String::new(),
             Self::All(all) => all.iter().map(written).collect(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::wording::plain;
+
+    #[test]
+    fn a_probability_has_two_digits_or_a_limit() {
+        for (p, due) in [(0.45, "0.45"), (0.0036, "0.0036"), (1.3e-4, "1.3×10⁻⁴"), (1e-7, "< 10⁻⁶")] {
+            assert_eq!(plain(&probability(p).plain(Language::English)), due, "{p}");
+        }
+    }
+
+    #[test]
+    fn thousands_are_apart() {
+        for (number, words) in [(0, "0"), (999, "999"), (1000, "1,000"), (9998, "9,998"), (1_234_567, "1,234,567")] {
+            assert_eq!(Words::Count(number).plain(Language::English), words);
+            assert_eq!(plain(&Words::Count(number).plain(Language::Russian)), words.replace(',', " "));
         }
     }
 }

@@ -14,6 +14,7 @@ use crate::files::{self, FileError};
 use crate::folder::{Folder, Memory};
 use crate::text::node::{location_of, odd_character, utf8, without_byte_order_mark};
 use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, Location, Problem, Unreadable, name_of};
+use crate::wording::Language;
 use std::path::{Path, PathBuf};
 use toml::de::DeTable;
 
@@ -23,7 +24,7 @@ pub(crate) const WORKSPACE_FILE: &str = "dtg-passport.toml";
 /// Folder of the last accepted register of each stand.
 const REGISTERS_FOLDER: &str = "registers";
 
-const KEYS: [&str; 7] = ["key", "identity", "register_key", "trust", "passports", "stands", "sites"];
+const KEYS: [&str; 8] = ["key", "identity", "register_key", "trust", "passports", "stands", "sites", "lang"];
 
 /// Workspace: the values that the options of commands have if they are not given. Paths begin with that of its folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -39,6 +40,8 @@ pub(crate) struct Workspace {
     pub passports: Option<PathBuf>,
     pub stands: Option<PathBuf>,
     pub sites: Option<PathBuf>,
+    /// Language of what is printed.
+    pub lang: Option<Language>,
 }
 
 /// Reason why a workspace cannot be used.
@@ -72,11 +75,16 @@ impl Workspace {
                 Problem::new(at, "", found, "lines such as trust = \"allowed_signers\", each key once", "")
             })
             .collect();
-        let mut values: [Option<String>; 7] = Default::default();
+        let language = |tag: &str| Language::ALL.into_iter().find(|language| language.tag() == tag);
+        let mut values: [Option<String>; 8] = Default::default();
         for (key, value) in table.get_ref().iter() {
             match KEYS.iter().position(|known| known == key.get_ref()) {
                 None => problems.push(unknown_key(key.get_ref(), location(bytes, key.span().start))),
                 Some(place) => match value.get_ref().as_str().filter(|text| !text.is_empty()) {
+                    Some(text) if KEYS[place] == "lang" && language(text).is_none() => {
+                        let at = Some(location(bytes, value.span().start));
+                        problems.push(Problem::new(at, KEYS[place], format!("{text:?}"), "\"en\" or \"ru\"", ""));
+                    }
                     Some(text) => values[place] = Some(text.to_owned()),
                     None => {
                         let found = text.get(value.span()).unwrap_or("nothing");
@@ -90,7 +98,7 @@ impl Workspace {
             problems.sort_by_key(|problem| problem.location.map(|at| (at.line, at.column)));
             return Err(Unreadable::of(name, problems));
         }
-        let [key, identity, register_key, trust, passports, stands, sites] = values;
+        let [key, identity, register_key, trust, passports, stands, sites, lang] = values;
         let path = |stated: Option<String>| stated.map(|stated| root.join(stated));
         Ok(Self {
             root: root.to_owned(),
@@ -101,6 +109,7 @@ impl Workspace {
             passports: path(passports),
             stands: path(stands),
             sites: path(sites),
+            lang: lang.as_deref().and_then(language),
         })
     }
 
@@ -193,6 +202,7 @@ mod tests {
             ("trust = 5", "w.toml:1:9: trust: found 5, expected text; put it in double quotes"),
             ("trust = allowed_signers", "w.toml:1:9: found invalid TOML ("),
             ("key = \"\"", "w.toml:1:7: key: found \"\", expected text"),
+            ("lang = \"de\"", "w.toml:1:8: lang: found \"de\", expected \"en\" or \"ru\""),
         ] {
             let refused = read(text).unwrap_err();
             assert!(refused.contains(due), "{text}\n{refused}\n  lacks {due}");

@@ -8,17 +8,20 @@ use crate::folder::overview::{Overview, Query};
 use crate::parallel;
 use crate::passport::{Question, Trust};
 use crate::register::{Row, State};
-use crate::report::style::{self, Outcome};
+use crate::report::doc::{Block, Counted, Words, code, given, joined, line, listed, marked};
+use crate::report::register::alarm;
+use crate::report::style::Outcome;
 use crate::signing::{self, KeyFileError};
 use crate::site::Site;
 use crate::stand::Stand;
-use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, Unreadable, name_of, printable, shown};
+use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, name_of, printable, shown};
 use crate::trust::PublicKey;
+use crate::wording::Text;
+use crate::wording::texts::{register as register_texts, status as texts};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 /// Number of days before the expiry date from which a passport or certificate is listed as expiring.
@@ -71,6 +74,9 @@ struct Passports {
     #[serde(skip)]
     aging: Vec<(String, Date)>,
     alarms: Vec<String>,
+    /// The alarms in every language.
+    #[serde(skip)]
+    found: Vec<Words>,
 }
 
 /// A trusted key, as a line of allowed_signers states it.
@@ -211,7 +217,8 @@ fn passports(overview: &Overview, time: Timestamp) -> Passports {
     let is_soon = |last: &Date| today.until(*last).is_ok_and(|span| (0..=SOON_DAYS).contains(&span.get_days()));
     let aging = overview.stands.iter().filter_map(|one| Some((one.stand.clone(), one.fresh_until.filter(is_soon)?)));
     let alarms = overview.alarms.iter().map(ToString::to_string).collect();
-    Passports { counts, expiring, expired, aging: aging.collect(), alarms }
+    let found = overview.alarms.iter().map(alarm).collect();
+    Passports { counts, expiring, expired, aging: aging.collect(), alarms, found }
 }
 
 fn keys(trust: &Trust, time: Timestamp) -> Vec<KeyLine> {
@@ -264,105 +271,116 @@ impl Status {
         alarms || self.count("expired") > 0 || !self.remarks.is_empty() || self.signing_key_is_unusable()
     }
 
-    /// Returns the status as text: one line for each number, and below it what needs attention.
-    pub(crate) fn text(&self) -> String {
+    /// Returns the status: one line for each number, and below it what needs attention.
+    pub(crate) fn document(&self) -> Vec<Block> {
         let of_stands = self.stands.iter().filter(|stand| stand.expired).count();
         let [expired, expiring] = ["expired", "expiring"].map(|kind| self.count(kind));
         let (outcome, verdict) = match self.needs_attention() {
-            true => (Outcome::Failed, "NEEDS ATTENTION"),
-            false if expiring + of_stands > 0 => (Outcome::Undecided, "NO ALARMS"),
-            false => (Outcome::Passed, "NO ALARMS"),
+            true => (Outcome::Failed, texts::NEEDS_ATTENTION),
+            false if expiring + of_stands > 0 => (Outcome::Undecided, texts::NO_ALARMS),
+            false => (Outcome::Passed, texts::NO_ALARMS),
         };
-        let mut verdict = format!("{verdict}  passports expired: {expired}, expiring: {expiring}");
         let alarms = self.passports.as_ref().map_or(0, |passports| passports.alarms.len());
-        let others = [
-            ("alarms", alarms),
-            ("expired certificates of stands", of_stands),
-            ("unusable signing keys", self.signing_key_is_unusable().into()),
-            ("remarks", self.remarks.len()),
+        let others: [(Counted, usize); 4] = [
+            (texts::number_of_alarms, alarms),
+            (texts::number_of_certificates, of_stands),
+            (texts::number_of_keys, self.signing_key_is_unusable().into()),
+            (texts::number_of_remarks, self.remarks.len()),
         ];
-        for (what, number) in others.iter().filter(|(_, number)| *number > 0) {
-            let _ = write!(verdict, "; {what}: {number}");
-        }
-        let mut out = style::marked(outcome, &verdict) + "\n";
-        let _ = writeln!(out, "Workspace  {}, {}", Printable(&self.workspace), self.time);
-        let _ = writeln!(out, "Stands     {}{}", self.stands.len(), count(of_stands, "with an expired certificate"));
+        let others = others.into_iter().filter(|(_, number)| *number > 0).map(|(words, number)| words(number));
+        let counts = joined([texts::number_of_passports(expired, expiring)].into_iter().chain(others), "; ");
+        let mut lines = Vec::new();
+        let of_workspace = vec![given(&self.workspace), ", ".into(), self.time.into()];
+        lines.push(vec![texts::WORKSPACE.into(), of_workspace.into()]);
+        let stands = self.stands.len();
+        let stands = if of_stands > 0 { texts::with_expired(stands, of_stands) } else { stands.into() };
+        lines.push(vec![texts::STANDS.into(), stands]);
         let expired = self.stands.iter().filter(|stand| stand.expired).map(|stand| {
-            let until = stand.valid_until.map_or_else(String::new, |day| format!(", valid until {day} (inclusive)"));
-            format!("{}  certificate {}{until}", stand.id, Printable(&stand.certificate))
+            let certificate = texts::expired_certificate(given(&stand.certificate), stand.valid_until);
+            vec![given(&stand.id), "  ".into(), certificate].into()
         });
-        indented(&mut out, expired.collect());
-        let _ = writeln!(out, "Sites      {}", self.sites.len());
+        below(&mut lines, expired);
+        lines.push(vec![texts::SITES.into(), self.sites.len().into()]);
         if let Some(passports) = &self.passports {
-            let counts = passports.counts.iter().filter(|(kind, count)| **count > 0 && **kind != "expiring");
-            let counts: Vec<String> = counts.map(|(kind, count)| format!("{count} {kind}")).collect();
-            let counts = if counts.is_empty() { "none".to_owned() } else { counts.join(", ") };
-            let _ = writeln!(out, "Passports  {counts}");
-            let dated = |rows: &[Row], words: &str| {
-                let line = |row: &Row| {
-                    let until = row.valid_until.map_or_else(String::new, |day| format!("{day} (inclusive)"));
-                    format!("{}  {words} {until}", row.id)
-                };
-                rows.iter().map(line).collect::<Vec<_>>()
-            };
-            indented(&mut out, dated(&passports.expiring, "valid until"));
-            let expired = format!("{}, was valid until", style::marked(Outcome::Failed, "EXPIRED"));
-            indented(&mut out, dated(&passports.expired, &expired));
-            let aging = |(stand, last): &(String, Date)| {
-                format!("{stand}  register fresh until {last} (inclusive); renew it with `register --renew`")
-            };
-            indented(&mut out, passports.aging.iter().map(aging).collect());
-            let _ = writeln!(out, "Alarms     {}", passports.alarms.len());
-            indented(&mut out, passports.alarms.iter().map(|alarm| style::marked(Outcome::Failed, alarm)).collect());
+            lines.extend(passports.lines());
         }
-        self.write_keys(&mut out);
-        for remark in &self.remarks {
-            let _ = writeln!(out, "{}", style::bad(&remark.replace('\n', "\n  ")));
-        }
-        out
+        lines.extend(self.of_keys());
+        let mut doc = vec![line(vec![marked(outcome, verdict), "  ".into(), counts])];
+        doc.push(Block::Whole("", lines));
+        doc.extend(self.remarks.iter().map(|remark| {
+            let mut each = remark.split('\n').map(given);
+            let first = each.next().map(|first| vec![marked(Outcome::Failed, first)]);
+            let others = each.map(|words| vec![Words::All(vec!["  ".into(), words])]);
+            Block::Whole("", first.into_iter().chain(others).collect())
+        }));
+        doc
     }
 
-    fn write_keys(&self, out: &mut String) {
+    fn of_keys(&self) -> Vec<Vec<Words>> {
         let invalid = self.keys.iter().filter(|key| !key.valid).count();
-        let _ = writeln!(out, "Keys       {} trusted{}", self.keys.len(), count(invalid, "not valid now"));
-        let line = |key: &KeyLine| {
-            let from = key.valid_after.map_or_else(String::new, |from| format!(", from {from}"));
-            let until = key.valid_before.map_or_else(String::new, |until| format!(", until {until}"));
-            let now = if key.valid {
-                String::new()
-            } else {
-                format!("  {}", style::marked(Outcome::Failed, "NOT VALID NOW"))
-            };
-            format!("{}  {}{from}{until}{now}", Printable(&key.principals), key.fingerprint)
+        let trusted = texts::trusted_keys(self.keys.len());
+        let trusted = if invalid > 0 { texts::not_valid_keys(trusted, invalid) } else { trusted };
+        let mut lines = vec![vec![texts::KEYS.into(), trusted]];
+        let of_key = |key: &KeyLine| {
+            let mut words = vec![given(&key.principals), "  ".into(), given(&key.fingerprint)];
+            words.extend(key.valid_after.map(texts::from));
+            words.extend(key.valid_before.map(texts::until));
+            if !key.valid {
+                words.extend(["  ".into(), marked(Outcome::Failed, texts::NOT_VALID_NOW)]);
+            }
+            words.into()
         };
-        indented(out, self.keys.iter().map(line).collect());
-        if let Some(key) = &self.signing_key {
-            let trusted = match (key.trusted, &key.why) {
-                (Some(true), _) => style::marked(Outcome::Passed, "trusted"),
-                (_, Some(why)) => format!("{}: {why}", style::marked(Outcome::Failed, "NOT USABLE")),
+        below(&mut lines, self.keys.iter().map(of_key));
+        lines.extend(self.signing_key.as_ref().map(|key| {
+            let trusted: Words = match (key.trusted, &key.why) {
+                (Some(true), _) => marked(Outcome::Passed, texts::TRUSTED),
+                (_, Some(why)) => vec![marked(Outcome::Failed, texts::NOT_USABLE), ": ".into(), given(why)].into(),
                 _ => {
                     let missing = [("`identity`", key.identity.is_none()), ("`trust`", self.keys.is_empty())];
-                    let missing: Vec<_> = missing.iter().filter(|(_, is)| *is).map(|(name, _)| *name).collect();
-                    let words = format!("not checked: state {} in {WORKSPACE_FILE}", missing.join(" and "));
-                    style::marked(Outcome::NotAsked, &words)
+                    let missing = missing.into_iter().filter(|(_, is)| *is).map(|(name, _)| name);
+                    marked(Outcome::NotAsked, texts::not_checked(listed(missing), code(WORKSPACE_FILE)))
                 }
             };
-            let identity = key.identity.as_deref().unwrap_or("(no identity)");
-            let _ = writeln!(out, "Signs with {}  {}  {trusted}", Printable(&key.file), Printable(identity));
-        }
+            let identity = key.identity.as_ref().map_or_else(|| texts::NO_IDENTITY.into(), given);
+            let words = vec![texts::signs_with(given(&key.file)), "  ".into(), identity, "  ".into(), trusted];
+            vec![words.into()]
+        }));
+        lines
     }
 }
 
-fn count(number: usize, words: &str) -> String {
-    if number == 0 { String::new() } else { format!(", {number} {words}") }
+impl Passports {
+    fn lines(&self) -> Vec<Vec<Words>> {
+        let counted: [(&str, Text); 5] = [
+            ("current", register_texts::IN_FORCE),
+            ("expired", register_texts::EXPIRED),
+            ("moved", register_texts::MOVED),
+            ("superseded", register_texts::SUPERSEDED),
+            ("withdrawn", register_texts::WITHDRAWN),
+        ];
+        let count = |kind: &str| self.counts.get(kind).copied().unwrap_or_default();
+        let counts = counted.into_iter().map(|(kind, state)| (count(kind), state)).filter(|(count, _)| *count > 0);
+        let counts: Vec<Words> = counts.map(|(count, state)| register_texts::counted(count, state)).collect();
+        let counts = if counts.is_empty() { texts::NONE.into() } else { listed(counts) };
+        let mut lines = vec![vec![texts::PASSPORTS.into(), counts]];
+        let of_row = |row: &Row, words: Words| Words::All(vec![given(&row.id), "  ".into(), words]);
+        below(&mut lines, self.expiring.iter().map(|row| of_row(row, register_texts::valid_until(row.valid_until))));
+        let was_valid = |row: &Row| texts::was_valid(marked(Outcome::Failed, texts::EXPIRED), row.valid_until);
+        below(&mut lines, self.expired.iter().map(|row| of_row(row, was_valid(row))));
+        let aging = self.aging.iter().map(|(stand, last)| {
+            vec![given(stand), "  ".into(), texts::fresh_until(*last, code("`register --renew`"))].into()
+        });
+        below(&mut lines, aging);
+        lines.push(vec![texts::ALARMS.into(), self.alarms.len().into()]);
+        below(&mut lines, self.found.iter().cloned());
+        lines
+    }
 }
 
-/// Writes the lines below a number, the first [`MOST_LINES`] of them.
-fn indented(out: &mut String, lines: Vec<String>) {
-    for line in lines.iter().take(MOST_LINES) {
-        let _ = writeln!(out, "           {}", line.replace('\n', "\n           "));
-    }
-    if let Some(more) = lines.len().checked_sub(MOST_LINES).filter(|more| *more > 0) {
-        let _ = writeln!(out, "           … and {more} more (--format json lists all)");
-    }
+/// Adds the lines below a number, the first [`MOST_LINES`] of them.
+fn below(lines: &mut Vec<Vec<Words>>, more: impl Iterator<Item = Words>) {
+    let more: Vec<Words> = more.collect();
+    let others = more.len().saturating_sub(MOST_LINES);
+    lines.extend(more.into_iter().take(MOST_LINES).map(|words| vec!["".into(), words]));
+    lines.extend((others > 0).then(|| vec!["".into(), texts::more(others, code("--format json"))]));
 }

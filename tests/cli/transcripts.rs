@@ -57,6 +57,7 @@ transcripts! {
     render: "render.md",
     report: "report.md",
     revisions: "revisions.md",
+    russian: "russian.md",
     several: "several.md",
     templates: "templates.md",
     trust: "trust.md",

@@ -197,7 +197,10 @@ fn content(bytes: &[u8]) -> bool {
     assert_eq!(rule::differs(payload, &written(&content)), None);
     let written = annotations::payload(&content);
     assert_eq!(content::read("written", &written).as_ref(), Ok(&content));
-    assert!(!printed::text(&content, None, dtg_passport::wording::Language::English).is_empty());
+    assert!(
+        !dtg_passport::report::doc::typed(&printed::document(&content, None), dtg_passport::wording::Language::English)
+            .is_empty()
+    );
     let _ = content.coefficients();
     true
 }

@@ -86,7 +86,10 @@ fn its_numbers_are_of_the_size_that_inputs_cost() {
     let k_xy = 100.0 * accuracy.standard_uncertainty.k_deg_per_h_per_ma[0][1] / 9.5;
     let expected = libm::hypot(0.145, 0.1339 * 0.79);
     assert!((k_xy / expected - 1.0).abs() < 0.05, "{k_xy} {expected}");
-    let shown = style::plain(&printed::text(&passport, None, dtg_passport::wording::Language::English));
+    let shown = style::plain(&dtg_passport::report::doc::typed(
+        &printed::document(&passport, None),
+        dtg_passport::wording::Language::English,
+    ));
     assert!(shown.contains("Expected calibration uncertainty") && shown.contains("GVK-6"), "{shown}");
     assert!(shown.lines().all(|line| line.chars().count() <= 100));
     let without = content(None);

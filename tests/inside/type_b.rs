@@ -119,7 +119,8 @@ fn it_goes_through_every_document() {
     let content = passport.content();
     assert_eq!(content.certificate, found.stand.certificate);
     assert_eq!(content.certificate.type_b_on(ActsOn::Platform).count(), 1);
-    let shown = printed::text(content, None, dtg_passport::wording::Language::English);
+    let shown =
+        dtg_passport::report::doc::typed(&printed::document(content, None), dtg_passport::wording::Language::English);
     for words in
         ["Type B, common part of the platform", "0.6″: mirror cube", "0.4″, ν = 8: mirror flatness", "5, SHA-256"]
     {

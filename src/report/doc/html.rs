@@ -2,7 +2,7 @@
 
 use super::{Block, Cell, Column, On, Table, Words};
 use crate::report::page::language::{Language, Languages};
-use crate::report::page::number::{self, column};
+use crate::report::page::number::{self, Number, column};
 use crate::report::page::parts::{self, given, mark};
 use crate::report::page::spacing::BLANK;
 use crate::report::page::symbols::italic;
@@ -24,6 +24,7 @@ impl Words {
             Self::Either(page, _) => page.html(language, languages),
             Self::Others(words) => html! { @if language != languages.first() { (words.html(language, languages)) } },
             Self::Marked(outcome, words) => html! { (mark(*outcome)) " " (words.html(language, languages)) },
+            Self::OfLibrary(_, words) | Self::Padded(words, _) => words.html(language, languages),
             Self::Strong(words) => html! { strong { (words.html(language, languages)) } },
             Self::Capital(words) => italic(&capital(&words.plain(language))),
             Self::Told(words) => italic(&words.plain(language)),
@@ -49,6 +50,8 @@ impl Words {
             Self::Date(date) => parts::date(languages, *date),
             Self::Time(time) => parts::time(languages, *time),
             Self::Coordinate(degrees, hemispheres) => parts::in_hemisphere(languages, degrees.clone(), *hemispheres),
+            Self::OfLibrary(_, words) | Self::Padded(words, _) => words.cell(languages),
+            Self::Count(count) => Number::fixed(*count as f64, 0).markup(languages),
             Self::Told(words) => languages.label_with(|language| words.plain(language)),
             Self::Either(page, _) => page.cell(languages),
             Self::Marked(outcome, words) => html! { (mark(*outcome)) " " (words.cell(languages)) },
@@ -102,6 +105,7 @@ impl Block {
         match self {
             Self::Heading(words) => html! { h3 { (words.label(languages)) } },
             Self::Paragraph(all) if all.is_empty() => html! {},
+            Self::Line(words) => languages.said_in_paragraph(words),
             Self::Paragraph(all) => languages.paragraph_with(|language| {
                 html! { @for (place, one) in all.iter().enumerate() { @if place > 0 { " " } (one.html(language, languages)) } }
             }),
@@ -113,7 +117,7 @@ impl Block {
             },
             Self::Table(table) => table.html(languages),
             Self::Within(class, all) => html! { div class=(class) { (blocks(all, languages)) } },
-            Self::Typed(_) => html! {},
+            Self::Typed(_) | Self::Lines(..) | Self::Whole(..) => html! {},
             Self::Drawn(draw) => draw(languages),
             Self::Beside(block, None) => block.html(languages),
             Self::Beside(block, Some(draw)) => html! { div.with-figure { (block.html(languages)) (draw(languages)) } },

@@ -5,8 +5,11 @@ use crate::report::page::language::{Language, capital};
 use crate::report::{columns, style};
 use std::fmt::Write;
 
-fn said(words: &Words, language: Language) -> String {
-    crate::wording::plain(&words.written(language, &style::marked))
+/// Returns words as those of a terminal.
+pub(crate) fn said(words: &Words, language: Language) -> String {
+    crate::wording::plain(&words.written(language, &|outcome, words| {
+        outcome.map_or_else(|| style::heading(words), |outcome| style::marked(outcome, words))
+    }))
 }
 
 /// Returns a paragraph or fields as a sentence; `None` if nothing is said.
@@ -46,6 +49,12 @@ pub(crate) fn text(out: &mut String, blocks: &[Block], language: Language) {
             Block::Paragraph(_) | Block::Fields(_) => {
                 sentence(block, language).iter().for_each(|words| columns::paragraph(out, "  ", words));
             }
+            Block::Line(words) => columns::paragraph(out, "", &said(words, language)),
+            Block::Lines(indent, lines) | Block::Whole(indent, lines) => {
+                let cells = |line: &Vec<Words>| line.iter().map(|words| said(words, language)).collect();
+                let most = if matches!(block, Block::Whole(..)) { usize::MAX } else { columns::TEXT_COLUMNS };
+                columns::lines(out, indent, most, lines.iter().map(cells));
+            }
             Block::Record(all) => record(out, all, language),
             Block::Table(of) => table(out, of, language),
             Block::Within(_, all) => text(out, all, language),
@@ -64,9 +73,12 @@ pub(crate) fn text(out: &mut String, blocks: &[Block], language: Language) {
 /// Writes a line for each field; those to fill in by hand are for paper.
 fn record(out: &mut String, all: &[Field], language: Language) {
     let lines = all.iter().map(|(name, value, _)| (said(&Words::from(*name), language), said(value, language)));
-    let lines: Vec<_> = lines.filter(|(_, value)| !value.is_empty()).collect();
-    let longest = lines.iter().map(|(name, _)| name.chars().count()).max().unwrap_or_default();
-    lines.iter().for_each(|(name, value)| columns::named(out, name, longest + 2, value));
+    columns::lines(
+        out,
+        "  ",
+        columns::TEXT_COLUMNS,
+        lines.filter(|(_, value)| !value.is_empty()).map(|(name, value)| vec![name, value]),
+    );
 }
 
 fn table(out: &mut String, table: &Table, language: Language) {
@@ -82,5 +94,33 @@ fn table(out: &mut String, table: &Table, language: Language) {
     };
     let rows = (0..shown.first().map_or(0, |column| column.cells.len()))
         .map(|row| shown.iter().map(|column| cell(&column.cells[row])).collect());
-    columns::table(out, &names.iter().map(String::as_str).collect::<Vec<_>>(), rows);
+    let rows: Vec<Vec<String>> = rows.collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    if table.class != KEYS || !below_keys(out, &names, &rows) {
+        columns::table(out, table.names.max(1), &names, rows);
+    }
+}
+
+/// Class of a table whose rows are named by keys of a file.
+const KEYS: &str = "keys";
+
+/// Writes each key on a line of its own, and its numbers below, if only so a row has room.
+fn below_keys(out: &mut String, names: &[&str], rows: &[Vec<String>]) -> bool {
+    let lines = |names: &[&str], from: usize| {
+        let mut lines = String::new();
+        columns::table(&mut lines, 1, names, rows.iter().map(|row| row[from..].to_vec()));
+        lines
+    };
+    let (wide, narrow) = (lines(names, 0), lines(&names[1..], 1));
+    let due = 1 + rows.len();
+    let is_below = wide.lines().count() != due && narrow.lines().count() == due;
+    if is_below {
+        for (line, key) in narrow.lines().zip(std::iter::once("").chain(rows.iter().map(|row| row[0].as_str()))) {
+            if !key.is_empty() {
+                let _ = writeln!(out, "  {key}");
+            }
+            let _ = writeln!(out, "  {line}");
+        }
+    }
+    is_below
 }

@@ -1,9 +1,9 @@
 //! The certified deviations, their expanded uncertainty with its parts, and the datum surfaces.
 
+use super::chart::chart;
 use crate::attitude::ANGLE_SYMBOLS;
 use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::passport::Content;
-use crate::report::deviations::picture;
 use crate::report::doc::{
     Block, Drawn, Rows, Words, drawn, field, given, heading, in_unit, listed, record, say, symbol, wide,
 };
@@ -98,13 +98,8 @@ pub(crate) fn table(positions: &[CertifiedPosition], letter: &'static str) -> Ve
         .only_if(positions.iter().any(|at| at.degrees_of_freedom.is_some()));
     rows.table.starts = starts(positions.iter().map(|at| at.i));
     let caption = texts::DEVIATIONS_CAPTION;
-    let mut chart = String::new();
-    picture(&mut chart, positions);
-    vec![
-        rows.captioned(caption, caption),
-        Block::Drawn(drawn(move |languages| bars.key(languages, is_expanded))),
-        Block::Typed(chart),
-    ]
+    let key = Block::Drawn(drawn(move |languages| bars.key(languages, is_expanded)));
+    [vec![rows.captioned(caption, caption), key], chart(positions)].concat()
 }
 
 /// What the deviations and the own parts of their uncertainties are, and, if they are `rounded` from signed numbers, how.

@@ -249,7 +249,7 @@ fn in_words(history: &History) -> String {
     let all: Vec<String> = certificates
         .chain(passports)
         .chain(drifts)
-        .chain([crate::report::history::sentence(&history.drift, ANGLE_SYMBOLS)])
+        .chain([crate::report::history::in_english(&history.drift, ANGLE_SYMBOLS)])
         .collect();
     all.join("; ") + "."
 }

@@ -5,7 +5,10 @@ use super::drawing::{Anchor, Point, Scale, label, number, plain_symbol, rectangl
 use super::file::{caption, file};
 use crate::calibration::Parameter;
 use crate::plan::{Evaluation, Plan};
-use crate::report::plan::{percent, percent_of_tolerance, size};
+use crate::report::page::Number;
+use crate::report::plan::{percent, percent_of_tolerance};
+use crate::units::quantity;
+use crate::wording::{Language, plain};
 use maud::{Markup, html};
 
 /// Left and right end of the bars of both panels. Names are to their left, numbers to their right.
@@ -30,6 +33,10 @@ struct Row {
     paper: Option<f64>,
 }
 
+fn in_english(number: &Number) -> String {
+    plain(&number.text(Language::English))
+}
+
 /// Draws a plan for `site`, in black and white.
 pub(crate) fn plan(plan: &Plan, site: &str) -> String {
     let uncertainties = Parameter::AS_IN_THE_PAPER.map(|parameter| {
@@ -40,12 +47,14 @@ pub(crate) fn plan(plan: &Plan, site: &str) -> String {
     });
     let errors = plan.evaluation.effects.iter().enumerate().map(|(place, effect)| {
         let paper = plan.paper.as_ref().map(|paper| paper.effects[place].largest_over_tolerance);
-        let name = format!("{} {}", effect.error.name, size(effect).replace(' ', "\u{a0}"));
+        let error = effect.error;
+        let size = quantity(&error.size.to_string(), error.cause.unit());
+        let name = format!("{} {}", error.name, size.replace(' ', "\u{a0}"));
         Row { drawn: symbols(&name), name, plan: effect.largest_over_tolerance, paper }
     });
     let panels = [
-        Panel { rows: uncertainties.into(), printed: percent_of_tolerance },
-        Panel { rows: errors.collect(), printed: percent },
+        Panel { rows: uncertainties.into(), printed: |share| in_english(&percent_of_tolerance(share)) },
+        Panel { rows: errors.collect(), printed: |share| in_english(&percent(share)) },
     ];
     let rows = panels.iter().map(|panel| panel.rows.len()).max().unwrap_or(0);
     // One scale, so that bars of both panels can be compared.

@@ -2,22 +2,13 @@
 //! failures of these checks are never printed.
 
 use super::PassportPage;
-use crate::passport::place::Nearness;
-use crate::passport::{Check, CheckName, Code, Dated};
+use crate::passport::{Check, CheckName, Code};
 use crate::report::doc::{Block, Rows, Words, listed, marked, told};
 use crate::report::page::language::{Languages, Text};
-use crate::report::page::number::Number;
 use crate::report::page::parts;
-use crate::wording::texts::{checks as texts, units};
+use crate::report::verdict::{said, word};
+use crate::wording::texts::checks as texts;
 use maud::{Markup, html};
-
-fn word(passed: Option<bool>) -> Text {
-    match passed {
-        Some(true) => texts::PASSED,
-        None => texts::NOT_ASKED,
-        Some(false) => texts::FAILED,
-    }
-}
 
 /// Returns `true` if nothing shows whether the passport has been withdrawn.
 pub(crate) fn withdrawal_not_checked(page: &PassportPage) -> bool {
@@ -118,66 +109,5 @@ fn absent(check: CheckName) -> Text {
 }
 
 fn words(page: &PassportPage, check: &Check) -> Words {
-    let content = &page.content;
-    let issuer = content.passport.issuer.as_str();
-    match check.name {
-        CheckName::Grammar => texts::GRAMMAR_OK.into(),
-        CheckName::Signature => texts::SIGNATURE_OK.into(),
-        CheckName::Schema => texts::schema_ok(&content.format),
-        CheckName::Signer => texts::signer_ok(issuer),
-        CheckName::Recomputed => texts::RECOMPUTED_OK.into(),
-        CheckName::Revocation => texts::REVOCATION_OK.into(),
-        CheckName::InForce => validity(page, check.code),
-        CheckName::Issuer => texts::issuer_ok(issuer),
-        CheckName::Stand => stand(page, check.code),
-        CheckName::Place => place(page),
-        CheckName::Register => register(page, check.code),
-    }
-}
-
-/// What the register says, with its number, time, SHA-256 and freshness.
-fn register(page: &PassportPage, code: Code) -> Words {
-    let text = match code {
-        Code::Ok => texts::REGISTER_OK,
-        Code::Superseded => texts::REGISTER_SUPERSEDED,
-        Code::Moved => texts::REGISTER_MOVED,
-        Code::Withdrawn => texts::REGISTER_WITHDRAWN,
-        Code::NotListed => texts::REGISTER_NOT_LISTED,
-        Code::RegisterStale => texts::REGISTER_STALE,
-        Code::RegisterOlder => texts::REGISTER_OLDER,
-        Code::RegisterContradicted => texts::REGISTER_CONTRADICTED,
-        _ => texts::REGISTER_UNKNOWN,
-    };
-    let Some(used) = page.verification.register() else { return text.into() };
-    let fresh = used.fresh_until.map_or_else(|| "".into(), texts::register_fresh);
-    let used = texts::register_used(used.sequence, Words::Time(used.issued_at), &used.sha256[..16], fresh);
-    vec![text.into(), "; ".into(), used].into()
-}
-
-fn validity(page: &PassportPage, code: Code) -> Words {
-    match (code, page.content.last_day()) {
-        (Code::NotYetValid, _) => texts::validity_not_yet(Words::Time(page.content.passport.issued_at)),
-        (_, None) => texts::VALIDITY_NO_END.into(),
-        (Code::Ok, Some((day, _))) => texts::validity_ok(day),
-        (_, Some((day, Dated::Certificate))) => texts::validity_certificate_expired(day),
-        (_, Some((day, _))) => texts::validity_expired(day),
-    }
-}
-
-fn stand(page: &PassportPage, code: Code) -> Words {
-    let (serial, asked) = (&page.content.stand.serial, page.question.serial.as_deref().unwrap_or_default());
-    if code == Code::Ok { texts::stand_ok(serial) } else { texts::stand_wrong(serial, asked) }
-}
-
-fn place(page: &PassportPage) -> Words {
-    let Some(place) = page.question.place else { return "".into() };
-    let nearness = Nearness::of(&page.content, place);
-    let [distance, radius] = [nearness.distance_m, nearness.radius_m].map(length);
-    if nearness.within() { texts::place_ok(distance, radius) } else { texts::place_wrong(distance, radius) }
-}
-
-/// Returns a length in metres, or in kilometres above 10 km.
-fn length(metres: f64) -> Words {
-    let (value, unit) = if metres < 1e4 { (metres, units::METRES) } else { (metres / 1000.0, units::KILOMETRES) };
-    Words::Quantity(Number::fixed(value, 0), unit)
+    said(check, Some(&page.content), page.question, page.verification.register())
 }
