@@ -24,6 +24,9 @@ pub(super) struct Options {
     passports: Vec<PathBuf>,
     #[command(flatten)]
     whom: Whom,
+    /// Show the steps to compute K by hand instead, by the paper's analytic method
+    #[arg(long, conflicts_with = "format")]
+    worksheet: bool,
     /// Language of the text
     #[arg(long, value_enum, default_value = "en")]
     lang: Language,
@@ -91,7 +94,8 @@ impl Read {
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let enquiry = options.whom.load()?;
     let read = |path: &Path| Read::of(path, enquiry.as_ref());
-    let table = |read: &Read| passport::text(&read.content, read.verification.as_ref(), options.lang);
+    let text = if options.worksheet { passport::worksheet } else { passport::text };
+    let table = |read: &Read| text(&read.content, read.verification.as_ref(), options.lang);
     if let Some(path) = paths::one_file(&options.passports) {
         let read = read(path)?;
         return options.format.write(|| read.for_programs(), || table(&read)).map(|()| 0);
