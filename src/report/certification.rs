@@ -10,7 +10,7 @@ use crate::certification::components::{Common, Variance};
 use crate::certification::rotated_runs::Pattern;
 use crate::certification::suspects::AXES;
 use crate::certification::{Certification, Comparison, NotCertified};
-use crate::report::doc::{self, Block, heading, say};
+use crate::report::doc::{self, heading, say};
 use crate::report::page::language::Text;
 use crate::report::style::Outcome;
 use crate::report::{columns, deviations, style};
@@ -152,7 +152,7 @@ pub(crate) fn certification(found: &Certification) -> String {
     let mut blocks = vec![
         say([passport::DEVIATIONS_U_NOTE]),
         evidence::certified(&stand.certificate),
-        Block::Fields(repeated.into_iter().collect()),
+        doc::fields(repeated.into_iter().collect()),
         evidence::outliers(found),
     ];
     blocks.extend(evidence::components(found));

@@ -1,8 +1,7 @@
 //! K by the analytic method with a pocket calculator: every step with the numbers of the passport.
 
 use super::numbers::DECIMALS;
-use crate::passport::Content;
-use crate::passport::content::MatrixRows;
+use crate::passport::{Content, MatrixRows};
 use crate::report::doc::{Block, Rows, Words, heading, say};
 use crate::report::page::number::Number;
 use crate::wording::texts::passport as texts;
