@@ -10,7 +10,7 @@ use crate::files;
 use crate::interface;
 use crate::site::Site;
 use crate::stand::Stand;
-use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, printable, shown};
+use crate::text::{LARGEST_DOCUMENT_BYTES, misspelt, name_of, printable, shown};
 use crate::workspace::{NoWorkspace, WORKSPACE_FILE, Workspace};
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::parser::ValueSource;
@@ -68,7 +68,7 @@ fn no_workspace(folder: &Path, error: NoWorkspace) -> Failure {
     match error {
         NoWorkspace::File(_) if folder.is_file() => {
             let is_its_file = folder.file_name().is_some_and(|name| name == WORKSPACE_FILE);
-            let meant = is_its_file.then(|| format!("; did you mean {}?", shown(files::folder_of(folder))));
+            let meant = is_its_file.then(|| format!("; {}", misspelt::question(shown(files::folder_of(folder)))));
             let meant = meant.unwrap_or_else(|| "; `init` makes a workspace".to_owned());
             Failure::unusable(format!("{}: found a file, expected the folder of a workspace{meant}", shown(folder)))
         }
