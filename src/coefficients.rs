@@ -6,6 +6,7 @@
 //! [the paper](crate::bibliography::Bibliography::Tang17), eq. (5) and (9)-(15).
 
 use crate::attitude::{self, Deviation};
+use crate::text::record;
 use nalgebra::{Matrix2, Matrix3, Vector2};
 use serde::{Deserialize, Serialize};
 
@@ -239,4 +240,67 @@ pub struct Matrices {
     pub omega1_deg_per_h: Matrix2<f64>,
     /// Differences ω_32 of Earth rate in the positions with θ = 90°, °/h.
     pub omega2_deg_per_h: Matrix2<f64>,
+}
+
+/// A 2×2 matrix, row by row.
+pub type Rows = [[f64; 2]; 2];
+
+record! {
+    /// Matrices of the paper at the site, each a list of two rows.
+    pub struct MatrixRows {
+        /// Δ = n_2⁻¹ n_1.
+        pub delta: Rows,
+        /// B = ω_31 − ω_32 n_2⁻¹ n_1.
+        pub b_deg_per_h: Rows,
+        /// C = ω_32 n_2⁻¹.
+        pub c_deg_per_h_per_g: Rows,
+        /// n_1.
+        pub n1: Rows,
+        /// n_2.
+        pub n2: Rows,
+        /// n_2⁻¹.
+        pub n2_inverse: Rows,
+        /// ω_31.
+        pub omega1_deg_per_h: Rows,
+        /// ω_32.
+        pub omega2_deg_per_h: Rows,
+    }
+}
+
+impl MatrixRows {
+    pub(crate) fn from_model(m: &Matrices) -> Self {
+        Self {
+            delta: rows(&m.delta),
+            b_deg_per_h: rows(&m.b_deg_per_h),
+            c_deg_per_h_per_g: rows(&m.c_deg_per_h_per_g),
+            n1: rows(&m.n1),
+            n2: rows(&m.n2),
+            n2_inverse: rows(&m.n2_inverse),
+            omega1_deg_per_h: rows(&m.omega1_deg_per_h),
+            omega2_deg_per_h: rows(&m.omega2_deg_per_h),
+        }
+    }
+
+    pub(crate) fn to_model(&self) -> Matrices {
+        Matrices {
+            delta: matrix(&self.delta),
+            b_deg_per_h: matrix(&self.b_deg_per_h),
+            c_deg_per_h_per_g: matrix(&self.c_deg_per_h_per_g),
+            n1: matrix(&self.n1),
+            n2: matrix(&self.n2),
+            n2_inverse: matrix(&self.n2_inverse),
+            omega1_deg_per_h: matrix(&self.omega1_deg_per_h),
+            omega2_deg_per_h: matrix(&self.omega2_deg_per_h),
+        }
+    }
+}
+
+fn rows(matrix: &Matrix2<f64>) -> Rows {
+    // Products of exact zeros can be -0.0. Adding zero makes them 0.0, the only zero that a document can contain.
+    [[matrix.m11 + 0.0, matrix.m12 + 0.0], [matrix.m21 + 0.0, matrix.m22 + 0.0]]
+}
+
+fn matrix(rows: &Rows) -> Matrix2<f64> {
+    let [[m11, m12], [m21, m22]] = *rows;
+    Matrix2::new(m11, m12, m21, m22)
 }

@@ -46,9 +46,11 @@
 //! | `units` | angles and rates: the one place that converts | |
 //! | `parallel` | the same work on many things at once | |
 //! | [`text`] | one canonical form out and in, tables, errors that point into the file; hand-written YAML with `factory` | |
+//! | [`trust`] | signatures, allowed signers, revocation: bytes and time in, a verdict out; private keys with `factory` | |
+//! | `document` | a signed text: split, checked, parsed, joined | |
 //! | [`attitude`] | eq. (3), (4): A, E, Ã | |
 //! | [`coefficients`] | eq. (5), (9)-(13): n, ω_3, Δ, B, C | |
-//! | `wording` | what is said to people, in each language, with its numbers; the texts are in `texts/` | `factory` or `report` |
+//! | `wording` | what is said to people, in each language, with its numbers; the texts are in `texts/` | |
 //! | [`earth`] | Earth rate, gravity, deflection, geodesics | |
 //! | [`site`], [`stand`] | the place where a stand is used; a stand and its certified deviations | |
 //! | [`gyro`], [`laboratory`] | eq. (2): parameters and currents, types of gyro; the meter and the seat | |
@@ -57,8 +59,6 @@
 //! | [`uncertainty`] | the budget of the uncertainty; 95 % intervals with `monte-carlo`, whose trials the crate `trials` makes | |
 //! | [`simulation`] | the paper's table and its Fig. 4 | `monte-carlo` |
 //! | `selftest` | the reference cases of the mathematics, found again on the user's own machine | `monte-carlo` |
-//! | [`trust`] | signatures, allowed signers, revocation: bytes and time in, a verdict out; private keys with `factory` | |
-//! | `document` | a signed text: split, checked, parsed, joined | |
 //! | [`passport`] | content and verification; issue and re-issue with `factory` | |
 //! | [`register`] | the signed register of a stand: which passport counts | |
 //! | `history` | one stand over the years, and whether its deviations drift | `factory` |

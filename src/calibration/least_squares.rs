@@ -11,7 +11,7 @@ use super::unknowns::{Unknowns, design};
 use super::{MeterUncertainty, Model, Parameter};
 use crate::coefficients::{Coefficients, PositionCoefficients};
 use crate::gyro::GyroParameters;
-use crate::statistics::least_squares::{Condition, Factorised, condition};
+use crate::statistics::least_squares::{Condition, Factorised, condition, whitening_of};
 use crate::text::number::exponent_as_printed;
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
@@ -338,14 +338,6 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         }
         Some((fit, right))
     }
-}
-
-/// Returns L⁻¹ for C = L L', or `None` if C is not positive definite.
-pub(crate) fn whitening_of(covariance: &Matrix2<f64>) -> Option<Matrix2<f64>> {
-    let lower = covariance.cholesky()?.unpack();
-    let (a, b, c) = (lower.m11, lower.m21, lower.m22);
-    let inverse = Matrix2::new(1.0 / a, 0.0, -b / (a * c), 1.0 / c);
-    inverse.iter().all(|x| x.is_finite()).then_some(inverse)
 }
 
 /// Multiplies the two rows of a position by a matrix, in place.

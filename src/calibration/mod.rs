@@ -15,7 +15,7 @@
 //! * `diagnosis`: possible causes if the readings do not fit.
 //! * `verdict`: comparison with a type's specification and with an earlier calibration.
 //! * `mistake`: errors that do not show in the fit, recognised by comparison with the expected gyro.
-//! * `document`: the result as JSON.
+//! * `document`: the result as JSON; `remarks`: what is said about it.
 //! * `prediction`: the expected uncertainty of a calibration on a stand, before any reading.
 //! * `estimates`: the standard uncertainties that rest on a common estimate.
 //! * `causes`: the uncertain inputs by name, from which budgets are made.
@@ -63,6 +63,7 @@ pub(crate) mod procedure;
 pub(crate) mod propagation;
 pub(crate) mod readings;
 pub(crate) mod recorded;
+pub(crate) mod remarks;
 pub(crate) mod result;
 pub(crate) mod scatter;
 pub(crate) mod sensitivity;

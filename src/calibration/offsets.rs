@@ -6,8 +6,8 @@
 //! errors of visits, because everything else is the same. What they say of x is condensed into at most as many rows as x
 //! has components, and the rest is the scatter of visits.
 
-use super::least_squares::whitening_of;
 use super::readings::{PositionReadings, Readings, Visit};
+use crate::statistics::least_squares::whitening_of;
 use crate::units::SECONDS_PER_HOUR;
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use std::ops::{AddAssign, SubAssign};

@@ -5,12 +5,13 @@
 //! specification of the meter contributes no scatter, because its error is the same every time.
 
 use super::estimates::Estimates;
-use super::least_squares::{Fit, whitening_of};
+use super::least_squares::Fit;
 use super::noise;
 use super::offsets::{Differences, Offsets};
 use super::sensitivity::Sensitivity;
 use super::{Basis, DriftNoise, NoiseSource, PositionReadings, Readings, Setup, Visit};
 use crate::statistics::distributions::chi_square_larger;
+use crate::statistics::least_squares::whitening_of;
 use crate::statistics::scaled_f::{Part, ScaledF};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use serde::{Deserialize, Serialize};

@@ -2,7 +2,7 @@
 
 use super::key_options::{IssuerOptions, Keys};
 use super::lang::{self, Lang};
-use super::{Code, Failure, REFUSED, UNUSABLE, long_run, output};
+use super::{Code, Failure, REFUSED, UNUSABLE, interrupt, long_run, output};
 use crate::batch::shard::Shard;
 use crate::batch::{Batch, Event, Listener, Outcome};
 use crate::files::{self, Durability};
@@ -90,7 +90,7 @@ impl BatchOptions {
 
     /// Runs a batch and reports each outcome as it occurs.
     pub(super) fn run(&self, keys: &Keys, trust: &Trust, work: impl FnOnce(&Batch, Listener)) -> Result<Code, Failure> {
-        let cancel = long_run::cancelled_by_ctrl_c()?;
+        let cancel = interrupt::cancelled_by_ctrl_c()?;
         let batch = Batch {
             durability: self.durability(),
             authority: keys.authority(trust),

@@ -4,19 +4,19 @@
 //! folder from elsewhere must not choose whom to trust.
 
 use super::failure::Failure;
-use super::help;
+pub(super) use super::open_workspace::{is_of_a_laboratory, workspace};
+use super::{help, open_workspace};
 use crate::files;
 use crate::interface;
 use crate::site::Site;
 use crate::stand::Stand;
-use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, printable, shown};
+use crate::text::{LARGEST_DOCUMENT_BYTES, misspelt, name_of, printable, shown};
 use crate::workspace::{NoWorkspace, WORKSPACE_FILE, Workspace};
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Command};
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
 
 /// Environment variables; the names are part of the interface.
 const WORKSPACE_VARIABLE: &str = "DTG_PASSPORT_WORKSPACE";
@@ -24,20 +24,8 @@ const KEY_VARIABLE: &str = "DTG_PASSPORT_KEY";
 const IDENTITY_VARIABLE: &str = "DTG_PASSPORT_IDENTITY";
 const TRUST_VARIABLE: &str = "DTG_PASSPORT_TRUST";
 
-/// The workspace of this process: one command line names at most one.
-static WORKSPACE: OnceLock<Workspace> = OnceLock::new();
-
 /// Verbs whose `--out` is the folder of passports.
 const WRITE_PASSPORTS: [&str; 3] = ["issue", "reissue", "recertify"];
-
-pub(super) fn workspace() -> Option<&'static Workspace> {
-    WORKSPACE.get()
-}
-
-/// Returns `true` if the workspace cannot sign, so that it need not have every passport of a stand.
-pub(super) fn is_of_a_laboratory() -> bool {
-    workspace().is_some_and(|workspace| workspace.key.is_none())
-}
 
 /// Adds the options that are not given, and returns them in words.
 pub(super) fn add(arguments: &mut Vec<OsString>) -> Result<Vec<String>, Failure> {
@@ -67,8 +55,7 @@ pub(super) fn add(arguments: &mut Vec<OsString>) -> Result<Vec<String>, Failure>
     let options: Vec<OsString> = added.iter().map(|(option, value, _)| argument(option, value)).collect();
     arguments.splice(end..end, options);
     if let Some(workspace) = workspace {
-        // It is set once, before anything reads it.
-        let _ = WORKSPACE.set(workspace);
+        open_workspace::set(workspace);
     }
     let words = |(option, value, source): &Added| {
         let option = if option.is_empty() { "DIR" } else { option };
@@ -81,7 +68,7 @@ fn no_workspace(folder: &Path, error: NoWorkspace) -> Failure {
     match error {
         NoWorkspace::File(_) if folder.is_file() => {
             let is_its_file = folder.file_name().is_some_and(|name| name == WORKSPACE_FILE);
-            let meant = is_its_file.then(|| format!("; did you mean {}?", shown(files::folder_of(folder))));
+            let meant = is_its_file.then(|| format!("; {}", misspelt::question(shown(files::folder_of(folder)))));
             let meant = meant.unwrap_or_else(|| "; `init` makes a workspace".to_owned());
             Failure::unusable(format!("{}: found a file, expected the folder of a workspace{meant}", shown(folder)))
         }

@@ -1,6 +1,6 @@
 //! Output: results to standard output, messages to standard error. A closed pipe is not an error.
 
-use super::{Failure, lang, long_run};
+use super::{Failure, interrupt, lang};
 use crate::files::{self, FileError};
 use crate::pdf;
 use crate::report::doc::{self, Block};
@@ -149,7 +149,7 @@ pub(super) fn page(path: &Path, html: String, force: bool) -> Result<Vec<u8>, Fi
     // Before a browser starts, which takes seconds.
     files::check_replaceable([path], force)?;
     // Ctrl-C then ends the browser, but not this program, which has to remove the browser's folder.
-    let _ = long_run::cancelled_by_ctrl_c();
+    let _ = interrupt::cancelled_by_ctrl_c();
     pdf::print(&html, path, std::env::var(pdf::BROWSER_VARIABLE).ok().as_deref())
 }
 

@@ -4,7 +4,7 @@ use super::exclusion::ExclusionOptions;
 use super::key_options::{IssuerOptions, refuse_distrusted};
 use super::lang::{self, Lang};
 use super::trust_options::{self, TrustOptions};
-use super::{Code, Failure, Format, defaults, inputs, long_run, output};
+use super::{Code, Failure, Format, defaults, inputs, interrupt, output};
 use crate::batch::Outcome;
 use crate::batch::recertification::{AtSite, NotRecertified, Recertification, check};
 use crate::certification::{Certification, Comparison, Header};
@@ -85,7 +85,7 @@ pub(super) struct Options {
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
-    let cancel = long_run::cancelled_by_ctrl_c()?;
+    let cancel = interrupt::cancelled_by_ctrl_c()?;
     // Before the readings are read: exchanged arguments are then recognised by the file that is there.
     let expected = "a passport, which `issue` makes and signs";
     let name = name_of(&options.passport);

@@ -10,7 +10,7 @@ use crate::parallel;
 use crate::register::{Row, State};
 use crate::report::issued::Form;
 use crate::report::register as report;
-use crate::text::{Printable, shown};
+use crate::text::{Printable, misspelt, shown};
 use crate::workspace::Workspace;
 use clap::{Args, ValueEnum};
 use jiff::civil::Date;
@@ -224,9 +224,8 @@ impl Options {
         if there.contains(site) {
             return None;
         }
-        let distance = |other: &&str| strsim::damerau_levenshtein(other, site);
-        let nearest = there.into_iter().min_by_key(distance).filter(|other| distance(other) <= site.len() / 3 + 1);
-        let nearest = nearest.map_or_else(String::new, |nearest| format!("; did you mean {}?", Printable(nearest)));
+        let nearest = misspelt::name(there, site, site.len() / 3 + 1);
+        let nearest = nearest.map_or_else(String::new, |near| format!("; {}", misspelt::question(Printable(near))));
         Some(format!("no passport of site {}{nearest}", Printable(site)))
     }
 

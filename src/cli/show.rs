@@ -24,6 +24,9 @@ pub(super) struct Options {
     passports: Vec<PathBuf>,
     #[command(flatten)]
     whom: Whom,
+    /// Show the steps to compute K by hand instead, by the paper's analytic method
+    #[arg(long, conflicts_with = "format")]
+    worksheet: bool,
     #[command(flatten)]
     _lang: Lang,
     /// Output format
@@ -90,7 +93,8 @@ impl Read {
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let enquiry = options.whom.load()?;
     let read = |path: &Path| Read::of(path, enquiry.as_ref());
-    let document = |read: &Read| passport::document(&read.content, read.verification.as_ref());
+    let document = if options.worksheet { passport::worksheet } else { passport::document };
+    let document = |read: &Read| document(&read.content, read.verification.as_ref());
     if let Some(path) = paths::one_file(&options.passports) {
         let read = read(path)?;
         return options.format.show(|| read.for_programs(), || document(&read)).map(|()| 0);

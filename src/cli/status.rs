@@ -1,22 +1,17 @@
 //! Verb `status`: the contents of a workspace.
 
 use super::lang::Lang;
-use super::trust_options::{self, time};
+use super::trust_options::{self, OptionalLists, time};
 use super::{Code, Failure, Format, code, defaults};
 use crate::workspace::status;
 use clap::Args;
 use jiff::Timestamp;
-use std::path::PathBuf;
 
 /// Show the contents of a workspace: stands, sites, passports in force, expiring within 90 days, alarms, keys
 #[derive(Args)]
 pub(super) struct Options {
-    /// Trusted signing keys: an OpenSSH allowed_signers file
-    #[arg(long, value_name = "SIGNERS")]
-    trust: Option<PathBuf>,
-    /// Revoked keys: an OpenSSH KRL, or a list of public keys (repeatable)
-    #[arg(long, value_name = "FILE", requires = "trust")]
-    revoked: Vec<PathBuf>,
+    #[command(flatten)]
+    lists: OptionalLists,
     /// Verify as of this time: RFC 3339, or a UTC date (00:00) [default: now]
     #[arg(long, value_name = "TIME", value_parser = time)]
     time: Option<Timestamp>,
@@ -36,7 +31,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     };
     let now = trust_options::now();
     let time = options.time.unwrap_or(now);
-    let trust = options.trust.as_deref().map(|path| trust_options::load(path, &options.revoked)).transpose()?;
+    let trust = options.lists.load()?;
     let status = status(workspace, trust.as_ref(), time, now)?;
     options.format.show(|| &status, || status.document())?;
     Ok(code(status.incomplete, status.needs_attention()))

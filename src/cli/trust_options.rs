@@ -62,15 +62,29 @@ pub(super) struct TrustAmong {
     among: Among,
 }
 
-/// Options of trust of a verb that also works without a passport.
+/// Lists of keys of a verb that also works without them.
 #[derive(Args)]
-pub(super) struct OptionalTrust {
+pub(super) struct OptionalLists {
     /// Trusted signing keys: an OpenSSH allowed_signers file
     #[arg(long, value_name = "SIGNERS")]
     trust: Option<PathBuf>,
     /// Revoked keys: an OpenSSH KRL, or a list of public keys (repeatable)
     #[arg(long, value_name = "FILE", requires = "trust")]
     revoked: Vec<PathBuf>,
+}
+
+impl OptionalLists {
+    /// Reads the lists, or returns `None` if no `--trust` is given.
+    pub(super) fn load(&self) -> Result<Option<Trust>, Failure> {
+        self.trust.as_deref().map(|path| load(path, &self.revoked)).transpose()
+    }
+}
+
+/// Options of trust of a verb that also works without a passport.
+#[derive(Args)]
+pub(super) struct OptionalTrust {
+    #[command(flatten)]
+    lists: OptionalLists,
     #[command(flatten)]
     asked: Asked,
     #[command(flatten)]
@@ -81,9 +95,8 @@ impl OptionalTrust {
     /// Returns the enquiry, or `None` if no `--trust` is given.
     pub(super) fn load(&self) -> Result<Option<Enquiry>, Failure> {
         let question = self.asked.question();
-        let Some(signers) = &self.trust else { return Ok(None) };
-        let trust = load(signers, &self.revoked)?;
-        Ok(Some(among(trust, question, self.among.register.as_deref())))
+        let trust = self.lists.load()?;
+        Ok(trust.map(|trust| among(trust, question, self.among.register.as_deref())))
     }
 }
 

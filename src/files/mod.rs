@@ -12,8 +12,7 @@ pub(crate) mod walk;
 
 pub(crate) use platform::{is_closed_pipe, sync_folder, wait_for_turn};
 
-use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, large_file, name_of, shown};
-use std::cmp::Reverse;
+use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, large_file, misspelt, name_of, shown};
 use std::collections::BTreeSet;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Write};
@@ -59,7 +58,7 @@ impl FileError {
             return format!("{self}; specify a file in it");
         }
         let nearest = if self.is_missing() { nearest(self.path()) } else { None };
-        nearest.map_or_else(|| self.to_string(), |near| format!("{self}; did you mean {}?", shown(&near)))
+        nearest.map_or_else(|| self.to_string(), |near| format!("{self}; {}", misspelt::question(shown(&near))))
     }
 
     pub(crate) fn is_missing(&self) -> bool {
@@ -106,16 +105,16 @@ fn nearest(path: &Path) -> Option<PathBuf> {
             there.push(part);
             continue;
         }
-        let name = part.as_os_str().to_str()?.to_lowercase();
+        let name = part.as_os_str().to_str()?;
         let entries = fs::read_dir(or_here(&there)).ok()?.take(MOST_NAMES);
         let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-        let distance = |other: &String| strsim::damerau_levenshtein(&other.to_lowercase(), &name);
         // Of a name of one or two letters every other one is near.
         let length = name.chars().count();
         let most = if length < 3 { 0 } else { length / 6 + 1 };
         // Of equally near ones it is the last, such as the latest revision.
-        let (_, Reverse(nearest)) =
-            names.map(|other| (distance(&other), Reverse(other))).filter(|(distance, _)| *distance <= most).min()?;
+        let mut names: Vec<String> = names.collect();
+        names.sort_unstable_by(|one, other| other.cmp(one));
+        let nearest = misspelt::name(names, name, most)?;
         let found = there.join(nearest).join(parts.as_path());
         // Without a remainder, `join` would add a separator to the name of a file.
         let found: PathBuf = found.components().collect();

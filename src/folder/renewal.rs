@@ -12,7 +12,7 @@ use crate::files::{self, FileError};
 use crate::passport::Content;
 use crate::register::draft::Draft;
 use crate::register::{Entry, FILE_NAME, RegisterRefused, State, VerifiedRegister};
-use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, first_few, name_of, shown};
+use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, first_few, misspelt, name_of, shown};
 use jiff::civil::Date;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -364,11 +364,9 @@ fn nearest(folder: &Folder, stands: &BTreeSet<String>, authority: &Authority, id
     let folders: Vec<StandFolder> = stands.iter().filter_map(open).collect();
     let entries = folders.iter().filter_map(StandFolder::register).flat_map(VerifiedRegister::entries);
     let ids: Vec<&str> = entries.map(|entry| entry.id.as_str()).collect();
-    let near = |other: &&str| strsim::damerau_levenshtein(other, id) <= id.chars().count() / 3;
-    let nearest = ids.iter().copied().filter(near).min_by_key(|other| strsim::damerau_levenshtein(other, id));
-    match (crate::text::scalar::latin(id), nearest) {
+    match (crate::text::scalar::latin(id), misspelt::name(&ids, id, id.chars().count() / 3)) {
         (Some((_, odd)), _) => format!("; the {odd} only looks like a Latin letter"),
-        (None, Some(nearest)) => format!("; did you mean {nearest}?"),
+        (None, Some(nearest)) => format!("; {}", misspelt::question(nearest)),
         (None, None) if ids.is_empty() => "; specify the folder of passports with --passports".to_owned(),
         (None, None) => format!("; found {}", first_few(&ids)),
     }

@@ -293,7 +293,7 @@ impl<'a> Prepared<'a> {
             narrow_by_type(hint, &found, gyro_type);
             document.hint = Some(hint.to_string());
         }
-        document.remarks = remarks(&calibration, &readings);
+        document.remarks = calibration::remarks::remarks(&calibration, &readings);
         let of_files = laboratory.remarks(Language::English).into_iter();
         let of_files = of_files.chain(gyro_type.into_iter().flat_map(|gyro| gyro.remarks(Language::English)));
         let of_conditions =
@@ -354,16 +354,4 @@ impl<'a> Prepared<'a> {
             without_height,
         })
     }
-}
-
-/// Returns the remarks for the user on a result, one sentence each.
-#[cfg(feature = "report")]
-fn remarks(calibration: &Calibration, readings: &Readings) -> Vec<String> {
-    crate::report::calibration::remarks(calibration, readings)
-}
-
-/// Returns what makes a result unusable, a sentence each. The feature `report` has the words for the rest.
-#[cfg(not(feature = "report"))]
-fn remarks(calibration: &Calibration, _: &Readings) -> Vec<String> {
-    calibration.valid().err().iter().map(ToString::to_string).collect()
 }

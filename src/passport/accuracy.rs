@@ -6,9 +6,9 @@
 
 use crate::calibration::prediction::exact_currents_ma;
 use crate::calibration::{Method, NoLeastSquares, NoReadings, NoSetup, Options, Parameter, Readings, Setup, calibrate};
+use crate::coefficients::PositionCoefficients;
 use crate::gyro::{GyroParameters, GyroType, Parameters};
 use crate::laboratory::Laboratory;
-use crate::passport::content::Content;
 use crate::site::Site;
 use crate::stand::{Certificate, CertifiedPosition};
 use crate::text::{Path, Problems, record};
@@ -92,9 +92,8 @@ pub(crate) fn at_gravity(gyro: &GyroType, gravity_m_per_s2: f64) -> GyroParamete
 
 impl Accuracy {
     /// Returns a sentence if the gyro needs more current in a position of the passport than the meter can read.
-    pub(crate) fn beyond_range(&self, content: &Content) -> Option<String> {
-        let gyro = at_gravity(&self.gyro, content.earth.gravity_m_per_s2);
-        let positions = content.coefficients().positions;
+    pub(crate) fn beyond_range(&self, positions: &[PositionCoefficients], gravity_m_per_s2: f64) -> Option<String> {
+        let gyro = at_gravity(&self.gyro, gravity_m_per_s2);
         let each = positions.iter().filter_map(|at| Some((gyro.currents_ma(at)?.amax(), at.index)));
         let (current_ma, index) = each.max_by(|(one, _), (other, _)| one.total_cmp(other))?;
         let range_ma = self.laboratory.meter.range_ma;

@@ -4,7 +4,7 @@ use super::FORM;
 use super::accuracy::Accuracy;
 use crate::calibration::{Model, analytic, least_squares};
 use crate::coefficients::{
-    Coefficients, Matrices, PositionCoefficients, PositionIndex, SingularPositions, StandGeometry,
+    Coefficients, MatrixRows, PositionCoefficients, PositionIndex, Rows, SingularPositions, StandGeometry,
 };
 use crate::document::{self, SignedText};
 use crate::gyro::{GyroParameters, Parameters};
@@ -15,7 +15,7 @@ use crate::text::scalar::day;
 use crate::text::{Identifier, Path, Problems, Unreadable, record, words};
 use jiff::Timestamp;
 use jiff::civil::Date;
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Vector2;
 
 pub(crate) const PASSPORT_FORMAT: &str = "dtg-passport/1";
 
@@ -57,31 +57,6 @@ record! {
         pub reissued_from: Option<Predecessor>,
         /// Whether the passport supersedes its predecessor.
         pub supersedes: Option<bool>,
-    }
-}
-
-/// A 2×2 matrix, row by row.
-pub type Rows = [[f64; 2]; 2];
-
-record! {
-    /// Matrices of the paper at the site, each a list of two rows.
-    pub struct MatrixRows {
-        /// Δ = n_2⁻¹ n_1.
-        pub delta: Rows,
-        /// B = ω_31 − ω_32 n_2⁻¹ n_1.
-        pub b_deg_per_h: Rows,
-        /// C = ω_32 n_2⁻¹.
-        pub c_deg_per_h_per_g: Rows,
-        /// n_1.
-        pub n1: Rows,
-        /// n_2.
-        pub n2: Rows,
-        /// n_2⁻¹.
-        pub n2_inverse: Rows,
-        /// ω_31.
-        pub omega1_deg_per_h: Rows,
-        /// ω_32.
-        pub omega2_deg_per_h: Rows,
     }
 }
 
@@ -208,46 +183,8 @@ pub(crate) fn derive_from(geometry: &StandGeometry, site: &Site, gyro: &Paramete
     Derived { earth, matrices, vectors, self_check }
 }
 
-fn rows(matrix: &Matrix2<f64>) -> Rows {
-    // Products of exact zeros can be -0.0. Adding zero makes them 0.0, the only zero that a document can contain.
-    [[matrix.m11 + 0.0, matrix.m12 + 0.0], [matrix.m21 + 0.0, matrix.m22 + 0.0]]
-}
-
-fn matrix(rows: &Rows) -> Matrix2<f64> {
-    let [[m11, m12], [m21, m22]] = *rows;
-    Matrix2::new(m11, m12, m21, m22)
-}
-
 fn pair(vector: &Vector2<f64>) -> [f64; 2] {
     [vector.x + 0.0, vector.y + 0.0]
-}
-
-impl MatrixRows {
-    fn from_model(m: &Matrices) -> Self {
-        Self {
-            delta: rows(&m.delta),
-            b_deg_per_h: rows(&m.b_deg_per_h),
-            c_deg_per_h_per_g: rows(&m.c_deg_per_h_per_g),
-            n1: rows(&m.n1),
-            n2: rows(&m.n2),
-            n2_inverse: rows(&m.n2_inverse),
-            omega1_deg_per_h: rows(&m.omega1_deg_per_h),
-            omega2_deg_per_h: rows(&m.omega2_deg_per_h),
-        }
-    }
-
-    fn to_model(&self) -> Matrices {
-        Matrices {
-            delta: matrix(&self.delta),
-            b_deg_per_h: matrix(&self.b_deg_per_h),
-            c_deg_per_h_per_g: matrix(&self.c_deg_per_h_per_g),
-            n1: matrix(&self.n1),
-            n2: matrix(&self.n2),
-            n2_inverse: matrix(&self.n2_inverse),
-            omega1_deg_per_h: matrix(&self.omega1_deg_per_h),
-            omega2_deg_per_h: matrix(&self.omega2_deg_per_h),
-        }
-    }
 }
 
 impl PositionVectors {

@@ -385,7 +385,8 @@ impl Draft {
         let mut odd: Vec<String> = odd.iter().map(ToString::to_string).collect();
         odd.extend(content.certificate.odd_number());
         odd.extend(content.site.odd());
-        odd.extend(content.accuracy.as_ref().and_then(|accuracy| accuracy.beyond_range(content)));
+        let (positions, gravity) = (content.coefficients().positions, content.earth.gravity_m_per_s2);
+        odd.extend(content.accuracy.as_ref().and_then(|accuracy| accuracy.beyond_range(&positions, gravity)));
         Remarks {
             noise,
             uncertainty_growth: content.site.uncertainty_growth(),

@@ -27,14 +27,14 @@ pub(crate) mod recomputed;
 pub mod reissue;
 pub(crate) mod verification;
 
+pub use crate::coefficients::{MatrixRows, Rows};
 use crate::document::Form;
 pub use crate::document::{Malformed, OtherSignature, RegisterUsed};
 use crate::text::Limits;
 pub use accuracy::{Accuracy, NoAccuracy, Stated};
 pub use checks::{Check, CheckName, Code};
 pub use content::{
-    Content, Dated, Header, MatrixRows, PositionCurrents, PositionVectors, Predecessor, Rows, SelfCheck,
-    content_from_anyone,
+    Content, Dated, Header, PositionCurrents, PositionVectors, Predecessor, SelfCheck, content_from_anyone,
 };
 pub use verification::{Question, Trust, Verification, VerifiedPassport, verify};
 

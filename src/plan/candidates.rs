@@ -6,8 +6,7 @@
 //! F_p = (J, 1, n) of each position, and the covariance of the parameters M⁻¹; the scatter of turn-ons adds to ω_0.
 
 use super::criterion::{Criterion, Symmetric, add, cholesky, inverse_of_lower};
-use super::sensitivity::effects;
-use super::{Evaluation, NoPlan, Question, Visited};
+use super::{NoPlan, Question, Visited};
 use crate::attitude::{Deviation, PAPER_FRAME_AXIS_AZIMUTH_DEG};
 use crate::calibration::sensitivity::Sensitivity;
 use crate::calibration::unknowns::Unknowns;
@@ -361,17 +360,20 @@ impl<'a> Design<'a> {
         visited.collect()
     }
 
-    pub(crate) fn evaluation(&self, criterion: Criterion) -> Evaluation {
+    /// Returns the value of the design by a criterion.
+    pub(crate) fn value(&self, criterion: Criterion) -> f64 {
+        criterion.value(&self.candidates.information_of(&self.visits), self.candidates.turn_on)
+    }
+
+    /// Returns the standard uncertainties in the order of [`Parameter::EIGHT`].
+    pub(crate) fn standard_uncertainty(&self) -> [f64; 8] {
         let Candidates { tolerance, turn_on, .. } = self.candidates;
-        let information = self.candidates.information_of(&self.visits);
-        let mut standard_uncertainty = [0.0; 8];
-        for parameter in Parameter::EIGHT {
+        Parameter::EIGHT.map(|parameter| {
             let place = parameter.place();
             let is_omega0 = matches!(parameter, Parameter::Omega0x | Parameter::Omega0y);
             let variance = self.covariance[place][place] + if is_omega0 { *turn_on } else { 0.0 };
-            standard_uncertainty[place] = tolerance[place] * variance.sqrt();
-        }
-        Evaluation { value: criterion.value(&information, *turn_on), standard_uncertainty, effects: effects(self) }
+            tolerance[place] * variance.sqrt()
+        })
     }
 
     /// Returns `true` if the visited positions also determine the full 2×3 matrix of g-sensitive drift.

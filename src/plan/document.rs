@@ -1,10 +1,9 @@
 //! The plan as JSON, and what templates take from it.
 
-use super::sensitivity::{CommonError, Effect};
+use super::sensitivity::{CommonError, Effect, parameters};
 use super::{Evaluation, MOST_READINGS, Plan};
 use crate::calibration::NotStated;
 use crate::coefficients::PositionIndex;
-use crate::gyro::{GyroParameters, Parameters};
 use crate::stand::MOST_POSITIONS;
 use crate::text::node::from_json;
 use crate::text::{Kind, Unreadable};
@@ -144,13 +143,4 @@ fn common_errors<'a>(plan: &'a Evaluation, paper: Option<&'a Evaluation>) -> Vec
         EffectDocument { error: name, size, unit: cause.unit(), plan: effect, paper: of_paper(place) }
     });
     each.collect()
-}
-
-fn parameters(values: &[f64; 8]) -> Parameters {
-    Parameters::of(&GyroParameters::from_vector(values))
-}
-
-/// Writes numbers in the order of [`Parameter::EIGHT`](crate::calibration::Parameter::EIGHT) under the keys of a gyro type.
-pub(super) fn by_parameter<S: Serializer>(values: &[f64; 8], serializer: S) -> Result<S::Ok, S::Error> {
-    parameters(values).serialize(serializer)
 }

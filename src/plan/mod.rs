@@ -113,7 +113,7 @@ pub(crate) struct Visited {
 pub(crate) struct Evaluation {
     pub value: f64,
     /// Standard uncertainties in the order of [`Parameter::EIGHT`].
-    #[serde(serialize_with = "document::by_parameter")]
+    #[serde(serialize_with = "sensitivity::by_parameter")]
     pub standard_uncertainty: [f64; 8],
     /// Effects of errors that all positions share.
     #[serde(skip)]
@@ -198,6 +198,13 @@ pub(crate) fn plan(question: &Question) -> Result<Plan, NoPlan> {
         of_positions_not_stated: candidates.not_stated.clone(),
         noise_not_stated: question.gyro.noise.as_ref().is_none_or(|noise| noise.visit_deg_per_h.is_none()),
     })
+}
+
+impl Design<'_> {
+    pub(crate) fn evaluation(&self, criterion: Criterion) -> Evaluation {
+        let (value, standard_uncertainty) = (self.value(criterion), self.standard_uncertainty());
+        Evaluation { value, standard_uncertainty, effects: sensitivity::effects(self) }
+    }
 }
 
 /// Returns what the uncertainty of the local g adds to ω_g or ω_k in a decision, the larger in units of its tolerance.

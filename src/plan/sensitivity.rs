@@ -6,8 +6,9 @@
 use super::candidates::Design;
 use crate::calibration::Cause;
 use crate::calibration::sensitivity::Sensitivity;
+use crate::gyro::{GyroParameters, Parameters};
 use crate::units::radians_from_arcseconds;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct CommonError {
@@ -50,7 +51,7 @@ pub(crate) struct Effect {
     #[serde(skip)]
     pub error: CommonError,
     /// Changes of the parameters in their units, in the order of [`crate::calibration::parameter::Parameter::EIGHT`].
-    #[serde(serialize_with = "super::document::by_parameter")]
+    #[serde(serialize_with = "by_parameter")]
     pub change: [f64; 8],
     pub largest_over_tolerance: f64,
     pub largest_residual_deg_per_h: f64,
@@ -100,4 +101,13 @@ fn effect(design: &Design, sensitivity: &Sensitivity, error: CommonError) -> Eff
         largest_residual_deg_per_h: largest_residual,
         residuals_over_noise: square.sqrt(),
     }
+}
+
+pub(super) fn parameters(values: &[f64; 8]) -> Parameters {
+    Parameters::of(&GyroParameters::from_vector(values))
+}
+
+/// Writes numbers in the order of [`Parameter::EIGHT`](crate::calibration::Parameter::EIGHT) under the keys of a gyro type.
+pub(super) fn by_parameter<S: Serializer>(values: &[f64; 8], serializer: S) -> Result<S::Ok, S::Error> {
+    parameters(values).serialize(serializer)
 }

@@ -12,28 +12,27 @@ mod history;
 mod methods;
 mod result;
 
-pub(crate) use fit::{not_stated, suspicion, what_may_be_wrong};
+pub(crate) use fit::{not_stated, what_may_be_wrong};
 pub(super) use headline::headline;
 pub(crate) use methods::parameters;
 pub(crate) use result::counted;
 
-use self::fit::Weight;
 use super::doc::{self, Block, Words};
 use super::page::language::Text;
 use super::page::number::Number;
 use super::uncertainty::not_linear;
-use crate::calibration::diagnosis::INCONSISTENT;
 use crate::calibration::document::{CalibrationDocument, NoChange, ResultDocument, Subject};
 use crate::calibration::prediction::FurtherVisit;
 use crate::calibration::readings::Exclusion;
+use crate::calibration::remarks;
 use crate::calibration::stated::TemperatureOutside;
 use crate::calibration::verdict::{COVERAGE_FACTOR, change_in_uncertainties};
-use crate::calibration::{Calibration, Method, NotStated, Parameter, Readings, Verdict};
+use crate::calibration::{Calibration, Method, NotStated, Parameter, Verdict};
 use crate::gyro::GyroType;
 use crate::interface::calibrated::Done;
 use crate::passport::{Check, Code};
 use crate::report::page::language::{Language, capital};
-use crate::report::{columns, mistake, style};
+use crate::report::{columns, style};
 use crate::uncertainty::MonteCarlo;
 use crate::wording::plain;
 use crate::wording::texts::calibration as texts;
@@ -107,7 +106,7 @@ impl<'a> Report<'a> {
         let left_out = self.document.left_out.iter().map(ToString::to_string);
         let each = [(texts::EXCLUDED, excluded.collect::<Vec<_>>()), (texts::LEFT_OUT, left_out.collect())];
         let each = each.into_iter().filter(|(_, each)| !each.is_empty());
-        Block::Fields(each.map(|(name, each)| (name, Words::Given(each.join("; ")), true)).collect())
+        doc::fields(each.map(|(name, each)| (name, Words::Given(each.join("; ")), true)).collect())
     }
 }
 
@@ -168,7 +167,7 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, report: &Report, ho
     }
     let mut inputs: Vec<Words> = done.document.subject.as_ref().and_then(conditions).into_iter().collect();
     inputs.push(passport(&done.document, how.checks));
-    inputs.extend(without_reading(&done.readings).map(|words| {
+    inputs.extend(remarks::without_reading(&done.readings).map(|words| {
         let cost = done
             .cost_of_missing
             .map(|(parameter, ratio)| texts::cost_of_missing(doc::symbol(parameter.symbol()), Number::fixed(ratio, 2)));
@@ -247,7 +246,7 @@ fn conditions(Subject { gyro_serial, date, operator, temperature_c, .. }: &Subje
 pub(crate) fn doubts(done: &Done, trials: Option<&MonteCarlo>) -> Vec<Words> {
     let Done { calibration, document, warning, earlier, .. } = done;
     let hint = calibration.hint.iter().map(|_| doc::joined([texts::DOES_NOT_FIT, texts::DOES_NOT_FIT_WORDS], ". "));
-    let mistake = calibration.mistake.iter().map(mistake::words);
+    let mistake = calibration.mistake.iter().map(remarks::of_mistake);
     let why = earlier.as_ref().and_then(|(_, why)| Some(why_no_change((*why)?).into()));
     let of_scatter = fit::warnings(calibration);
     let outside = warning.as_ref().map(temperature_outside);
@@ -277,39 +276,6 @@ pub(crate) fn why_no_change(why: NoChange) -> Text {
 /// Returns the symbols of parameters with commas between them.
 pub(crate) fn symbols(parameters: impl IntoIterator<Item = Parameter>) -> Words {
     doc::listed(parameters.into_iter().map(|parameter| doc::symbol(parameter.symbol())))
-}
-
-/// Returns what makes the parameters unusable: readings that do not fit, or those of another gyro.
-fn unusable(calibration: &Calibration) -> impl Iterator<Item = String> {
-    let inconsistent = calibration.hint.iter().map(|hint| format!("{INCONSISTENT}. {}.", capital(&hint.causes())));
-    let correlated = calibration.hint.as_ref().and_then(|_| in_english(&fit::correlated(calibration)));
-    let mistake = calibration.mistake.as_ref().map(|mistake| plain(&mistake::words(mistake).plain(Language::English)));
-    inconsistent.chain(correlated).chain(mistake)
-}
-
-fn in_english(block: &Block) -> Option<String> {
-    doc::sentence(block, Language::English)
-}
-
-/// Returns what a program should show with the parameters, a sentence each: what makes them unusable, what the readings
-/// cannot tell, and a scatter that is not the stated one.
-pub(crate) fn remarks(calibration: &Calibration, readings: &Readings) -> Vec<String> {
-    let mut remarks: Vec<String> = unusable(calibration).collect();
-    let tested = calibration.adopted().is_some_and(|answer| answer.chi_square.judges());
-    remarks.extend((!tested).then(|| texts::NOT_JUDGED.of(Language::English).to_owned()));
-    // The result of readings that do not fit begins with their correlation.
-    let correlated = calibration.hint.is_none().then(|| fit::correlated(calibration));
-    remarks.extend(correlated.as_ref().and_then(in_english));
-    let scatter = fit::scatter(calibration).into_iter().filter(|(weight, _)| *weight != Weight::Usual);
-    remarks.extend(scatter.filter_map(|(_, block)| in_english(&block)));
-    remarks.extend(without_reading(readings).map(|words| words.plain(Language::English) + "."));
-    remarks
-}
-
-/// Returns the positions without a reading, without a full stop.
-pub(super) fn without_reading(readings: &Readings) -> Option<Words> {
-    let positions = doc::listed(readings.left_out.iter());
-    (!readings.left_out.is_empty()).then(|| texts::without_reading(positions))
 }
 
 /// Returns which passport was used, and whether it was verified.

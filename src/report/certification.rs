@@ -135,7 +135,7 @@ pub(crate) fn certification(found: &Certification) -> Vec<Block> {
     doc.extend([
         deviations::note(&stand.positions, false),
         evidence::certified(&stand.certificate),
-        Block::Fields(repeated.into_iter().collect()),
+        doc::fields(repeated.into_iter().collect()),
         evidence::outliers(found),
     ]);
     doc.extend(evidence::components(found));

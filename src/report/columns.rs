@@ -340,15 +340,6 @@ pub(crate) fn counts(counts: impl IntoIterator<Item = (usize, impl std::fmt::Dis
     counted.map(|(count, words)| format!("{count} {words}")).collect::<Vec<_>>().join(", ")
 }
 
-/// Returns the decimals of a sum of squares in units of its variance, or `None` if it needs a power of ten.
-pub(crate) fn decimals_of_chi_square(value: f64) -> Option<usize> {
-    match value {
-        small if small < 99.995 => Some(2),
-        large if large < 99_999.5 => Some(0),
-        _ => None,
-    }
-}
-
 /// Formats a value with two significant digits, and with a power of ten if it would otherwise have many zeros.
 pub(crate) fn two_digits(value: f64) -> String {
     if value == 0.0 {

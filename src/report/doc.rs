@@ -7,7 +7,8 @@ mod html;
 mod terminal;
 
 pub(crate) use crate::wording::words::{
-    Counted, Words, code, given, in_unit, joined, listed, longest, marked, padded, probability, strong, symbol, told,
+    Counted, Field, Statement, Words, code, given, in_unit, joined, listed, longest, marked, padded, probability,
+    strong, symbol, told,
 };
 pub(crate) use html::blocks;
 pub(crate) use terminal::{said, sentence, text};
@@ -24,17 +25,12 @@ pub(crate) enum On {
     Terminal,
 }
 
-/// Name, value, and whether it has the full width.
-pub(crate) type Field = (Text, Words, bool);
-
 #[derive(Clone)]
 pub(crate) enum Block {
     Heading(Words),
-    /// Sentences of a paragraph; without any, nothing is written.
-    Paragraph(Vec<Words>),
-    /// Names, values, and whether a field has the full width.
-    Fields(Vec<Field>),
-    /// Names and values as [`Block::Fields`], in a terminal a line each.
+    /// A paragraph, or names and values; without any, nothing is written.
+    Said(Statement),
+    /// Names and values, in a terminal a line each.
     Record(Vec<Field>),
     Table(Table),
     /// Blocks in an element of this class.
@@ -64,7 +60,18 @@ pub(crate) fn heading(words: impl Into<Words>) -> Block {
 
 /// A paragraph of one text, of several, or of none.
 pub(crate) fn say<W: Into<Words>>(all: impl IntoIterator<Item = W>) -> Block {
-    Block::Paragraph(all.into_iter().map(Into::into).collect())
+    Block::Said(Statement::of(all))
+}
+
+/// Names and values, in a terminal one sentence.
+pub(crate) fn fields(all: Vec<Field>) -> Block {
+    Block::Said(Statement::Fields(all))
+}
+
+impl From<Statement> for Block {
+    fn from(statement: Statement) -> Self {
+        Self::Said(statement)
+    }
 }
 
 pub(crate) fn line(words: impl Into<Words>) -> Block {

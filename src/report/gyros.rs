@@ -1,12 +1,13 @@
 //! Results of several gyros on one stand as text: a line for each, and what they have in common.
 
-use super::calibration::{assumed, doubts, headline, not_included, not_stated, passport, without_reading};
+use super::calibration::{assumed, doubts, headline, not_included, not_stated, passport};
 use super::doc::{self, longest, marked, padded, said};
 use super::style::Outcome;
 use crate::calibration::NotStated;
+use crate::calibration::remarks::{of_digits, without_reading};
 use crate::interface::calibrated::Done;
 use crate::passport::Check;
-use crate::report::{columns, recorded, style};
+use crate::report::{columns, style};
 use crate::text::printable;
 use crate::uncertainty::MonteCarlo;
 use crate::wording::texts::calibration as texts;
@@ -50,7 +51,7 @@ pub(crate) fn line(
     }
     // That the readings do not fit is said already.
     let doubts = doubts(done, trials).into_iter().skip(calibration.hint.iter().len());
-    let digits = calibration.digits.iter().flat_map(recorded::said);
+    let digits = calibration.digits.iter().flat_map(of_digits);
     let all = [reasons].into_iter().chain(doubts).chain(without_reading(readings)).chain(digits);
     let words = plain(&doc::joined(all, "; ").plain(language));
     format!("{}  {}  {words}\n", said(&of_input(outcome, word), language), printable(file))

@@ -9,14 +9,12 @@
 //! * `exported`: a verified passport as JSON, with what its verification found.
 //! * `gyros`: the results of several gyros on one stand.
 //! * `history`: one stand over the years.
-//! * `mistake`: the explanation of a result that is not the gyro's.
 //! * `issued`: the outcomes of the orders of a batch.
 //! * `page`: pages for print and screen, in several languages.
 //! * `passport`: a passport.
 //! * `plan`: the best positions, and what they cannot see.
 //! * `picture`: the contents of a document as pictures.
 //! * `recertification`: a new certificate of a stand, and the successors of its passports.
-//! * `recorded`: what the digits of the currents show.
 //! * `register`: the passports in a folder and their states.
 //! * `selftest`: the reference cases.
 //! * `simulation`: the tables of simulations.
@@ -35,7 +33,6 @@ pub(crate) mod gyros;
 pub(crate) mod history;
 #[cfg(feature = "factory")]
 pub(crate) mod issued;
-pub(crate) mod mistake;
 pub(crate) mod page;
 pub(crate) mod passport;
 pub(crate) mod picture;
@@ -43,7 +40,6 @@ pub(crate) mod picture;
 pub(crate) mod plan;
 #[cfg(feature = "factory")]
 pub(crate) mod recertification;
-pub(crate) mod recorded;
 #[cfg(feature = "factory")]
 pub(crate) mod register;
 pub(crate) mod selftest;

@@ -6,6 +6,7 @@
 //! * `site`: the site and the Earth there.
 //! * `numbers`: the numbers that a calibration uses.
 //! * `accuracy`: expected calibration uncertainty, inputs that are not stated.
+//! * `worksheet`: the steps to K by hand.
 
 pub(crate) mod accuracy;
 mod chart;
@@ -13,6 +14,7 @@ pub(crate) mod deviations;
 pub(crate) mod general;
 pub(crate) mod numbers;
 pub(crate) mod site;
+mod worksheet;
 
 use crate::passport::{Content, Verification};
 use crate::report::doc::{Block, given, heading, line, marked, say, strong};
@@ -34,12 +36,7 @@ pub(crate) fn sections(content: &Content) -> [(&'static str, Text, Vec<Block>); 
 
 /// Returns the whole passport, after the answer of `verification`, or that it was not verified.
 pub(crate) fn document(content: &Content, verification: Option<&Verification>) -> Vec<Block> {
-    let answer = match verification {
-        Some(verification) => verdict::answer(verification.valid(), verification.checks()),
-        None => marked(Outcome::NotAsked, strong(verdicts::NOT_VERIFIED)),
-    };
-    let mut doc = vec![line(vec![answer, "  ".into(), strong(given(&content.passport.id))])];
-    doc.push(say(verification.map(|verification| verdict::counts_with_names(verification.checks()))));
+    let mut doc = answer(content, verification);
     doc.extend(general::of_the_passport(&content.passport, None));
     for (_, name, blocks) in sections(content) {
         // A heading directly below another says nothing more here.
@@ -48,4 +45,22 @@ pub(crate) fn document(content: &Content, verification: Option<&Verification>) -
         doc.extend(blocks);
     }
     doc
+}
+
+/// Returns the steps to K by hand, after the answer of `verification`.
+pub(crate) fn worksheet(content: &Content, verification: Option<&Verification>) -> Vec<Block> {
+    let mut doc = answer(content, verification);
+    doc.extend(worksheet::section(content));
+    doc
+}
+
+fn answer(content: &Content, verification: Option<&Verification>) -> Vec<Block> {
+    let answer = match verification {
+        Some(verification) => verdict::answer(verification.valid(), verification.checks()),
+        None => marked(Outcome::NotAsked, strong(verdicts::NOT_VERIFIED)),
+    };
+    vec![
+        line(vec![answer, "  ".into(), strong(given(&content.passport.id))]),
+        say(verification.map(|verification| verdict::counts_with_names(verification.checks()))),
+    ]
 }

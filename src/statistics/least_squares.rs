@@ -3,7 +3,7 @@
 //! The normal equations, which square the condition, are never formed. The first rows of Q'y determine p; the others
 //! are the part of y that no p can explain. Rank and condition come from the singular values of X.
 
-use nalgebra::{DMatrix, DVector, Dyn, QR, SVD};
+use nalgebra::{DMatrix, DVector, Dyn, Matrix2, QR, SVD};
 
 /// Factorisation X = Q R.
 #[derive(Debug, Clone)]
@@ -109,6 +109,14 @@ pub(crate) fn condition(design: &DMatrix<f64>, limit: f64) -> Option<Condition> 
     let undetermined = weak.map(|(row, _)| directions.row(row).transpose()).collect();
     let number = if smallest > largest * f64::EPSILON { largest / smallest } else { f64::INFINITY };
     Some(Condition { number, undetermined })
+}
+
+/// Returns L⁻¹ for C = L L', or `None` if C is not positive definite.
+pub(crate) fn whitening_of(covariance: &Matrix2<f64>) -> Option<Matrix2<f64>> {
+    let lower = covariance.cholesky()?.unpack();
+    let (a, b, c) = (lower.m11, lower.m21, lower.m22);
+    let inverse = Matrix2::new(1.0 / a, 0.0, -b / (a * c), 1.0 / c);
+    inverse.iter().all(|x| x.is_finite()).then_some(inverse)
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! Advice on what a person or a program wrote where a number belongs, and on unknown names that are known ones in letters of
 //! another alphabet, or in another unit.
 
+use super::characters::{STRAIGHT_QUOTES, latin, typographic_quote};
 use super::placeholder::{self, is_placeholder};
-use super::scalar::{STRAIGHT_QUOTES, latin, typographic_quote};
 use super::{Advice, Cause, Node, Path};
 
 /// Text where a number is expected.

@@ -11,6 +11,14 @@ const BEFORE: usize = 46;
 /// Mark at the end of a shortened line.
 const CUT: &str = "…";
 
+/// Step of a [`Path`](super::Path), owned.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Step {
+    Key(String),
+    Item(usize),
+    Entry(usize),
+}
+
 /// Line and column, both counted from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Location {

@@ -1,6 +1,6 @@
 //! Kind of a file that was given instead of another, by its content: for messages, never for a decision.
 
-use super::node::without_byte_order_mark;
+use super::characters::without_byte_order_mark;
 use super::{Unreadable, words};
 
 /// Number of first bytes that show the kind of a file.

@@ -1,15 +1,17 @@
 //! Text of documents: strict YAML input, canonical output, and errors with their location in the file.
 //!
+//! * `characters`: what signed texts may contain, and what looks alike.
 //! * `rule`: allowed content of signed texts, form of strings, and the check of both.
 //! * `number`: form of numbers; `advice`: what to do about text where a number is expected, and about unknown names.
 //! * `canonical`: canonical form of content, and its reader.
-//! * `node`: documents as trees, and destinations of a document.
+//! * `node`: documents as trees; `field`: their values, and destinations of a document.
 //! * `record`: conversion of trees to Rust structs and back; every error is reported, not only the first.
 //! * `words`: enums whose variants are words.
 //! * `scalar`: identifiers, dates and times.
 //! * `table`: tables of numbers (CSV).
 //! * `placeholder`: words of the templates that the user must replace.
-//! * `yaml`: conversion of hand-written YAML to a tree; the location of a value is found again if an error needs it.
+//! * `yaml`: conversion of hand-written YAML to a tree; `locate`: the location of a value, found again if an error needs it.
+//! * `misspelt`: the name that a misspelt one means.
 //! * `printable`: safe display of text from other sources.
 //! * `kind`: what a file is that was given instead of another.
 //! * `cause`: recognised causes of errors, and the advice on each; `advice`: how they are recognised in what was written.
@@ -18,8 +20,13 @@
 pub(crate) mod advice;
 pub(crate) mod canonical;
 pub(crate) mod cause;
+pub(crate) mod characters;
 pub(crate) mod excerpt;
+pub(crate) mod field;
 pub(crate) mod kind;
+#[cfg(feature = "factory")]
+mod locate;
+pub(crate) mod misspelt;
 pub(crate) mod node;
 pub(crate) mod number;
 pub(crate) mod placeholder;
@@ -36,12 +43,13 @@ pub(crate) mod yaml;
 pub(crate) use cause::Advice;
 pub use cause::Cause;
 pub use excerpt::Location;
+pub(crate) use field::Field;
 pub(crate) use kind::Kind;
 pub(crate) use node::Node;
 pub(crate) use printable::{Printable, name_of, printable, shown, without_secrets};
 pub(crate) use problem::{Path, Problems};
 pub use problem::{Problem, Unreadable};
-pub(crate) use record::{Document, Field, record};
+pub(crate) use record::{Document, record};
 pub use scalar::{Identifier, NotAnIdentifier};
 pub(crate) use words::{first_few, word_of_a_key, words};
 

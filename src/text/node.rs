@@ -1,8 +1,9 @@
-//! Documents as trees: every key is kept in order, including duplicates. Trees are serialised as JSON. And destinations of
-//! a document, written value by value: a text in canonical form, or a tree.
+//! Documents as trees: every key is kept in order, including duplicates. Trees are serialised as JSON.
+
+pub(crate) use super::characters::without_byte_order_mark;
 
 use super::kind::{Kind, mistaken};
-use super::{Advice, Cause, Field, LARGEST_DOCUMENT_BYTES, Location, Path, Unreadable, large_file};
+use super::{Advice, Cause, LARGEST_DOCUMENT_BYTES, Location, Path, Unreadable, large_file};
 use serde::de::{self, DeserializeOwned, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::{Serialize, Serializer};
 use std::cell::Cell;
@@ -177,11 +178,6 @@ pub(crate) fn odd_character(text: &str) -> Option<(usize, String, Cause)> {
     None
 }
 
-/// Returns the bytes of a hand-written file after its byte order mark, if it has one.
-pub(crate) fn without_byte_order_mark(bytes: &[u8]) -> &[u8] {
-    bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes)
-}
-
 /// Returns the text of a hand-written file, without byte order mark and with LF line endings, as editors of Windows and
 /// spreadsheets write them.
 pub(crate) fn hand_written_text(name: &str, bytes: &[u8]) -> Result<String, Unreadable> {
@@ -216,26 +212,6 @@ pub(crate) fn location_of(before: &[u8]) -> Location {
 
 fn in_order<S: Serializer>(entries: &[(String, Node)], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_map(entries.iter().map(|(key, value)| (key, value)))
-}
-
-/// Destination of the values of a document, in their order.
-///
-/// A single pass over the fields of a record ([`Field::emit`]) serves every form in which a document is written.
-pub(crate) trait Sink: Sized {
-    fn boolean(&mut self, value: bool);
-    fn integer(&mut self, value: i64);
-    /// Writes a finite binary64 number.
-    fn number(&mut self, value: f64);
-    fn text(&mut self, value: &str);
-    fn list<T: Field>(&mut self, items: &[T]);
-    /// Writes a mapping. `entries` writes each key and its value; if `empty` is `true`, it writes none.
-    fn mapping(&mut self, empty: bool, entries: impl FnOnce(&mut Self));
-    /// Writes a mapping on the line of its key.
-    fn one_line(&mut self, value: impl FnOnce(&mut Self)) {
-        value(self);
-    }
-    /// Writes the key of the next value; returns `false` if both are to be omitted.
-    fn key(&mut self, key: &str) -> bool;
 }
 
 /// Error message for a document that exceeds its budget.
@@ -307,58 +283,6 @@ impl<'de> Visitor<'de> for Builder<'_> {
             entries.push((key, map.next_value_seed(self)?));
         }
         Ok(Node::Map(entries))
-    }
-}
-
-/// Destination that is a [`Node`].
-#[derive(Default)]
-pub(super) struct Tree {
-    keys: Vec<String>,
-    values: Vec<Node>,
-}
-
-impl Tree {
-    pub(super) fn of(value: &impl Field) -> Option<Node> {
-        let mut tree = Self::default();
-        value.emit(&mut tree);
-        tree.values.pop()
-    }
-}
-
-impl Sink for Tree {
-    fn boolean(&mut self, value: bool) {
-        self.values.push(Node::Bool(value));
-    }
-
-    fn integer(&mut self, value: i64) {
-        self.values.push(Node::Integer(value));
-    }
-
-    fn number(&mut self, value: f64) {
-        self.values.push(Node::Number(value));
-    }
-
-    fn text(&mut self, value: &str) {
-        self.values.push(Node::Text(value.to_owned()));
-    }
-
-    fn list<T: Field>(&mut self, items: &[T]) {
-        let first = self.values.len();
-        items.iter().for_each(|item| item.emit(self));
-        let items = self.values.split_off(first);
-        self.values.push(Node::List(items));
-    }
-
-    fn mapping(&mut self, _empty: bool, entries: impl FnOnce(&mut Self)) {
-        let (first_key, first_value) = (self.keys.len(), self.values.len());
-        entries(self);
-        let (keys, values) = (self.keys.split_off(first_key), self.values.split_off(first_value));
-        self.values.push(Node::Map(keys.into_iter().zip(values).collect()));
-    }
-
-    fn key(&mut self, key: &str) -> bool {
-        self.keys.push(key.to_owned());
-        true
     }
 }
 

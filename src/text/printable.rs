@@ -5,7 +5,7 @@
 //! in a message. In addition, every message and result is written through [`outgoing`] or [`json`], which keep only
 //! line feeds and emphasis of all that a terminal interprets.
 
-use super::rule;
+use super::characters::allowed_in_string;
 use serde::Serialize;
 use std::fmt::{self, Display, Formatter, Write};
 use std::path::{self, Path};
@@ -18,7 +18,7 @@ fn drawn(c: char) -> bool {
 
 /// Returns `true` if a character is shown unescaped: it is visible, stands alone, and reverses no text.
 fn visible(c: char) -> bool {
-    rule::allowed_in_string(c) || drawn(c)
+    allowed_in_string(c) || drawn(c)
 }
 
 /// Wrapper that displays a value on one line and escapes every invisible character as Rust does (`\n`, `\u{202e}`).

@@ -1,14 +1,17 @@
 //! Errors in documents: location, found content, expected content and advice.
 
 use super::cause::{Advice, Cause};
-use super::excerpt::{Excerpt, Location};
-use super::node::without_byte_order_mark;
-use super::rule;
-use super::scalar::is_sha256_hex;
+use super::characters::{is_sha256_hex, without_byte_order_mark};
+use super::excerpt::{Excerpt, Location, Step};
+#[cfg(feature = "factory")]
+use super::locate::locate;
 use super::{Printable, without_secrets};
 use std::collections::HashMap;
 use std::fmt::{self, Display, Formatter};
 use std::hash::Hash;
+
+/// Advice for a text with a key or a format that this version does not know.
+pub(crate) const UPDATE: &str = "update the program, because a later version wrote this file";
 
 /// Path from the top of a document to one of its values, such as `positions[3].alpha_arcsec`.
 ///
@@ -21,14 +24,6 @@ pub(crate) enum Path<'a> {
     Item(&'a Path<'a>, usize),
     /// Key of a mapping, counted from 0, because a key may be there twice.
     Entry(&'a Path<'a>, usize),
-}
-
-/// Step of a [`Path`], owned.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Step {
-    Key(String),
-    Item(usize),
-    Entry(usize),
 }
 
 impl<'a> Path<'a> {
@@ -222,7 +217,7 @@ impl Problems {
     #[cfg(feature = "factory")]
     pub(crate) fn refuse(self, name: &str, text: &str) -> Unreadable {
         let affordable = (READ_AGAIN_BYTES / text.len().max(1)).max(1);
-        self.refused(name, affordable, |steps| super::yaml::locate(text, steps))
+        self.refused(name, affordable, |steps| locate(text, steps))
     }
 
     /// Returns the refusal of the signed document `name`, with its errors by field.
@@ -373,7 +368,7 @@ impl Unreadable {
 
     /// Returns `true` if a later version of the program wrote the document.
     pub(crate) fn is_of_a_later_version(&self) -> bool {
-        self.problems.iter().any(|problem| problem.advice == rule::UPDATE)
+        self.problems.iter().any(|problem| problem.advice == UPDATE)
     }
 }
 

@@ -1,49 +1,11 @@
 //! Conversion of a [`Node`] to a Rust struct and back; the declaration in `record!` defines the format.
 
 use super::canonical::Scanner;
-use super::node::{Sink, Tree};
-use super::scalar::{STRAIGHT_QUOTES, latin, typographic_quote};
-use super::{Advice, Cause, Node, Path, Problems, advice, node, rule};
+use super::characters::{STRAIGHT_QUOTES, allowed_in_string, is_printable_ascii, latin, typographic_quote};
+use super::field::{Field, Sink, refuse};
+use super::problem::UPDATE;
+use super::{Advice, Cause, Node, Path, Problems, advice, misspelt, node, rule};
 use std::collections::HashSet;
-
-/// Type of a field of a document.
-pub(crate) trait Field: Sized + Clone + Send + Sync + 'static {
-    /// Reads a value; returns `None` after an error, which is then in `problems`.
-    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self>;
-
-    /// Returns the value of an absent key, or `None` if the key is required.
-    fn absent() -> Option<Self> {
-        None
-    }
-
-    /// Describes the expected value of `key`, for a message.
-    fn expected(_key: &str) -> String {
-        "a mapping".to_owned()
-    }
-
-    /// Returns `true` if the key is omitted.
-    fn is_absent(&self) -> bool {
-        false
-    }
-
-    /// Returns `true` if the value is written as a mapping.
-    fn is_mapping(&self) -> bool {
-        false
-    }
-
-    /// Writes the value; writes nothing if its key is omitted.
-    fn emit<S: Sink>(&self, sink: &mut S);
-
-    /// Converts the value to a tree, or returns `None` if the key is omitted.
-    fn write(&self) -> Option<Node> {
-        Tree::of(self)
-    }
-
-    /// Reads a value from a text in canonical form; returns `None` after an error, or if the text is not canonical.
-    fn scan(scanner: &mut Scanner) -> Option<Self> {
-        Self::read(&scanner.scalar()?, &Path::Root, &mut Problems::default())
-    }
-}
 
 /// Type whose fields are the keys of a mapping.
 pub(crate) trait Record: Field {
@@ -76,7 +38,7 @@ impl<T: Document> Field for File<T> {
             Some(Node::Text(found)) if found == format => {}
             Some(found) => {
                 let advice = match found {
-                    Node::Text(text) if rule::is_later_format(text, format) => rule::UPDATE.to_owned(),
+                    Node::Text(text) if rule::is_later_format(text, format) => UPDATE.to_owned(),
                     Node::Text(text) if typographic_quote(text).is_some() => STRAIGHT_QUOTES.to_owned(),
                     Node::Text(text) => latin(text).filter(|(latin, _)| latin == format).map_or_else(
                         || RIGHT_FILE.to_owned(),
@@ -133,14 +95,14 @@ macro_rules! record {
                 true
             }
 
-            fn emit<S: $crate::text::node::Sink>(&self, sink: &mut S) {
+            fn emit<S: $crate::text::field::Sink>(&self, sink: &mut S) {
                 let empty = true $(&& $crate::text::Field::is_absent(&self.$field))*;
                 sink.mapping(empty, |sink| $crate::text::record::Record::emit_entries(self, sink));
             }
 
             fn scan(scanner: &mut $crate::text::canonical::Scanner) -> Option<Self> {
                 scanner.mapping(<Self as $crate::text::record::Record>::KEYS, |scanner| {
-                    Some(Self { $($field: scanner.entry(const { $crate::text::record::key(stringify!($field)) })?,)* })
+                    Some(Self { $($field: scanner.entry(const { $crate::text::record::key(stringify!($field)) }, $crate::text::Field::absent, $crate::text::Field::scan)?,)* })
                 })
             }
         }
@@ -155,7 +117,7 @@ macro_rules! record {
         impl $crate::text::record::Record for $name {
             const KEYS: &'static [&'static str] = &[$($crate::text::record::key(stringify!($field))),*];
 
-            fn emit_entries<S: $crate::text::node::Sink>(&self, sink: &mut S) {
+            fn emit_entries<S: $crate::text::field::Sink>(&self, sink: &mut S) {
                 $(if !$crate::text::Field::is_absent(&self.$field)
                     && sink.key(const { $crate::text::record::key(stringify!($field)) })
                 {
@@ -230,15 +192,11 @@ fn unknown_key_advice(entries: &[(String, Node)], index: usize, key: &str, value
     if let Some(advice) = advice::on_name(known, key) {
         return advice;
     }
-    let alike = |name: &&str| strsim::jaro_winkler(name, key);
-    match known.iter().max_by(|a, b| alike(a).total_cmp(&alike(b))) {
-        Some(name) if alike(name) > ALIKE => Advice::from(format!("did you mean {name}?")).meaning(name),
-        _ => "delete it, or make it a comment".into(),
+    match misspelt::key(known, key) {
+        Some(name) => Advice::from(misspelt::question(name)).meaning(name),
+        None => "delete it, or make it a comment".into(),
     }
 }
-
-/// Jaro-Winkler similarity from which an unknown key is taken for a misspelt known one.
-const ALIKE: f64 = 0.85;
 
 /// Reads the field `key`, or returns its default if it may be absent.
 pub(crate) fn read_field<T: Field>(
@@ -254,17 +212,6 @@ pub(crate) fn read_field<T: Field>(
             None
         }),
     }
-}
-
-/// Reports a value that is not what its key expects.
-pub(crate) fn refuse<T: Field>(
-    node: &Node,
-    at: &Path,
-    advice: impl Into<Advice>,
-    problems: &mut Problems,
-) -> Option<T> {
-    problems.at(at, node.describe(), T::expected(at.last_key()), advice);
-    None
 }
 
 impl Field for f64 {
@@ -422,10 +369,10 @@ impl Field for String {
 
 /// Returns the first character that no string of a signed document may contain, or `None` if there is none.
 fn refused_in_string(text: &str) -> Option<char> {
-    if super::rule::is_printable_ascii(text.as_bytes()) {
+    if is_printable_ascii(text.as_bytes()) {
         return None;
     }
-    text.chars().find(|&c| !super::rule::allowed_in_string(c))
+    text.chars().find(|&c| !allowed_in_string(c))
 }
 
 impl<T: Field> Field for Option<T> {
@@ -469,7 +416,7 @@ impl<T: Field> Field for Vec<T> {
     }
 
     fn scan(scanner: &mut Scanner) -> Option<Self> {
-        scanner.list()
+        scanner.list(T::scan)
     }
 }
 
@@ -490,6 +437,6 @@ impl<T: Field, const N: usize> Field for [T; N] {
     }
 
     fn scan(scanner: &mut Scanner) -> Option<Self> {
-        scanner.array()
+        scanner.array(T::scan)
     }
 }

@@ -3,42 +3,13 @@
 //! Every YAML 1.1 and 1.2 reader finds the same content in such a text, to the last bit of every number. The
 //! writer ([`write_quoted`], [`number`](super::number)) corresponds to the check of the rule ([`check`], [`differs`]).
 
+pub(crate) use super::characters::allowed_in_string;
+pub(crate) use super::problem::UPDATE;
+
+use super::characters::is_printable_ascii;
 use super::node::{location_of, plain_text};
 use super::problem::Unreadable;
 use super::without_secrets;
-use std::ops::RangeInclusive;
-
-/// Characters beyond ASCII that a quoted string may contain: letters, punctuation and symbols that are drawn alone and
-/// from left to right, and that no YAML reader takes for a line ending.
-const BEYOND_ASCII: [RangeInclusive<char>; 22] = [
-    '\u{00A1}'..='\u{00AC}',
-    '\u{00AE}'..='\u{02AF}',
-    '\u{0370}'..='\u{0373}',
-    '\u{0375}'..='\u{0377}',
-    '\u{037A}'..='\u{037D}',
-    '\u{037F}'..='\u{037F}',
-    '\u{0384}'..='\u{0386}',
-    '\u{0388}'..='\u{0482}',
-    '\u{048A}'..='\u{052F}',
-    '\u{2010}'..='\u{2027}',
-    '\u{2030}'..='\u{205E}',
-    '\u{20AC}'..='\u{20AC}',
-    '\u{2103}'..='\u{2103}',
-    '\u{2116}'..='\u{2116}',
-    '\u{2190}'..='\u{22FF}',
-    '\u{3001}'..='\u{3003}',
-    '\u{3005}'..='\u{3011}',
-    '\u{3041}'..='\u{3096}',
-    '\u{309D}'..='\u{30FF}',
-    '\u{4E00}'..='\u{9FFF}',
-    '\u{AC00}'..='\u{D7A3}',
-    '\u{FF01}'..='\u{FF5E}',
-];
-
-/// Returns `true` if a string of a signed document may contain `c`.
-pub(crate) fn allowed_in_string(c: char) -> bool {
-    (' '..='~').contains(&c) || BEYOND_ASCII.iter().any(|range| range.contains(&c))
-}
 
 /// Returns `true` if `c` is allowed outside strings and comments: in keys, numbers, `true`, `false` and brackets.
 fn allowed_outside(c: char) -> bool {
@@ -61,9 +32,6 @@ pub(super) fn write_quoted(text: &str, mut push: impl FnMut(&str)) {
 
 /// Advice for text that is not as the writer writes it.
 pub(super) const NOT_CANONICAL: &str = "this is not the canonical form; get the file from the issuer again";
-
-/// Advice for a text with a key or a format that this version does not know.
-pub(crate) const UPDATE: &str = "update the program, because a later version wrote this file";
 
 /// Returns `true` if the format `found` is `known` with a later number.
 pub(crate) fn is_later_format(found: &str, known: &str) -> bool {
@@ -92,11 +60,6 @@ pub(crate) fn check<'a>(name: &str, bytes: &'a [u8], largest_bytes: usize) -> Re
         line_start = line_end + 1;
     }
     Ok(text)
-}
-
-pub(super) fn is_printable_ascii(bytes: &[u8]) -> bool {
-    // Do not stop at the first other byte, so that the compiler can test many bytes at once.
-    bytes.iter().fold(true, |good, byte| good & (b' '..=b'~').contains(byte))
 }
 
 /// Returns `true` if a fast check of many bytes at once shows that a text obeys the rule. It returns `false` for other

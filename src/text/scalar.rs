@@ -1,7 +1,9 @@
 //! Texts with a prescribed form: identifiers, dates, times and digests.
 
-use super::node::Sink;
-use super::record::refuse;
+pub(crate) use super::characters::{STRAIGHT_QUOTES, latin, typographic_quote};
+
+use super::characters::character;
+use super::field::{Sink, refuse};
 use super::{Field, Node, Path, Problems};
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -68,39 +70,6 @@ impl Identifier {
     pub fn as_str(&self) -> &str {
         &self.0
     }
-}
-
-fn character(c: char) -> String {
-    let script = match c {
-        '\u{0400}'..='\u{052F}' => "Cyrillic letter ",
-        '\u{0370}'..='\u{03FF}' => "Greek letter ",
-        _ => "",
-    };
-    format!("{script}{c:?} (U+{:04X})", u32::from(c))
-}
-
-/// Letters of other alphabets that look like Latin ones, in the order of those below.
-const ALIKE: &str = "аеорсухіјѕԁһАВЕКМНОРСТХІЈЅοανρτυχΑΒΕΖΗΙΚΜΝΟΡΤΥΧ";
-const LATIN: &str = "aeopcyxijsdhABEKMHOPCTXIJSoavptuxABEZHIKMNOPTYX";
-
-/// Returns the text with the Latin letters that its letters of other alphabets look like, and a description of the
-/// first of these; `None` if there are none, or if others remain.
-pub(crate) fn latin(text: &str) -> Option<(String, String)> {
-    let odd = text.chars().find(|c| !c.is_ascii())?;
-    let alike = |c: char| match ALIKE.chars().position(|alike| alike == c) {
-        Some(place) => LATIN.chars().nth(place).unwrap_or(c),
-        None => c,
-    };
-    let latin: String = text.chars().map(alike).collect();
-    latin.is_ascii().then(|| (latin, character(odd)))
-}
-
-/// Advice for [`typographic_quote`].
-pub(crate) const STRAIGHT_QUOTES: &str = "replace the typographic quotes by straight ones (\")";
-
-/// Returns the first typographic quote in a text, as word processors write it, or `None` if there is none.
-pub(crate) fn typographic_quote(text: &str) -> Option<char> {
-    text.chars().find(|c| "“”„‟«»‘’".contains(*c))
 }
 
 /// Returns the reason why a text in the form of a date is not a day of the calendar, or `None` if it has another form
@@ -222,14 +191,10 @@ pub(crate) fn sha256_hex(bytes: &[u8]) -> String {
     format!("{:x}", Sha256::digest(bytes))
 }
 
-/// Returns `true` if a text has the form that [`sha256_hex`] returns.
-pub(crate) fn is_sha256_hex(text: &str) -> bool {
-    text.len() == 64 && text.bytes().all(|byte| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::text::characters::is_sha256_hex;
 
     #[test]
     fn what_belongs_under_a_key_is_said() {
@@ -264,26 +229,6 @@ mod tests {
         assert_eq!(impossible_date("2026-04-00").unwrap(), "month 04 of 2026 has 30 days");
         for other in ["2028-02-29", "2026-1-1", "30.02.2028", "2026-02-3O", "a-b-c", "", "2026-02-30T00:00:00Z"] {
             assert_eq!(impossible_date(other), None, "{other}");
-        }
-    }
-
-    /// Expected: Unicode's names of the characters.
-    #[test]
-    fn letters_that_look_latin_are_told() {
-        assert_eq!(ALIKE.chars().count(), LATIN.chars().count());
-        let (latin_text, odd) = latin("\u{430}lph\u{430}_arcsec").unwrap();
-        assert_eq!((latin_text.as_str(), odd.as_str()), ("alpha_arcsec", "Cyrillic letter 'а' (U+0430)"));
-        assert_eq!(latin("\u{3BF}mega").unwrap().1, "Greek letter 'ο' (U+03BF)");
-        assert!(latin("alpha").is_none() && latin("альфа").is_none());
-        assert_eq!(typographic_quote("\u{201C}A\u{201D}"), Some('\u{201C}'));
-        assert_eq!(typographic_quote("\"A'"), None);
-    }
-
-    #[test]
-    fn a_sha_256_has_64_lower_case_digits() {
-        assert!(is_sha256_hex(&"0123456789abcdef".repeat(4)));
-        for other in ["a".repeat(63), "a".repeat(65), "g".repeat(64), "A".repeat(64), "/".repeat(64)] {
-            assert!(!is_sha256_hex(&other), "{other}");
         }
     }
 

@@ -6,11 +6,11 @@
 //! columns are accepted and reported, and with them decimal commas if the whole file has them; anything in between is
 //! refused, because its meaning depends on the country of the reader.
 
-use super::advice;
 use super::kind::mistaken;
 use super::node::{hand_written_text, odd, without_byte_order_mark};
 use super::problem::{MOST_COUNTED, MOST_PROBLEMS, counted};
 use super::{Advice, Cause, Kind, Location, Node, Problem, Unreadable};
+use super::{advice, misspelt};
 use std::cmp::Reverse;
 use std::ops::Range;
 
@@ -426,7 +426,7 @@ impl<'a> Header<'a> {
             } else if let Some(advice) = advice::on_name(known, &cell.text).or_else(|| with_unit(index)) {
                 problem(format!("column {:?}", cell.text), advice);
             } else if let Some(column) = meant(known, &cell.text) {
-                let advice = Advice::from(format!("did you mean {column}?")).meaning(column);
+                let advice = Advice::from(misspelt::question(column)).meaning(column);
                 problem(format!("column {:?}", cell.text), advice);
             } else {
                 left_out.push(cell.text.clone());
@@ -598,12 +598,8 @@ fn is_rest(text: &str, beginning: &str) -> bool {
 /// Returns the known column that `found` misspells: at most two letters differ, or the unit is missing.
 fn meant<'a>(known: &[&'a str], found: &str) -> Option<&'a str> {
     let found = found.to_lowercase();
-    let distance = |column: &str| strsim::damerau_levenshtein(column, &found);
-    let nearest = known.iter().map(|&column| (distance(column), column)).min()?;
-    let without_unit = known.iter().find(|column| column.rsplit_once('_').is_some_and(|(known, _)| known == found));
-    // Any two letters are as near to a short column as this.
-    let is_near = nearest.0 <= 2 && nearest.0 < nearest.1.len();
-    if is_near { Some(nearest.1) } else { without_unit.copied() }
+    let without_unit = |column: &&str| column.rsplit_once('_').is_some_and(|(known, _)| known == found);
+    misspelt::name(known.iter().copied(), &found, 2).or_else(|| known.iter().copied().find(without_unit))
 }
 
 fn described(text: &str) -> String {

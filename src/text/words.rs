@@ -32,14 +32,14 @@ macro_rules! word_of_a_key {
             ) -> Option<Self> {
                 let is_word = |one: &Self| matches!(node, $crate::text::Node::Text(text) if text == one.$word());
                 let one = Self::ALL.into_iter().find(is_word);
-                one.or_else(|| $crate::text::record::refuse(node, at, "", problems))
+                one.or_else(|| $crate::text::field::refuse(node, at, "", problems))
             }
 
             fn expected(_: &str) -> String {
                 $crate::text::words::listed(&Self::ALL.map(Self::$word)) + $more
             }
 
-            fn emit<S: $crate::text::node::Sink>(&self, sink: &mut S) {
+            fn emit<S: $crate::text::field::Sink>(&self, sink: &mut S) {
                 sink.text(self.$word());
             }
         }

@@ -8,8 +8,7 @@ use crate::calibration::causes::of_stand_and_site;
 use crate::calibration::estimates::Estimates;
 use crate::calibration::sensitivity::VectorChange;
 use crate::calibration::{Input, Setup};
-use crate::coefficients::{Matrices, PositionIndex, pair_differences};
-use crate::passport::MatrixRows;
+use crate::coefficients::{Matrices, MatrixRows, PositionIndex, pair_differences};
 use crate::text::record::Record;
 use nalgebra::{DMatrix, Matrix2};
 

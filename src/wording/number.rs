@@ -3,11 +3,16 @@
 //! [JCGM 100](crate::bibliography::Bibliography::Gum), 7.2.6: an uncertainty has two significant digits, and its value
 //! ends at the same decimal place. A narrow non-breaking space separates groups of three digits (SI Brochure, 5.4.4).
 
+use super::texts::units;
 use super::{Language, Text};
 use crate::text::number;
 
 /// Largest angle that is printed in arcseconds alone.
 pub(crate) const LARGEST_IN_ARCSEC: f64 = 600.0;
+
+/// Hemispheres of a latitude and of a longitude: of positive numbers, and of negative ones.
+pub(crate) const LATITUDES: [Text; 2] = [units::NORTH_LATITUDE, units::SOUTH_LATITUDE];
+pub(crate) const LONGITUDES: [Text; 2] = [units::EAST_LONGITUDE, units::WEST_LONGITUDE];
 
 /// Narrow non-breaking space, between groups of digits.
 pub(crate) const THIN_BLANK: char = '\u{202F}';
@@ -92,6 +97,15 @@ impl Number {
             p if p < LEAST_PROBABILITY => Self::scientific(LEAST_PROBABILITY, 1),
             p if p < 0.1 => Self::scientific(p, 2),
             p => Self::fixed(p, 2),
+        }
+    }
+
+    /// Creates a sum of squares in units of its variance; a large one has no decimals.
+    pub(crate) fn chi_square(value: f64) -> Self {
+        match value {
+            small if small < 99.995 => Self::fixed(value, 2),
+            large if large < 99_999.5 => Self::fixed(value, 0),
+            _ => Self::scientific(value, 2),
         }
     }
 
@@ -240,9 +254,19 @@ pub(crate) fn superscripts(exponent: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::wording::plain;
 
     fn english(number: &Number) -> String {
         number.text(Language::English).replace(THIN_BLANK, "_")
+    }
+
+    /// By hand.
+    #[test]
+    fn a_large_chi_square_has_no_decimals() {
+        let cases = [(0.0, "0.00"), (8.371, "8.37"), (99.994, "99.99"), (99.996, "100"), (8534.75, "8535")];
+        for (value, due) in cases.into_iter().chain([(100_419_738.45, "1.0×10⁸")]) {
+            assert_eq!(plain(&Number::chi_square(value).text(Language::English)), due, "{value}");
+        }
     }
 
     /// By hand after JCGM 100, 7.2.6; 0.0996 rounds to 0.10 and takes its value to hundredths.

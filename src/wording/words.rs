@@ -2,7 +2,7 @@
 
 use super::number::{LEAST_PROBABILITY, Number, Probability};
 use super::texts::units::{ARCSEC, DEGREES};
-use super::{Language, Piece, Text, date_text, pieces, time_text};
+use super::{Language, Piece, Text, capital, date_text, pieces, time_text};
 use crate::coefficients::PositionIndex;
 use crate::text::{Identifier, printable};
 use crate::units::quantity;
@@ -183,6 +183,47 @@ fn grouped(number: u64, between: &str) -> String {
     let digits = number.to_string();
     let groups = digits.as_bytes().rchunks(3).rev().map(String::from_utf8_lossy);
     groups.collect::<Vec<_>>().join(between)
+}
+
+/// Name, value, and whether it has the full width.
+pub(crate) type Field = (Text, Words, bool);
+
+/// What is said in a sentence or a few, or as names and values.
+#[derive(Debug, Clone)]
+pub(crate) enum Statement {
+    Sentences(Vec<Words>),
+    Fields(Vec<Field>),
+}
+
+impl Statement {
+    /// Creates the statement of one text, of several, or of none.
+    pub(crate) fn of<W: Into<Words>>(all: impl IntoIterator<Item = W>) -> Self {
+        Self::Sentences(all.into_iter().map(Into::into).collect())
+    }
+
+    /// Returns the statement as a sentence, its words written by `said`; `None` if nothing is said.
+    pub(crate) fn sentence(&self, language: Language, said: &dyn Fn(&Words) -> String) -> Option<String> {
+        match self {
+            Self::Sentences(all) => (!all.is_empty()).then(|| all.iter().map(said).collect::<Vec<_>>().join(" ")),
+            Self::Fields(all) => {
+                let each = all.iter().enumerate().map(|(place, (name, value, _))| {
+                    let name = name.of(language);
+                    let name = if place == 0 { capital(name) } else { within_a_sentence(name) };
+                    format!("{name}: {}", said(value))
+                });
+                (!all.is_empty()).then(|| each.collect::<Vec<_>>().join("; "))
+            }
+        }
+    }
+}
+
+/// Returns a name without the capital letter of its first word; a symbol keeps its letters.
+fn within_a_sentence(name: &str) -> String {
+    let mut letters = name.chars();
+    match (letters.next(), letters.clone().next()) {
+        (Some(first), Some(next)) if next.is_lowercase() => first.to_lowercase().chain(letters).collect(),
+        _ => name.to_owned(),
+    }
 }
 
 impl Words {

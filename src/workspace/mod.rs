@@ -13,7 +13,7 @@ pub(crate) use status::status;
 use crate::files::{self, FileError};
 use crate::folder::{Folder, Memory};
 use crate::text::node::{location_of, odd_character, utf8, without_byte_order_mark};
-use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, Location, Problem, Unreadable, name_of};
+use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, Location, Problem, Unreadable, misspelt, name_of};
 use crate::wording::Language;
 use std::path::{Path, PathBuf};
 use toml::de::DeTable;
@@ -153,9 +153,7 @@ fn identifiers<'a>(names: &[&'a str]) -> Option<Vec<&'a str>> {
 }
 
 fn unknown_key(key: &str, at: Location) -> Problem {
-    let alike = |known: &&&str| strsim::jaro_winkler(known, key);
-    let nearest = KEYS.iter().max_by(|a, b| alike(a).total_cmp(&alike(b))).filter(|known| alike(known) > 0.8);
-    let advice = nearest.map_or_else(|| "delete it".to_owned(), |known| format!("did you mean {known}?"));
+    let advice = misspelt::key(&KEYS, key).map_or_else(|| "delete it".to_owned(), misspelt::question);
     Problem::new(Some(at), "", format!("unknown key {key:?}"), format!("one of {}", KEYS.join(", ")), advice)
 }
 

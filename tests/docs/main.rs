@@ -10,3 +10,4 @@ mod programs;
 mod documentation;
 mod examples;
 mod self_check;
+mod worksheet;

@@ -4,15 +4,16 @@ use super::Report;
 use crate::calibration::chi_square::FEW_DEGREES;
 use crate::calibration::diagnosis::{ALARM, Explanation, Hint, numbering};
 use crate::calibration::document::{ResidualDocument, ResultDocument};
+use crate::calibration::remarks::{Weight, correlated, scatter};
 use crate::calibration::result::DriftTest;
-use crate::calibration::{Agreement, Calibration, DriftNoise, NoiseSource, NotStated, Scatter, Suspect};
-use crate::report::doc::{Block, On, Rows, Words, drawn, in_unit, joined, probability, say, symbol, told};
+use crate::calibration::{Calibration, NotStated};
+use crate::report::doc::{
+    Block, On, Rows, Statement, Words, drawn, fields, in_unit, joined, probability, say, symbol, told,
+};
 use crate::report::page::language::Text;
 use crate::report::page::number::{LARGEST_IN_ARCSEC, Number};
 use crate::report::page::parts::starts;
 use crate::report::picture::residuals::{AXES, Bars, key};
-use crate::report::recorded;
-use crate::wording::number::Probability;
 use crate::wording::spacing::spaced;
 use crate::wording::texts::causes as names;
 use crate::wording::texts::{calibration as texts, units};
@@ -24,13 +25,13 @@ pub(super) fn section(of: &Report) -> Vec<Block> {
     let Some(result) = of.adopted() else { return Vec::new() };
     let calibration = of.calibration;
     if result.chi_square.degrees_of_freedom == 0 {
-        let scatter = scatter(calibration).into_iter().map(|(_, block)| block);
+        let scatter = scatter(calibration).into_iter().map(|(_, statement)| statement.into());
         return [say([texts::NOT_JUDGED])].into_iter().chain(scatter).collect();
     }
     let answer = calibration.adopted();
     let changed = answer.is_some_and(|found| found.chi_square.is_changed_by_estimates());
     let mut doc = vec![chi_square(result), say(changed.then_some(texts::OF_ESTIMATES)), say(too_small(calibration))];
-    doc.extend(scatter(calibration).into_iter().map(|(_, block)| block));
+    doc.extend(scatter(calibration).into_iter().map(|(_, statement)| statement.into()));
     doc.push(say(super::methods::agreement(of)));
     if of.details || calibration.hint.is_some() {
         doc.extend([residuals(result), Block::Drawn(drawn(key))]);
@@ -45,18 +46,18 @@ pub(super) fn brief(of: &Report) -> Vec<Block> {
         return vec![say([texts::NOT_JUDGED])];
     }
     let mut doc = vec![chi_square(result), say(too_small(of.calibration))];
-    let notable = scatter(of.calibration).into_iter().filter(|(weight, _)| *weight == Remark);
-    doc.extend(notable.map(|(_, block)| block));
+    let notable = scatter(of.calibration).into_iter().filter(|(weight, _)| *weight == Weight::Remark);
+    doc.extend(notable.map(|(_, statement)| statement.into()));
     doc.extend(of.calibration.hint.as_ref().map(|_| residuals(result)));
     doc
 }
 
 /// Warnings about the scatter of the readings.
 pub(super) fn warnings(calibration: &Calibration) -> Vec<Words> {
-    let all = [(Warning, correlated(calibration))].into_iter().chain(scatter(calibration));
-    let all = all.filter(|(weight, _)| *weight == Warning);
-    let sentences = all.filter_map(|(_, block)| match block {
-        Block::Paragraph(all) if !all.is_empty() => Some(joined(all, " ")),
+    let all = [(Weight::Warning, correlated(calibration))].into_iter().chain(scatter(calibration));
+    let all = all.filter(|(weight, _)| *weight == Weight::Warning);
+    let sentences = all.filter_map(|(_, statement)| match statement {
+        Statement::Sentences(all) if !all.is_empty() => Some(joined(all, " ")),
         _ => None,
     });
     sentences.collect()
@@ -84,72 +85,7 @@ fn chi_square(result: &ResultDocument) -> Block {
         (texts::PROBABILITY, of_fit.unwrap_or(Words::Blank), false),
     ];
     each.extend(few.map(|known| (texts::OF_UNCERTAINTIES, Number::fixed(known, 0).into(), false)));
-    Block::Fields(each)
-}
-
-/// Weight of what is said: programs show remarks and warnings with the parameters.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Weight {
-    Usual,
-    Remark,
-    Warning,
-}
-use Weight::{Remark, Usual, Warning};
-
-/// Statements about the scatter of the readings, each with its weight.
-pub(crate) fn scatter(calibration: &Calibration) -> Vec<(Weight, Block)> {
-    let mut doc = vec![(Remark, say(calibration.digits.iter().flat_map(recorded::said)))];
-    if let Some(rows) = &calibration.row_scatter {
-        let s = Words::Quantity(Number::scientific(rows.standard_deviation_ma, 2), units::MILLIAMPERES);
-        doc.extend(match &rows.against_stated {
-            Some(stated) => agreement(stated, texts::ROW_SCATTER, texts::ROWS_LESS_THAN_STATED),
-            None => {
-                let freedom = (texts::FREEDOM, rows.degrees_of_freedom.into(), false);
-                vec![(Usual, Block::Fields(vec![(texts::ROW_DEVIATION, s, false), freedom]))]
-            }
-        });
-    }
-    if let Some(visits) = &calibration.scatter {
-        // Of several turn-ons the visits are those that were meant to be.
-        let has_turn_ons = calibration.adopted().is_some_and(|answer| answer.cycles.len() > 1);
-        let less = if has_turn_ons { texts::NOISE_LESS_THAN_STATED } else { texts::LESS_THAN_STATED };
-        doc.extend(agreement(visits, texts::SCATTER, less));
-        let is_more = visits.agreement() == Agreement::More && calibration.visit_noise.source == NoiseSource::Estimated;
-        doc.push((Remark, say(is_more.then_some(texts::NOISE_ADDED))));
-    }
-    doc.extend(
-        calibration
-            .turn_on_scatter
-            .iter()
-            .flat_map(|turn_ons| agreement(turn_ons, texts::TURN_ON_SCATTER, texts::NOISE_LESS_THAN_STATED)),
-    );
-    doc.extend(calibration.suspects.iter().map(|suspect| (Warning, say(with_advice(suspect)))));
-    let noises = [(texts::VISIT_NOISE, &calibration.visit_noise), (texts::TURN_ON_NOISE, &calibration.turn_on_noise)];
-    let is_estimated = noises.iter().any(|(_, noise)| noise.source == NoiseSource::Estimated);
-    doc.push((if is_estimated { Remark } else { Usual }, noise(noises)));
-    for (test, in_order) in [(calibration.drift_test, false), (calibration.drift_in_order, true)] {
-        doc.push((Warning, say(test.filter(|test| test.is_significant()).map(|test| drift(in_order, &test)))));
-    }
-    doc.push((
-        Remark,
-        say(calibration.drift_or_noise.then(|| {
-            let advice = Words::All(vec![" ".into(), texts::drift_or_noise_advice("noise.visit_deg_per_h")]);
-            Words::All(vec![texts::DRIFT_OR_NOISE.into(), Words::Either(Box::new("".into()), Box::new(advice))])
-        })),
-    ));
-    doc
-}
-
-/// The sentence on readings of a visit that are correlated; it may be why they do not fit.
-pub(super) fn correlated(calibration: &Calibration) -> Block {
-    say(calibration.row_correlation.map(|r| texts::rows_correlated(Number::fixed(r, 2))))
-}
-
-fn drift(in_order: bool, test: &DriftTest) -> Words {
-    let [x, y] =
-        [test.drift_deg_per_h_per_h.x, test.drift_deg_per_h_per_h.y].map(|drift| told(Number::scientific(drift, 2)));
-    let p = Probability(test.probability);
-    if in_order { texts::drifts_in_order(x, y, p, "--drift") } else { texts::drifts(x, y, p, "--drift") }
+    fields(each)
 }
 
 /// Why chi-square is much smaller than expected, if it is.
@@ -164,63 +100,6 @@ fn too_small(calibration: &Calibration) -> Option<Text> {
         _ => texts::TOO_SMALL,
     };
     calibration.fits_too_well().then_some(why)
-}
-
-/// The sentences on a reading that differs from the others, and at a terminal how to leave it out.
-fn with_advice(suspect: &Suspect) -> Vec<Words> {
-    let Suspect { i, j, cycle, visit, .. } = *suspect;
-    let how = format!(
-        "Look for the cause; if there is one, leave the visit out with --exclude {i},{j},{visit},{cycle} and --why."
-    );
-    let advice = Words::Either(Box::new("".into()), Box::new(how.into()));
-    suspicion(suspect).into_iter().chain([advice]).collect()
-}
-
-/// The sentences on a reading that differs from the others.
-pub(crate) fn suspicion(suspect: &Suspect) -> Vec<Words> {
-    let difference_ua = suspect.difference_ma.map(|difference| 1000.0 * difference);
-    let place = Number::place_of(difference_ua[0].abs().max(difference_ua[1].abs()));
-    let [jx, jy] = difference_ua.map(|difference| Number::to_place(difference, place));
-    let Suspect { cycle, visit, .. } = *suspect;
-    let index = suspect.index();
-    let what = match suspect.row {
-        Some(row) => texts::suspect_row(row, visit, index, cycle, jx, jy),
-        None => texts::suspect_visit(visit, index, cycle, jx, jy),
-    };
-    let several = suspect.one_of_several.then(|| texts::ONE_OF_SEVERAL.into());
-    [what].into_iter().chain(several).collect()
-}
-
-/// The noise of the gyro that the uncertainties contain.
-fn noise(each: [(Text, &DriftNoise); 2]) -> Block {
-    let stated = each.into_iter().filter(|(_, noise)| noise.source != NoiseSource::NotStated);
-    Block::Fields(
-        stated
-            .map(|(name, noise)| {
-                let deg_per_h = Words::Quantity(Number::scientific(noise.deg_per_h, 2), units::DEG_PER_H);
-                let source = match noise.source {
-                    NoiseSource::Estimated => texts::noise_estimated(Number::fixed(noise.degrees_of_freedom, 0)),
-                    _ => texts::NOISE_STATED.into(),
-                };
-                (name, vec![deg_per_h, " (".into(), source, ")".into()].into(), false)
-            })
-            .collect(),
-    )
-}
-
-/// The comparison of an observed scatter with the stated uncertainty; `less` says what to check if it is smaller.
-fn agreement(found: &Scatter, what: Text, less: Text) -> Vec<(Weight, Block)> {
-    let weight = if found.agreement() == Agreement::AsStated { Usual } else { Remark };
-    // A factor of 1 changes nothing.
-    let factor = (found.variance_factor > 1.0).then(|| Number::significant(found.variance_factor, 2).into());
-    let mut each = vec![
-        (what, Number::chi_square(found.chi_square).into(), false),
-        (texts::FREEDOM, found.degrees_of_freedom.into(), false),
-        (texts::PROBABILITY, probability(found.probability), false),
-    ];
-    each.extend(factor.map(|factor| (texts::ENLARGED, factor, false)));
-    let less = (found.agreement() == Agreement::Less).then_some(less);
-    vec![(weight, Block::Fields(each)), (weight, say(less))]
 }
 
 fn residuals(result: &ResultDocument) -> Block {

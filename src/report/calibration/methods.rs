@@ -6,7 +6,7 @@ use crate::calibration::document::ResultDocument;
 use crate::calibration::iterative::{LARGEST_NUMBER_OF_STEPS, NoIterativeSolution};
 use crate::calibration::result::MethodRefusal;
 use crate::calibration::{Method, Parameter};
-use crate::report::doc::{Block, Rows, Words, drawn, heading, say, symbol};
+use crate::report::doc::{Block, Rows, Words, drawn, fields, heading, say, symbol};
 use crate::report::page::number::Number;
 use crate::report::page::parts::figure;
 use crate::report::picture::convergence::convergence;
@@ -135,7 +135,7 @@ fn iteration(result: &ResultDocument) -> Vec<Block> {
     };
     let over = || texts::steps_over(LARGEST_NUMBER_OF_STEPS);
     let predicted = result.iterations_predicted.map_or_else(over, |steps| (steps as usize).into());
-    let fields = Block::Fields(vec![
+    let course = fields(vec![
         (texts::SPECTRAL_RADIUS, Number::scientific(radius, 2).into(), false),
         (texts::STEPS, (steps as usize).into(), false),
         (texts::STEPS_PREDICTED, predicted, false),
@@ -149,5 +149,5 @@ fn iteration(result: &ResultDocument) -> Vec<Block> {
             figure(languages, "convergence", &drawing, texts::CONVERGENCE_CAPTION)
         })
     });
-    vec![heading(texts::ITERATIVE), Block::Beside(Box::new(fields), picture)]
+    vec![heading(texts::ITERATIVE), Block::Beside(Box::new(course), picture)]
 }

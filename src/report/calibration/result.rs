@@ -5,7 +5,9 @@ use super::{Report, history, symbols, with_u};
 use crate::calibration::document::ResultDocument;
 use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::calibration::{NotStated, Parameter};
-use crate::report::doc::{Block, On, Rows, Words, drawn, heading, in_unit, listed, marked, probability, say, symbol};
+use crate::report::doc::{
+    Block, On, Rows, Words, drawn, fields, heading, in_unit, listed, marked, probability, say, symbol,
+};
 use crate::report::page::language::Text;
 use crate::report::page::number::Number;
 use crate::report::picture::accuracy::unit;
@@ -225,7 +227,7 @@ fn beyond_the_eight(result: &ResultDocument, with_turn_ons: bool) -> Vec<Block> 
     let of_u = &result.standard_uncertainty;
     let mut doc = Vec::new();
     let pair = result.anisoelasticity_deg_per_h_per_g2.zip(of_u.anisoelasticity_deg_per_h_per_g2);
-    doc.push(Block::Fields(
+    doc.push(fields(
         pair.map(|(value, u)| (texts::ANISOELASTICITY, with_u(value, u, units::DEG_PER_H_PER_G2), false))
             .into_iter()
             .collect(),
@@ -261,7 +263,7 @@ fn beyond_the_eight(result: &ResultDocument, with_turn_ons: bool) -> Vec<Block> 
         doc.extend([heading(texts::CYCLES), table.called(texts::CYCLES)]);
     }
     let drift = result.drift_deg_per_h_per_h.zip(of_u.drift_deg_per_h_per_h);
-    doc.push(Block::Fields(drift.map_or_else(Vec::new, |(drift, u)| {
+    doc.push(fields(drift.map_or_else(Vec::new, |(drift, u)| {
         let each = [texts::DRIFT_X, texts::DRIFT_Y].into_iter().zip(drift.into_iter().zip(u));
         each.map(|(name, (drift, u))| (name, with_u(drift, u, units::DEG_PER_H2), false)).collect()
     })));

@@ -5,7 +5,9 @@ use crate::certification::comparison::{ComparedPosition, Comparison, Test};
 use crate::certification::remark::together;
 use crate::certification::suspects::{AXES, OUTLIER};
 use crate::passport::difference::NumberDifference;
-use crate::report::doc::{Block, Rows, Words, drawn, heading, in_unit, listed, marked, probability, say, symbol};
+use crate::report::doc::{
+    Block, Rows, Words, drawn, fields, heading, in_unit, listed, marked, probability, say, symbol,
+};
 use crate::report::page::language::Text;
 use crate::report::page::number::Number;
 use crate::report::page::parts::starts;
@@ -41,7 +43,7 @@ pub(crate) fn rotations(found: &Comparison) -> Vec<Block> {
         .column(symbol("p"), |at| probability(at.test.probability))
         .column(checks::RESULT, |at| marked(outcome(at), word(outcome(at))));
     let common = &found.common;
-    let fields = [
+    let named = [
         (texts::ALL_TOGETHER, test(&found.all)),
         (texts::COMMON_TURN, common.test.as_ref().map_or_else(|| texts::NOT_MADE.into(), test)),
         (texts::PLATFORM_TURN, listed(together(common.platform_arcsec))),
@@ -51,7 +53,7 @@ pub(crate) fn rotations(found: &Comparison) -> Vec<Block> {
         heading(texts::ROTATIONS),
         table.called(texts::ROTATIONS),
         say([texts::decision(Number::exact(OUTLIER))]),
-        Block::Fields(fields.map(|(name, value)| (name, value, false)).into()),
+        fields(named.map(|(name, value)| (name, value, false)).into()),
     ]
 }
 

@@ -4,7 +4,7 @@ use crate::certification::Certification;
 use crate::certification::components::Common;
 use crate::certification::rotated_runs::{FEWEST_RUNS, FEWEST_RUNS_OF_A_MOVE, Pattern, RotatedRuns, most_suspect};
 use crate::certification::suspects::{AXES, OUTLIER, STRAGGLER};
-use crate::report::doc::{Block, On, Rows, Words, heading, in_unit, listed, marked, probability, say, symbol};
+use crate::report::doc::{Block, On, Rows, Words, fields, heading, in_unit, listed, marked, probability, say, symbol};
 use crate::report::page::language::Text;
 use crate::report::page::number::Number;
 use crate::report::style::Outcome;
@@ -34,7 +34,7 @@ pub(super) fn certified(certificate: &Certificate) -> Block {
     let stated = |(name, u): (Text, Option<f64>)| {
         u.map(|u| (name, Words::Quantity(Number::uncertainty(u), units::ARCSEC), false))
     };
-    Block::Fields(each.into_iter().filter_map(stated).collect())
+    fields(each.into_iter().filter_map(stated).collect())
 }
 
 pub(crate) fn components(found: &Certification) -> Vec<Block> {

@@ -1,6 +1,6 @@
 //! Blocks as parts of a page.
 
-use super::{Block, Cell, Column, On, Table, Words};
+use super::{Block, Cell, Column, On, Statement, Table, Words};
 use crate::report::page::language::{Language, Languages};
 use crate::report::page::number::{self, Number, column};
 use crate::report::page::parts::{self, given, mark};
@@ -104,13 +104,13 @@ impl Block {
     fn html(&self, languages: &Languages) -> Markup {
         match self {
             Self::Heading(words) => html! { h3 { (words.label(languages)) } },
-            Self::Paragraph(all) if all.is_empty() => html! {},
             Self::Line(words) => languages.said_in_paragraph(words),
-            Self::Paragraph(all) => languages.paragraph_with(|language| {
+            Self::Said(Statement::Sentences(all)) if all.is_empty() => html! {},
+            Self::Said(Statement::Sentences(all)) => languages.paragraph_with(|language| {
                 html! { @for (place, one) in all.iter().enumerate() { @if place > 0 { " " } (one.html(language, languages)) } }
             }),
-            Self::Fields(all) | Self::Record(all) if all.is_empty() => html! {},
-            Self::Fields(all) | Self::Record(all) => html! {
+            Self::Said(Statement::Fields(all)) | Self::Record(all) if all.is_empty() => html! {},
+            Self::Said(Statement::Fields(all)) | Self::Record(all) => html! {
                 dl.fields { @for (name, value, wide) in all {
                     div class=[wide.then_some("wide")] { dt { (languages.label(*name)) } dd { (value.cell(languages)) } }
                 } }

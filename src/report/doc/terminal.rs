@@ -1,7 +1,7 @@
 //! Blocks as text for a terminal, in one language.
 
 use super::{Block, Cell, Field, On, Table, Words};
-use crate::report::page::language::{Language, capital};
+use crate::report::page::language::Language;
 use crate::report::{columns, style};
 use std::fmt::Write;
 
@@ -12,30 +12,11 @@ pub(crate) fn said(words: &Words, language: Language) -> String {
     }))
 }
 
-/// Returns a paragraph or fields as a sentence; `None` if nothing is said.
+/// Returns a statement as a sentence; `None` if nothing is said.
 pub(crate) fn sentence(block: &Block, language: Language) -> Option<String> {
     match block {
-        Block::Paragraph(all) if !all.is_empty() => {
-            Some(all.iter().map(|words| said(words, language)).collect::<Vec<_>>().join(" "))
-        }
-        Block::Fields(all) if !all.is_empty() => {
-            let each = all.iter().enumerate().map(|(place, (name, value, _))| {
-                let name = name.of(language);
-                let name = if place == 0 { capital(name) } else { within_a_sentence(name) };
-                format!("{name}: {}", said(value, language))
-            });
-            Some(each.collect::<Vec<_>>().join("; "))
-        }
+        Block::Said(statement) => statement.sentence(language, &|words| said(words, language)),
         _ => None,
-    }
-}
-
-/// Returns a name without the capital letter of its first word; a symbol keeps its letters.
-fn within_a_sentence(name: &str) -> String {
-    let mut letters = name.chars();
-    match (letters.next(), letters.clone().next()) {
-        (Some(first), Some(next)) if next.is_lowercase() => first.to_lowercase().chain(letters).collect(),
-        _ => name.to_owned(),
     }
 }
 
@@ -46,7 +27,7 @@ pub(crate) fn text(out: &mut String, blocks: &[Block], language: Language) {
             Block::Heading(words) => {
                 let _ = writeln!(out, "\n{}", style::heading(&said(words, language)));
             }
-            Block::Paragraph(_) | Block::Fields(_) => {
+            Block::Said(_) => {
                 sentence(block, language).iter().for_each(|words| columns::paragraph(out, "  ", words));
             }
             Block::Line(words) => columns::paragraph(out, "", &said(words, language)),

@@ -220,7 +220,7 @@ impl CertificationPage<'_> {
             (texts::REPEATED, (*repeated_rows).into(), false),
             (texts::FILE_SHA256, Words::Code(self.sha256()), true),
         ];
-        [vec![Block::Fields(fields.into())], evidence::exclusions(self.certification)].concat()
+        [vec![doc::fields(fields.into())], evidence::exclusions(self.certification)].concat()
     }
 
     /// Writes the file of readings verbatim.

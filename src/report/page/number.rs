@@ -1,25 +1,15 @@
 //! Numbers as elements of a page, and columns of them with aligned decimal marks.
 
-use super::language::{Languages, Text};
+use super::language::Languages;
 use super::spacing::BLANK;
-use crate::report::columns::decimals_of_chi_square;
 use crate::text::number;
-use crate::wording::texts::units;
 use maud::{Markup, html};
 
-pub(crate) use crate::wording::number::{LARGEST_IN_ARCSEC, Number, THIN_BLANK, localised, superscripts};
-
-/// Hemispheres of a latitude and of a longitude: of positive numbers, and of negative ones.
-pub(crate) const LATITUDES: [Text; 2] = [units::NORTH_LATITUDE, units::SOUTH_LATITUDE];
-pub(crate) const LONGITUDES: [Text; 2] = [units::EAST_LONGITUDE, units::WEST_LONGITUDE];
+pub(crate) use crate::wording::number::{
+    LARGEST_IN_ARCSEC, LATITUDES, LONGITUDES, Number, THIN_BLANK, localised, superscripts,
+};
 
 impl Number {
-    /// Creates a sum of squares in units of its variance; a large one has no decimals.
-    pub(crate) fn chi_square(value: f64) -> Self {
-        decimals_of_chi_square(value)
-            .map_or_else(|| Self::scientific(value, 2), |decimals| Self::fixed(value, decimals))
-    }
-
     /// Writes the number as an element that carries the value itself for programs, in the notation of signed documents.
     pub(crate) fn markup(&self, languages: &Languages) -> Markup {
         html! { data value=(number::decimal(self.value)) { (self.text(languages.first())) } }
@@ -132,16 +122,6 @@ pub(crate) fn column(languages: &Languages, cells: impl IntoIterator<Item = impl
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wording::{Language, plain};
-
-    /// By hand.
-    #[test]
-    fn a_large_chi_square_has_no_decimals() {
-        let cases = [(0.0, "0.00"), (8.371, "8.37"), (99.994, "99.99"), (99.996, "100"), (8534.75, "8535")];
-        for (value, due) in cases.into_iter().chain([(100_419_738.45, "1.0×10⁸")]) {
-            assert_eq!(plain(&Number::chi_square(value).text(Language::English)), due, "{value}");
-        }
-    }
 
     /// By hand: the longest tail has five decimals in two groups and a power of ten.
     #[test]

@@ -3,9 +3,8 @@
 use crate::calibration::parameter::Parameter;
 use crate::gyro::Parameters;
 use crate::passport::Content;
-use crate::passport::content::{
-    MatrixRows, PositionCurrents as Current, PositionVectors as Vectors, Rows as Matrix, SelfCheck,
-};
+use crate::passport::content::{PositionCurrents as Current, PositionVectors as Vectors, SelfCheck};
+use crate::passport::{MatrixRows, Rows as Matrix};
 use crate::report::calibration::parameters;
 use crate::report::doc::{Block, On, Rows, Words, drawn, heading, in_unit, say, symbol};
 use crate::report::page::language::{Languages, Text};

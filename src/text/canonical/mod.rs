@@ -20,7 +20,7 @@ use super::{Field, Limits, Location, Problem, rule};
 /// # Errors
 /// Returns the first place that is not in canonical form, and what was found there, up to the end of its line.
 pub(crate) fn read<T: Field>(text: &str, limits: Limits) -> Result<T, Problem> {
-    let document = scanner::scan::<T>(text, limits)?;
+    let document = scanner::scan(text, limits, T::scan)?;
     if writer::is_written(&document, text) {
         return Ok(document);
     }
@@ -36,7 +36,7 @@ fn after_comments(mut text: &[u8]) -> &[u8] {
             b'#' => match memchr::memchr(b'\n', text) {
                 // Comments with other characters are not skipped, because another reader may not take them for
                 // comments.
-                Some(end) if rule::is_printable_ascii(&text[..end]) => end,
+                Some(end) if super::characters::is_printable_ascii(&text[..end]) => end,
                 _ => return text,
             },
             _ => return text,

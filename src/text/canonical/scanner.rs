@@ -2,23 +2,24 @@
 
 use super::after_comments;
 use crate::text::node::{Node, location_of};
-use crate::text::{Field, Limits, Problem, rule};
+use crate::text::problem::UPDATE;
+use crate::text::{Limits, Problem, rule};
 
-/// Reads a text. It may accept a number in another form, so check the result with [`super::is_written()`].
+/// Reads a text with `read`. It may accept a number in another form, so check the result with [`super::is_written()`].
 ///
 /// # Errors
 /// Returns the place at which the scanner stopped.
-pub(super) fn scan<T: Field>(text: &str, limits: Limits) -> Result<T, Problem> {
+pub(super) fn scan<T>(text: &str, limits: Limits, read: impl FnOnce(&mut Scanner) -> Option<T>) -> Result<T, Problem> {
     // Count the brackets only if the text is long enough to contain too many.
     let brackets = |text: &str| text.bytes().filter(|byte| b"[{".contains(byte)).count();
     let too_large = text.len() > limits.bytes || (text.len() > limits.brackets && brackets(text) > limits.brackets);
     let mut scanner = Scanner { rest: text, depth: 0, inline: false, first: true, known: [&[]; DEEPEST + 1] };
-    let document = if too_large { None } else { T::scan(&mut scanner) };
+    let document = if too_large { None } else { read(&mut scanner) };
     let rest = scanner.after_comments();
     document.filter(|_| rest.is_empty()).ok_or_else(|| {
         let at = location_of(&text.as_bytes()[..text.len() - rest.len()]);
         let found = rest.lines().next().map_or_else(|| "the end of the file".to_owned(), rule::shortened);
-        let advice = if scanner.stopped_at_unknown_key(rest) { rule::UPDATE } else { rule::NOT_CANONICAL };
+        let advice = if scanner.stopped_at_unknown_key(rest) { UPDATE } else { rule::NOT_CANONICAL };
         Problem::new(Some(at), "", found, "the next key of this format", advice)
     })
 }
@@ -87,11 +88,13 @@ impl<'t> Scanner<'t> {
     }
 
     /// Reads the value of `key` if that is the next key; otherwise returns the value of an absent key.
-    pub(crate) fn entry<T: Field>(&mut self, key: &'static str) -> Option<T> {
-        if self.at_key(key).is_none() {
-            return T::absent();
-        }
-        T::scan(self)
+    pub(crate) fn entry<T>(
+        &mut self,
+        key: &'static str,
+        absent: impl FnOnce() -> Option<T>,
+        read: impl FnOnce(&mut Self) -> Option<T>,
+    ) -> Option<T> {
+        if self.at_key(key).is_some() { read(self) } else { absent() }
     }
 
     /// Skips `key` if that is the next key, otherwise returns `None`.
@@ -133,7 +136,7 @@ impl<'t> Scanner<'t> {
         Some(value)
     }
 
-    pub(crate) fn list<T: Field>(&mut self) -> Option<Vec<T>> {
+    pub(crate) fn list<T>(&mut self, read: impl Fn(&mut Self) -> Option<T>) -> Option<Vec<T>> {
         let mut items = Vec::new();
         if !self.inline && self.rest.starts_with('\n') {
             self.take("\n")?;
@@ -142,7 +145,7 @@ impl<'t> Scanner<'t> {
                 let line = self.indented(self.after_comments(), 2);
                 let Some(item) = line.and_then(|line| line.strip_prefix("- ")) else { return Some(items) };
                 self.rest = item;
-                items.push(self.bracketed(T::scan)?);
+                items.push(self.bracketed(&read)?);
                 self.take("\n")?;
             }
         }
@@ -152,7 +155,7 @@ impl<'t> Scanner<'t> {
                 return Some(items);
             }
             loop {
-                items.push(T::scan(scanner)?);
+                items.push(read(scanner)?);
                 if scanner.take("]").is_some() {
                     return Some(items);
                 }
@@ -162,14 +165,14 @@ impl<'t> Scanner<'t> {
     }
 
     /// Reads a list of exactly `N` items, none of them a mapping, on one line.
-    pub(crate) fn array<T: Field, const N: usize>(&mut self) -> Option<[T; N]> {
+    pub(crate) fn array<T: Clone, const N: usize>(&mut self, read: impl Fn(&mut Self) -> Option<T>) -> Option<[T; N]> {
         self.on_the_line(|scanner| {
             scanner.take("[")?;
-            let mut item = T::scan(scanner)?;
+            let mut item = read(scanner)?;
             let mut complete = true;
             let items = std::array::from_fn(|index| {
                 if index > 0 {
-                    match scanner.take(", ").and_then(|()| T::scan(scanner)) {
+                    match scanner.take(", ").and_then(|()| read(scanner)) {
                         Some(next) => item = next,
                         None => complete = false,
                     }

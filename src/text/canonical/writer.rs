@@ -1,7 +1,7 @@
 //! Writer of the canonical form, whose output is either a text or compared with one.
 
 use super::after_comments;
-use crate::text::node::Sink;
+use crate::text::field::Sink;
 use crate::text::{Field, number, rule};
 
 /// Source of the comment lines above a key, given as a path such as `earth.gravity_m_per_s2`; without the `# `.

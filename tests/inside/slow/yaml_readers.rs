@@ -6,7 +6,7 @@
 use crate::inside::programs;
 use dtg_passport::text::Node;
 use dtg_passport::text::canonical;
-use dtg_passport::text::node::Sink;
+use dtg_passport::text::field::Sink;
 use dtg_passport::text::rule::{self, allowed_in_string};
 use dtg_passport::text::yaml;
 use dtg_passport::text::{Field, Path as At, Problems};

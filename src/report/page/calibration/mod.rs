@@ -15,6 +15,7 @@ use super::shell::{Margins, document};
 use super::symbols::italic;
 use crate::calibration::Calibration;
 use crate::calibration::document::CalibrationDocument;
+use crate::calibration::remarks::of_mistake;
 use crate::calibration::stated::NotStated;
 use crate::calibration::verdict::{Decision, Verdict};
 use crate::gyro::GyroType;
@@ -22,7 +23,7 @@ use crate::laboratory::Laboratory;
 use crate::passport::Content;
 use crate::report::calibration::{Report, counted, symbols, what_may_be_wrong, why_no_change};
 use crate::report::style::Outcome;
-use crate::report::{doc, mistake, uncertainty};
+use crate::report::{doc, uncertainty};
 use crate::uncertainty::{Budget, MonteCarlo};
 use crate::wording::texts::calibration as texts;
 use crate::wording::{Words, date_text};
@@ -225,7 +226,7 @@ impl CalibrationPage<'_> {
                 (outcome_box(Outcome::Failed, &languages.label(texts::DOES_NOT_FIT), words))
             }
             @if let Some(mistake) = &self.document.mistake {
-                @let words = languages.said_in_paragraph(&mistake::words(mistake));
+                @let words = languages.said_in_paragraph(&of_mistake(mistake));
                 (outcome_box(Outcome::Failed, &languages.label(texts::MISTAKE), words))
             }
             @if let Some(why) = self.previous.iter().rev().find_map(|earlier| self.document.no_change(earlier)) {

@@ -1,11 +1,9 @@
 //! Sentences about a mistake that explains a result, for the terminal and for pages.
 
-use super::page::Number;
-use super::page::number::LATITUDES;
-use super::page::spacing::BLANK;
 use crate::calibration::diagnosis::numbering;
 use crate::calibration::{CurrentsMistaken, Mistake};
-use crate::wording::spacing::spaced;
+use crate::wording::number::{LATITUDES, Number};
+use crate::wording::spacing::{BLANK, spaced};
 use crate::wording::texts::calibration as texts;
 use crate::wording::{Language, Words};
 
