@@ -5,7 +5,7 @@
 use crate::coefficients::PositionCoefficients;
 use crate::earth::STANDARD_GRAVITY_M_PER_S2;
 use crate::text::{Document, Path, Problems, record};
-use crate::wording::Language;
+use crate::wording::Words;
 use crate::wording::number::Number;
 use crate::wording::texts::implausible;
 use nalgebra::{Matrix2, Vector2};
@@ -175,7 +175,7 @@ impl GyroType {
 
     /// Returns the tolerances that no gyro fails, a sentence each without a full stop: they are possible, but usually
     /// stated in another unit, such as parts per million instead of percent.
-    pub(crate) fn remarks(&self, language: Language) -> Vec<String> {
+    pub(crate) fn remarks(&self) -> Vec<Words> {
         let Tolerance { k_main_percent, k_cross_percent, .. } = self.tolerance;
         let each = [
             ("tolerance.k_main_percent", k_main_percent, LARGEST_MAIN_PERCENT),
@@ -184,7 +184,7 @@ impl GyroType {
         let words = each
             .into_iter()
             .filter(|(_, value, largest)| value > largest)
-            .map(|(key, value, _)| implausible::of_type(key, Number::exact(value)).plain(language));
+            .map(|(key, value, _)| implausible::of_type(key, Number::exact(value)));
         words.collect()
     }
 

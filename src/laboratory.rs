@@ -1,9 +1,9 @@
 //! The laboratory file (`dtg-laboratory/1`): current meter, gyro seat and base.
 
 use crate::text::{Document, Path, Problems, record};
-use crate::wording::Language;
+use crate::wording::Words;
 use crate::wording::number::Number;
-use crate::wording::texts::implausible;
+use crate::wording::texts::{implausible, units};
 
 /// Lowest and highest temperature of a laboratory, °C.
 pub(crate) const TEMPERATURES_C: [f64; 2] = [-90.0, 100.0];
@@ -107,7 +107,7 @@ impl Laboratory {
 
     /// Returns the stated uncertainties that are too large for any laboratory, a sentence each without a full stop: they are
     /// possible, but usually stated in another unit, such as parts per million instead of percent.
-    pub(crate) fn remarks(&self, language: Language) -> Vec<String> {
+    pub(crate) fn remarks(&self) -> Vec<Words> {
         let Meter { range_ma, reading_percent, gain_percent, offset_ma, floor_ma, noise_ma } = self.meter;
         let of_range = LARGEST_PERCENT / 100.0 * range_ma;
         let seat = self.seating_arcsec.as_ref().map_or([0.0; 3], |seat| [seat.about_x, seat.about_y, seat.about_z]);
@@ -115,25 +115,23 @@ impl Laboratory {
             .base
             .as_ref()
             .map_or([0.0; 2], |base| [base.azimuth_arcsec, base.level_arcsec].map(Option::unwrap_or_default));
-        let [x, y, z] = seat.map(|arcsec| (arcsec, LARGEST_TURN_ARCSEC, implausible::ARCSECONDS));
+        let [x, y, z] = seat.map(|arcsec| (arcsec, LARGEST_TURN_ARCSEC, units::ARCSEC));
         let each = [
-            ("meter.reading_percent", (reading_percent, LARGEST_PERCENT, implausible::PERCENT)),
-            ("meter.gain_percent", (gain_percent, LARGEST_PERCENT, implausible::PERCENT)),
-            ("meter.offset_ma", (offset_ma, of_range, implausible::MILLIAMPERES)),
-            ("meter.floor_ma", (floor_ma, of_range, implausible::MILLIAMPERES)),
-            ("meter.noise_ma", (noise_ma.unwrap_or_default(), of_range, implausible::MILLIAMPERES)),
+            ("meter.reading_percent", (reading_percent, LARGEST_PERCENT, units::PERCENT)),
+            ("meter.gain_percent", (gain_percent, LARGEST_PERCENT, units::PERCENT)),
+            ("meter.offset_ma", (offset_ma, of_range, units::MILLIAMPERES)),
+            ("meter.floor_ma", (floor_ma, of_range, units::MILLIAMPERES)),
+            ("meter.noise_ma", (noise_ma.unwrap_or_default(), of_range, units::MILLIAMPERES)),
             ("seating_arcsec.about_x", x),
             ("seating_arcsec.about_y", y),
             ("seating_arcsec.about_z", z),
-            ("base.azimuth_arcsec", (azimuth, LARGEST_TURN_ARCSEC, implausible::ARCSECONDS)),
-            ("base.level_arcsec", (level, LARGEST_TURN_ARCSEC, implausible::ARCSECONDS)),
+            ("base.azimuth_arcsec", (azimuth, LARGEST_TURN_ARCSEC, units::ARCSEC)),
+            ("base.level_arcsec", (level, LARGEST_TURN_ARCSEC, units::ARCSEC)),
         ];
         let odd = each.into_iter().filter(|(_, (value, largest, _))| value > largest);
         let words = odd.map(|(key, (value, largest, unit))| {
-            let space = if unit == implausible::ARCSECONDS { "" } else { "\u{a0}" };
-            let with_unit = |value| format!("{}{space}{}", Number::exact(value).text(language), unit.of(language));
-            let [value, largest] = [value, largest].map(with_unit);
-            implausible::of_laboratory(key, value, largest).plain(language)
+            let [value, largest] = [value, largest].map(|value| Words::Quantity(Number::exact(value), unit));
+            implausible::of_laboratory(key, value, largest)
         });
         words.collect()
     }
@@ -183,6 +181,7 @@ impl Meter {
 #[cfg(all(test, feature = "factory"))]
 mod tests {
     use super::*;
+    use crate::wording::Language;
 
     const FILE: &str = r#"format: "dtg-laboratory/1"
 name: "Gyro laboratory"
@@ -203,23 +202,15 @@ temperature_c: 21.0
     /// Expected: a remark on the key alone that is a thousand times too large, as of a unit a thousand times smaller.
     #[test]
     fn an_uncertainty_in_another_unit_has_a_remark() {
-        assert_eq!(
-            Laboratory::from_yaml("l", FILE.as_bytes()).unwrap().remarks(Language::English),
-            Vec::<String>::new()
-        );
+        assert!(Laboratory::from_yaml("l", FILE.as_bytes()).unwrap().remarks().is_empty());
         for (from, to, key) in [
-            (
-                "reading_percent: 0.0087",
-                "reading_percent: 8.7",
-                "meter.reading_percent of the laboratory is 8.7\u{a0}%,",
-            ),
-            ("floor_ma: 1.0e-06", "floor_ma: 0.5", "meter.floor_ma of the laboratory is 0.5\u{a0}mA,"),
+            ("reading_percent: 0.0087", "reading_percent: 8.7", "meter.reading_percent of the laboratory is 8.7 %,"),
+            ("floor_ma: 1.0e-06", "floor_ma: 0.5", "meter.floor_ma of the laboratory is 0.5 mA,"),
             ("about_z: 10.0", "about_z: 10000.0", "seating_arcsec.about_z of the laboratory is 10\u{202f}000″,"),
             ("level_arcsec: 3.0", "level_arcsec: 3600.5", "base.level_arcsec of the laboratory is 3600.5″,"),
         ] {
-            let remarks =
-                Laboratory::from_yaml("l", FILE.replace(from, to).as_bytes()).unwrap().remarks(Language::English);
-            assert!(remarks.len() == 1 && remarks[0].starts_with(key), "{remarks:?}");
+            let remarks = Laboratory::from_yaml("l", FILE.replace(from, to).as_bytes()).unwrap().remarks();
+            assert!(remarks.len() == 1 && remarks[0].plain(Language::English).starts_with(key), "{remarks:?}");
         }
     }
 

@@ -8,12 +8,12 @@ use crate::files::{self, FileError};
 use crate::gyro::GyroType;
 use crate::interface::{Failed, MISSING_DATA, REFUSED};
 use crate::laboratory::Laboratory;
+use crate::report::doc::said;
 use crate::report::issued;
 use crate::site::Site;
 use crate::stand::Stand;
 use crate::text::problem::MISSING;
 use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, Printable, Problems, Unreadable, name_of, printable, shown};
-use crate::wording::plain;
 use serde::Serialize;
 use std::ops::RangeBounds;
 use std::path::{Path, PathBuf};
@@ -53,7 +53,7 @@ pub(super) fn site(path: &Path) -> Result<Site, Failure> {
 
 pub(super) fn gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
     let gyro_type = path.map(|path| document(path, Kind::Gyro.words(), GyroType::from_yaml)).transpose()?;
-    gyro_type.iter().flat_map(|gyro| gyro.remarks(lang::of_text())).for_each(|words| output::warn(&plain(&words)));
+    gyro_type.iter().flat_map(GyroType::remarks).for_each(|words| output::warn(&said(&words, lang::of_text())));
     Ok(gyro_type)
 }
 
@@ -61,7 +61,7 @@ pub(super) fn gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
 pub(super) fn laboratory(path: Option<&Path>) -> Result<Laboratory, Failure> {
     let Some(path) = path else { return Ok(Laboratory::paper()) };
     let laboratory = document(path, Kind::Laboratory.words(), Laboratory::from_yaml)?;
-    laboratory.remarks(lang::of_text()).iter().for_each(|words| output::warn(&plain(words)));
+    laboratory.remarks().iter().for_each(|words| output::warn(&said(words, lang::of_text())));
     Ok(laboratory)
 }
 

@@ -88,56 +88,56 @@ pub(crate) fn of_gyro(
     let subject = Subject {
         identification: None,
         previous_report: None,
-        item: item(calibrated, &facts.languages),
+        item: item(calibrated),
         accreditation: None,
-        statements: statements(calibrated, &facts.languages),
+        statements: statements(calibrated),
     };
     let xml = parts::certificate(&facts, subject, result(calibrated, &facts), None);
     Ok(Dcc { number: facts.number, xml })
 }
 
-fn item(calibrated: &Calibrated, languages: &Languages) -> Element {
-    let serial = stated(calibrated.subject.gyro_serial.as_deref()).map(|serial| parts::serial(serial, languages));
+fn item(calibrated: &Calibrated) -> Element {
+    let serial = stated(calibrated.subject.gyro_serial.as_deref()).map(parts::serial);
     let model = calibrated.judged.and_then(|(gyro_type, _)| stated(Some(gyro_type.r#type.as_str())));
     Element::new("dcc:item")
-        .and(in_words("dcc:name", words::GYRO, languages))
+        .and(in_words("dcc:name", words::GYRO))
         .and(model.map(|model| Element::text("dcc:model", model)))
         .and(Element::new("dcc:identifications").and(serial))
 }
 
-fn statements(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
+fn statements(calibrated: &Calibrated) -> Vec<Element> {
     let conformity = calibrated.judged.map(|(gyro_type, verdict)| {
         Element::new("dcc:statement")
             .with("id", RULE_ID)
             .with("refType", "basic_conformity")
-            .and(in_words("dcc:name", words::conformity(&gyro_type.r#type), languages))
-            .and(in_words("dcc:declaration", words::RULE, languages))
+            .and(in_words("dcc:name", words::conformity(&gyro_type.r#type)))
+            .and(in_words("dcc:declaration", words::RULE))
             .and(Element::text("dcc:conformity", decided(verdict.overall, verdict.parameters.iter().all(passes))))
     });
-    let currents = parts::statement(texts::CURRENTS_SHA256, None, languages)
+    let currents = parts::statement(texts::CURRENTS_SHA256, None)
         .and(Element::text("dcc:reference", &calibrated.subject.currents_sha256));
     let excluded = calibrated.done.document.excluded.iter().map(|Exclusion { i, j, visit, cycle, why }| {
         let visit = format!("{i}, {j}, {visit}, {}: {why}", cycle.unwrap_or(1));
-        parts::statement(texts::EXCLUDED, Some(&visit), languages)
+        parts::statement(texts::EXCLUDED, Some(&visit))
     });
     let suspects = calibrated.done.document.suspects.iter().map(|suspect| {
-        let declaration = in_words("dcc:declaration", joined(suspicion(suspect), " "), languages);
-        parts::statement(words::SUSPECT, None, languages).and(declaration)
+        let declaration = in_words("dcc:declaration", joined(suspicion(suspect), " "));
+        parts::statement(words::SUSPECT, None).and(declaration)
     });
     let dependent = calibrated.judged.map_or_else(Vec::new, |(_, verdict)| verdict.dependent());
     let dependent = (!dependent.is_empty()).then(|| {
         let names = dependent.iter().map(|one| one.symbol()).collect::<Vec<_>>().join(", ");
-        let declaration = in_words("dcc:declaration", texts::dependent(names), languages);
-        parts::statement(words::CONFORMITY_OPEN, None, languages).and(declaration)
+        let declaration = in_words("dcc:declaration", texts::dependent(names));
+        parts::statement(words::CONFORMITY_OPEN, None).and(declaration)
     });
     let missing = calibrated.done.missing.iter().map(|what| {
-        let what = in_words("dcc:declaration", not_stated(*what), languages);
-        parts::statement(words::NOT_STATED, None, languages).and(what)
+        let what = in_words("dcc:declaration", not_stated(*what));
+        parts::statement(words::NOT_STATED, None).and(what)
     });
     let certificate = &calibrated.content.certificate;
     let outside = TemperatureOutside::of(certificate, calibrated.subject, calibrated.laboratory).map(|outside| {
-        let declaration = in_words("dcc:declaration", temperature_outside(&outside), languages);
-        parts::statement(texts::TEMPERATURE_IS_OUTSIDE, None, languages).and(declaration)
+        let declaration = in_words("dcc:declaration", temperature_outside(&outside));
+        parts::statement(texts::TEMPERATURE_IS_OUTSIDE, None).and(declaration)
     });
     conformity
         .into_iter()
@@ -166,47 +166,40 @@ fn decided(guarded: Decision, simple_passes: bool) -> &'static str {
 }
 
 fn result(calibrated: &Calibrated, facts: &Facts) -> Element {
-    let languages = &facts.languages;
     let method = match calibrated.method {
         Method::Analytic => texts::ANALYTIC,
         Method::Iterative => texts::ITERATIVE,
         Method::LeastSquares => texts::LEAST_SQUARES_NAME,
     };
-    let own = parts::method(
-        in_words("dcc:name", method, languages),
-        in_words("dcc:description", words::MODEL, languages),
-        Some(PAPER),
-    );
-    let results =
-        parts::results(texts::PARAMETERS, words::PARAMETERS_NOTE, quantities(calibrated, languages), languages);
+    let own = parts::method(in_words("dcc:name", method), in_words("dcc:description", words::MODEL), Some(PAPER));
+    let results = parts::results(texts::PARAMETERS, words::PARAMETERS_NOTE, quantities(calibrated));
     let gravity_u_m_per_s2 = calibrated.content.site.gravity_u_m_per_s2();
     let gravity = real(calibrated.found.gravity_m_per_s2, units::M_PER_S2, gravity_u_m_per_s2);
-    let conditions =
-        [parts::temperature(facts.temperature_c, languages), parts::condition(words::GRAVITY, gravity, languages)];
+    let conditions = [parts::temperature(facts.temperature_c), parts::condition(words::GRAVITY, gravity)];
     Element::new("dcc:measurementResult")
-        .and(in_words("dcc:name", texts::TITLE, languages))
-        .and(in_words("dcc:description", words::NOT_SIGNED, languages))
+        .and(in_words("dcc:name", texts::TITLE))
+        .and(in_words("dcc:description", words::NOT_SIGNED))
         .and(Element::new("dcc:usedMethods").and(own).and(parts::stated_method(facts)))
         .and(parts::software("dcc:usedSoftware"))
-        .and(Element::new("dcc:measuringEquipments").and(equipment(calibrated, languages)))
+        .and(Element::new("dcc:measuringEquipments").and(equipment(calibrated)))
         .and(Element::new("dcc:influenceConditions").and(conditions))
         .and(results)
 }
 
 /// Returns the stand, with its passport by identifier and SHA-256.
-fn equipment(calibrated: &Calibrated, languages: &Languages) -> Element {
+fn equipment(calibrated: &Calibrated) -> Element {
     let Content { stand, passport, .. } = calibrated.content;
     Element::new("dcc:measuringEquipment")
-        .and(in_words("dcc:name", words::STAND, languages))
-        .and(parts::hashed("dcc:certificate", words::PASSPORT, &passport.id, &calibrated.passport_sha256, languages))
+        .and(in_words("dcc:name", words::STAND))
+        .and(parts::hashed("dcc:certificate", words::PASSPORT, &passport.id, &calibrated.passport_sha256))
         .and(parts::manufacturer(stand.manufacturer.as_deref()))
         .and(Element::text("dcc:model", &stand.model))
-        .and(Element::new("dcc:identifications").and(parts::serial(stand.serial.as_str(), languages)))
+        .and(Element::new("dcc:identifications").and(parts::serial(stand.serial.as_str())))
 }
 
 /// Returns K, ω_0 and the g-sensitive drifts, each with its decisions. The drifts are per m/s², because there is no unit
 /// of the local g.
-fn quantities(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
+fn quantities(calibrated: &Calibrated) -> Vec<Element> {
     use Parameter::{Kx, Kxy, Ky, Kyx, Omega0x, Omega0y, OmegaG, OmegaK};
     let per_m_per_s2 = calibrated.found.at_gravity(1.0);
     let labels = |parameters: &[Parameter]| parameters.iter().map(|one| one.key()).collect::<Vec<_>>().join(" ");
@@ -215,15 +208,15 @@ fn quantities(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
         let each: Vec<f64> = parameters.iter().map(|one| values[one.place()]).collect();
         let uncertainties: Vec<_> = parameters.iter().map(|one| Some(u[one.place()])).collect();
         let list = parts::reals(Some(&labels(parameters)), &each, unit, &uncertainties);
-        let decisions = calibrated.judged.map(|(_, verdict)| decisions(verdict, parameters, unit, languages));
-        quantity(Some("basic_measuredValue"), name, list, languages).and(decisions)
+        let decisions = calibrated.judged.map(|(_, verdict)| decisions(verdict, parameters, unit));
+        quantity(Some("basic_measuredValue"), name, list).and(decisions)
     };
     // Unlimited degrees of freedom are not stated.
     let freedom = Parameter::EIGHT.map(|one| (one, per_m_per_s2.degrees_of_freedom[one.place()]));
     let (known, each): (Vec<_>, Vec<_>) = freedom.into_iter().filter(|(_, freedom)| freedom.is_finite()).unzip();
     let freedom = (!known.is_empty()).then(|| {
         let list = parts::reals(Some(&labels(&known)), &each, units::ONE, &[]);
-        quantity(None, texts::EFFECTIVE_FREEDOM, list, languages)
+        quantity(None, texts::EFFECTIVE_FREEDOM, list)
     });
     let mut quantities = vec![
         group(words::SCALE_FACTORS, &[Kx, Kxy, Kyx, Ky], units::DEG_PER_H_PER_MA),
@@ -235,13 +228,13 @@ fn quantities(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
 }
 
 /// Returns the decisions on parameters and the limits of their tolerances, in their order and unit.
-fn decisions(verdict: &Verdict, parameters: &[Parameter], unit: &str, languages: &Languages) -> Element {
+fn decisions(verdict: &Verdict, parameters: &[Parameter], unit: &str) -> Element {
     let rows = parameters.iter().filter_map(|one| verdict.parameter(*one));
     let rows: Vec<_> = rows.collect();
     let each: Vec<&str> = rows.iter().map(|row| decided(row.guarded, passes(row))).collect();
     let limit = |kind, name, sign: f64| {
         let values: Vec<f64> = rows.iter().map(|row| limit_of(row, sign, verdict.gravity_m_per_s2)).collect();
-        quantity(Some(kind), name, parts::reals(None, &values, unit, &[]), languages)
+        quantity(Some(kind), name, parts::reals(None, &values, unit, &[]))
     };
     let limits = [
         limit("basic_toleranceLimitLower", words::LOWER_LIMIT, -1.0),
@@ -250,7 +243,7 @@ fn decisions(verdict: &Verdict, parameters: &[Parameter], unit: &str, languages:
     let decision = Element::new("dcc:metaData")
         .with("refId", RULE_ID)
         .with("refType", "basic_conformity")
-        .and(in_words("dcc:name", words::DECISIONS, languages))
+        .and(in_words("dcc:name", words::DECISIONS))
         .and(Element::text("dcc:conformityXMLList", each.join(" ")))
         .and(Element::new("dcc:data").and(limits));
     Element::new("dcc:measurementMetaData").and(decision)

@@ -3,8 +3,7 @@
 use super::administrative::Contact;
 use super::facts::{Facts, stated};
 use super::xml::Element;
-use crate::report::Languages;
-use crate::report::page::language::{Language, Text};
+use crate::report::page::language::Text;
 use crate::wording::Words;
 use crate::wording::texts::dcc as words;
 
@@ -27,15 +26,8 @@ pub(super) mod units {
 }
 
 /// Returns an element with words in every language of the DCC.
-pub(super) fn in_words(name: &'static str, words: impl Into<Words>, languages: &Languages) -> Element {
-    let words = words.into();
-    said(name, |language| words.plain(language), languages)
-}
-
-/// Returns an element with the words that `words` returns for every language of the DCC.
-pub(super) fn said(name: &'static str, words: impl Fn(Language) -> String, languages: &Languages) -> Element {
-    let content = |language: Language| Element::text("dcc:content", words(language)).with("lang", language.tag());
-    Element::new(name).and(languages.iter().map(content))
+pub(super) fn in_words(name: &'static str, words: impl Into<Words>) -> Element {
+    Element::said(name, words.into())
 }
 
 /// Returns an element with a text of others, whose language is not known. Allowed next to a `dcc:name`, and in one.
@@ -74,8 +66,8 @@ pub(super) fn reals(
 }
 
 /// Returns a quantity: its kind in PTB's vocabulary, its name and its value.
-pub(super) fn quantity(kind: Option<&str>, name: Text, value: Element, languages: &Languages) -> Element {
-    let quantity = Element::new("dcc:quantity").and(in_words("dcc:name", name, languages)).and(value);
+pub(super) fn quantity(kind: Option<&str>, name: Text, value: Element) -> Element {
+    let quantity = Element::new("dcc:quantity").and(in_words("dcc:name", name)).and(value);
     match kind {
         Some(kind) => quantity.with("refType", kind),
         None => quantity,
@@ -83,14 +75,14 @@ pub(super) fn quantity(kind: Option<&str>, name: Text, value: Element, languages
 }
 
 /// Returns a statement: its name, its content as it is stated, and other elements that follow a declaration.
-pub(super) fn statement(name: Text, declaration: Option<&str>, languages: &Languages) -> Element {
+pub(super) fn statement(name: Text, declaration: Option<&str>) -> Element {
     Element::new("dcc:statement")
-        .and(in_words("dcc:name", name, languages))
+        .and(in_words("dcc:name", name))
         .and(stated(declaration).map(|text| plain("dcc:declaration", text)))
 }
 
-pub(super) fn serial(value: &str, languages: &Languages) -> Element {
-    identification(value, words::SERIAL, languages).with("refType", "basic_serialNumber")
+pub(super) fn serial(value: &str) -> Element {
+    identification(value, words::SERIAL).with("refType", "basic_serialNumber")
 }
 
 pub(super) fn manufacturer(name: Option<&str>) -> Option<Element> {
@@ -98,17 +90,17 @@ pub(super) fn manufacturer(name: Option<&str>) -> Option<Element> {
 }
 
 /// Returns an identification that the manufacturer assigned: its value and its name.
-pub(super) fn identification(value: &str, name: Text, languages: &Languages) -> Element {
+pub(super) fn identification(value: &str, name: Text) -> Element {
     Element::new("dcc:identification")
         .and(Element::text("dcc:issuer", "manufacturer"))
         .and(Element::text("dcc:value", value))
-        .and(in_words("dcc:name", name, languages))
+        .and(in_words("dcc:name", name))
 }
 
 /// Returns the content of `dcc:hashType`: a document by its name, identifier and SHA-256.
-pub(super) fn hashed(name: &'static str, what: Text, id: &str, sha256: &str, languages: &Languages) -> Element {
+pub(super) fn hashed(name: &'static str, what: Text, id: &str, sha256: &str) -> Element {
     Element::new(name)
-        .and(in_words("dcc:referral", what, languages))
+        .and(in_words("dcc:referral", what))
         .and(Element::text("dcc:referralID", id))
         .and(Element::text("dcc:procedure", "SHA-256"))
         .and(Element::text("dcc:value", sha256))
@@ -133,30 +125,27 @@ pub(super) fn method(name: Element, description: Element, link: Option<&str>) ->
 }
 
 pub(super) fn stated_method(facts: &Facts) -> Option<Element> {
-    let name = || in_words("dcc:name", words::METHOD, &facts.languages);
+    let name = || in_words("dcc:name", words::METHOD);
     facts.method.as_deref().map(|text| method(name(), plain("dcc:description", text), None))
 }
 
-pub(super) fn results(name: Text, note: Text, quantities: Vec<Element>, languages: &Languages) -> Element {
+pub(super) fn results(name: Text, note: Text, quantities: Vec<Element>) -> Element {
     let list = Element::new("dcc:list").and(quantities);
     let result = Element::new("dcc:result")
         .with("refType", "basic_measurementResult")
-        .and(in_words("dcc:name", name, languages))
-        .and(in_words("dcc:description", note, languages))
+        .and(in_words("dcc:name", name))
+        .and(in_words("dcc:description", note))
         .and(Element::new("dcc:data").and(list));
     Element::new("dcc:results").and(result)
 }
 
-pub(super) fn temperature(temperature_c: f64, languages: &Languages) -> Element {
-    condition(words::TEMPERATURE, real(temperature_c, units::CELSIUS, None), languages)
-        .with("refType", "basic_temperature")
+pub(super) fn temperature(temperature_c: f64) -> Element {
+    condition(words::TEMPERATURE, real(temperature_c, units::CELSIUS, None)).with("refType", "basic_temperature")
 }
 
-pub(super) fn condition(name: Text, value: Element, languages: &Languages) -> Element {
-    let value = quantity(Some("basic_measuredValue"), name, value, languages);
-    Element::new("dcc:influenceCondition")
-        .and(in_words("dcc:name", name, languages))
-        .and(Element::new("dcc:data").and(value))
+pub(super) fn condition(name: Text, value: Element) -> Element {
+    let value = quantity(Some("basic_measuredValue"), name, value);
+    Element::new("dcc:influenceCondition").and(in_words("dcc:name", name)).and(Element::new("dcc:data").and(value))
 }
 
 /// Parts of the administrative data that differ between a stand and a gyro.
@@ -180,7 +169,7 @@ pub(super) fn certificate(facts: &Facts, subject: Subject, result: Element, docu
         .and(administrative_data(facts, subject))
         .and(Element::new("dcc:measurementResults").and(result))
         .and(document)
-        .document()
+        .document(&facts.languages)
 }
 
 fn administrative_data(facts: &Facts, subject: Subject) -> Element {
@@ -188,7 +177,7 @@ fn administrative_data(facts: &Facts, subject: Subject) -> Element {
     let statements = (!subject.statements.is_empty()).then(|| Element::new("dcc:statements").and(subject.statements));
     Element::new("dcc:administrativeData")
         .and(software("dcc:dccSoftware"))
-        .and(vocabularies(&facts.languages))
+        .and(vocabularies())
         .and(core)
         .and(Element::new("dcc:items").and(subject.item))
         .and(laboratory(facts, subject.accreditation.as_deref()))
@@ -197,10 +186,10 @@ fn administrative_data(facts: &Facts, subject: Subject) -> Element {
         .and(statements)
 }
 
-fn vocabularies(languages: &Languages) -> Element {
+fn vocabularies() -> Element {
     let vocabulary = |name, namespace| {
         Element::new("dcc:refTypeDefinition")
-            .and(in_words("dcc:name", name, languages))
+            .and(in_words("dcc:name", name))
             .and(Element::text("dcc:namespace", namespace))
             .and(Element::text("dcc:link", VOCABULARIES))
     };

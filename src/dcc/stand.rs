@@ -22,22 +22,21 @@ pub(crate) fn of_stand(
     lang: Option<&Languages>,
 ) -> Result<Dcc, Problems> {
     let facts = Facts::collect(&known(content), administrative, lang)?;
-    let languages = &facts.languages;
     let id = &content.passport.id;
     let predecessor = content.passport.reissued_from.as_ref();
     let subject = Subject {
-        identification: Some(parts::identification(id, words::PASSPORT_ID, languages)),
+        identification: Some(parts::identification(id, words::PASSPORT_ID)),
         previous_report: predecessor
-            .map(|from| parts::hashed("dcc:previousReport", words::PREDECESSOR, &from.id, &from.sha256, languages)),
-        item: item(content, languages),
+            .map(|from| parts::hashed("dcc:previousReport", words::PREDECESSOR, &from.id, &from.sha256)),
+        item: item(content),
         accreditation: content.certificate.accreditation.clone(),
         statements: statements(content, &facts),
     };
     let sha256 = sha256_hex(bytes);
     let file_name = format!("{}-{}.yaml", content.site.id, content.passport.revision);
     let document = Element::new("dcc:document")
-        .and(in_words("dcc:name", words::PASSPORT, languages))
-        .and(in_words("dcc:description", words::passport_note(id, sha256), languages))
+        .and(in_words("dcc:name", words::PASSPORT))
+        .and(in_words("dcc:description", words::passport_note(id, sha256)))
         .and(Element::text("dcc:fileName", file_name))
         .and(Element::text("dcc:mimeType", "application/yaml"))
         .and(Element::text("dcc:dataBase64", Base64::encode_string(bytes)));
@@ -64,12 +63,12 @@ fn known(content: &Content) -> Known<'_> {
     }
 }
 
-fn item(content: &Content, languages: &Languages) -> Element {
+fn item(content: &Content) -> Element {
     let stand = &content.stand;
     let name = stated(stand.name.as_deref()).unwrap_or(stand.model.as_str());
     let configuration =
-        stated(stand.configuration.as_deref()).map(|text| parts::identification(text, words::CONFIGURATION, languages));
-    let serial = parts::serial(stand.serial.as_str(), languages);
+        stated(stand.configuration.as_deref()).map(|text| parts::identification(text, words::CONFIGURATION));
+    let serial = parts::serial(stand.serial.as_str());
     let identifications = Element::new("dcc:identifications").and(serial).and(configuration);
     Element::new("dcc:item")
         .and(plain("dcc:name", name))
@@ -79,68 +78,65 @@ fn item(content: &Content, languages: &Languages) -> Element {
 }
 
 fn statements(content: &Content, facts: &Facts) -> Vec<Element> {
-    let languages = &facts.languages;
     let certificate = &content.certificate;
     let traceability = stated(certificate.traceability.as_deref()).map(|text| {
         Element::new("dcc:statement")
             .with("refType", "basic_metrologicallyTraceable")
-            .and(in_words("dcc:name", words::TRACEABILITY, languages))
+            .and(in_words("dcc:name", words::TRACEABILITY))
             .and(facts.traceable.map(|traceable| Element::text("dcc:traceable", traceable)))
             .and(plain("dcc:declaration", text))
     });
     let valid_until = certificate.valid_until.map(|day| {
-        parts::statement(words::VALID_UNTIL, certificate.valid_until_basis.as_deref(), languages)
+        parts::statement(words::VALID_UNTIL, certificate.valid_until_basis.as_deref())
             .and(Element::text("dcc:date", day))
     });
     let range = certificate.temperature_range_c.map(|[low, high]| {
-        let limit = |kind, name, value| quantity(Some(kind), name, real(value, units::CELSIUS, None), languages);
+        let limit = |kind, name, value| quantity(Some(kind), name, real(value, units::CELSIUS, None));
         let data = [limit("math_minimum", words::LOWEST, low), limit("math_maximum", words::HIGHEST, high)];
-        parts::statement(words::TEMPERATURE_RANGE, None, languages).and(Element::new("dcc:data").and(data))
+        parts::statement(words::TEMPERATURE_RANGE, None).and(Element::new("dcc:data").and(data))
     });
     let surfaces = content.datum.iter().flat_map(|Datum { level, azimuth, gyro_seat }| {
         [(words::LEVEL, level), (words::AZIMUTH, azimuth), (words::SEAT, gyro_seat)]
     });
-    let surfaces = surfaces.filter_map(|(name, surface)| {
-        stated(surface.as_deref()).map(|surface| parts::statement(name, Some(surface), languages))
-    });
+    let surfaces = surfaces
+        .filter_map(|(name, surface)| stated(surface.as_deref()).map(|surface| parts::statement(name, Some(surface))));
     let shared = [
         (words::REPEATABILITY, certificate.repeatability_arcsec),
         (words::COMMON_PLATFORM, certificate.common_platform_arcsec),
         (words::COMMON_BASE, certificate.common_base_arcsec),
     ];
     let shared = shared.into_iter().filter_map(|(name, value)| {
-        let value = quantity(None, name, real(value?, units::ARCSECOND, None), languages);
-        Some(parts::statement(name, None, languages).and(Element::new("dcc:data").and(value)))
+        let value = quantity(None, name, real(value?, units::ARCSECOND, None));
+        Some(parts::statement(name, None).and(Element::new("dcc:data").and(value)))
     });
     traceability.into_iter().chain(valid_until).chain(range).chain(surfaces).chain(shared).collect()
 }
 
 fn result(content: &Content, facts: &Facts) -> Element {
-    let languages = &facts.languages;
-    let quantities = quantities(&content.positions, languages);
+    let quantities = quantities(&content.positions);
     Element::new("dcc:measurementResult")
-        .and(in_words("dcc:name", words::STAND_RESULT, languages))
+        .and(in_words("dcc:name", words::STAND_RESULT))
         .and(Element::new("dcc:usedMethods").and(parts::stated_method(facts)))
         .and(parts::software("dcc:usedSoftware"))
-        .and(Element::new("dcc:influenceConditions").and(parts::temperature(facts.temperature_c, languages)))
-        .and(parts::results(words::POSITIONS, words::POSITIONS_NOTE, quantities, languages))
+        .and(Element::new("dcc:influenceConditions").and(parts::temperature(facts.temperature_c)))
+        .and(parts::results(words::POSITIONS, words::POSITIONS_NOTE, quantities))
 }
 
 /// Returns one quantity for each column of the positions, its values in the order of the passport.
-fn quantities(positions: &[CertifiedPosition], languages: &Languages) -> Vec<Element> {
+fn quantities(positions: &[CertifiedPosition]) -> Vec<Element> {
     let column = |kind: Option<&str>, name: Text, unit: &str, value: fn(&CertifiedPosition) -> f64| {
         let values: Vec<f64> = positions.iter().map(value).collect();
-        quantity(kind, name, reals(None, &values, unit, &[]), languages)
+        quantity(kind, name, reals(None, &values, unit, &[]))
     };
     let measured = |name: Text, value: fn(&CertifiedPosition) -> (f64, Option<f64>)| {
         let (values, u): (Vec<f64>, Vec<Option<f64>>) = positions.iter().map(value).unzip();
-        quantity(Some("basic_measuredValue"), name, reals(None, &values, units::ARCSECOND, &u), languages)
+        quantity(Some("basic_measuredValue"), name, reals(None, &values, units::ARCSECOND, &u))
     };
     let freedom: Vec<f64> = positions.iter().map(|at| at.degrees_of_freedom.unwrap_or(f64::NAN)).collect();
     let freedom = positions
         .iter()
         .any(|at| at.degrees_of_freedom.is_some())
-        .then(|| quantity(None, texts::FREEDOM, reals(None, &freedom, units::ONE, &[]), languages));
+        .then(|| quantity(None, texts::FREEDOM, reals(None, &freedom, units::ONE, &[])));
     let mut quantities = vec![
         column(None, words::INDEX_I, units::ONE, |at| f64::from(at.i)),
         column(None, words::INDEX_J, units::ONE, |at| f64::from(at.j)),

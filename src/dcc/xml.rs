@@ -1,25 +1,34 @@
 //! XML elements, and the text of a document of them. Names are literals of this program; every text is escaped.
 
+use crate::report::{Language, Languages};
 use crate::text::number::decimal;
+use crate::wording::Words;
 use std::fmt::Write;
 
 /// An XML element: attributes, then either text or further elements, in the order in which they were added.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub(super) struct Element {
     name: &'static str,
     attributes: Vec<(&'static str, String)>,
     text: String,
     elements: Vec<Element>,
+    /// Words for each language of the document, in place of text and elements.
+    words: Option<Words>,
 }
 
 impl Element {
     pub(super) fn new(name: &'static str) -> Self {
-        Self { name, attributes: Vec::new(), text: String::new(), elements: Vec::new() }
+        Self { name, attributes: Vec::new(), text: String::new(), elements: Vec::new(), words: None }
     }
 
     /// Creates an element that contains text. Spaces at its ends are removed, because the schema does not allow them.
     pub(super) fn text(name: &'static str, text: impl std::fmt::Display) -> Self {
         Self { text: text.to_string().trim().to_owned(), ..Self::new(name) }
+    }
+
+    /// Creates an element with words in every language of the document.
+    pub(super) fn said(name: &'static str, words: Words) -> Self {
+        Self { words: Some(words), ..Self::new(name) }
     }
 
     /// Creates an element that contains a number, which reads back as the same binary64.
@@ -44,25 +53,30 @@ impl Element {
     }
 
     /// Returns the whole document with this element as its root, in UTF-8.
-    pub(super) fn document(&self) -> String {
+    pub(super) fn document(&self, languages: &Languages) -> String {
         let mut out = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
-        self.write(0, &mut out);
+        self.write(0, languages, &mut out);
         out
     }
 
-    fn write(&self, depth: usize, out: &mut String) {
+    fn write(&self, depth: usize, languages: &Languages, out: &mut String) {
         let (indent, name) = ("  ".repeat(depth), self.name);
         // Writing into a string cannot fail.
         let _ = write!(out, "{indent}<{name}");
         for (name, value) in &self.attributes {
             let _ = write!(out, " {name}=\"{}\"", escaped(value));
         }
-        if self.elements.is_empty() {
+        let content = |language: Language| {
+            let text = self.words.as_ref().map(|words| words.plain(language));
+            text.map(|text| Self::text("dcc:content", text).with("lang", language.tag()))
+        };
+        let said: Vec<Self> = languages.iter().filter_map(content).collect();
+        if self.elements.is_empty() && said.is_empty() {
             let _ = writeln!(out, ">{}</{name}>", escaped(&self.text));
             return;
         }
         out.push_str(">\n");
-        self.elements.iter().for_each(|element| element.write(depth + 1, out));
+        self.elements.iter().chain(&said).for_each(|element| element.write(depth + 1, languages, out));
         let _ = writeln!(out, "{indent}</{name}>");
     }
 }
@@ -111,12 +125,12 @@ mod tests {
         for text in hostile {
             let root =
                 Element::new("a").with("b", text).and(Element::text("c", text)).and(None).and([Element::new("d")]);
-            let document = root.document();
+            let document = root.document(&Language::English.into());
             let read = roxmltree::Document::parse(&document).unwrap();
             let c = read.root_element().first_element_child().unwrap();
             assert_eq!((c.text(), read.root_element().attribute("b")), (Some(text), Some(text)), "{document}");
         }
-        let controls = Element::text("a", "x\0\u{1B}\u{85}\u{FFFE}y").document();
+        let controls = Element::text("a", "x\0\u{1B}\u{85}\u{FFFE}y").document(&Language::English.into());
         let read = roxmltree::Document::parse(&controls).unwrap();
         assert_eq!(read.root_element().text(), Some("x\u{FFFD}\u{FFFD}\u{FFFD}\u{FFFD}y"));
     }

@@ -294,10 +294,11 @@ impl<'a> Prepared<'a> {
             document.hint = Some(hint.to_string());
         }
         document.remarks = calibration::remarks::remarks(&calibration, &readings);
-        let of_files = laboratory.remarks(Language::English).into_iter();
-        let of_files = of_files.chain(gyro_type.into_iter().flat_map(|gyro| gyro.remarks(Language::English)));
-        let of_conditions =
-            warning.map(|warning| warning.to_string()).into_iter().chain(of_files.map(|words| plain(&words)));
+        let of_files = laboratory.remarks().into_iter().chain(gyro_type.into_iter().flat_map(GyroType::remarks));
+        let of_conditions = warning
+            .map(|warning| warning.to_string())
+            .into_iter()
+            .chain(of_files.map(|words| plain(&words.plain(Language::English))));
         let of_others = of_conditions.chain(early).chain(another_type(previous, gyro_type)).chain(unknown_gyro.clone());
         document.remarks.extend(readings.remarks.iter().cloned().chain(of_others));
         if let Some(gyro_type) = gyro_type {

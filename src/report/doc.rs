@@ -14,6 +14,8 @@ pub(crate) use html::blocks;
 pub(crate) use terminal::{said, sentence, text};
 
 use super::page::language::{Language, Languages, Text};
+use super::style::Outcome;
+use crate::wording::texts::words;
 use maud::Markup;
 
 /// Medium that shows a block or a column.
@@ -49,6 +51,14 @@ pub(crate) enum Block {
     /// A block and a figure next to it, if there is one.
     Beside(Box<Block>, Option<Drawn>),
     List(Vec<Words>),
+    /// On pages alone: a headline and blocks about it in a box of this class.
+    Boxed(&'static str, Words, Vec<Block>),
+    /// On pages alone: a band of names, values in large letters, and blocks about them.
+    Band(Vec<(Text, Words, Vec<Block>)>),
+    /// On pages alone: a paragraph of this class, its second language smaller and below the first.
+    Note(&'static str, Words),
+    /// On pages alone: a paragraph in each language, one below the other.
+    Each(Words),
     On(On, Box<Block>),
 }
 
@@ -102,6 +112,27 @@ pub(crate) fn record(fields: impl IntoIterator<Item = Option<Field>>) -> Block {
 /// An empty space to fill in by hand.
 pub(crate) fn blank(name: Text) -> Option<Field> {
     Some((name, Words::Blank, false))
+}
+
+pub(crate) fn note(words: impl Into<Words>) -> Block {
+    Block::Note("", words.into())
+}
+
+/// A headline with the mark of an outcome, and words about it, in the box of that outcome.
+pub(crate) fn outcome_box(outcome: impl Into<Outcome>, headline: impl Into<Words>, words: Vec<Block>) -> Block {
+    let outcome = outcome.into();
+    let class = match outcome {
+        Outcome::Passed => "verdict",
+        Outcome::Failed => "verdict refused",
+        Outcome::Undecided | Outcome::NotAsked => "verdict neutral",
+    };
+    Block::Boxed(class, marked(outcome, headline), words)
+}
+
+/// A value, or that the file does not state it: it is not to be completed by hand.
+pub(crate) fn stated<W: Into<Words>>(value: Option<W>) -> Words {
+    let not_stated = || Words::Inline(Box::new(words::NOT_STATED.into()));
+    value.map_or_else(|| Words::Styled("absent", Box::new(not_stated())), Into::into)
 }
 
 pub(crate) fn drawn(draw: impl Fn(&Languages) -> Markup + 'static) -> Drawn {

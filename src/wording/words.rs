@@ -67,6 +67,12 @@ pub(crate) enum Words {
     OnTelephones(Outcome),
     /// Words for screen readers only.
     Unseen(Box<Words>),
+    /// Words in an element of this class.
+    Styled(&'static str, Box<Words>),
+    /// Words as in a cell, also where a page has the name of something: the languages side by side.
+    Inline(Box<Words>),
+    /// Words that are said whole in one language after the other, not part by part.
+    Whole(Box<Words>),
     /// A sentence of the library, which programs get too and a terminal shows in English, and what is said in its place on
     /// pages and in other languages.
     OfLibrary(String, Box<Words>),
@@ -264,6 +270,7 @@ impl Words {
             Self::Told(words) => written(words),
             Self::Either(_, terminal) => written(terminal),
             Self::Marked(outcome, words) => emphasised(Some(*outcome), &written(words)),
+            Self::Styled(_, words) | Self::Inline(words) | Self::Whole(words) => written(words),
             Self::Strong(words) => emphasised(None, &written(words)),
             Self::First(words) => written(words),
             Self::OfLibrary(words, _) if language == Language::English => printable(words),

@@ -8,7 +8,6 @@ use crate::calibration::result::MethodRefusal;
 use crate::calibration::{Method, Parameter};
 use crate::report::doc::{Block, Rows, Words, drawn, fields, heading, say, symbol};
 use crate::report::page::number::Number;
-use crate::report::page::parts::figure;
 use crate::report::picture::convergence::convergence;
 use crate::wording::Language;
 use crate::wording::texts::{calibration as texts, passport, units};
@@ -146,7 +145,7 @@ fn iteration(result: &ResultDocument) -> Vec<Block> {
         let result = result.clone();
         drawn(move |languages| {
             let drawing = convergence(languages, &result).unwrap_or_default();
-            figure(languages, "convergence", &drawing, texts::CONVERGENCE_CAPTION)
+            languages.figure("convergence", &drawing, texts::CONVERGENCE_CAPTION)
         })
     });
     vec![heading(texts::ITERATIVE), Block::Beside(Box::new(course), picture)]

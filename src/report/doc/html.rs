@@ -22,6 +22,7 @@ impl Words {
                 }
             },
             Self::Either(page, _) => page.html(language, languages),
+            Self::Whole(words) => words.html(language, languages),
             Self::Others(words) => html! { @if language != languages.first() { (words.html(language, languages)) } },
             Self::Marked(outcome, words) => html! { (mark(*outcome)) " " (words.html(language, languages)) },
             Self::OfLibrary(_, words) | Self::Padded(words, _) => words.html(language, languages),
@@ -36,10 +37,12 @@ impl Words {
     /// Writes the words once for all languages of a page, as in a cell: numbers in the first, texts side by side.
     pub(crate) fn cell(&self, languages: &Languages) -> Markup {
         match self {
-            Self::Text(..) | Self::Capital(_) => languages.said(self, [" / ", ""], None),
+            Self::Text(..) | Self::Capital(_) | Self::Whole(_) => languages.said(self, [" / ", ""], None),
+            Self::Styled(class, words) => html! { span class=(class) { (words.label(languages)) } },
+            Self::Inline(words) => words.cell(languages),
             Self::Number(number) => number.markup(languages),
             Self::Below(limit) => number::Cell::below(limit, languages),
-            Self::Quantity(number, unit) => parts::quantity(languages, number, *unit),
+            Self::Quantity(number, unit) => languages.quantity(number, *unit),
             Self::Symbol(name) => {
                 let (letter, index) = name.split_once('_').unwrap_or((name, ""));
                 parts::symbol(letter, index)
@@ -47,9 +50,9 @@ impl Words {
             Self::Plain(words) => italic(words),
             Self::Given(words) => given(words),
             Self::Code(words) => html! { code { (words) } },
-            Self::Date(date) => parts::date(languages, *date),
-            Self::Time(time) => parts::time(languages, *time),
-            Self::Coordinate(degrees, hemispheres) => parts::in_hemisphere(languages, degrees.clone(), *hemispheres),
+            Self::Date(date) => languages.date(*date),
+            Self::Time(time) => languages.time(*time),
+            Self::Coordinate(degrees, hemispheres) => languages.in_hemisphere(degrees.clone(), *hemispheres),
             Self::OfLibrary(_, words) | Self::Padded(words, _) => words.cell(languages),
             Self::Count(count) => Number::fixed(*count as f64, 0).markup(languages),
             Self::Told(words) => languages.label_with(|language| words.plain(language)),
@@ -60,7 +63,7 @@ impl Words {
             Self::Others(_) => html! {},
             Self::OnTelephones(outcome) => html! { span.narrow-only { (mark(*outcome)) (BLANK) } },
             Self::Unseen(words) => html! { span.unseen { (words.label(languages)) } },
-            Self::Blank => parts::blank(languages),
+            Self::Blank => languages.blank(),
             Self::All(all) => html! { @for one in all { (one.cell(languages)) } },
         }
     }
@@ -68,7 +71,8 @@ impl Words {
     /// Writes a heading or a name: the second language smaller, below the first.
     pub(crate) fn label(&self, languages: &Languages) -> Markup {
         match self {
-            Self::Text(..) | Self::Capital(_) => languages.said(self, [" ", ""], Some("second")),
+            Self::Text(..) | Self::Capital(_) | Self::Whole(_) => languages.said(self, [" ", ""], Some("second")),
+            Self::Marked(outcome, words) => html! { (mark(*outcome)) " " (words.label(languages)) },
             Self::All(all) => html! { @for one in all { (one.label(languages)) } },
             Self::Strong(words) => html! { strong { (words.label(languages)) } },
             Self::Either(page, _) => page.label(languages),
@@ -123,6 +127,18 @@ impl Block {
             Self::Beside(block, Some(draw)) => html! { div.with-figure { (block.html(languages)) (draw(languages)) } },
             Self::List(all) if all.is_empty() => html! {},
             Self::List(all) => html! { ul.absences { @for one in all { li { (one.label(languages)) } } } },
+            Self::Boxed(class, headline, all) => html! {
+                div class=(class) { p.headline { (headline.label(languages)) } (blocks(all, languages)) }
+            },
+            Self::Band(all) => html! {
+                dl.band { @for (name, value, about) in all {
+                    div { dt { (languages.label(*name)) } dd.large { (value.cell(languages)) } dd { (blocks(about, languages)) } }
+                } }
+            },
+            Self::Note(class, words) => {
+                html! { p class=[Some(class).filter(|class| !class.is_empty())] { (words.label(languages)) } }
+            }
+            Self::Each(words) => languages.lines_with(|language| words.html(language, languages)),
             Self::On(On::Terminal, _) => html! {},
             Self::On(_, block) => block.html(languages),
         }

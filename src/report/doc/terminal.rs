@@ -45,6 +45,7 @@ pub(crate) fn text(out: &mut String, blocks: &[Block], language: Language) {
                 let each = all.iter().map(|words| said(words, language)).collect::<Vec<_>>();
                 columns::paragraph(out, "  ", &(each.join("; ") + "."));
             }
+            Block::Boxed(..) | Block::Band(_) | Block::Note(..) | Block::Each(_) => {}
             Block::On(On::Page, _) | Block::Drawn(_) => {}
             Block::On(_, block) => text(out, std::slice::from_ref(block), language),
         }

@@ -4,17 +4,14 @@
 
 use super::language::{Language, Languages, Text};
 use super::number::Number;
-use super::parts::{
-    self, Section, band, boxed, contents, data_address, date, file_name, given, not_stated, numbered, outcome_box,
-    quantity, section, signatures, symbol, verbatim,
-};
+use super::parts::{Section, data_address, file_name, given, signatures};
 use super::shell::{Margins, document};
 use crate::certification::finding::Finding;
 use crate::certification::remark::Remark;
 use crate::certification::{Certification, Comparison};
 use crate::passport::difference::NumberDifference;
 use crate::report::certification::{change, evidence, outcome_of, outcome_of_certification};
-use crate::report::doc::{self, Block, Words, heading, marked, say};
+use crate::report::doc::{self, Block, Words, heading, joined, marked, note, outcome_box, say, stated, symbol, told};
 use crate::report::passport::{deviations, general};
 use crate::report::style::Outcome;
 use crate::wording::texts::{
@@ -60,19 +57,15 @@ impl CertificationPage<'_> {
         let stand = &self.certification.stand;
         let who = [texts::MEASURED_BY, texts::CHECKED_BY, passport_texts::AUTHORISED_BY];
         let address = data_address("text/csv", self.readings.1);
+        let sections = self.sections();
+        // The limits stand in the section of the uncertainty.
+        let uncertainty = 1 + sections.iter().position(|(id, ..)| *id == UNCERTAINTY).unwrap_or_default();
         let (outcome, headline, reasons) = self.verdict();
-        let composed = |id, heading, words: Vec<Block>| (id, heading, doc::blocks(&words, languages));
-        let mut sections = vec![("result", texts::RESULT, self.result(languages))];
-        sections.extend(self.change.as_ref().map(|(found, changes)| {
-            let of_deviations = change::deviations(&found.certificate, changes);
-            composed("change", texts::CHANGE, [change::rotations(found), of_deviations.into()].concat())
-        }));
-        sections.extend([
-            (UNCERTAINTY, texts::UNCERTAINTY, self.uncertainty(languages)),
-            composed("tests", texts::TESTS, self.tests()),
-            composed("readings", texts::READINGS, self.readings()),
-            ("subject", texts::SUBJECT, self.subject(languages)),
-        ]);
+        let draft =
+            self.dry_run.then(|| Block::Boxed("verdict refused", texts::DRAFT.into(), vec![say([texts::DRAFT_WORDS])]));
+        let head = draft.into_iter().chain([outcome_box(outcome, headline, reasons), self.band(uncertainty)]);
+        let text = String::from_utf8_lossy(self.readings.1).replace("\r\n", "\n");
+        let note = (texts::ANNEX, texts::ANNEX_NOTE.into());
         html! {
             header.title {
                 p.kind { (languages.label(texts::TITLE)) }
@@ -80,19 +73,35 @@ impl CertificationPage<'_> {
                 p.subject { (languages.label(texts::SUBTITLE)) }
             }
             main {
-                @if self.dry_run {
-                    (boxed("verdict refused", languages.label(texts::DRAFT), languages.paragraph(texts::DRAFT_WORDS)))
-                }
-                (outcome_box(outcome, &headline.label(languages), doc::blocks(&reasons, languages)))
-                (self.band(languages, &sections))
-                (contents(languages, texts::SAVE, (&address, file_name(self.readings.0)), &sections, texts::ANNEX))
-                (numbered(languages, &sections))
+                (doc::blocks(&head.collect::<Vec<_>>(), languages))
+                (languages.contents(texts::SAVE, (&address, file_name(self.readings.0)), &sections, texts::ANNEX))
+                (languages.numbered(&sections))
                 @if !self.dry_run {
-                    (section(languages, "signatures", calibration_texts::SIGNATURES, signatures(languages, who)))
+                    (languages.section("signatures", calibration_texts::SIGNATURES, &doc::blocks(&signatures(who), languages)))
                 }
-                (self.annex(languages))
+                (languages.annex(note, ("", &text), &told(texts::end(&stand.certificate.number)), true))
             }
         }
+    }
+
+    fn sections(&self) -> Vec<Section> {
+        let (certificate, positions) = (&self.certification.stand.certificate, &self.certification.stand.positions);
+        let mut result = deviations::table(positions, "u");
+        result.extend([deviations::note(positions, false), evidence::outliers(self.certification)]);
+        let mut sections = vec![("result", texts::RESULT, result)];
+        sections.extend(self.change.as_ref().map(|(found, changes)| {
+            let of_deviations = change::deviations(&found.certificate, changes);
+            ("change", texts::CHANGE, [change::rotations(found), of_deviations.into()].concat())
+        }));
+        let mut uncertainty = vec![heading(texts::BUDGET), deviations::common(certificate)];
+        uncertainty.extend(evidence::components(self.certification));
+        sections.extend([
+            (UNCERTAINTY, texts::UNCERTAINTY, uncertainty),
+            ("tests", texts::TESTS, self.tests()),
+            ("readings", texts::READINGS, self.readings()),
+            ("subject", texts::SUBJECT, self.subject()),
+        ]);
+        sections
     }
 
     /// Returns whether the stand has changed since its last certificate, in a headline, and the reasons.
@@ -123,85 +132,50 @@ impl CertificationPage<'_> {
         }
     }
 
-    /// Writes who measured the stand and when, until when the certificate is valid, and the uncertainties that all positions
-    /// have in common.
-    fn band(&self, languages: &Languages, sections: &[Section]) -> Markup {
+    /// Who measured the stand and when, until when the certificate is valid, and the uncertainties that all positions have in
+    /// common, whose limits are in the section of this number.
+    fn band(&self, uncertainty: usize) -> Block {
         let certificate = &self.certification.stand.certificate;
-        let arcsec = |u| quantity(languages, &Number::uncertainty(u), units::ARCSEC);
-        let u = |value: Option<f64>| value.map_or_else(|| not_stated(languages), arcsec);
-        let [of_platform, of_base] = self.certification.freedom_of_common_parts();
-        let freedom =
-            certificate.repeatability_degrees_of_freedom.map(|number| Number::exact(number).markup(languages));
-        let of_part = |freedom: Option<f64>| {
-            freedom.map_or_else(|| html! { "–" }, |freedom| Number::at_most(freedom, 1).markup(languages))
-        };
-        // The limits stand in the section of the uncertainty.
-        let number = 1 + sections.iter().position(|(id, ..)| *id == UNCERTAINTY).unwrap_or_default();
-        let is_few = [of_platform, of_base].into_iter().flatten().any(|freedom| freedom < evidence::FEW_DEGREES);
+        let u = |value: Option<f64>| stated(value.map(|u| Words::Quantity(Number::uncertainty(u), units::ARCSEC)));
+        let nu = |freedom: Words| Words::All(vec![symbol("ν"), "\u{a0}=\u{a0}".into(), freedom]);
+        let of_parts = self.certification.freedom_of_common_parts();
+        let is_few = of_parts.into_iter().flatten().any(|freedom| freedom < evidence::FEW_DEGREES);
         let common = [certificate.common_platform_arcsec, certificate.common_base_arcsec];
+        let [of_platform, of_base] = of_parts.map(|freedom| freedom.map(|freedom| Number::at_most(freedom, 1)).into());
+        let mut freedom = vec![nu(of_platform), "; ".into(), of_base];
+        if is_few {
+            freedom.extend([" (".into(), texts::few(uncertainty), ")".into()]);
+        }
+        let inline = |words: Vec<Words>| note(Words::Inline(Box::new(words.into())));
+        let mut of_common = vec![note(texts::STANDARD), inline(freedom)];
         // An estimate of 0 is no proof that there is nothing.
-        let is_zero = common.contains(&Some(0.0));
-        let common = common.map(u);
-        let on = |name: Text, day| html! { p { (languages.inline(name)) ": " (date(languages, day)) } };
-        band(
-            languages,
-            [
-                (
-                    passport_texts::LABORATORY,
-                    given(&certificate.laboratory),
-                    certificate.performed.map_or_else(|| html! {}, |day| on(passport_texts::PERFORMED, day)),
-                ),
-                (
-                    passport_texts::VALID_UNTIL,
-                    certificate.valid_until.map_or_else(|| not_stated(languages), |day| date(languages, day)),
-                    on(passport_texts::CERTIFICATE_ISSUED, certificate.issued),
-                ),
-                (
-                    passport_texts::REPEATABILITY,
-                    u(certificate.repeatability_arcsec),
-                    html! { p { (languages.label(texts::OF_A_VISIT)) } @if let Some(freedom) = freedom { p { (symbol("ν", "")) "\u{a0}=\u{a0}" (freedom) } } },
-                ),
-                (
-                    texts::COMMON_PARTS,
-                    html! { (common[0]) "; " (common[1]) },
-                    html! {
-                        p { (languages.label(texts::STANDARD)) }
-                        p {
-                            (symbol("ν", "")) "\u{a0}=\u{a0}" (of_part(of_platform)) "; " (of_part(of_base))
-                            @if is_few {
-                                " (" (languages.inline_with(|language| texts::few(number).plain(language))) ")"
-                            }
-                        }
-                        @if is_zero { p { (languages.label_with(|language| texts::zero(number).plain(language))) } }
-                    },
-                ),
-            ],
-        )
+        of_common.extend(common.contains(&Some(0.0)).then(|| note(told(texts::zero(uncertainty)))));
+        let on = |name: Text, day| inline(vec![name.into(), ": ".into(), Words::Date(day)]);
+        let of_visits =
+            certificate.repeatability_degrees_of_freedom.map(|number| note(nu(Number::exact(number).into())));
+        let performed = certificate.performed.map(|day| on(passport_texts::PERFORMED, day));
+        Block::Band(vec![
+            (passport_texts::LABORATORY, doc::given(&certificate.laboratory), performed.into_iter().collect()),
+            (
+                passport_texts::VALID_UNTIL,
+                stated(certificate.valid_until),
+                vec![on(passport_texts::CERTIFICATE_ISSUED, certificate.issued)],
+            ),
+            (
+                passport_texts::REPEATABILITY,
+                u(certificate.repeatability_arcsec),
+                [note(texts::OF_A_VISIT)].into_iter().chain(of_visits).collect(),
+            ),
+            (texts::COMMON_PARTS, joined(common.map(u), "; "), of_common),
+        ])
     }
 
-    fn subject(&self, languages: &Languages) -> Markup {
+    fn subject(&self) -> Vec<Block> {
         let stand = &self.certification.stand;
         let mut all = general::stand(&stand.stand);
-        all.extend([general::certificate(&stand.certificate), doc::heading(passport_texts::DATUM)]);
+        all.extend([general::certificate(&stand.certificate), heading(passport_texts::DATUM)]);
         all.push(deviations::datum(stand.datum.as_ref()));
-        doc::blocks(&all, languages)
-    }
-
-    fn result(&self, languages: &Languages) -> Markup {
-        let positions = &self.certification.stand.positions;
-        html! {
-            (doc::blocks(&deviations::table(positions, "u"), languages))
-            (doc::blocks(&[deviations::note(positions, false)], languages))
-            (doc::blocks(&[evidence::outliers(self.certification)], languages))
-        }
-    }
-
-    fn uncertainty(&self, languages: &Languages) -> Markup {
-        html! {
-            (parts::heading(languages, texts::BUDGET))
-            (doc::blocks(&[deviations::common(&self.certification.stand.certificate)], languages))
-            (doc::blocks(&evidence::components(self.certification), languages))
-        }
+        all
     }
 
     fn tests(&self) -> Vec<Block> {
@@ -221,15 +195,5 @@ impl CertificationPage<'_> {
             (texts::FILE_SHA256, Words::Code(self.sha256()), true),
         ];
         [vec![doc::fields(fields.into())], evidence::exclusions(self.certification)].concat()
-    }
-
-    /// Writes the file of readings verbatim.
-    fn annex(&self, languages: &Languages) -> Markup {
-        let (_, bytes) = self.readings;
-        let number = &self.certification.stand.certificate.number;
-        let text = String::from_utf8_lossy(bytes).replace("\r\n", "\n");
-        let end = languages.label_with(|language| texts::end(number).plain(language));
-        let body = html! { (languages.paragraph(texts::ANNEX_NOTE)) (verbatim("", &text, &end)) };
-        section(languages, "annex", texts::ANNEX, body)
     }
 }

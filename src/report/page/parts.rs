@@ -4,8 +4,9 @@ use super::language::{Language, Languages, Text};
 use super::number::Number;
 use super::spacing::{BLANK, unbroken};
 use super::symbols::index;
+use crate::report::doc::{self, Block, Words, blank, heading, record, say};
 use crate::report::style::Outcome;
-use crate::wording::texts::{calibration, record, units, words};
+use crate::wording::texts::{calibration, record as forms, units, words};
 use crate::wording::{date_text, time_text};
 use base64ct::{Base64, Encoding};
 use jiff::Timestamp;
@@ -14,27 +15,45 @@ use maud::{Markup, html};
 use std::path::Path;
 
 /// Anchor, heading and content of a section.
-pub(crate) type Section = (&'static str, Text, Markup);
+pub(crate) type Section = (&'static str, Text, Vec<Block>);
 
-pub(crate) fn numbered(languages: &Languages, sections: &[Section]) -> Markup {
-    html! { @for (number, section) in (1..).zip(sections) { (section_of(languages, Some(number), section)) } }
-}
-
-/// Writes a section without a number.
-pub(crate) fn section(languages: &Languages, id: &'static str, heading: Text, body: Markup) -> Markup {
-    section_of(languages, None, &(id, heading, body))
-}
-
-fn section_of(languages: &Languages, number: Option<usize>, (id, heading, body): &Section) -> Markup {
-    let heading_id = format!("{id}-heading");
-    html! {
-        section id=(id) aria-labelledby=(heading_id) {
-            h2 id=(heading_id) {
-                (number_of(number))
-                (languages.label(*heading))
+impl Languages {
+    pub(crate) fn numbered(&self, sections: &[Section]) -> Markup {
+        html! {
+            @for (number, (id, heading, blocks)) in (1..).zip(sections) {
+                (self.section_of(Some(number), id, *heading, &doc::blocks(blocks, self)))
             }
-            (body)
         }
+    }
+
+    /// Writes a section without a number.
+    pub(crate) fn section(&self, id: &str, heading: Text, body: &Markup) -> Markup {
+        self.section_of(None, id, heading, body)
+    }
+
+    fn section_of(&self, number: Option<usize>, id: &str, heading: Text, body: &Markup) -> Markup {
+        let heading_id = format!("{id}-heading");
+        html! {
+            section id=(id) aria-labelledby=(heading_id) {
+                h2 id=(heading_id) { (number_of(number)) (self.label(heading)) }
+                (body)
+            }
+        }
+    }
+
+    /// Writes the annex: a note, a file verbatim in the language `lang`, and the words at its end. If it is not `printed`, the
+    /// screen has it, and paper its end.
+    pub(crate) fn annex(
+        &self,
+        (heading, note): (Text, Words),
+        (lang, text): (&str, &str),
+        end: &Words,
+        printed: bool,
+    ) -> Markup {
+        let end = end.label(self);
+        let body = html! { (self.said_in_paragraph(&note)) (verbatim(lang, text, &end)) };
+        let annex = self.section("annex", heading, &body);
+        html! { @if printed { (annex) } @else { p.end { (end) } div.save { (annex) } } }
     }
 }
 
@@ -43,47 +62,16 @@ fn number_of(number: Option<usize>) -> Markup {
     html! { @if let Some(number) = number { span.number { (number) } " " } }
 }
 
-pub(crate) fn heading(languages: &Languages, text: Text) -> Markup {
-    html! { h3 { (languages.label(text)) } }
-}
-
 /// Writes words from the file, whose language is unknown; designations and the parts of an id stay whole.
 pub(crate) fn given(words: &str) -> Markup {
     html! { span.given lang="" { (unbroken(words)) } }
 }
 
-/// Writes an empty space to fill in by hand.
-pub(crate) fn blank(languages: &Languages) -> Markup {
-    html! { span.blank role="img" aria-label=(languages.spoken(words::EMPTY)) {} }
-}
-
-/// Writes a name and its value, or a space to fill in by hand if the value is `None`.
-pub(crate) fn field(languages: &Languages, name: Text, value: Option<Markup>) -> Markup {
-    field_of(None, languages, name, value)
-}
-
-/// Writes a field over the full width, for long texts.
-pub(crate) fn wide_field(languages: &Languages, name: Text, value: Option<Markup>) -> Markup {
-    field_of(Some("wide"), languages, name, value)
-}
-
-fn field_of(class: Option<&str>, languages: &Languages, name: Text, value: Option<Markup>) -> Markup {
-    html! {
-        div class=[class] {
-            dt { (languages.label(name)) }
-            dd { (value.unwrap_or_else(|| blank(languages))) }
-        }
+impl Languages {
+    /// Writes an empty space to fill in by hand.
+    pub(crate) fn blank(&self) -> Markup {
+        html! { span.blank role="img" aria-label=(self.spoken(words::EMPTY)) {} }
     }
-}
-
-/// Writes a field over the full width, or that the file does not state its value: it is not to be completed by hand.
-pub(crate) fn wide_stated(languages: &Languages, name: Text, value: Option<Markup>) -> Markup {
-    wide_field(languages, name, Some(value.unwrap_or_else(|| not_stated(languages))))
-}
-
-/// Writes that the signed file does not state a value.
-pub(crate) fn not_stated(languages: &Languages) -> Markup {
-    html! { span.absent { (languages.inline(words::NOT_STATED)) } }
 }
 
 /// Writes the mark of an outcome; words beside it say the same.
@@ -97,116 +85,67 @@ pub(crate) fn mark(outcome: impl Into<Outcome>) -> Markup {
     html! { span class=(class) aria-hidden="true" { (outcome.mark()) } }
 }
 
-/// Writes words with the mark of their outcome before them.
-pub(crate) fn marked(outcome: impl Into<Outcome>, words: &Markup) -> Markup {
-    html! { (mark(outcome)) " " (words) }
+/// The fields of a signature; `who` asks for the person.
+pub(crate) fn signature(who: Text) -> Block {
+    record([who, forms::SIGNATURE, forms::DATE, forms::STAMP].map(blank))
 }
 
-/// Writes a headline with the mark of an outcome, and words about it, in the box of that outcome.
-pub(crate) fn outcome_box(outcome: impl Into<Outcome>, headline: &Markup, words: Markup) -> Markup {
-    let outcome = outcome.into();
-    let class = match outcome {
-        Outcome::Passed => "verdict",
-        Outcome::Failed => "verdict refused",
-        Outcome::Undecided | Outcome::NotAsked => "verdict neutral",
-    };
-    boxed(class, marked(outcome, headline), words)
+/// Forms for the signatures of some persons.
+pub(crate) fn signatures<const N: usize>(who: [Text; N]) -> [Block; 2] {
+    let form = |who| Block::Within("part pen", vec![heading(who), signature(forms::POST_AND_NAME)]);
+    let forms = Block::Within("pair", who.map(form).into());
+    [forms, Block::Within("statement", vec![say([calibration::VALID_WHEN_SIGNED])])]
 }
 
-/// Writes a headline and words about it in a box.
-pub(crate) fn boxed(class: &str, headline: Markup, words: Markup) -> Markup {
-    html! { div class=(class) { p.headline { (headline) } (words) } }
-}
-
-/// Writes the fields of a signature; `who` asks for the person.
-pub(crate) fn signature(languages: &Languages, who: Text) -> Markup {
-    let names = [who, record::SIGNATURE, record::DATE, record::STAMP];
-    fields(names.map(|name| field(languages, name, None)))
-}
-
-/// Writes forms for the signatures of some persons.
-pub(crate) fn signatures<const N: usize>(languages: &Languages, who: [Text; N]) -> Markup {
-    html! {
-        div.pair { @for who in who { div.part.pen { (heading(languages, who)) (signature(languages, record::POST_AND_NAME)) } } }
-        div.statement { (languages.paragraph(calibration::VALID_WHEN_SIGNED)) }
+impl Languages {
+    /// Writes a coordinate in degrees, with its hemisphere instead of a sign.
+    pub(crate) fn in_hemisphere(&self, degrees: Number, hemispheres: [Text; 2]) -> Markup {
+        let (number, hemisphere) = degrees.in_hemisphere(hemispheres);
+        html! { span.quantity { (number.markup(self)) "°" (BLANK) (self.inline(hemisphere)) } }
     }
-}
 
-/// Writes fields in as many columns as fit.
-pub(crate) fn fields(fields: impl IntoIterator<Item = Markup>) -> Markup {
-    html! { dl.fields { @for field in fields { (field) } } }
-}
-
-/// Writes a band of cells, each a name, a value in large letters, and words about it.
-pub(crate) fn band(languages: &Languages, cells: [(Text, Markup, Markup); 4]) -> Markup {
-    html! {
-        dl.band {
-            @for (name, value, words) in cells {
-                div {
-                    dt { (languages.label(name)) }
-                    dd.large { (value) }
-                    dd { (words) }
-                }
-            }
-        }
+    /// Writes a number and its unit without a line break between them.
+    pub(crate) fn quantity(&self, number: &Number, unit: Text) -> Markup {
+        // No space before the marks of angles (SI Brochure, 5.4.3).
+        let close = unit == units::ARCSEC || unit == units::DEGREES;
+        html! { span.quantity { (number.markup(self)) @if !close { (BLANK) } (self.in_brackets(unit)) } }
     }
-}
 
-/// Writes a coordinate in degrees, with its hemisphere instead of a sign.
-pub(crate) fn coordinate(languages: &Languages, degrees: f64, hemispheres: [Text; 2]) -> Markup {
-    in_hemisphere(languages, Number::exact(degrees), hemispheres)
-}
+    /// Returns the language in whose format the readers of all languages understand a date: year, month, day.
+    fn of_dates(&self) -> Language {
+        if self.single() { self.first() } else { Language::English }
+    }
 
-/// Writes a number of degrees as [`coordinate`] does.
-pub(crate) fn in_hemisphere(languages: &Languages, degrees: Number, hemispheres: [Text; 2]) -> Markup {
-    let (number, hemisphere) = degrees.in_hemisphere(hemispheres);
-    html! { span.quantity { (number.markup(languages)) "°" (BLANK) (languages.inline(hemisphere)) } }
-}
+    /// Writes a date.
+    pub(crate) fn date(&self, date: Date) -> Markup {
+        html! { time datetime=(date) { (date_text(self.of_dates(), date)) } }
+    }
 
-/// Writes a number and its unit without a line break between them.
-pub(crate) fn quantity(languages: &Languages, number: &Number, unit: Text) -> Markup {
-    // No space before the marks of angles (SI Brochure, 5.4.3).
-    let close = unit == units::ARCSEC || unit == units::DEGREES;
-    html! { span.quantity { (number.markup(languages)) @if !close { (BLANK) } (languages.in_brackets(unit)) } }
-}
-
-/// Returns the language in whose format the readers of all languages understand a date: year, month, day.
-fn of_dates(languages: &Languages) -> Language {
-    if languages.single() { languages.first() } else { Language::English }
-}
-
-/// Writes a date.
-pub(crate) fn date(languages: &Languages, date: Date) -> Markup {
-    html! { time datetime=(date) { (date_text(of_dates(languages), date)) } }
-}
-
-/// Writes a time in UTC.
-pub(crate) fn time(languages: &Languages, time: Timestamp) -> Markup {
-    html! { time datetime=(time) { (unbroken(&time_text(of_dates(languages), time))) } }
+    /// Writes a time in UTC.
+    pub(crate) fn time(&self, time: Timestamp) -> Markup {
+        html! { time datetime=(time) { (unbroken(&time_text(self.of_dates(), time))) } }
+    }
 }
 
 pub(crate) fn symbol(letter: &str, subscript: &str) -> Markup {
     html! { span.symbol { i { (letter) } @if !subscript.is_empty() { (index(subscript)) } } }
 }
 
-/// Writes a picture with its caption, which the style sheet numbers; `id` is its name there. The picture contains its own description for
-/// screen readers.
-pub(crate) fn figure(languages: &Languages, id: &str, drawing: &Markup, caption: Text) -> Markup {
-    figure_with(languages, id, drawing, |language| caption.words(language))
-}
+impl Languages {
+    /// Writes a picture with its caption, which the style sheet numbers; `id` is its name there. The picture contains its own description for
+    /// screen readers.
+    pub(crate) fn figure(&self, id: &str, drawing: &Markup, caption: Text) -> Markup {
+        self.figure_with(id, drawing, |language| caption.words(language))
+    }
 
-/// Writes a picture as `figure` does; `caption` gives its words in each language.
-pub(crate) fn figure_with(
-    languages: &Languages,
-    id: &str,
-    drawing: &Markup,
-    caption: impl Fn(Language) -> String,
-) -> Markup {
-    let second = languages.iter().nth(1).map(|language| format!("--second:\"{}\"", words::FIGURE.of(language)));
-    html! {
-        figure id={ "figure-" (id) } style=[second] {
-            (drawing)
-            figcaption data-word=(languages.spoken(words::FIGURE)) { (languages.label_with(caption)) }
+    /// Writes a picture as `figure` does; `caption` gives its words in each language.
+    pub(crate) fn figure_with(&self, id: &str, drawing: &Markup, caption: impl Fn(Language) -> String) -> Markup {
+        let second = self.iter().nth(1).map(|language| format!("--second:\"{}\"", words::FIGURE.of(language)));
+        html! {
+            figure id={ "figure-" (id) } style=[second] {
+                (drawing)
+                figcaption data-word=(self.spoken(words::FIGURE)) { (self.label_with(caption)) }
+            }
         }
     }
 }
@@ -243,20 +182,22 @@ pub(crate) fn data_address(kind: &str, bytes: &[u8]) -> String {
     format!("data:{kind};base64,{}", Base64::encode_string(bytes))
 }
 
-/// Writes what only a screen needs: the file to save, and links to the sections and to the annex.
-pub(crate) fn contents(
-    languages: &Languages,
-    save: Text,
-    (address, name): (&str, &str),
-    sections: &[Section],
-    annex: Text,
-) -> Markup {
-    let numbered = (1..).zip(sections).map(|(number, (id, heading, _))| (Some(number), *id, *heading));
-    let headings = numbered.chain([(None, "annex", annex)]);
-    html! {
-        nav.screen aria-label=(languages.spoken(words::CONTENTS)) {
-            ol { @for (number, id, heading) in headings { li { (number_of(number)) a href={ "#" (id) } { (languages.inline(heading)) } } } }
-            a.button href=(address) download=(name) { (languages.inline(save)) }
+impl Languages {
+    /// Writes what only a screen needs: the file to save, and links to the sections and to the annex.
+    pub(crate) fn contents(
+        &self,
+        save: Text,
+        (address, name): (&str, &str),
+        sections: &[Section],
+        annex: Text,
+    ) -> Markup {
+        let numbered = (1..).zip(sections).map(|(number, (id, heading, _))| (Some(number), *id, *heading));
+        let headings = numbered.chain([(None, "annex", annex)]);
+        html! {
+            nav.screen aria-label=(self.spoken(words::CONTENTS)) {
+                ol { @for (number, id, heading) in headings { li { (number_of(number)) a href={ "#" (id) } { (self.inline(heading)) } } } }
+                a.button href=(address) download=(name) { (self.inline(save)) }
+            }
         }
     }
 }

@@ -9,7 +9,7 @@ use crate::report::doc::{
 };
 use crate::report::page::language::{Language, Text};
 use crate::report::page::number::{LARGEST_IN_ARCSEC, Number};
-use crate::report::page::parts::{figure_with, starts};
+use crate::report::page::parts::starts;
 use crate::report::picture::deviations::Bars;
 use crate::report::picture::positions as pictures;
 use crate::stand::{ActsOn, Certificate, CertifiedPosition, Datum, Excluded, TypeB};
@@ -189,7 +189,7 @@ fn figure(content: &Content) -> Block {
     let draw: Drawn = drawn(move |languages| {
         let factor = Number::exact(pictures::exaggeration(&positions));
         let picture = pictures::positions(languages, &positions, azimuth_deg);
-        figure_with(languages, "positions", &picture, |language| texts::figure_positions(&factor).plain(language))
+        languages.figure_with("positions", &picture, |language| texts::figure_positions(&factor).plain(language))
     });
     Block::Drawn(draw)
 }

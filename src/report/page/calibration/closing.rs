@@ -1,8 +1,9 @@
 //! Signature lines of the calibration report, and its annex: the result as JSON.
 
 use super::CalibrationPage;
+use crate::report::doc::{self, say, told};
 use crate::report::page::language::Languages;
-use crate::report::page::parts::{section, signatures, verbatim};
+use crate::report::page::parts::signatures;
 use crate::wording::texts::calibration as texts;
 use maud::{Markup, html};
 use serde::Serialize;
@@ -11,13 +12,12 @@ use serde_json::ser::Formatter;
 use std::io::{self, Write};
 
 pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let signed = html! {
-        (languages.paragraph(texts::ONLY_THIS_ONE))
-        (signatures(languages, [texts::CALIBRATED_BY, texts::APPROVED_BY]))
-    };
+    let signed = [vec![say([texts::ONLY_THIS_ONE])], signatures([texts::CALIBRATED_BY, texts::APPROVED_BY]).into()];
+    let note = (texts::ANNEX, texts::ANNEX_NOTE.into());
     html! {
-        (section(languages, "signatures", texts::SIGNATURES, signed))
-        (annex(page, languages))
+        (languages.section("signatures", texts::SIGNATURES, &doc::blocks(&signed.concat(), languages)))
+        // In print with details only; the screen has it in any case.
+        (languages.annex(note, ("en", &json(page)), &told(texts::end(page.name())), page.details))
     }
 }
 
@@ -31,14 +31,6 @@ pub(super) fn json(page: &CalibrationPage) -> String {
         Ok(()) => String::from_utf8(json).unwrap_or_default().replace(", \n", ",\n") + "\n",
         Err(_) => String::new(),
     }
-}
-
-fn annex(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let end = languages.label_with(|language| texts::end(page.name(language)).plain(language));
-    let body = html! { (languages.paragraph(texts::ANNEX_NOTE)) (verbatim("en", &json(page), &end)) };
-    let annex = section(languages, "annex", texts::ANNEX, body);
-    // In print with details only; the screen has it in any case.
-    html! { @if page.details { (annex) } @else { p.end { (end) } div.save { (annex) } } }
 }
 
 /// A JSON formatter that writes each key of the document and of each result on its own line, and so each object of a list.

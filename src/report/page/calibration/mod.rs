@@ -8,11 +8,10 @@
 mod closing;
 mod subject;
 
-use super::language::{Language, Languages};
-use super::parts::{Section, boxed, contents, data_address, marked, numbered, outcome_box};
+use super::language::Languages;
+use super::parts::{Section, data_address};
 use super::passport::PassportPage;
 use super::shell::{Margins, document};
-use super::symbols::italic;
 use crate::calibration::Calibration;
 use crate::calibration::document::CalibrationDocument;
 use crate::calibration::remarks::of_mistake;
@@ -22,11 +21,12 @@ use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
 use crate::report::calibration::{Report, counted, symbols, what_may_be_wrong, why_no_change};
+use crate::report::doc::{self, Block, listed, marked, outcome_box, say, told};
 use crate::report::style::Outcome;
-use crate::report::{doc, uncertainty};
+use crate::report::uncertainty;
 use crate::uncertainty::{Budget, MonteCarlo};
+use crate::wording::Words;
 use crate::wording::texts::calibration as texts;
-use crate::wording::{Words, date_text};
 use jiff::Timestamp;
 use maud::{Markup, html};
 
@@ -96,7 +96,7 @@ pub struct CalibrationPage<'a> {
 impl CalibrationPage<'_> {
     /// Returns the report as one self-contained HTML document.
     pub fn html(&self, languages: &Languages) -> String {
-        let name = self.name(languages.first());
+        let name = self.name().plain(languages.first());
         let margins = Margins {
             top_left: texts::margin(&name).plain(languages.first()),
             top_right: match (self.verified(), self.fits(), &self.document.mistake) {
@@ -140,24 +140,15 @@ impl CalibrationPage<'_> {
     }
 
     /// Returns the numbered sections: those on request only if they were requested.
-    fn sections(&self, languages: &Languages) -> Vec<Section> {
-        let report = self.report();
-        let mut sections: Vec<Section> = report
-            .sections()
-            .into_iter()
-            .map(|(id, heading, blocks)| (id, heading, doc::blocks(&blocks, languages)))
-            .collect();
+    fn sections(&self) -> Vec<Section> {
+        let mut sections = self.report().sections();
         let methods = (sections.len() > 3).then(|| sections.pop()).flatten();
-        if let Some(budget) = self.budget {
-            let blocks = uncertainty::budget(budget, self.gyro, self.document);
-            sections.push(("budget", texts::BUDGET, doc::blocks(&blocks, languages)));
-        }
-        if let Some(found) = self.monte_carlo {
-            let blocks = uncertainty::monte_carlo(found);
-            sections.push(("monte-carlo", texts::MONTE_CARLO, doc::blocks(&blocks, languages)));
-        }
+        let budget = self.budget.map(|budget| uncertainty::budget(budget, self.gyro, self.document));
+        sections.extend(budget.map(|blocks| ("budget", texts::BUDGET, blocks)));
+        let monte_carlo = self.monte_carlo.map(uncertainty::monte_carlo);
+        sections.extend(monte_carlo.map(|blocks| ("monte-carlo", texts::MONTE_CARLO, blocks)));
         sections.extend(methods);
-        sections.push(("subject", texts::SUBJECT, subject::section(self, languages)));
+        sections.push(("subject", texts::SUBJECT, subject::section(self)));
         sections
     }
 
@@ -172,19 +163,18 @@ impl CalibrationPage<'_> {
     }
 
     /// Returns the type and the serial number of the gyro, as far as they were stated.
-    fn gyro_name(&self, language: Language) -> String {
+    fn gyro_name(&self) -> Words {
         let of_type = self.gyro.map(|gyro| gyro.r#type.clone());
         let name: Vec<_> = of_type.into_iter().chain(self.serial().map(|serial| format!("№\u{a0}{serial}"))).collect();
-        if name.is_empty() { texts::GYRO_NOT_STATED.words(language) } else { name.join(" ") }
+        if name.is_empty() { texts::GYRO_NOT_STATED.into() } else { name.join(" ").into() }
     }
 
     /// Returns the name of the report: the gyro, the day of the readings if it was stated, and the first digits of the
     /// SHA-256 of the currents.
-    fn name(&self, language: Language) -> String {
-        let day = self.document.date().map(|day| date_text(language, day));
-        let gyro = [self.gyro_name(language)].into_iter().chain(day).collect::<Vec<_>>().join(", ");
+    fn name(&self) -> Words {
+        let day = self.document.date().map(Words::Date);
         let sha256 = self.currents.1.get(..NAMED_DIGITS).unwrap_or(&self.currents.1);
-        texts::name(gyro, sha256).plain(language)
+        texts::name(listed([self.gyro_name()].into_iter().chain(day)), sha256)
     }
 
     fn verified(&self) -> bool {
@@ -197,77 +187,66 @@ impl CalibrationPage<'_> {
 
     fn body(&self, languages: &Languages) -> Markup {
         let address = data_address("application/json", closing::json(self).as_bytes());
-        let sections = self.sections(languages);
+        let sections = self.sections();
+        let head = [self.headlines(), vec![self.verdict(), subject::band(self)]].concat();
         html! {
             header.title {
                 p.kind { (languages.label(texts::TITLE)) }
-                h1 { (languages.label_with(|language| self.gyro_name(language))) }
+                h1 { (self.gyro_name().label(languages)) }
                 p.subject { (languages.label(texts::SUBTITLE)) }
             }
             main {
-                (self.headlines(languages))
-                (subject::band(self, languages))
-                (contents(languages, texts::SAVE, (&address, "calibration.json"), &sections, texts::ANNEX))
-                (numbered(languages, &sections))
+                (doc::blocks(&head, languages))
+                (languages.contents(texts::SAVE, (&address, "calibration.json"), &sections, texts::ANNEX))
+                (languages.numbered(&sections))
                 (closing::sections(self, languages))
             }
         }
     }
 
-    /// Writes the warnings at the head of the report, the most serious first.
-    fn headlines(&self, languages: &Languages) -> Markup {
-        html! {
-            @if !self.verified() {
-                @let headline = marked(Outcome::NotAsked, &languages.label(texts::NOT_VERIFIED));
-                (boxed("verdict refused", headline, languages.paragraph(texts::NOT_VERIFIED_WORDS)))
-            }
-            @if let Some(hint) = &self.calibration.hint {
-                @let words = html! { (languages.paragraph(texts::DOES_NOT_FIT_WORDS)) (doc::blocks(&what_may_be_wrong(hint), languages)) };
-                (outcome_box(Outcome::Failed, &languages.label(texts::DOES_NOT_FIT), words))
-            }
-            @if let Some(mistake) = &self.document.mistake {
-                @let words = languages.said_in_paragraph(&of_mistake(mistake));
-                (outcome_box(Outcome::Failed, &languages.label(texts::MISTAKE), words))
-            }
-            @if let Some(why) = self.previous.iter().rev().find_map(|earlier| self.document.no_change(earlier)) {
-                (outcome_box(Outcome::Undecided, &languages.label(texts::NO_CHANGE), languages.paragraph(why_no_change(why))))
-            }
-            (subject::temperature(self, languages))
-            (subject::date_of_readings(self, languages))
-            (self.verdict(languages))
-        }
+    /// The warnings at the head of the report, the most serious first.
+    fn headlines(&self) -> Vec<Block> {
+        let not_verified = (!self.verified()).then(|| {
+            let headline = marked(Outcome::NotAsked, texts::NOT_VERIFIED);
+            Block::Boxed("verdict refused", headline, vec![say([texts::NOT_VERIFIED_WORDS])])
+        });
+        let hint = self.calibration.hint.as_ref().map(|hint| {
+            let causes = [vec![say([texts::DOES_NOT_FIT_WORDS])], what_may_be_wrong(hint)].concat();
+            outcome_box(Outcome::Failed, texts::DOES_NOT_FIT, causes)
+        });
+        let mistake = self.document.mistake.as_ref();
+        let mistake = mistake.map(|found| outcome_box(Outcome::Failed, texts::MISTAKE, vec![say([of_mistake(found)])]));
+        let no_change = self.previous.iter().rev().find_map(|earlier| self.document.no_change(earlier));
+        let no_change =
+            no_change.map(|why| outcome_box(Outcome::Undecided, texts::NO_CHANGE, vec![say([why_no_change(why)])]));
+        let doubts = [subject::temperature(self), subject::date_of_readings(self)];
+        [not_verified, hint, mistake, no_change].into_iter().chain(doubts).flatten().collect()
     }
 
-    /// Writes which stated values are usually a mistake in the unit.
-    fn implausible(&self, languages: &Languages) -> Markup {
-        let remarks = |language: Language| {
-            let of_laboratory = self.laboratory.into_iter().flat_map(move |laboratory| laboratory.remarks(language));
-            of_laboratory.chain(self.gyro.into_iter().flat_map(move |gyro| gyro.remarks(language))).collect::<Vec<_>>()
-        };
-        let words =
-            |language: Language| remarks(language).into_iter().map(|words| words + ".").collect::<Vec<_>>().join(" ");
-        html! {
-            @if !remarks(languages.first()).is_empty() { (languages.paragraph_with(|language| italic(&words(language)))) }
-        }
+    /// The stated values that are usually a mistake in the unit.
+    fn implausible(&self) -> Block {
+        let of_laboratory = self.laboratory.into_iter().flat_map(Laboratory::remarks);
+        let all = of_laboratory.chain(self.gyro.into_iter().flat_map(GyroType::remarks));
+        say(all.map(|words| vec![told(words), ".".into()]))
     }
 
-    fn verdict(&self, languages: &Languages) -> Markup {
+    fn verdict(&self) -> Block {
         let Some((gyro, verdict)) = self.judged() else {
-            let words = html! {
-                (languages.paragraph_with(|language| html! { (texts::NO_TYPE_WORDS.words(language)) (self.not_in_u(language)) }))
-                (languages.paragraph(texts::NOT_TESTED))
-                (self.unexplained_change(languages))
-                (self.not_linear(languages))
-                (self.implausible(languages))
-            };
-            return outcome_box(Outcome::NotAsked, &languages.label(texts::NO_TYPE), words);
+            let no_type = [texts::NO_TYPE_WORDS.into()].into_iter().chain(self.not_in_u());
+            let words = vec![
+                say(no_type),
+                say([texts::NOT_TESTED]),
+                self.unexplained_change(),
+                self.not_linear(),
+                self.implausible(),
+            ];
+            return outcome_box(Outcome::NotAsked, texts::NO_TYPE, words);
         };
+        let kind = &gyro.r#type;
         if verdict.withheld {
-            let name = |language: Language| texts::no_statement(&gyro.r#type).plain(language);
-            return outcome_box(Outcome::NotAsked, &languages.label_with(name), self.implausible(languages));
+            return outcome_box(Outcome::NotAsked, told(texts::no_statement(kind)), vec![self.implausible()]);
         }
         let change = self.document.stated_change();
-        let kind = &gyro.r#type;
         let name = match (verdict.overall, change.map(|change| change.overall)) {
             (Decision::Fail, _) => texts::conforms_not(kind),
             (_, Some(Decision::Fail)) => texts::changed_too_much(kind),
@@ -275,60 +254,46 @@ impl CalibrationPage<'_> {
             (Decision::Pass, Some(Decision::Undecided)) => texts::change_undecided(kind),
             (Decision::Pass, _) => texts::conforms(kind),
         };
-        let worst = verdict.with_change(change);
-        let words = html! {
-            (self.counted(verdict, texts::passed, |language| self.not_in_u(language), languages))
-            @if let Some(change) = change {
-                @let then = |language| html! { @if !self.report().is_same_gyro() { " " (texts::SAME_GYRO_NOT_SHOWN.words(language)) } };
-                (self.counted(change, texts::change_passed, then, languages))
-            }
-            (self.not_linear(languages))
-            (self.implausible(languages))
-            (languages.paragraph(texts::RULE))
-        };
-        outcome_box(worst, &name.label(languages), words)
+        let of_change = change.map(|change| {
+            let unknown = (!self.report().is_same_gyro()).then(|| texts::SAME_GYRO_NOT_SHOWN.into());
+            counted_in_all(change, texts::change_passed, unknown)
+        });
+        let mut words = vec![counted_in_all(verdict, texts::passed, self.not_in_u())];
+        words.extend(of_change);
+        words.extend([self.not_linear(), self.implausible(), say([texts::RULE])]);
+        outcome_box(verdict.with_change(change), name, words)
     }
 
-    /// Writes how many parameters pass, and which were not assessed; `then` is what follows.
-    fn counted(
-        &self,
-        verdict: &Verdict,
-        passed: fn(usize, usize) -> Words,
-        then: impl Fn(Language) -> Markup,
-        languages: &Languages,
-    ) -> Markup {
-        let counted = counted(verdict, |row| row.guarded, passed);
-        let not_found = symbols(verdict.not_found());
-        languages.paragraph_with(|language| {
-            html! {
-                (counted.html(language, languages))
-                @if !verdict.not_found().is_empty() {
-                    "; " (texts::not_in_the_model(not_found.clone()).html(language, languages))
-                }
-                "." (then(language))
-            }
-        })
-    }
-
-    /// Writes how many inputs U does not include, after a sentence; nothing if there are none.
-    fn not_in_u(&self, language: Language) -> Markup {
+    /// How many inputs U does not include.
+    fn not_in_u(&self) -> Vec<Words> {
         let count = self.missing.len();
-        let more = subject::outside(self).map(|_| texts::AND_TEMPERATURE.words(language)).unwrap_or_default();
-        html! {
-            @if count > 0 { " " (italic(&texts::not_in_u(count, more).plain(language))) }
-            @if self.laboratory.is_none() { " " (texts::METER_IS_ASSUMED.words(language)) }
-        }
+        let more = subject::outside(self).map_or_else(|| "".into(), |_| Words::from(texts::AND_TEMPERATURE));
+        let counted = (count > 0).then(|| told(texts::not_in_u(count, more)));
+        counted.into_iter().chain(self.laboratory.is_none().then(|| texts::METER_IS_ASSUMED.into())).collect()
     }
 
-    /// Writes the parameters that have changed more than chance explains, if no type decides on the change.
-    fn unexplained_change(&self, languages: &Languages) -> Markup {
-        let words = self.previous.last().and_then(|earlier| self.document.unexplained_in_words(earlier));
-        html! { @if let Some(words) = words { (languages.said_in_paragraph(&words)) } }
+    /// The parameters that have changed more than chance explains, if no type decides on the change.
+    fn unexplained_change(&self) -> Block {
+        say(self.previous.last().and_then(|earlier| self.document.unexplained_in_words(earlier)))
     }
 
-    /// Writes the parameters for which a Monte Carlo run shows that the linear approximation is not valid.
-    fn not_linear(&self, languages: &Languages) -> Markup {
-        let words = self.monte_carlo.and_then(uncertainty::not_linear);
-        html! { @if let Some(words) = words { (languages.said_in_paragraph(&words)) } }
+    /// The parameters for which a Monte Carlo run shows that the linear approximation is not valid.
+    fn not_linear(&self) -> Block {
+        say(self.monte_carlo.and_then(uncertainty::not_linear))
     }
+}
+
+/// How many parameters pass, and which were not assessed; then what follows.
+fn counted_in_all(
+    verdict: &Verdict,
+    passed: fn(usize, usize) -> Words,
+    then: impl IntoIterator<Item = Words>,
+) -> Block {
+    let mut all = vec![counted(verdict, |row| row.guarded, passed)];
+    let not_found = verdict.not_found();
+    if !not_found.is_empty() {
+        all.extend(["; ".into(), texts::not_in_the_model(symbols(not_found))]);
+    }
+    all.push(".".into());
+    say([Words::All(all)].into_iter().chain(then))
 }

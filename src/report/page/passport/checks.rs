@@ -3,29 +3,21 @@
 
 use super::PassportPage;
 use crate::passport::{Check, CheckName, Code};
-use crate::report::doc::{Block, Rows, Words, listed, marked, told};
+use crate::report::doc::{Block, Rows, Words, listed, marked, note, outcome_box, told};
 use crate::report::page::language::{Languages, Text};
-use crate::report::page::parts;
 use crate::report::verdict::{said, word};
 use crate::wording::texts::checks as texts;
-use maud::{Markup, html};
 
 /// Returns `true` if nothing shows whether the passport has been withdrawn.
 pub(crate) fn withdrawal_not_checked(page: &PassportPage) -> bool {
     page.verification.code(CheckName::Revocation) == Some(Code::NotAsked)
 }
 
-/// Writes why the passport may not be used, in large letters; nothing if it may.
-pub(super) fn refusal(page: &PassportPage, languages: &Languages) -> Markup {
-    if page.verification.valid() {
-        return html! {};
-    }
-    let time = told(texts::genuine(Words::Time(page.question.time)));
-    let why = html! {
-        p { (time.label(languages)) }
-        ul { @for check in failed(page) { li { (told(words(page, check)).label(languages)) } } }
-    };
-    parts::boxed("verdict refused", parts::marked(Some(false), &headline(page).label(languages)), why)
+/// Why the passport may not be used, in large letters; nothing if it may.
+pub(super) fn refusal(page: &PassportPage) -> Option<Block> {
+    let time = note(told(texts::genuine(Words::Time(page.question.time))));
+    let why = Block::List(failed(page).map(|check| told(words(page, check))).collect());
+    (!page.verification.valid()).then(|| outcome_box(Some(false), headline(page), vec![time, why]))
 }
 
 /// "In force", or the reasons why the passport may not be used.

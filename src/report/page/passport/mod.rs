@@ -13,12 +13,11 @@ mod front;
 mod record;
 
 use super::language::{Language, Languages};
-use super::parts::{Section, contents, data_address, numbered, section, verbatim};
+use super::parts::{Section, data_address};
 use super::shell::{Margins, document};
-use super::symbols::italic;
 use crate::document::sha256_hex;
 use crate::passport::{Content, Question, Trust, Verification, verify};
-use crate::report::doc;
+use crate::report::doc::told;
 use crate::report::passport;
 use crate::trust::PublicKey;
 use crate::wording::texts::{passport as texts, record as record_texts};
@@ -107,19 +106,17 @@ impl<'a> PassportPage<'a> {
 
     fn body(&self, languages: &Languages) -> Markup {
         let address = data_address("application/yaml", self.text.as_bytes());
-        let sections = passport::sections(&self.content);
-        let mut sections: Vec<Section> =
-            sections.map(|(id, heading, blocks)| (id, heading, doc::blocks(&blocks, languages))).into();
+        let mut sections: Vec<Section> = passport::sections(&self.content).into();
         if self.prints_forms || (languages.single() && languages.first() == Language::Russian) {
             let forms = record::section(&self.content.stand, &self.content.passport.id);
-            sections.push(("record", record_texts::RECORD, doc::blocks(&forms, languages)));
+            sections.push(("record", record_texts::RECORD, forms));
         }
-        let contents = contents(languages, texts::SAVE, (&address, &self.file_name()), &sections, texts::ANNEX);
+        let contents = languages.contents(texts::SAVE, (&address, &self.file_name()), &sections, texts::ANNEX);
         html! {
             (front::title(self, languages))
             main {
                 (front::section(self, languages, &contents))
-                (numbered(languages, &sections))
+                (languages.numbered(&sections))
                 (self.annex(languages))
             }
         }
@@ -127,15 +124,7 @@ impl<'a> PassportPage<'a> {
 
     /// Writes the signed file verbatim, to read, to copy and to save.
     fn annex(&self, languages: &Languages) -> Markup {
-        let (id, name) = (&self.content.passport.id, self.file_name());
-        let end = languages.label_with(|language| texts::end(id).plain(language));
-        let body = html! {
-            (languages.paragraph_with(|language| italic(&texts::annex_note(&name).plain(language))))
-            (verbatim("en", self.text, &end))
-        };
-        let annex = section(languages, "annex", texts::ANNEX, body);
-        html! {
-            @if self.prints_annex { (annex) } @else { p.end { (end) } div.save { (annex) } }
-        }
+        let note = (texts::ANNEX, told(texts::annex_note(self.file_name())));
+        languages.annex(note, ("en", self.text), &told(texts::end(&self.content.passport.id)), self.prints_annex)
     }
 }
