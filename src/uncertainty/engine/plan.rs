@@ -49,11 +49,11 @@ impl Plan {
         let known = |u: f64, basis| if basis == Basis::Known { (u, 0.0) } else { (0.0, u) };
         let (platform, platform_alone) = known(u.common_platform_rad, estimates.platform);
         let (base, base_alone) = known(u.common_base_rad, estimates.base);
-        for axis in 0..3 {
+        for (axis, of_base) in BASE_AT_SITE.into_iter().enumerate() {
             add(Cause::Seat(axis), libm::hypot(platform, u.seating_rad[axis]), Basis::Known);
             add(Cause::Platform(axis), platform_alone, estimates.platform);
             let own = if axis == 2 { libm::hypot(u.azimuth_rad, u.mark_rad) } else { u.level_rad };
-            add(BASE_AT_SITE[axis], libm::hypot(base, own), Basis::Known);
+            add(of_base, libm::hypot(base, own), Basis::Known);
             add(Cause::Base(axis), base_alone, estimates.base);
         }
         add(Cause::Latitude, libm::hypot(u.latitude_rad, u.deflection_rad), Basis::Known);
