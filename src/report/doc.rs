@@ -10,7 +10,6 @@ pub(crate) use crate::wording::words::{
     Counted, Field, Statement, Words, code, given, in_unit, joined, listed, longest, marked, padded, probability,
     strong, symbol, told,
 };
-pub(crate) use html::blocks;
 pub(crate) use terminal::{said, sentence, text};
 
 use super::page::language::{Language, Languages, Text};

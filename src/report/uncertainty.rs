@@ -138,7 +138,7 @@ fn shares(budget: &Budget, verdict: Option<&Verdict>) -> [Block; 2] {
     let legend = drawn(move |languages| {
         let samples: Vec<_> =
             (0..names.len()).map(|place| strips::sample(Some(place).filter(|place| *place < letters))).collect();
-        legend_with(samples.iter().zip(names.iter().map(|name| name.label(languages))))
+        legend_with(samples.iter().zip(names.iter().map(|name| languages.name(name))))
     });
     let caption = if at_type { texts::SHARES_CAPTION_AT_TYPE } else { texts::SHARES_CAPTION };
     [table.captioned(caption, caption), Block::Drawn(legend)]

@@ -133,7 +133,7 @@ function unfit() {
   }
   // The kind of the document is not broken before its last word.
   const kind = document.createRange();
-  kind.selectNodeContents(document.querySelector(".kind > span"));
+  kind.selectNodeContents(document.querySelector(".kind > span") ?? document.querySelector(".kind"));
   const lines = [...kind.getClientRects()].map((line) => line.width);
   if (lines.at(-1) < 0.4 * Math.max(...lines)) found.push(`a short last line: ${lines}`);
   for (const row of document.querySelectorAll(".result:not(.past) tbody tr")) {

@@ -73,11 +73,11 @@ impl CertificationPage<'_> {
                 p.subject { (languages.label(texts::SUBTITLE)) }
             }
             main {
-                (doc::blocks(&head.collect::<Vec<_>>(), languages))
+                (languages.blocks(&head.collect::<Vec<_>>()))
                 (languages.contents(texts::SAVE, (&address, file_name(self.readings.0)), &sections, texts::ANNEX))
                 (languages.numbered(&sections))
                 @if !self.dry_run {
-                    (languages.section("signatures", calibration_texts::SIGNATURES, &doc::blocks(&signatures(who), languages)))
+                    (languages.section("signatures", calibration_texts::SIGNATURES, &languages.blocks(&signatures(who))))
                 }
                 (languages.annex(note, ("", &text), &told(texts::end(&stand.certificate.number)), true))
             }

@@ -16,23 +16,26 @@ pub(crate) fn picture(text: &str, label: &str) -> Option<Markup> {
     Some(html! {
         svg.code role="img" aria-label=(label) viewBox={ "0 0 " (size) " " (size) } shape-rendering="crispEdges" {
             rect width=(size) height=(size) fill="#fff" {}
-            path fill="#000" d=(path(&code)) {}
+            path stroke="#000" d=(path(&code)) {}
         }
     })
 }
 
-/// Returns an SVG path with one rectangle, one module high, for every run of dark modules in a row.
+/// Returns an SVG path along the middle of every run of dark modules in a row; a line one module wide covers them.
 fn path(code: &QrCode) -> String {
     let mut path = String::new();
     let modules = code.to_colors();
     for (y, row) in modules.chunks(code.width()).enumerate() {
-        let mut x = 0;
+        let (mut x, mut drawn_to) = (QUIET, None);
         for run in row.chunk_by(|a, b| a == b) {
-            let length = run.len();
             if run.first() == Some(&Color::Dark) {
-                let _ = write!(path, "M{} {}h{length}v1h-{length}z", x + QUIET, y + QUIET);
+                let _ = match drawn_to {
+                    None => write!(path, "M{x} {}.5h{}", y + QUIET, run.len()),
+                    Some(end) => write!(path, "m{} 0h{}", x - end, run.len()),
+                };
+                drawn_to = Some(x + run.len());
             }
-            x += length;
+            x += run.len();
         }
     }
     path

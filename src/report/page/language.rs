@@ -97,8 +97,12 @@ impl Languages {
 
     /// Writes the wordings within a line, the languages after the first between these strings and in this class.
     fn spans(&self, say: impl Fn(Language) -> String, [before, after]: [&str; 2], class: Option<&str>) -> Markup {
+        let sayings = self.sayings(say);
+        if let [(_, words)] = sayings.as_slice() {
+            return italic(words);
+        }
         html! {
-            @for (index, (language, words)) in self.sayings(say).iter().enumerate() {
+            @for (index, (language, words)) in sayings.iter().enumerate() {
                 @let other = index > 0;
                 @if other { (before) }
                 span class=[class.filter(|_| other)] lang=[self.marked(*language)] { (italic(words)) }

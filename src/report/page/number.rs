@@ -9,26 +9,43 @@ pub(crate) use crate::wording::number::{
     LARGEST_IN_ARCSEC, LATITUDES, LONGITUDES, Number, THIN_BLANK, localised, superscripts,
 };
 
-impl Number {
+impl Languages {
     /// Writes the number as an element that carries the value itself for programs, in the notation of signed documents.
-    pub(crate) fn markup(&self, languages: &Languages) -> Markup {
-        html! { data value=(number::decimal(self.value)) { (self.text(languages.first())) } }
-    }
-
-    /// Writes the number as `markup` does, and after it invisible characters that make its tail as long as `longest`, so
-    /// that the decimal marks of a column align.
-    fn aligned(&self, languages: &Languages, longest: &Tail) -> Markup {
-        html! { (self.markup(languages)) (self.pad(languages, longest)) }
+    pub(crate) fn number(&self, number: &Number) -> Markup {
+        html! { data value=(number::decimal(number.value)) { (number.text(self.first())) } }
     }
 
     /// Writes that a value is below this one. It ends with the column: of a power of ten alone no decimal mark aligns.
-    fn below(&self, languages: &Languages) -> Markup {
-        html! { "<" (BLANK) (self.text(languages.first())) }
+    pub(crate) fn below(&self, limit: &Number) -> Markup {
+        html! { "<" (BLANK) (limit.text(self.first())) }
     }
 
-    fn pad(&self, languages: &Languages, longest: &Tail) -> Markup {
-        let missing = longest.beyond(&Tail::of(&self.text(languages.first())));
+    /// Writes invisible characters that make the tail of a number as long as `longest`, so that the decimal marks of a column
+    /// align.
+    fn pad(&self, number: &Number, longest: &Tail) -> Markup {
+        let missing = longest.beyond(&Tail::of(&number.text(self.first())));
         html! { @if !missing.is_empty() { span.pad aria-hidden="true" { (missing) } } }
+    }
+
+    /// Writes the cells of a column, its numbers with aligned decimal marks.
+    pub(crate) fn column(&self, cells: impl IntoIterator<Item = impl Into<Cell>>) -> Vec<Markup> {
+        let cells: Vec<Cell> = cells.into_iter().map(Into::into).collect();
+        let tails = cells.iter().filter_map(|cell| match cell {
+            Cell::Number(number) | Cell::WithUnit(number, _) => Some(Tail::of(&number.text(self.first()))),
+            Cell::Below(_) | Cell::Words(_) => None,
+        });
+        let longest = tails.fold(Tail::default(), Tail::or_longer);
+        let written = cells.into_iter().map(|cell| match cell {
+            Cell::Number(number) => html! { (self.number(&number)) (self.pad(&number, &longest)) },
+            Cell::Below(limit) => self.below(&limit),
+            Cell::WithUnit(number, unit) => {
+                // No space before the mark of an angle (SI Brochure, 5.4.3).
+                let close = unit.0 == "″";
+                html! { (self.number(&number)) span.unit { @if !close { (BLANK) } (unit) } (self.pad(&number, &longest)) }
+            }
+            Cell::Words(words) => words,
+        });
+        written.collect()
     }
 }
 
@@ -96,27 +113,6 @@ impl From<Option<Number>> for Cell {
     fn from(number: Option<Number>) -> Self {
         number.map_or_else(Self::none, Self::Number)
     }
-}
-
-/// Writes the cells of a column, its numbers with aligned decimal marks.
-pub(crate) fn column(languages: &Languages, cells: impl IntoIterator<Item = impl Into<Cell>>) -> Vec<Markup> {
-    let cells: Vec<Cell> = cells.into_iter().map(Into::into).collect();
-    let tails = cells.iter().filter_map(|cell| match cell {
-        Cell::Number(number) | Cell::WithUnit(number, _) => Some(Tail::of(&number.text(languages.first()))),
-        Cell::Below(_) | Cell::Words(_) => None,
-    });
-    let longest = tails.fold(Tail::default(), Tail::or_longer);
-    let written = cells.into_iter().map(|cell| match cell {
-        Cell::Number(number) => number.aligned(languages, &longest),
-        Cell::Below(limit) => limit.below(languages),
-        Cell::WithUnit(number, unit) => {
-            // No space before the mark of an angle (SI Brochure, 5.4.3).
-            let close = unit.0 == "″";
-            html! { (number.markup(languages)) span.unit { @if !close { (BLANK) } (unit) } (number.pad(languages, &longest)) }
-        }
-        Cell::Words(words) => words,
-    });
-    written.collect()
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::language::{Language, Languages, Text};
 use super::number::Number;
 use super::spacing::{BLANK, unbroken};
 use super::symbols::index;
-use crate::report::doc::{self, Block, Words, blank, heading, record, say};
+use crate::report::doc::{Block, Words, blank, heading, record, say};
 use crate::report::style::Outcome;
 use crate::wording::texts::{calibration, record as forms, units, words};
 use crate::wording::{date_text, time_text};
@@ -21,7 +21,7 @@ impl Languages {
     pub(crate) fn numbered(&self, sections: &[Section]) -> Markup {
         html! {
             @for (number, (id, heading, blocks)) in (1..).zip(sections) {
-                (self.section_of(Some(number), id, *heading, &doc::blocks(blocks, self)))
+                (self.section_of(Some(number), id, *heading, &self.blocks(blocks)))
             }
         }
     }
@@ -50,7 +50,7 @@ impl Languages {
         end: &Words,
         printed: bool,
     ) -> Markup {
-        let end = end.label(self);
+        let end = self.name(end);
         let body = html! { (self.said_in_paragraph(&note)) (verbatim(lang, text, &end)) };
         let annex = self.section("annex", heading, &body);
         html! { @if printed { (annex) } @else { p.end { (end) } div.save { (annex) } } }
@@ -101,14 +101,14 @@ impl Languages {
     /// Writes a coordinate in degrees, with its hemisphere instead of a sign.
     pub(crate) fn in_hemisphere(&self, degrees: Number, hemispheres: [Text; 2]) -> Markup {
         let (number, hemisphere) = degrees.in_hemisphere(hemispheres);
-        html! { span.quantity { (number.markup(self)) "°" (BLANK) (self.inline(hemisphere)) } }
+        html! { span.quantity { (self.number(&number)) "°" (BLANK) (self.inline(hemisphere)) } }
     }
 
     /// Writes a number and its unit without a line break between them.
     pub(crate) fn quantity(&self, number: &Number, unit: Text) -> Markup {
         // No space before the marks of angles (SI Brochure, 5.4.3).
         let close = unit == units::ARCSEC || unit == units::DEGREES;
-        html! { span.quantity { (number.markup(self)) @if !close { (BLANK) } (self.in_brackets(unit)) } }
+        html! { span.quantity { (self.number(number)) @if !close { (BLANK) } (self.in_brackets(unit)) } }
     }
 
     /// Returns the language in whose format the readers of all languages understand a date: year, month, day.
@@ -128,7 +128,7 @@ impl Languages {
 }
 
 pub(crate) fn symbol(letter: &str, subscript: &str) -> Markup {
-    html! { span.symbol { i { (letter) } @if !subscript.is_empty() { (index(subscript)) } } }
+    html! { @if subscript.is_empty() { i { (letter) } } @else { span.symbol { i { (letter) } (index(subscript)) } } }
 }
 
 impl Languages {

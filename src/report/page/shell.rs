@@ -46,7 +46,7 @@ pub(crate) fn document(languages: &Languages, title: &str, margins: &Margins, bo
 
 /// Returns a page with the shapes of its pictures as empty elements, which makes it shorter by a fiftieth.
 fn short_shapes(page: String) -> String {
-    let shapes = ["></polygon>", "></line>", "></path>", "></rect>", "></ellipse>", "></circle>"];
+    let shapes = ["></polygon>", "></line>", "></path>", "></rect>", "></ellipse>", "></circle>", "></use>"];
     shapes.into_iter().fold(page, |page, ends| page.replace(ends, "/>"))
 }
 

@@ -43,12 +43,20 @@ pub(super) const AXIS_HEIGHT: f64 = 1.32;
 /// Length of the drawn axes.
 pub(super) const AXIS: f64 = 1.27;
 
+/// Id of the plate in the drawing of the first position.
+const PLATE: &str = "plate";
+
 /// Draws `positions` of a stand or of a passport: any number of them, at any angles. The frame's axis points to the
 /// azimuth `frame_axis_azimuth_deg`.
 pub(crate) fn positions(languages: &Languages, positions: &[CertifiedPosition], frame_axis_azimuth_deg: f64) -> Markup {
     let base = attitude::base(frame_axis_azimuth_deg);
     let factor = exaggeration(positions);
-    let drawings: Vec<Markup> = positions.iter().map(|at| position(languages, at, &base, factor)).collect();
+    // The plate is the same in all of them: it is drawn once.
+    let drawn = html! { g id=(PLATE) { (plate(&View::new(CENTRE, UNIT, &base), &base)) } };
+    let again = html! { use href={ "#" (PLATE) } {} };
+    let plates = std::iter::once(&drawn).chain(std::iter::repeat(&again));
+    let drawings = positions.iter().zip(plates).map(|(at, plate)| position(languages, at, &base, factor, plate));
+    let drawings: Vec<Markup> = drawings.collect();
     panels(COLUMNS, PANEL_PIXELS, &drawings, &key(languages))
 }
 
@@ -147,7 +155,13 @@ impl View {
     }
 }
 
-fn position(languages: &Languages, at: &CertifiedPosition, base_axes: &Matrix3<f64>, factor: f64) -> Markup {
+fn position(
+    languages: &Languages,
+    at: &CertifiedPosition,
+    base_axes: &Matrix3<f64>,
+    factor: f64,
+    plate: &Markup,
+) -> Markup {
     let name = format!("position-{}-{}", at.i, at.j);
     let panel = Panel { name: &name, languages, size: SIZE };
     let position = at.to_model();
@@ -160,7 +174,7 @@ fn position(languages: &Languages, at: &CertifiedPosition, base_axes: &Matrix3<f
     let view = View::new(CENTRE, UNIT, base_axes);
     let drawing = [
         heading(at, languages),
-        plate(&view, base_axes),
+        html! { (plate) },
         stand(&view, base_axes, &frame, &real),
         axes(&view, &designed, &real),
     ];

@@ -1,7 +1,7 @@
 //! Signature lines of the calibration report, and its annex: the result as JSON.
 
 use super::CalibrationPage;
-use crate::report::doc::{self, say, told};
+use crate::report::doc::{say, told};
 use crate::report::page::language::Languages;
 use crate::report::page::parts::signatures;
 use crate::wording::texts::calibration as texts;
@@ -15,7 +15,7 @@ pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup 
     let signed = [vec![say([texts::ONLY_THIS_ONE])], signatures([texts::CALIBRATED_BY, texts::APPROVED_BY]).into()];
     let note = (texts::ANNEX, texts::ANNEX_NOTE.into());
     html! {
-        (languages.section("signatures", texts::SIGNATURES, &doc::blocks(&signed.concat(), languages)))
+        (languages.section("signatures", texts::SIGNATURES, &languages.blocks(&signed.concat())))
         // In print with details only; the screen has it in any case.
         (languages.annex(note, ("en", &json(page)), &told(texts::end(page.name())), page.details))
     }

@@ -21,7 +21,7 @@ use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
 use crate::report::calibration::{Report, counted, symbols, what_may_be_wrong, why_no_change};
-use crate::report::doc::{self, Block, listed, marked, outcome_box, say, told};
+use crate::report::doc::{Block, listed, marked, outcome_box, say, told};
 use crate::report::style::Outcome;
 use crate::report::uncertainty;
 use crate::uncertainty::{Budget, MonteCarlo};
@@ -192,11 +192,11 @@ impl CalibrationPage<'_> {
         html! {
             header.title {
                 p.kind { (languages.label(texts::TITLE)) }
-                h1 { (self.gyro_name().label(languages)) }
+                h1 { (languages.name(&self.gyro_name())) }
                 p.subject { (languages.label(texts::SUBTITLE)) }
             }
             main {
-                (doc::blocks(&head, languages))
+                (languages.blocks(&head))
                 (languages.contents(texts::SAVE, (&address, "calibration.json"), &sections, texts::ANNEX))
                 (languages.numbered(&sections))
                 (closing::sections(self, languages))

@@ -31,15 +31,15 @@ pub(super) fn section(page: &PassportPage, languages: &Languages, contents: &Mar
     html! {
         section id="verification" aria-labelledby=(heading) {
             h2.unseen id=(heading) { (languages.label(texts::FRONT)) }
-            (doc::blocks(&refusal(page).into_iter().chain([answers(page)]).collect::<Vec<_>>(), languages))
+            (languages.blocks(&refusal(page).into_iter().chain([answers(page)]).collect::<Vec<_>>()))
             (contents)
             div.front {
                 (languages.figure("stand", &picture(languages, page.content.site.frame_axis_azimuth_deg()), texts::FIGURE_STAND))
                 (proof(page, languages))
                 div.note { (languages.paragraph(texts::PAPER_IS_NOT_SIGNED)) }
             }
-            (doc::blocks(&[table(page)], languages))
-            (doc::blocks(&general::of_the_passport(&page.content.passport, Some(&page.key)), languages))
+            (languages.blocks(&[table(page)]))
+            (languages.blocks(&general::of_the_passport(&page.content.passport, Some(&page.key))))
         }
     }
 }
@@ -102,7 +102,7 @@ fn proof(page: &PassportPage, languages: &Languages) -> Markup {
     html! {
         div.proof {
             @if let Some(picture) = code::picture(&page.sha256, languages.spoken(texts::CODE)) { (picture) }
-            (doc::blocks(&[signature(record::ISSUED_BY)], languages))
+            (languages.blocks(&[signature(record::ISSUED_BY)]))
         }
     }
 }
