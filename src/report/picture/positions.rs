@@ -43,17 +43,15 @@ pub(super) const AXIS_HEIGHT: f64 = 1.32;
 /// Length of the drawn axes.
 pub(super) const AXIS: f64 = 1.27;
 
-/// Id of the plate in the drawing of the first position.
-const PLATE: &str = "plate";
-
 /// Draws `positions` of a stand or of a passport: any number of them, at any angles. The frame's axis points to the
 /// azimuth `frame_axis_azimuth_deg`.
 pub(crate) fn positions(languages: &Languages, positions: &[CertifiedPosition], frame_axis_azimuth_deg: f64) -> Markup {
     let base = attitude::base(frame_axis_azimuth_deg);
     let factor = exaggeration(positions);
-    // The plate is the same in all of them: it is drawn once.
-    let drawn = html! { g id=(PLATE) { (plate(&View::new(CENTRE, UNIT, &base), &base)) } };
-    let again = html! { use href={ "#" (PLATE) } {} };
+    // The plate is the same in all of them: it is drawn once, with an id of its own for each language of a page.
+    let id = format!("plate-{}", languages.iter().map(Language::tag).collect::<Vec<_>>().join("-"));
+    let drawn = html! { g id=(id) { (plate(&View::new(CENTRE, UNIT, &base), &base)) } };
+    let again = html! { use href={ "#" (id) } {} };
     let plates = std::iter::once(&drawn).chain(std::iter::repeat(&again));
     let drawings = positions.iter().zip(plates).map(|(at, plate)| position(languages, at, &base, factor, plate));
     let drawings: Vec<Markup> = drawings.collect();
