@@ -13,12 +13,11 @@ use crate::interface::calibrated::Done;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
 use crate::report::Languages;
-use crate::report::calibration::{not_stated, suspicion, temperature_outside};
+use crate::report::calibration::{not_stated, temperature_outside};
 use crate::report::page::language::Text;
 use crate::text::Problems;
 use crate::wording::texts::calibration as texts;
 use crate::wording::texts::dcc as words;
-use crate::wording::words::joined;
 
 /// Publication of the drift model and of the equations.
 const PAPER: &str = "https://doi.org/10.18698/2308-6033-2017-10-1691";
@@ -119,8 +118,8 @@ fn statements(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
         let visit = format!("{i}, {j}, {visit}, {}: {why}", cycle.unwrap_or(1));
         parts::statement(texts::EXCLUDED, Some(&visit), languages)
     });
-    let suspects = calibrated.done.document.suspects.iter().map(|suspect| {
-        let declaration = in_words("dcc:declaration", joined(suspicion(suspect), " "), languages);
+    let suspects = calibrated.done.calibration.suspects().map(|suspect| {
+        let declaration = in_words("dcc:declaration", suspect.said(), languages);
         parts::statement(words::SUSPECT, None, languages).and(declaration)
     });
     let dependent = calibrated.judged.map_or_else(Vec::new, |(_, verdict)| verdict.dependent());

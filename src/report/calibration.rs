@@ -12,7 +12,7 @@ mod history;
 mod methods;
 mod result;
 
-pub(crate) use fit::{not_stated, suspicion, what_may_be_wrong};
+pub(crate) use fit::{causes, not_stated};
 pub(super) use headline::headline;
 pub(crate) use methods::parameters;
 pub(crate) use result::counted;
@@ -22,7 +22,6 @@ use super::doc::{self, Block, Words};
 use super::page::language::Text;
 use super::page::number::Number;
 use super::uncertainty::not_linear;
-use crate::calibration::diagnosis::INCONSISTENT;
 use crate::calibration::document::{CalibrationDocument, NoChange, ResultDocument, Subject};
 use crate::calibration::prediction::FurtherVisit;
 use crate::calibration::readings::Exclusion;
@@ -33,7 +32,7 @@ use crate::gyro::GyroType;
 use crate::interface::calibrated::Done;
 use crate::passport::{Check, Code};
 use crate::report::page::language::{Language, capital};
-use crate::report::{columns, mistake, style};
+use crate::report::{columns, style};
 use crate::uncertainty::MonteCarlo;
 use crate::wording::plain;
 use crate::wording::texts::calibration as texts;
@@ -162,8 +161,8 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, report: &Report, ho
     let say = |out: &mut String, words: &Words| columns::paragraph(out, "", &plain(&words.plain(language)));
     for (place, warning) in doubts(done, trials).iter().enumerate() {
         say(&mut out, warning);
-        if let Some(hint) = done.calibration.hint.as_ref().filter(|_| place == 0) {
-            doc::text(&mut out, &what_may_be_wrong(hint), language);
+        if place == 0 && done.calibration.is_invalid() {
+            doc::text(&mut out, &causes(&done.calibration), language);
         }
     }
     let mut inputs: Vec<Words> = done.document.subject.as_ref().and_then(conditions).into_iter().collect();
@@ -206,7 +205,7 @@ fn remedies(done: &Done, report: &Report, how: &Said) -> Vec<Words> {
         .unchecked_range_c
         .map(|[low, high]| texts::temperature_not_stated("--temperature-c", Number::exact(low), Number::exact(high)));
     // Parameters that are not valid have no uncertainty to complete.
-    let needed = !report.details && done.calibration.hint.is_none();
+    let needed = !report.details && done.calibration.consistent;
     let missing = needed.then(|| not_included(&done.missing)).flatten();
     let more = (!report.details).then(|| texts::more("--details"));
     let assumed = assumed(how.meter_assumed, report.gyro.is_some()).map(Words::from);
@@ -237,19 +236,19 @@ fn conditions(Subject { gyro_serial, date, operator, temperature_c, .. }: &Subje
     (!said.is_empty()).then(|| doc::listed(said))
 }
 
-/// Returns what makes the parameters or their uncertainties unusable or doubtful. Causes of readings that do not fit are not
+/// Returns what makes the parameters or their uncertainties unusable or doubtful. Causes of a result that is not valid are not
 /// included.
 pub(crate) fn doubts(done: &Done, trials: Option<&MonteCarlo>) -> Vec<Words> {
     let Done { calibration, document, warning, earlier, .. } = done;
-    let hint = calibration.hint.iter().map(|_| doc::joined([texts::DOES_NOT_FIT, texts::DOES_NOT_FIT_WORDS], ". "));
-    let mistake = calibration.mistake.iter().map(mistake::words);
+    let invalid = invalid(calibration);
     let why = earlier.as_ref().and_then(|(_, why)| Some(why_no_change((*why)?).into()));
-    let of_scatter = fit::warnings(calibration);
+    // The causes of a result that is not valid follow its first sentence.
+    let of_scatter = if invalid.is_some() { Vec::new() } else { fit::warnings(calibration) };
     let outside = warning.as_ref().map(temperature_outside);
     let unexplained = earlier.as_ref().and_then(|(earlier, _)| document.unexplained_in_words(earlier));
     let factor =
         document.verdict.as_ref().filter(|verdict| !verdict.withheld).and_then(Verdict::common_factor_in_words);
-    let all = hint.chain(mistake).chain(why).chain(of_scatter).chain(outside).chain(unexplained).chain(factor);
+    let all = invalid.into_iter().chain(why).chain(of_scatter).chain(outside).chain(unexplained).chain(factor);
     all.chain(trials.and_then(not_linear)).map(texts::warning).collect()
 }
 
@@ -274,12 +273,13 @@ pub(crate) fn symbols(parameters: impl IntoIterator<Item = Parameter>) -> Words 
     doc::listed(parameters.into_iter().map(|parameter| doc::symbol(parameter.symbol())))
 }
 
-/// Returns what makes the parameters unusable: readings that do not fit, or those of another gyro.
-fn unusable(calibration: &Calibration) -> impl Iterator<Item = String> {
-    let inconsistent = calibration.hint.iter().map(|hint| format!("{INCONSISTENT}. {}.", capital(&hint.causes())));
-    let correlated = calibration.hint.as_ref().and_then(|_| in_english(&fit::correlated(calibration)));
-    let mistake = calibration.mistake.as_ref().map(|mistake| plain(&mistake::words(mistake).plain(Language::English)));
-    inconsistent.chain(correlated).chain(mistake)
+/// Returns the sentence on parameters that are not valid: readings that do not fit, or those of another gyro.
+fn invalid(calibration: &Calibration) -> Option<Words> {
+    match (calibration.consistent, calibration.mistake()) {
+        (false, _) => Some(doc::joined([texts::DOES_NOT_FIT, texts::DOES_NOT_FIT_WORDS], ". ")),
+        (true, Some(_)) => Some(texts::MISTAKE_WORDS.into()),
+        (true, None) => None,
+    }
 }
 
 fn in_english(block: &Block) -> Option<String> {
@@ -289,12 +289,12 @@ fn in_english(block: &Block) -> Option<String> {
 /// Returns what a program should show with the parameters, a sentence each: what makes them unusable, what the readings
 /// cannot tell, and a scatter that is not the stated one.
 pub(crate) fn remarks(calibration: &Calibration, readings: &Readings) -> Vec<String> {
-    let mut remarks: Vec<String> = unusable(calibration).collect();
+    let of_causes = invalid(calibration).map(|words| plain(&words.plain(Language::English)) + ".");
+    let of_causes = of_causes.map(|words| words.replace("..", "."));
+    let mut remarks: Vec<String> =
+        of_causes.into_iter().chain(calibration.causes.iter().map(|cause| cause.words.clone())).collect();
     let tested = calibration.adopted().is_some_and(|answer| answer.chi_square.judges());
     remarks.extend((!tested).then(|| texts::NOT_JUDGED.of(Language::English).to_owned()));
-    // The result of readings that do not fit begins with their correlation.
-    let correlated = calibration.hint.is_none().then(|| fit::correlated(calibration));
-    remarks.extend(correlated.as_ref().and_then(in_english));
     let scatter = fit::scatter(calibration).into_iter().filter(|(weight, _)| *weight != Weight::Usual);
     remarks.extend(scatter.filter_map(|(_, block)| in_english(&block)));
     remarks.extend(without_reading(readings).map(|words| words.plain(Language::English) + "."));

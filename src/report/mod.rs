@@ -10,7 +10,6 @@
 //! * `exported`: a verified passport as JSON, with what its verification found.
 //! * `gyros`: the results of several gyros on one stand.
 //! * `history`: one stand over the years.
-//! * `mistake`: the explanation of a result that is not the gyro's.
 //! * `issued`: the outcomes of the orders of a batch.
 //! * `page`: pages for print and screen, in several languages.
 //! * `passport`: a passport.
@@ -37,7 +36,6 @@ pub(crate) mod gyros;
 pub(crate) mod history;
 #[cfg(feature = "factory")]
 pub(crate) mod issued;
-pub(crate) mod mistake;
 pub(crate) mod page;
 pub(crate) mod passport;
 pub(crate) mod picture;

@@ -36,6 +36,8 @@ tables! {
     compass
     /// A digital calibration certificate.
     dcc
+    /// Causes that explain the readings of a calibration; `{p}` is a probability with its relation.
+    finding
     /// Stated values that are possible, but usually in another unit, such as parts per million instead of percent.
     implausible
     /// The printed passport: content of the signed file.

@@ -54,6 +54,8 @@ pub(crate) struct Kernel {
     gain: Scaled,
     offset: Scaled,
     turn_on: [Scaled; 2],
+    /// Scatter of K between turn-ons, by rows.
+    scale: [[Scaled; 2]; 2],
     /// `true` if the gyro's drift has noise.
     drifts: bool,
     earth: Vector3<f64>,
@@ -105,7 +107,8 @@ impl Kernel {
         let may_be_large = plan.has_long_tails() || 4.0 * LARGEST_NORMAL * largest > SMALL_RAD;
         let (gain, offset) = (plan.slot(Cause::Gain), plan.slot(Cause::Offset));
         let turn_on = [0, 1].map(|axis| plan.slot(Cause::TurnOn(axis)));
-        let drifts = drawn(&turn_on) || places.iter().any(|place| drawn(&place.visits));
+        let scale = [0, 1].map(|axis| [0, 1].map(|column| plan.slot(Cause::Scale(2 * axis + column))));
+        let drifts = drawn(&turn_on) || drawn(scale.as_flattened()) || places.iter().any(|place| drawn(&place.visits));
         Self {
             places,
             case,
@@ -114,6 +117,7 @@ impl Kernel {
             gain,
             offset,
             turn_on,
+            scale,
             drifts,
             earth,
             case_turns,
@@ -205,6 +209,13 @@ impl Kernel {
                 [place.visits[axis], self.turn_on[axis]].map(|(slot, u)| (&deviates[slot], u));
             for trial in 0..WIDTH {
                 at.omega[axis][trial] -= u * own[trial] + u_turn_on * turn_on[trial];
+            }
+            for ((slot, u), current_ma) in
+                self.scale[axis].iter().zip(&place.means_ma).filter(|((slot, _), _)| *slot > 0)
+            {
+                for (omega, deviate) in at.omega[axis].iter_mut().zip(&deviates[*slot]) {
+                    *omega -= u * current_ma * deviate;
+                }
             }
         }
     }

@@ -20,9 +20,9 @@ use crate::calibration::verdict::{Decision, Verdict};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
-use crate::report::calibration::{Report, counted, symbols, what_may_be_wrong, why_no_change};
+use crate::report::calibration::{Report, causes, counted, symbols, why_no_change};
 use crate::report::style::Outcome;
-use crate::report::{doc, mistake, uncertainty};
+use crate::report::{doc, uncertainty};
 use crate::uncertainty::{Budget, MonteCarlo};
 use crate::wording::texts::calibration as texts;
 use crate::wording::{Words, date_text};
@@ -191,7 +191,7 @@ impl CalibrationPage<'_> {
     }
 
     fn fits(&self) -> bool {
-        self.calibration.hint.is_none()
+        self.calibration.consistent
     }
 
     fn body(&self, languages: &Languages) -> Markup {
@@ -220,13 +220,10 @@ impl CalibrationPage<'_> {
                 @let headline = marked(Outcome::NotAsked, &languages.label(texts::NOT_VERIFIED));
                 (boxed("verdict refused", headline, languages.paragraph(texts::NOT_VERIFIED_WORDS)))
             }
-            @if let Some(hint) = &self.calibration.hint {
-                @let words = html! { (languages.paragraph(texts::DOES_NOT_FIT_WORDS)) (doc::blocks(&what_may_be_wrong(hint), languages)) };
-                (outcome_box(Outcome::Failed, &languages.label(texts::DOES_NOT_FIT), words))
-            }
-            @if let Some(mistake) = &self.document.mistake {
-                @let words = languages.said_in_paragraph(&mistake::words(mistake));
-                (outcome_box(Outcome::Failed, &languages.label(texts::MISTAKE), words))
+            @if self.calibration.is_invalid() {
+                @let [name, what] = if self.fits() { [texts::MISTAKE, texts::MISTAKE_WORDS] } else { [texts::DOES_NOT_FIT, texts::DOES_NOT_FIT_WORDS] };
+                @let words = html! { (languages.paragraph(what)) (doc::blocks(&causes(self.calibration), languages)) };
+                (outcome_box(Outcome::Failed, &languages.label(name), words))
             }
             @if let Some(why) = self.previous.iter().rev().find_map(|earlier| self.document.no_change(earlier)) {
                 (outcome_box(Outcome::Undecided, &languages.label(texts::NO_CHANGE), languages.paragraph(why_no_change(why))))
