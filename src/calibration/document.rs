@@ -74,7 +74,7 @@ result! {
         #[serde(default)]
         pub(crate) adopted: String,
         /// `false` if the readings do not fit this stand, so that the parameters are not valid; `causes` says why.
-        #[serde(default)]
+        #[serde(default = "yes")]
         pub(crate) consistent: bool,
         /// Effective degrees of freedom of the adopted uncertainties by the keys of the parameters; those without a key are
         /// unlimited.
@@ -120,7 +120,7 @@ result! {
         #[serde(skip_serializing, default)]
         suspects: Vec<IgnoredAny>,
         #[serde(skip_serializing, default)]
-        hint: IgnoredAny,
+        hint: Option<IgnoredAny>,
         #[serde(skip_serializing, default)]
         drift_probability: IgnoredAny,
     }
@@ -171,6 +171,11 @@ pub(crate) fn another_type(earlier: &[CalibrationDocument], gyro_type: Option<&G
         "the previous result is that of a gyro of type {before}, not {now}; check that it belongs to this gyro; otherwise the change is \
          the difference between two gyros"
     ))
+}
+
+/// Results of the first version do not say whether the readings fit.
+fn yes() -> bool {
+    true
 }
 
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
@@ -340,7 +345,7 @@ impl CalibrationDocument {
     /// error explains the parameters; or if no method gave a result.
     pub fn valid(&self) -> Result<Found, NotValid> {
         let causes = || self.causes.iter().map(|cause| cause.words.as_str()).collect::<Vec<_>>().join(" ");
-        NotValid::checked(self.found(), self.consistent, self.mistake.is_some(), causes)
+        NotValid::checked(self.found(), self.consistent && self.hint.is_none(), self.mistake.is_some(), causes)
     }
 
     /// Returns the adopted result even if it is not valid; `None` if there is no result.

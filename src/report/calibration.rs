@@ -289,10 +289,14 @@ fn in_english(block: &Block) -> Option<String> {
 /// Returns what a program should show with the parameters, a sentence each: what makes them unusable, what the readings
 /// cannot tell, and a scatter that is not the stated one.
 pub(crate) fn remarks(calibration: &Calibration, readings: &Readings) -> Vec<String> {
-    let of_causes = invalid(calibration).map(|words| plain(&words.plain(Language::English)) + ".");
-    let of_causes = of_causes.map(|words| words.replace("..", "."));
-    let mut remarks: Vec<String> =
-        of_causes.into_iter().chain(calibration.causes.iter().map(|cause| cause.words.clone())).collect();
+    let words = calibration.causes.iter().map(|cause| cause.words.clone());
+    let mut remarks: Vec<String> = match invalid(calibration) {
+        Some(invalid) => {
+            let first = plain(&invalid.plain(Language::English));
+            vec![[first].into_iter().chain(words).collect::<Vec<_>>().join(" ")]
+        }
+        None => words.collect(),
+    };
     let tested = calibration.adopted().is_some_and(|answer| answer.chi_square.judges());
     remarks.extend((!tested).then(|| texts::NOT_JUDGED.of(Language::English).to_owned()));
     let scatter = fit::scatter(calibration).into_iter().filter(|(weight, _)| *weight != Weight::Usual);

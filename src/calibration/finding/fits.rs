@@ -273,7 +273,7 @@ impl Case<'_> {
             let refit = Data::new(&noisy, self.readings).fit(&noisy, fit.of).ok()?;
             Some((score, cause.with(refit.unknowns.parameters)))
         });
-        let of_meter = of(&meter, Kind::Meter, "1", &|size| size.hypot(1.0), SUSPICION[0]);
+        let of_meter = of(&meter, Kind::Meter, "1", &|size| libm::hypot(size, 1.0), SUSPICION[0]);
         let of_stand = of(&stand, Kind::Stand, "arcsec", &arcseconds_from_radians, SUSPICION[1]);
         of_gyro.flatten().into_iter().chain(of_meter).chain(of_stand).collect()
     }

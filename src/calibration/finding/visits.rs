@@ -111,16 +111,15 @@ impl Layer {
         let mut columns = DMatrix::zeros(2 * each.len(), count);
         let mut first = 0;
         for visits in self.rows.each.chunk_by(|one, other| one.place == other.place) {
-            for column in 0..count {
-                let here = first..first + visits.len();
+            let here = || visits.iter().zip(first..);
+            for (column, mut filled) in columns.column_iter_mut().enumerate() {
                 let share = |(row, at): (&VisitRow, usize)| {
                     let VisitRow { whitening, of_mean, .. } = row;
                     of_mean * whitening.transpose() * whitening * each[at][column]
                 };
-                let mean: Vector2<f64> = visits.iter().zip(here.clone()).map(share).sum();
-                for (row, at) in visits.iter().zip(here) {
-                    let own = row.whitening * (each[at][column] - mean);
-                    columns.fixed_view_mut::<2, 1>(2 * at, column).copy_from(&own);
+                let mean: Vector2<f64> = here().map(share).sum();
+                for (row, at) in here() {
+                    filled.fixed_rows_mut::<2>(2 * at).copy_from(&(row.whitening * (each[at][column] - mean)));
                 }
             }
             first += visits.len();
@@ -189,7 +188,13 @@ impl Layer {
 /// of its own. This needs less evidence than naming it, because an uncertainty without the scatter of K would be too small.
 pub(crate) fn explained(setup: &Setup, readings: &Readings, of: &Observation) -> (Vec<Explained>, bool) {
     let Some(mut layer) = Layer::new(setup, readings, of) else { return (Vec::new(), false) };
-    let candidates = candidates(setup, readings, of);
+    let mut candidates = candidates(setup, readings, of);
+    // A turn-on with few positions has no K of its own.
+    let is_determined = |columns: &Columns| {
+        let columns = layer.columns(columns);
+        layer.directions(&columns).len() == columns.ncols()
+    };
+    candidates.retain(|candidate| candidate.kind != Kind::KDiffers || is_determined(&candidate.columns));
     let columns: Vec<DMatrix<f64>> = candidates.iter().map(|candidate| layer.columns(&candidate.columns)).collect();
     let of_k = candidates.iter().zip(&columns).filter(|(candidate, _)| candidate.kind == Kind::KDiffers);
     let may_differ =
@@ -295,7 +300,8 @@ fn candidates<'a>(setup: &'a Setup, readings: &'a Readings, of: &'a Observation)
         let of = move |place: usize, visit: usize| {
             axes(settled.positions()[place].visits[visit].time_s.unwrap_or(0.0) / SECONDS_PER_HOUR)
         };
-        all.push(all_of(Kind::Settling, SETTLING.len(), Box::new(of)));
+        // A drift is simpler, and comes first unless settling explains clearly more.
+        all.push(all_of(Kind::Settling, 4 * SETTLING.len(), Box::new(of)));
     }
     let sensitivity = Sensitivity::new(setup, &of.fit.unknowns);
     let frame = setup.frame_axis();

@@ -475,13 +475,18 @@ fn a_drift_or_noise() {
     assert!(found.drift_or_noise && drift(&found).is_none());
     assert_eq!(found.visit_noise.degrees_of_freedom, 2.0);
     let found = solved(&setup, &read(&setup, &[0, 1, 2], 0.1), &Options::default());
-    assert!(!found.drift_or_noise && matches!(found.causes[0].kind, Kind::Drift | Kind::Settling), "{:?}", found.causes);
+    assert!(
+        !found.drift_or_noise && matches!(found.causes[0].kind, Kind::Drift | Kind::Settling),
+        "{:?}",
+        found.causes
+    );
     // One difference and the stated noise determine a drift without any fit: u = √2 ε per hour at most.
     let setup = bench(&ideal(), Some(EQUAL_NOISE_DEG_PER_H), None);
     let found = solved(&setup, &closing, &drifting(Model::Paper));
     let u = least_squares(&found).drift.unwrap().standard_uncertainty_deg_per_h_per_h;
     assert!(u.max() < 1.001 * std::f64::consts::SQRT_2 * EQUAL_NOISE_DEG_PER_H, "{u}");
-    assert!(drift(&solved(&setup, &closing, &Options::default())).is_some());
+    let (_, probability, explains) = drift_of(&setup, &closing, &Options::default()).unwrap();
+    assert!(explains && probability < 0.005, "{probability}");
 }
 
 /// The F test names a gyro that needs the general model, and hardly another.
