@@ -1,8 +1,6 @@
 //! Tests of the library without any feature: from bytes, keys and a time to an answer.
 
-use dtg_passport::calibration::{
-    CalibrationDocument, CurrentsMistaken, Mistake, NotValid, Options, Parameter, Readings, Setup, calibrate,
-};
+use dtg_passport::calibration::{CalibrationDocument, Kind, NotValid, Options, Parameter, Readings, Setup, calibrate};
 use dtg_passport::earth::Place;
 use dtg_passport::interface;
 use dtg_passport::laboratory::Laboratory;
@@ -162,8 +160,9 @@ fn a_result_that_is_not_valid_is_no_answer() {
         ),
     };
     let (calibration, document) = result(&good.lines().map(in_microamperes).collect::<String>());
-    let microamperes = CurrentsMistaken { power_of_ten: 3, ..CurrentsMistaken::default() };
-    let mistaken = NotValid::Mistaken(Mistake::Currents(microamperes));
+    let mistake = calibration.mistake().unwrap();
+    assert_eq!((mistake.kind, mistake.size), (Kind::Range, Some(1000.0)));
+    let mistaken = NotValid::Mistaken(mistake.words.clone());
     assert_eq!((calibration.valid().unwrap_err(), document.valid().unwrap_err()), (mistaken.clone(), mistaken));
     assert!(calibration.answer().is_none() && document.answer().is_none());
 }
@@ -264,7 +263,7 @@ fn one_wrong_visit_does_not_fail_a_gyro() {
                 let found = calibrated(&text, &order);
                 let case = format!("{design:?} {method}: {error_ma:?} mA in position {place}: {found}");
                 assert_ne!(found["verdict"]["overall"], "fail", "{case}");
-                let suspect = &found["suspects"][0];
+                let suspect = &found["causes"][0]["scope"];
                 assert_eq!(
                     (&suspect["i"], &suspect["j"]),
                     (&(place / 4 + 1).into(), &(place % 4 + 1).into()),
@@ -273,7 +272,7 @@ fn one_wrong_visit_does_not_fail_a_gyro() {
                 assert_eq!((&suspect["cycle"], &suspect["visit"]), (&turn_ons.into(), &visits.into()), "{case}");
                 assert_eq!(suspect.get("row").is_some(), count > 1, "{case}");
                 assert!(count == 1 || suspect["row"] == count, "{case}");
-                assert_eq!(suspect["one_of_several"], false, "{case}");
+                assert!(!found["causes"].to_string().contains("Either this or another"), "{case}");
             }
         }
     }
@@ -294,13 +293,16 @@ fn the_wrong_visit_is_among_those_named_if_a_turn_on_has_two_positions() {
             let found = calibrated(&lines.collect::<String>(), &order);
             let case = format!("{positions:?}: {error_ma:?} mA in turn-on {turn_on}, position {position}: {found}");
             assert_ne!(found["verdict"]["overall"], "fail", "{case}");
-            let suspects = found["suspects"].as_array().unwrap();
-            let named = |suspect: &serde_json::Value| {
+            let suspects = found["causes"].as_array().unwrap();
+            let suspects: Vec<_> = suspects.iter().filter(|cause| cause["kind"] == "visit").collect();
+            let named = |suspect: &&serde_json::Value| {
                 let index = [position / 4 + 1, position % 4 + 1, turn_on + 1, 1];
-                ["i", "j", "cycle", "visit"].iter().zip(index).all(|(key, number)| suspect[*key] == number)
+                ["i", "j", "cycle", "visit"].iter().zip(index).all(|(key, number)| suspect["scope"][*key] == number)
             };
             assert!(suspects.iter().any(named), "{case}");
-            assert!(suspects.iter().all(|suspect| suspect["one_of_several"] == (suspects.len() > 1)), "{case}");
+            let several =
+                |suspect: &&serde_json::Value| suspect["words"].to_string().contains("Either this or another");
+            assert!(suspects.iter().all(|suspect| several(suspect) == (suspects.len() > 1)), "{case}");
         }
     }
 }
@@ -317,7 +319,8 @@ fn a_closing_visit_or_the_first_one_to_its_position_that_is_wrong_is_named() {
             let found = calibrated(&lines.map(|(_, line)| line.to_owned() + "\n").collect::<String>(), &order);
             let case = format!("visit {} to position {place}, {error_ma:?} mA: {found}", wrong + 1);
             assert_ne!(found["verdict"]["overall"], "fail", "{case}");
-            let [suspect] = &found["suspects"].as_array().unwrap()[..] else { panic!("{case}") };
+            let [suspect] = &found["causes"].as_array().unwrap()[..] else { panic!("{case}") };
+            let suspect = &suspect["scope"];
             let place = [place / 4 + 1, place % 4 + 1, 1, wrong + 1];
             assert_eq!(
                 ["i", "j", "cycle", "visit"].map(|key| suspect[key].clone()),

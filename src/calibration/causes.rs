@@ -36,6 +36,8 @@ pub enum Cause {
     Differences(usize),
     /// Bias of the turn-ons of the gyro, in their mean, about axis x or y.
     TurnOn(usize),
+    /// Scatter of K between turn-ons, in their mean: the element K_x, K_xy, K_yx or K_y, counted from 0.
+    Scale(usize),
     /// Common part of the platform, about its axis x, y or z.
     Platform(usize),
     /// Gyro seat, about axis x, y or z of the case.
@@ -97,6 +99,9 @@ impl Cause {
             Self::TurnOn(_) => {
                 (names::turn_on(axis), "gyro type: noise.turn_on_deg_per_h, or repeated turn-ons", "deg/h")
             }
+            Self::Scale(element) => {
+                (names::scale(["K_x", "K_xy", "K_yx", "K_y"][element]), "repeated turn-ons", "deg/(h mA)")
+            }
             Self::Platform(_) => (names::platform(axis), "certificate: common_platform_arcsec", "arcsec"),
             Self::Seat(_) => (names::seat(axis), "laboratory: seating_arcsec", "arcsec"),
             Self::Base(_) => (names::base(axis), "certificate: common_base_arcsec", "arcsec"),
@@ -155,7 +160,7 @@ impl Cause {
     pub(crate) fn shown(self, uncertainty: f64) -> f64 {
         match self.unit() {
             "%" => 100.0 * uncertainty,
-            "mA" | "deg/h" | "1" => uncertainty,
+            "mA" | "deg/h" | "deg/(h mA)" | "1" => uncertainty,
             _ => crate::units::arcseconds_from_radians(uncertainty),
         }
     }
@@ -251,6 +256,9 @@ fn of_gyro_and_meter(setup: &Setup, repeats: &Repeats, estimates: &Estimates) ->
     inputs.extend(known(Cause::Offset, u.meter.offset_ma));
     let turn_on = repeats.turn_on_of_mean_deg_per_h();
     inputs.extend((0..2).filter_map(|axis| estimates.input(Cause::TurnOn(axis), turn_on, estimates.turn_ons)));
+    let scale =
+        |element| estimates.input(Cause::Scale(element), repeats.scale_of_mean(element), estimates.scale[element]);
+    inputs.extend((0..4).filter_map(scale));
     inputs
 }
 

@@ -86,10 +86,33 @@ impl Term {
     pub(crate) fn with(&self, factor: f64) -> f64 {
         self.square / (1.0 + self.share * (factor - 1.0))
     }
+
+    /// Returns −2 ln of the likelihood if a further part has this variance, less that of the logarithm's constants.
+    pub(crate) fn score(&self, variance: f64) -> f64 {
+        self.with(1.0 + variance) + libm::log(1.0 + self.share * variance)
+    }
 }
 
 /// Returns the value of chi-square, and the parts of the covariance that rest on estimates.
 pub(crate) fn quadratic_form(propagation: &Propagation) -> (f64, Estimated) {
+    let z = residuals(propagation);
+    let rest = propagation.rest();
+    let common = &rest.common;
+    // Woodbury: z' (1 + B B')⁻¹ z = z'z − (B'z)' (1 + B'B)⁻¹ (B'z).
+    let projected = common.tr_mul(&z);
+    let cholesky = plus_one(common.tr_mul(common)).cholesky();
+    let taken = cholesky.as_ref().map_or(0.0, |cholesky| projected.dot(&cholesky.solve(&projected)));
+    let lower = cholesky.map(|cholesky| cholesky.unpack());
+    (z.norm_squared() - taken, estimated(propagation, &rest, lower, &z))
+}
+
+/// Returns the terms of chi-square by the variance of a further part of each position, whose whitened covariance is `own`.
+pub(crate) fn terms_of(propagation: &Propagation, own: &[Matrix2<f64>]) -> Option<Vec<Term>> {
+    terms(&propagation.rest(), own, &residuals(propagation))
+}
+
+/// Returns z, the combinations of the whitened misclosures that do not depend on the parameters.
+fn residuals(propagation: &Propagation) -> DVector<f64> {
     let Propagation { data, fit, .. } = propagation;
     let mut rotated = DMatrix::zeros(fit.model.rows, 1);
     let top = 2 * fit.whitening.len();
@@ -99,15 +122,7 @@ pub(crate) fn quadratic_form(propagation: &Propagation) -> (f64, Estimated) {
         rotated.fixed_view_mut::<2, 1>(2 * place, 0).copy_from(&misclosure);
     }
     fit.model.rotate(&mut rotated);
-    let z = rotated.column(0).rows_range(fit.model.columns..).into_owned();
-    let rest = propagation.rest();
-    let common = &rest.common;
-    // Woodbury: z' (1 + B B')⁻¹ z = z'z − (B'z)' (1 + B'B)⁻¹ (B'z).
-    let projected = common.tr_mul(&z);
-    let cholesky = plus_one(common.tr_mul(common)).cholesky();
-    let taken = cholesky.as_ref().map_or(0.0, |cholesky| projected.dot(&cholesky.solve(&projected)));
-    let lower = cholesky.map(|cholesky| cholesky.unpack());
-    (z.norm_squared() - taken, estimated(propagation, &rest, lower, &z))
+    rotated.column(0).rows_range(fit.model.columns..).into_owned()
 }
 
 fn plus_one(mut matrix: DMatrix<f64>) -> DMatrix<f64> {

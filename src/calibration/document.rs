@@ -23,11 +23,12 @@ mod result;
 
 pub(crate) use result::{ResidualDocument, ResultDocument, RowScatterDocument, finite};
 
+use super::finding::by_type::NEED_A_GYRO_TYPE;
 use super::readings::Exclusion;
 use super::recorded::Digits;
 use super::verdict::change_in_uncertainties;
 use super::{
-    Calibration, Found, Method, Mistake, NotStated, NotValid, Parameter, Scatter, Suspect, Verdict, against_earlier,
+    Calibration, Finding, Found, Method, NotStated, NotValid, Parameter, Scatter, Verdict, against_earlier,
     against_type,
 };
 use crate::coefficients::PositionIndex;
@@ -46,6 +47,7 @@ use jiff::tz::TimeZone;
 use jiff::{SignedDuration, Timestamp};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Deserializer, Serialize};
+use serde_json::Value;
 use std::collections::BTreeMap;
 
 result! {
@@ -71,8 +73,8 @@ result! {
         /// Method whose result is adopted.
         #[serde(default)]
         pub(crate) adopted: String,
-        /// `false` if the readings do not fit this stand, so that the parameters are not valid; `hint` then has the causes.
-        #[serde(default)]
+        /// `false` if the readings do not fit this stand, so that the parameters are not valid; `causes` says why.
+        #[serde(default = "yes")]
         pub(crate) consistent: bool,
         /// Effective degrees of freedom of the adopted uncertainties by the keys of the parameters; those without a key are
         /// unlimited.
@@ -89,18 +91,14 @@ result! {
         pub(crate) scatter: Option<Scatter> = default,
         /// Agreement of the turn-ons with the gyro type; present if there are several and the type states their noise.
         pub(crate) turn_on_scatter: Option<Scatter> = default,
-        /// Probability of a larger drift in time if there is none; present if the readings have times and none was fitted.
-        pub(crate) drift_probability: Option<f64> = default,
         /// Scatter of the rows of a visit; present if there are several rows.
         pub(crate) row_scatter: Option<RowScatterDocument> = default,
-        /// Readings that differ from the others by more than chance explains: a row, a visit, or both.
-        pub(crate) suspects: Vec<Suspect> = default,
         /// Rounding of the currents, and repeated readings without scatter; absent if there is nothing to state.
         pub(crate) digits: Option<Digits> = default,
-        /// Possible causes if the readings do not fit, in words.
-        pub(crate) hint: Option<String> = default,
-        /// Error that explains the result if the readings fit but the parameters are not those of the gyro.
-        pub(crate) mistake: Option<Mistake> = default,
+        /// Causes that explain the readings or the parameters, the most likely first.
+        pub(crate) causes: Vec<Finding> = default,
+        /// The cause that makes the result invalid: the first that is not chance. Results of earlier versions have other keys.
+        pub(crate) mistake: Option<Value> = default,
         /// Remarks for the user on the currents, the laboratory and the fit, one sentence each.
         pub(crate) remarks: Vec<String> = default,
         /// Comparison with the gyro type.
@@ -118,6 +116,13 @@ result! {
         budget: IgnoredAny,
         #[serde(skip_serializing, default)]
         monte_carlo: IgnoredAny,
+        /// Keys of results of earlier versions.
+        #[serde(skip_serializing, default)]
+        suspects: Vec<IgnoredAny>,
+        #[serde(skip_serializing, default)]
+        hint: Option<IgnoredAny>,
+        #[serde(skip_serializing, default)]
+        drift_probability: IgnoredAny,
     }
 }
 
@@ -166,6 +171,11 @@ pub(crate) fn another_type(earlier: &[CalibrationDocument], gyro_type: Option<&G
         "the previous result is that of a gyro of type {before}, not {now}; check that it belongs to this gyro; otherwise the change is \
          the difference between two gyros"
     ))
+}
+
+/// Results of the first version do not say whether the readings fit.
+fn yes() -> bool {
+    true
 }
 
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
@@ -261,7 +271,7 @@ impl CalibrationDocument {
             gravity_m_per_s2,
             gravity_u_m_per_s2,
             adopted: adopted.map_or_else(String::new, |method| method.key().to_owned()),
-            consistent: calibration.hint.is_none(),
+            consistent: calibration.consistent,
             results: results.into_iter().map(|result| ResultDocument::new(result, calibration)).collect(),
             refused: calibration
                 .refused
@@ -269,17 +279,20 @@ impl CalibrationDocument {
                 .map(|(method, why)| (method.key().to_owned(), why.to_string()))
                 .collect(),
             not_stated: not_stated.iter().map(|what| what.words().to_owned()).collect(),
-            not_tested: Mistake::NEED_A_GYRO_TYPE.map(str::to_owned).into(),
+            not_tested: NEED_A_GYRO_TYPE.map(str::to_owned).into(),
             scatter: calibration.scatter,
             turn_on_scatter: calibration.turn_on_scatter,
-            drift_probability: calibration.drift_test.map(|test| test.probability),
             row_scatter: calibration.row_scatter.as_ref().map(RowScatterDocument::new),
-            suspects: calibration.suspects.clone(),
             digits: calibration.digits,
-            hint: calibration.hint.as_ref().map(ToString::to_string),
-            mistake: calibration.mistake,
             ..Self::default()
         }
+        .explained_by(calibration)
+    }
+
+    /// Returns the result with the causes of a calibration.
+    pub(crate) fn explained_by(self, calibration: &Calibration) -> Self {
+        let mistake = calibration.mistake().and_then(|cause| serde_json::to_value(cause).ok());
+        Self { causes: calibration.causes.clone(), mistake, ..self }
     }
 
     pub(crate) fn currents_sha256(&self) -> Option<&str> {
@@ -328,10 +341,11 @@ impl CalibrationDocument {
     /// Returns the adopted result.
     ///
     /// # Errors
-    /// Returns [`NotValid`] for the keys `consistent`, with its `hint`, and `mistake`: if the readings do not fit the stand, or an
+    /// Returns [`NotValid`] for the keys `consistent` and `mistake`, with the words of `causes`: if the readings do not fit the stand, or an
     /// error explains the parameters; or if no method gave a result.
     pub fn valid(&self) -> Result<Found, NotValid> {
-        NotValid::checked(self.found(), self.hint.clone(), self.mistake)
+        let causes = || self.causes.iter().map(|cause| cause.words.as_str()).collect::<Vec<_>>().join(" ");
+        NotValid::checked(self.found(), self.consistent && self.hint.is_none(), self.mistake.is_some(), causes)
     }
 
     /// Returns the adopted result even if it is not valid; `None` if there is no result.
@@ -445,8 +459,13 @@ impl CalibrationDocument {
         } else if !earlier.passport_verified {
             Some(NoChange::EarlierNotVerified)
         } else {
-            (!earlier.suspects.is_empty()).then_some(NoChange::EarlierSuspect)
+            earlier.is_suspect().then_some(NoChange::EarlierSuspect)
         }
+    }
+
+    /// Returns `true` if a visit or a row is probably wrong.
+    fn is_suspect(&self) -> bool {
+        !self.suspects.is_empty() || self.causes.iter().any(Finding::is_reading)
     }
 
     /// Returns the parameters whose change since `earlier` is larger than chance explains, if no type decides on it: the

@@ -39,6 +39,8 @@ pub(crate) struct Estimates {
     pub(crate) noise: Basis,
     pub(crate) visits: Basis,
     pub(crate) turn_ons: Basis,
+    /// Scatter of the elements of K between turn-ons, by rows.
+    pub(crate) scale: [Basis; 4],
     pub(crate) platform: Basis,
     pub(crate) base: Basis,
 }
@@ -89,6 +91,9 @@ impl Estimates {
             all.visits = all.returns;
         }
         all.turn_ons = all.add(repeats.turn_on.degrees_of_freedom);
+        for basis in (0..4).filter(|basis| repeats.scale[*basis] > 0.0) {
+            all.scale[basis] = all.add(repeats.cycles as f64 - 1.0);
+        }
         all
     }
 

@@ -7,6 +7,7 @@ use crate::coefficients::{
 };
 use crate::gyro::GyroNoise;
 use crate::laboratory::Meter;
+use crate::units::sin_cos_of_degrees;
 use nalgebra::{Matrix3, Vector3};
 use std::borrow::Cow;
 
@@ -130,6 +131,8 @@ pub(crate) struct Turn {
     pub(crate) attitude: Matrix3<f64>,
     /// A·Rz(90° − ψ): nominal rotation matrix, east-north-up to platform axes, 3×3.
     pub(crate) nominal: Matrix3<f64>,
+    /// Nominal θ and φ.
+    pub(crate) angles_deg: [f64; 2],
     /// Certified deviation α, β, γ.
     pub(crate) certified: Deviation,
     /// Axes of the rotations α, β and γ, in case coordinates; E = Rz(γ)·Ry(β)·Rx(α).
@@ -273,6 +276,40 @@ impl Setup {
         turned
     }
 
+    /// Returns a copy at another astronomic latitude, without Δ, B, C.
+    pub(crate) fn at_latitude(&self, latitude_deg: f64) -> Self {
+        let azimuth_deg = self.earth.frame_axis_azimuth_deg;
+        let earth = EarthRate::at_astronomic_latitude(latitude_deg);
+        let mut there = Self { earth: EarthRate { frame_axis_azimuth_deg: azimuth_deg, ..earth }, ..self.clone() };
+        there.coefficients.matrices = None;
+        let rate = there.earth_rate_east_north_up();
+        for (turn, at) in there.turns.iter().zip(&mut there.coefficients.positions) {
+            at.earth_rate_deg_per_h = (turn.attitude * rate).xy();
+        }
+        there
+    }
+
+    /// Returns a copy with a gyro that is rotated about its spin axis, anticlockwise, and without Δ, B, C.
+    pub(crate) fn case_turned(&self, by_deg: f64) -> Self {
+        let (sin, cos) = sin_cos_of_degrees(by_deg);
+        let turn = Matrix3::new(cos, sin, 0.0, -sin, cos, 0.0, 0.0, 0.0, 1.0);
+        let mut turned = self.clone();
+        turned.coefficients.matrices = None;
+        for (of, at) in turned.turns.iter_mut().zip(&mut turned.coefficients.positions) {
+            of.attitude = turn * of.attitude;
+            of.axes = of.axes.map(|axis| turn * axis);
+            at.earth_rate_deg_per_h = (of.attitude * self.earth_rate_east_north_up()).xy();
+            at.specific_force_g = of.attitude.column(2).xy();
+        }
+        turned
+    }
+
+    /// Returns the direction of the frame's axis (east, north, up).
+    pub(crate) fn frame_axis(&self) -> Vector3<f64> {
+        let (sin, cos) = sin_cos_of_degrees(self.earth.frame_axis_azimuth_deg);
+        Vector3::new(sin, cos, 0.0)
+    }
+
     /// Returns the azimuth of the frame's axis, degrees clockwise from north, from 0 to less than 360.
     pub(crate) fn frame_axis_azimuth_deg(&self) -> f64 {
         self.earth.frame_axis_azimuth_deg.rem_euclid(360.0)
@@ -305,6 +342,7 @@ impl Turn {
         Self {
             attitude: deviation * nominal,
             nominal,
+            angles_deg: [position.theta_deg, position.phi_deg],
             certified: position.deviation,
             // α is applied before β and γ, so its axis is the first column of E. Only γ rotates the axis of β.
             axes: [deviation.column(0).into_owned(), Vector3::new(sin_gamma, cos_gamma, 0.0), Vector3::z()],

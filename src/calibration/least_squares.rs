@@ -77,10 +77,15 @@ fn own_covariance_of(meter: &MeterUncertainty) -> impl Fn(usize, &Unknowns, &Vec
     }
 }
 
-/// Returns the unit of the columns of K, mA: the largest current, or 1 if all are 0.
-fn largest_current(currents_ma: &[Vector2<f64>]) -> f64 {
-    let largest = currents_ma.iter().fold(0.0, |a: f64, current| a.max(current.amax()));
-    if largest == 0.0 { 1.0 } else { largest }
+/// Ratio of the largest currents of x and y from which one is in another unit or range, and has its own unit here.
+const OTHER_RANGE: f64 = 10.0;
+
+/// Returns the units of the columns of K, mA: the largest current, or 1 if all are 0.
+fn largest_current(currents_ma: &[Vector2<f64>]) -> Vector2<f64> {
+    let each = currents_ma.iter().fold(Vector2::zeros(), |a: Vector2<f64>, current| a.sup(&current.abs()));
+    let each =
+        if each.max() > OTHER_RANGE * each.min() && each.min() > 0.0 { each } else { Vector2::repeat(each.max()) };
+    each.map(|largest| if largest == 0.0 { 1.0 } else { largest })
 }
 
 /// Unknowns of the drift model, and x of the [`Offsets`].
@@ -191,9 +196,9 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         }
     }
 
-    /// Returns the unweighted equations with measured currents in the unit `unit_ma`, after a check of rank and
+    /// Returns the unweighted equations with measured currents in the units `unit_ma`, after a check of rank and
     /// condition. Columns of offsets are only checked.
-    fn conditioned(&self, unit_ma: f64) -> Result<Factorised, NoLeastSquares> {
+    fn conditioned(&self, unit_ma: Vector2<f64>) -> Result<Factorised, NoLeastSquares> {
         let positions = &self.coefficients.positions;
         if self.currents_ma.len() != positions.len() {
             return Err(NoLeastSquares::OtherPositions);
@@ -201,7 +206,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         if self.offsets.columns() > 0 {
             self.offsets_determined(self.currents_ma)?;
         }
-        let scaled: Vec<_> = self.currents_ma.iter().map(|current| current / unit_ma).collect();
+        let scaled: Vec<_> = self.currents_ma.iter().map(|current| current.component_div(&unit_ma)).collect();
         let design = || design(positions, &scaled, self.model);
         let model = Factorised::new(design()).filter(|model| model.condition_bound() <= LARGEST_CONDITION);
         model.map_or_else(|| self.checked(design()), Ok)
@@ -216,7 +221,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         let mut right = DMatrix::from_iterator(2 * positions.len(), 1, rates);
         model.rotate(&mut right);
         let (mut solution, _) = model.solve_rotated(&right);
-        solution.rows_mut(0, 4).scale_mut(1.0 / unit_ma);
+        (0..4).for_each(|element| solution[element] /= unit_ma[element % 2]);
         let unknowns = Unknowns::from_vector(self.model, &solution);
         Ok(Solution { unknowns, changing: vec![0.0; self.offsets.columns()] })
     }
@@ -259,8 +264,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
     }
 
     fn names(&self) -> Vec<Parameter> {
-        let turn_ons = self.offsets.cycles.len().saturating_sub(1);
-        let turn_ons = (0..turn_ons).flat_map(|_| [Parameter::TurnOn(0), Parameter::TurnOn(1)]);
+        let turn_ons = (0..self.offsets.of_cycles()).flat_map(|_| [Parameter::TurnOn(0), Parameter::TurnOn(1)]);
         let drift = self.offsets.drift.then_some([Parameter::Drift(0), Parameter::Drift(1)]);
         self.model.parameters().iter().copied().chain(turn_ons).chain(drift.into_iter().flatten()).collect()
     }

@@ -10,11 +10,9 @@
 //! * `data`: mean currents with their errors, and fits to them; `chi_square`: the test of a fit.
 //! * `recorded`: rounding of the readings, and repeated readings without scatter.
 //! * `scatter`: numbers of visits and readings, the errors assumed for each, and their agreement with what was stated.
-//! * `suspect`: the visit or row that agrees least with the others.
 //! * `noise`: the gyro's own noise; `offsets`: drift that changes during a run.
-//! * `diagnosis`: possible causes if the readings do not fit.
+//! * `finding`: what explains readings that do not agree, or parameters that are not the gyro's: one list of causes.
 //! * `verdict`: comparison with a type's specification and with an earlier calibration.
-//! * `mistake`: errors that do not show in the fit, recognised by comparison with the expected gyro.
 //! * `document`: the result as JSON; `remarks`: what is said about it.
 //! * `prediction`: the expected uncertainty of a calibration on a stand, before any reading.
 //! * `estimates`: the standard uncertainties that rest on a common estimate.
@@ -48,13 +46,12 @@ pub(crate) mod analytic;
 pub(crate) mod causes;
 pub(crate) mod chi_square;
 pub(crate) mod data;
-pub(crate) mod diagnosis;
 pub(crate) mod document;
 pub(crate) mod estimates;
+pub(crate) mod finding;
 pub(crate) mod inputs;
 pub mod iterative;
 pub(crate) mod least_squares;
-pub(crate) mod mistake;
 pub(crate) mod noise;
 pub(crate) mod offsets;
 pub(crate) mod parameter;
@@ -68,20 +65,18 @@ pub(crate) mod result;
 pub(crate) mod scatter;
 pub(crate) mod sensitivity;
 pub(crate) mod stated;
-pub(crate) mod suspect;
 pub(crate) mod unknowns;
 pub(crate) mod verdict;
 
 pub use analytic::NoAnalyticSolution;
 pub use causes::{Cause, Input};
 pub use chi_square::ChiSquare;
-pub use diagnosis::{Explanation, Hint};
 pub use document::CalibrationDocument;
 pub use estimates::Basis;
+pub use finding::{Finding, Kind, Scope};
 pub use inputs::{InputUncertainty, MeterUncertainty, NoSetup, Setup};
 pub use iterative::Iteration;
 pub use least_squares::NoLeastSquares;
-pub use mistake::{CurrentsMistaken, Mistake};
 pub use noise::{DriftNoise, NoiseSource};
 pub use parameter::Parameter;
 pub use prediction::predicted;
@@ -90,7 +85,6 @@ pub use readings::{NoReadings, PositionReadings, Reading, Readings, Visit};
 pub use result::{Calibration, Method, MethodRefusal, MethodResult, NotValid, Residual};
 pub use scatter::{Agreement, RowScatter, Scatter};
 pub use stated::NotStated;
-pub use suspect::Suspect;
 pub use unknowns::Model;
 pub use verdict::{Decision, Found, ParameterVerdict, Verdict};
 pub(crate) use verdict::{against_earlier, against_type};

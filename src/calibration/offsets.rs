@@ -23,10 +23,14 @@ const BALANCED: f64 = 1e-12;
 pub(crate) struct Offsets {
     /// Turn-ons in ascending order; empty if there is only one.
     pub(crate) cycles: Vec<u32>,
+    /// `true` if every turn-on has a K of its own; x then contains its differences from their mean too.
+    pub(crate) scale: bool,
     /// `true` if a linear drift is fitted.
     pub(crate) drift: bool,
     /// Mean time of all readings, s.
     mean_time_s: f64,
+    /// Mean time of each turn-on, s; 0 if times are not known.
+    cycle_times_s: Vec<f64>,
     /// For each position: mean of a_v over its visits.
     pub(crate) means: Vec<Vec<f64>>,
     /// Rows for x from the differences of visits, with unit covariance, and their right-hand side.
@@ -36,11 +40,17 @@ pub(crate) struct Offsets {
 
 impl Offsets {
     /// Creates the offsets of readings; differences of visits are added by [`Self::with`].
-    pub(crate) fn new(readings: &Readings, drift: bool) -> Self {
+    pub(crate) fn new(readings: &Readings, (drift, scale): (bool, bool)) -> Self {
         let cycles = readings.cycles();
         let cycles = if cycles.len() > 1 { cycles } else { Vec::new() };
         let mean_time_s = readings.mean_time_s().unwrap_or(0.0);
-        let mut offsets = Self { cycles, drift, mean_time_s, ..Self::default() };
+        let mut offsets = Self { cycles, drift, scale, mean_time_s, ..Self::default() };
+        let mean_time_s = |cycle: &u32| {
+            let times =
+                || readings.visits().filter(|visit| visit.cycle == *cycle).map(|visit| visit.time_s.unwrap_or(0.0));
+            times().sum::<f64>() / times().count() as f64
+        };
+        offsets.cycle_times_s = offsets.cycles.iter().map(mean_time_s).collect();
         if offsets.terms() > 0 {
             offsets.rows = DMatrix::zeros(0, offsets.columns());
             offsets.means = readings.positions().iter().map(|at| offsets.mean(at)).collect();
@@ -50,7 +60,12 @@ impl Offsets {
 
     /// Returns the number of elements of a_v; x has two components for each.
     pub(crate) fn terms(&self) -> usize {
-        self.cycles.len().saturating_sub(1) + usize::from(self.drift)
+        self.of_cycles() + usize::from(self.drift)
+    }
+
+    /// Returns the number of elements of a_v for the turn-ons: one for ω_0, and two for the columns of K.
+    pub(crate) fn of_cycles(&self) -> usize {
+        self.cycles.len().saturating_sub(1) * if self.scale { 3 } else { 1 }
     }
 
     pub(crate) fn columns(&self) -> usize {
@@ -62,11 +77,17 @@ impl Offsets {
         self.means.iter().flatten().all(|mean| mean.abs() < BALANCED)
     }
 
-    fn of_visit(&self, visit: &Visit) -> Vec<f64> {
+    fn of_visit(&self, at: &PositionReadings, visit: &Visit) -> Vec<f64> {
         let mut terms = vec![0.0; self.terms()];
         if let Some((last, others)) = self.cycles.split_last() {
-            for (term, cycle) in terms.iter_mut().zip(others) {
-                *term = if visit.cycle == *last { -1.0 } else { f64::from(u8::from(visit.cycle == *cycle)) };
+            let factors = [1.0, at.mean_ma.x, at.mean_ma.y];
+            for (group, factor) in
+                terms.chunks_mut(others.len()).zip(factors.iter().take(if self.scale { 3 } else { 1 }))
+            {
+                for (term, cycle) in group.iter_mut().zip(others) {
+                    let own = f64::from(u8::from(visit.cycle == *cycle));
+                    *term = factor * if visit.cycle == *last { -1.0 } else { own };
+                }
             }
         }
         if self.drift
@@ -80,7 +101,7 @@ impl Offsets {
     fn mean(&self, at: &PositionReadings) -> Vec<f64> {
         let mut mean = vec![0.0; self.terms()];
         for visit in &at.visits {
-            for (mean, term) in mean.iter_mut().zip(self.of_visit(visit)) {
+            for (mean, term) in mean.iter_mut().zip(self.of_visit(at, visit)) {
                 *mean += term * at.visit_share();
             }
         }
@@ -113,6 +134,15 @@ impl Offsets {
             _ if row + 1 == count => -1.0,
             _ => f64::from(u8::from(row == column)),
         })
+    }
+
+    /// Returns the projection of the turn-ons that leaves nothing of their mean and of what is linear in their mean times.
+    pub(crate) fn beside_times(&self) -> DMatrix<f64> {
+        let count = self.cycles.len();
+        let times = DVector::from_column_slice(&self.cycle_times_s);
+        let times = times.add_scalar(-times.mean());
+        let along = &times * times.transpose() / times.norm_squared().max(f64::MIN_POSITIVE);
+        DMatrix::identity(count, count).add_scalar(-1.0 / count as f64) - along
     }
 
     /// Takes over what differences between visits say of x.
@@ -180,7 +210,7 @@ impl Differences {
             count += 2 * (at.visits.len() - 1);
             let mean = offsets.mean(at);
             let departures = at.visits.iter().map(|visit| {
-                let combinations = offsets.of_visit(visit).iter().zip(&mean).map(|(a, mean)| a - mean).collect();
+                let combinations = offsets.of_visit(at, visit).iter().zip(&mean).map(|(a, mean)| a - mean).collect();
                 Departure { combinations, current_ma: visit.mean_ma - at.mean_ma }
             });
             let departures: Vec<Departure> = departures.collect();

@@ -3,19 +3,17 @@
 use super::analytic::{self, AnalyticMap, AnalyticSolution};
 use super::chi_square::chi_square;
 use super::data::{Data, Observation};
-use super::diagnosis;
 use super::estimates::Estimates;
+use super::finding::{self, ALARM, by_type::by_size};
 use super::iterative::{self, IterativeSolution, NoIterativeSolution, StopRule};
 use super::least_squares::Fit;
 use super::offsets::{Differences, Offsets};
 use super::propagation::{Propagation, covariance, product, standard_deviations};
-use super::result::{Cycle, Drift, DriftTest, GMatrix, ModelTest};
-use super::scatter;
-use super::suspect;
+use super::result::{Cycle, Drift, GMatrix, ModelTest};
 use super::unknowns::Unknowns;
 use super::{
-    Calibration, ChiSquare, Iteration, Method, MethodRefusal, MethodResult, Mistake, Model, NoAnalyticSolution,
-    NoLeastSquares, Parameter, Readings, Residual, Setup, causes,
+    Calibration, ChiSquare, Iteration, Method, MethodRefusal, MethodResult, Model, NoAnalyticSolution, NoLeastSquares,
+    Parameter, Readings, Residual, Setup, causes,
 };
 use crate::gyro::{GyroParameters, GyroType};
 use crate::statistics::scaled_f::{self, Part};
@@ -58,31 +56,26 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
         possible.clone()?;
     }
     let observation = Observation::new(setup, readings, options.model, options.drift)?;
-    let suspects = suspect::all(setup, readings, &observation, options);
-    let Observation { data, fit, seen, .. } = observation;
-    let evaluation = Evaluation::new(Propagation::new(setup, &data, &fit));
-    let hint = diagnosis::hint(setup, &data, fit.of, &evaluation.chi_square);
+    let Observation { data, fit, seen, .. } = &observation;
+    let evaluation = Evaluation::new(Propagation::new(setup, data, fit));
+    let (causes, consistent) = finding::all(setup, readings, (&observation, options), &evaluation.chi_square);
     let mut calibration = Calibration {
         results: Vec::new(),
         refused: Vec::new(),
         digits,
         scatter: seen.visits,
         row_scatter: seen.rows,
-        row_correlation: scatter::row_correlation(readings),
         turn_on_scatter: seen.turn_ons,
-        suspects,
         visit_noise: data.repeats.visit,
         turn_on_noise: data.repeats.turn_on,
-        drift_test: if possible.is_ok() && !options.drift { drift_test(setup, readings, options) } else { None },
-        drift_in_order: drift_in_order(setup, readings, options),
         drift_or_noise: possible == Err(NoLeastSquares::DriftOrNoise),
         settled: fit.settled,
-        hint,
-        mistake: None,
+        consistent,
+        causes,
     };
     let closed = options.model != Model::General && !options.drift && data.offsets.are_balanced();
     let paper = if fit.of == Model::Paper { None } else { Some(data.fit(setup, Model::Paper)?) };
-    let paper = paper.as_ref().map(|paper| Evaluation::new(Propagation::new(setup, &data, paper)));
+    let paper = paper.as_ref().map(|paper| Evaluation::new(Propagation::new(setup, data, paper)));
     let of_the_paper = paper.as_ref().unwrap_or(&evaluation);
     let of_closed = of_the_paper.closed();
     for &method in &options.methods {
@@ -101,13 +94,16 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
             Err(refusal) => calibration.refused.push((method, refusal)),
         }
     }
-    calibration.mistake = Mistake::by_size(&calibration, &GyroType::gvk_6().nominal.to_model());
+    let usual = GyroType::gvk_6().nominal.to_model();
+    let valid = calibration.adopted().filter(|_| calibration.consistent && calibration.settled);
+    let range = valid.map_or_else(Vec::new, |found| by_size(&found.parameters, &usual));
+    calibration.with_words(range);
     Ok(calibration)
 }
 
 /// Checks that all readings have times, and not all the same, and that the noise of the gyro is still known with a drift:
 /// stated, or estimated if it is without the drift.
-fn drift_can_be_fitted(setup: &Setup, readings: &Readings) -> Result<(), NoLeastSquares> {
+pub(super) fn drift_can_be_fitted(setup: &Setup, readings: &Readings) -> Result<(), NoLeastSquares> {
     let mut times = readings.positions().iter().flat_map(|at| &at.visits).map(|visit| visit.time_s);
     let first = times.next().flatten().ok_or(NoLeastSquares::NoTimes)?;
     let mut same = true;
@@ -118,30 +114,23 @@ fn drift_can_be_fitted(setup: &Setup, readings: &Readings) -> Result<(), NoLeast
         return Err(NoLeastSquares::ConstantTime);
     }
     let of_noise = |drift| {
-        let differences = Differences::new(readings, &Offsets::new(readings, drift));
+        let differences = Differences::new(readings, &Offsets::new(readings, (drift, false)));
         differences.map_or(0, |differences| differences.degrees_of_freedom())
     };
     let stated = setup.uncertainty().visit_deg_per_h.is_some();
     if !stated && of_noise(false) > 0 && of_noise(true) == 0 { Err(NoLeastSquares::DriftOrNoise) } else { Ok(()) }
 }
 
-/// Tests whether the drift differs from 0 where it is not fitted; `None` if there are no times, or they do not determine
-/// it.
-fn drift_test(setup: &Setup, readings: &Readings, options: &Options) -> Option<DriftTest> {
-    let Observation { data, fit, .. } = Observation::new(setup, readings, options.model, true).ok()?;
+/// Returns the drift in time that the readings show, °/h², the probability of a larger one if there is none, and whether they fit
+/// with it; `None` if they do not determine it.
+pub(crate) fn drift_test(setup: &Setup, readings: &Readings, options: &Options) -> Option<(Vector2<f64>, f64, bool)> {
+    let Observation { data, fit, .. } = Observation::plain(setup, readings, options.model, (true, false)).ok()?;
     let drift = fit.drift(&data.offsets)?;
     let propagation = Propagation::new(setup, &data, &fit);
-    let probability = probability_of_drift(&propagation, &drift)?;
     let rest = chi_square(&propagation);
-    let explains = !rest.judges() || rest.probability >= diagnosis::ALARM;
-    Some(DriftTest { drift_deg_per_h_per_h: drift, probability, explains })
-}
-
-/// Tests for a drift in the order of the rows, if there are no times.
-fn drift_in_order(setup: &Setup, readings: &Readings, options: &Options) -> Option<DriftTest> {
-    let timed = readings.timed_by_order()?;
-    drift_can_be_fitted(setup, &timed).ok()?;
-    drift_test(setup, &timed, options)
+    let explains = !rest.judges() || rest.probability >= ALARM;
+    let probability = probability_of_drift(&propagation, &drift)?;
+    Some((drift, probability, explains))
 }
 
 /// Returns the probability of a larger drift than `drift` if there is none; `None` if its covariance has no inverse.

@@ -13,7 +13,7 @@ use super::recorded::Recorded;
 use crate::coefficients::{Coefficients, PositionIndex};
 use crate::text::record;
 use crate::units::SECONDS_PER_HOUR;
-use nalgebra::Vector2;
+use nalgebra::{Matrix2, Vector2};
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -250,6 +250,40 @@ impl Readings {
             count += rows;
         }
         Some(sum / count)
+    }
+
+    /// Returns the readings with other times, s.
+    pub(crate) fn timed_by(&self, time_s: impl Fn(&Visit) -> f64) -> Self {
+        let mut timed = self.clone();
+        for visit in timed.positions.iter_mut().flat_map(|at| &mut at.visits) {
+            visit.time_s = Some(time_s(visit));
+        }
+        timed
+    }
+
+    /// Returns the readings of one turn-on.
+    pub(crate) fn of_cycle(&self, cycle: u32) -> Self {
+        let mut alone = self.clone();
+        for mut at in std::mem::take(&mut alone.positions) {
+            at.visits.retain(|visit| visit.cycle == cycle);
+            match at.visits.is_empty() {
+                true => alone.left_out.push(at.index),
+                false => alone.positions.push(PositionReadings::new(at.index, at.visits)),
+            }
+        }
+        alone
+    }
+
+    /// Returns the readings with the currents of a turn-on multiplied by a matrix.
+    pub(crate) fn mapped(&self, cycle: u32, map: &Matrix2<f64>) -> Self {
+        let mut mapped = self.clone();
+        for at in &mut mapped.positions {
+            for visit in at.visits.iter_mut().filter(|visit| visit.cycle == cycle) {
+                visit.each_ma.iter_mut().chain([&mut visit.mean_ma]).for_each(|current| *current = map * *current);
+            }
+            *at = PositionReadings::new(at.index, std::mem::take(&mut at.visits));
+        }
+        mapped
     }
 
     /// Returns the readings with the number of earlier visits as the time, one hour for each, if they have no times and the

@@ -1,43 +1,34 @@
 //! What is said about a calibration beside its numbers: in the JSON that every language gets, at a terminal and on a page.
-//!
-//! * `mistake`: a mistake that explains the result.
 
-mod mistake;
-
-pub(crate) use mistake::words as of_mistake;
-
-use super::diagnosis::INCONSISTENT;
 use super::recorded::{Digits, rounding_of};
-use super::result::DriftTest;
-use super::{Agreement, Calibration, DriftNoise, NoiseSource, Readings, Scatter, Suspect};
-use crate::wording::number::{Number, Probability};
+use super::{Agreement, Calibration, DriftNoise, NoiseSource, Readings, Scatter};
+use crate::wording::number::Number;
 use crate::wording::texts::{calibration as texts, units};
-use crate::wording::words::{Statement, listed, probability, told};
-use crate::wording::{Language, Text, Words, capital, plain};
+use crate::wording::words::{Statement, joined, listed, probability};
+use crate::wording::{Language, Text, Words, plain};
 
-/// Returns what makes the parameters unusable: readings that do not fit, or those of another gyro.
-fn unusable(calibration: &Calibration) -> impl Iterator<Item = String> {
-    let inconsistent = calibration.hint.iter().map(|hint| format!("{INCONSISTENT}. {}.", capital(&hint.causes())));
-    let correlated = calibration.hint.as_ref().and_then(|_| in_english(&correlated(calibration)));
-    let mistake = calibration.mistake.as_ref().map(|mistake| plain(&of_mistake(mistake).plain(Language::English)));
-    inconsistent.chain(correlated).chain(mistake)
-}
-
-fn in_english(statement: &Statement) -> Option<String> {
-    statement.sentence(Language::English, &|words| plain(&words.plain(Language::English)))
+/// Returns the sentence on parameters that are not valid: readings that do not fit, or those of another gyro.
+pub(crate) fn invalid(calibration: &Calibration) -> Option<Words> {
+    match (calibration.consistent, calibration.mistake()) {
+        (false, _) => Some(joined([texts::DOES_NOT_FIT, texts::DOES_NOT_FIT_WORDS], ". ")),
+        (true, Some(_)) => Some(texts::MISTAKE_WORDS.into()),
+        (true, None) => None,
+    }
 }
 
 /// Returns what a program should show with the parameters, a sentence each: what makes them unusable, what the readings
 /// cannot tell, and a scatter that is not the stated one.
 pub(crate) fn remarks(calibration: &Calibration, readings: &Readings) -> Vec<String> {
-    let mut remarks: Vec<String> = unusable(calibration).collect();
+    let said = |words: &Words| plain(&words.plain(Language::English));
+    let words = calibration.causes.iter().map(|cause| cause.words.clone());
+    let mut remarks: Vec<String> = match invalid(calibration) {
+        Some(invalid) => vec![[said(&invalid)].into_iter().chain(words).collect::<Vec<_>>().join(" ")],
+        None => words.collect(),
+    };
     let tested = calibration.adopted().is_some_and(|answer| answer.chi_square.judges());
     remarks.extend((!tested).then(|| texts::NOT_JUDGED.of(Language::English).to_owned()));
-    // The result of readings that do not fit begins with their correlation.
-    let correlated = calibration.hint.is_none().then(|| correlated(calibration));
-    remarks.extend(correlated.as_ref().and_then(in_english));
     let scatter = scatter(calibration).into_iter().filter(|(weight, _)| *weight != Usual);
-    remarks.extend(scatter.filter_map(|(_, statement)| in_english(&statement)));
+    remarks.extend(scatter.filter_map(|(_, statement)| statement.sentence(Language::English, &said)));
     remarks.extend(without_reading(readings).map(|words| words.plain(Language::English) + "."));
     remarks
 }
@@ -48,14 +39,13 @@ pub(crate) fn without_reading(readings: &Readings) -> Option<Words> {
     (!readings.left_out.is_empty()).then(|| texts::without_reading(positions))
 }
 
-/// Weight of what is said: programs show remarks and warnings with the parameters.
+/// Weight of what is said: programs show remarks with the parameters.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Weight {
     Usual,
     Remark,
-    Warning,
 }
-use Weight::{Remark, Usual, Warning};
+use Weight::{Remark, Usual};
 
 /// Statements about the scatter of the readings, each with its weight.
 pub(crate) fn scatter(calibration: &Calibration) -> Vec<(Weight, Statement)> {
@@ -84,16 +74,9 @@ pub(crate) fn scatter(calibration: &Calibration) -> Vec<(Weight, Statement)> {
             .iter()
             .flat_map(|turn_ons| agreement(turn_ons, texts::TURN_ON_SCATTER, texts::NOISE_LESS_THAN_STATED)),
     );
-    doc.extend(calibration.suspects.iter().map(|suspect| (Warning, Statement::of(with_advice(suspect)))));
     let noises = [(texts::VISIT_NOISE, &calibration.visit_noise), (texts::TURN_ON_NOISE, &calibration.turn_on_noise)];
     let is_estimated = noises.iter().any(|(_, noise)| noise.source == NoiseSource::Estimated);
     doc.push((if is_estimated { Remark } else { Usual }, noise(noises)));
-    for (test, in_order) in [(calibration.drift_test, false), (calibration.drift_in_order, true)] {
-        doc.push((
-            Warning,
-            Statement::of(test.filter(|test| test.is_significant()).map(|test| drift(in_order, &test))),
-        ));
-    }
     doc.push((
         Remark,
         Statement::of(calibration.drift_or_noise.then(|| {
@@ -102,43 +85,6 @@ pub(crate) fn scatter(calibration: &Calibration) -> Vec<(Weight, Statement)> {
         })),
     ));
     doc
-}
-
-/// The sentence on readings of a visit that are correlated; it may be why they do not fit.
-pub(crate) fn correlated(calibration: &Calibration) -> Statement {
-    Statement::of(calibration.row_correlation.map(|r| texts::rows_correlated(Number::fixed(r, 2))))
-}
-
-fn drift(in_order: bool, test: &DriftTest) -> Words {
-    let [x, y] =
-        [test.drift_deg_per_h_per_h.x, test.drift_deg_per_h_per_h.y].map(|drift| told(Number::scientific(drift, 2)));
-    let p = Probability(test.probability);
-    if in_order { texts::drifts_in_order(x, y, p, "--drift") } else { texts::drifts(x, y, p, "--drift") }
-}
-
-/// The sentences on a reading that differs from the others, and at a terminal how to leave it out.
-fn with_advice(suspect: &Suspect) -> Vec<Words> {
-    let Suspect { i, j, cycle, visit, .. } = *suspect;
-    let how = format!(
-        "Look for the cause; if there is one, leave the visit out with --exclude {i},{j},{visit},{cycle} and --why."
-    );
-    let advice = Words::Either(Box::new("".into()), Box::new(how.into()));
-    suspicion(suspect).into_iter().chain([advice]).collect()
-}
-
-/// The sentences on a reading that differs from the others.
-pub(crate) fn suspicion(suspect: &Suspect) -> Vec<Words> {
-    let difference_ua = suspect.difference_ma.map(|difference| 1000.0 * difference);
-    let place = Number::place_of(difference_ua[0].abs().max(difference_ua[1].abs()));
-    let [jx, jy] = difference_ua.map(|difference| Number::to_place(difference, place));
-    let Suspect { cycle, visit, .. } = *suspect;
-    let index = suspect.index();
-    let what = match suspect.row {
-        Some(row) => texts::suspect_row(row, visit, index, cycle, jx, jy),
-        None => texts::suspect_visit(visit, index, cycle, jx, jy),
-    };
-    let several = suspect.one_of_several.then(|| texts::ONE_OF_SEVERAL.into());
-    [what].into_iter().chain(several).collect()
 }
 
 /// The noise of the gyro that the uncertainties contain.

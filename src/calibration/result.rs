@@ -1,12 +1,11 @@
 //! Results of a calibration.
 
-use super::diagnosis::{ALARM, INCONSISTENT};
+use super::finding::{ALARM, Finding};
 use super::iterative::NoIterativeSolution;
 use super::recorded::Digits;
-use super::scatter::IMPROBABLE;
 use super::{
-    ChiSquare, DriftNoise, Hint, Iteration, Mistake, Model, NoAnalyticSolution, NoLeastSquares, NoiseSource, NotStated,
-    Parameter, RowScatter, Scatter, Suspect,
+    ChiSquare, DriftNoise, Iteration, Model, NoAnalyticSolution, NoLeastSquares, NoiseSource, NotStated, Parameter,
+    RowScatter, Scatter,
 };
 use crate::coefficients::PositionIndex;
 use crate::gyro::GyroParameters;
@@ -46,30 +45,21 @@ pub struct Calibration {
     pub scatter: Option<Scatter>,
     /// Scatter of the rows of each visit; `None` if every visit has one row.
     pub row_scatter: Option<RowScatter>,
-    /// Correlation of successive rows of a visit; `None` if chance explains it.
-    pub(crate) row_correlation: Option<f64>,
     /// Comparison of the turn-ons with what the gyro type states; `None` if there is one, or nothing is stated.
     pub turn_on_scatter: Option<Scatter>,
-    /// Readings that differ from the others by more than chance explains: a row, a visit, or none.
-    pub suspects: Vec<Suspect>,
     /// Noise of the gyro's drift from visit to visit, each axis.
     pub visit_noise: DriftNoise,
     /// Noise of ω_0 from one turn-on of the gyro to the next, each axis.
     pub turn_on_noise: DriftNoise,
-    /// Test for a drift in time that was not fitted; `None` if it was, the readings have no times, or the repeated visits
-    /// cannot tell it from the noise of the gyro.
-    pub drift_test: Option<DriftTest>,
-    /// Test for a drift in the order of the rows, °/h per visit, of repeated visits without times.
-    pub(crate) drift_in_order: Option<DriftTest>,
     /// `true` if there are times, but the repeated visits cannot tell a drift from the noise of the gyro.
     pub(crate) drift_or_noise: bool,
     /// `true` if the fit converged. Otherwise the readings are far from those of any gyro on this stand.
     pub settled: bool,
-    /// Possible causes if the readings do not fit; otherwise `None`.
-    pub hint: Option<Hint>,
-    /// Error that explains the parameters if the readings fit. Without a gyro type only a unit of the currents that is wrong
-    /// by a factor of a thousand or more is recognised.
-    pub mistake: Option<Mistake>,
+    /// `true` if the readings fit the stand.
+    pub consistent: bool,
+    /// Causes that explain the readings or the parameters, the most likely first. Without a gyro type only a unit of the currents
+    /// that is wrong by a factor of a thousand or more is recognised of those that leave no residuals.
+    pub causes: Vec<Finding>,
 }
 
 /// Reason why a result is not that of the gyro.
@@ -79,21 +69,30 @@ pub enum NotValid {
     /// No method gave a result; [`Calibration::refused`] has the reasons.
     #[error("no method gave a result")]
     NoResult,
-    /// The readings do not fit the stand (`consistent` is false); possible causes in words.
-    #[error("{INCONSISTENT}: {0}")]
+    /// The readings do not fit the stand (`consistent` is false); the causes in words.
+    #[error("{INCONSISTENT}. {0}")]
     Inconsistent(String),
-    /// The readings fit, but an error (`mistake`) explains parameters that are far from the gyro's.
-    #[error("the parameters are far from the gyro's; `mistake` states what would explain it: {0:?}")]
-    Mistaken(Mistake),
+    /// The readings fit, but a cause (`mistake`) explains parameters that are far from the gyro's; in words.
+    #[error("the parameters are far from the gyro's; `mistake` states what would explain it: {0}")]
+    Mistaken(String),
 }
 
+/// Consequence of readings that do not fit the stand, as a sentence without a full stop.
+pub(crate) const INCONSISTENT: &str = "the readings are not consistent with this stand; the parameters are not valid: \
+                                       find the cause and repeat the calibration";
+
 impl NotValid {
-    /// Returns the `result` if the readings fit and no error explains it.
-    pub(super) fn checked<T>(result: Option<T>, hint: Option<String>, mistake: Option<Mistake>) -> Result<T, Self> {
-        match (hint, mistake) {
-            (Some(hint), _) => Err(Self::Inconsistent(hint)),
-            (None, Some(mistake)) => Err(Self::Mistaken(mistake)),
-            (None, None) => result.ok_or(Self::NoResult),
+    /// Returns the `result` if the readings fit and no cause explains it; `causes` are their sentences.
+    pub(super) fn checked<T>(
+        result: Option<T>,
+        consistent: bool,
+        mistaken: bool,
+        causes: impl FnOnce() -> String,
+    ) -> Result<T, Self> {
+        match (consistent, mistaken) {
+            (false, _) => Err(Self::Inconsistent(causes())),
+            (true, true) => Err(Self::Mistaken(causes())),
+            (true, false) => result.ok_or(Self::NoResult),
         }
     }
 }
@@ -111,8 +110,8 @@ impl Calibration {
     /// Returns [`NotValid`] if no method gave a result, if the readings do not fit the stand, or if an error explains the
     /// parameters.
     pub fn valid(&self) -> Result<&MethodResult, NotValid> {
-        let hint = self.meaningless().or_else(|| self.hint.as_ref().map(ToString::to_string));
-        NotValid::checked(self.adopted(), hint, self.mistake)
+        let causes = || self.meaningless().unwrap_or_else(|| self.causes_in_words());
+        NotValid::checked(self.adopted(), self.settled && self.consistent, self.mistake().is_some(), causes)
     }
 
     /// Returns the adopted result even if it is not valid; `None` if no method gave a result.
@@ -126,10 +125,9 @@ impl Calibration {
         each.into_iter().filter(|(noise, _)| noise.source == NoiseSource::NotStated).map(|(_, what)| what)
     }
 
-    /// Returns `true` if the readings agree more closely with the fit than chance explains, and their digits do not explain it.
-    pub(crate) fn fits_too_well(&self) -> bool {
-        let is_too_small = |fit: &ChiSquare| fit.judges() && fit.probability > 1.0 - IMPROBABLE;
-        self.digits.is_none() && self.adopted().is_some_and(|answer| is_too_small(&answer.chi_square))
+    /// Returns the sentences of all causes in English.
+    fn causes_in_words(&self) -> String {
+        self.causes.iter().map(|cause| cause.words.as_str()).collect::<Vec<_>>().join(" ")
     }
 
     /// Returns the standard uncertainty of ω_0 from the scatter of the turn-ons, °/h, if it is most of that of ω_0x or ω_0y.
@@ -144,8 +142,7 @@ impl Calibration {
     /// parameters have no meaning.
     pub(crate) fn meaningless(&self) -> Option<String> {
         let why = "no parameters are given, because the readings differ too much from those of any gyro on this stand";
-        let hint = self.hint.as_ref().map_or_else(String::new, |hint| format!("; {}", hint.causes()));
-        (!self.settled).then(|| format!("{why}{hint}"))
+        (!self.settled).then(|| format!("{why}. {}", self.causes_in_words()).trim_end_matches(['.', ' ']).to_owned())
     }
 }
 
@@ -187,24 +184,6 @@ pub struct Drift {
     pub deg_per_h_per_h: Vector2<f64>,
     /// Standard uncertainties of the drift, °/h per hour.
     pub standard_uncertainty_deg_per_h_per_h: Vector2<f64>,
-}
-
-/// Test for a drift in time that was not fitted.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DriftTest {
-    /// Drift about x and y that the readings show, °/h per hour.
-    pub drift_deg_per_h_per_h: Vector2<f64>,
-    /// Probability of a larger drift if there is none.
-    pub probability: f64,
-    /// `true` if the readings agree with a fit that includes the drift.
-    pub explains: bool,
-}
-
-impl DriftTest {
-    /// Returns `true` if the drift should be fitted.
-    pub(crate) fn is_significant(&self) -> bool {
-        self.explains && self.probability < ALARM
-    }
 }
 
 /// Matrix G of the general model: g-sensitive drift for (n_x, n_y, n_z).

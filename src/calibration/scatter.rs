@@ -13,7 +13,7 @@ use super::{Basis, DriftNoise, NoiseSource, PositionReadings, Readings, Setup, V
 use crate::statistics::distributions::chi_square_larger;
 use crate::statistics::least_squares::whitening_of;
 use crate::statistics::scaled_f::{Part, ScaledF};
-use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
+use nalgebra::{DMatrix, DVector, Matrix2};
 use serde::{Deserialize, Serialize};
 
 /// Probability below which a scatter, larger or smaller, does not agree with what was stated.
@@ -60,30 +60,6 @@ pub struct RowScatter {
     pub against_stated: Option<Scatter>,
 }
 
-/// Smallest excess of a correlation over that of independent rows that is named, in its standard deviations: by chance one
-/// calibration in thirty thousand has it.
-const CORRELATED: f64 = 4.0;
-
-/// Returns the correlation of successive rows of a visit, pooled over all visits, or `None` if chance explains it.
-///
-/// Rows are taken relative to the mean of their visit. If n rows are independent, any two of these differences have the
-/// correlation −1/(n − 1). The expected correlation of successive ones, from n − 1 products and n squares, is therefore −1/n,
-/// and its standard deviation is about 1/√n.
-pub(super) fn row_correlation(readings: &Readings) -> Option<f64> {
-    let (mut products, mut squares, mut independent, mut count) = (0.0, 0.0, 0.0, 0.0);
-    let visits = readings.positions().iter().flat_map(|at| &at.visits).filter(|visit| visit.each_ma.len() > 2);
-    for visit in visits {
-        let rows = visit.each_ma.len() as f64;
-        let left: Vec<_> = visit.each_ma.iter().map(|row| row - visit.mean_ma).collect();
-        products += left.iter().zip(&left[1..]).map(|(one, next)| one.dot(next)).sum::<f64>();
-        squares += left.iter().map(Vector2::norm_squared).sum::<f64>();
-        independent -= 2.0 * (rows - 1.0) / rows;
-        count += 2.0 * (rows - 1.0);
-    }
-    let (found, due) = (products / squares, independent / count);
-    (squares > 0.0 && (found - due) * count.sqrt() > CORRELATED).then_some(found)
-}
-
 impl Scatter {
     fn new(chi_square: f64, degrees_of_freedom: usize, probability: f64) -> Self {
         let enlarged = probability < IMPROBABLE;
@@ -119,6 +95,8 @@ pub(crate) struct Repeats {
     pub(crate) turn_on: DriftNoise,
     /// Number of turn-ons.
     pub(crate) cycles: usize,
+    /// Standard deviation of the elements of K from turn-on to turn-on, °/(h·mA), by rows; 0 if K does not differ.
+    pub(crate) scale: [f64; 4],
 }
 
 impl Repeats {
@@ -134,6 +112,7 @@ impl Repeats {
             visit: DriftNoise::stated(setup.uncertainty().visit_deg_per_h),
             turn_on: DriftNoise::stated(setup.uncertainty().turn_on_deg_per_h),
             cycles: readings.cycles().len(),
+            scale: [0.0; 4],
         }
     }
 
@@ -145,6 +124,11 @@ impl Repeats {
     /// Returns the standard uncertainty of the mean of the turn-ons, °/h, each axis.
     pub(crate) fn turn_on_of_mean_deg_per_h(&self) -> f64 {
         self.turn_on.deg_per_h / (self.cycles as f64).sqrt()
+    }
+
+    /// Returns the standard uncertainty of an element of the mean K of the turn-ons, °/(h·mA), from their scatter.
+    pub(crate) fn scale_of_mean(&self, element: usize) -> f64 {
+        self.scale[element] / (self.cycles as f64).sqrt()
     }
 
     /// Returns the fraction of the variance of one visit that the mean of a position has.
@@ -264,18 +248,14 @@ impl Repeats {
         if cycles < 2 {
             return None;
         }
-        let degrees_of_freedom = 2 * (cycles - 1);
-        let (map, first) = (offsets.turn_ons(), fit.of.columns());
-        let (mut squares, mut of_noise) = (0.0, 0.0);
-        for axis in 0..2 {
-            let column = |term: usize| 2 * term + axis;
-            let x = DVector::from_fn(cycles - 1, |term, _| fit.changing[column(term)]);
-            let r_inverse = &fit.model.r_inverse;
-            let rows =
-                DMatrix::from_fn(cycles - 1, r_inverse.ncols(), |term, inner| r_inverse[(first + column(term), inner)]);
-            squares += (&map * x).norm_squared();
-            of_noise += (&map * rows).norm_squared();
-        }
+        // A drift is found within turn-ons; its error changes their biases in proportion to their times, which say little of
+        // their scatter. Of two turn-ons only this is left, and all of it is taken for scatter.
+        let along_time = offsets.drift && cycles > 2;
+        let degrees_of_freedom = 2 * (cycles - 1 - usize::from(along_time));
+        let map = if along_time { offsets.beside_times() * offsets.turn_ons() } else { offsets.turn_ons() };
+        let each = [0, 1].map(|axis| of_turn_ons(&map, fit, 0, axis));
+        let [squares, of_noise] = each.iter().fold([0.0, 0.0], |[a, b], [one, other]| [a + one, b + other]);
+        let of_noise = if offsets.drift && cycles == 2 { 0.0 } else { of_noise };
         let [variance, of_noise] = [squares, of_noise].map(|sum| sum / degrees_of_freedom as f64);
         let estimate = DriftNoise::estimated((variance - of_noise).max(0.0).sqrt(), degrees_of_freedom);
         if self.turn_on.source == NoiseSource::NotStated {
@@ -290,6 +270,28 @@ impl Repeats {
         }
         Some(found)
     }
+
+    /// Estimates how much the elements of K vary from turn-on to turn-on, if each has its own.
+    pub(crate) fn observe_scale(&mut self, offsets: &Offsets, fit: &Fit) {
+        let freedom = offsets.cycles.len().saturating_sub(1) as f64;
+        if offsets.scale && freedom > 0.0 {
+            let map = offsets.turn_ons();
+            self.scale = [(0, 1), (0, 2), (1, 1), (1, 2)].map(|(axis, group)| {
+                let [squares, of_noise] = of_turn_ons(&map, fit, group, axis);
+                ((squares - of_noise).max(0.0) / freedom).sqrt()
+            });
+        }
+    }
+}
+
+/// Returns the sum of the squares of what turn-ons add to ω_0, or to a column of K, about an axis, and of its uncertainties.
+fn of_turn_ons(map: &DMatrix<f64>, fit: &Fit, group: usize, axis: usize) -> [f64; 2] {
+    let (count, r_inverse) = (map.ncols(), &fit.model.r_inverse);
+    let place = |term: usize| 2 * (group * count + term) + axis;
+    let x = DVector::from_fn(count, |term, _| fit.changing[place(term)]);
+    let first = fit.of.columns();
+    let rows = DMatrix::from_fn(count, r_inverse.ncols(), |term, inner| r_inverse[(first + place(term), inner)]);
+    [(map * x).norm_squared(), (map * rows).norm_squared()]
 }
 
 /// Covariances of the errors of single visits, (°/h)², 2×2.

@@ -166,6 +166,7 @@ impl<'a> Sensitivity<'a> {
         columns.push((u.meter.gain, Cause::Gain));
         columns.push((u.meter.offset_ma, Cause::Offset));
         columns.extend([0, 1].map(|axis| (repeats.turn_on_of_mean_deg_per_h(), Cause::TurnOn(axis))));
+        columns.extend((0..4).map(|element| (repeats.scale_of_mean(element), Cause::Scale(element))));
         columns.retain(|(u, _)| *u > 0.0);
         let positions = currents_ma.len();
         let mut matrix = DMatrix::zeros(2 * positions, columns.len());
@@ -187,6 +188,7 @@ impl<'a> Sensitivity<'a> {
             Cause::Reading(_, axis) => -k.column(axis) * current_ma[axis],
             Cause::Floor(_, axis) | Cause::Noise(_, axis) => -k.column(axis),
             Cause::Visits(_, axis) | Cause::TurnOn(axis) => -Change::ith(axis, 1.0),
+            Cause::Scale(element) => -Change::ith(element / 2, current_ma[element % 2]),
             Cause::Differences(_) => Change::zeros(),
             Cause::Gain => -(k * current_ma),
             Cause::Offset => -(k * Vector2::repeat(1.0)),

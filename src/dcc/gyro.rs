@@ -6,7 +6,6 @@ use super::xml::Element;
 use super::{Administrative, Dcc};
 use crate::calibration::document::Subject as GyroSubject;
 use crate::calibration::readings::Exclusion;
-use crate::calibration::remarks::suspicion;
 use crate::calibration::stated::TemperatureOutside;
 use crate::calibration::{Decision, Found, Method, Model, Parameter, ParameterVerdict, Verdict};
 use crate::gyro::GyroType;
@@ -19,7 +18,6 @@ use crate::report::page::language::Text;
 use crate::text::Problems;
 use crate::wording::texts::calibration as texts;
 use crate::wording::texts::dcc as words;
-use crate::wording::words::joined;
 
 /// Publication of the drift model and of the equations.
 const PAPER: &str = "https://doi.org/10.18698/2308-6033-2017-10-1691";
@@ -120,8 +118,8 @@ fn statements(calibrated: &Calibrated) -> Vec<Element> {
         let visit = format!("{i}, {j}, {visit}, {}: {why}", cycle.unwrap_or(1));
         parts::statement(texts::EXCLUDED, Some(&visit))
     });
-    let suspects = calibrated.done.document.suspects.iter().map(|suspect| {
-        let declaration = in_words("dcc:declaration", joined(suspicion(suspect), " "));
+    let suspects = calibrated.done.calibration.suspects().map(|suspect| {
+        let declaration = in_words("dcc:declaration", suspect.said());
         parts::statement(words::SUSPECT, None).and(declaration)
     });
     let dependent = calibrated.judged.map_or_else(Vec::new, |(_, verdict)| verdict.dependent());

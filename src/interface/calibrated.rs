@@ -1,14 +1,13 @@
 //! Calibration with a passport: from currents as CSV to the JSON of `calibrate`.
 
 use super::{Failed, Order, json};
-use crate::calibration::diagnosis::other_numberings;
 use crate::calibration::document::{NoChange, Subject, another_type};
-use crate::calibration::mistake::narrow_by_type;
+use crate::calibration::finding::by_type;
 use crate::calibration::prediction::{FurtherVisit, best_further_visit, cost_of_missing, u_of_single_visits};
 use crate::calibration::stated::{TemperatureOutside, temperature_c};
 use crate::calibration::verdict::without_nominal;
 use crate::calibration::{
-    self, Calibration, CalibrationDocument, Method, Mistake, Model, NoLeastSquares, NotStated, Options, Parameter,
+    self, Calibration, CalibrationDocument, Kind, Method, Model, NoLeastSquares, NotStated, Options, Parameter,
     Readings, Setup, Verdict,
 };
 use crate::document::sha256_hex;
@@ -73,7 +72,7 @@ fn without_suspects(
     calibrate: impl Fn(&Readings) -> Option<(CalibrationDocument, Calibration)>,
 ) -> Vec<Option<CalibrationDocument>> {
     let left_out = |of: &Calibration, from: &Readings| -> Vec<Readings> {
-        of.suspects.iter().filter_map(|suspect| suspect.left_out(from)).collect()
+        of.suspects().filter_map(|suspect| suspect.left_out(from)).collect()
     };
     let mut found = Vec::new();
     let mut rests = left_out(calibration, readings);
@@ -282,17 +281,14 @@ impl<'a> Prepared<'a> {
         // factor of a thousand.
         let usual = last.filter(|earlier| earlier.is_valid()).and_then(CalibrationDocument::found);
         let usual = usual.map_or_else(|| GyroType::gvk_6().nominal.to_model(), |found| found.parameters);
-        let rate = content.earth.rate(&content.site);
-        calibration.mistake = Mistake::explaining(&calibration, &found, &rate, gyro_type, &usual);
-        if let (None, None, Some(gyro_type)) = (&calibration.mistake, &document.hint, gyro_type) {
-            let others = || other_numberings(&setup, &readings, options.model, options.drift);
-            calibration.mistake = Mistake::of_numbering(&found, gyro_type, others);
+        if let Some(gyro_type) = gyro_type {
+            by_type::narrow(&mut calibration.causes, &found, gyro_type);
         }
-        document.mistake = calibration.mistake;
-        if let Some((hint, gyro_type)) = calibration.hint.as_mut().zip(gyro_type) {
-            narrow_by_type(hint, &found, gyro_type);
-            document.hint = Some(hint.to_string());
-        }
+        calibration.causes.retain(|cause| cause.kind != Kind::Range || !calibration.consistent);
+        let case = (&setup, &readings, options);
+        let of_type = by_type::causes(case, &calibration, &found, gyro_type, &usual);
+        calibration.with_words(of_type);
+        let mut document = document.explained_by(&calibration);
         document.remarks = calibration::remarks::remarks(&calibration, &readings);
         let of_files = laboratory.remarks().into_iter().chain(gyro_type.into_iter().flat_map(GyroType::remarks));
         let of_conditions = warning
@@ -306,7 +302,7 @@ impl<'a> Prepared<'a> {
                 // Without a visit, the paper's methods may not have a result.
                 let methods = vec![Method::LeastSquares];
                 let mut found = calibration::calibrate(&setup, rest, &Options { methods, ..options.clone() }).ok()?;
-                found.mistake = calibration.mistake;
+                found.with_words(calibration.mistake().filter(|cause| cause.invalidates()).cloned());
                 Some((documented(rest, &found), found))
             });
             let agreed = |judged: &dyn Fn(&CalibrationDocument) -> Option<Verdict>| {
@@ -330,7 +326,7 @@ impl<'a> Prepared<'a> {
         let of_gravity = |parameter| if document.verdict.is_some() { found.u_from_gravity(parameter) } else { 0.0 };
         let cost_of_missing = cost_of_missing(&setup, &readings, &found.parameters, of_gravity);
         // A further visit is of no use as long as one is suspect.
-        let sound = of_verdict.filter(|_| calibration.suspects.is_empty());
+        let sound = of_verdict.filter(|_| calibration.suspects().next().is_none());
         let least_certain = sound.and_then(Verdict::least_certain);
         let further = least_certain.and_then(|row| {
             let result = (&calibration, &found.parameters);

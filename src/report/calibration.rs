@@ -12,7 +12,7 @@ mod history;
 mod methods;
 mod result;
 
-pub(crate) use fit::{not_stated, what_may_be_wrong};
+pub(crate) use fit::{causes, not_stated};
 pub(super) use headline::headline;
 pub(crate) use methods::parameters;
 pub(crate) use result::counted;
@@ -161,8 +161,8 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, report: &Report, ho
     let say = |out: &mut String, words: &Words| columns::paragraph(out, "", &plain(&words.plain(language)));
     for (place, warning) in doubts(done, trials).iter().enumerate() {
         say(&mut out, warning);
-        if let Some(hint) = done.calibration.hint.as_ref().filter(|_| place == 0) {
-            doc::text(&mut out, &what_may_be_wrong(hint), language);
+        if place == 0 && done.calibration.is_invalid() {
+            doc::text(&mut out, &causes(&done.calibration), language);
         }
     }
     let mut inputs: Vec<Words> = done.document.subject.as_ref().and_then(conditions).into_iter().collect();
@@ -205,7 +205,7 @@ fn remedies(done: &Done, report: &Report, how: &Said) -> Vec<Words> {
         .unchecked_range_c
         .map(|[low, high]| texts::temperature_not_stated("--temperature-c", Number::exact(low), Number::exact(high)));
     // Parameters that are not valid have no uncertainty to complete.
-    let needed = !report.details && done.calibration.hint.is_none();
+    let needed = !report.details && done.calibration.consistent;
     let missing = needed.then(|| not_included(&done.missing)).flatten();
     let more = (!report.details).then(|| texts::more("--details"));
     let assumed = assumed(how.meter_assumed, report.gyro.is_some()).map(Words::from);
@@ -241,19 +241,19 @@ fn conditions(Subject { gyro_serial, date, operator, temperature_c, .. }: &Subje
     (!said.is_empty()).then(|| doc::listed(said))
 }
 
-/// Returns what makes the parameters or their uncertainties unusable or doubtful. Causes of readings that do not fit are not
+/// Returns what makes the parameters or their uncertainties unusable or doubtful. Causes of a result that is not valid are not
 /// included.
 pub(crate) fn doubts(done: &Done, trials: Option<&MonteCarlo>) -> Vec<Words> {
     let Done { calibration, document, warning, earlier, .. } = done;
-    let hint = calibration.hint.iter().map(|_| doc::joined([texts::DOES_NOT_FIT, texts::DOES_NOT_FIT_WORDS], ". "));
-    let mistake = calibration.mistake.iter().map(remarks::of_mistake);
+    let invalid = remarks::invalid(calibration);
     let why = earlier.as_ref().and_then(|(_, why)| Some(why_no_change((*why)?).into()));
-    let of_scatter = fit::warnings(calibration);
+    // The causes of a result that is not valid follow its first sentence.
+    let of_scatter = if invalid.is_some() { Vec::new() } else { fit::warnings(calibration) };
     let outside = warning.as_ref().map(temperature_outside);
     let unexplained = earlier.as_ref().and_then(|(earlier, _)| document.unexplained_in_words(earlier));
     let factor =
         document.verdict.as_ref().filter(|verdict| !verdict.withheld).and_then(Verdict::common_factor_in_words);
-    let all = hint.chain(mistake).chain(why).chain(of_scatter).chain(outside).chain(unexplained).chain(factor);
+    let all = invalid.into_iter().chain(why).chain(of_scatter).chain(outside).chain(unexplained).chain(factor);
     all.chain(trials.and_then(not_linear)).map(texts::warning).collect()
 }
 

@@ -40,8 +40,9 @@ pub(crate) fn line(
 ) -> String {
     let Done { calibration, document, readings, .. } = done;
     let ((outcome, word), mut reasons) = headline(document, gyro_type);
-    if let Some(hint) = &calibration.hint {
-        let causes = super::calibration::what_may_be_wrong(hint);
+    let is_invalid = calibration.is_invalid();
+    if is_invalid {
+        let causes = super::calibration::causes(calibration);
         let causes = causes.iter().filter_map(|cause| doc::sentence(cause, language)).map(Words::Plain);
         let causes = doc::joined(causes, " ");
         reasons = doc::joined([reasons, causes], ". ");
@@ -49,8 +50,8 @@ pub(crate) fn line(
         let fit = calibration.adopted().map(|answer| doc::probability(answer.chi_square.probability));
         reasons = fit.map_or_else(|| "".into(), texts::fit_probability);
     }
-    // That the readings do not fit is said already.
-    let doubts = doubts(done, trials).into_iter().skip(calibration.hint.iter().len());
+    // That the result is not valid is said already.
+    let doubts = doubts(done, trials).into_iter().skip(usize::from(is_invalid));
     let digits = calibration.digits.iter().flat_map(of_digits);
     let all = [reasons].into_iter().chain(doubts).chain(without_reading(readings)).chain(digits);
     let words = plain(&doc::joined(all, "; ").plain(language));

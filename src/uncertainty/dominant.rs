@@ -129,6 +129,7 @@ fn what_to_do(cause: Cause, limit: f64) -> String {
         Cause::Noise(..) => format!("reduce the noise of the mean reading to {to}"),
         Cause::Visits(..) => format!("reduce the gyro's noise in the mean of a position to {to}, by more visits"),
         Cause::TurnOn(_) => format!("reduce the scatter of the mean of the turn-ons to {to}, by more turn-ons"),
+        Cause::Scale(_) => format!("reduce the scatter of K between turn-ons to {to}, by more turn-ons"),
         Cause::Differences(_) => "visit each position more often".to_owned(),
         Cause::Gain => format!("calibrate the gain of the meter with an uncertainty of {to}"),
         Cause::Offset => format!("calibrate the offset of the meter with an uncertainty of {to}"),

@@ -38,6 +38,8 @@ tables! {
     dcc
     /// Differences of two passports.
     difference
+    /// Causes that explain the readings of a calibration; `{p}` is a probability with its relation.
+    finding
     /// A stand over the years.
     history
     /// Stated values that are possible, but usually in another unit, such as parts per million instead of percent.

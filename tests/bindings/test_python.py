@@ -569,8 +569,8 @@ def test_remarks_are_handed_on() -> None:
     frame = pandas.read_csv(CURRENTS, comment="#").assign(operator="N. N.")
     assert any("operator" in remark for remark in load().calibrate(frame).remarks)
     amperes = load().calibrate(frame.assign(jx_ma=frame.jx_ma / 1000, jy_ma=frame.jy_ma / 1000))
-    assert amperes.consistent and amperes.mistake == {"currents": {**amperes.mistake["currents"], "power_of_ten": -3}}
-    assert "too small by a factor of 1000" in amperes.remarks[0] and "NOT THIS GYRO" in repr(amperes)
+    assert amperes.consistent and (amperes.mistake["kind"], amperes.mistake["size"]) == ("range", 0.001)
+    assert "0.001000 times those of the gyro" in amperes.remarks[0] and "NOT THIS GYRO" in repr(amperes)
     # Four positions have as many readings as unknowns.
     few = load().calibrate(frame.iloc[[0, 1, 2, 4]])
     assert few.dof == 0 and any("cannot be tested" in remark for remark in few.remarks)

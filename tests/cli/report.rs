@@ -254,8 +254,8 @@ fn readings_that_do_not_fit_are_said_not_to() {
     let bad = folder.write("bad.csv", &bad);
     let (page, _) = folder.page(&bad, &[VERIFIED, LABORATORY, &["--lang", "ru,en"]]);
     assert!(page.contains("The readings are not consistent with this stand"));
-    assert!(page.contains("Position (1, 3) may not have been reproduced"), "and which position it may be");
-    assert!(page.contains("Возможно, положение (1, 3) не воспроизведено"));
+    assert!(page.contains("Position (1, 3) did not repeat"), "and which position it may be");
+    assert!(page.contains("Положение (1, 3) не воспроизведено"));
 }
 
 /// Three rounds of the eight positions, J_x increasing by 3e-5 mA with each visit: paper and JSON name the drift.
@@ -279,8 +279,7 @@ fn a_drift_in_the_order_of_the_rows_is_named() {
         let currents = folder.write("rounds.csv", &table(drift_ma));
         let (page, result) = folder.page(&currents, &[VERIFIED, LABORATORY, GYRO, &["--lang", "en,ru"]]);
         let remarks = result["remarks"].to_string();
-        for (text, words) in
-            [(&page, "the residuals show a trend in"), (&page, "остатки обнаруживают"), (&remarks, "per visit")]
+        for (text, words) in [(&page, "To fit it, state the time"), (&page, "увеличивает"), (&remarks, "per visit")]
         {
             let text = text.replace('\u{a0}', " ");
             assert_eq!(text.contains(words), is_named, "{drift_ma}: {words}");

@@ -38,7 +38,7 @@ proptest! {
                 prop_assert!(result.parameters.to_vector().iter().all(|x| x.is_finite()), "{result:?}");
                 prop_assert!((0.0..=1.0).contains(&result.chi_square.probability), "{:?}", result.chi_square);
             }
-            let _ = found.hint.map(|hint| hint.to_string());
+            prop_assert!(found.consistent || !found.causes.is_empty() || !found.settled, "{found:?}");
         }
     }
 

@@ -2,24 +2,17 @@
 
 use super::Report;
 use crate::calibration::chi_square::FEW_DEGREES;
-use crate::calibration::diagnosis::{ALARM, Explanation, Hint, numbering};
 use crate::calibration::document::{ResidualDocument, ResultDocument};
-use crate::calibration::remarks::{Weight, correlated, scatter};
-use crate::calibration::result::DriftTest;
-use crate::calibration::{Calibration, NotStated};
-use crate::report::doc::{
-    Block, On, Rows, Statement, Words, drawn, fields, in_unit, joined, probability, say, symbol, told,
-};
+use crate::calibration::finding::ALARM;
+use crate::calibration::remarks::{Weight, scatter};
+use crate::calibration::{Calibration, Finding, NotStated};
+use crate::report::doc::{Block, On, Rows, Words, drawn, fields, in_unit, joined, probability, say, symbol};
 use crate::report::page::language::Text;
-use crate::report::page::number::{LARGEST_IN_ARCSEC, Number};
+use crate::report::page::number::Number;
 use crate::report::page::parts::starts;
 use crate::report::picture::residuals::{AXES, Bars, key};
-use crate::wording::spacing::spaced;
 use crate::wording::texts::causes as names;
-use crate::wording::texts::{calibration as texts, units};
-
-/// Uncertainty with which an angle is printed in whole arcseconds.
-const WHOLE_ARCSECONDS: f64 = 10.0;
+use crate::wording::texts::{calibration as texts, finding as words, units};
 
 pub(super) fn section(of: &Report) -> Vec<Block> {
     let Some(result) = of.adopted() else { return Vec::new() };
@@ -30,10 +23,11 @@ pub(super) fn section(of: &Report) -> Vec<Block> {
     }
     let answer = calibration.adopted();
     let changed = answer.is_some_and(|found| found.chi_square.is_changed_by_estimates());
-    let mut doc = vec![chi_square(result), say(changed.then_some(texts::OF_ESTIMATES)), say(too_small(calibration))];
+    let mut doc = vec![chi_square(result), say(changed.then_some(texts::OF_ESTIMATES))];
     doc.extend(scatter(calibration).into_iter().map(|(_, statement)| statement.into()));
+    doc.extend((!calibration.is_invalid()).then(|| causes(calibration)).into_iter().flatten());
     doc.push(say(super::methods::agreement(of)));
-    if of.details || calibration.hint.is_some() {
+    if of.details || !calibration.consistent {
         doc.extend([residuals(result), Block::Drawn(drawn(key))]);
     }
     doc
@@ -45,22 +39,33 @@ pub(super) fn brief(of: &Report) -> Vec<Block> {
     if result.chi_square.degrees_of_freedom == 0 {
         return vec![say([texts::NOT_JUDGED])];
     }
-    let mut doc = vec![chi_square(result), say(too_small(of.calibration))];
+    let mut doc = vec![chi_square(result)];
     let notable = scatter(of.calibration).into_iter().filter(|(weight, _)| *weight == Weight::Remark);
     doc.extend(notable.map(|(_, statement)| statement.into()));
-    doc.extend(of.calibration.hint.as_ref().map(|_| residuals(result)));
+    doc.extend((!of.calibration.consistent).then(|| residuals(result)));
     doc
 }
 
-/// Warnings about the scatter of the readings.
+/// The causes that explain the readings or the parameters, a paragraph each; at a terminal with how to leave a visit out.
+pub(crate) fn causes(calibration: &Calibration) -> Vec<Block> {
+    let several = calibration.is_invalid() && calibration.causes.len() > 1;
+    let each = calibration.causes.iter().map(|cause| say([cause.said()].into_iter().chain(advice(cause))));
+    several.then(|| say([words::POSSIBLE])).into_iter().chain(each).collect()
+}
+
+/// How to leave out a visit that is suspect, at a terminal only.
+fn advice(cause: &Finding) -> Option<Words> {
+    let scope = cause.scope.index().filter(|_| cause.is_reading()).zip(cause.scope.visit).zip(cause.scope.cycle);
+    scope.map(|((index, visit), cycle)| {
+        let how = format!("Option: --exclude {},{},{visit},{cycle} and --why.", index.i, index.j);
+        Words::Either(Box::new("".into()), Box::new(how.into()))
+    })
+}
+
+/// Causes that make a result doubtful, not invalid.
 pub(super) fn warnings(calibration: &Calibration) -> Vec<Words> {
-    let all = [(Weight::Warning, correlated(calibration))].into_iter().chain(scatter(calibration));
-    let all = all.filter(|(weight, _)| *weight == Weight::Warning);
-    let sentences = all.filter_map(|(_, statement)| match statement {
-        Statement::Sentences(all) if !all.is_empty() => Some(joined(all, " ")),
-        _ => None,
-    });
-    sentences.collect()
+    let all = calibration.causes.iter().filter(|cause| !cause.invalidates());
+    all.map(|cause| joined([cause.said()].into_iter().chain(advice(cause)), " ")).collect()
 }
 
 /// Errors that the residuals do not show.
@@ -88,20 +93,6 @@ fn chi_square(result: &ResultDocument) -> Block {
     fields(each)
 }
 
-/// Why chi-square is much smaller than expected, if it is.
-fn too_small(calibration: &Calibration) -> Option<Text> {
-    let drifts = [calibration.drift_test, calibration.drift_in_order];
-    let turn_ons = calibration.adopted().map_or(1, |answer| answer.cycles.len());
-    let is_multiplied = calibration.scatter.is_some_and(|scatter| scatter.variance_factor > 1.0);
-    let is_enlarged = is_multiplied || calibration.visit_noise.is_estimated();
-    let why = match is_enlarged {
-        true if drifts.iter().flatten().any(DriftTest::is_significant) => texts::TOO_SMALL_BY_TREND,
-        true if turn_ons < 2 || is_multiplied => texts::TOO_SMALL_OR_TURN_ONS,
-        _ => texts::TOO_SMALL,
-    };
-    calibration.fits_too_well().then_some(why)
-}
-
 fn residuals(result: &ResultDocument) -> Block {
     let residuals = &result.residuals_deg_per_h;
     let has_limits = |of: fn(&ResidualDocument) -> (f64, Option<f64>)| residuals.iter().any(|at| of(at).1.is_some());
@@ -123,35 +114,6 @@ fn residuals(result: &ResultDocument) -> Block {
     }
     rows.table.starts = starts(residuals.iter().map(|at| at.i));
     rows.captioned(texts::RESIDUALS_CAPTION, texts::RESIDUALS_CAPTION)
-}
-
-/// The possible causes of readings that do not fit, a paragraph each.
-pub(crate) fn what_may_be_wrong(hint: &Hint) -> Vec<Block> {
-    let nothing =
-        hint.explanations.is_empty().then(|| texts::hint_nothing(told(Number::significant(hint.size_arcsec, 2))));
-    let other = hint.may_be_another_stand().then(|| texts::HINT_OTHER_STAND.into());
-    nothing.into_iter().chain(hint.explanations.iter().map(explained)).chain(other).map(|words| say([words])).collect()
-}
-
-fn explained(explanation: &Explanation) -> Words {
-    match explanation {
-        Explanation::Exchanged(one, other) => texts::hint_exchanged(*one, *other),
-        Explanation::Sign { index, axis } => texts::hint_sign(["J_x", "J_y"][*axis], *index),
-        Explanation::ExchangedCurrents(index) => texts::hint_exchanged_currents(*index),
-        Explanation::Renumbered { i, j } => texts::hint_renumbered(spaced(&numbering(i, j))),
-        Explanation::OtherModel => texts::HINT_OTHER_MODEL.into(),
-        Explanation::OtherAxis { frame_axis_azimuth_deg } => texts::hint_other_axis(told(*frame_axis_azimuth_deg)),
-        Explanation::DidNotRepeat { index, angle_arcsec, current_ua } => {
-            let angle = if *angle_arcsec > LARGEST_IN_ARCSEC {
-                Number::angle(*angle_arcsec, WHOLE_ARCSECONDS)
-            } else {
-                Number::significant(*angle_arcsec, 2)
-            };
-            let place = Number::place_of(current_ua.amax());
-            let [jx, jy] = [current_ua.x, current_ua.y].map(|error| Number::to_place(error, place));
-            texts::hint_did_not_repeat(*index, told(angle), told(jx), told(jy))
-        }
-    }
 }
 
 /// The name of an input without a stated uncertainty.

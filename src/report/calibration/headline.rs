@@ -12,7 +12,7 @@ use crate::wording::{Text, Words};
 pub(in crate::report) fn headline(document: &CalibrationDocument, gyro_type: Option<&str>) -> ((Outcome, Text), Words) {
     let judged = gyro_type.zip(document.verdict.as_ref());
     let (outcome, word, words): (Outcome, Text, Words) = match judged {
-        _ if document.hint.is_some() => (Outcome::Failed, texts::INVALID, texts::DOES_NOT_FIT.into()),
+        _ if !document.consistent => (Outcome::Failed, texts::INVALID, texts::DOES_NOT_FIT.into()),
         _ if document.mistake.is_some() => (Outcome::Failed, texts::INVALID, texts::MISTAKE.into()),
         None => (Outcome::NotAsked, texts::IS_CALIBRATED, texts::NO_TYPE_WORDS.into()),
         Some((_, verdict)) if verdict.withheld => (Outcome::NotAsked, texts::IS_CALIBRATED, texts::NOT_VERIFIED.into()),

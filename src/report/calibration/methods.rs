@@ -24,7 +24,7 @@ pub(super) fn section(of: &Report) -> Vec<Block> {
 /// The methods of a result that is not [in agreement](agreement): their values if there are several, and those that gave none.
 pub(super) fn brief(of: &Report) -> Vec<Block> {
     // Of parameters that are not valid a comparison says nothing more.
-    let is_valid = of.calibration.hint.is_none();
+    let is_valid = of.calibration.consistent;
     let is_compared = is_valid && of.document.results.len() > 1 && agreement(of).is_none();
     is_compared.then(|| table(of)).into_iter().chain(refused(of)).collect()
 }

@@ -48,7 +48,8 @@ pub(super) fn kernel(setup: &Setup, means_ma: &[Vector2<f64>], plan: &Plan) -> K
     let may_be_large = plan.draw.has_long_tails() || 4.0 * LARGEST_NORMAL * largest > SMALL_RAD;
     let (gain, offset) = (plan.slot(Cause::Gain), plan.slot(Cause::Offset));
     let turn_on = [0, 1].map(|axis| plan.slot(Cause::TurnOn(axis)));
-    let drifts = drawn(&turn_on) || places.iter().any(|place| drawn(&place.visits));
+    let scale = [0, 1].map(|axis| [0, 1].map(|column| plan.slot(Cause::Scale(2 * axis + column))));
+    let drifts = drawn(&turn_on) || drawn(scale.as_flattened()) || places.iter().any(|place| drawn(&place.visits));
     Kernel {
         places,
         case,
@@ -57,6 +58,7 @@ pub(super) fn kernel(setup: &Setup, means_ma: &[Vector2<f64>], plan: &Plan) -> K
         gain,
         offset,
         turn_on,
+        scale,
         drifts,
         earth: earth.into(),
         case_turns,

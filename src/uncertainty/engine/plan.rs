@@ -71,6 +71,9 @@ impl Plan {
         for axis in 0..2 {
             add(Cause::TurnOn(axis), repeats.turn_on_of_mean_deg_per_h(), estimates.turn_ons);
         }
+        for (element, basis) in estimates.scale.into_iter().enumerate() {
+            add(Cause::Scale(element), repeats.scale_of_mean(element), basis);
+        }
         let drawn = inputs.iter().map(|input| Drawn {
             uniform: shape == ReadingShape::Uniform && matches!(input.cause, Cause::Reading(..)),
             estimates: input.basis.shares().collect(),

@@ -67,7 +67,9 @@ pub struct Kernel {
     pub offset: Scaled,
     /// Drift from turn-on to turn-on about x and y, °/h.
     pub turn_on: [Scaled; 2],
-    /// `true` if the gyro's drift has noise.
+    /// Scatter of K from turn-on to turn-on, row by row, °/(h mA).
+    pub scale: [[Scaled; 2]; 2],
+    /// `true` if the gyro's drift or K has noise.
     pub drifts: bool,
     /// Earth rate to the east, north and up, °/h.
     pub earth: [f64; 3],
@@ -160,6 +162,13 @@ impl Kernel {
                 [place.visits[axis], self.turn_on[axis]].map(|(slot, u)| (&deviates[slot], u));
             for trial in 0..WIDTH {
                 at.omega[axis][trial] -= u * own[trial] + u_turn_on * turn_on[trial];
+            }
+            for ((slot, u), current_ma) in
+                self.scale[axis].iter().zip(&place.means_ma).filter(|((slot, _), _)| *slot > 0)
+            {
+                for (omega, deviate) in at.omega[axis].iter_mut().zip(&deviates[*slot]) {
+                    *omega -= u * current_ma * deviate;
+                }
             }
         }
     }

@@ -3,6 +3,7 @@
 #[cfg(feature = "cli")]
 mod alone;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod causes;
 mod coarse_readings;
 #[cfg(feature = "monte-carlo")]
 mod diagnosis;

@@ -14,13 +14,12 @@ use super::passport::PassportPage;
 use super::shell::{Margins, document};
 use crate::calibration::Calibration;
 use crate::calibration::document::CalibrationDocument;
-use crate::calibration::remarks::of_mistake;
 use crate::calibration::stated::NotStated;
 use crate::calibration::verdict::{Decision, Verdict};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
-use crate::report::calibration::{Report, counted, symbols, what_may_be_wrong, why_no_change};
+use crate::report::calibration::{Report, causes, counted, symbols, why_no_change};
 use crate::report::doc::{Block, listed, marked, outcome_box, say, told};
 use crate::report::style::Outcome;
 use crate::report::uncertainty;
@@ -182,7 +181,7 @@ impl CalibrationPage<'_> {
     }
 
     fn fits(&self) -> bool {
-        self.calibration.hint.is_none()
+        self.calibration.consistent
     }
 
     fn body(&self, languages: &Languages) -> Markup {
@@ -210,17 +209,18 @@ impl CalibrationPage<'_> {
             let headline = marked(Outcome::NotAsked, texts::NOT_VERIFIED);
             Block::Boxed("verdict refused", headline, vec![say([texts::NOT_VERIFIED_WORDS])])
         });
-        let hint = self.calibration.hint.as_ref().map(|hint| {
-            let causes = [vec![say([texts::DOES_NOT_FIT_WORDS])], what_may_be_wrong(hint)].concat();
-            outcome_box(Outcome::Failed, texts::DOES_NOT_FIT, causes)
+        let invalid = self.calibration.is_invalid().then(|| {
+            let [name, what] = match self.fits() {
+                true => [texts::MISTAKE, texts::MISTAKE_WORDS],
+                false => [texts::DOES_NOT_FIT, texts::DOES_NOT_FIT_WORDS],
+            };
+            outcome_box(Outcome::Failed, name, [vec![say([what])], causes(self.calibration)].concat())
         });
-        let mistake = self.document.mistake.as_ref();
-        let mistake = mistake.map(|found| outcome_box(Outcome::Failed, texts::MISTAKE, vec![say([of_mistake(found)])]));
         let no_change = self.previous.iter().rev().find_map(|earlier| self.document.no_change(earlier));
         let no_change =
             no_change.map(|why| outcome_box(Outcome::Undecided, texts::NO_CHANGE, vec![say([why_no_change(why)])]));
         let doubts = [subject::temperature(self), subject::date_of_readings(self)];
-        [not_verified, hint, mistake, no_change].into_iter().chain(doubts).flatten().collect()
+        [not_verified, invalid, no_change].into_iter().chain(doubts).flatten().collect()
     }
 
     /// The stated values that are usually a mistake in the unit.
