@@ -32,7 +32,7 @@ impl Outcome {
 }
 
 /// What is said, in every language at once.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Words {
     /// A text of a table, with its values.
     Text(Text, Vec<(&'static str, Words)>),

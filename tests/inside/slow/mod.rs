@@ -3,6 +3,8 @@
 #[cfg(feature = "cli")]
 mod alone;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod causes;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod coarse_readings;
 #[cfg(feature = "monte-carlo")]
 mod diagnosis;
@@ -16,18 +18,12 @@ mod hostile_memory;
 mod noise;
 #[cfg(feature = "report")]
 mod repeats;
-#[cfg(all(feature = "factory", feature = "monte-carlo"))]
-mod rotated_runs;
 #[cfg(feature = "monte-carlo")]
 mod runs;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod same_stand;
-#[cfg(all(feature = "factory", feature = "monte-carlo"))]
-mod shared_settings;
 #[cfg(feature = "report")]
 mod simulation;
-#[cfg(all(feature = "factory", feature = "monte-carlo"))]
-mod split_run;
 #[cfg(feature = "monte-carlo")]
 mod stated_uncertainty;
 #[cfg(feature = "factory")]
@@ -36,9 +32,5 @@ mod suites;
 mod tampering;
 #[cfg(all(feature = "factory", feature = "report"))]
 mod uncertainty;
-#[cfg(all(feature = "factory", feature = "monte-carlo"))]
-mod unequal_axes;
-#[cfg(all(feature = "factory", feature = "monte-carlo"))]
-mod worse_groups;
 #[cfg(feature = "factory")]
 mod yaml_readers;
