@@ -34,9 +34,6 @@ pub enum Bibliography {
     NistStrd,
     /// JCGM 106:2012, Evaluation of measurement data: The role of measurement uncertainty in conformity assessment.
     Jcgm106,
-    /// M. S. Bartlett, "Properties of sufficiency and statistical tests", Proceedings of the Royal Society A 160, 1937,
-    /// 268-282, <https://doi.org/10.1098/rspa.1937.0109>.
-    Bartlett37,
     /// A. R. Didonato and A. H. Morris, "Algorithm 708: significant digit computation of the incomplete beta function
     /// ratios", ACM Transactions on Mathematical Software 18, 1992, 360-373, <https://doi.org/10.1145/131766.131776>.
     DidonatoMorris92,
@@ -48,9 +45,6 @@ pub enum Bibliography {
     /// R. C. Paule and J. Mandel, "Consensus values and weighting factors", Journal of Research of the National Bureau of
     /// Standards 87, 1982, 377-385, <https://doi.org/10.6028/jres.087.022>.
     PauleMandel82,
-    /// F. E. Grubbs, "Procedures for detecting outlying observations in samples", Technometrics 11, 1969, 1-21,
-    /// <https://doi.org/10.1080/00401706.1969.10490657>.
-    Grubbs69,
     /// W. Stefansky, "Rejecting outliers in factorial designs", Technometrics 14, 1972, 469-479,
     /// <https://doi.org/10.1080/00401706.1972.10488930>: the maximum normed residual.
     Stefansky72,

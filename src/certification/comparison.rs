@@ -9,13 +9,14 @@
 use super::components::Variance;
 use super::differences::{Between, Differences, certified_u_arcsec, square};
 use super::finding::{Finding, Untested, findings};
+use super::found::{Found, Kind, OUTLIER, Scope};
 use super::misread::Misread;
-use super::suspects::OUTLIER;
 use super::{AngleReadings, Certification, Header, NominalPosition};
 use crate::calibration::recorded::rounding_of;
 use crate::coefficients::PositionIndex;
 use crate::stand::Stand;
 use crate::statistics::student::{detectable, f_beyond, f_larger};
+use crate::wording::texts::remarks as texts;
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -134,6 +135,11 @@ pub struct Comparison {
 }
 
 impl Comparison {
+    /// Returns what has changed, or is wrong with the whole of the readings, as findings.
+    pub(crate) fn causes(&self) -> impl Iterator<Item = Found> {
+        self.findings.iter().filter_map(|finding| finding.cause(self.all, &self.common))
+    }
+
     /// Returns `true` if the readings of the check do not show whether the stand has changed: because of outliers among
     /// them, because they scatter much more than the certificate states, or because they are those of the certificate.
     pub(crate) fn is_undecided(&self) -> bool {
@@ -246,11 +252,17 @@ fn misplaced(
 ) -> Result<Vec<Finding>, NotCompared> {
     let certified: Vec<_> = certificate.positions.iter().map(|at| Vector3::from(at.angles_arcsec())).collect();
     let exchanged = exchanged(certificate, &certified, readings, scatter, repeating)?;
-    let mut misplaced: Vec<Finding> = exchanged.into_iter().map(Finding::Exchanged).collect();
+    let mut misplaced: Vec<Finding> = exchanged.into_iter().map(exchange).map(Finding::Misplaced).collect();
     if misplaced.is_empty() && repeating.is_empty() {
-        misplaced.extend(Misread::of(&readings.means_arcsec(), &certified).map(Finding::Misread));
+        misplaced.extend(Misread::of(&readings.means_arcsec(), &certified).map(|at| Finding::Misplaced(at.found())));
     }
     Ok(misplaced)
+}
+
+/// Returns the finding that two positions are exchanged.
+fn exchange([one, other]: [PositionIndex; 2]) -> Found {
+    let scope = Scope { between: Some([one, other].map(|at| [at.i, at.j])), ..Scope::default() };
+    Found::new(Kind::RowsExchanged, scope, 0.0, texts::exchanged(one, other)).advised(texts::DO_CHECK_ROWS)
 }
 
 /// Returns the pairs of positions whose readings are exchanged: neither is among the `repeating` ones, the angles of each
@@ -317,9 +329,7 @@ fn larger_scatter(
     again: Option<&Certification>,
     readings: &AngleReadings,
 ) -> Option<(Variance, f64)> {
-    let again = again.filter(|again| {
-        again.suspects.split.is_none() && again.suspects.outliers.iter().all(|out| out.probability >= OUTLIER)
-    })?;
+    let again = again.filter(|again| !again.findings.iter().any(|found| found.kind == Kind::Bump))?;
     let found = again.components.pooled_arcsec2;
     let expected = scatter.value + square(rounding_of(readings.step_arcsec));
     let probability = f_beyond(found.value / expected, found.degrees_of_freedom, scatter.degrees_of_freedom);

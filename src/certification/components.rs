@@ -69,8 +69,6 @@ pub(crate) struct Components {
     /// Mean squares of the residuals of each axis, arcsec², for tests. They separate the axes less well than
     /// [`Components::own_arcsec2`], but scatter less themselves.
     pub axis_squares_arcsec2: [Variance; 3],
-    /// Mean squares of the residuals of each position, relative to those of the axes.
-    pub position_squares: Vec<Variance>,
     /// Rotation of the platform common to a run.
     pub platform: Common,
     /// Rotation of the base common to a run; `None` if no axis of it can be distinguished from the platform.
@@ -79,6 +77,8 @@ pub(crate) struct Components {
     pub base_axes: usize,
     /// Rotations of the single runs.
     pub run_turns: Vec<RunTurn>,
+    /// Rotations of the runs in the axes of the model, arcsec.
+    pub(crate) effects: Vec<DVector<f64>>,
     /// Residuals of the readings, `[run][3 position + axis]`, arcsec along x, y, z of the case.
     pub(crate) residuals: Vec<DVector<f64>>,
     /// Share of the scatter of each row in the residual of each row of one run: rows × rows, `[3 position + axis]`.
@@ -91,6 +91,7 @@ pub(crate) struct Components {
 const LEAST_LENGTH: f64 = 0.5;
 
 /// Orthonormal combinations of what a rotation of the whole run leaves of rotations of some of its positions.
+#[derive(Debug, Clone)]
 pub(crate) struct Combinations {
     /// Combinations: rows × combinations.
     pub(crate) shared: DMatrix<f64>,
@@ -98,6 +99,32 @@ pub(crate) struct Combinations {
     pub(crate) lengths: DVector<f64>,
     /// Shares of the rotations: combinations × rotations.
     pub(crate) shares: DMatrix<f64>,
+}
+
+impl Combinations {
+    /// Returns the combinations of what a layer keeps of `rotations`, rows × rotations.
+    pub(crate) fn of(rotations: &DMatrix<f64>) -> Option<Self> {
+        let svd = rotations.clone().svd(true, true);
+        let kept: Vec<usize> =
+            (0..svd.singular_values.len()).filter(|&at| svd.singular_values[at] > LEAST_LENGTH).collect();
+        Some(Self {
+            shared: svd.u?.select_columns(&kept),
+            lengths: svd.singular_values.select_rows(&kept),
+            shares: svd.v_t?.select_rows(&kept),
+        })
+    }
+}
+
+/// Variances of the rotations of the runs about one axis of platform or base, arcsec².
+pub(crate) struct Variation {
+    /// About this axis.
+    pub own_arcsec2: f64,
+    /// About the other two of its part.
+    pub others_arcsec2: f64,
+    /// Pooled from all three.
+    pub between_arcsec2: f64,
+    /// Variance about this axis, scatter of visits included, relative to what the others let expect.
+    pub ratio: f64,
 }
 
 /// Linear model of the rotations of platform and base in one run.
@@ -200,9 +227,6 @@ pub(crate) fn estimate(
         return Err(NotCertified::NoScatter);
     }
     let scale = |row: usize| own_arcsec2[axis(row)].value;
-    let of_positions =
-        grouped(&squares, &keeps, rows / 3, |row| row / 3, &scale).ok_or(NotCertified::TooFewPositions)?;
-    let position_squares = of_positions.into_iter().map(|group| group.mean_square.over(changes)).collect();
     let of_effect = |at: usize| {
         let seen = effects.iter().map(|effect| effect[at] * effect[at]).sum::<f64>() / changes;
         let of_scatter = (0..rows).map(|row| model.solve[(at, row)] * model.solve[(at, row)] * scale(row)).sum::<f64>();
@@ -217,11 +241,11 @@ pub(crate) fn estimate(
         own_arcsec2,
         pooled_arcsec2,
         axis_squares_arcsec2,
-        position_squares,
         platform: common(0, 3),
         base: (columns > 3).then(|| common(3, columns)),
         base_axes: columns - 3,
         run_turns: runs.iter().zip(&effects).map(|(run, effect)| turn(*run, effect)).collect(),
+        effects,
         residuals,
         keeps,
         model,
@@ -229,72 +253,56 @@ pub(crate) fn estimate(
 }
 
 impl Components {
-    /// Corrects the variances of readings of which some are predictions from the others, and so show no scatter:
-    /// `squares_arcsec2` are the mean squares of the residuals without them, by axis, and `missing` has the places
-    /// (position, run) of the predictions.
-    pub(crate) fn without(&mut self, squares_arcsec2: [Variance; 3], missing: &[(usize, usize)]) {
-        let ratio = |axis: usize| squares_arcsec2[axis].value / self.axis_squares_arcsec2[axis].value;
-        let ratios = [0, 1, 2].map(ratio);
-        for (own, ratio) in self.own_arcsec2.iter_mut().zip(ratios) {
-            *own = Variance { value: own.value * ratio, degrees_of_freedom: own.degrees_of_freedom / ratio };
-        }
-        self.axis_squares_arcsec2 = squares_arcsec2;
-        self.pooled_arcsec2 = pooled(&self.axis_squares_arcsec2, &self.own_arcsec2);
+    /// Replaces the residuals by those without shifts of readings, such as predictions of missing ones and suspect readings, and
+    /// corrects the variances: `rest` has the sums of squares about x, y, z that these leave, arcsec², and their degrees of
+    /// freedom.
+    pub(crate) fn without_shifts(&mut self, residuals: Vec<DVector<f64>>, rest: &[[f64; 2]]) {
         let changes = self.residuals.len() as f64 - 1.0;
-        let mean_ratio = ratios.iter().sum::<f64>() / 3.0;
-        for (place, square) in self.position_squares.iter_mut().enumerate() {
-            let lost = missing.iter().filter(|(of, _)| *of == place).count() as f64;
-            let kept = (changes - lost) / changes;
+        for (axis, [squares, freedom]) in rest.iter().enumerate() {
+            let (own, square) = (&mut self.own_arcsec2[axis], &mut self.axis_squares_arcsec2[axis]);
+            let kept = (axis..self.keeps.nrows()).step_by(3).map(|row| self.keeps[(row, row)]).sum::<f64>() * changes;
+            let ratio = squares / freedom / square.value;
+            // Correlated residuals have fewer degrees of freedom; assume the same ratio as before.
             *square = Variance {
-                value: square.value / mean_ratio / kept,
-                degrees_of_freedom: square.degrees_of_freedom * kept,
+                value: square.value * ratio,
+                degrees_of_freedom: square.degrees_of_freedom * freedom / kept,
             };
+            *own = Variance { value: own.value * ratio, degrees_of_freedom: own.degrees_of_freedom * freedom / kept };
         }
+        self.residuals = residuals;
+        self.pooled_arcsec2 = pooled(&self.axis_squares_arcsec2, &self.own_arcsec2);
     }
 
-    /// Returns the combinations of `rotations` (rows × rotations) that can be distinguished from rotations of the whole run.
-    pub(crate) fn combinations(&self, rotations: &DMatrix<f64>) -> Option<Combinations> {
-        let svd = (&self.keeps * rotations).svd(true, true);
-        let kept: Vec<usize> =
-            (0..svd.singular_values.len()).filter(|&at| svd.singular_values[at] > LEAST_LENGTH).collect();
-        Some(Combinations {
-            shared: svd.u?.select_columns(&kept),
-            lengths: svd.singular_values.select_rows(&kept),
-            shares: svd.v_t?.select_rows(&kept),
-        })
+    /// Returns the variation of the runs about an axis (0, 1, 2 for x, y, z of the platform, 3, 4, 5 for those of the base) and
+    /// about the other two of its part, from sums of `squares` about each axis, arcsec², with their degrees of freedom.
+    pub(crate) fn variation(&self, squares: &[[f64; 2]], axis: usize) -> Variation {
+        let first = axis / 3 * 3;
+        // The scatter of visits varies the rotations too, by an amount that may differ from axis to axis.
+        let of_scatter = |at: usize| {
+            let shares = self.model.solve.row(at).into_owned();
+            shares.iter().enumerate().map(|(row, share)| share * share * self.own_arcsec2[row % 3].value).sum::<f64>()
+        };
+        let seen = [0, 1, 2].map(|at| squares[first + at][0] / squares[first + at][1] - of_scatter(first + at));
+        let between = seen.iter().sum::<f64>().max(0.0) / 3.0;
+        let own_arcsec2 = seen[axis % 3].max(0.0);
+        let others_arcsec2 = ((3.0 * between - own_arcsec2) / 2.0).max(0.0);
+        // Each of the others shows the variation of all only roughly: the larger counts.
+        let most = (0..3).filter(|at| *at != axis % 3).map(|at| seen[at]).fold(0.0, f64::max);
+        let ratio = squares[axis][0] / squares[axis][1] / (most + of_scatter(axis));
+        Variation { own_arcsec2, others_arcsec2, between_arcsec2: between, ratio }
     }
 
-    /// Returns −2 ln of the likelihood, up to a constant, of readings that leave these sums of squared residuals about x, y, z,
-    /// arcsec², with a separate variance for each axis.
-    pub(crate) fn unlikelihood(&self, sums_arcsec2: [f64; 3]) -> f64 {
-        let axes = self.axis_squares_arcsec2.iter().zip(sums_arcsec2);
-        axes.map(|(all, sum)| all.degrees_of_freedom * libm::log(sum.max(f64::MIN_POSITIVE))).sum()
-    }
-
-    /// Returns the degrees of freedom that the residuals of an axis keep: their sum of squares over their mean square.
-    pub(crate) fn kept(&self, axis: usize) -> f64 {
-        let rows = (axis..self.keeps.nrows()).step_by(3);
-        rows.map(|row| self.keeps[(row, row)]).sum::<f64>() * (self.residuals.len() as f64 - 1.0)
-    }
-
-    /// Returns the variance of the visits to each position relative to that of all positions: for each of the positions
-    /// `worse` by itself, for all others pooled. `None` if the residuals do not determine it.
-    pub(crate) fn scatter_of_positions(&self, worse: &[usize]) -> Option<Vec<Variance>> {
+    /// Returns the variance of the visits to each position relative to that of all positions: for each of the groups `worse` by
+    /// itself, for all others pooled. `None` if the residuals do not determine it.
+    pub(crate) fn scatter_of_positions(&self, worse: &[Vec<usize>]) -> Option<Vec<Variance>> {
         let rows = self.keeps.nrows();
         let changes = self.residuals.len() as f64 - 1.0;
         let squares = mean_squares(&self.residuals);
-        let group = |place: usize| worse.iter().position(|at| *at == place).unwrap_or(worse.len());
+        let group = |place: usize| worse.iter().position(|places| places.contains(&place)).unwrap_or(worse.len());
         let scale = |row: usize| self.own_arcsec2[row % 3].value;
         let groups = grouped(&squares, &self.keeps, worse.len() + 1, |row| group(row / 3), &scale)?;
         Some((0..rows / 3).map(|place| groups[group(place)].own.over(changes)).collect())
     }
-}
-
-/// Returns the sums of the values of all rows about x, y and z; one run of rows after another.
-pub(super) fn by_axis(values: impl Iterator<Item = f64>) -> [f64; 3] {
-    let mut sums = [0.0; 3];
-    values.enumerate().for_each(|(row, value)| sums[row % 3] += value);
-    sums
 }
 
 /// Returns the mean squares of the residuals of every row over the runs.

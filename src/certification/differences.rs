@@ -2,14 +2,15 @@
 
 use super::comparison::{CommonTurn, NotCompared, Test};
 use super::components::{RunModel, Variance, case_turn, turns_at};
-use super::finding::{ChangedSetting, Untested};
-use super::shared_settings::Setting;
-use super::suspects::OUTLIER;
-use super::{AngleReadings, Certification, NominalPosition, rotated_runs};
+use super::finding::Untested;
+use super::found::{Found, Kind, OUTLIER, Setting, arcsec};
+use super::{AngleReadings, Certification, NominalPosition};
 use crate::calibration::inputs::Turn;
 use crate::stand::{ActsOn, Certificate, CertifiedPosition, Stand};
 use crate::statistics::least_squares::Factorised;
-use crate::statistics::student::f_larger;
+use crate::statistics::student::{f_beyond, f_larger};
+use crate::wording::number::Number;
+use crate::wording::texts::remarks as texts;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// Differences between check and certificate as rotations of the case, with their standard uncertainties and the model of
@@ -97,7 +98,7 @@ impl Differences {
 
     /// Returns the change of one setting that explains all differences: the positions with one value of θ or φ have rotated
     /// about the axis of that angle.
-    pub(super) fn setting(&self, positions: &[NominalPosition]) -> Option<ChangedSetting> {
+    pub(super) fn setting(&self, positions: &[NominalPosition]) -> Option<Found> {
         let places: Vec<usize> = (0..positions.len()).collect();
         let columns = self.model.design.ncols();
         let freedom = (3 * positions.len()).checked_sub(columns + 1).filter(|freedom| *freedom > 0)?;
@@ -109,14 +110,19 @@ impl Differences {
             }
             let (found, _, rest) = self.fit(&design, &places)?;
             let explains = self.test(rest, freedom).probability >= OUTLIER;
-            explains.then_some((rest, ChangedSetting { setting, angle_deg, turn_arcsec: found[columns] }))
+            explains.then_some((rest, (setting, angle_deg, found[columns])))
         };
         let each = Setting::ALL.into_iter().flat_map(|setting| {
             // Of two values either may have changed: the smaller is the reference.
             setting.values(positions).into_iter().skip(1).map(move |angle_deg| (setting, angle_deg))
         });
         let found = each.filter_map(|(setting, angle_deg)| of_value(setting, angle_deg));
-        found.min_by(|(one, _), (other, _)| one.total_cmp(other)).map(|(_, changed)| changed)
+        found.min_by(|(one, _), (other, _)| one.total_cmp(other)).map(|(_, (setting, angle_deg, turn))| {
+            let words = texts::setting_changed(setting.symbol(), Number::exact(angle_deg), arcsec(turn));
+            let probability = self.rest(&places).map_or(1.0, |test| test.probability);
+            let found = Found::new(Kind::StandChanged, setting.scope(angle_deg), probability, words);
+            found.sized(turn).advised(texts::DO_CHECK_SETTING)
+        })
     }
 
     /// Returns the correlation of the readings with the certified deviations, without the rotations common to all
@@ -228,40 +234,58 @@ pub(super) struct Between {
     runs: f64,
     platform_arcsec2: f64,
     base_arcsec2: f64,
-    /// Degrees of freedom: three axes in each run but one, of whichever of check and certificate has fewer.
+    /// Degrees of freedom: three axes in each run but one, of check and certificate together if they are pooled, else of
+    /// whichever has fewer.
     degrees_of_freedom: f64,
 }
 
+/// Probability below which the variances of check and certificate are not pooled.
+const PARTED: f64 = 0.05;
+
 impl Between {
-    /// Returns the variation of the check itself if it has several runs, else that of the certificate's readings.
+    /// Returns the variation of the check itself if it has several runs, pooled with that of the certificate's readings where
+    /// they do not differ (F test); of a check of one run the latter alone.
     ///
     /// # Errors
     /// Returns the reason if neither shows it.
     pub(super) fn new(certificate: &Certificate, runs: usize, again: Option<&Certification>) -> Result<Self, Untested> {
         let evidence = certificate.evidence.as_ref().map(|evidence| f64::from(evidence.runs));
-        let degrees_of_freedom = |runs: f64| 3.0 * (runs - 1.0);
-        let of_certificate = evidence.map_or(f64::INFINITY, degrees_of_freedom);
-        if runs > 1 {
-            let again = again.ok_or(Untested::Variation)?;
-            let of_check = rotated_runs::variance(&again.components, &again.rotated_runs);
-            return Ok(Self {
-                runs: runs as f64,
-                platform_arcsec2: of_check.platform_arcsec2,
-                base_arcsec2: of_check.base_arcsec2,
-                degrees_of_freedom: (3.0 * of_check.changes as f64).min(of_certificate),
-            });
-        }
-        let evidence = evidence.ok_or(Untested::NumberOfRuns)?;
-        let of_one_run = |common: Option<f64>, on: ActsOn| {
-            let of_mean = square(common.unwrap_or(0.0)) - certificate.type_b_arcsec2(on);
-            of_mean.max(0.0) * evidence
+        let of_certificate = evidence.map_or(f64::INFINITY, |runs| 3.0 * (runs - 1.0));
+        let stated =
+            [(certificate.common_platform_arcsec, ActsOn::Platform), (certificate.common_base_arcsec, ActsOn::Base)];
+        let stated = |evidence: f64| {
+            stated.map(|(common, on)| {
+                let of_mean = square(common.unwrap_or(0.0)) - certificate.type_b_arcsec2(on);
+                of_mean.max(0.0) * evidence
+            })
         };
-        Ok(Self {
-            runs: 1.0,
-            platform_arcsec2: of_one_run(certificate.common_platform_arcsec, ActsOn::Platform),
-            base_arcsec2: of_one_run(certificate.common_base_arcsec, ActsOn::Base),
-            degrees_of_freedom: of_certificate,
-        })
+        if runs == 1 {
+            let [platform_arcsec2, base_arcsec2] = stated(evidence.ok_or(Untested::NumberOfRuns)?);
+            return Ok(Self { runs: 1.0, platform_arcsec2, base_arcsec2, degrees_of_freedom: of_certificate });
+        }
+        let of_check = again.ok_or(Untested::Variation)?.between;
+        let own = 3.0 * of_check.changes;
+        let mut found = Self {
+            runs: runs as f64,
+            platform_arcsec2: of_check.platform_arcsec2,
+            base_arcsec2: of_check.base_arcsec2,
+            degrees_of_freedom: own.min(of_certificate),
+        };
+        let Some(stated) = evidence.filter(|runs| *runs > 1.0).map(stated) else { return Ok(found) };
+        let both = [found.platform_arcsec2, found.base_arcsec2].into_iter().zip(stated);
+        // An estimate of 0 is no smaller than another.
+        let is_alike = |(check, certified): (f64, f64)| {
+            let ratio = if check > 0.0 && certified > 0.0 { check / certified } else { 1.0 };
+            f_beyond(ratio, own, of_certificate).min(f_beyond(1.0 / ratio, of_certificate, own)) > PARTED / 2.0
+        };
+        if both.clone().all(is_alike) {
+            let pooled: Vec<f64> = both
+                .map(|(check, certified)| (check * own + certified * of_certificate) / (own + of_certificate))
+                .collect();
+            (found.platform_arcsec2, found.base_arcsec2) = (pooled[0], pooled[1]);
+            found.degrees_of_freedom = own + of_certificate;
+        }
+        Ok(found)
     }
 }
 

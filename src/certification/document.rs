@@ -1,6 +1,7 @@
 //! Certified stand file as text: canonical, with comments on the origin of its numbers.
 
 use super::Certification;
+use super::found::{Kind, Scope};
 use crate::stand::{ActsOn, Stand};
 use crate::text::Unreadable;
 use crate::text::yaml::write_document;
@@ -59,10 +60,20 @@ impl Certification {
     }
 
     fn of_the_positions(&self) -> Vec<String> {
-        let mut worse: Vec<String> =
-            self.suspects.worse.iter().map(|at| format!("position {} (Cochran's test)", at.index)).collect();
-        let group = self.suspects.group.iter();
-        worse.extend(group.map(|at| format!("the positions with θ = {}° (F test)", at.theta_deg)));
+        let worse: Vec<String> = self
+            .findings
+            .iter()
+            .filter_map(|found| match (found.kind, &found.scope) {
+                (Kind::PositionScatter, Scope { position: Some(index), .. }) => Some(format!("position {index}")),
+                (Kind::SettingScatter, Scope { theta_deg: Some(angle), .. }) => {
+                    Some(format!("the positions with θ = {angle}°"))
+                }
+                (Kind::SettingScatter, Scope { phi_deg: Some(angle), .. }) => {
+                    Some(format!("the positions with φ = {angle}°"))
+                }
+                _ => None,
+            })
+            .collect();
         let scatter = if worse.is_empty() {
             "the pooled standard deviation of all positions, for each axis".to_owned()
         } else {

@@ -2,34 +2,29 @@
 
 use super::Certification;
 use super::comparison::{CommonTurn, ComparedPosition, Test};
-use super::misread::Misread;
-use super::remark::{advised, arcsec, in_english, together};
-use super::rotated_runs::{Pattern, RotatedRuns};
-use super::shared_settings::Setting;
-use super::split_run::SplitRun;
-use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
-use crate::coefficients::PositionIndex;
+use super::found::{Found, Kind, OUTLIER, STRAGGLER, Scope};
+use super::remark::{advised, in_english};
 use crate::wording::Words;
 use crate::wording::number::{Number, Probability};
 use crate::wording::texts::remarks as texts;
 use crate::wording::words::code;
+use nalgebra::Vector3;
 use std::fmt::{Display, Formatter};
 
 /// Ratio of the scatter of a check to the certified one above which nothing is decided.
 const MUCH_MORE: f64 = 2.0;
 
 /// Reason for the result of a comparison, or a limit of it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Finding {
     /// Change of a setting, which explains all differences.
-    Setting(ChangedSetting),
+    Setting(Found),
     /// Half of the positions or more have changed, to angles that still resemble the certified ones; their correlation.
     Worn(f64),
     /// Half of the positions or more have changed, and the angles do not resemble the certified ones.
     AnotherStand,
-    /// Two positions, each with the angles that the certificate states for the other.
-    Exchanged([PositionIndex; 2]),
-    Misread(Misread),
+    /// Angles of the certificate in other places or in another unit.
+    Misplaced(Found),
     /// Standard deviations of one visit, and the probability that the first is so much larger by chance.
     ScattersMore {
         of_check_arcsec: f64,
@@ -44,16 +39,8 @@ pub(crate) enum Finding {
     Straggler(ComparedPosition),
     Rotated,
     RotatedSlightly,
-    RotatedRuns(RotatedRuns),
-    SplitRun(SplitRun),
-    /// Outlier among the readings of the check.
-    Outlier {
-        out: Outlier,
-        /// Part of the outlier in the mean of the position.
-        of_mean_arcsec: f64,
-        /// Standard uncertainty of the change of the position about the axis of the outlier.
-        u_arcsec: f64,
-    },
+    /// What is wrong with the readings of the check themselves.
+    Suspect(Found),
     NotTested(Untested),
     /// Smallest rotations about an axis of the case that the check finds with a probability of 95 %: of one position and,
     /// if it was tested, of the platform, arcsec.
@@ -72,17 +59,6 @@ impl Display for Finding {
     fn fmt(&self, to: &mut Formatter<'_>) -> std::fmt::Result {
         to.write_str(&in_english(&self.advised()))
     }
-}
-
-/// Value of an angle at which the stand stops elsewhere than when it was certified.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct ChangedSetting {
-    /// Angle whose setting has changed.
-    pub setting: Setting,
-    /// Nominal value of the angle, degrees.
-    pub angle_deg: f64,
-    /// Rotation about the axis of the angle relative to the positions with other values, arcsec.
-    pub turn_arcsec: f64,
 }
 
 /// Reason why the rotation of the stand as a whole was not tested.
@@ -113,28 +89,7 @@ impl Finding {
                     [of_check_arcsec, certified_arcsec].map(|value| Number::significant(*value, 2));
                 texts::scatters_more(found, certified, Probability(*probability))
             }
-            Self::RotatedRuns(at) => {
-                let [x, y, z] = together(at.turns_arcsec);
-                let [of_x, of_y, of_z] = together(at.in_the_mean_arcsec());
-                let axes = at.axis.names();
-                match at.pattern {
-                    Pattern::One(run) => texts::check_bumped(run, x, y, z, axes, of_x, of_y, of_z),
-                    Pattern::Move(run, after) => texts::check_moved(run, after, x, y, z, axes),
-                    Pattern::Drift => texts::check_drifts(x, y, z, axes),
-                }
-            }
-            Self::SplitRun(at) => at.words(true),
-            Self::Outlier { out, of_mean_arcsec, u_arcsec } => {
-                let (residual, mean) = (arcsec(out.residual_arcsec), Number::measured(*of_mean_arcsec, *u_arcsec));
-                let (index, run, axis) = (out.index, out.run, AXES[out.axis]);
-                texts::check_outlier(index, run, residual, axis, mean)
-            }
-            Self::Exchanged([one, other]) => texts::exchanged(*one, *other),
-            Self::Misread(misread) => misread.words(),
-            Self::Setting(ChangedSetting { setting, angle_deg, turn_arcsec }) => {
-                let (symbol, angle, turn) = (setting.symbol(), Number::exact(*angle_deg), arcsec(*turn_arcsec));
-                texts::setting_changed(symbol, angle, turn)
-            }
+            Self::Suspect(found) | Self::Misplaced(found) | Self::Setting(found) => found.words.clone(),
             Self::Worn(correlation) => texts::worn(Number::fixed(*correlation, 2)),
             Self::AnotherStand => texts::ANOTHER_STAND.into(),
             Self::ChangedTogether => texts::CHANGED_TOGETHER.into(),
@@ -159,19 +114,10 @@ impl Finding {
 
     /// Returns what to do at a terminal, with the keys and options of files and commands.
     fn advice(&self) -> Option<Words> {
-        let without = |run: u32| texts::do_run_again(code(format!("--exclude {run}")), code("--why"));
         Some(match self {
-            Self::RotatedRuns(RotatedRuns { pattern: Pattern::One(run), .. }) => without(*run),
-            Self::SplitRun(at) => without(at.run),
-            Self::Outlier { out: Outlier { index, run, .. }, .. } => {
-                texts::do_exclude_of_run(code(format!("--exclude {},{},{run}", index.i, index.j)), code("--why"))
-            }
-            Self::Misread(misread) => misread.advice(),
-            Self::Setting(_) => texts::DO_CHECK_SETTING.into(),
+            Self::Suspect(found) | Self::Misplaced(found) | Self::Setting(found) => return found.advice.clone(),
             Self::Worn(_) => texts::DO_RECERTIFY.into(),
-            Self::Exchanged(_) => texts::DO_CHECK_ROWS.into(),
             Self::ScattersMore { .. } => texts::DO_TELL_WHICH.into(),
-            Self::RotatedRuns(_) => texts::DO_FIND_AND_MEASURE.into(),
             Self::NotTested(Untested::NumberOfRuns) => texts::DO_TWO_RUNS.into(),
             Self::NotTested(Untested::CommonParts) => {
                 texts::do_common_parts(code("common_platform_arcsec"), code("common_base_arcsec"))
@@ -204,8 +150,7 @@ impl Finding {
 
     /// Returns `true` for an outlier among the readings or the runs of a check, with which nothing is decided.
     pub(crate) fn is_outlier(&self) -> bool {
-        matches!(self, Self::Outlier { .. } | Self::SplitRun(_))
-            || matches!(self, Self::RotatedRuns(run) if run.probability < OUTLIER)
+        matches!(self, Self::Suspect(found) if found.accuses())
     }
 
     pub(crate) fn is_change(&self) -> bool {
@@ -214,8 +159,7 @@ impl Finding {
             Self::Setting(_)
                 | Self::Worn(_)
                 | Self::AnotherStand
-                | Self::Exchanged(_)
-                | Self::Misread(_)
+                | Self::Misplaced(_)
                 | Self::Changed(_)
                 | Self::ChangedTogether
                 | Self::Rotated
@@ -224,18 +168,44 @@ impl Finding {
 
     /// Returns `true` for readings of which the angles stand in other places or in another unit.
     pub(crate) fn is_misplaced(&self) -> bool {
-        matches!(self, Self::Exchanged(_) | Self::Misread(_))
+        matches!(self, Self::Misplaced(_))
+    }
+
+    fn is_of(&self, kinds: &[Kind]) -> bool {
+        matches!(self, Self::Suspect(found) if kinds.contains(&found.kind))
     }
 
     /// Returns `true` if exchanged readings explain the change of the position, or an outlier among them: the rest is within
     /// 3 u.
-    fn explains(&self, at: &ComparedPosition) -> bool {
-        if let Self::Exchanged(pair) = self {
-            return pair.contains(&at.index);
+    fn explains(&self, at: &ComparedPosition, runs: usize) -> bool {
+        match self {
+            Self::Misplaced(Found { scope: Scope { between: Some(pair), .. }, .. }) => {
+                pair.contains(&[at.index.i, at.index.j])
+            }
+            Self::Suspect(found) if found.accuses() && found.scope.position == Some(at.index) => {
+                let part = |axis: usize| found.turns_arcsec[axis] / runs as f64;
+                (0..3).all(|axis| (at.turn_arcsec[axis] - part(axis)).abs() <= 3.0 * at.u_arcsec[axis])
+            }
+            _ => false,
         }
-        let Self::Outlier { out, of_mean_arcsec, .. } = self else { return false };
-        let part = |axis: usize| if axis == out.axis { *of_mean_arcsec } else { 0.0 };
-        out.index == at.index && (0..3).all(|axis| (at.turn_arcsec[axis] - part(axis)).abs() <= 3.0 * at.u_arcsec[axis])
+    }
+
+    /// Returns what the finding says in the list of causes, if it is one of them.
+    pub(crate) fn cause(&self, all: Test, common: &CommonTurn) -> Option<Found> {
+        let changed = |scope, probability, words: Words| Found::new(Kind::StandChanged, scope, probability, words);
+        let whole = |probability| Some(changed(Scope::default(), probability, self.words()));
+        match self {
+            Self::Misplaced(found) | Self::Setting(found) => Some(found.clone()),
+            Self::Changed(at) | Self::Straggler(at) => {
+                let scope = Scope { position: Some(at.index), ..Scope::default() };
+                let size = Vector3::from(at.turn_arcsec).norm();
+                Some(changed(scope, at.test.probability, self.words()).sized(size))
+            }
+            Self::Worn(_) | Self::AnotherStand | Self::ChangedTogether | Self::Slightly => whole(all.probability),
+            Self::Rotated | Self::RotatedSlightly => whole(common.test.map_or(1.0, |test| test.probability)),
+            Self::TooClose => Some(Found::new(Kind::Computed, Scope::default(), 0.0, self.words())),
+            _ => None,
+        }
     }
 }
 
@@ -260,8 +230,10 @@ pub(super) fn findings(
     } else if findings.is_empty() && all.probability < STRAGGLER {
         findings.push(Finding::Slightly);
     }
-    let suspect: Vec<Finding> = again.map_or_else(Vec::new, |again| suspect(again, positions));
-    let explained = |at: &ComparedPosition| suspect.iter().chain(&misplaced).any(|found| found.explains(at));
+    let suspect: Vec<Finding> = again.map_or_else(Vec::new, suspect);
+    let explained = |at: &ComparedPosition| {
+        suspect.iter().chain(&misplaced).any(|found| found.explains(at, again.map_or(1, |again| again.runs.len())))
+    };
     findings.retain(|found| !matches!(found, Finding::Changed(at) if explained(at)));
     let all_repeat = positions.iter().all(|at| at.repeats);
     if all_repeat && findings.is_empty() && suspect.is_empty() && misplaced.is_empty() {
@@ -269,12 +241,11 @@ pub(super) fn findings(
         findings.extend(positions.iter().filter(straggles).copied().map(Finding::Straggler));
     }
     // A run during which the stand moved changes all positions of the check.
-    if suspect.iter().any(|found| matches!(found, Finding::SplitRun(_))) {
+    if suspect.iter().any(|found| found.is_of(&[Kind::Bump])) {
         findings.clear();
     }
-    let bumped = suspect
-        .iter()
-        .any(|found| matches!(found, Finding::RotatedRuns(_) | Finding::SplitRun(_)) && found.is_outlier());
+    let of_runs = [Kind::Bump, Kind::RunTurned, Kind::StandMoved, Kind::StandDrift];
+    let bumped = suspect.iter().any(|found| found.is_of(&of_runs) && found.is_outlier());
     // If no positions agree, there is no rotation that is common to them.
     let agree = positions.iter().any(|at| at.repeats);
     if agree && moved && !bumped {
@@ -288,15 +259,10 @@ pub(super) fn findings(
 }
 
 /// Returns what is suspect in the readings of a check itself.
-fn suspect(check: &Certification, positions: &[ComparedPosition]) -> Vec<Finding> {
-    let runs = check.runs.len() as f64;
-    let outliers = check.suspects.outliers.iter().filter(|out| out.probability < OUTLIER);
-    let u = |out: &Outlier| positions.iter().find(|at| at.index == out.index).map_or(0.0, |at| at.u_arcsec[out.axis]);
-    let outliers = outliers.map(|out| Finding::Outlier {
-        out: *out,
-        of_mean_arcsec: out.residual_arcsec / runs,
-        u_arcsec: u(out),
-    });
-    let split = check.suspects.split.into_iter().map(Finding::SplitRun);
-    split.chain(check.rotated_runs.iter().copied().map(Finding::RotatedRuns)).chain(outliers).collect()
+fn suspect(check: &Certification) -> Vec<Finding> {
+    let of_readings = [Kind::Angle, Kind::Reading, Kind::PositionMoved];
+    let of_runs = [Kind::Bump, Kind::RunTurned, Kind::StandMoved, Kind::StandDrift];
+    let is_suspect =
+        |found: &&Found| of_runs.contains(&found.kind) || of_readings.contains(&found.kind) && found.accuses();
+    check.findings.iter().filter(is_suspect).cloned().map(Finding::Suspect).collect()
 }

@@ -1,5 +1,6 @@
 //! Errors of a whole file of readings that a certificate shows: another unit, the opposite sign, exchanged or reversed axes.
 
+use super::found::{Found, Kind, Scope};
 use super::readings::whole_runs::{Axes, CLEARLY, UNITS, axes_of_runs, differing};
 use crate::attitude::ANGLE_SYMBOLS;
 use crate::wording::Words;
@@ -71,8 +72,21 @@ impl Misread {
         }
     }
 
+    /// Returns the error as a finding.
+    pub(super) fn found(&self) -> Found {
+        let kind = match self {
+            Self::Smaller(..) | Self::SmallerUnit(..) | Self::Larger(..) => Kind::Unit,
+            Self::Sign => Kind::ColumnReversed,
+            Self::Axes(axes) if axes.iter().enumerate().all(|(axis, (column, _))| axis == *column) => {
+                Kind::ColumnReversed
+            }
+            Self::Axes(_) => Kind::ColumnsExchanged,
+        };
+        Found::new(kind, Scope::default(), 0.0, self.words()).advised(self.advice())
+    }
+
     /// Returns the error as a sentence.
-    pub(super) fn words(&self) -> Words {
+    fn words(&self) -> Words {
         let factor = |by: &f64| Number::whole_or_two_digits(*by);
         match self {
             Self::Smaller(by, _) => texts::smaller_unit(factor(by)),
@@ -87,7 +101,7 @@ impl Misread {
         }
     }
 
-    pub(super) fn advice(&self) -> Words {
+    fn advice(&self) -> Words {
         match self {
             Self::Smaller(_, unit) | Self::SmallerUnit(_, unit) => texts::do_convert(unit_words(unit)),
             Self::Larger(_, unit) => texts::do_convert_once(unit_words(unit)),

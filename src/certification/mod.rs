@@ -3,13 +3,9 @@
 //! * `header`: the stand file before the measurement.
 //! * `readings`: the angles read, with every position in every run.
 //! * `components`: variance components (the positions' own scatter, and the part common to a run).
-//! * `deletion`: the fit without some of the readings.
-//! * `suspects`: positions that scatter more (Cochran), outliers (Grubbs), and runs that agree too well.
-//! * `rotated_runs`: runs rotated as a whole relative to the other runs (Grubbs), moves and drifts of the stand.
-//! * `split_run`: a run during which the stand moved (F test).
-//! * `unequal_axes`: axes about which the runs rotate more than about the others (Cochran).
-//! * `shared_settings`: settings of an angle that several positions of a run share.
-//! * `worse_groups`: positions with the same θ that scatter more (F test).
+//! * `layer`: readings within the runs, and rotations of the runs, with fits of shifts.
+//! * `hypothesis`: the list of what may be wrong, and the search for what explains the measurement.
+//! * `found`: findings, their words, and their JSON.
 //! * `remark`: remarks for the signatory.
 //! * `comparison`: the comparison of a later check run with the certificate.
 //! * `differences`: check minus certificate as rotations, and the tests of them.
@@ -22,37 +18,41 @@
 
 pub(crate) mod comparison;
 pub(crate) mod components;
-mod deletion;
 mod differences;
 pub(crate) mod document;
 pub(crate) mod finding;
+pub(crate) mod found;
 pub(crate) mod header;
+pub(crate) mod hypothesis;
+mod layer;
 pub(crate) mod misread;
 pub(crate) mod readings;
 pub(crate) mod remark;
-pub(crate) mod rotated_runs;
-pub(crate) mod shared_settings;
-pub(crate) mod split_run;
-pub(crate) mod suspects;
-pub(crate) mod unequal_axes;
-pub(crate) mod worse_groups;
 
 pub use comparison::{CommonTurn, ComparedPosition, Comparison, NotCompared, Test, compare};
 use components::{Common, Components, Variance};
+use found::{Found, Naming};
 pub use header::{Header, NominalPosition};
+use hypothesis::{Cause, Explanation, Measurement, predictions};
+use layer::Fit;
 pub use readings::{AngleReadings, NotBalanced};
 use remark::Remark;
-use suspects::Suspects;
 
 use crate::attitude::ANGLES;
 use crate::calibration::inputs::Turn;
-use crate::stand::{self, ActsOn, Certificate, CertifiedPosition, Evidence, Excluded, Stand};
+use crate::stand::{self, ActsOn, Certificate, CertifiedPosition, Evidence, Stand};
 use components::{case_turn, turns_at};
-use deletion::Deletion;
 use nalgebra::{DVector, Vector3};
 
 /// Smallest number of runs for which the program does not warn that there are few.
 pub(crate) const ENOUGH_RUNS: usize = 4;
+
+/// Weight of a prediction relative to that of a reading below which the other readings do not determine the missing ones.
+///
+/// Readings that determine the rotations of their run give predictions of 1/5 at least (three runs, one of which keeps three
+/// of eight positions). Where only the deviations of the stand, a few arcminutes, tell platform and base apart, it is 1/1000 or
+/// less, and the means are worse than without the whole run.
+const LEAST_WEIGHT: f64 = 0.1;
 
 /// Standard deviation of a visit, arcsec, below which the readings may be in arcminutes: two-axis stands repeat to about an
 /// arcsecond, and an autocollimator itself to a few hundredths.
@@ -106,18 +106,24 @@ pub struct Certification {
     /// Number of rows that repeat the reading of a visit; they were averaged.
     pub repeated_rows: usize,
     pub(crate) components: Components,
-    /// Positions that scatter more than the others, outliers, and runs that agree too well.
-    pub(crate) suspects: Suspects,
-    /// Runs rotated as a whole relative to the other runs, the least probable first, and a shift or a drift of the stand.
-    pub(crate) rotated_runs: Vec<rotated_runs::RotatedRuns>,
-    /// Axes about which the runs rotate more than about the others.
-    pub(crate) unequal_axes: Vec<unequal_axes::UnequalAxis>,
-    /// Settings of θ or φ that positions share.
-    pub(crate) shared_settings: Vec<shared_settings::SharedSetting>,
+    /// What explains the readings better than chance, the most likely first.
+    pub(crate) findings: Vec<Found>,
+    /// Variances of platform and base between the runs without what is named of them.
+    pub(crate) between: RunVariance,
     /// Remarks for the signatory of the certificate.
     pub(crate) remarks: Vec<Remark>,
     /// The remarks in words, a sentence each.
     pub warnings: Vec<String>,
+}
+
+/// Variances between the rotations of the runs without those that are named, per axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct RunVariance {
+    /// Degrees of freedom per axis.
+    pub changes: f64,
+    pub platform_arcsec2: f64,
+    /// Variance of the base, arcsec²; 0 if its rotations cannot be distinguished from those of the platform.
+    pub base_arcsec2: f64,
 }
 
 /// Certifies the stand of `header` from `readings`, whose positions are in the order of the header.
@@ -136,16 +142,16 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     if let Some(angle) = constant(readings) {
         return Err(NotCertified::Constant(angle));
     }
-    let (readings, deletion) = predicted(header, readings)?;
+    let (readings, predictions) = predicted(header, readings)?;
     let readings = &readings;
-    let mut components = fitted(header, readings)?;
-    if let Some(deletion) = &deletion {
-        components.without(deletion.squares_arcsec2, &readings.missing);
-    }
-    let shared_settings = shared_settings::find(header, &components);
-    // Positions that share a setting seem to have moved together within a run.
-    let suspects = Suspects::of(header, readings, &components, shared_settings.is_empty());
-    let scatter = suspects.scatter(&components);
+    let components = fitted(header, readings)?;
+    let measurement = Measurement { header, readings, components: &components };
+    let explanation = measurement.explained().ok_or(NotCertified::NoScatter)?;
+    let components = explanation.components.clone();
+    let findings = Naming { positions: &header.positions, readings, explanation: &explanation }.all();
+    let worse = measurement.worse(&explanation);
+    let scatter = components.scatter_of_positions(&worse).filter(|_| !worse.is_empty());
+    let biases = measurement.biases_arcsec(&explanation);
     let mut stand = Stand {
         stand: header.stand.clone(),
         certificate: header.certificate.clone(),
@@ -158,8 +164,10 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
         .map(|(place, ((nominal, mean), turn))| {
             let of_position = scatter.as_ref().map(|scatter| scatter[place]);
             let own = [0, 1, 2].map(|axis| {
-                let share = share_of_mean(3 * place + axis, runs.len(), deletion.as_ref());
-                of_mean(components.own_arcsec2[axis], of_position, share, &header.certificate)
+                let share = share_of_mean(place, axis, readings, predictions.as_ref());
+                let own = of_mean(components.own_arcsec2[axis], of_position, share, &header.certificate);
+                // The suspect part of the mean was not removed.
+                Variance { value: own.value + biases[3 * place + axis] * biases[3 * place + axis], ..own }
             });
             let rounding = [0, 1, 2].map(|angle| readings.rounding_arcsec(place, angle));
             certified(nominal, &mean, turn, &own, rounding)
@@ -181,38 +189,36 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
         excluded: Some(readings.excluded.clone()).filter(|excluded| !excluded.is_empty()),
     };
     certificate.evidence = readings.sha256.as_deref().map(of_readings);
-    let mut rotated_runs = rotated_runs::bumped(readings, &components, &suspects.outliers);
-    // A run during which the stand moved is also rotated on average.
-    rotated_runs.retain(|at| suspects.split.is_none_or(|split| at.run() != Some(split.run)));
-    // A suspect reading enlarges the scatter that would have to be subtracted from the variation of the runs.
-    let unequal_axes = if suspects.outliers.is_empty() {
-        unequal_axes::find(readings, &components, &rotated_runs)
-    } else {
-        Vec::new()
-    };
-    let mut remarks: Vec<Remark> = rotated_runs.iter().copied().map(Remark::RotatedRuns).collect();
-    // A shared setting may be the cause of what follows.
-    remarks.extend(shared_settings.iter().copied().map(Remark::SharedSetting));
-    remarks.extend(Remark::of_suspects(&suspects, runs));
-    remarks.extend(unequal_axes.iter().copied().map(Remark::RunAxesDiffer));
+    let between = between(&components, &explanation);
+    let mut remarks: Vec<Remark> = findings.iter().cloned().map(Box::new).map(Remark::Found).collect();
     remarks.extend(remarks_on(&components, readings, &stand.positions));
     remarks.extend(remark_on_rounding(readings));
     remarks.extend(stand.certificate.performed.is_none().then_some(Remark::NotDated));
     remarks.extend(stand::remarks::of(&stand.certificate, &stand.positions).into_iter().map(Remark::Odd));
     let warnings = remarks.iter().map(ToString::to_string).collect();
     let (runs, repeated_rows) = (runs.to_vec(), readings.repeated_rows);
-    Ok(Certification {
-        stand,
-        runs,
-        repeated_rows,
-        components,
-        suspects,
-        rotated_runs,
-        unequal_axes,
-        shared_settings,
-        remarks,
-        warnings,
-    })
+    Ok(Certification { stand, runs, repeated_rows, components, findings, between, remarks, warnings })
+}
+
+/// Returns the variances between the runs. A run that stands out would inflate the variance by which its own effect on the mean
+/// is tested; it is left out, and with it whatever else is named.
+fn between(components: &Components, explanation: &Explanation) -> RunVariance {
+    let is_of_runs = |cause: Cause| matches!(cause, Cause::Run { .. } | Cause::Move { .. } | Cause::Drift { .. });
+    let accused = explanation.accepted.iter().any(|at| is_of_runs(at.cause) && at.probability < found::OUTLIER);
+    if !accused {
+        return RunVariance {
+            changes: components.run_turns.len() as f64 - 1.0,
+            platform_arcsec2: components.platform.between_runs_arcsec2,
+            base_arcsec2: components.base.map_or(0.0, |base| base.between_runs_arcsec2),
+        };
+    }
+    let mean = |axes: &[[f64; 2]]| {
+        let [squares, freedom] = axes.iter().fold([0.0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]]);
+        if freedom > 0.0 { squares / freedom } else { 0.0 }
+    };
+    let (platform, base) = explanation.of_runs.split_at(3);
+    let fewest = explanation.of_runs.iter().map(|of| of[1]).fold(f64::INFINITY, f64::min);
+    RunVariance { changes: fewest, platform_arcsec2: mean(platform), base_arcsec2: mean(base) }
 }
 
 /// Replaces the angles of excluded readings by their predictions from all other readings (Yates' missing-plot
@@ -225,41 +231,41 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
 pub(crate) fn predicted(
     header: &Header,
     readings: &AngleReadings,
-) -> Result<(AngleReadings, Option<Deletion>), NotCertified> {
+) -> Result<(AngleReadings, Option<Fit>), NotCertified> {
     if readings.missing.is_empty() {
         return Ok((readings.clone(), None));
     }
-    let angles: Vec<deletion::Angle> =
-        readings.missing.iter().flat_map(|(place, run)| (0..3).map(move |axis| (*run, 3 * place + axis))).collect();
     let fit = |readings: &AngleReadings| {
         let components = fitted(header, readings)?;
-        let deletion = Deletion::of(&components, angles.clone()).filter(Deletion::is_determined);
-        Ok((components.model.turns, deletion.ok_or(NotCertified::Undetermined)?))
+        let fit = predictions(&components, &readings.missing, &readings.runs);
+        // The variance of a shift is that of a reading plus that of its prediction.
+        let is_determined = |fit: &Fit| fit.spread.diagonal().iter().all(|shift| (shift - 1.0) * LEAST_WEIGHT <= 1.0);
+        Ok((components.model.turns, fit.filter(is_determined).ok_or(NotCertified::Undetermined)?))
     };
     let mut completed = readings.clone();
     // The axes of a position depend on its mean, so the second pass removes what is left of the second order.
     for _ in 0..2 {
-        let (turns, deletion) = fit(&completed)?;
+        let (turns, fit) = fit(&completed)?;
         let shift = |(number, (place, _)): (usize, &(usize, usize))| {
-            let shift = deletion.shifts_arcsec.fixed_rows::<3>(3 * number).into_owned();
-            turns[*place].angles_of_rotation() * shift
+            turns[*place].angles_of_rotation() * fit.sizes.fixed_rows::<3>(3 * number).into_owned()
         };
         let shifts: Vec<Vector3<f64>> = readings.missing.iter().enumerate().map(shift).collect();
         completed = completed.shifted(&shifts);
     }
-    let (_, deletion) = fit(&completed)?;
-    Ok((completed, Some(deletion)))
+    let (_, fit) = fit(&completed)?;
+    Ok((completed, Some(fit)))
 }
 
-/// Returns the variance of the mean of a row (3 position + axis) relative to that of one visit: 1/R for R runs, and more if
+/// Returns the variance of the mean of a position about an axis relative to that of one visit: 1/R for R runs, and more if
 /// some of its readings are predictions.
 ///
 /// The mean of the completed readings is that of all readings less the sum of the shifts over R, and the residuals, on
 /// which the shifts depend, are uncorrelated with the mean.
-fn share_of_mean(row: usize, runs: usize, deletion: Option<&Deletion>) -> f64 {
-    let runs = runs as f64;
-    let Some(Deletion { angles, spread, .. }) = deletion else { return 1.0 / runs };
-    let own: Vec<usize> = (0..angles.len()).filter(|n| angles[*n].1 == row).collect();
+fn share_of_mean(place: usize, axis: usize, readings: &AngleReadings, predictions: Option<&Fit>) -> f64 {
+    let runs = readings.runs.len() as f64;
+    let Some(Fit { spread, .. }) = predictions else { return 1.0 / runs };
+    let missing = readings.missing.iter().enumerate().filter(|(_, (of, _))| *of == place);
+    let own: Vec<usize> = missing.map(|(number, _)| 3 * number + axis).collect();
     let pairs = own.iter().flat_map(|one| own.iter().map(move |other| (*one, *other)));
     let shifts = pairs.map(|at| spread[at]).sum::<f64>();
     1.0 / runs + shifts / (runs * runs)
@@ -299,15 +305,6 @@ impl Certification {
     pub(crate) fn add(&mut self, remark: Remark) {
         self.warnings.push(remark.to_string());
         self.remarks.push(remark);
-    }
-
-    /// Returns the number of angles that Grubbs' test examines: an excluded reading has no residual, because the three angles
-    /// of its position are predicted.
-    pub(crate) fn tested_angles(&self) -> usize {
-        let evidence = self.stand.certificate.evidence.as_ref();
-        let excluded = evidence.and_then(|evidence| evidence.excluded.as_deref()).unwrap_or_default();
-        let is_left_out = |at: &&Excluded| at.index().is_some() && self.runs.contains(&at.run);
-        self.runs.len() * self.components.keeps.nrows() - 3 * excluded.iter().filter(is_left_out).count()
     }
 
     /// Returns the degrees of freedom of the common parts of platform and base in the certificate, from the runs and the type B

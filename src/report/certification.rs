@@ -7,8 +7,7 @@ pub(crate) mod change;
 pub(crate) mod evidence;
 
 use crate::certification::components::{Common, Variance};
-use crate::certification::rotated_runs::Pattern;
-use crate::certification::suspects::AXES;
+use crate::certification::found;
 use crate::certification::{Certification, Comparison, NotCertified};
 use crate::report::doc::{self, Block, Words, given, heading, marked, say};
 use crate::report::gyros::of_input;
@@ -19,16 +18,19 @@ use crate::text::{Field, Node};
 use crate::wording::texts::{calibration, certification as texts};
 use serde_json::{Value, json};
 
-/// Returns everything as JSON: `{certification, not_certified, comparison}`; parts that do not apply are null.
+/// Returns everything as JSON: `{certification, not_certified, comparison, findings}`; parts that do not apply are null.
 pub(crate) fn to_json(
     certification: Option<&Certification>,
     not_certified: Option<&NotCertified>,
     comparison: Option<&Comparison>,
 ) -> Value {
+    let causes: Vec<_> = comparison.into_iter().flat_map(Comparison::causes).collect();
+    let of_readings = certification.into_iter().flat_map(|certified| &certified.findings);
     json!({
         "certification": certification.map(certification_json),
         "not_certified": not_certified.map(ToString::to_string),
         "comparison": comparison,
+        "findings": found::to_json(causes.iter().chain(of_readings)),
     })
 }
 
@@ -43,44 +45,6 @@ fn certification_json(found: &Certification) -> Value {
             "upper_limit_arcsec": c.upper_limit_arcsec2.sqrt(),
         })
     };
-    let out = found.suspects.outliers.iter().map(|out| {
-        json!({
-            "i": out.index.i, "j": out.index.j, "run": out.run, "line": out.line, "axis": AXES[out.axis],
-            "residual_arcsec": out.residual_arcsec, "probability": out.probability,
-        })
-    });
-    let bumped = found.rotated_runs.iter().filter_map(|at| {
-        Some(json!({
-            "run": at.run()?, "part": at.axis.part(), "axis": at.axis.name(), "turn_arcsec": at.turn_arcsec(),
-            "turns_arcsec": at.turns_arcsec, "in_the_mean_arcsec": at.in_the_mean_arcsec()[at.axis.0 % 3],
-            "probability": at.probability,
-        }))
-    });
-    let moved = found.rotated_runs.iter().find(|at| at.run().is_none()).map(|at| {
-        let runs = if let Pattern::Move(before, after) = at.pattern { Some([before, after]) } else { None };
-        json!({
-            "between_runs": runs, "part": at.axis.part(), "axis": at.axis.name(), "turn_arcsec": at.turn_arcsec(),
-            "turns_arcsec": at.turns_arcsec, "probability": at.probability,
-        })
-    });
-    let unequal = found.unequal_axes.iter().map(|at| {
-        json!({
-            "part": at.axis.part(), "axis": at.axis.name(), "between_runs_arcsec": at.deviation_arcsec,
-            "other_axes_arcsec": at.others_arcsec, "missing_type_b_arcsec": at.missing_arcsec,
-            "probability": at.probability,
-        })
-    });
-    let shared = found.shared_settings.iter().map(|at| {
-        json!({"angle": at.setting.key(), "between_runs_arcsec": at.deviation_arcsec, "probability": at.probability})
-    });
-    let split = found.suspects.split.map(|at| {
-        json!({
-            "run": at.run, "between_positions": at.between, "part": at.axis.part(), "turns_arcsec": at.turns_arcsec,
-            "probability": at.probability,
-        })
-    });
-    let group = found.suspects.group.as_ref();
-    let group = group.map(|at| json!({"theta_deg": at.theta_deg, "ratio": at.ratio, "probability": at.probability}));
     json!({
         "stand": File(found.stand.clone()).write().unwrap_or(Node::Null),
         "runs": found.runs,
@@ -90,17 +54,6 @@ fn certification_json(found: &Certification) -> Value {
         "base": components.base.as_ref().map(common),
         "base_axes": components.base_axes,
         "run_turns": components.run_turns,
-        "bartlett": {"positions": found.suspects.positions, "axes": found.suspects.axes},
-        "worse_position": found.suspects.worse.first(),
-        "worse_positions": found.suspects.worse,
-        "worse_group": group,
-        "outliers": out.collect::<Vec<_>>(),
-        "bumped_runs": bumped.collect::<Vec<_>>(),
-        "moved": moved,
-        "split_run": split,
-        "unequal_axes": unequal.collect::<Vec<_>>(),
-        "shared_settings": shared.collect::<Vec<_>>(),
-        "twins": found.suspects.twins,
         "warnings": found.warnings,
     })
 }

@@ -4,7 +4,6 @@
 //! * [`distributions`]: chi-square and normal probabilities; [`student`]: Student's t and Fisher's F, effective degrees of
 //!   freedom.
 //! * `scaled_f`: the distribution of a chi-square whose covariance was partly estimated.
-//! * [`outlier`]: Bartlett's test for unequal variances, Cochran's for the largest variance, Grubbs' for an outlier.
 //! * `coincidences`: readings that are copies of earlier ones.
 //! * [`random`]: streams of random numbers that do not depend on the number of threads or on the platform.
 //! * `wide_random`: many random numbers at a time.
@@ -15,7 +14,6 @@
 pub(crate) mod coincidences;
 pub(crate) mod distributions;
 pub(crate) mod least_squares;
-pub(crate) mod outlier;
 #[cfg(feature = "monte-carlo")]
 pub(crate) mod random;
 pub(crate) mod scaled_f;

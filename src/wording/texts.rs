@@ -44,6 +44,8 @@ tables! {
     history
     /// Stated values that are possible, but usually in another unit, such as parts per million instead of percent.
     implausible
+    /// Findings on readings and certificates. `{p}` is a probability with its relation.
+    findings
     /// The printed passport: content of the signed file.
     passport
     /// Words in pictures, and their descriptions.

@@ -35,7 +35,7 @@ impl Outcome {
 pub(crate) type Counted = fn(usize) -> Words;
 
 /// What is said, in every language at once.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Words {
     /// A text of a table, with its values.
     Text(Text, Vec<(&'static str, Words)>),
@@ -78,8 +78,8 @@ pub(crate) enum Words {
     OfLibrary(String, Box<Words>),
     /// A number of things, in a terminal with its thousands apart.
     Count(u64),
-    /// Words and blanks, as many characters as there are in the longest word of a language.
-    Padded(Box<Words>, fn(Language) -> Option<usize>),
+    /// Words and blanks, as many characters as there are in the longest word of each language.
+    Padded(Box<Words>, [usize; Language::ALL.len()]),
     /// An empty space to fill in by hand.
     Blank,
     /// Words on a page only, and words in a terminal only.
@@ -152,7 +152,7 @@ pub(crate) fn strong(words: impl Into<Words>) -> Words {
 
 /// A word as wide as the longest of these.
 pub(crate) fn padded(word: impl Into<Words>, longest: fn(Language) -> Option<usize>) -> Words {
-    Words::Padded(Box::new(word.into()), longest)
+    Words::Padded(Box::new(word.into()), Language::ALL.map(|language| longest(language).unwrap_or_default()))
 }
 
 /// Returns the length of the longest of some words in a language.
@@ -276,7 +276,7 @@ impl Words {
             Self::OfLibrary(words, _) if language == Language::English => printable(words),
             Self::OfLibrary(_, words) => written(words),
             Self::Padded(words, longest) => {
-                format!("{:1$}", written(words), longest(language).unwrap_or_default())
+                format!("{:1$}", written(words), longest[language as usize])
             }
             Self::Count(count) => match language {
                 Language::English => grouped(*count, ","),

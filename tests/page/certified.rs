@@ -151,17 +151,14 @@ fn a_record_has_the_numbers_of_the_certificate() {
                 assert!(marked.contains(&at[key].as_f64().unwrap()), "{}: {key} {}", record.name, at[key]);
             }
         }
-        for key in ["own_arcsec", "run_turns", "bartlett", "outliers"] {
+        for key in ["own_arcsec", "run_turns", "findings"] {
             let mut of_key = Vec::new();
             match key {
                 "own_arcsec" => numbers(&result["certification"][key], &mut of_key),
                 "run_turns" => result["certification"][key].as_array().unwrap().iter().for_each(|turn| {
                     numbers(&turn["platform_arcsec"], &mut of_key);
                 }),
-                "bartlett" => numbers(&result["certification"][key]["positions"]["statistic"], &mut of_key),
-                _ => result["certification"][key].as_array().unwrap().iter().for_each(|out| {
-                    numbers(&out["residual_arcsec"], &mut of_key);
-                }),
+                _ => of_readings(&result).for_each(|found| numbers(&found["size"], &mut of_key)),
             }
             for number in of_key {
                 assert!(
@@ -242,36 +239,33 @@ fn a_record_begins_with_the_number_of_warnings() {
     }
 }
 
+/// Findings that concern the comparison, or say that chance is as likely.
+const NOT_OF_READINGS: [&str; 7] =
+    ["stand_changed", "chance", "computed", "unit", "rows_exchanged", "column_reversed", "columns_exchanged"];
+
+/// Returns the findings on the readings themselves.
+fn of_readings(result: &Value) -> impl Iterator<Item = &Value> {
+    let findings = result["findings"].as_array().unwrap();
+    findings.iter().filter(|found| !NOT_OF_READINGS.contains(&found["kind"].as_str().unwrap()))
+}
+
 /// Expected: by the probabilities and numbers of the JSON, with the limits of ISO 5725-2, 7.3.2.1: 5 % and 1 %.
 #[test]
 fn every_test_has_a_result_with_its_mark() {
     for record in RECORDS {
         let json = fs::read_to_string(CERTIFIED.folder.join(format!("{}.json", record.name))).unwrap();
         let result: Value = serde_json::from_str(&json).unwrap();
-        let certification = &result["certification"];
         let tables = CERTIFIED.found[record.name]["said"]["tables"].as_array().unwrap();
         let of_tests =
-            |table: &&Value| ["Test", "Критерий"].iter().any(|head| strings(&table["heads"])[0].starts_with(head));
-        let rows = tables.iter().find(of_tests).unwrap()["rows"].as_array().unwrap();
-        assert!(rows.len() >= 3, "{}: {} rows", record.name, rows.len());
-        // Bartlett's tests that could not be made say so.
-        let not_made = certification["bartlett"].as_object().unwrap().values().filter(|test| test.is_null()).count();
-        let not_asked = rows.iter().filter(|row| row[1]["text"].as_str().unwrap().starts_with("○ ")).count();
-        assert_eq!(not_asked, not_made, "{}", record.name);
-        for row in rows {
+            |table: &&Value| ["Finding", "Вывод"].iter().any(|head| strings(&table["heads"])[0].starts_with(head));
+        let rows = tables.iter().find(of_tests).map_or(&Vec::new(), |table| table["rows"].as_array().unwrap()).clone();
+        assert_eq!(rows.len(), of_readings(&result).count(), "{}", record.name);
+        for row in &rows {
             let said = row[1]["text"].as_str().unwrap();
-            if said.starts_with("○ ") {
-                assert!(row[0]["text"].as_str().unwrap().starts_with("Bartlett"), "{}: {row}", record.name);
-                continue;
-            }
             // A very small one is only said to be below a limit.
-            let below = row[4]["text"].as_str().unwrap().starts_with('<').then_some(0.0);
-            let p = strings(&row[4]["values"]).first().map(|p| p.parse::<f64>().unwrap()).or(below);
-            let mark = match p {
-                Some(p) if p < 0.01 => "✕ ",
-                Some(p) if p < 0.05 => "◐ ",
-                _ => "● ",
-            };
+            let below = row[3]["text"].as_str().unwrap().starts_with('<').then_some(0.0);
+            let p = strings(&row[3]["values"]).first().map(|p| p.parse::<f64>().unwrap()).or(below);
+            let mark = if p.unwrap() < 0.01 { "✕ " } else { "◐ " };
             assert!(said.starts_with(mark) && said.chars().count() > 4, "{}: {said} of {row}", record.name);
         }
         // In two languages each heading has the unit.
@@ -281,22 +275,6 @@ fn every_test_has_a_result_with_its_mark() {
                 ["было,\u{a0}″", "before,\u{a0}″"].iter().all(|named| head.contains(named)),
                 "{}: {head}",
                 record.name
-            );
-        }
-        // The angles that were tested, if the test names none.
-        if certification["outliers"].as_array().unwrap().is_empty() {
-            let runs = certification["run_turns"].as_array().unwrap().len();
-            // An excluded reading was not tested; an excluded run has no turn.
-            let excluded = certification["stand"]["certificate"]["evidence"]["excluded"].as_array();
-            let readings = excluded.map_or(0, |all| all.iter().filter(|one| one.get("i").is_some()).count());
-            let positions = certification["stand"]["positions"].as_array().unwrap().len();
-            let angles = 3 * (runs * positions - readings);
-            assert!(
-                rows.iter().any(|row| {
-                    let name = row[0]["text"].as_str().unwrap();
-                    [format!("angle of {angles}"), format!("угол из {angles}")].iter().any(|count| name.contains(count))
-                }),
-                "{rows:?}"
             );
         }
     }

@@ -2,8 +2,7 @@
 
 use super::outcome_of;
 use crate::certification::comparison::{ComparedPosition, Comparison, Test};
-use crate::certification::remark::together;
-use crate::certification::suspects::{AXES, OUTLIER};
+use crate::certification::found::{AXES, OUTLIER, together};
 use crate::passport::difference::NumberDifference;
 use crate::report::doc::{
     Block, Rows, Words, drawn, fields, heading, in_unit, listed, marked, probability, say, symbol,

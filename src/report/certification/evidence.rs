@@ -2,14 +2,12 @@
 
 use crate::certification::Certification;
 use crate::certification::components::Common;
-use crate::certification::rotated_runs::{FEWEST_RUNS, FEWEST_RUNS_OF_A_MOVE, Pattern, RotatedRuns, most_suspect};
-use crate::certification::suspects::{AXES, OUTLIER, STRAGGLER};
+use crate::certification::found::{AXES, Found, Kind};
 use crate::report::doc::{Block, On, Rows, Words, fields, heading, in_unit, listed, marked, probability, say, symbol};
 use crate::report::page::language::Text;
 use crate::report::page::number::Number;
 use crate::report::style::Outcome;
 use crate::stand::{Certificate, Excluded};
-use crate::statistics::outlier::Bartlett;
 use crate::wording::texts::{certification as texts, checks, compass, passport, units};
 
 /// Degrees of freedom at which a standard deviation has a relative standard uncertainty of 35 %: 1/√(2ν), JCGM 100, E.4.3.
@@ -17,11 +15,16 @@ pub(crate) const FEW_DEGREES: f64 = 4.0;
 
 /// Which readings in the means the tests name.
 pub(crate) fn outliers(found: &Certification) -> Block {
-    let mut named: Vec<_> = found.suspects.outliers.iter().map(|out| (out.index, out.run, out.probability)).collect();
-    named.dedup_by_key(|(index, run, _)| (*index, *run));
-    let worst = named.iter().map(|(.., p)| *p).reduce(f64::min);
-    let readings = listed(named.iter().map(|(index, run, _)| texts::reading_of(*index, *run)));
-    say(worst.map(|worst| marked(graded(worst), texts::with_outliers(readings, texts::TESTS))))
+    let is_reading = |at: &&Found| matches!(at.kind, Kind::Angle | Kind::Reading);
+    let named: Vec<&Found> = found.findings.iter().filter(is_reading).collect();
+    let accuses = named.iter().any(|at| at.accuses());
+    let readings = named.iter().filter_map(|at| {
+        let runs = at.scope.run.map_or_else(|| listed(at.scope.runs.iter().copied()), Words::from);
+        Some(texts::reading_of(at.scope.position?, runs))
+    });
+    let outcome = if accuses { Outcome::Failed } else { Outcome::Undecided };
+    let said = texts::with_outliers(listed(readings), texts::TESTS);
+    say((!named.is_empty()).then(|| marked(outcome, said)))
 }
 
 /// The uncertainties that all positions have in common.
@@ -88,111 +91,37 @@ fn run_turns(found: &Certification) -> Block {
     rows.called(texts::RUN_TURNS)
 }
 
-/// A row of the table of tests: what was tested, what was found, and the numbers behind it.
-struct Tested {
-    name: Words,
-    result: Words,
-    statistic: Option<Number>,
-    freedom: Option<usize>,
-    probability: Option<f64>,
-}
-
-/// A test that was made: `words` say that it finds nothing, a straggler, an outlier.
-fn tested(name: impl Into<Words>, words: [Text; 3], found: Option<(Number, f64)>) -> Tested {
-    let outcome = found.as_ref().map_or(Outcome::Passed, |(_, p)| graded(*p));
-    let word = match outcome {
-        Outcome::Failed => words[2],
-        Outcome::Undecided => words[1],
-        Outcome::Passed | Outcome::NotAsked => words[0],
-    };
-    let (statistic, probability) = found.unzip();
-    Tested { name: name.into(), result: marked(outcome, word), statistic, freedom: None, probability }
-}
-
-fn bartlett(name: Text, test: Option<&Bartlett>) -> Tested {
-    let Some(test) = test else {
-        let result = marked(Outcome::NotAsked, texts::NOT_MADE);
-        return Tested { result, ..tested(name, [texts::NOT_MADE; 3], None) };
-    };
-    let found = (Number::chi_square(test.statistic), test.probability);
-    let of_variances = tested(name, [texts::EQUAL, texts::DOUBTFUL, texts::UNEQUAL], Some(found));
-    Tested { freedom: Some(test.degrees_of_freedom), ..of_variances }
-}
-
-const OF_VALUES: [Text; 3] = [texts::NOT_SUSPECT, texts::STRAGGLER, texts::OUTLIER];
-
-/// The tests, and what they mean.
+/// The findings of the search for causes, and what they mean.
 pub(crate) fn tests(found: &Certification) -> [Block; 2] {
-    let suspects = &found.suspects;
-    let value = |statistic: f64, p: f64| Some((Number::fixed(statistic, 2), p));
-    let mut rows = vec![
-        bartlett(texts::BARTLETT_POSITIONS, suspects.positions.as_ref()),
-        bartlett(texts::BARTLETT_AXES, suspects.axes.as_ref()),
-    ];
-    let worse = suspects.worse.iter();
-    rows.extend(worse.map(|at| tested(texts::cochran(at.index), OF_VALUES, value(at.ratio, at.probability))));
-    rows.extend(suspects.outliers.iter().map(|out| {
-        let name = texts::grubbs(out.index, out.run, AXES[out.axis]);
-        tested(name, OF_VALUES, value(out.residual_arcsec, out.probability))
-    }));
-    rows.extend(found.rotated_runs.iter().map(|at| {
-        let axis = at.axis.word();
-        let name = match (at.pattern, at.axis.is_of_the_base()) {
-            (Pattern::One(run), true) => texts::grubbs_base(run, axis),
-            (Pattern::One(run), false) => texts::grubbs_platform(run, axis),
-            (Pattern::Move(run, _), true) => texts::move_base(run, axis),
-            (Pattern::Move(run, _), false) => texts::move_platform(run, axis),
-            (Pattern::Drift, true) => texts::drift_base(axis),
-            (Pattern::Drift, false) => texts::drift_platform(axis),
-        };
-        // A shift or a drift is not an outlier.
-        let of_moves = [texts::NOT_SUSPECT, texts::PROBABLE, texts::SIGNIFICANT];
-        let words = if at.pattern.is_in_order() { of_moves } else { OF_VALUES };
-        tested(name, words, value(at.turn_arcsec(), at.probability))
-    }));
-    rows.extend(without_findings(found));
-    let table = Rows::of(&rows, "numbers tests")
-        .named(texts::TEST, |test| test.name.clone())
-        .column(checks::RESULT, |test| test.result.clone())
-        .column(texts::STATISTIC, |test| test.statistic.clone())
-        .column(symbol("ν"), |test| test.freedom)
-        .column(symbol("p"), |test| test.probability.map(probability));
-    [table.called(texts::TESTS), say([texts::TESTS_NOTE])]
-}
-
-/// The tests that were made and name nothing.
-fn without_findings(found: &Certification) -> impl Iterator<Item = Tested> {
-    let (suspects, components) = (&found.suspects, &found.components);
-    let runs = found.runs.len();
-    let (bumped, moved): (Vec<&RotatedRuns>, Vec<_>) = found.rotated_runs.iter().partition(|at| at.run().is_some());
-    let rotated = |in_order: bool| {
-        let at = most_suspect(components, &suspects.outliers, &found.rotated_runs, in_order)?;
-        Some((at.turn_arcsec(), at.probability))
+    let none = say([marked(Outcome::Passed, texts::NO_FINDING)]);
+    let outcome = |at: &Found| match at.accuses() {
+        true => marked(Outcome::Failed, texts::SIGNIFICANT),
+        false => marked(Outcome::Undecided, texts::PROBABLE),
     };
-    let none = [
-        (
-            texts::outlying_angles(found.tested_angles()),
-            (suspects.outliers.is_empty() && suspects.split.is_none()).then(|| suspects.most_suspect_angle(components)),
-        ),
-        (
-            texts::rotated_runs(runs, 3 + components.base_axes),
-            (bumped.is_empty() && runs >= FEWEST_RUNS).then(|| rotated(false)),
-        ),
-        (texts::move_or_drift(runs), (moved.is_empty() && runs >= FEWEST_RUNS_OF_A_MOVE).then(|| rotated(true))),
-    ];
-    none.into_iter().filter_map(|(name, found)| {
-        // What would be suspect but for the resolution of the readings is not.
-        let found = found?.filter(|(_, probability)| graded(*probability) == Outcome::Passed);
-        Some(tested(name, OF_VALUES, found.map(|(value, p)| (Number::fixed(value, 2), p))))
-    })
+    let table = Rows::of(&found.findings, "numbers tests")
+        .named(texts::FINDING, |at| name(at.kind))
+        .column(checks::RESULT, outcome)
+        .column(texts::SIZE, |at| at.size.map(|size| Number::fixed(size, 2)))
+        .column(symbol("p"), |at| probability(at.probability));
+    let table = if found.findings.is_empty() { none } else { table.called(texts::TESTS) };
+    [table, say([texts::TESTS_NOTE])]
 }
 
-/// Returns the outcome of a test from its probability: an outlier fails, a straggler decides nothing.
-fn graded(probability: f64) -> Outcome {
-    match probability {
-        p if p < OUTLIER => Outcome::Failed,
-        p if p < STRAGGLER => Outcome::Undecided,
-        _ => Outcome::Passed,
+/// Returns the name of a kind of findings on readings.
+fn name(kind: Kind) -> Text {
+    match kind {
+        Kind::Angle => texts::FOUND_ANGLE,
+        Kind::Reading => texts::FOUND_READING,
+        Kind::Bump => texts::FOUND_BUMP,
+        Kind::RunTurned => texts::FOUND_RUN,
+        Kind::StandMoved => texts::FOUND_MOVE,
+        Kind::StandDrift => texts::FOUND_DRIFT,
+        Kind::PositionMoved => texts::FOUND_POSITION_MOVED,
+        Kind::PositionScatter | Kind::SettingScatter => texts::FOUND_SCATTER,
+        Kind::SharedSetting => texts::FOUND_SHARED,
+        Kind::AxisScatter => texts::FOUND_AXIS,
+        Kind::RunAxisScatter => texts::FOUND_RUN_AXIS,
+        _ => texts::FOUND_COPY,
     }
 }
 

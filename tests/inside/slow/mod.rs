@@ -4,9 +4,12 @@
 mod alone;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod causes;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod coarse_readings;
 #[cfg(feature = "monte-carlo")]
 mod diagnosis;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod findings;
 #[cfg(feature = "cli")]
 mod fuzz;
 #[cfg(feature = "cli")]
@@ -17,18 +20,12 @@ mod hostile_memory;
 mod noise;
 #[cfg(feature = "report")]
 mod repeats;
-#[cfg(all(feature = "factory", feature = "monte-carlo"))]
-mod rotated_runs;
 #[cfg(feature = "monte-carlo")]
 mod runs;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod same_stand;
-#[cfg(all(feature = "factory", feature = "monte-carlo"))]
-mod shared_settings;
 #[cfg(feature = "report")]
 mod simulation;
-#[cfg(all(feature = "factory", feature = "monte-carlo"))]
-mod split_run;
 #[cfg(feature = "monte-carlo")]
 mod stated_uncertainty;
 #[cfg(feature = "factory")]
@@ -37,9 +34,5 @@ mod suites;
 mod tampering;
 #[cfg(all(feature = "factory", feature = "report"))]
 mod uncertainty;
-#[cfg(all(feature = "factory", feature = "monte-carlo"))]
-mod unequal_axes;
-#[cfg(all(feature = "factory", feature = "monte-carlo"))]
-mod worse_groups;
 #[cfg(feature = "factory")]
 mod yaml_readers;

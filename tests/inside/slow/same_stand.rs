@@ -171,8 +171,8 @@ fn the_scale_is_the_runs_own_variance() {
     let expected = 3.0 * 60.0 * 60.0 / (1.0 / 3.0 + 1.0 / 3.0);
     assert!((test.chi_square / expected - 1.0).abs() < 0.01, "{}, not {expected}", test.chi_square);
     assert_eq!(test.degrees_of_freedom, 6);
-    // F(6, 6) = 2700: P = I_x(3, 3) at x = 1/2701, which is 10 x³ for small x.
-    assert!((test.probability / (10.0 / 2701.0_f64.powi(3)) - 1.0).abs() < 0.05, "{}", test.probability);
+    // Check and certificate vary alike and are pooled. F(6, 12) = 2700: P = I_x(6, 3) at x = 1/1351, which is 28 x⁶ for small x.
+    assert!((test.probability / (28.0 / 1351.0_f64.powi(6)) - 1.0).abs() < 0.05, "{}", test.probability);
 }
 
 /// Without the runs of the certificate a check of one run does not judge a common turn, and says so.
