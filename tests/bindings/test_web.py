@@ -207,7 +207,7 @@ def test_a_question_is_never_left_out_and_remarks_are_handed_on(corpus: Corpus) 
         assert any(words in said for said in found["refused"]), (words, found["refused"])
     assert found["other_world"] == "valid false"
     assert any("decimal commas" in remark for remark in found["semicolons"]["remarks"])
-    assert "too small by a factor of 1000" in found["amperes"]["remarks"][0] and found["amperes"]["mistake"]
+    assert "0.001000 times those of the gyro" in found["amperes"]["remarks"][0] and found["amperes"]["mistake"]
 
 
 REGISTERED = """

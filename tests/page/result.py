@@ -194,7 +194,8 @@ class Report:
                 self.known.setdefault(self.of_gravity[symbol], []).append(())
                 self.derived.append(result["gravity_u_m_per_s2"])
         # What may be wrong stands in the result in words: its numbers, and half of their last places.
-        hinted = (printed(number, False) for number in TOKEN.findall(result.get("hint", "").replace("-", "−")))
+        causes = " ".join(cause["words"] for cause in result.get("causes", ()))
+        hinted = (printed(number, False) for number in TOKEN.findall(causes.replace("-", "−")))
         self.hinted = [(number, Decimal("0.5").scaleb(place)) for number, place in hinted]
         self.wrong = []
 

@@ -116,7 +116,7 @@ fn a_budget_adds_up_to_the_uncertainty_of_the_calibration() {
                 let shares: f64 = line.contributions.iter().map(|part| part.share).sum();
                 assert!((shares - 1.0).abs() < 1e-12);
                 assert!(line.contributions.is_sorted_by(|a, b| a.contribution >= b.contribution));
-                // A gyro that is turned about its spin axis has the same ω_g and ω_k (see `calibration::mistake`): a
+                // A gyro that is turned about its spin axis has the same ω_g and ω_k (see `calibration::finding::by_type`): a
                 // contribution of the seat is only rounding.
                 if matches!(line.parameter, Parameter::OmegaG | Parameter::OmegaK) {
                     let seat = line.contributions.iter().find(|part| part.cause.kind() == "gyro seat about z").unwrap();
