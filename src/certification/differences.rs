@@ -11,6 +11,7 @@ use crate::statistics::least_squares::Factorised;
 use crate::statistics::student::{f_beyond, f_larger};
 use crate::wording::number::Number;
 use crate::wording::texts::remarks as texts;
+use crate::wording::words::symbol;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// Differences between check and certificate as rotations of the case, with their standard uncertainties and the model of
@@ -118,7 +119,7 @@ impl Differences {
         });
         let found = each.filter_map(|(setting, angle_deg)| of_value(setting, angle_deg));
         found.min_by(|(one, _), (other, _)| one.total_cmp(other)).map(|(_, (setting, angle_deg, turn))| {
-            let words = texts::setting_changed(setting.symbol(), Number::exact(angle_deg), arcsec(turn));
+            let words = texts::setting_changed(symbol(setting.symbol()), Number::exact(angle_deg), arcsec(turn));
             let probability = self.rest(&places).map_or(1.0, |test| test.probability);
             let found = Found::new(Kind::StandChanged, setting.scope(angle_deg), probability, words);
             found.sized(turn).advised(texts::DO_CHECK_SETTING)

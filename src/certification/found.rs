@@ -13,7 +13,7 @@ use crate::text::number::decimals;
 use crate::text::words;
 use crate::wording::number::{Number, Probability};
 use crate::wording::texts::{compass, findings as texts, remarks};
-use crate::wording::words::code;
+use crate::wording::words::{code, symbol};
 use crate::wording::{Language, Text, Words, plain};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -257,8 +257,8 @@ impl Naming<'_> {
             Cause::Angle { place, run, angle } => {
                 let size = at.sizes_arcsec[0];
                 let scope = in_run(run, Scope { angle: Some(ANGLES[angle]), ..of_position(place) });
-                let (symbol, residual) = (ANGLE_SYMBOLS[angle], arcsec(size));
-                let words = texts::angle(symbol, index(place), runs[run], line(place, run), residual, p);
+                let name = symbol(ANGLE_SYMBOLS[angle]);
+                let words = texts::angle(name, index(place), runs[run], line(place, run), arcsec(size), p);
                 self.repeated(new(scope, words).sized(size), place, run)
             }
             Cause::Reading { place, run } => {
@@ -298,18 +298,20 @@ impl Naming<'_> {
                 let places = (0..self.positions.len()).filter(|at| setting.of(&self.positions[*at]) == angle_deg);
                 let s = self.scatter_arcsec(&places.collect::<Vec<_>>());
                 let angle = Number::exact(angle_deg);
-                let words = texts::setting_scatter(setting.symbol(), angle, arcsec(s), arcsec(of_visits), p);
+                let words = texts::setting_scatter(symbol(setting.symbol()), angle, arcsec(s), arcsec(of_visits), p);
                 new(setting.scope(angle_deg), words).sized(s).advised(remarks::DO_FIND)
             }
             Cause::Shared(setting) => {
                 let s = at.sizes_arcsec[0];
                 let scope = Scope { setting: Some(setting.key()), ..Scope::default() };
-                new(scope, texts::shared_setting(setting.symbol(), arcsec(s), p)).sized(s).advised(remarks::DO_MEASURE)
+                new(scope, texts::shared_setting(symbol(setting.symbol()), arcsec(s), p))
+                    .sized(s)
+                    .advised(remarks::DO_MEASURE)
             }
             Cause::Axis(axis) => {
                 let s = self.explanation.components.own_arcsec2[axis].value.sqrt();
                 let scope = Scope { axis: Some(AXES[axis]), ..Scope::default() };
-                new(scope, texts::axis_scatter(AXES[axis], arcsec(s), arcsec(of_visits), p)).sized(s)
+                new(scope, texts::axis_scatter(symbol(AXES[axis]), arcsec(s), arcsec(of_visits), p)).sized(s)
             }
             Cause::RunAxis(axis) => self.run_axis(axis, p, &new),
             Cause::Copied(one, other) => {
@@ -366,7 +368,7 @@ impl Naming<'_> {
         let freedom = Number::at_most(freedom, 1);
         let words = match part {
             Part::Base => texts::run_axis_scatter_of_base(s, name, rest, p, type_b, freedom),
-            Part::Platform => texts::run_axis_scatter_of_platform(s, name, rest, p, type_b, freedom),
+            Part::Platform => texts::run_axis_scatter_of_platform(s, symbol(name.en), rest, p, type_b, freedom),
         };
         let state = match part {
             Part::Base => remarks::do_state_type_b_base,

@@ -6,7 +6,7 @@ use crate::calibration::recorded::rounding_of;
 use crate::stand::remarks::Odd;
 use crate::wording::number::Number;
 use crate::wording::texts::remarks as texts;
-use crate::wording::words::code;
+use crate::wording::words::{code, symbol};
 use crate::wording::{Language, Words, plain};
 use jiff::civil::Date;
 use std::fmt::{Display, Formatter};
@@ -74,7 +74,7 @@ impl Remark {
             Self::SmallAngles(largest) => texts::small_angles(hundredths_above(*largest)),
             Self::LittleScatter(scatter) => texts::little_scatter(hundredths_above(*scatter)),
             Self::Odd(Odd::FarAngle { angle, index, arcsec, usual_arcsec }) => {
-                let (angle, value, usual) = (ANGLE_SYMBOLS[*angle], fixed(*arcsec, 0), fixed(*usual_arcsec, 0));
+                let (angle, value, usual) = (symbol(ANGLE_SYMBOLS[*angle]), fixed(*arcsec, 0), fixed(*usual_arcsec, 0));
                 texts::far_angle(angle, *index, value, usual)
             }
             Self::NotDated => texts::NOT_DATED.into(),

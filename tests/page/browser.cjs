@@ -126,8 +126,9 @@ function unfit() {
     const lower = Math.max(...tops) - Math.min(...tops);
     if (lower >= parseFloat(getComputedStyle(element).fontSize)) found.push(`broken: ${name(element)}`);
   }
-  // A value stands on the line of its symbol.
+  // A value stands on the line of its symbol; the value of another, with words between, need not.
   for (const value of document.querySelectorAll("sub + .quantity")) {
+    if (/\p{L}/u.test(value.previousSibling.data ?? "")) continue;
     const [symbol, first] = [value.previousElementSibling, value].map((element) => element.getClientRects()[0]);
     if (first && Math.abs(symbol.top - first.top) >= parseFloat(getComputedStyle(value).fontSize)) found.push(`torn: ${name(value)}`);
   }
