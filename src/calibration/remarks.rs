@@ -1,6 +1,6 @@
-//! What is said about a calibration beside its numbers: in the JSON that every language gets, at a terminal and on a page.
+//! Sentences about a calibration, for its JSON, the terminal and the page.
 //!
-//! * `mistake`: a mistake that explains the result.
+//! * `mistake`: the sentence on a mistake that explains the result.
 
 mod mistake;
 

@@ -164,7 +164,7 @@ fn first(report: &Report) -> Vec<Words> {
     vec![done(report.state.passed(), report.state.text()), Words::All(vec![given(&report.id), "  ".into(), file])]
 }
 
-/// What was done in a word with its mark, as wide as the longest of [`State`].
+/// The mark and the word of a [`State`], padded to the longest word.
 pub(super) fn done(passed: Option<bool>, word: Text) -> Words {
     marked(passed, padded(word, |language| longest(State::ALL.map(State::text), language)))
 }

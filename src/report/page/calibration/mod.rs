@@ -14,13 +14,14 @@ use super::passport::PassportPage;
 use super::shell::{Margins, document};
 use crate::calibration::Calibration;
 use crate::calibration::document::CalibrationDocument;
+use crate::calibration::parameter::symbols;
 use crate::calibration::remarks::of_mistake;
 use crate::calibration::stated::NotStated;
 use crate::calibration::verdict::{Decision, Verdict};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
-use crate::report::calibration::{Report, counted, symbols, what_may_be_wrong, why_no_change};
+use crate::report::calibration::{Report, counted, not_linear, what_may_be_wrong, why_no_change};
 use crate::report::doc::{Block, listed, marked, outcome_box, say, told};
 use crate::report::style::Outcome;
 use crate::report::uncertainty;
@@ -279,7 +280,7 @@ impl CalibrationPage<'_> {
 
     /// The parameters for which a Monte Carlo run shows that the linear approximation is not valid.
     fn not_linear(&self) -> Block {
-        say(self.monte_carlo.and_then(uncertainty::not_linear))
+        say(self.monte_carlo.and_then(not_linear))
     }
 }
 
