@@ -414,7 +414,7 @@ pub struct Remarks {
 impl Remarks {
     /// Returns warnings for the factory, and the inputs that the passport does not state, one sentence each in English.
     pub(crate) fn words(&self) -> Vec<String> {
-        let warnings = self.warnings().into_iter().map(|words| plain(&words.plain(Language::English)));
+        let warnings = self.warnings().into_iter().map(|words| plain(&warning(words).plain(Language::English)));
         warnings.chain(self.absences.iter().cloned()).collect()
     }
 
@@ -428,6 +428,6 @@ impl Remarks {
         let is_near_the_pole = self.uncertainty_growth > POLAR_WARNING;
         let polar = is_near_the_pole.then(|| texts::polar(Number::scientific(self.uncertainty_growth, 2)));
         let odd = self.odd.iter().map(|odd| Words::Given(odd.clone()));
-        noise.into_iter().chain(polar).chain(odd).map(warning).collect()
+        noise.into_iter().chain(polar).chain(odd).collect()
     }
 }
