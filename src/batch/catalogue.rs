@@ -187,12 +187,13 @@ impl<T: Listed> Draft<T> {
         }
         match self.names.get(&id.to_ascii_lowercase()) {
             Some(&(_, first)) if self.listed[first].hash == hash => {
-                tell(Event::Remark { file, words: format!("duplicate of {} {id}, used once", T::NAME) });
+                let words = format!("duplicate of {} {id}, used once", T::NAME);
+                tell(Event::Remark { file, words, is_warning: false });
             }
             Some(&(_, first)) => self.listed[first].others.push(path),
             None => {
                 if let Some(words) = value.remark(&path) {
-                    tell(Event::Remark { file, words });
+                    tell(Event::Remark { file, words, is_warning: false });
                 }
                 for name in names(&id) {
                     self.names.entry(name.to_ascii_lowercase()).or_insert((name.to_owned(), self.listed.len()));

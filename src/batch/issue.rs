@@ -116,7 +116,8 @@ impl<'a> Run<'a> {
             let id = stand.stand().stand.id();
             match opened {
                 Ok((folder, remarks)) => {
-                    remarks.into_iter().for_each(|words| tell(Event::Remark { file: id.clone(), words }));
+                    let remark = |words| Event::Remark { file: id.clone(), words, is_warning: false };
+                    remarks.into_iter().for_each(|words| tell(remark(words)));
                     works.push(Work { folder, stand, outcomes: Vec::new() });
                 }
                 Err(why) => self.lost(Failure::folder(id, &why), each_costs, tell),
@@ -152,7 +153,7 @@ impl<'a> Run<'a> {
             let others = known.iter().filter(|(id, _)| **id != site.id);
             let others: Vec<_> = others.map(|(id, place)| (format!("the site {id}"), *place)).collect();
             if let Some(words) = site.misplaced(&others) {
-                tell(Event::Remark { file: site.id.to_string(), words: format!("WARNING: {words}") });
+                tell(Event::Remark { file: site.id.to_string(), words, is_warning: true });
             }
         }
     }

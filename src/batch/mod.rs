@@ -79,6 +79,7 @@ pub(crate) enum Event {
         file: String,
         /// Text of the remark, which may be the same for many files.
         words: String,
+        is_warning: bool,
     },
 }
 

@@ -47,9 +47,6 @@ const STANDS_AT_ONCE: usize = 32;
 const STAYS_CURRENT: &str = "stays in force next to the new passport; if the stand has left its site, use --moved, or \
                              withdraw it with `revoke`";
 
-/// Beginning of a remark that is a warning.
-const WARNING: &str = "WARNING: ";
-
 /// Passports of one stand to re-issue.
 struct Job {
     stand: String,
@@ -79,12 +76,12 @@ struct Following {
     /// Name of the predecessor's file.
     name: String,
     successor: Successor,
-    /// Remarks for the case that it is issued.
-    remarks: Vec<String>,
+    /// Remarks for the case that it is issued, each with whether it is a warning.
+    remarks: Vec<(String, bool)>,
 }
 
 /// Outcomes of a job, each with the file and the remarks for the case that it is issued.
-type Outcomes = Vec<(Option<Outcome>, String, Vec<String>)>;
+type Outcomes = Vec<(Option<Outcome>, String, Vec<(String, bool)>)>;
 
 impl Batch<'_> {
     /// Re-issues the given files, and the passports in given folders that the change concerns.
@@ -220,7 +217,8 @@ impl Run<'_> {
                     }
                     for (outcome, name, remarks) in outcomes {
                         if matches!(outcome, Some(Outcome::There(_) | Outcome::Planned { .. })) {
-                            remarks.into_iter().for_each(|words| tell(Event::Remark { file: name.clone(), words }));
+                            let remark = |(words, is_warning)| Event::Remark { file: name.clone(), words, is_warning };
+                            remarks.into_iter().for_each(|told| tell(remark(told)));
                         }
                         tell(Event::Done(outcome));
                     }
@@ -341,8 +339,8 @@ impl Run<'_> {
         let stays = !next.supersedes() && verification.passport().is_some() && warnings.is_empty();
         let stays = stays.then(|| STAYS_CURRENT.to_owned());
         warnings.extend(verification.content_from_anyone().and_then(|old| distant_correction(old, &next.site)));
-        let warnings = warnings.into_iter().map(|words| format!("{WARNING}{words}"));
-        let remarks = warnings.chain(stays).collect();
+        let warnings = warnings.into_iter().map(|words| (words, true));
+        let remarks = warnings.chain(stays.map(|words| (words, false))).collect();
         Ok(Examined::Next(Box::new(Following { name, successor: next, remarks })))
     }
 

@@ -24,6 +24,7 @@ mod result;
 pub(crate) use result::{ResidualDocument, ResultDocument, RowScatterDocument, finite};
 
 use super::finding::by_type::NEED_A_GYRO_TYPE;
+use super::parameter::symbols;
 use super::readings::Exclusion;
 use super::recorded::Digits;
 use super::verdict::change_in_uncertainties;
@@ -40,7 +41,6 @@ use crate::text::Unreadable;
 use crate::text::node::from_json;
 use crate::text::printable::printable;
 use crate::wording::texts::comparison;
-use crate::wording::words::{listed, symbol};
 use crate::wording::{Language, Words};
 use jiff::civil::Date;
 use jiff::tz::TimeZone;
@@ -402,8 +402,7 @@ impl CalibrationDocument {
     /// Returns the sentence on parameters that have changed since `earlier` more than the uncertainties explain.
     pub(crate) fn unexplained_in_words(&self, earlier: &Self) -> Option<Words> {
         let changed = self.unexplained_change(earlier);
-        let names = listed(changed.iter().map(|parameter| symbol(parameter.symbol())));
-        (!changed.is_empty()).then(|| comparison::unexplained(names))
+        (!changed.is_empty()).then(|| comparison::unexplained(symbols(changed)))
     }
 
     /// Returns the limits of a comparison with `earlier` in words, a sentence each.

@@ -1,8 +1,15 @@
 //! The unknowns of the drift model, eq. (2).
 
 use crate::gyro::{GyroParameters, Tolerance};
+use crate::wording::Words;
+use crate::wording::words::{listed, symbol};
 use nalgebra::{Matrix2, Vector2};
 use serde::{Serialize, Serializer};
+
+/// Returns the symbols of parameters with commas between them.
+pub(crate) fn symbols(parameters: impl IntoIterator<Item = Parameter>) -> Words {
+    listed(parameters.into_iter().map(|parameter| symbol(parameter.symbol())))
+}
 
 /// Unknown of the drift model (paper, eq. (2)).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

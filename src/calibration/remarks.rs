@@ -1,4 +1,4 @@
-//! What is said about a calibration beside its numbers: in the JSON that every language gets, at a terminal and on a page.
+//! Sentences about a calibration, for its JSON, the terminal and the page.
 
 use super::recorded::{Digits, rounding_of};
 use super::{Agreement, Calibration, DriftNoise, NoiseSource, Readings, Scatter};

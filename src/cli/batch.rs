@@ -145,10 +145,7 @@ impl Reporter {
                 self.bar.inc_length(more);
             }
             Event::Lost(less) => self.bar.dec_length(less),
-            Event::Remark { file, words } => {
-                let is_warning = words.starts_with("WARNING: ");
-                self.told.add(&file, words, is_warning);
-            }
+            Event::Remark { file, words, is_warning } => self.told.add(&file, words, is_warning),
             Event::Done(outcome) => {
                 // An input that cannot be used is not one of the passports.
                 let is_input = matches!(&outcome, Some(Outcome::Failed(failure)) if failure.passports.is_some());

@@ -22,8 +22,8 @@ pub(super) fn of_text() -> Language {
 
 #[derive(Args)]
 pub(super) struct Lang {
-    /// Language of the text and of pages: en, ru, or for a page both side by side, as in en,ru; the first is that of the text and
-    /// sets the format of numbers [default: that of the workspace, or en]
+    /// Language of the text and of pages: en, ru, or for a page both side by side, as in en,ru; the first is that of the text
+    /// and sets the format of numbers [default: that of the workspace, or en]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "LANGUAGE")]
     lang: Vec<Language>,
 }

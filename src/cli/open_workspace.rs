@@ -3,7 +3,7 @@
 use crate::workspace::Workspace;
 use std::sync::OnceLock;
 
-/// One command line names at most one workspace.
+/// The workspace of the command line or the environment; there is at most one.
 static WORKSPACE: OnceLock<Workspace> = OnceLock::new();
 
 /// Sets the workspace, once, before anything reads it.
@@ -15,7 +15,7 @@ pub(super) fn workspace() -> Option<&'static Workspace> {
     WORKSPACE.get()
 }
 
-/// Returns `true` if the workspace cannot sign, so that it need not have every passport of a stand.
+/// Returns `true` if there is a workspace and it is of a laboratory.
 pub(super) fn is_of_a_laboratory() -> bool {
-    workspace().is_some_and(|workspace| workspace.key.is_none())
+    workspace().is_some_and(Workspace::is_of_a_laboratory)
 }

@@ -12,7 +12,7 @@ pub(super) struct Element {
     attributes: Vec<(&'static str, String)>,
     text: String,
     elements: Vec<Element>,
-    /// Words for each language of the document, in place of text and elements.
+    /// Words that become one element for each language of the document; then there are no text and no other elements.
     words: Option<Words>,
 }
 

@@ -285,7 +285,7 @@ impl<'a> StandFolder<'a> {
 
     /// Returns the next step of [`Self::issue`]; nothing is signed or written.
     pub(crate) fn next_first(&self, stand: &PreparedStand, site: &Site, order: &Issue) -> Result<Next, FolderRefused> {
-        let draft = Box::new(stand.compose(site, order)?);
+        let draft = Box::new(stand.draft(site, order)?);
         let (name, revision) = (site.id.as_str(), order.revision);
         let later = self.later(name, revision);
         match self.existing(name, revision)? {
@@ -318,7 +318,7 @@ impl<'a> StandFolder<'a> {
         let site = successor.site.id.as_str();
         let mut revision = successor.first_revision();
         loop {
-            let draft = Box::new(successor.compose(revision)?);
+            let draft = Box::new(successor.draft(revision)?);
             let later = self.later(site, revision);
             let Some(there) = self.existing(site, revision)? else {
                 let path = self.path_of(site, revision);

@@ -3,7 +3,7 @@
 use super::accuracy::NoAccuracy;
 use super::annotations::{self, Absence, absences, absent};
 use super::content::{Dated, PASSPORT_FORMAT, REFERENCE_GYRO, derive_from, passport_id};
-use super::verification::{Question, Trust, Verification, verify_hashed};
+use super::verification::{Known, Question, Trust, Verification, verify_known};
 use super::{Content, Header, NAMESPACE, Predecessor, SelfCheck, Stated, content};
 use crate::attitude::Deviation;
 use crate::calibration::prediction::{NoiseGrowth, noise_growth};
@@ -223,13 +223,6 @@ impl PreparedStand {
     /// # Errors
     /// Returns [`IssueRefused`] if an input breaks a rule, the self-check fails, or the text read back differs.
     pub fn draft(&self, site: &Site, issue: &Issue) -> Result<Draft, IssueRefused> {
-        let draft = self.compose(site, issue)?;
-        draft.read_back()?;
-        Ok(draft)
-    }
-
-    /// Computes all numbers and writes the text. It is not read back: the signed file is verified as a whole.
-    pub(crate) fn compose(&self, site: &Site, issue: &Issue) -> Result<Draft, IssueRefused> {
         check_identity(&issue.issuer)?;
         check_site(site)?;
         let (geometry, text) = self.geometry.as_ref().map_err(|singular| *singular)?;
@@ -243,6 +236,7 @@ impl PreparedStand {
         if payload.len() + LONGEST_SIGNATURE > LARGEST_DOCUMENT_BYTES {
             return Err(IssueRefused::TooLarge(payload.len()));
         }
+        read_back(&payload, &content)?;
         if let Some(self_check) = &content.self_check {
             let error = self_check.error(&content.coefficients());
             if error.is_nan() || error > SelfCheck::LIMIT {
@@ -322,24 +316,19 @@ fn check_dates(content: &Content) -> Result<(), IssueRefused> {
     }
 }
 
+/// Reads the written text with the verifier's reader and compares its content with the original.
+fn read_back(payload: &str, content: &Content) -> Result<(), IssueRefused> {
+    const NAME: &str = "the new passport";
+    rule::check(NAME, payload.as_bytes(), LARGEST_DOCUMENT_BYTES).map_err(IssueRefused::ReadBack)?;
+    let read = content::read(NAME, payload).map_err(IssueRefused::ReadBack)?;
+    if read != *content {
+        let fault = Unreadable::whole(NAME, None, "other content", "the content that was written", "");
+        return Err(IssueRefused::ReadBack(fault));
+    }
+    Ok(())
+}
+
 impl Draft {
-    /// Reads the written text with the verifier's reader and compares its content with the original.
-    fn read_back(&self) -> Result<(), IssueRefused> {
-        const NAME: &str = "the new passport";
-        rule::check(NAME, self.payload.as_bytes(), LARGEST_DOCUMENT_BYTES).map_err(IssueRefused::ReadBack)?;
-        let read = content::read(NAME, &self.payload).map_err(IssueRefused::ReadBack)?;
-        self.check_same(&read)
-    }
-
-    /// Checks that the content read is the original.
-    fn check_same(&self, read: &Content) -> Result<(), IssueRefused> {
-        if *read == self.content {
-            return Ok(());
-        }
-        let fault = Unreadable::whole("the new passport", None, "other content", "the content that was written", "");
-        Err(IssueRefused::ReadBack(fault))
-    }
-
     /// Returns the content of the passport.
     pub fn content(&self) -> &Content {
         &self.content
@@ -359,7 +348,11 @@ impl Draft {
         document::sign(&self.payload, NAMESPACE, signer)
     }
 
-    /// Signs the text and verifies the whole file, at the time of issue, as every reader will; its text is hashed once.
+    /// Signs the text and verifies the file at the time of issue, as every reader will. The text was read back when it was
+    /// drafted, and is hashed once.
+    ///
+    /// # Errors
+    /// Returns [`IssueRefused::Signing`] if the signer fails. The verification says whether the file is valid.
     pub(crate) fn sign_and_verify(
         &self,
         name: &str,
@@ -369,8 +362,8 @@ impl Draft {
         let message = Message::new(NAMESPACE, self.payload.as_bytes());
         let text = document::join(&self.payload, &signer.sign_message(&message)?);
         let question = Question::at(self.content.passport.issued_at);
-        let verification = verify_hashed(name, text.as_bytes(), Some(&message), trust, &question);
-        verification.content_from_anyone().map_or(Ok(()), |content| self.check_same(content))?;
+        let known = Known { message: &message, content: &self.content };
+        let verification = verify_known(name, text.as_bytes(), Some(known), trust, &question);
         Ok((text, verification))
     }
 
@@ -421,7 +414,7 @@ pub struct Remarks {
 impl Remarks {
     /// Returns warnings for the factory, and the inputs that the passport does not state, one sentence each in English.
     pub(crate) fn words(&self) -> Vec<String> {
-        let warnings = self.warnings().into_iter().map(|words| plain(&words.plain(Language::English)));
+        let warnings = self.warnings().into_iter().map(|words| plain(&warning(words).plain(Language::English)));
         warnings.chain(self.absences.iter().cloned()).collect()
     }
 
@@ -435,6 +428,6 @@ impl Remarks {
         let is_near_the_pole = self.uncertainty_growth > POLAR_WARNING;
         let polar = is_near_the_pole.then(|| texts::polar(Number::scientific(self.uncertainty_growth, 2)));
         let odd = self.odd.iter().map(|odd| Words::Given(odd.clone()));
-        noise.into_iter().chain(polar).chain(odd).map(warning).collect()
+        noise.into_iter().chain(polar).chain(odd).collect()
     }
 }

@@ -248,16 +248,7 @@ impl Successor {
     /// # Errors
     /// Returns the errors of [`PreparedStand::draft`].
     pub fn draft(&self, revision: u32) -> Result<Draft, IssueRefused> {
-        self.stand.draft(&self.site, &self.issue_of(revision))
-    }
-
-    /// Drafts the passport as [`PreparedStand::compose`] does.
-    pub(crate) fn compose(&self, revision: u32) -> Result<Draft, IssueRefused> {
-        self.stand.compose(&self.site, &self.issue_of(revision))
-    }
-
-    fn issue_of(&self, revision: u32) -> Issue {
-        Issue { revision, ..self.issue.clone() }
+        self.stand.draft(&self.site, &Issue { revision, ..self.issue.clone() })
     }
 }
 

@@ -217,14 +217,22 @@ impl Verification {
 /// `revocation` and `in_force`. Every number is then recomputed, and the requirements of the question are compared. If
 /// the signer is not trusted or the key is revoked, `recomputed`, `in_force` and these requirements are not checked.
 pub fn verify(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> Verification {
-    verify_hashed(name, bytes, None, trust, question)
+    verify_known(name, bytes, None, trust, question)
 }
 
-/// Verifies a passport whose text may have been hashed before, when it was signed.
-pub(crate) fn verify_hashed(
+/// Text that was hashed and read before it was signed; neither is done again for a file with the same text.
+#[derive(Clone, Copy)]
+pub(crate) struct Known<'a> {
+    pub message: &'a Message<'a>,
+    /// What the reader returns for the text.
+    pub content: &'a Content,
+}
+
+/// Verifies a passport whose text may be known.
+pub(crate) fn verify_known(
     name: &str,
     bytes: &[u8],
-    hashed: Option<&Message>,
+    known: Option<Known>,
     trust: &Trust,
     question: &Question,
 ) -> Verification {
@@ -232,8 +240,8 @@ pub(crate) fn verify_hashed(
     let (mut key, mut content) = (None, None);
     if let Some(text) = run.grammar(name, bytes) {
         key = Some(text.key().clone());
-        if let Some(payload) = run.signature(&text, hashed, trust) {
-            content = run.schema(name, payload).map(Box::new);
+        if let Some(payload) = run.signature(&text, known.map(|known| known.message), trust) {
+            content = run.schema(name, payload, known).map(Box::new);
             let counts = run.revocation(text.key(), trust);
             if let Some(content) = &content
                 && run.signer(text.key(), content, trust)
@@ -298,8 +306,9 @@ impl Run {
         payload.ok()
     }
 
-    fn schema(&mut self, name: &str, payload: &str) -> Option<Content> {
-        let content = content::read(name, payload);
+    fn schema(&mut self, name: &str, payload: &str, known: Option<Known>) -> Option<Content> {
+        let known = known.filter(|known| known.message.bytes == payload.as_bytes());
+        let content = known.map_or_else(|| content::read(name, payload), |known| Ok(known.content.clone()));
         let (code, detail) = match &content {
             Ok(_) => (Code::Ok, format!("the content is complete and conforms to {PASSPORT_FORMAT}")),
             Err(error) if error.is_of_a_later_version() => (Code::NewerFormat, error.to_string()),

@@ -20,8 +20,8 @@ pub(crate) use result::counted;
 use super::doc::{self, Block, Words};
 use super::page::language::Text;
 use super::page::number::Number;
-use super::uncertainty::not_linear;
 use crate::calibration::document::{CalibrationDocument, NoChange, ResultDocument, Subject};
+use crate::calibration::parameter::symbols;
 use crate::calibration::prediction::FurtherVisit;
 use crate::calibration::readings::Exclusion;
 use crate::calibration::remarks;
@@ -273,9 +273,12 @@ pub(crate) fn why_no_change(why: NoChange) -> Text {
     }
 }
 
-/// Returns the symbols of parameters with commas between them.
-pub(crate) fn symbols(parameters: impl IntoIterator<Item = Parameter>) -> Words {
-    doc::listed(parameters.into_iter().map(|parameter| doc::symbol(parameter.symbol())))
+/// Returns which parameters the linear approximation is not valid for (JCGM 101, clause 8) and what to use in its place, or
+/// `None` if there are none.
+pub(crate) fn not_linear(found: &MonteCarlo) -> Option<Words> {
+    let lines = Parameter::in_paper_order(&found.parameters, |line| line.parameter);
+    let invalid: Vec<_> = lines.into_iter().filter(|line| line.first_order.valid == Some(false)).collect();
+    (!invalid.is_empty()).then(|| texts::not_linear(symbols(invalid.into_iter().map(|line| line.parameter))))
 }
 
 /// Returns which passport was used, and whether it was verified.

@@ -41,7 +41,7 @@ pub(crate) enum Block {
     /// Lines of a terminal in columns, each after the indent. The last cell of a line goes on below itself, and the cells
     /// before it are as wide as their column.
     Lines(&'static str, Vec<Vec<Words>>),
-    /// As [`Block::Lines`], but no line is broken where there is no terminal, so that programs find whole ids and names.
+    /// As [`Block::Lines`], but broken only at a terminal: programs that read the output find whole ids and file names.
     Whole(&'static str, Vec<Vec<Words>>),
     /// Lines for a terminal alone, such as a chart in block characters.
     Typed(String),

@@ -1,4 +1,4 @@
-//! One stand over the years: its time line, and the drift of each deviation; and as JSON.
+//! History of a stand: its certificates and passports in order, and the drift of each deviation; and as JSON.
 
 use crate::attitude::{ANGLE_SYMBOLS, ANGLES};
 use crate::calibration::document::finite;

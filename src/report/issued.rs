@@ -164,7 +164,7 @@ fn first(report: &Report) -> Vec<Words> {
     vec![done(report.state.passed(), report.state.text()), Words::All(vec![given(&report.id), "  ".into(), file])]
 }
 
-/// What was done in a word with its mark, as wide as the longest of [`State`].
+/// The mark and the word of a [`State`], padded to the longest word.
 pub(super) fn done(passed: Option<bool>, word: Text) -> Words {
     marked(passed, padded(word, |language| longest(State::ALL.map(State::text), language)))
 }
@@ -314,9 +314,10 @@ impl Told {
         Self { language, remarks: Vec::new(), others: 0 }
     }
 
-    /// Adds a remark about a passport or a file.
+    /// Adds a remark about a passport or a file; a warning begins with that word.
     pub(crate) fn add(&mut self, about: &str, words: impl Into<Words>, is_warning: bool) {
-        let words = said(&words.into(), self.language);
+        let words = words.into();
+        let words = said(&if is_warning { calibration::warning(words) } else { words }, self.language);
         match self.remarks.iter().position(|(known, ..)| *known == words) {
             Some(known) => self.remarks[known].3 += 1,
             None if self.remarks.len() == REMARKS_TOLD => self.others += 1,
@@ -395,7 +396,7 @@ mod tests {
 
         let mut told = Told::new(Language::English);
         told.add("WARNING: a file", "a remark", false);
-        told.add("a", "WARNING: near the pole", true);
+        told.add("a", "near the pole", true);
         assert_eq!(told.lines(true), ["a: WARNING: near the pole"]);
     }
 }

@@ -1,12 +1,13 @@
 //! A plan: positions, order, uncertainties next to those of the paper's eight, and what it cannot see.
 
-use super::calibration::{symbols, with_key};
+use super::calibration::with_key;
 use super::doc::{Block, On, Rows, Words, code, given, heading, in_unit, joined, line, listed, marked, say, symbol};
 use super::page::Number;
 use super::picture::accuracy::unit;
 use super::style::Outcome;
 use super::uncertainty::unit_of;
 use crate::calibration::Parameter;
+use crate::calibration::parameter::symbols;
 use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::plan::criterion::Criterion;
 use crate::plan::sensitivity::Effect;

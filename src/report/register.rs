@@ -55,8 +55,9 @@ pub(crate) fn alarm(alarm: &Alarm) -> Words {
     marked(Outcome::Failed, texts::alarm(alarm.code.key(), file, detail))
 }
 
-/// The number of passports in each state and of alarms, the register and the passports of each stand, and last the alarms, which
-/// a terminal then shows however long the list is. `listed` is the number of passports before any was filtered out.
+/// The number of passports in each state and of alarms, the register and the passports of each stand, and the alarms last,
+/// where a terminal shows them however long the list is. `listed_rows` is the number of passports before any was filtered
+/// out.
 pub(crate) fn document(overview: &Overview, listed_rows: usize) -> Vec<Block> {
     let count = |wanted: Text| overview.rows().filter(|row| state(row) == wanted).count();
     let counts = STATES.into_iter().map(|state| (state, count(state))).filter(|(_, count)| *count > 0);

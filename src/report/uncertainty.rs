@@ -19,7 +19,6 @@ use crate::uncertainty::dominant::{Dominant, Effect, Part, percent};
 use crate::uncertainty::monte_carlo::Distribution;
 use crate::uncertainty::{Budget, Contribution, MonteCarlo, ParameterBudget};
 use crate::wording::texts::{calibration as texts, units, words};
-use crate::wording::words::listed;
 use serde_json::{Value, json};
 
 /// Effective degrees of freedom above which ∞ is printed.
@@ -312,13 +311,4 @@ fn stated(mut object: Value) -> Value {
         keys.retain(|_, value| !value.is_null());
     }
     object
-}
-
-/// Returns which parameters the linear approximation is not valid for (JCGM 101, clause 8) and what to use in its place, or
-/// `None` if there are none.
-pub(crate) fn not_linear(found: &MonteCarlo) -> Option<Words> {
-    let lines = Parameter::in_paper_order(&found.parameters, |line| line.parameter);
-    let invalid = lines.into_iter().filter(|line| line.first_order.valid == Some(false));
-    let names: Vec<Words> = invalid.map(|line| symbol(line.parameter.symbol())).collect();
-    (!names.is_empty()).then(|| texts::not_linear(listed(names)))
 }

@@ -13,9 +13,9 @@
 //! are also those of the R package `propagate`, which contains this example.
 
 use super::Case;
-use crate::statistics::bins::{BINS, bin, quantile, shortest};
 use crate::statistics::summary::Summary;
-use crate::statistics::wide_random::{Column, WIDTH, WideRandom};
+use dtg_passport_trials::bins::{BINS, bin, quantile, shortest};
+use dtg_passport_trials::wide_random::{Column, WIDTH, WideRandom};
 
 /// Number of columns of trials of each example; the guide's number of trials, in whole columns.
 const COLUMNS: usize = 1_000_000 / WIDTH;

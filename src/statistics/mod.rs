@@ -6,9 +6,7 @@
 //! * `scaled_f`: the distribution of a chi-square whose covariance was partly estimated.
 //! * `coincidences`: readings that are copies of earlier ones.
 //! * [`random`]: streams of random numbers that do not depend on the number of threads or on the platform.
-//! * `wide_random`: many random numbers at a time.
 //! * [`straight_line`]: a straight line through points of known uncertainty; Holm's correction for many tests.
-//! * `bins`: quantiles and coverage intervals of a sample of any size.
 //! * [`summary`]: largest value, mean, standard deviation, percentiles, and the standard error of a share.
 
 pub(crate) mod coincidences;
@@ -20,5 +18,3 @@ pub(crate) mod scaled_f;
 pub(crate) mod straight_line;
 pub(crate) mod student;
 pub(crate) mod summary;
-#[cfg(feature = "monte-carlo")]
-pub(crate) use dtg_passport_trials::{bins, wide_random};

@@ -1,6 +1,6 @@
 //! Fields of documents, and destinations of a document, written value by value: a text in canonical form, or a tree.
 
-use super::canonical::Scanner;
+use super::canonical::scanner::Scanner;
 use super::{Advice, Node, Path, Problems};
 
 /// Type of a field of a document.

@@ -24,21 +24,3 @@ pub(crate) fn check(node: &Node, problems: &mut Problems) {
         }
     });
 }
-
-#[cfg(all(test, feature = "factory"))]
-mod tests {
-    use super::*;
-
-    /// Expected: by hand. A comment and another word that begins like the placeholder are none.
-    #[test]
-    fn every_placeholder_is_found_at_its_place() {
-        let text = "a: \"CHANGE\"  # CHANGE\nb: {c: [\"good\", \"CHANGE: where from\"]}\nd: \"CHANGED\"\n";
-        let (node, text) = crate::text::yaml::tree("f.yaml", text.as_bytes()).unwrap();
-        let mut problems = Problems::default();
-        check(&node, &mut problems);
-        let refused = problems.refuse("f.yaml", &text).to_string();
-        assert!(refused.contains("f.yaml:1:4: a: found \"CHANGE\", expected your value"), "{refused}");
-        assert!(refused.contains("b.c[1]: found \"CHANGE: where from\""), "{refused}");
-        assert_eq!(refused.matches("f.yaml:").count(), 2, "{refused}");
-    }
-}

@@ -120,7 +120,7 @@ pub(crate) fn outgoing(text: &str, codes: &[&str]) -> String {
     shown
 }
 
-/// Writes a value as indented JSON; invisible characters are escaped as `\uXXXX`.
+/// Returns a value as indented JSON, in which invisible characters are escaped as `\uXXXX`.
 pub(crate) fn json(value: &impl Serialize) -> Result<String, serde_json::Error> {
     Ok(json_escaped(&serde_json::to_string_pretty(value)?))
 }

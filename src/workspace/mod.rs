@@ -60,6 +60,11 @@ impl Workspace {
         Ok(Self::from_toml(root, &name_of(&path), &bytes).map_err(|unreadable| unreadable.in_text(&bytes))?)
     }
 
+    /// Returns `true` if the workspace cannot sign. It then need not have every passport of a stand.
+    pub(crate) fn is_of_a_laboratory(&self) -> bool {
+        self.key.is_none()
+    }
+
     fn from_toml(root: &Path, name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
         let bytes = without_byte_order_mark(bytes);
         let text = utf8(name, bytes, None)?;

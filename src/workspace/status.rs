@@ -117,8 +117,13 @@ pub(crate) fn status(
             let memory = workspace.memory();
             let question = Question { now, ..Question::at(time) };
             let threads = parallel::processors();
-            let query =
-                Query { trust, question: &question, memory: Some(&memory), may_lack: workspace.key.is_none(), threads };
+            let query = Query {
+                trust,
+                question: &question,
+                memory: Some(&memory),
+                may_lack: workspace.is_of_a_laboratory(),
+                threads,
+            };
             Some(Overview::of(folder, query)?)
         }
         (None, _) => {

@@ -27,7 +27,7 @@ enum Part {
     Revoke,
 }
 
-/// A number of passports of the stand that is certified anew.
+/// Number of passports of the stand that is certified anew.
 const OF_RECERTIFIED: usize = 20;
 
 /// A job that is killed again and again until it is done.

@@ -1,10 +1,14 @@
 //! Issue of passports: of stands that were prepared, at the limits of dates and of positions.
 
 use crate::inside::fixtures;
+use dtg_passport::document::{Signer, SigningFailed};
+use dtg_passport::folder::{Authority, Folder, FolderRefused};
 use dtg_passport::passport::annotations;
 use dtg_passport::passport::content::{REFERENCE_GYRO, derive};
 use dtg_passport::passport::issue::{Issue, IssueRefused, PreparedStand, draft, time_of_issue};
 use dtg_passport::stand::Stand;
+use dtg_passport::trust::{Signature, SigningKey};
+use std::fs;
 
 const SITES: [&str; 3] = [
     include_str!("../../sites/moscow-bmstu.yaml"),
@@ -47,6 +51,37 @@ fn what_a_stand_has_in_common_is_what_each_passport_would_find() {
             assert_eq!((content.vectors, content.self_check), (alone.vectors, alone.self_check));
         }
     }
+}
+
+/// A signer that signs another text, as a faulty token would.
+struct Faulty<'a>(&'a SigningKey);
+
+impl Signer for Faulty<'_> {
+    fn sign(&self, namespace: &str, message: &[u8]) -> Result<Signature, SigningFailed> {
+        let altered: Vec<u8> = message.iter().map(|byte| byte ^ 1).collect();
+        Ok(self.0.sign(namespace, &altered)?)
+    }
+}
+
+#[test]
+fn a_passport_with_a_wrong_signature_or_an_untrusted_key_is_not_written() {
+    let (key, site, clock) = (SigningKey::generate().unwrap(), fixtures::site(SITES[0]), || order().issued_at);
+    let (trust, stand) = (fixtures::trust(&key), PreparedStand::new(fixtures::stand(fixtures::DEGREES)));
+    let root = tempfile::tempdir().unwrap();
+    let issue = |signer: &(dyn Signer + Sync)| {
+        let authority = Authority::new(fixtures::ISSUER, signer, &trust, &clock);
+        let authority = Authority { register_signer: None, ..authority };
+        Folder::new(root.path()).issue(&stand, &site, &order(), &authority)
+    };
+    let stranger = SigningKey::generate().unwrap();
+    for (signer, check) in [(&Faulty(&key) as &(dyn Signer + Sync), "signature"), (&stranger, "signer")] {
+        let refused = issue(signer).unwrap_err();
+        assert!(matches!(&refused, FolderRefused::NotVerifiable(found, _) if *found == check), "{check}: {refused}");
+    }
+    let left: Vec<_> = fs::read_dir(root.path()).unwrap().collect();
+    assert!(left.is_empty(), "{left:?}");
+    // With its own key the same order is carried out.
+    issue(&key).unwrap();
 }
 
 /// Expected: the second of the clock is allowed, the next one is not, because no register of today could list it.

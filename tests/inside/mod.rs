@@ -34,6 +34,8 @@ mod certification;
 #[cfg(feature = "monte-carlo")]
 mod chi_square;
 #[cfg(feature = "factory")]
+mod document;
+#[cfg(feature = "factory")]
 mod forgeries;
 mod frame_axis;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]

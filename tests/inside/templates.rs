@@ -10,6 +10,7 @@ use crate::laboratory::Laboratory;
 use crate::site::Site;
 use crate::stand::{CertifiedPosition, Stand};
 use crate::template::{self, DCC, GYRO, LABORATORY, Positions, currents, header, readings, stand};
+use crate::text::{Problems, placeholder, yaml};
 
 const EACH: [(Positions, usize); 3] = [(Positions::Four, 4), (Positions::Eight, 8), (Positions::TwentyFour, 24)];
 
@@ -98,4 +99,17 @@ fn what_is_a_comment_is_right_too() {
     let dcc = filled(&uncommented(DCC));
     let read = Administrative::from_yaml("dcc.yaml", dcc.as_bytes()).unwrap();
     assert!(read.traceable == Some(true) && read.issued.is_some(), "{dcc}");
+}
+
+/// Expected: by hand. A comment and another word that begins like the placeholder are none.
+#[test]
+fn every_placeholder_is_found_at_its_place() {
+    let text = "a: \"CHANGE\"  # CHANGE\nb: {c: [\"good\", \"CHANGE: where from\"]}\nd: \"CHANGED\"\n";
+    let (node, text) = yaml::tree("f.yaml", text.as_bytes()).unwrap();
+    let mut problems = Problems::default();
+    placeholder::check(&node, &mut problems);
+    let refused = problems.refuse("f.yaml", &text).to_string();
+    assert!(refused.contains("f.yaml:1:4: a: found \"CHANGE\", expected your value"), "{refused}");
+    assert!(refused.contains("b.c[1]: found \"CHANGE: where from\""), "{refused}");
+    assert_eq!(refused.matches("f.yaml:").count(), 2, "{refused}");
 }

@@ -1,6 +1,7 @@
 //! The decision on a gyro in a line: its word and its reasons.
 
-use super::{counted, symbols};
+use super::counted;
+use crate::calibration::parameter::symbols;
 use crate::calibration::{CalibrationDocument, Decision};
 use crate::report::doc::joined;
 use crate::report::style::Outcome;

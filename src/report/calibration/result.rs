@@ -1,8 +1,9 @@
 //! The result: every parameter with its expanded uncertainty, within the tolerance of the type if one was specified, its
 //! change since an earlier result, and the terms of a larger model.
 
-use super::{Report, history, symbols, with_u};
+use super::{Report, history, with_u};
 use crate::calibration::document::ResultDocument;
+use crate::calibration::parameter::symbols;
 use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::calibration::{NotStated, Parameter};
 use crate::report::doc::{

@@ -132,8 +132,8 @@ impl CertificationPage<'_> {
         }
     }
 
-    /// Who measured the stand and when, until when the certificate is valid, and the uncertainties that all positions have in
-    /// common, whose limits are in the section of this number.
+    /// The band below the title: measurement, expiry date, and the uncertainties that all positions have in common.
+    /// `uncertainty` is the number of the section with their limits.
     fn band(&self, uncertainty: usize) -> Block {
         let certificate = &self.certification.stand.certificate;
         let u = |value: Option<f64>| stated(value.map(|u| Words::Quantity(Number::uncertainty(u), units::ARCSEC)));

@@ -3,7 +3,7 @@
 //! Writer and scanner are inverse. The result of the scanner is accepted only if the writer produces the same text from
 //! it; [`read()`] ensures this.
 
-mod scanner;
+pub(crate) mod scanner;
 mod writer;
 
 pub(crate) use scanner::Scanner;

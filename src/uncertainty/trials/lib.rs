@@ -6,6 +6,8 @@
 //! 2. [`kernel`]: attitudes, specific force, Earth rate and currents of every position.
 //! 3. [`closed`]: the paper's coefficients and its analytic solution; or [`refit`]: weighted least squares.
 //!
+//! [`wide_random`] has the random numbers, and [`bins`] the quantiles and coverage intervals of a sample of any size.
+//!
 //! The program chooses the width of the instructions at run time, as the CPU allows. The arithmetic is the same
 //! everywhere, product by product: nothing is fused or reordered, so a seed always gives the same bytes.
 //!

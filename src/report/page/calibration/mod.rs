@@ -14,12 +14,13 @@ use super::passport::PassportPage;
 use super::shell::{Margins, document};
 use crate::calibration::Calibration;
 use crate::calibration::document::CalibrationDocument;
+use crate::calibration::parameter::symbols;
 use crate::calibration::stated::NotStated;
 use crate::calibration::verdict::{Decision, Verdict};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
-use crate::report::calibration::{Report, causes, counted, symbols, why_no_change};
+use crate::report::calibration::{Report, causes, counted, not_linear, why_no_change};
 use crate::report::doc::{Block, listed, marked, outcome_box, say, told};
 use crate::report::style::Outcome;
 use crate::report::uncertainty;
@@ -279,7 +280,7 @@ impl CalibrationPage<'_> {
 
     /// The parameters for which a Monte Carlo run shows that the linear approximation is not valid.
     fn not_linear(&self) -> Block {
-        say(self.monte_carlo.and_then(uncertainty::not_linear))
+        say(self.monte_carlo.and_then(not_linear))
     }
 }
 

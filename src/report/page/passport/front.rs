@@ -44,7 +44,7 @@ pub(super) fn section(page: &PassportPage, languages: &Languages, contents: &Mar
     }
 }
 
-/// Whether the passport is in force, where it may be used, on whose word, and how to check it.
+/// The four answers on the front of a passport: its validity, its site, its certificate, and how to check the file.
 fn answers(page: &PassportPage) -> Block {
     let content = &page.content;
     let (site, certificate) = (&content.site, &content.certificate);
