@@ -91,8 +91,9 @@ impl Estimates {
             all.visits = all.returns;
         }
         all.turn_ons = all.add(repeats.turn_on.degrees_of_freedom);
-        for basis in (0..4).filter(|basis| repeats.scale[*basis] > 0.0) {
-            all.scale[basis] = all.add(repeats.cycles as f64 - 1.0);
+        for pair in [[0, 3], [1, 2]].into_iter().filter(|pair| repeats.scale[pair[0]] > 0.0) {
+            let basis = all.add(repeats.scale_degrees_of_freedom());
+            pair.into_iter().for_each(|element| all.scale[element] = basis);
         }
         all
     }

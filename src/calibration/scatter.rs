@@ -271,16 +271,27 @@ impl Repeats {
         Some(found)
     }
 
-    /// Estimates how much the elements of K vary from turn-on to turn-on, if each has its own.
+    /// Estimates how much K varies from turn-on to turn-on, if each has its own: K_x and K_y by the same fraction, and K_xy and
+    /// K_yx by the same amount.
     pub(crate) fn observe_scale(&mut self, offsets: &Offsets, fit: &Fit) {
-        let freedom = offsets.cycles.len().saturating_sub(1) as f64;
-        if offsets.scale && freedom > 0.0 {
-            let map = offsets.turn_ons();
-            self.scale = [(0, 1), (0, 2), (1, 1), (1, 2)].map(|(axis, group)| {
-                let [squares, of_noise] = of_turn_ons(&map, fit, group, axis);
-                ((squares - of_noise).max(0.0) / freedom).sqrt()
-            });
+        let freedom = self.scale_degrees_of_freedom();
+        if !offsets.scale || freedom == 0.0 {
+            return;
         }
+        let (map, k) = (offsets.turn_ons(), fit.unknowns.parameters.k_deg_per_h_per_ma);
+        for (pair, units) in [([0, 3], [k.m11.abs(), k.m22.abs()]), ([1, 2], [1.0, 1.0])] {
+            let squares = pair.iter().zip(units).map(|(element, unit)| {
+                let [squares, of_noise] = of_turn_ons(&map, fit, 1 + element % 2, element / 2);
+                (squares - of_noise) / (unit * unit)
+            });
+            let each = (squares.sum::<f64>().max(0.0) / freedom).sqrt();
+            pair.into_iter().zip(units).for_each(|(element, unit)| self.scale[element] = each * unit);
+        }
+    }
+
+    /// Returns the degrees of freedom of the scatter of two elements of K between turn-ons.
+    pub(crate) fn scale_degrees_of_freedom(&self) -> f64 {
+        2.0 * self.cycles.saturating_sub(1) as f64
     }
 }
 

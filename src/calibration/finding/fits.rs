@@ -29,6 +29,9 @@ const PRICE_OF_A_NUMBER: f64 = 2.0;
 /// Chi-square that must be gained to suspect the model, or the meter, and the stand, before cheaper causes.
 const SUSPICION: [f64; 2] = [4.0, 8.0];
 
+/// Chi-square that a meter must gain for each factor e by which it is worse than stated.
+const PRICE_OF_A_FACTOR: f64 = 4.0;
+
 /// Smallest change of an angle that is less likely than a mistake in recording the reading, arcsec.
 const GROSS_ARCSEC: f64 = 3600.0;
 
@@ -254,7 +257,11 @@ impl Case<'_> {
             let turns = sensitivity.to_case_turns(place);
             turns * turns.transpose()
         };
-        let of = |own: &dyn Fn(usize) -> Matrix2<f64>, kind, unit: &str, size: &dyn Fn(f64) -> f64, price: f64| {
+        let of = |own: &dyn Fn(usize) -> Matrix2<f64>,
+                  kind,
+                  unit: &str,
+                  size: &dyn Fn(f64) -> f64,
+                  price: &dyn Fn(f64) -> f64| {
             let own: Vec<Matrix2<f64>> =
                 fit.whitening.iter().enumerate().map(|(place, w)| w * own(place) * w.transpose()).collect();
             let terms = chi_square::terms_of(&propagation, &own)?;
@@ -262,19 +269,21 @@ impl Case<'_> {
             let log = minimum(-40.0, 40.0, score);
             let size = size(libm::exp(log / 2.0));
             Some((
-                score(log) + PRICE_OF_A_NUMBER + price,
+                score(log) + PRICE_OF_A_NUMBER + price(size),
                 Finding::new(kind, Scope::default(), Some((size, unit)), 0.0),
             ))
         };
         // What repeated visits show, or the type states, is no unstated noise.
         let of_gyro = (data.repeats.visit.source == NoiseSource::NotStated).then(|| {
-            let (score, cause) = of(&noise, Kind::GyroNoise, "deg/h", &|size| size, 0.0)?;
+            let (score, cause) = of(&noise, Kind::GyroNoise, "deg/h", &|size| size, &|_| 0.0)?;
             let noisy = setup.clone().with(|u| u.visit_deg_per_h = cause.size);
             let refit = Data::new(&noisy, self.readings).fit(&noisy, fit.of).ok()?;
             Some((score, cause.with(refit.unknowns.parameters)))
         });
-        let of_meter = of(&meter, Kind::Meter, "1", &|size| libm::hypot(size, 1.0), SUSPICION[0]);
-        let of_stand = of(&stand, Kind::Stand, "arcsec", &arcseconds_from_radians, SUSPICION[1]);
+        // Few meters are worse than their specification by a large factor; another stand has any deviations.
+        let far = |factor: f64| SUSPICION[0] + PRICE_OF_A_FACTOR * libm::log(factor);
+        let of_meter = of(&meter, Kind::Meter, "1", &|size| libm::hypot(size, 1.0), &far);
+        let of_stand = of(&stand, Kind::Stand, "arcsec", &arcseconds_from_radians, &|_| SUSPICION[1]);
         of_gyro.flatten().into_iter().chain(of_meter).chain(of_stand).collect()
     }
 }

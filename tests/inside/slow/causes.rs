@@ -308,7 +308,14 @@ fn coverage(seed: u64, of: Design, fault: Fault, drift: bool) -> [f64; 8] {
     let blocks = Run::new(count, seed).blocks(|stream, trials| {
         let mut covered = [0_u32; 8];
         for _ in 0..trials {
-            let readings = run(stream, &bench, of, &fault);
+            let mut readings = run(stream, &bench, of, &fault);
+            // What the result advises: without the visit that is named.
+            let named = solved(&bench.1, &readings).causes.into_iter().find(|cause| cause.kind == Kind::Visit);
+            if let Some(rest) =
+                named.filter(|_| fault.visit_deg_per_h > 0.0).and_then(|cause| cause.left_out(&readings))
+            {
+                readings = rest;
+            }
             let budget = Budget::new(&bench.1, &readings, Method::LeastSquares, &only(drift)).unwrap();
             // ω_0 is that at the mean time of the readings.
             let drifted = fault.drift_deg_per_h2 * mean_of_first_s / 3600.0;
@@ -322,18 +329,26 @@ fn coverage(seed: u64, of: Design, fault: Fault, drift: bool) -> [f64; 8] {
     std::array::from_fn(|place| 100.0 * f64::from(blocks.iter().map(|block| block[place]).sum::<u32>()) / count as f64)
 }
 
-/// Wanted: 95.45 %, the coverage probability of U. Where a scatter with two degrees of freedom is most of u, the formula of Welch
-/// and Satterthwaite gives less; docs/uncertainty.md has the figures.
+/// Expected: 95 %, within 1.5 percentage points and three standard errors of the share. Two turn-ons have a single difference of
+/// K, and their intervals cover less; docs/uncertainty.md has the figures.
 #[test]
 fn intervals_cover_if_k_varies_and_if_a_drift_is_fitted() {
-    for (number, turn_ons) in [2, 3, 5].into_iter().enumerate() {
-        let of = design(turn_ons, 1, 1, false);
-        let of_k = coverage(800 + number as u64, of, Fault { k_percent: 0.05, ..Fault::default() }, false);
-        println!("K varies by 0.05 %, {turn_ons} turn-ons: {of_k:.1?} %");
-        let of_drift = coverage(810 + number as u64, of, Fault { drift_deg_per_h2: 0.02, ..Fault::default() }, true);
-        println!("--drift, {turn_ons} turn-ons: {of_drift:.1?} %");
-        for share in of_k.into_iter().chain(of_drift).filter(|_| turn_ons > 2) {
-            assert!(share > 85.0, "{turn_ons}: {of_k:?} {of_drift:?}");
+    let error = 1.5 + 300.0 * (0.95_f64 * 0.05 / trials().max(200) as f64).sqrt();
+    let check = |name: &str, turn_ons: u32, found: [f64; 8], least: f64| {
+        println!("{name}, {turn_ons} turn-ons: {found:.1?} %");
+        for share in found {
+            assert!(share > least && share < 95.0 + error, "{name}, {turn_ons}: {found:?}");
         }
+    };
+    for (number, turn_ons) in [2, 3, 5].into_iter().enumerate() {
+        let (of, number) = (design(turn_ons, 1, 1, false), number as u64);
+        let due = 95.0 - error;
+        let of_k = coverage(800 + number, of, Fault { k_percent: 0.05, ..Fault::default() }, false);
+        check("K varies by 0.05 %", turn_ons, of_k, if turn_ons == 2 { due - 3.0 } else { due });
+        let of_drift = coverage(810 + number, of, Fault { drift_deg_per_h2: 0.02, ..Fault::default() }, true);
+        check("--drift", turn_ons, of_drift, due);
     }
+    let of = design(3, 1, 1, true);
+    let without = coverage(820, of, Fault { visit_deg_per_h: 0.04, ..Fault::default() }, false);
+    check("without a visit that is named", 3, without, 95.0 - error);
 }
