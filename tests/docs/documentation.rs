@@ -9,7 +9,8 @@ use std::path::{Path, PathBuf};
 
 /// The pages, in the order in which they are run; each has a folder of its own.
 fn pages() -> Vec<PathBuf> {
-    let docs = fs::read_dir(programs::project("docs")).unwrap().map(|entry| entry.unwrap().path());
+    let folders = ["docs", "docs/development"].map(|folder| fs::read_dir(programs::project(folder)).unwrap());
+    let docs = folders.into_iter().flatten().map(|entry| entry.unwrap().path());
     let mut pages: Vec<PathBuf> =
         docs.filter(|path| path.extension().is_some_and(|extension| extension == "md")).collect();
     pages.push(programs::project("README.md"));
