@@ -1,4 +1,4 @@
-//! All figures of docs/reproduction.md at full size: `cargo bench --bench reproduction`.
+//! All figures of docs/development/reproduction.md at full size: `cargo bench --bench reproduction`.
 //!
 //! The command line also gives the tables of accuracy and Fig. 4 (`dtg-passport simulate accuracy` and
 //! `dtg-passport simulate convergence`). The other figures have no command of their own.

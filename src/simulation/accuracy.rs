@@ -1,7 +1,7 @@
 //! The paper's table: errors of computed parameters relative to the nominal ones
 //! ([the paper](crate::bibliography::Bibliography::Tang17), "Results of modelling the analytic method").
 //!
-//! Two interpretations of the table are useful (docs/reproduction.md, "The table"). With a gyro drawn within its
+//! Two interpretations of the table are useful (docs/development/reproduction.md, "The table"). With a gyro drawn within its
 //! tolerance and one gain error common to all currents, the simulation gives the paper's figures at any deviations. A
 //! nominal gyro with an independent error in every current is the usual case in a laboratory.
 

@@ -275,7 +275,7 @@ fn memory_does_not_grow_with_the_number_of_passports() {
 
 /// `cargo test --release --test batch -- --ignored --nocapture a_million_planned`
 #[test]
-#[ignore = "takes minutes; the figure in docs/figures.md"]
+#[ignore = "takes minutes; the figure in docs/development/figures.md"]
 fn a_million_planned() {
     let workshop = Workshop::new(50, 20_000);
     let few = peak_kib(&workshop, "stands", "sites/site-000*.yaml --site sites/site-001*.yaml");

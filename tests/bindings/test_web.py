@@ -342,7 +342,7 @@ def test_the_page_in_chromium(registers: Registers, tmp_path: Path) -> None:
     assert found["errors"] == []
     assert len(found["refusals"]) >= 3 and all("Content Security Policy" in words for words in found["refusals"])
     print(f"\none verification in Chromium: {found['times']:.1f} ms, median of 21")
-    # Far above what was measured (docs/figures.md), for a machine that does other things.
+    # Far above what was measured (docs/development/figures.md), for a machine that does other things.
     assert found["times"] < 100
 
 

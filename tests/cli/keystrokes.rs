@@ -188,7 +188,7 @@ impl Way {
     }
 }
 
-/// Expected: the table of docs/figures.md.
+/// Expected: the table of docs/development/figures.md.
 #[test]
 fn a_workspace_saves_what_the_page_says() {
     let mut ways = [Way::new(false), Way::new(true)];
@@ -199,7 +199,7 @@ fn a_workspace_saves_what_the_page_says() {
         ("recertification with five sites in force", Way::recertification),
         ("withdrawal", Way::withdrawal),
     ];
-    let page = fs::read_to_string(programs::project("docs/figures.md")).unwrap();
+    let page = fs::read_to_string(programs::project("docs/development/figures.md")).unwrap();
     let mut missing = String::new();
     for (name, job) in jobs {
         let counted = ways.each_mut().map(|way| {
@@ -220,5 +220,5 @@ fn a_workspace_saves_what_the_page_says() {
     }
     let in_force = ways[1].signed().1.iter().filter(|state| state.ends_with(" current")).count();
     assert_eq!(in_force, 4, "five places, one of them withdrawn");
-    assert!(missing.is_empty(), "docs/figures.md lacks\n{missing}");
+    assert!(missing.is_empty(), "docs/development/figures.md lacks\n{missing}");
 }

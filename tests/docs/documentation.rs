@@ -9,7 +9,8 @@ use std::path::{Path, PathBuf};
 
 /// The pages, in the order in which they are run; each has a folder of its own.
 fn pages() -> Vec<PathBuf> {
-    let docs = fs::read_dir(programs::project("docs")).unwrap().map(|entry| entry.unwrap().path());
+    let folders = ["docs", "docs/development"].map(|folder| fs::read_dir(programs::project(folder)).unwrap());
+    let docs = folders.into_iter().flatten().map(|entry| entry.unwrap().path());
     let mut pages: Vec<PathBuf> =
         docs.filter(|path| path.extension().is_some_and(|extension| extension == "md")).collect();
     pages.push(programs::project("README.md"));
@@ -222,13 +223,13 @@ fn tests_that_are_named_exist() {
             }
         }
     }
-    assert!(checked > 30, "docs/security.md names tests: {checked}");
+    assert!(checked > 30, "docs/development/threats.md names tests: {checked}");
 }
 
-/// Each promise of docs/security.md names a test: every row of the tables about attackers.
+/// Each promise of docs/development/threats.md names a test: every row of the tables about attackers.
 #[test]
 fn every_promise_names_a_test() {
-    let text = fs::read_to_string(programs::project("docs/security.md")).unwrap();
+    let text = fs::read_to_string(programs::project("docs/development/threats.md")).unwrap();
     let attackers = text.split("\n## ").find(|section| section.starts_with("Attackers")).unwrap();
     let rows: Vec<&str> =
         attackers.lines().filter(|line| line.starts_with("| ") && !line.contains(" | what stops it | ")).collect();

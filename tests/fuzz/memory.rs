@@ -5,7 +5,7 @@ use peak_alloc::PeakAlloc;
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
-/// The bound that holds for every reader (docs/security.md), in bytes.
+/// The bound that holds for every reader (docs/development/threats.md), in bytes.
 pub fn bound(input_bytes: usize) -> usize {
     64 * input_bytes + (8 << 20)
 }

@@ -1,4 +1,4 @@
-//! Calibration against independent figures: the reference cases, and what docs/model.md says inputs cost.
+//! Calibration against independent figures: the reference cases, and what docs/development/reproduction.md says inputs cost.
 
 use crate::inside::reference::*;
 use dtg_passport::calibration::iterative::{self, StopRule};
@@ -12,7 +12,7 @@ use dtg_passport::units::{arcseconds_from_radians, radians_from_arcseconds};
 use nalgebra::{DMatrix, Vector2};
 
 /// Expected: the gyro of the reference cases, each parameter to 1e-10 of its own size. Prints the figure of
-/// docs/reproduction.md: `cargo test --lib -- --nocapture exact`.
+/// docs/development/reproduction.md: `cargo test --lib -- --nocapture exact`.
 #[test]
 fn exact_currents_give_the_reference_gyro_by_every_method() {
     let rule = StopRule { delta1_percent: 1e-13, delta2_deg_per_h: 1e-13 };
@@ -60,7 +60,7 @@ fn with(change: impl Fn(&mut InputUncertainty)) -> Vec<MethodResult> {
     calibrate(&setup, &readings(&setup, &currents), &Options::default()).unwrap().results
 }
 
-/// Expected: docs/model.md, "What such errors cost" and the last line of the reference figures, to the digits printed.
+/// Expected: reproduction.md, "What such errors cost" and the last line of the reference figures, to the digits printed.
 #[test]
 fn inputs_cost_what_was_computed_independently() {
     let arcsec = radians_from_arcseconds;
@@ -89,7 +89,7 @@ fn inputs_cost_what_was_computed_independently() {
     let [k_x, _, omega0, omega_g] = uncertainties(&angles[0]);
     assert_eq!(angles[0].method, Method::Analytic);
     assert!(near(k_x, 0.0021, 1e-4) && near(omega0, 7e-4, 1e-4), "{k_x} {omega0}");
-    // The 2.4e-4 of docs/model.md is of stands with deviations. On a perfect one, by hand: u² times
+    // The 2.4e-4 of docs/development/reproduction.md is of stands with deviations. On a perfect one, by hand: u² times
     // (ω_Γ² + ω_k²)/4 + [(ω_B − ω_g)² · 4 v + ω_k² · 4 w] / (16 ω_Γ²), v = (ω_B − ω_g)² + ω_k², w = v + ω_Γ².
     let (w_h, w_b, w_g, w_k) = (8.461_757_742_f64, 12.435_125_600_f64, 10.0_f64, 10.0_f64);
     let v = (w_b - w_g).powi(2) + w_k * w_k;
@@ -244,7 +244,7 @@ fn successive_approximation_knows_what_it_lacks() {
     assert!(predicted_well * 10 > solved * 8, "{predicted_well} of {solved}");
 }
 
-/// Expected: docs/model.md: standard deviations of the analytic method at 5° and at 15° are 0.01474 and 0.01527 % of K_x;
+/// Expected: reproduction.md: standard deviations of the analytic method at 5° and at 15° are 0.01474 and 0.01527 % of K_x;
 /// on a perfect stand the growth is 1.
 #[test]
 fn noise_grows_with_the_deviations() {

@@ -90,7 +90,7 @@ fn errors(case: &Value) -> Vec<(&'static str, f64)> {
     .collect()
 }
 
-/// Prints the figure of docs/model.md: `cargo test --lib -- --nocapture largest_error`.
+/// Prints the figure of docs/development/figures.md: `cargo test --lib -- --nocapture largest_error`.
 #[test]
 fn largest_error_against_the_reference() {
     let reference = reference();

@@ -77,7 +77,7 @@ fn content(accuracy: Option<Stated>) -> Content {
     issue::draft(&stand(), &site(), &order(accuracy)).unwrap().content().clone()
 }
 
-/// Expected: docs/model.md, 30" of the seat about the spin axis cost 0.145 % of K_xy; the meter's 0.0087 % of each
+/// Expected: reproduction.md, 30" of the seat about the spin axis cost 0.145 % of K_xy; the meter's 0.0087 % of each
 /// reading costs 0.1 % of it (0.1339 % for 0.015 % uniform by the closed solution, least squares 0.77 of that).
 #[test]
 fn its_numbers_are_of_the_size_that_inputs_cost() {

@@ -598,7 +598,7 @@ fn positions_beyond_the_range_of_the_meter_are_no_candidates() {
     }
 }
 
-/// Prints the figure of docs/figures.md: `cargo test --release --lib -- --ignored --nocapture hundred_candidates`.
+/// Prints the figure of docs/development/figures.md: `cargo test --release --lib -- --ignored --nocapture hundred_candidates`.
 #[test]
 #[ignore = "a figure of a release build"]
 fn hundred_candidates_and_24_readings_take_a_second() {

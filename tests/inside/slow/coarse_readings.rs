@@ -28,7 +28,7 @@ fn is_the_same(certificate: &Stand, check: &AngleReadings) -> bool {
     compare(certificate, &header(), check, again.as_ref()).unwrap().same_stand
 }
 
-/// docs/figures.md: certificates of fine readings that scatter by 0.2″, and checks in steps of 1″ and 10″: expected at most 3 %
+/// figures.md: certificates of fine readings that scatter by 0.2″, and checks in steps of 1″ and 10″: expected at most 3 %
 /// of good stands refused, as with fine readings, and a position that has changed by ten steps found.
 #[test]
 fn a_check_in_coarse_steps_is_the_same_stand() {
@@ -55,7 +55,7 @@ fn a_check_in_coarse_steps_is_the_same_stand() {
     }
 }
 
-/// docs/figures.md: good stands in steps of 1″, most of whose readings repeat to the digit: expected at most 1 % named.
+/// figures.md: good stands in steps of 1″, most of whose readings repeat to the digit: expected at most 1 % named.
 #[test]
 fn coarse_readings_are_not_copies() {
     const STANDS: u32 = 200;

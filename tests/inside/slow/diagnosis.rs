@@ -16,7 +16,7 @@ use dtg_passport::gyro::{GyroParameters, GyroType, Parameters};
 use dtg_passport::statistics::random::{Run, Stream};
 use nalgebra::Vector2;
 
-/// Trials of each kind: 1,000, or as many as the variable says. The figures of docs/reproduction.md:
+/// Trials of each kind: 1,000, or as many as the variable says. The figures of docs/development/reproduction.md:
 /// `DTG_TRIALS=10000 cargo test --release --lib inside::slow::diagnosis -- --nocapture`.
 fn trials() -> u64 {
     std::env::var("DTG_TRIALS").ok().and_then(|trials| trials.parse().ok()).unwrap_or(1_000)
@@ -259,7 +259,7 @@ fn good_calibrations_are_left_alone_and_intervals_cover() {
     assert!(covered.iter().all(|share| (share - 95.0).abs() <= 0.7), "{covered:?}");
 }
 
-/// Expected: docs/model.md, "What the fit can see": these leave chi-square where it was.
+/// Expected: docs/model.md, "Errors that the residuals do not show": these leave chi-square where it was.
 #[test]
 fn what_residuals_cannot_tell() {
     let stand = drawn_stand(&mut Stream::new(6), 3.0);
@@ -312,7 +312,7 @@ fn chi_square_takes_every_stated_input() {
     assert!(stated.consistent);
 }
 
-/// Uniform errors have no tails: fewer improbable fits. Expected: docs/model.md, 2.0 % below the 5 % point.
+/// Uniform errors have no tails: fewer improbable fits. Expected: docs/development/reproduction.md, 2.0 % below the 5 % point.
 #[test]
 fn uniform_errors_alarm_less() {
     let blocks = Run::new(trials().max(4_000), 9).blocks(|stream, trials| {

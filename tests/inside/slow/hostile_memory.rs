@@ -1,6 +1,6 @@
 //! What a hostile file of 1 MiB may cost in memory, whoever signed it.
 //!
-//! `cargo test --release --lib inside::slow::hostile_memory -- --nocapture` prints the figures of docs/figures.md.
+//! `cargo test --release --lib inside::slow::hostile_memory -- --nocapture` prints the figures of docs/development/figures.md.
 
 use super::alone::alone;
 use crate::fuzzing::memory::{bound, peak};
@@ -56,7 +56,7 @@ fn largest(make: impl Fn(usize) -> String, key: &SigningKey) -> String {
     file
 }
 
-/// The result, and the most memory that it took at a time, in bytes; this and the time are printed for docs/figures.md.
+/// The result, and the most memory that it took at a time, in bytes; this and the time are printed for figures.md.
 fn measured<T>(name: &str, run: impl FnOnce() -> T) -> (T, usize) {
     let start = Instant::now();
     let (result, most) = peak(run);

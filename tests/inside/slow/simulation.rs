@@ -1,4 +1,4 @@
-//! The paper's table and Fig. 4 against the independent figures of docs/model.md. Full size: it takes seconds.
+//! The paper's table and Fig. 4 against the independent figures of reproduction.md. Full size: it takes seconds.
 
 use dtg_passport::attitude::Deviation;
 use dtg_passport::calibration::parameter::Parameter;
@@ -24,7 +24,7 @@ fn row<'a>(table: &'a Accuracy, method: Method, parameter: &str) -> &'a Accuracy
     found.expect("a row for each parameter")
 }
 
-/// Expected: all eight rows of the paper's table, whatever the deviations; the ranges are those of docs/model.md over
+/// Expected: all eight rows of the paper's table, whatever the deviations; the ranges are those of reproduction.md over
 /// 30 seeds.
 #[test]
 fn the_papers_table_in_the_papers_reading() {
@@ -47,7 +47,7 @@ fn the_papers_table_in_the_papers_reading() {
     }
 }
 
-/// Expected: docs/model.md, standard deviations of the analytic method, within 2 %; the largest errors as far as
+/// Expected: reproduction.md, standard deviations of the analytic method, within 2 %; the largest errors as far as
 /// largest of 100,000 repeat themselves; weighted least squares relative to it.
 #[test]
 fn independent_errors() {
@@ -92,7 +92,7 @@ fn independent_errors() {
     }
 }
 
-/// Expected: docs/model.md, the second reading of the table with independent errors at 15°: 0.087 %, 0.90 %,
+/// Expected: docs/development/reproduction.md, the second reading of the table with independent errors at 15°: 0.087 %, 0.90 %,
 /// 0.023 °/h, 0.014 °/h/g.
 #[test]
 fn the_papers_table_with_independent_errors() {
@@ -119,7 +119,7 @@ fn of(table: &Convergence, deviations: Deviations, limit_deg: f64) -> (f64, usiz
     (row.mean.unwrap(), row.percentile_95.unwrap(), row.not_converged_percent / 100.0, row.stands)
 }
 
-/// Expected: docs/model.md, 4,000 stands each: (D, mean, 95th percentile, share not converged). Shares agree within
+/// Expected: reproduction.md, 4,000 stands each: (D, mean, 95th percentile, share not converged). Shares agree within
 /// three binomial standard errors of both samples together and 3 stands, and half of the last digit printed there.
 #[test]
 fn steps_of_successive_approximation() {
@@ -186,7 +186,7 @@ fn the_picture_reads_without_colour() {
     assert!(picture::convergence(&none).is_none());
 }
 
-/// Expected: docs/model.md, least squares over analytic, unweighted: K 0.84, ω_0 0.83, g-drifts 1.00 at 5°; 0.82, 0.81,
+/// Expected: reproduction.md, least squares over analytic, unweighted: K 0.84, ω_0 0.83, g-drifts 1.00 at 5°; 0.82, 0.81,
 /// 0.97 at 15°. Without a share of the reading every current weighs the same here; there every equation did, whose x and y
 /// are coupled by K_xy, hence the 0.03.
 #[test]

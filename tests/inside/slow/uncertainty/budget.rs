@@ -131,7 +131,7 @@ fn a_budget_adds_up_to_the_uncertainty_of_the_calibration() {
     }
 }
 
-/// Expected: docs/model.md, a seat 30" off about the spin axis costs 0.145 % of K_xy; half of that is at 15".
+/// Expected: reproduction.md, a seat 30" off about the spin axis costs 0.145 % of K_xy; half of that is at 15".
 #[test]
 fn the_sentence_is_computed() {
     let seat = |arcsec: f64| {

@@ -205,7 +205,7 @@ fn intervals_cover_what_they_say() {
     }
 }
 
-/// The figures of docs/uncertainty.md.
+/// The figures of docs/development/figures.md.
 #[test]
 #[ignore = "minutes"]
 fn intervals_cover_what_they_say_in_ten_thousand() {
