@@ -86,14 +86,14 @@ impl CertificationPage<'_> {
 
     fn sections(&self) -> Vec<Section> {
         let (certificate, positions) = (&self.certification.stand.certificate, &self.certification.stand.positions);
-        let mut result = deviations::table(positions, "u");
-        result.extend([deviations::note(positions, false), evidence::outliers(self.certification)]);
+        let mut result = deviations::certified(certificate, positions);
+        result.push(evidence::outliers(self.certification));
         let mut sections = vec![("result", texts::RESULT, result)];
         sections.extend(self.change.as_ref().map(|(found, changes)| {
             let of_deviations = change::deviations(&found.certificate, changes);
             ("change", texts::CHANGE, [change::rotations(found), of_deviations.into()].concat())
         }));
-        let mut uncertainty = vec![heading(texts::BUDGET), deviations::common(certificate)];
+        let mut uncertainty = vec![heading(texts::BUDGET), deviations::budget(certificate, positions)];
         uncertainty.extend(evidence::components(self.certification));
         sections.extend([
             (UNCERTAINTY, texts::UNCERTAINTY, uncertainty),

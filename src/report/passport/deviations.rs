@@ -18,19 +18,23 @@ use crate::wording::texts::{passport as texts, units};
 pub(super) fn section(content: &Content) -> Vec<Block> {
     let Content { certificate, positions, .. } = content;
     let mut doc = vec![heading(texts::DEVIATIONS)];
-    match expanded(certificate, positions) {
-        Some(combined) => {
-            doc.extend(table(&combined, "U"));
-            doc.push(say([texts::DEVIATIONS_NOTE, texts::DEVIATIONS_EXPANDED_NOTE, texts::DEVIATIONS_ROUNDED]));
-        }
-        None => {
-            doc.extend(table(positions, "u"));
-            doc.push(note(positions, true));
-        }
-    }
+    doc.extend(certified(certificate, positions));
     doc.extend([heading(texts::COMMON), budget(certificate, positions)]);
     doc.push(figure(content));
     doc.extend([heading(texts::DATUM), datum(content.datum.as_ref())].into_iter().filter(|_| content.datum.is_some()));
+    doc
+}
+
+/// The certified deviations with U, or with the own parts u if nothing states the others, and what the letters mean.
+pub(crate) fn certified(certificate: &Certificate, positions: &[CertifiedPosition]) -> Vec<Block> {
+    let (mut doc, note) = match expanded(certificate, positions) {
+        Some(combined) => {
+            let notes = [texts::DEVIATIONS_NOTE, texts::DEVIATIONS_EXPANDED_NOTE, texts::DEVIATIONS_ROUNDED];
+            (table(&combined, "U"), say(notes))
+        }
+        None => (table(positions, "u"), note(positions, true)),
+    };
+    doc.push(note);
     doc
 }
 
@@ -112,8 +116,8 @@ pub(crate) fn note(positions: &[CertifiedPosition], rounded: bool) -> Block {
         .chain((is_stated && rounded).then_some(texts::DEVIATIONS_ROUNDED)))
 }
 
-/// The parts of the uncertainty of the certified values, and how they combine.
-fn budget(certificate: &Certificate, positions: &[CertifiedPosition]) -> Block {
+/// The parts of the uncertainty of the certified values, and how they combine; then the contributions of type B.
+pub(crate) fn budget(certificate: &Certificate, positions: &[CertifiedPosition]) -> Block {
     let of_axis = |at: &[CertifiedPosition], axis: usize, factor: f64| {
         let us: Vec<f64> = at.iter().filter_map(|at| Some(factor * at.u_arcsec()[axis]?)).collect();
         (!us.is_empty()).then(|| range(us.into_iter()))
@@ -131,10 +135,6 @@ fn budget(certificate: &Certificate, positions: &[CertifiedPosition]) -> Block {
 }
 
 /// The repeatability, the common parts, and the contributions of type B.
-pub(crate) fn common(certificate: &Certificate) -> Block {
-    record(common_fields(certificate))
-}
-
 fn common_fields(certificate: &Certificate) -> Vec<Option<(Text, Words, bool)>> {
     let arcsec = |u| Words::Quantity(Number::uncertainty(u), units::ARCSEC);
     let freedom = certificate.repeatability_degrees_of_freedom;
