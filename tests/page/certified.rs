@@ -140,7 +140,7 @@ fn numbers(value: &Value, found: &mut Vec<f64>) {
     }
 }
 
-/// Expected: the JSON of `certify`, the readings file, and the reason as it was typed.
+/// Expected: the JSON of `certify`, U by contributions from it, the readings file, and the reason as it was typed.
 #[test]
 fn a_record_has_the_numbers_of_the_certificate() {
     for record in RECORDS {
@@ -156,10 +156,20 @@ fn a_record_has_the_numbers_of_the_certificate() {
             }
         }
         assert!(marked.len() > 100, "{}: {} numbers", record.name, marked.len());
-        let positions = result["certification"]["stand"]["positions"].as_array().unwrap();
-        for at in positions {
-            for key in ["alpha_arcsec", "u_beta_arcsec", "gamma_arcsec", "degrees_of_freedom"] {
+        let stand = &result["certification"]["stand"];
+        let common =
+            ["common_platform_arcsec", "common_base_arcsec"].map(|key| stand["certificate"][key].as_f64().unwrap());
+        for at in stand["positions"].as_array().unwrap() {
+            for key in ["alpha_arcsec", "beta_arcsec", "gamma_arcsec", "degrees_of_freedom"] {
                 assert!(marked.contains(&at[key].as_f64().unwrap()), "{}: {key} {}", record.name, at[key]);
+            }
+            // Alpha and gamma take the part of a rotation that the angle beta leaves them.
+            let share = (at["beta_arcsec"].as_f64().unwrap() / 3600.0).to_radians().cos();
+            for (key, share) in [("u_alpha_arcsec", share), ("u_beta_arcsec", 1.0), ("u_gamma_arcsec", share)] {
+                let own = at[key].as_f64().unwrap();
+                let expanded = 2.0 * common.iter().fold(own * own, |sum, u| sum + (u / share).powi(2)).sqrt();
+                let is_there = marked.iter().any(|value| (value / expanded - 1.0).abs() < 1e-12);
+                assert!(is_there, "{}: U of {key} is {expanded}", record.name);
             }
         }
         for key in ["own_arcsec", "run_turns", "findings"] {
