@@ -143,24 +143,12 @@ pub(crate) fn chi_square_point(probability: f64, degrees_of_freedom: usize) -> f
     falling_root(|value| chi_square_larger(value, degrees_of_freedom), probability)
 }
 
-/// Degrees of freedom below which an estimate is often far too small.
-const FEW: f64 = 5.0;
-
 /// Returns the effective degrees of freedom of a sum of independent contributions, each (standard uncertainty, degrees
 /// of freedom), by Welch and Satterthwaite's formula
 /// ([GUM](crate::bibliography::Bibliography::Gum), eq. (G.2b)); infinite if all of them are known exactly.
-///
-/// The formula gives too many if an estimate with few degrees of freedom is most of the variance but not all of it, and
-/// happens to be small. The square of its share w then counts for 3(2w − 1)(1 − w) more: with two degrees of freedom,
-/// intervals with 95.45 % cover at least 93.8 instead of 92.4 %.
 pub(crate) fn effective_degrees_of_freedom(contributions: &[(f64, f64)]) -> f64 {
     let variance: f64 = contributions.iter().map(|(u, _)| u * u).sum();
-    let doubt = |(u, nu): &(f64, f64)| {
-        let (square, rest) = (u * u, variance - u * u);
-        let further = if *nu < FEW { 3.0 * (square - rest).max(0.0) * rest } else { 0.0 };
-        (square * square + further) / nu
-    };
-    let doubt: f64 = contributions.iter().map(doubt).sum();
+    let doubt: f64 = contributions.iter().map(|(u, nu)| u * u * u * u / nu).sum();
     if doubt > 0.0 { variance * variance / doubt } else { f64::INFINITY }
 }
 

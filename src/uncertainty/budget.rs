@@ -9,7 +9,7 @@ use crate::calibration::estimates::Estimates;
 use crate::calibration::procedure::{Linearised, linearise};
 use crate::calibration::propagation::{covariance, product};
 use crate::calibration::{Basis, Cause, Input, Method, MethodRefusal, Model, Options, Parameter, Readings, Setup};
-use crate::statistics::student::{self, student_factor};
+use crate::statistics::student::student_factor;
 use nalgebra::DMatrix;
 use std::collections::BTreeMap;
 
@@ -161,8 +161,15 @@ fn of_parameter(
     }
 }
 
+/// Degrees of freedom below which an estimate is often far too small.
+const FEW: f64 = 5.0;
+
 /// Returns the effective degrees of freedom by Welch and Satterthwaite (JCGM 100, G.4.1), not rounded. All inputs that
 /// depend on one estimate form one term; an input that is a mean of estimates is divided among them.
+///
+/// The formula gives too many if an estimate with few degrees of freedom is most of the variance but not all of it, and
+/// happens to be small. The square of its share w then counts for 3(2w − 1)(1 − w) more: with two degrees of freedom,
+/// intervals with 95.45 % cover at least 93.8 instead of 92.4 %.
 fn effective_degrees_of_freedom(inputs: &[Input], changes: &[f64], estimates: &[f64]) -> f64 {
     let mut terms: Vec<(f64, f64)> = estimates.iter().map(|known| (0.0, *known)).collect();
     for (input, change) in inputs.iter().zip(changes) {
@@ -174,6 +181,12 @@ fn effective_degrees_of_freedom(inputs: &[Input], changes: &[f64], estimates: &[
             terms[place].0 += share * square;
         }
     }
-    let contributions: Vec<(f64, f64)> = terms.into_iter().map(|(square, known)| (square.sqrt(), known)).collect();
-    student::effective_degrees_of_freedom(&contributions)
+    let variance: f64 = terms.iter().map(|(square, _)| square).sum();
+    let doubt = |(square, known): &(f64, f64)| {
+        let rest = variance - square;
+        let further = if *known < FEW { 3.0 * (square - rest).max(0.0) * rest } else { 0.0 };
+        (square * square + further) / known
+    };
+    let doubt: f64 = terms.iter().map(doubt).sum();
+    if doubt > 0.0 { variance * variance / doubt } else { f64::INFINITY }
 }
