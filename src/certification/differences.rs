@@ -34,6 +34,43 @@ fn angles_of(stand: &Stand) -> Vec<Vector3<f64>> {
     stand.positions.iter().map(|at| Vector3::from(at.angles_arcsec())).collect()
 }
 
+/// Returns the rotation common to most positions between two certificates, with its test, and the `later` angles without it;
+/// `None` if the certificates have other positions or lack uncertainties, or if no more than half of the positions agree.
+pub(crate) fn turned(earlier: &Stand, later: &Stand) -> Option<(CommonTurn, Vec<Vector3<f64>>)> {
+    let nominal =
+        |stand: &Stand| stand.positions.iter().map(|at| (at.index(), at.theta_deg, at.phi_deg)).collect::<Vec<_>>();
+    let is_stated = |at: &CertifiedPosition| certified_u_arcsec(at).is_some();
+    if nominal(earlier) != nominal(later) || !earlier.positions.iter().chain(&later.positions).all(is_stated) {
+        return None;
+    }
+    let of_later = |place: usize, turn: &Turn| {
+        let at = &later.positions[place];
+        let own = own_variance(turn, &certified_u_arcsec(at).unwrap_or_default());
+        (own, at.degrees_of_freedom.unwrap_or(f64::INFINITY), Vector3::zeros())
+    };
+    let differences = Differences::with(earlier, &angles_of(later), of_later)?;
+    let repeating = differences.repeating(&(0..later.positions.len()).collect::<Vec<_>>());
+    let [before, after] = [earlier, later].map(|stand| &stand.certificate);
+    let runs = |of: &Certificate| of.evidence.as_ref().map_or(f64::INFINITY, |of| 3.0 * (f64::from(of.runs) - 1.0));
+    let between = Between {
+        runs: 1.0,
+        platform_arcsec2: square(after.common_platform_arcsec?),
+        base_arcsec2: square(after.common_base_arcsec.unwrap_or(0.0)),
+        degrees_of_freedom: runs(before).min(runs(after)),
+    };
+    let common = differences.common(&repeating, earlier, Some(&between)).filter(|_| !repeating.is_empty())?;
+    let (shared, ..) = differences.shared(&repeating)?;
+    let turns = &differences.model.design * shared;
+    let without = differences
+        .model
+        .turns
+        .iter()
+        .zip(angles_of(later))
+        .enumerate()
+        .map(|(place, (turn, angles))| angles - turn.angles_of_rotation() * turns.fixed_rows::<3>(3 * place));
+    Some((common, without.collect()))
+}
+
 impl Differences {
     pub(super) fn new(certificate: &Stand, readings: &AngleReadings, scatter: Variance) -> Result<Self, NotCompared> {
         let of_check = Vector3::repeat(scatter.value / readings.runs.len() as f64);

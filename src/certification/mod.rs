@@ -18,7 +18,7 @@
 
 pub(crate) mod comparison;
 pub(crate) mod components;
-mod differences;
+pub(crate) mod differences;
 pub(crate) mod document;
 pub(crate) mod finding;
 pub(crate) mod found;
