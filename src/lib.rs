@@ -61,8 +61,8 @@
 //! | `selftest` | the reference cases of the mathematics, found again on the user's own machine | `monte-carlo` |
 //! | [`passport`] | content and verification; issue and re-issue with `factory` | |
 //! | [`register`] | the signed register of a stand: which passport counts | |
-//! | `history` | one stand over the years, and whether its deviations drift | `factory` |
 //! | [`certification`] | readings of the angles to a stand, and whether it is still the same one | `factory` |
+//! | `history` | one stand over the years, and whether its deviations drift | `factory` |
 //! | `plan` | the best positions to certify or to read, and their order | `factory` and `monte-carlo` |
 //! | `files`, [`signing`], [`folder`] | whole or not at all; key files and agents; a folder of passports | `factory` |
 //! | `batch` | many passports at once | `factory` |

@@ -5,6 +5,7 @@
 //! second run with the same input completes a run that was killed in between, and changes nothing otherwise.
 
 use super::Outcome;
+use crate::certification::found::Found;
 use crate::certification::remark::Remark;
 use crate::certification::{AngleReadings, Certification, Comparison, Header, certify, compare, predicted};
 use crate::document::sha256_hex;
@@ -110,9 +111,9 @@ pub(crate) enum NotRecertified {
     /// Value that no certificate can state.
     #[error("{0}")]
     Order(String),
-    /// Rule that the order or the readings break.
+    /// Rule that the order or the readings break, with the findings that are the reason, as JSON.
     #[error("{0}; nothing was written")]
-    Refused(String),
+    Refused(String, Vec<serde_json::Value>),
     #[error(transparent)]
     Unreadable(#[from] Unreadable),
     /// Successor that cannot be issued.
@@ -126,7 +127,7 @@ impl NotRecertified {
     /// Returns `true` if a file cannot be used, `false` if a document was refused.
     pub(crate) fn is_unusable(&self) -> bool {
         match self {
-            Self::Refused(_) | Self::File(FileError::Exists { .. }) => false,
+            Self::Refused(..) | Self::File(FileError::Exists { .. }) => false,
             Self::Order(_) | Self::Unreadable(_) | Self::File(_) => true,
             Self::Folder(_, refused) => refused.is_unusable(),
         }
@@ -134,7 +135,7 @@ impl NotRecertified {
 }
 
 fn refused(why: impl std::fmt::Display) -> NotRecertified {
-    NotRecertified::Refused(why.to_string())
+    NotRecertified::Refused(why.to_string(), Vec::new())
 }
 
 /// Predecessor in force, with its file.
@@ -244,9 +245,14 @@ impl Recertification<'_> {
     fn measured(&self, old: &Stand, header: &Header) -> Result<(Certification, Comparison), NotRecertified> {
         let (name, bytes) = self.readings;
         let of_readings = |why: &dyn std::fmt::Display| refused(format!("{}: {why}", Printable(name)));
-        let readings = AngleReadings::from_csv_without(name, bytes, &header.positions, self.excluded)?;
+        let readings = AngleReadings::from_csv_without(name, bytes, &header.positions, self.excluded, Some(old))?;
         let (readings, _) = predicted(header, &readings).map_err(|why| of_readings(&why))?;
-        let mut certification = certify(header, &readings).map_err(|why| of_readings(&why))?;
+        let because = |why: &dyn std::fmt::Display, findings: Vec<Found>| {
+            let why = format!("{}: {why}", Printable(name));
+            NotRecertified::Refused(why, findings.iter().map(Found::to_json).collect())
+        };
+        let mut certification =
+            certify(header, &readings).map_err(|why| because(&why, why.finding().into_iter().collect()))?;
         if let (None, Some(until)) = (header.certificate.valid_until, old.certificate.valid_until) {
             certification.add(Remark::NoExpiry(until));
         }
@@ -259,18 +265,19 @@ impl Recertification<'_> {
         }
         let comparison = compare(old, header, &readings, Some(&certification)).map_err(|why| of_readings(&why))?;
         if let Some(misplaced) = comparison.findings.iter().find(|found| found.is_misplaced()) {
-            return Err(of_readings(misplaced));
+            return Err(because(misplaced, comparison.causes().collect()));
         }
         if comparison.positions.iter().all(|at| !at.repeats) {
-            return Err(of_readings(
-                &"no more than half of the positions agree with the certificate; check that these are the readings of this stand. \
-                  For a stand that has worn or was rebuilt, use `certify`, then `reissue FOLDER --stand` with the new stand file",
-            ));
+            let why = "no more than half of the positions agree with the certificate; check that these are the readings of this \
+                       stand. For a stand that has worn or was rebuilt, use `certify`, then `reissue FOLDER --stand` with the \
+                       new stand file";
+            return Err(because(&why, comparison.causes().collect()));
         }
         match comparison.findings.iter().find(|finding| finding.is_of_the_certificate()) {
-            Some(finding) => Err(of_readings(&format!(
-                "{finding}. To correct the certificate without new readings, use `certify` and `reissue --stand`"
-            ))),
+            Some(finding) => {
+                let advice = "To correct the certificate without new readings, use `certify` and `reissue --stand`";
+                Err(because(&format!("{finding}. {advice}"), comparison.causes().collect()))
+            }
             None => Ok((certification, comparison)),
         }
     }

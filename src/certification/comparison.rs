@@ -10,7 +10,7 @@ use super::components::Variance;
 use super::differences::{Between, Differences, certified_u_arcsec, square};
 use super::finding::{Finding, Untested, findings};
 use super::found::{Found, Kind, OUTLIER, Scope};
-use super::misread::Misread;
+use super::transformation::{self, CLEARLY, Transformation};
 use super::{AngleReadings, Certification, Header, NominalPosition};
 use crate::calibration::recorded::rounding_of;
 use crate::coefficients::PositionIndex;
@@ -21,7 +21,10 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 /// Probability by chance below which a check agrees better with the certificate than a new measurement can.
-const TOO_CLOSE: f64 = 1e-6;
+pub(super) const TOO_CLOSE: f64 = 1e-6;
+
+/// Factor by which a transformation must reduce the sum of the squared differences if then all positions repeat.
+const MOSTLY: f64 = 4.0;
 
 /// Reason why readings were not compared with a certificate.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -173,7 +176,7 @@ pub fn compare(
     let places: Vec<usize> = (0..certificate.positions.len()).collect();
     let mut differences = Differences::new(certificate, readings, scatter)?;
     let mut repeating = differences.repeating(&places);
-    let misplaced = misplaced(certificate, readings, scatter, &repeating)?;
+    let misplaced = misplaced(certificate, readings, scatter, &differences, &repeating)?;
     // Misplaced readings scatter as if they were others, and explain more.
     let more = larger_scatter(scatter, again, readings).filter(|_| misplaced.is_empty());
     if let Some((of_check, _)) = more {
@@ -202,7 +205,7 @@ pub fn compare(
     let mut findings = findings(all, &positions, &common, again, moved, untested, misplaced);
     if let Some(other) = findings.iter_mut().find(|found| **found == Finding::AnotherStand) {
         let setting = differences.setting(&header.positions).map(Finding::Setting);
-        let worn = || differences.resemblance(certificate).map(Finding::Worn);
+        let worn = || differences.resemblance(certificate, &readings.means_arcsec()).map(Finding::Worn);
         *other = setting.or_else(worn).unwrap_or(Finding::AnotherStand);
     }
     if let Some((of_check, probability)) = more {
@@ -248,15 +251,26 @@ fn misplaced(
     certificate: &Stand,
     readings: &AngleReadings,
     scatter: Variance,
+    differences: &Differences,
     repeating: &[usize],
 ) -> Result<Vec<Finding>, NotCompared> {
     let certified: Vec<_> = certificate.positions.iter().map(|at| Vector3::from(at.angles_arcsec())).collect();
     let exchanged = exchanged(certificate, &certified, readings, scatter, repeating)?;
-    let mut misplaced: Vec<Finding> = exchanged.into_iter().map(exchange).map(Finding::Misplaced).collect();
-    if misplaced.is_empty() && repeating.is_empty() {
-        misplaced.extend(Misread::of(&readings.means_arcsec(), &certified).map(|at| Finding::Misplaced(at.found())));
+    let places: Vec<usize> = (0..certified.len()).collect();
+    let agree = |differences: &Differences| differences.rest(&places).is_some_and(|test| test.probability >= OUTLIER);
+    let changed = places.len() - repeating.len();
+    if !exchanged.is_empty() || changed == 1 || changed == 0 && agree(differences) {
+        return Ok(exchanged.into_iter().map(exchange).map(Finding::Misplaced).collect());
     }
-    Ok(misplaced)
+    let means = readings.means_arcsec();
+    let Some(rest) = differences.without_common() else { return Ok(Vec::new()) };
+    let nearest = Transformation::nearest(&means, &certified, [], &rest);
+    let explains = |nearest: &Transformation| {
+        let corrected = differences.of(&nearest.corrected(&means, &certified), &certified);
+        let repeat = || agree(&corrected) && corrected.repeating(&places).len() == places.len();
+        nearest.explains(CLEARLY, 0.0) || (nearest.explains(MOSTLY, 0.0) || nearest.is_known_factor()) && repeat()
+    };
+    Ok(nearest.filter(explains).map(|nearest| Finding::Misplaced(nearest.found())).into_iter().collect())
 }
 
 /// Returns the finding that two positions are exchanged.
@@ -275,20 +289,10 @@ fn exchanged(
     repeating: &[usize],
 ) -> Result<Vec<[PositionIndex; 2]>, NotCompared> {
     let places: Vec<usize> = (0..certified.len()).collect();
-    let nearest: Vec<usize> = readings
-        .means_arcsec()
-        .iter()
-        .map(|mean| {
-            let distance = |place: usize| (mean - certified[place]).norm();
-            places.iter().copied().min_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or_default()
-        })
-        .collect();
-    let pair = |one: usize| {
-        let other = nearest[one];
-        let changed = [one, other].iter().all(|place| !repeating.contains(place));
-        (one < other && nearest[other] == one && changed).then_some([one, other])
-    };
-    let pairs: Vec<[usize; 2]> = places.iter().filter_map(|place| pair(*place)).collect();
+    let rows = transformation::exchanged(&readings.means_arcsec(), certified).unwrap_or_default();
+    let is_changed = |pair: &[usize; 2]| pair[0] < pair[1] && pair.iter().all(|place| !repeating.contains(place));
+    let pairs = rows.iter().enumerate().filter_map(|(one, other)| Some([one, (*other)?]));
+    let pairs: Vec<[usize; 2]> = pairs.filter(is_changed).collect();
     if pairs.is_empty() {
         return Ok(Vec::new());
     }

@@ -29,32 +29,114 @@ pub(super) fn certified_u_arcsec(position: &CertifiedPosition) -> Option<Vector3
     Some(Vector3::new(position.u_alpha_arcsec?, position.u_beta_arcsec?, position.u_gamma_arcsec?))
 }
 
+/// Returns the certified angles (α, β, γ) of every position, arcsec.
+fn angles_of(stand: &Stand) -> Vec<Vector3<f64>> {
+    stand.positions.iter().map(|at| Vector3::from(at.angles_arcsec())).collect()
+}
+
+/// Returns the rotation common to most positions between two certificates, with its test, and the `later` angles without it;
+/// `None` if the certificates have other positions or lack uncertainties, or if no more than half of the positions agree.
+pub(crate) fn turned(earlier: &Stand, later: &Stand) -> Option<(CommonTurn, Vec<Vector3<f64>>)> {
+    let nominal =
+        |stand: &Stand| stand.positions.iter().map(|at| (at.index(), at.theta_deg, at.phi_deg)).collect::<Vec<_>>();
+    let is_stated = |at: &CertifiedPosition| certified_u_arcsec(at).is_some();
+    if nominal(earlier) != nominal(later) || !earlier.positions.iter().chain(&later.positions).all(is_stated) {
+        return None;
+    }
+    let of_later = |place: usize, turn: &Turn| {
+        let at = &later.positions[place];
+        let own = own_variance(turn, &certified_u_arcsec(at).unwrap_or_default());
+        (own, at.degrees_of_freedom.unwrap_or(f64::INFINITY), Vector3::zeros())
+    };
+    let differences = Differences::with(earlier, &angles_of(later), of_later)?;
+    let repeating = differences.repeating(&(0..later.positions.len()).collect::<Vec<_>>());
+    let [before, after] = [earlier, later].map(|stand| &stand.certificate);
+    let runs = |of: &Certificate| of.evidence.as_ref().map_or(f64::INFINITY, |of| 3.0 * (f64::from(of.runs) - 1.0));
+    let between = Between {
+        runs: 1.0,
+        platform_arcsec2: square(after.common_platform_arcsec?),
+        base_arcsec2: square(after.common_base_arcsec.unwrap_or(0.0)),
+        degrees_of_freedom: runs(before).min(runs(after)),
+    };
+    let common = differences.common(&repeating, earlier, Some(&between)).filter(|_| !repeating.is_empty())?;
+    let (shared, ..) = differences.shared(&repeating)?;
+    let turns = &differences.model.design * shared;
+    let without = differences
+        .model
+        .turns
+        .iter()
+        .zip(angles_of(later))
+        .enumerate()
+        .map(|(place, (turn, angles))| angles - turn.angles_of_rotation() * turns.fixed_rows::<3>(3 * place));
+    Some((common, without.collect()))
+}
+
 impl Differences {
     pub(super) fn new(certificate: &Stand, readings: &AngleReadings, scatter: Variance) -> Result<Self, NotCompared> {
+        let of_check = Vector3::repeat(scatter.value / readings.runs.len() as f64);
+        let found = Self::with(certificate, &readings.means_arcsec(), |place, turn| {
+            let rounding = [0, 1, 2].map(|angle| readings.rounding_of_mean_arcsec(place, angle));
+            (of_check, scatter.degrees_of_freedom, own_variance(turn, &rounding.into()))
+        });
+        found.ok_or(NotCompared::TooFewPositions)
+    }
+
+    /// Returns the differences of the `read` angles; `own` gives the variances of their rotation in a position, with their
+    /// degrees of freedom, and those that are known exactly.
+    fn with(
+        certificate: &Stand,
+        read: &[Vector3<f64>],
+        own: impl Fn(usize, &Turn) -> (Vector3<f64>, f64, Vector3<f64>),
+    ) -> Option<Self> {
         let positions: Vec<_> = certificate.positions.iter().map(CertifiedPosition::to_model).collect();
-        let certified: Vec<_> = certificate.positions.iter().map(|at| Vector3::from(at.angles_arcsec())).collect();
-        let turns = turns_at(&positions, &certified);
-        let model = RunModel::new(turns).ok_or(NotCompared::TooFewPositions)?;
-        let rows = 3 * positions.len();
-        let (mut turned, mut u) = (DVector::zeros(rows), DVector::zeros(rows));
-        let of_check = scatter.value / readings.runs.len() as f64;
+        let certified = angles_of(certificate);
+        let model = RunModel::new(turns_at(&positions, &certified))?;
+        let mut u = DVector::zeros(3 * positions.len());
         let mut freedom = f64::INFINITY;
         for (place, turn) in model.turns.iter().enumerate() {
-            let change = readings.means_arcsec()[place] - certified[place];
-            turned.fixed_rows_mut::<3>(3 * place).copy_from(&case_turn(turn, &change));
             let position = &certificate.positions[place];
-            let own = own_variance(turn, &certified_u_arcsec(position).unwrap_or_default());
-            let rounding = [0, 1, 2].map(|angle| readings.rounding_of_mean_arcsec(place, angle));
-            let both = (own + own_variance(turn, &rounding.into())).map(|variance| variance + of_check);
+            let before = own_variance(turn, &certified_u_arcsec(position).unwrap_or_default());
+            let (after, of_after, exact) = own(place, turn);
+            let both = before + after + exact;
             u.fixed_rows_mut::<3>(3 * place).copy_from(&both.map(f64::sqrt));
             // Welch and Satterthwaite, GUM (JCGM 100), eq. (G.2b), for the axis with the fewest degrees of freedom.
-            let of_certificate = position.degrees_of_freedom.unwrap_or(f64::INFINITY);
+            let of_before = position.degrees_of_freedom.unwrap_or(f64::INFINITY);
             for axis in 0..3 {
-                let parts = own[axis] * own[axis] / of_certificate + of_check * of_check / scatter.degrees_of_freedom;
-                freedom = freedom.min(both[axis] * both[axis] / parts);
+                let parts = square(before[axis]) / of_before + square(after[axis]) / of_after;
+                freedom = freedom.min(square(both[axis]) / parts);
             }
         }
-        Ok(Self { turns_arcsec: turned, u_arcsec: u, degrees_of_freedom: freedom, model })
+        let none = Self { turns_arcsec: DVector::zeros(0), u_arcsec: u, degrees_of_freedom: freedom, model };
+        Some(none.of(read, &certified))
+    }
+
+    /// Returns the differences of the angles `read` (α, β, γ of every position, arcsec) from the `certified` ones, with the
+    /// same uncertainties.
+    pub(super) fn of(&self, read: &[Vector3<f64>], certified: &[Vector3<f64>]) -> Self {
+        let changes: Vec<_> = read.iter().zip(certified).map(|(read, certified)| read - certified).collect();
+        Self { turns_arcsec: self.turned(&changes), ..self.clone() }
+    }
+
+    /// Returns the rotations of the case that angles are.
+    fn turned(&self, angles: &[Vector3<f64>]) -> DVector<f64> {
+        let turns =
+            self.model.turns.iter().zip(angles).flat_map(|(turn, angles)| <[f64; 3]>::from(case_turn(turn, angles)));
+        DVector::from_iterator(3 * angles.len(), turns)
+    }
+
+    /// Returns what is left of angles, in units of their standard uncertainties, without the rotations common to all
+    /// positions; `None` if they do not determine these.
+    pub(super) fn without_common(&self) -> Option<impl Fn(&[Vector3<f64>]) -> DVector<f64>> {
+        let by_u = |mut rows: DMatrix<f64>| {
+            rows.row_iter_mut().zip(&self.u_arcsec).for_each(|(mut row, u)| row /= *u);
+            rows
+        };
+        let model = Factorised::new(by_u(self.model.design.clone()))?;
+        Some(move |angles: &[Vector3<f64>]| {
+            let mut rest = by_u(DMatrix::from_columns(&[self.turned(angles)]));
+            model.rotate(&mut rest);
+            rest.column(0).rows(model.columns, rest.nrows() - model.columns).into_owned()
+        })
     }
 
     /// Returns the rotation common to `places` by weighted least squares, the R⁻¹ of the fit, and the residual
@@ -128,19 +210,12 @@ impl Differences {
 
     /// Returns the correlation of the readings with the certified deviations, without the rotations common to all
     /// positions, or `None` if it may be chance (Student's t, one-sided).
-    pub(super) fn resemblance(&self, certificate: &Stand) -> Option<f64> {
-        let certified = certificate.positions.iter().zip(&self.model.turns);
-        let certified: Vec<f64> = certified
-            .flat_map(|(at, turn)| <[f64; 3]>::from(case_turn(turn, &Vector3::from(at.angles_arcsec()))))
-            .collect();
-        let certified = DVector::from_vec(certified);
-        let mut both = DMatrix::from_columns(&[&certified + &self.turns_arcsec, certified]);
-        let model = Factorised::new(self.model.design.clone())?;
-        model.rotate(&mut both);
-        let rest = both.rows(model.columns, both.nrows() - model.columns);
-        let (read, certified) = (rest.column(0), rest.column(1));
+    pub(super) fn resemblance(&self, certificate: &Stand, read: &[Vector3<f64>]) -> Option<f64> {
+        let rest = self.without_common()?;
+        let certified = rest(&angles_of(certificate));
+        let read = rest(read);
         let correlation = read.dot(&certified) / (read.norm() * certified.norm());
-        let freedom = rest.nrows().checked_sub(1).filter(|freedom| *freedom > 0)? as f64;
+        let freedom = read.len().checked_sub(1).filter(|freedom| *freedom > 0)? as f64;
         let t_square = correlation * correlation * freedom / (1.0 - correlation * correlation);
         (correlation > 0.0 && f_larger(t_square, 1, freedom) / 2.0 < OUTLIER).then_some(correlation)
     }

@@ -1,7 +1,7 @@
 //! Findings of a comparison: reasons for its result and its limits, and their words in each language.
 
 use super::Certification;
-use super::comparison::{CommonTurn, ComparedPosition, Test};
+use super::comparison::{CommonTurn, ComparedPosition, TOO_CLOSE, Test};
 use super::found::{Found, Kind, OUTLIER, STRAGGLER, Scope};
 use super::remark::{advised, in_english};
 use crate::wording::Words;
@@ -203,7 +203,7 @@ impl Finding {
             }
             Self::Worn(_) | Self::AnotherStand | Self::ChangedTogether | Self::Slightly => whole(all.probability),
             Self::Rotated | Self::RotatedSlightly => whole(common.test.map_or(1.0, |test| test.probability)),
-            Self::TooClose => Some(Found::new(Kind::Computed, Scope::default(), 0.0, self.words())),
+            Self::TooClose => Some(Found::new(Kind::Computed, Scope::default(), TOO_CLOSE, self.words())),
             _ => None,
         }
     }
@@ -240,14 +240,16 @@ pub(super) fn findings(
         let straggles = |at: &&ComparedPosition| at.test.probability * (positions.len() as f64) < STRAGGLER;
         findings.extend(positions.iter().filter(straggles).copied().map(Finding::Straggler));
     }
-    // A run during which the stand moved changes all positions of the check.
-    if suspect.iter().any(|found| found.is_of(&[Kind::Bump])) {
+    // A run during which the stand moved changes all positions of the check, as another unit does.
+    let is_whole =
+        misplaced.iter().any(|found| matches!(found, Finding::Misplaced(found) if found.scope.between.is_none()));
+    if is_whole || suspect.iter().any(|found| found.is_of(&[Kind::Bump])) {
         findings.clear();
     }
     let of_runs = [Kind::Bump, Kind::RunTurned, Kind::StandMoved, Kind::StandDrift];
     let bumped = suspect.iter().any(|found| found.is_of(&of_runs) && found.is_outlier());
     // If no positions agree, there is no rotation that is common to them.
-    let agree = positions.iter().any(|at| at.repeats);
+    let agree = positions.iter().any(|at| at.repeats) && !is_whole;
     if agree && moved && !bumped {
         findings.push(Finding::Rotated);
     } else if agree && !moved && common.test.is_some_and(|test| test.probability < STRAGGLER) {

@@ -86,7 +86,7 @@ words! {
 }
 
 impl Part {
-    fn axes(self) -> Text {
+    pub(crate) fn axes(self) -> Text {
         if self == Self::Base { texts::AXES_OF_BASE } else { texts::AXES_OF_PLATFORM }
     }
 }

@@ -10,7 +10,7 @@
 //! * `comparison`: the comparison of a later check run with the certificate.
 //! * `differences`: check minus certificate as rotations, and the tests of them.
 //! * `finding`: reasons for the result of that comparison, and its limits.
-//! * `misread`: errors of a whole file that the certificate shows.
+//! * `transformation`: other units, columns, rows or signs of a file or a run.
 //! * `texts`: the words of remarks and findings in every language.
 //! * `document`: the stand file as text, with comments on the origin of its numbers.
 //!
@@ -18,20 +18,20 @@
 
 pub(crate) mod comparison;
 pub(crate) mod components;
-mod differences;
+pub(crate) mod differences;
 pub(crate) mod document;
 pub(crate) mod finding;
 pub(crate) mod found;
 pub(crate) mod header;
 pub(crate) mod hypothesis;
 mod layer;
-pub(crate) mod misread;
 pub(crate) mod readings;
 pub(crate) mod remark;
+mod transformation;
 
 pub use comparison::{CommonTurn, ComparedPosition, Comparison, NotCompared, Test, compare};
 use components::{Common, Components, Variance};
-use found::{Found, Naming};
+use found::{Found, Kind, Naming, Scope};
 pub use header::{Header, NominalPosition};
 use hypothesis::{Cause, Explanation, Measurement, predictions};
 use layer::Fit;
@@ -94,6 +94,18 @@ pub enum NotCertified {
     /// Readings that do not scatter once the common rotation of each run is removed.
     #[error("the readings do not vary; check whether the runs are shifted copies of each other")]
     NoScatter,
+}
+
+impl NotCertified {
+    /// Returns the finding that is the reason, if the readings themselves are.
+    pub(crate) fn finding(&self) -> Option<Found> {
+        let (kind, angle) = match self {
+            Self::Constant(angle) => (Kind::ChannelConstant, Some(*angle)),
+            Self::NoScatter => (Kind::RunsCopied, None),
+            _ => return None,
+        };
+        Some(Found::new(kind, Scope { angle, ..Scope::default() }, 0.0, self.to_string()))
+    }
 }
 
 /// Certified stand, with the evidence for its numbers.

@@ -1,12 +1,13 @@
 //! Angles read in every position and run: CSV `i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec`.
 
-pub(super) mod whole_runs;
+mod whole_runs;
 
+use super::found::Found;
 use super::header::NominalPosition;
 use crate::calibration::readings::csv::{ANGLE_COLUMNS, compare_angles, position};
 use crate::calibration::recorded::{SPREAD_OVER_DIGITS, rounding_of};
 use crate::coefficients::PositionIndex;
-use crate::stand::{Excluded, beyond_largest_deviation};
+use crate::stand::{Excluded, Stand, beyond_largest_deviation};
 use crate::statistics::coincidences::step_of_meter;
 use crate::text::Unreadable;
 use crate::text::problem::{MOST_PROBLEMS, Problem};
@@ -15,6 +16,7 @@ use crate::text::table::{Row, Table};
 use crate::units::ARCSECONDS_PER_DEGREE;
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
+use whole_runs::Runs;
 
 pub(crate) const COLUMNS: [&str; 6] = ["i", "j", "run", "alpha_arcsec", "beta_arcsec", "gamma_arcsec"];
 
@@ -80,11 +82,11 @@ impl AngleReadings {
     /// Returns [`Unreadable`] with every error at its line and column: form, numbers, positions unknown or missing from
     /// a run, angles beyond 45°, angles too far off to be scatter (another unit, another position).
     pub fn from_csv(name: &str, bytes: &[u8], positions: &[NominalPosition]) -> Result<Self, Unreadable> {
-        Self::from_csv_without(name, bytes, positions, &[])
+        Self::from_csv_without(name, bytes, positions, &[], None)
     }
 
     /// Reads a CSV file as [`AngleReadings::from_csv`] does, without the `excluded` readings and runs, whose angles are
-    /// not examined.
+    /// not examined. Where half of the runs disagree, the certificate that the file is compared `against` decides.
     ///
     /// # Errors
     /// Returns the errors of [`AngleReadings::from_csv`], and one for each exclusion that is not in the file or leaves
@@ -94,6 +96,7 @@ impl AngleReadings {
         bytes: &[u8],
         positions: &[NominalPosition],
         excluded: &[Excluded],
+        against: Option<&Stand>,
     ) -> Result<Self, Unreadable> {
         let table = Table::read(name, bytes, &COLUMNS[..3], &COLUMNS[3..], &ANGLE_COLUMNS)?;
         let mut problems = Vec::new();
@@ -126,9 +129,11 @@ impl AngleReadings {
         refuse_any(not_there(&rows, excluded))?;
         rows.retain(|(place, ..)| !is_out(*place));
         refuse_any(incomplete(&table, positions, &rows, excluded))?;
-        let others = other_runs(&rows);
-        refuse_any(whole_runs::problems(&table, &rows, &others))?;
-        refuse_any(slips(&table, &rows, &others))?;
+        let indices = positions.iter().map(NominalPosition::index).collect();
+        let (problems, findings): (Vec<_>, Vec<_>) =
+            Runs::new(&table, &rows, indices, against).wrong().into_iter().unzip();
+        refuse_any(problems).map_err(|refusal| refusal.because_of(findings.iter().map(Found::to_json)))?;
+        refuse_any(slips(&table, &rows))?;
         let (sha256, excluded) = (Some(sha256_hex(bytes)), excluded.to_vec());
         Ok(Self { sha256, remark: table.remark(), excluded, ..Self::averaged(positions, &rows) })
     }
@@ -323,13 +328,28 @@ fn incomplete(table: &Table, positions: &[NominalPosition], rows: &[Reading], ex
 }
 
 /// Returns a problem for each angle that cannot be scatter: too far from the other runs, or in another unit.
-fn slips(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Problem> {
+fn slips(table: &Table, rows: &[Reading]) -> Vec<Problem> {
+    // Sorted once for each position and axis: sorting for each row would take minutes for a file of 10,000 runs.
+    let mut of_position: BTreeMap<(PositionIndex, usize), Vec<f64>> = BTreeMap::new();
+    let averages = averages(rows);
+    for ((index, _), (angles, _)) in &averages {
+        (0..3).for_each(|axis| of_position.entry((*index, axis)).or_default().push(angles[axis]));
+    }
+    of_position.values_mut().for_each(|values| values.sort_by(f64::total_cmp));
     let mut problems = Vec::new();
-    for ((index, run), angles, row) in rows {
+    for (place @ (index, _), angles, row) in rows {
         for axis in 0..3 {
-            let Some(others) = others.get(&((*index, *run), axis)) else { continue };
-            let usual = others.nearest_middle(angles[axis]);
-            let Some(advice) = slip(angles[axis], usual, others.most - others.least) else { continue };
+            let own = averages[place].0[axis];
+            let Some(values) = of_position.get(&(*index, axis)).filter(|values| values.len() > 1) else { continue };
+            let last = values.len() - 1;
+            // Of two runs either may be right; with more, the reading may agree with either of the middle ones.
+            let usual = match last {
+                1 => values[usize::from(own == values[0])],
+                _ => angles[axis].clamp(values[last / 2], values[last.div_ceil(2)]),
+            };
+            let (least, most) =
+                (values[usize::from(own == values[0])], values[last - usize::from(own == values[last])]);
+            let Some(advice) = slip(angles[axis], usual, most - least) else { continue };
             if problems.len() >= MOST_PROBLEMS {
                 return problems;
             }
@@ -339,55 +359,6 @@ fn slips(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Problem> {
         }
     }
     problems
-}
-
-/// Angles of the other runs, by place (position and run) and axis.
-type OtherRuns = BTreeMap<(Place, usize), Others>;
-
-/// Range and middle of the angles that the other runs have at a position, arcsec.
-struct Others {
-    least: f64,
-    middle: [f64; 2],
-    most: f64,
-}
-
-impl Others {
-    /// Returns the value between the two middle angles that is nearest to `value`. Of two other runs that differ,
-    /// either may be right, so `value` may agree with either.
-    fn nearest_middle(&self, value: f64) -> f64 {
-        value.clamp(self.middle[0], self.middle[1])
-    }
-}
-
-/// Returns, for every place and axis, the angles that the other runs have at that position.
-///
-/// They are sorted once for each position and axis: sorting for each row would take minutes for a file of 10,000 runs.
-fn other_runs(rows: &[Reading]) -> OtherRuns {
-    let mut of_position: BTreeMap<(PositionIndex, usize), Vec<(f64, u32)>> = BTreeMap::new();
-    for ((index, run), angles, _) in rows {
-        for axis in 0..3 {
-            of_position.entry((*index, axis)).or_default().push((angles[axis], *run));
-        }
-    }
-    let mut others = BTreeMap::new();
-    for ((index, axis), mut values) in of_position {
-        values.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-        let mut places_of_run: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
-        for (place, (_, run)) in values.iter().enumerate() {
-            places_of_run.entry(*run).or_default().push(place);
-        }
-        for (run, own) in places_of_run {
-            let count = values.len() - own.len();
-            if count == 0 {
-                continue;
-            }
-            // The n-th value of the other runs: skip the run's own values that come before it.
-            let nth = |n: usize| values[own.iter().fold(n, |at, place| at + usize::from(*place <= at))].0;
-            let middle = [nth((count - 1) / 2), nth(count / 2)];
-            others.insert(((index, run), axis), Others { least: nth(0), middle, most: nth(count - 1) });
-        }
-    }
-    others
 }
 
 /// Returns the advice for an erroneous `value`, where the other runs have about `usual` within `spread`, all arcsec;

@@ -7,10 +7,12 @@ use super::trust_options::OptionalTrust;
 use super::{Code, Failure, Format, REFUSED, defaults, inputs, output};
 use crate::batch::once::Once;
 use crate::batch::{Purpose, paths};
-use crate::certification::{AngleReadings, Certification, Header, certify, compare, predicted};
+use crate::certification::found::Found;
+use crate::certification::{AngleReadings, Certification, Header, NotCertified, certify, compare, predicted};
 use crate::files;
 use crate::folder::Folder;
 use crate::folder::archive::Superseded;
+use crate::interface::Failed;
 use crate::passport::content::claims_to_be_a_passport;
 use crate::passport::difference::of_deviations;
 use crate::report::certification as report;
@@ -109,7 +111,7 @@ fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
             output::say(&format!("{}: {remark}", Printable(&name)));
         }
         let certified = certify(&header, &read);
-        let certified = certified.map_err(|refused| Failure::refused(format!("{}: {refused}", Printable(&name))))?;
+        let certified = certified.map_err(|why| refused(&name, &why))?;
         measured.check(read.means_arcsec(), &name, ["angles", "stand"]).map_err(Failure::refused)?;
         let number = &certified.stand.certificate.number;
         if let Some(other) = numbered.earlier(number.clone(), &name) {
@@ -128,6 +130,12 @@ fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
         Ok(((Line { file: name, stand_file: name_of(&path), result }, text), 0))
     };
     inputs::each(&options.readings, Purpose::Tables, work, |done| inputs::print(&done, options.format))
+}
+
+/// Returns the failure for readings that give no certificate.
+fn refused(name: &str, why: &NotCertified) -> Failure {
+    let findings = why.finding().iter().map(Found::to_json).collect();
+    Failed::refused(format!("{}: {why}", Printable(name))).because_of(findings).into()
 }
 
 /// Reads the header of one of several stands: the file with the name of its readings in the folder `headers`.
@@ -175,7 +183,7 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
     let bytes = inputs::bytes(readings, Kind::Angles.words())?;
     let name = name_of(readings);
     let excluded = options.exclusions.excluded()?;
-    let readings = AngleReadings::from_csv_without(&name, &bytes, &header.positions, &excluded)?;
+    let readings = AngleReadings::from_csv_without(&name, &bytes, &header.positions, &excluded, against.as_ref())?;
     if let Some(remark) = &readings.remark {
         output::say(remark);
     }
@@ -188,7 +196,7 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
     let (certified, refused) = match certified {
         Ok(certified) => (Some(certified), None),
         Err(refused) if options.output.is_none() && options.report.is_none() => (None, Some(refused)),
-        Err(refused) => return Err(Failure::refused(format!("{}: {refused}", Printable(name)))),
+        Err(why) => return Err(refused(&name, &why)),
     };
     let page = certified.as_ref().zip(options.report.as_ref()).map(|(certified, path)| {
         let change = comparison.as_ref().zip(against.as_ref());

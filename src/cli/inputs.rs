@@ -14,7 +14,7 @@ use crate::site::Site;
 use crate::stand::Stand;
 use crate::text::problem::MISSING;
 use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, Printable, Problems, Unreadable, name_of, printable, shown};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::ops::RangeBounds;
 use std::path::{Path, PathBuf};
 
@@ -112,9 +112,13 @@ pub(super) enum Each<T> {
     Done(T),
     Refused {
         file: String,
-        #[serde(rename = "error")]
+        #[serde(flatten, serialize_with = "as_document")]
         refusal: Failed,
     },
+}
+
+fn as_document<S: Serializer>(refusal: &Failed, to: S) -> Result<S::Ok, S::Error> {
+    refusal.document().serialize(to)
 }
 
 /// Calls `work` for every input, reports those that fail, and returns the highest exit code.

@@ -9,6 +9,7 @@ use crate::batch::Outcome;
 use crate::batch::recertification::{AtSite, NotRecertified, Recertification, check};
 use crate::certification::{Certification, Comparison, Header};
 use crate::files;
+use crate::interface::Failed;
 use crate::passport::difference::NumberDifference;
 use crate::passport::issue::time_of_issue;
 use crate::report::issued::Told;
@@ -150,6 +151,7 @@ fn failure(why: NotRecertified) -> Failure {
     match why {
         NotRecertified::Unreadable(error) => Failure::from(error),
         NotRecertified::Order(why) => Failure::usage(why),
+        NotRecertified::Refused(_, ref findings) => Failed::refused(&why).because_of(findings.clone()).into(),
         why if why.is_unusable() => Failure::unusable(why),
         why => Failure::refused(why),
     }

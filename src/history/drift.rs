@@ -3,6 +3,8 @@
 //! a change of one position that the parts common to all positions hide.
 
 use crate::calibration::inputs::Turn;
+use crate::certification::CommonTurn;
+use crate::certification::differences::turned;
 use crate::coefficients::PositionIndex;
 use crate::passport::difference::u_of_deviations_arcsec;
 use crate::stand::{ActsOn, Certificate, CertifiedPosition, Stand};
@@ -34,6 +36,9 @@ pub(crate) struct Value {
     pub years: f64,
     /// Deviation, arcsec.
     pub arcsec: f64,
+    /// Deviation without the rotations common to all positions, arcsec.
+    #[serde(skip)]
+    pub without_common_arcsec: f64,
     /// Combined standard uncertainty of the deviation, arcsec: own and common parts; `None` if not stated.
     pub u_arcsec: Option<f64>,
     /// Degrees of freedom of that uncertainty.
@@ -75,8 +80,21 @@ pub(crate) struct Jump {
     pub corrected_probability: f64,
 }
 
+/// Rotation of all positions together between two successive certificates.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct CommonJump {
+    /// Numbers of the certificates.
+    pub certificates: [String; 2],
+    pub turn: CommonTurn,
+    /// Probability of a larger rotation if none occurred, corrected for the number of pairs.
+    pub probability: f64,
+}
+
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Drift {
+    /// Significant rotations of all positions together, without which the deviations are tested.
+    pub common: Vec<CommonJump>,
+
     /// Every deviation of every position, sorted by (i, j), then α, β, γ.
     pub series: Vec<Series>,
     /// Deviations relative to the others of their certificate; empty if no common parts are stated.
@@ -91,8 +109,10 @@ impl Drift {
     /// of one certificate do so, too; therefore the deviations are also tested relative to each other.
     pub(crate) fn of(certificates: &[&Stand]) -> Self {
         let Some(first) = certificates.first().map(|stand| stand.certificate.measured()) else {
-            return Self { series: Vec::new(), relative: Vec::new() };
+            return Self { common: Vec::new(), series: Vec::new(), relative: Vec::new() };
         };
+        let (common, tested) = without_common(certificates);
+        let tested: Vec<&Stand> = tested.iter().collect();
         let mut nominal: Vec<Nominal> = Vec::new();
         for at in certificates.iter().flat_map(|stand| &stand.positions) {
             if !nominal.contains(&nominal_of(at)) {
@@ -104,15 +124,16 @@ impl Drift {
             .iter()
             .flat_map(|position| (0..3).map(move |angle| (position, angle)))
             .map(|(position, angle)| {
-                let values = certificates.iter().filter_map(|stand| value(stand, *position, angle, first)).collect();
+                let both = certificates.iter().zip(&tested);
+                let values = both.filter_map(|(stand, tested)| value(stand, tested, *position, angle, first)).collect();
                 Series::of(position.0, angle, values)
             })
             .collect();
-        let mut relative = relative_series(certificates, first);
+        let mut relative = relative_series(&tested, first);
         for all in [&mut series, &mut relative] {
             test_lines(all);
         }
-        Self { series, relative }
+        Self { common, series, relative }
     }
 
     pub(crate) fn tested(&self) -> usize {
@@ -163,7 +184,7 @@ impl Drift {
 
     /// Returns `true` if any deviation has drifted or jumped, by itself or relative to the others.
     pub(crate) fn has_changed(&self) -> bool {
-        self.series.iter().any(Series::has_changed) || self.hidden_change().is_some()
+        !self.common.is_empty() || self.series.iter().any(Series::has_changed) || self.hidden_change().is_some()
     }
 
     /// Returns whether any deviation drifts steadily, by itself or relative to the others, or `None` if none was tested.
@@ -210,15 +231,39 @@ fn test_lines(series: &mut [Series]) {
     }
 }
 
-/// Returns the value of a deviation in a certificate, or `None` if it does not contain the position.
-fn value(stand: &Stand, nominal: Nominal, angle: usize, first: Date) -> Option<Value> {
-    let at = position(stand, nominal)?;
+/// Returns the significant rotations of all positions together between successive certificates, such as that of a mirror
+/// that was mounted anew, and the certificates with the angles without them.
+fn without_common(certificates: &[&Stand]) -> (Vec<CommonJump>, Vec<Stand>) {
+    let mut tested: Vec<Stand> = certificates.iter().copied().cloned().collect();
+    let mut found = Vec::new();
+    for place in 1..tested.len() {
+        let Some((turn, _)) = turned(certificates[place - 1], certificates[place]) else { continue };
+        let probability = turn.test.map_or(1.0, |test| (test.probability * (tested.len() - 1) as f64).min(1.0));
+        if probability < DRIFTS {
+            let certificates = [place - 1, place].map(|place| certificates[place].certificate.number.clone());
+            found.push(CommonJump { certificates, turn, probability });
+        }
+        // All that follow a rotation have it.
+        let without = turned(&tested[place - 1], certificates[place]).filter(|_| !found.is_empty());
+        let angles = without.into_iter().flat_map(|(_, angles)| angles);
+        for (at, angles) in tested[place].positions.iter_mut().zip(angles) {
+            [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec] = angles.into();
+        }
+    }
+    (found, tested)
+}
+
+/// Returns the value of a deviation in a certificate, or `None` if it does not contain the position; `tested` is the
+/// certificate without the rotations common to all positions.
+fn value(stand: &Stand, tested: &Stand, nominal: Nominal, angle: usize, first: Date) -> Option<Value> {
+    let (at, without) = (position(stand, nominal)?, position(tested, nominal)?);
     let u_arcsec = u_of_deviations_arcsec(at, &stand.certificate)[angle];
     Some(Value {
         certificate: stand.certificate.number.clone(),
         date: stand.certificate.measured(),
         years: years(first, &stand.certificate),
         arcsec: at.angles_arcsec()[angle],
+        without_common_arcsec: without.angles_arcsec()[angle],
         u_arcsec,
         degrees_of_freedom: u_arcsec.map_or(f64::INFINITY, |u| degrees_of_freedom(stand, at, angle, u)),
     })
@@ -281,6 +326,7 @@ fn relative_series(certificates: &[&Stand], first: Date) -> Vec<Series> {
             date: stand.certificate.measured(),
             years: years(first, &stand.certificate),
             arcsec: differences[row],
+            without_common_arcsec: differences[row],
             u_arcsec: Some(variance[row].sqrt()),
             degrees_of_freedom: positions[row / 3].degrees_of_freedom.unwrap_or(f64::INFINITY),
         };
@@ -329,7 +375,12 @@ fn covariance(positions: &[&CertifiedPosition], certificate: &Certificate) -> DM
 impl Series {
     fn of(index: PositionIndex, angle: usize, values: Vec<Value>) -> Self {
         let point = |at: &Value| {
-            Some(Point { x: at.years, y: at.arcsec, u: at.u_arcsec?, degrees_of_freedom: at.degrees_of_freedom })
+            Some(Point {
+                x: at.years,
+                y: at.without_common_arcsec,
+                u: at.u_arcsec?,
+                degrees_of_freedom: at.degrees_of_freedom,
+            })
         };
         let points: Vec<Point> = values.iter().filter_map(point).collect();
         let line = StraightLine::fit(&points);
@@ -349,7 +400,7 @@ impl Series {
     /// value was tested.
     pub(crate) fn change(&self) -> Option<(f64, f64)> {
         let (first, last) = (self.tested_values().next()?, self.tested_values().next_back()?);
-        Some((last.arcsec - first.arcsec, libm::hypot(last.u_arcsec?, first.u_arcsec?)))
+        Some((last.without_common_arcsec - first.without_common_arcsec, libm::hypot(last.u_arcsec?, first.u_arcsec?)))
     }
 
     /// Returns the values that were tested: those with an uncertainty.
@@ -365,7 +416,7 @@ impl Series {
             let [before, after] = pair else { return None };
             let u_arcsec = libm::hypot(before.u_arcsec?, after.u_arcsec?);
             let certificates = [before.certificate.clone(), after.certificate.clone()];
-            let change_arcsec = after.arcsec - before.arcsec;
+            let change_arcsec = after.without_common_arcsec - before.without_common_arcsec;
             Some(Jump { certificates, change_arcsec, u_arcsec, line, corrected_probability })
         };
         let size = |jump: &Jump| (jump.change_arcsec / jump.u_arcsec).abs();

@@ -56,7 +56,6 @@ use crate::passport::{Check, Content, RegisterUsed, Verification, content_from_a
 use crate::text::{Cause, Node, Path, Problem, Problems, Unreadable, name_of, printable, record};
 use crate::trust::LARGEST_TRUST_FILE_BYTES;
 use serde::Serialize;
-use std::collections::BTreeMap;
 
 /// Codes of failures.
 pub(crate) const REFUSED: &str = "refused";
@@ -76,6 +75,17 @@ pub struct Failed {
     /// Message, which may have several lines.
     pub message: String,
     pub(crate) problems: Vec<Place>,
+    /// Findings that are the reason, as JSON.
+    #[serde(skip)]
+    pub(crate) findings: Vec<serde_json::Value>,
+}
+
+/// Failure as the JSON of what it ends.
+#[derive(Serialize)]
+pub(crate) struct Document<'a> {
+    error: &'a Failed,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    findings: &'a [serde_json::Value],
 }
 
 /// Error in a file.
@@ -109,7 +119,7 @@ impl Place {
 
 impl Failed {
     pub(crate) fn new(code: &'static str, message: String, problems: Vec<Place>) -> Self {
-        Self { code, message, problems }
+        Self { code, message, problems, findings: Vec::new() }
     }
 
     pub(crate) fn refused(why: impl std::fmt::Display) -> Self {
@@ -127,12 +137,19 @@ impl Failed {
         Self::new(UNREADABLE, message.clone(), vec![Place::file(file.to_owned(), message)])
     }
 
-    /// Returns the failure as the JSON of what it ends.
-    pub(crate) fn document(&self) -> BTreeMap<&'static str, &Self> {
-        BTreeMap::from([("error", self)])
+    /// Returns the failure with the findings that are its reason.
+    #[cfg(feature = "factory")]
+    pub(crate) fn because_of(self, findings: Vec<serde_json::Value>) -> Self {
+        Self { findings, ..self }
     }
 
-    /// Returns the failure as JSON: `{"error": {code, message, problems: [{file, line, column, message, cause}]}}`.
+    /// Returns the failure as the JSON of what it ends.
+    pub(crate) fn document(&self) -> Document<'_> {
+        Document { error: self, findings: &self.findings }
+    }
+
+    /// Returns the failure as JSON: `{"error": {code, message, problems: [{file, line, column, message, cause}]}}`, beside
+    /// which the `findings` are that are its reason.
     pub fn to_json(&self) -> String {
         json(&self.document())
     }
@@ -140,7 +157,8 @@ impl Failed {
 
 impl From<Unreadable> for Failed {
     fn from(error: Unreadable) -> Self {
-        Self::new(UNREADABLE, error.with_lines(""), Place::each(&error))
+        let findings = error.findings().to_vec();
+        Self { findings, ..Self::new(UNREADABLE, error.with_lines(""), Place::each(&error)) }
     }
 }
 

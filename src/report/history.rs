@@ -2,7 +2,8 @@
 
 use crate::attitude::{ANGLE_SYMBOLS, ANGLES};
 use crate::calibration::document::finite;
-use crate::history::drift::{DRIFTS, Drift, Jump, SUSPECTED, Series};
+use crate::certification::found::{self, Found, Kind, Part, Scope, together};
+use crate::history::drift::{CommonJump, DRIFTS, Drift, Jump, SUSPECTED, Series, Value};
 use crate::history::{History, PastCertificate, PastPassport};
 use crate::report::columns::decimals;
 use crate::report::doc::{Block, Rows, Words, given, heading, line, marked, probability, say, strong, symbol};
@@ -15,10 +16,12 @@ use crate::wording::{Language, Text, plain};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use jiff::tz::TimeZone;
-use serde_json::{Value, json};
+use nalgebra::Vector3;
+use serde_json::json;
+use std::collections::BTreeSet;
 
-/// Returns the history as JSON: `{stand, certificates, passports, places, withdrawals, drift, remarks}`.
-pub(crate) fn to_json(history: &History) -> Value {
+/// Returns the history as JSON: `{stand, certificates, passports, places, withdrawals, drift, remarks, findings}`.
+pub(crate) fn to_json(history: &History) -> serde_json::Value {
     json!({
         "stand": history.stand,
         "certificates": history.certificates.iter().map(certificate_json).collect::<Vec<_>>(),
@@ -29,10 +32,61 @@ pub(crate) fn to_json(history: &History) -> Value {
         }).collect::<Vec<_>>(),
         "drift": drift_json(&history.drift),
         "remarks": history.remarks,
+        "findings": found::to_json(&findings(&history.drift)),
     })
 }
 
-fn passport_json(at: &PastPassport) -> Value {
+/// Returns what has changed: rotations of the whole, then the positions that jumped, drift, or may drift.
+pub(crate) fn findings(drift: &Drift) -> Vec<Found> {
+    let common = drift.common.iter().map(|jump| {
+        let (part, turns) = largest_part(jump);
+        let scope = Scope { part: Some(part.key()), certificates: jump.certificates.to_vec(), ..Scope::default() };
+        let words = Words::Capital(Box::new(vec![rotated(jump), ".".into()].into()));
+        Found::new(Kind::CommonTurn, scope, jump.probability, words).sized(Vector3::from(turns).norm())
+    });
+    let of_series = |series: &Series, tests: usize| {
+        let scope = Scope { position: Some(series.index), angle: Some(ANGLES[series.angle]), ..Scope::default() };
+        let is_jump = series.line.is_none_or(|line| line.degrees_of_freedom == 0);
+        let (what, probability) = change(series);
+        let words = vec![name(ANGLES, series), " ".into(), what, ", ".into()];
+        let words = words.into_iter().chain([texts::by_chance(Probability(probability), tests), ".".into()]);
+        let tested: Vec<&Value> = series.tested_values().collect();
+        let ends = tested.first().zip(tested.last()).map(|(a, b)| [a, b].map(|at| at.certificate.clone()));
+        let (kind, size, certificates) = match (&series.jump, series.change()) {
+            (Some(jump), _) => (Kind::PositionJump, jump.change_arcsec, jump.certificates.to_vec()),
+            (_, Some((change, _))) if is_jump => (Kind::PositionJump, change, ends.into_iter().flatten().collect()),
+            _ => (Kind::PositionDrift, series.line.map_or(0.0, |line| line.slope), Vec::new()),
+        };
+        let found =
+            Found::new(kind, Scope { certificates, ..scope }, probability, words.collect::<Vec<_>>()).sized(size);
+        if kind == Kind::PositionDrift { Found { unit: Some("arcsec/year"), ..found } } else { found }
+    };
+    let own = drift.series.iter().map(|series| (series, drift.tested()));
+    let hidden = drift.hidden_change().map(|series| (series, drift.relative.len()));
+    let mut changed: Vec<Found> = own.chain(hidden).map(|(series, tests)| of_series(series, tests)).collect();
+    changed.retain(|found| found.probability < SUSPECTED);
+    // Of the angles of a position, the one of which chance explains least.
+    changed.sort_by(|a, b| a.probability.total_cmp(&b.probability));
+    let mut known = BTreeSet::new();
+    changed.retain(|found| known.insert(found.scope.position));
+    common.chain(changed).collect()
+}
+
+/// Returns the part of the stand that has rotated most between two certificates, with its rotation, arcsec.
+fn largest_part(jump: &CommonJump) -> (Part, [f64; 3]) {
+    let turn = jump.turn;
+    let is_base = Vector3::from(turn.base_arcsec).norm() > Vector3::from(turn.platform_arcsec).norm();
+    if is_base { (Part::Base, turn.base_arcsec) } else { (Part::Platform, turn.platform_arcsec) }
+}
+
+/// The sentence on a rotation of all positions together.
+fn rotated(jump: &CommonJump) -> Words {
+    let ([from, to], (part, turns)) = (&jump.certificates, largest_part(jump));
+    let [x, y, z] = together(turns);
+    texts::rotated(given(from), given(to), x, y, z, part.axes(), Probability(jump.probability))
+}
+
+fn passport_json(at: &PastPassport) -> serde_json::Value {
     let row = &at.row;
     json!({
         "id": row.id,
@@ -52,7 +106,7 @@ fn passport_json(at: &PastPassport) -> Value {
     })
 }
 
-fn certificate_json(at: &PastCertificate) -> Value {
+fn certificate_json(at: &PastCertificate) -> serde_json::Value {
     let certificate = &at.stand.certificate;
     json!({
         "number": certificate.number,
@@ -67,7 +121,7 @@ fn certificate_json(at: &PastCertificate) -> Value {
     })
 }
 
-fn drift_json(drift: &Drift) -> Value {
+fn drift_json(drift: &Drift) -> serde_json::Value {
     let worst = drift.most_significant();
     json!({
         "drifts": drift.drifts(),
@@ -80,7 +134,7 @@ fn drift_json(drift: &Drift) -> Value {
     })
 }
 
-fn series_json(series: &Series) -> Value {
+fn series_json(series: &Series) -> serde_json::Value {
     let line = series.line.as_ref();
     json!({
         "i": series.index.i, "j": series.index.j, "angle": ANGLES[series.angle],
@@ -109,10 +163,11 @@ fn sentence(drift: &Drift, angles: [&str; 3]) -> Words {
         Some((series, jump)) => texts::and_others(jumped(drift, angles, series, jump), of_lines(drift, angles)),
         None => of_lines(drift, angles),
     };
-    match drift.hidden_change() {
+    let of_each = match drift.hidden_change() {
         Some(series) => texts::but(of_each, relative(drift, angles, series)),
         None => of_each,
-    }
+    };
+    drift.common.iter().rev().fold(of_each, |others, jump| texts::without_rotation(rotated(jump), others))
 }
 
 /// A change or a rate with its standard uncertainty.
@@ -128,9 +183,9 @@ fn name(angles: [&str; 3], series: &Series) -> Words {
     texts::angle_of(angles[series.angle], series.index)
 }
 
-/// The sentence on a change of one deviation that the parts common to all positions hide.
-fn relative(drift: &Drift, angles: [&str; 3], series: &Series) -> Words {
-    let (what, probability) = match (&series.jump, &series.line) {
+/// What has happened to a deviation, with its probability.
+fn change(series: &Series) -> (Words, f64) {
+    match (&series.jump, &series.line) {
         (Some(Jump { certificates: [from, to], change_arcsec, u_arcsec, corrected_probability, .. }), _) => {
             let change = measured(texts::change_of, *change_arcsec, *u_arcsec);
             (texts::has_jumped(change, given(from), given(to)), *corrected_probability)
@@ -140,7 +195,12 @@ fn relative(drift: &Drift, angles: [&str; 3], series: &Series) -> Words {
             let rate = measured(texts::rate_of, slope, u);
             (texts::drifts_by(rate), series.corrected_probability.unwrap_or(1.0))
         }
-    };
+    }
+}
+
+/// The sentence on a change of one deviation that the parts common to all positions hide.
+fn relative(drift: &Drift, angles: [&str; 3], series: &Series) -> Words {
+    let (what, probability) = change(series);
     let by_chance = texts::by_chance(Probability(probability), drift.relative.len());
     texts::hidden(name(angles, series), what, by_chance)
 }
@@ -213,7 +273,9 @@ fn answer(drift: &Drift) -> Words {
     let least = drift.most_significant().and_then(|worst| worst.corrected_probability);
     let (outcome, word) = match drift.drifts() {
         None => (Outcome::NotAsked, texts::NOT_TESTED),
-        Some(true) if drift.jumps().next().is_none() && drift.series.iter().any(is_steady) => {
+        Some(true)
+            if drift.common.is_empty() && drift.jumps().next().is_none() && drift.series.iter().any(is_steady) =>
+        {
             (Outcome::Failed, texts::DRIFTS)
         }
         Some(_) if drift.has_changed() => (Outcome::Failed, texts::CHANGED),

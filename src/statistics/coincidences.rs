@@ -4,7 +4,7 @@ use super::distributions::chi_square_larger;
 use std::collections::BTreeMap;
 
 /// Probability by chance below which identical readings are taken for copies.
-const COPIED: f64 = 1e-4;
+pub(crate) const COPIED: f64 = 1e-4;
 
 /// Decimals of a number in scientific notation that count; further ones are rounding of a computation in binary.
 const MOST_DECIMALS: usize = 14;
@@ -61,14 +61,14 @@ pub(crate) fn copies<const N: usize>(quantities: &[Vec<[f64; N]>]) -> Vec<Coinci
     let pairs: f64 =
         quantities.iter().map(|readings| readings.len() as f64 * (readings.len() as f64 - 1.0) / 2.0).sum();
     let expected = pairs * (0..N).map(agree).product::<f64>();
-    if is_chance(expected, found.len()) { Vec::new() } else { found }
+    if by_chance(expected, found.len()) > COPIED { Vec::new() } else { found }
 }
 
-/// Returns `true` if chance explains so many coincidences that are not copies, of which as many as `expected` occur on
+/// Returns the probability of so many coincidences or more that are not copies, of which as many as `expected` occur on
 /// average.
-pub(crate) fn is_chance(expected: f64, found: usize) -> bool {
+pub(crate) fn by_chance(expected: f64, found: usize) -> f64 {
     // P(N ≥ k) of a Poisson distribution with mean λ is P(χ² < 2λ) with 2k degrees of freedom.
-    1.0 - chi_square_larger(2.0 * expected, 2 * found) > COPIED
+    1.0 - chi_square_larger(2.0 * expected, 2 * found)
 }
 
 /// Returns the step of numbers, a multiple of their last digit, or, if they were computed, their smallest difference within

@@ -310,6 +310,8 @@ pub struct Unreadable {
     problems: Vec<Problem>,
     /// Lines of the first errors, if the text is known: see [`Unreadable::in_text`].
     excerpts: Vec<Option<Excerpt>>,
+    /// Findings that are the reason, as JSON.
+    findings: Vec<serde_json::Value>,
 }
 
 impl Unreadable {
@@ -326,7 +328,7 @@ impl Unreadable {
 
     /// Creates a refusal with several errors whose locations are already known.
     pub(crate) fn of(name: &str, problems: Vec<Problem>) -> Self {
-        Self { name: name.to_owned(), problems, excerpts: Vec::new() }
+        Self { name: name.to_owned(), problems, excerpts: Vec::new(), findings: Vec::new() }
     }
 
     /// Returns the refusal with the lines of `bytes`, the document, for [`Unreadable::with_lines`].
@@ -355,6 +357,16 @@ impl Unreadable {
             text += &excerpt.map_or_else(String::new, |excerpt| format!("\n{excerpt}"));
         }
         text
+    }
+
+    /// Returns the refusal with the findings that are its reason.
+    #[cfg(feature = "factory")]
+    pub(crate) fn because_of(self, findings: impl IntoIterator<Item = serde_json::Value>) -> Self {
+        Self { findings: findings.into_iter().collect(), ..self }
+    }
+
+    pub(crate) fn findings(&self) -> &[serde_json::Value] {
+        &self.findings
     }
 
     pub(crate) fn name(&self) -> &str {

@@ -63,6 +63,8 @@ tables! {
     remarks
     /// The contents of a workspace.
     status
+    /// Angles of a file or a run in another unit, column or row.
+    transformations
     /// Units, and the hemispheres of coordinates. Units of angles are the same in every language.
     units
     /// The answer of a verification.

@@ -98,13 +98,21 @@ fn bad_readings_are_refused_with_their_place() {
         (replaced("1,1,2,", 3, |_| "170000".into()), 2, &["45 degrees", "in arcseconds"]),
         (replaced("1,1,2,", 3, |_| "x".into()), 2, &["r.csv:11:7", "a number"]),
         (replaced("1,1,2,", 2, |_| "0".into()), 2, &["run", "a whole number of 1 or more"]),
-        (of_run("2", |_, _| ["0", "0", "0"].map(str::to_owned)), 2, &["r.csv:11:5", "run 2, whose angles are all 0"]),
+        (
+            of_run("2", |_, _| ["0", "0", "0"].map(str::to_owned)),
+            2,
+            &["r.csv:11:5", "the same in every position of run 2"],
+        ),
         (
             of_run("3", |row, lines| angles_of(&lines[(row + 1) % 8])),
             2,
-            &["r.csv:19:5", "in the row below", "are shifted"],
+            &["r.csv:19:5", "in other rows", "(1, 1) → (1, 2), (1, 2) → (1, 3)"],
         ),
-        (of_run("3", |row, lines| angles_of(&lines[(row + 7) % 8])), 2, &["r.csv:19:5", "in the row above"]),
+        (
+            of_run("3", |row, lines| angles_of(&lines[(row + 7) % 8])),
+            2,
+            &["r.csv:19:5", "(1, 2) → (1, 1), (1, 3) → (1, 2)"],
+        ),
         (
             of_run("4", |row, lines| angles_of(&lines[if row < 4 { row } else { row + 24 }])),
             2,
@@ -267,7 +275,7 @@ fn mistakes_of_a_whole_run_are_named() {
         (two + &copy_as("1", "2"), &["run 2 with the same angles as run 1"]),
         (scaled("3", 1.0 / 60.0), &["r.csv:19:5: run", "run 3", "divided by 60", "arcminutes"]),
         (scaled("1", 1.0 / 3600.0), &["run 1", "divided by 3600", "degrees"]),
-        (scaled("4", 60.0), &["run 4", "60 times those of the other runs"]),
+        (scaled("4", 60.0), &["run 4", "those of the other runs times 60"]),
         (scaled("2", -1.0), &["run 2", "opposite sign", "correct the sign"]),
     ];
     for (readings, words) in cases {
@@ -276,6 +284,23 @@ fn mistakes_of_a_whole_run_are_named() {
         words.iter().for_each(|word| assert!(said.contains(word), "{said:?} without {word:?}"));
         assert_eq!(said.matches("r.csv:").count(), 1, "one run is named: {said}");
     }
+    // The finding stands beside the error.
+    fs::write(folder.join("r.csv"), scaled("3", 1.0 / 3240.0)).unwrap();
+    let (_, text, _) = run(&folder, "r.csv --stand header.yaml -o x.yaml --format json");
+    let found: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(
+        (&found["error"]["code"], &found["findings"][0]["unit"]),
+        (&"unreadable".into(), &"gon".into()),
+        "{text}"
+    );
+    let mut constant = good.lines().map(str::to_owned).collect::<Vec<_>>();
+    constant.iter_mut().filter(|line| line.starts_with(['1', '2'])).for_each(|line| {
+        *line = line[..=line.rfind(',').unwrap()].to_owned() + "0.0";
+    });
+    fs::write(folder.join("r.csv"), constant.join("\n")).unwrap();
+    let (code, text, _) = run(&folder, "r.csv --stand header.yaml -o x.yaml --format json");
+    let found: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!((code, &found["findings"][0]["kind"]), (1, &"channel_constant".into()), "{text}");
 }
 
 /// Expected: of the example, whose visits scatter by 1.7″, the remark if all angles are divided by 60, and none as they are.

@@ -162,7 +162,7 @@ fn excluded_readings_are_determined_by_the_others() {
         };
         let excluded: Vec<Excluded> = places.iter().map(out).collect();
         let positions = header().positions;
-        let readings = AngleReadings::from_csv_without("a.csv", csv(readings).as_bytes(), &positions, &excluded);
+        let readings = AngleReadings::from_csv_without("a.csv", csv(readings).as_bytes(), &positions, &excluded, None);
         certify(&header(), &readings.unwrap())
     };
     let mut stream = Stream::new(61);

@@ -44,8 +44,6 @@ mod interface;
 #[cfg(feature = "factory")]
 mod issue;
 mod model;
-#[cfg(all(feature = "factory", feature = "monte-carlo"))]
-mod other_axes;
 #[cfg(all(feature = "factory", feature = "report"))]
 mod passport_accuracy;
 #[cfg(feature = "factory")]
@@ -79,6 +77,8 @@ mod templates;
 mod text_rule;
 #[cfg(feature = "report")]
 pub(crate) mod texts;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod transformations;
 #[cfg(feature = "monte-carlo")]
 mod trials;
 #[cfg(feature = "factory")]

@@ -1,254 +1,310 @@
-//! Errors of a run: copies from another run, all zeros, another unit, the opposite sign, exchanged or reversed axes, rows
-//! of other positions.
+//! Errors of whole runs: copies of other runs or of another angle, an angle that is constant, and angles in another unit, or in
+//! other columns or rows, than those of the other runs.
 
-use super::{OtherRuns, Reading, averages};
+use super::{Reading, averages};
 use crate::attitude::ANGLES;
+use crate::certification::found::{Found, Kind, Scope};
+use crate::certification::remark::in_english;
+use crate::certification::transformation::{CLEARLY, Rows, Transformation, exchanged};
 use crate::coefficients::PositionIndex;
-use crate::statistics::coincidences::{self, Coincidence};
+use crate::stand::Stand;
+use crate::statistics::coincidences::{self, Coincidence, step_of_meter};
 use crate::text::problem::{MOST_PROBLEMS, Problem};
 use crate::text::table::Table;
-use nalgebra::Vector3;
+use crate::wording::Words;
+use crate::wording::texts::transformations as texts;
+use nalgebra::{DVector, Vector3};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Factors by which the angles of a run in another unit are too small, with the name of the unit.
-pub(in crate::certification) const UNITS: [(f64, &str); 3] =
-    [(60.0, "arcminutes"), (crate::units::ARCSECONDS_PER_DEGREE, "degrees"), (206.264_806, "milliradians")];
+/// Number of runs that are tried as the reference of the others; fewer than half of them may be wrong.
+const REFERENCES: usize = 5;
 
-/// Tolerance of such a factor, as a factor itself.
-const FACTOR_MARGIN: f64 = 1.5;
+/// What is wrong with a run, as the error of the file and as a finding.
+pub(super) type Wrong = (Problem, Found);
 
-/// Smallest correlation at which a run is taken to have the angles of the others up to a factor.
-const SAME_ANGLES: f64 = 0.9;
+/// Angles of a run by place, as far as it has them.
+type Angles = Vec<Option<Vector3<f64>>>;
 
-/// Returns a problem for every run that is a copy or has another scale or other axes, at the line on which it begins.
-pub(super) fn problems(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Problem> {
-    let each: [&dyn Fn() -> Vec<Problem>; 6] = [
-        &|| zeros(table, rows),
-        &|| copies(table, rows),
-        &|| single_copies(table, rows),
-        &|| other_scales(table, rows, others),
-        &|| other_axes(table, rows, others),
-        &|| other_rows(table, rows, others),
-    ];
-    each.iter().map(|problems| problems()).find(|problems| !problems.is_empty()).unwrap_or_default()
+/// Runs of a file.
+pub(super) struct Runs<'a> {
+    table: &'a Table<'a>,
+    rows: &'a [Reading<'a>],
+    positions: Vec<PositionIndex>,
+    numbers: Vec<u32>,
+    each: Vec<Angles>,
+    /// Angles of the certificate with which the file is compared.
+    certified: Option<Angles>,
 }
 
-/// Returns a problem with the `run`, at its first row.
-fn at_run(table: &Table, rows: &[Reading], run: u32, found: String, expected: &str, advice: &str) -> Option<Problem> {
-    let (.., row) = rows.iter().find(|((_, of), ..)| *of == run)?;
-    Some(table.problem(&row[2], 2, found, expected, advice))
-}
-
-/// Returns a problem for each run whose angles are all 0, unless those of all runs are.
-fn zeros(table: &Table, rows: &[Reading]) -> Vec<Problem> {
-    let measured: BTreeSet<u32> =
-        rows.iter().filter(|(_, angles, _)| *angles != Vector3::zeros()).map(|((_, run), ..)| *run).collect();
-    let runs: BTreeSet<u32> = rows.iter().map(|((_, run), ..)| *run).collect();
-    let zeros = runs.difference(&measured).filter(|_| !measured.is_empty());
-    let problem = |run: &u32| {
-        let found = format!("run {run}, whose angles are all 0");
-        at_run(table, rows, *run, found, "measured angles", "fill in the readings, or delete the run")
-    };
-    zeros.filter_map(problem).collect()
-}
-
-/// Returns a problem for each reading that is a copy of that of an earlier run, if there are more than chance explains.
-fn single_copies(table: &Table, rows: &[Reading]) -> Vec<Problem> {
-    let mut of_position: BTreeMap<PositionIndex, Vec<(u32, Vector3<f64>)>> = BTreeMap::new();
-    for ((index, run), (angles, _)) in averages(rows) {
-        of_position.entry(index).or_default().push((run, angles));
-    }
-    let numbers: Vec<Vec<[f64; 3]>> =
-        of_position.values().map(|readings| readings.iter().map(|(_, angles)| (*angles).into()).collect()).collect();
-    let places: Vec<_> = of_position.iter().collect();
-    let problem = |copy: Coincidence| {
-        let (index, readings) = places[copy.quantity];
-        let [(run, _), (earlier, _)] = [readings[copy.reading], readings[copy.earlier]];
-        let (.., row) = rows.iter().find(|(place, ..)| *place == (*index, run))?;
-        let found = format!("the angles of run {earlier} again in run {run} of position {index}");
-        let advice = "measure the copied readings, or, if all were measured, record more digits";
-        Some(table.problem(&row[3], 3, found, "independent readings", advice))
-    };
-    coincidences::copies(&numbers).into_iter().filter_map(problem).take(MOST_PROBLEMS).collect()
-}
-
-/// Returns a problem for each run whose angles are exactly those of an earlier run, if there are more than chance explains.
-fn copies(table: &Table, rows: &[Reading]) -> Vec<Problem> {
-    let mut of_run: BTreeMap<u32, Vec<u64>> = BTreeMap::new();
-    for ((_, run), (angles, _)) in averages(rows) {
-        of_run.entry(run).or_default().extend(angles.iter().map(|angle| angle.to_bits()));
-    }
-    let mut first: BTreeMap<&[u64], u32> = BTreeMap::new();
-    let mut copies = Vec::new();
-    for (run, angles) in &of_run {
-        let earlier = *first.entry(angles).or_insert(*run);
-        if earlier != *run {
-            copies.push((*run, earlier));
-        }
-    }
-    // Angles of coarse readings agree by themselves. How often they do is seen in runs that follow each other and differ.
-    let (mut same, mut all, mut number) = (0.0, 0.0, 0.0);
-    for (one, other) in of_run.values().zip(of_run.values().skip(1)).filter(|(one, other)| one != other) {
-        number = one.len() as f64;
-        all += number;
-        same += one.iter().zip(other).filter(|(one, other)| one == other).count() as f64;
-    }
-    let pairs = of_run.len() as f64 * (of_run.len() as f64 - 1.0) / 2.0;
-    if copies.is_empty() || all > 0.0 && coincidences::is_chance(pairs * libm::pow(same / all, number), copies.len()) {
-        return Vec::new();
-    }
-    let problem = |(run, earlier): (u32, u32)| {
-        let found = format!("run {run} with the same angles as run {earlier}");
-        let advice = "delete the copy, or, if both were measured, record more digits than the readings vary by";
-        at_run(table, rows, run, found, "independent readings", advice)
-    };
-    copies.into_iter().filter_map(problem).collect()
-}
-
-/// Returns a problem for each run whose angles are those of the others times a factor.
-fn other_scales(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Problem> {
-    // For each run: the sums of squares of its angles, of the others' angles, and of the products.
-    let mut sums: BTreeMap<u32, [f64; 3]> = BTreeMap::new();
-    for ((index, run), angles, _) in rows {
-        for axis in 0..3 {
-            let Some(others) = others.get(&((*index, *run), axis)) else { continue };
-            let usual = others.nearest_middle(angles[axis]);
-            let sums = sums.entry(*run).or_default();
-            sums[0] += angles[axis] * angles[axis];
-            sums[1] += usual * usual;
-            sums[2] += angles[axis] * usual;
-        }
-    }
-    let (mut small, mut large) = (Vec::new(), Vec::new());
-    for (run, [own, usual, both]) in sums {
-        let correlation = both / (own * usual).sqrt();
-        if correlation.is_nan() || correlation.abs() < SAME_ANGLES {
-            continue;
-        }
-        let ratio = (own / usual).sqrt();
-        let near = |factor: f64| (1.0 / FACTOR_MARGIN..FACTOR_MARGIN).contains(&(ratio * factor));
-        let problem = |words: String, advice: &str| {
-            let found = format!("run {run}, whose angles are {words}");
-            at_run(table, rows, run, found, "angles close to those of the other runs", advice)
+impl<'a> Runs<'a> {
+    pub(super) fn new(
+        table: &'a Table<'a>,
+        rows: &'a [Reading<'a>],
+        positions: Vec<PositionIndex>,
+        against: Option<&Stand>,
+    ) -> Self {
+        let numbers: BTreeSet<u32> = rows.iter().map(|((_, run), ..)| *run).collect();
+        let averages = averages(rows);
+        let of_run = |run: &u32| {
+            positions.iter().map(|index| averages.get(&(*index, *run)).map(|(angles, _)| *angles)).collect()
         };
-        let too_small = UNITS.into_iter().find(|(factor, _)| near(*factor));
-        let too_large = UNITS.into_iter().find(|(factor, _)| near(1.0 / factor));
-        if let Some((factor, unit)) = too_small {
-            let words = format!("those of the other runs divided by {factor:.0}");
-            small.extend(problem(words, &format!("the run is in {unit}; convert it to arcseconds")));
-        } else if let Some((factor, unit)) = too_large {
-            let words = format!("{factor:.0} times those of the other runs");
-            let advice = format!("convert it only once, or check whether the other runs are in {unit}");
-            large.extend(problem(words, &advice));
-        } else if correlation < 0.0 && near(1.0) {
-            small.extend(problem("those of the other runs with the opposite sign".to_owned(), "correct the sign"));
-        }
+        let each = numbers.iter().map(of_run).collect();
+        let of_stand = |stand: &Stand, index: &PositionIndex| {
+            let at = stand.positions.iter().find(|at| at.index() == *index)?;
+            Some(Vector3::from(at.angles_arcsec()))
+        };
+        let certified = against.map(|stand| positions.iter().map(|index| of_stand(stand, index)).collect());
+        Self { table, rows, positions, numbers: numbers.into_iter().collect(), each, certified }
     }
-    // If one run is too small, all others look too large compared with it.
-    if small.is_empty() { large } else { small }
-}
 
-/// Column of the file for each angle, with its sign.
-pub(in crate::certification) type Axes = [(usize, f64); 3];
+    /// Returns what is wrong with whole runs, of the first kind of error that there is.
+    pub(super) fn wrong(&self) -> Vec<Wrong> {
+        let each: [&dyn Fn() -> Vec<Wrong>; 4] =
+            [&|| self.channels(), &|| self.copies(), &|| self.single_copies(), &|| self.transformed()];
+        each.iter().map(|wrong| wrong()).find(|wrong| !wrong.is_empty()).unwrap_or_default()
+    }
 
-/// Factor by which other axes must reduce the sum of the squared differences from the other runs, a fifth of the
-/// difference. By chance they do not, not even with three positions and angles that are all scatter.
-pub(in crate::certification) const CLEARLY: f64 = 25.0;
+    /// Returns an error at the first row of a run: what was found, what is expected, and advice.
+    fn at_run(&self, run: usize, words: [&str; 3], kind: Kind, scope: Scope, p: f64) -> Option<Wrong> {
+        let (.., row) = self.rows.iter().find(|((_, of), ..)| *of == self.numbers[run])?;
+        let [found, expected, advice] = words;
+        let problem = self.table.problem(&row[2], 2, found.to_owned(), expected, advice);
+        Some((problem, Found::new(kind, scope, p, format!("The file contains {found}."))))
+    }
 
-/// Returns every order of the three columns with every choice of signs, those that change the fewest columns first; the
-/// first changes none. All signs reversed is a matter of scale.
-pub(in crate::certification) fn axes_of_runs() -> Vec<Axes> {
-    let orders = [[0, 1, 2], [1, 0, 2], [2, 1, 0], [0, 2, 1], [1, 2, 0], [2, 0, 1]];
-    let signed = orders.into_iter().flat_map(|order| {
-        (0..8_u8)
-            .map(move |signs| [0, 1, 2].map(|axis| (order[axis], if signs & (1 << axis) == 0 { 1.0 } else { -1.0 })))
-    });
-    let mut all: Vec<Axes> = signed.collect();
-    all.sort_by_key(|axes| (0..3).filter(|axis| axes[*axis] != (*axis, 1.0)).count());
-    all
-}
-
-/// Returns the angles whose column or sign differs: the angle, the column in its place and the sign, "-" or nothing.
-pub(in crate::certification) fn differing(axes: &Axes) -> impl Iterator<Item = (usize, usize, &'static str)> {
-    let changed = axes.iter().enumerate().filter(|(axis, of)| **of != (*axis, 1.0));
-    changed.map(|(axis, (column, sign))| (axis, *column, if *sign < 0.0 { "-" } else { "" }))
-}
-
-/// Returns a problem for each run whose angles are those of the others once columns are exchanged or signs reversed.
-///
-/// With two runs, the readings show neither which one is wrong nor whether both merely scatter; they give no problem.
-fn other_axes(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Problem> {
-    let candidates = axes_of_runs();
-    // For each run: the sums of the squared differences from the other runs, for each choice of axes, and the sum of the
-    // squared ranges of the others.
-    let mut sums: BTreeMap<u32, (Vec<f64>, f64)> = BTreeMap::new();
-    for (place, angles, _) in rows {
-        let (sums, ranges) = sums.entry(place.1).or_insert_with(|| (vec![0.0; candidates.len()], 0.0));
-        for axis in 0..3 {
-            let Some(others) = others.get(&(*place, axis)) else { continue };
-            *ranges += (others.most - others.least).powi(2);
-            for (sum, axes) in sums.iter_mut().zip(&candidates) {
-                let (column, sign) = axes[axis];
-                let value = sign * angles[column];
-                *sum += (value - others.nearest_middle(value)).powi(2);
+    /// Returns an error for each run in which an angle is the same in all positions, or a copy of another one, if chance does
+    /// not explain it: what should vary does so by many steps in other runs, or in the certificate.
+    fn channels(&self) -> Vec<Wrong> {
+        let step = step_of_meter(self.each.iter().flatten().flatten().flat_map(|angles| angles.iter().copied()));
+        let mut wrong: Vec<Wrong> = Vec::new();
+        for [one, other] in [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]] {
+            let is_copy = one != other;
+            let of = |at: &Vector3<f64>| if is_copy { at[other] - at[one] } else { at[one] };
+            let values = |run: &Angles| run.iter().flatten().map(of).collect::<Vec<_>>();
+            let is_wrong = |run: &Angles| {
+                let values = values(run);
+                values.len() > 2 && values.iter().all(|value| *value == if is_copy { 0.0 } else { values[0] })
+            };
+            let runs: Vec<usize> = (0..self.each.len()).filter(|run| is_wrong(&self.each[*run])).collect();
+            let is_all = runs.len() == self.each.len();
+            let right = self.each.iter().chain(&self.certified).filter(|run| !is_wrong(run)).map(values);
+            // If all are copies, they would differ by as much as they vary.
+            let copies = self.each.iter().filter(|_| is_all && is_copy);
+            let copies = copies.map(|run| run.iter().flatten().map(|at| at[one]).collect());
+            let spread = right.chain(copies).map(|values| spread(&values)).fold(0.0, f64::max);
+            for run in runs {
+                let alike = values(&self.each[run]).len() as f64 - if is_copy { 0.0 } else { 1.0 };
+                let by_chance = if step < spread { step / spread } else { 1.0 };
+                let p = coincidences::by_chance(6.0 * self.each.len() as f64 * libm::pow(by_chance, alike), 1);
+                let scope = Scope { run: (!is_all).then_some(self.numbers[run]), ..Scope::default() };
+                let place = if is_all { "every run".to_owned() } else { format!("run {}", self.numbers[run]) };
+                let error = if is_copy {
+                    let [one, other] = [one, other].map(|angle| ANGLES[angle]);
+                    let found = format!("{other} equal to {one} in every position of {place}");
+                    let scope = Scope { angles: vec![one, other], ..scope };
+                    let advice = "measure both angles, or write each into its column";
+                    let words = [&found, "angles measured independently", advice];
+                    self.at_run(run, words, Kind::ChannelCopied, scope, p)
+                } else {
+                    let found = format!("{} the same in every position of {place}", ANGLES[one]);
+                    let scope = Scope { angle: Some(ANGLES[one]), ..scope };
+                    let advice = "fill in the readings, or delete the run";
+                    self.at_run(run, [&found, "measured angles", advice], Kind::ChannelConstant, scope, p)
+                };
+                wrong.extend(error.filter(|_| p < coincidences::COPIED));
+                if is_all {
+                    break;
+                }
             }
         }
+        // Constant angles may equal each other.
+        let is_constant = wrong.iter().any(|(_, found)| found.kind == Kind::ChannelConstant);
+        wrong.retain(|(_, found)| !is_constant || found.kind == Kind::ChannelConstant);
+        wrong
     }
-    if sums.len() < 3 {
-        return Vec::new();
+
+    /// Returns an error for each reading that is a copy of that of an earlier run, if there are more than chance explains.
+    fn single_copies(&self) -> Vec<Wrong> {
+        let readings = |place: usize| {
+            let runs = self.each.iter().zip(&self.numbers);
+            runs.filter_map(|(run, number)| Some((*number, run[place]?))).collect::<Vec<_>>()
+        };
+        let all: Vec<_> = (0..self.positions.len()).map(readings).collect();
+        let numbers: Vec<Vec<[f64; 3]>> =
+            all.iter().map(|readings| readings.iter().map(|(_, angles)| (*angles).into()).collect()).collect();
+        let copies = coincidences::copies(&numbers);
+        let wrong = |copy: Coincidence| {
+            let (index, readings) = (self.positions[copy.quantity], &all[copy.quantity]);
+            let [(run, _), (earlier, _)] = [readings[copy.reading], readings[copy.earlier]];
+            let (.., row) = self.rows.iter().find(|(place, ..)| *place == (index, run))?;
+            let found = format!("the angles of run {earlier} again in run {run} of position {index}");
+            let advice = "measure the copied readings, or, if all were measured, record more digits";
+            let words = format!("The file contains {found}.");
+            let problem = self.table.problem(&row[3], 3, found, "independent readings", advice);
+            let scope = Scope { position: Some(index), runs: vec![earlier, run], ..Scope::default() };
+            Some((problem, Found::new(Kind::RunsCopied, scope, coincidences::COPIED, words)))
+        };
+        copies.into_iter().filter_map(wrong).take(MOST_PROBLEMS).collect()
     }
-    let problem = |(run, (sums, ranges)): (u32, (Vec<f64>, f64))| {
-        let least = sums.iter().copied().fold(f64::INFINITY, f64::min);
-        // Angles that are all scatter agree with nothing; nor do runs of which several have other axes.
-        if CLEARLY * f64::max(least, ranges) >= sums[0] {
-            return None;
+
+    /// Returns an error for each run whose angles are exactly those of an earlier run, if there are more than chance explains.
+    fn copies(&self) -> Vec<Wrong> {
+        let bits = |run: &Angles| -> Vec<u64> {
+            run.iter()
+                .flatten()
+                .flat_map(|angles| angles.iter().map(|angle| angle.to_bits()).collect::<Vec<_>>())
+                .collect()
+        };
+        let of_run: Vec<Vec<u64>> = self.each.iter().map(bits).collect();
+        let mut first: BTreeMap<&[u64], usize> = BTreeMap::new();
+        let mut copies = Vec::new();
+        for (run, angles) in of_run.iter().enumerate() {
+            let earlier = *first.entry(angles).or_insert(run);
+            if earlier != run {
+                copies.push((run, earlier));
+            }
         }
-        // An angle near zero does not show its sign: of about equal candidates the one with the fewest changes.
-        let at = sums.iter().position(|sum| *sum <= 2.0 * least)?;
-        let words: Vec<String> = differing(&candidates[at])
-            .map(|(axis, column, sign)| format!("{sign}{} where the other runs have {}", ANGLES[column], ANGLES[axis]))
-            .collect();
-        let found = format!("run {run}, which has {}", words.join(", "));
-        let advice = "put the angles into the columns of the other runs, with their signs";
-        at_run(table, rows, run, found, "the axes of the other runs", advice)
-    };
-    sums.into_iter().filter_map(problem).collect()
+        // Angles of coarse readings agree by themselves. How often they do is seen in runs that follow each other and differ.
+        let (mut same, mut all, mut number) = (0.0, 0.0, 0.0);
+        for (one, other) in of_run.iter().zip(of_run.iter().skip(1)).filter(|(one, other)| one != other) {
+            number = one.len() as f64;
+            all += number;
+            same += one.iter().zip(other).filter(|(one, other)| one == other).count() as f64;
+        }
+        let pairs = of_run.len() as f64 * (of_run.len() as f64 - 1.0) / 2.0;
+        let expected = if all > 0.0 { pairs * libm::pow(same / all, number) } else { 0.0 };
+        let p = coincidences::by_chance(expected, copies.len());
+        if copies.is_empty() || p > coincidences::COPIED {
+            return Vec::new();
+        }
+        let wrong = |(run, earlier): (usize, usize)| {
+            let runs = [earlier, run].map(|run| self.numbers[run]);
+            let found = format!("run {} with the same angles as run {}", runs[1], runs[0]);
+            let advice = "delete the copy, or, if both were measured, record more digits than the readings vary by";
+            let scope = Scope { runs: runs.to_vec(), ..Scope::default() };
+            self.at_run(run, [&found, "independent readings", advice], Kind::RunsCopied, scope, p)
+        };
+        copies.into_iter().filter_map(wrong).collect()
+    }
+
+    /// Returns an error for each run whose angles are those of the other runs in another unit, or in other columns or rows.
+    ///
+    /// The reference is the run to which half of the others are nearest. If half of the runs disagree with it, the
+    /// certificate decides which are wrong; without one both are named.
+    fn transformed(&self) -> Vec<Wrong> {
+        let count = self.each.len();
+        let usual = |reference: usize| {
+            let mut apart: Vec<f64> =
+                (0..count).filter(|run| *run != reference).map(|run| self.apart(run, reference)).collect();
+            apart.sort_by(f64::total_cmp);
+            // Fewer than half of the others may be wrong; of two runs, either.
+            if count > 2 { apart[count.div_ceil(2) - 2] } else { 0.0 }
+        };
+        let references = (0..count.min(REFERENCES)).map(|reference| (usual(reference), reference));
+        let Some((usual, reference)) = references.min_by(|(one, _), (other, _)| one.total_cmp(other)) else {
+            return Vec::new();
+        };
+        let explained = |run: usize, reference: &Angles| {
+            let nearest = self.nearest(run, reference)?;
+            nearest.explains(CLEARLY, usual).then_some(nearest)
+        };
+        let is_far = |run: &usize| *run != reference && self.apart(*run, reference) > CLEARLY * usual;
+        let far = (0..count).filter(is_far).filter_map(|run| Some((run, explained(run, &self.each[reference])?)));
+        let mut wrong: Vec<(usize, Transformation)> = far.collect();
+        let is_open = 2 * wrong.len() == count;
+        let mut decided = false;
+        if let (true, Some(certified)) = (is_open, &self.certified) {
+            let against: Vec<_> = (0..count).filter_map(|run| Some((run, explained(run, certified)?))).collect();
+            if 2 * against.len() == count {
+                (wrong, decided) = (against, true);
+            }
+        }
+        let others: Vec<u32> =
+            (0..count).filter(|run| wrong.iter().all(|(of, _)| of != run)).map(|run| self.numbers[run]).collect();
+        let error = |(run, change): (usize, Transformation)| {
+            let number = self.numbers[run];
+            let open = is_open && !decided;
+            let scope = match open {
+                true => Scope { runs: others.iter().copied().chain([number]).collect(), ..Scope::default() },
+                false => Scope { run: Some(number), ..Scope::default() },
+            };
+            let other: Words = match others[..] {
+                _ if decided => texts::OF_CERTIFICATE.into(),
+                [only] => texts::of_run(only),
+                _ => texts::OF_OTHERS.into(),
+            };
+            let found = change.of(other, &self.shared(run, &self.each[reference]).1, scope);
+            let advice = lower(&found.advice.as_ref().map_or_else(String::new, in_english));
+            let advice = match open {
+                true => format!(
+                    "the runs disagree, and either may be wrong: compare them with a certificate (--against), or measure a third run; {advice}"
+                ),
+                false => advice,
+            };
+            let what = in_english(&found.words);
+            let (.., row) = self.rows.iter().find(|((_, of), ..)| *of == number)?;
+            let problem = self.table.problem(
+                &row[2],
+                2,
+                format!("run {number}, in which {what}"),
+                "the angles of the other runs",
+                advice,
+            );
+            let found = Found { words: format!("In run {number} {what}.").into(), ..found };
+            Some((problem, found))
+        };
+        wrong.into_iter().filter_map(error).collect()
+    }
+
+    /// Returns the places that a run and a reference share, with their positions.
+    fn shared(&self, run: usize, reference: &Angles) -> (Vec<usize>, Vec<PositionIndex>) {
+        let is_shared = |place: &usize| self.each[run][*place].is_some() && reference[*place].is_some();
+        let places: Vec<usize> = (0..self.positions.len()).filter(is_shared).collect();
+        let positions = places.iter().map(|place| self.positions[*place]).collect();
+        (places, positions)
+    }
+
+    /// Returns the sum of the squared differences of two runs.
+    fn apart(&self, run: usize, other: usize) -> f64 {
+        let both = self.each[run].iter().zip(&self.each[other]).filter_map(|(one, other)| Some((*one)? - (*other)?));
+        both.map(|difference| difference.norm_squared()).sum()
+    }
+
+    fn nearest(&self, run: usize, reference: &Angles) -> Option<Transformation> {
+        let (places, positions) = self.shared(run, reference);
+        let angles = |of: &Angles| places.iter().filter_map(|place| of[*place]).collect::<Vec<_>>();
+        let (read, due) = (angles(&self.each[run]), angles(reference));
+        // Places in the order of the rows.
+        let of_run = self.rows.iter().filter(|((_, of), ..)| *of == self.numbers[run]);
+        let mut order: Vec<usize> =
+            of_run.filter_map(|((index, _), ..)| positions.iter().position(|at| at == index)).collect();
+        order.dedup();
+        let shifted = |by: isize| -> Rows {
+            let mut rows = vec![None; order.len()];
+            for (row, place) in order.iter().enumerate() {
+                rows[*place] = row.checked_add_signed(by).and_then(|row| order.get(row)).copied();
+            }
+            rows
+        };
+        let enough = order.len() > 3 && order.len() == positions.len();
+        let rows =
+            exchanged(&read, &due).into_iter().chain(enough.then(|| [shifted(1), shifted(-1)]).into_iter().flatten());
+        let flat = |angles: &[Vector3<f64>]| {
+            DVector::from_iterator(3 * angles.len(), angles.iter().flat_map(|at| at.iter().copied()))
+        };
+        Transformation::nearest(&read, &due, rows, &flat)
+    }
 }
 
-/// Returns a problem for each run whose angles are those that the other runs have one row further up or down.
-///
-/// With two runs, the readings do not show which one is wrong; they give no problem.
-fn other_rows(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Problem> {
-    let mut of_run: BTreeMap<u32, Vec<&Reading>> = BTreeMap::new();
-    for row in rows {
-        of_run.entry(row.0.1).or_default().push(row);
-    }
-    if of_run.len() < 3 {
-        return Vec::new();
-    }
-    // Squared difference of angles from the other runs at the position of another row, and the squared range of those.
-    let difference = |angles: &Vector3<f64>, (at, ..): &Reading| -> Option<[f64; 2]> {
-        (0..3).try_fold([0.0; 2], |[sum, ranges], axis| {
-            let others = others.get(&(*at, axis))?;
-            let range = others.most - others.least;
-            Some([sum + (angles[axis] - others.nearest_middle(angles[axis])).powi(2), ranges + range * range])
-        })
-    };
-    let problem = |(run, readings): (u32, Vec<&Reading>)| {
-        let fits = |by: &isize| {
-            let (mut now, mut shifted, mut ranges, mut rows) = (0.0, 0.0, 0.0, 0);
-            for (place, reading) in readings.iter().enumerate() {
-                let Some(other) = place.checked_add_signed(*by).and_then(|place| readings.get(place)) else { continue };
-                let own = difference(&reading.1, reading).zip(difference(&reading.1, other));
-                let Some(([here, _], [there, range])) = own else { continue };
-                (now, shifted, ranges, rows) = (now + here, shifted + there, ranges + range, rows + 1);
-            }
-            rows > 2 && CLEARLY * f64::max(shifted, ranges) < now
-        };
-        let way = if [1, -1].into_iter().find(fits)? > 0 { "below" } else { "above" };
-        let found = format!("run {run}, whose angles the other runs have in the row {way}");
-        let advice = "the rows of the run are shifted; put the angles into the rows of their positions";
-        at_run(table, rows, run, found, "the angles of each position in its own row", advice)
-    };
-    of_run.into_iter().filter_map(problem).collect()
+/// Returns the standard deviation of values.
+fn spread(values: &[f64]) -> f64 {
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    (values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>() / (count - 1.0)).sqrt()
+}
+
+/// Returns words with a small first letter.
+fn lower(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
 }

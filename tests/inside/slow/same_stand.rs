@@ -370,17 +370,14 @@ fn a_misread_file_is_named() {
     let mut stream = Stream::new(72);
     let stand = certificate(&truth, &mut stream, 5);
     let cases: [(Wrong, &str); 8] = [
-        (|at| at / 60.0, "divided by 60; they are in another unit. Convert them from arcminutes"),
-        (|at| at / 3600.0, "divided by 3600; they are in another unit. Convert them from degrees"),
-        (|at| at * 60.0, "60 times those of the certificate"),
-        (|at| at / 3.6, "divided by 3.6; they are in another unit. Convert them from millidegrees"),
-        (
-            |at| at * std::f64::consts::PI / 0.648,
-            "4.8 times those of the certificate; they are in another unit. Convert them from microradians",
-        ),
+        (|at| at / 60.0, "divided by 60 (as measured: "),
+        (|at| at / 3600.0, "divided by 3600 (as measured: "),
+        (|at| at * 60.0, "those of the certificate times 60 ("),
+        (|at| at / 3.6, "divided by 3.6 ("),
+        (|at| at * std::f64::consts::PI / 0.648, "those of the certificate times 4.848 ("),
         (|at| -at, "with the opposite sign"),
-        (|at| Vector3::new(at.x, at.z, at.y), "(read → certified: γ → β, β → γ)"),
-        (|at| Vector3::new(-at.x, at.y, at.z), "(read → certified: -α → α)"),
+        (|at| Vector3::new(at.x, at.z, at.y), "(read → due: γ → β, β → γ)"),
+        (|at| Vector3::new(-at.x, at.y, at.z), "(read → due: -α → α)"),
     ];
     for (wrong, due) in cases {
         let mut check = truth.measured(&mut stream, 3);
