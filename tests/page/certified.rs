@@ -164,7 +164,7 @@ fn a_record_has_the_numbers_of_the_certificate() {
                 assert!(marked.contains(&at[key].as_f64().unwrap()), "{}: {key} {}", record.name, at[key]);
             }
             // Alpha and gamma take the part of a rotation that the angle beta leaves them.
-            let share = (at["beta_arcsec"].as_f64().unwrap() / 3600.0).to_radians().cos();
+            let share = libm::cos((at["beta_arcsec"].as_f64().unwrap() / 3600.0).to_radians());
             for (key, share) in [("u_alpha_arcsec", share), ("u_beta_arcsec", 1.0), ("u_gamma_arcsec", share)] {
                 let own = at[key].as_f64().unwrap();
                 let expanded = 2.0 * common.iter().fold(own * own, |sum, u| sum + (u / share).powi(2)).sqrt();
