@@ -38,7 +38,7 @@ mod document;
 #[cfg(feature = "factory")]
 mod forgeries;
 mod frame_axis;
-#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+#[cfg(all(feature = "factory", feature = "monte-carlo", feature = "report"))]
 mod hidden_drift;
 mod interface;
 #[cfg(feature = "factory")]
