@@ -36,8 +36,13 @@ pub(super) fn add(arguments: &mut Vec<OsString>) -> Result<Vec<String>, Failure>
     };
     let folder =
         matches.get_one::<PathBuf>("workspace").cloned().or_else(|| variable(WORKSPACE_VARIABLE).map(Into::into));
-    // `init` makes a workspace, so the one that the environment names need not be there yet.
-    let folder = folder.filter(|_| matches.subcommand_name() != Some("init"));
+    folder.iter().cloned().for_each(open_workspace::set_folder);
+    // `init` and `receive` make a workspace, so the one that the environment names need not be there yet.
+    let folder = folder.filter(|folder| match matches.subcommand_name() {
+        Some("init") => false,
+        Some("receive") => folder.join(WORKSPACE_FILE).exists(),
+        _ => true,
+    });
     let workspace = folder.map(|folder| Workspace::read(&folder).map_err(|error| no_workspace(&folder, error)));
     let workspace = workspace.transpose()?;
     let mut added: Vec<Added> = Vec::new();

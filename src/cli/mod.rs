@@ -10,6 +10,7 @@ mod calibrate;
 mod certify;
 mod completions;
 mod defaults;
+mod deliver;
 mod demo;
 mod diff;
 mod exclusion;
@@ -30,6 +31,7 @@ mod new;
 mod open_workspace;
 mod output;
 mod plan;
+mod receive;
 mod recertify;
 mod register;
 mod reissue;
@@ -102,6 +104,8 @@ verbs! {
     Diff = diff,
     History = history,
     Render = render,
+    Deliver = deliver,
+    Receive = receive,
     Calibrate = calibrate,
     Register = register,
     Revoke = revoke,

@@ -36,6 +36,8 @@ tables! {
     compass
     /// A digital calibration certificate.
     dcc
+    /// What a factory hands to a laboratory, and what was received.
+    delivery
     /// Differences of two passports.
     difference
     /// A stand over the years.

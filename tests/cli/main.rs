@@ -10,6 +10,7 @@ mod programs;
 mod calibrate;
 mod certify;
 mod dcc;
+mod deliver;
 mod export;
 mod generated;
 mod history;
