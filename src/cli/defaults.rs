@@ -117,7 +117,11 @@ fn values(workspace: Option<&Workspace>, verb: &str) -> impl Iterator<Item = Add
         let named = variable(name).map(|value| (option, value, ENVIRONMENT));
         named.or(stated.map(|value| (option, value, FILE)))
     });
+    let calibrates = verb == "calibrate";
     let of_this_verb = [
+        ("--at", calibrates || verb == "verify", stated(|workspace| workspace.at.clone().map(Into::into))),
+        ("--laboratory", calibrates, stated(|workspace| workspace.laboratory.clone().map(Into::into))),
+        ("--gyro", calibrates, stated(|workspace| workspace.gyro.clone().map(Into::into))),
         ("--out", WRITE_PASSPORTS.contains(&verb), passports()),
         ("--register-key", true, stated(|workspace| workspace.register_key.clone().map(Into::into))),
         // `register` has its folder without an option.
@@ -142,7 +146,7 @@ fn lacks(command: &Command, matches: &ArgMatches, option: &str) -> bool {
         .find(|argument| argument.get_long().is_some_and(|long| option.strip_prefix("--") == Some(long)));
     let given =
         |id: &str| matches.try_contains_id(id).is_ok() && matches.value_source(id) == Some(ValueSource::CommandLine);
-    let excluded = ["--trust", "--register"].contains(&option) && given("no_verify")
+    let excluded = ["--trust", "--register", "--at"].contains(&option) && given("no_verify")
         || option == "--register-key" && given("without_register");
     found.is_some_and(|argument| !given(argument.get_id().as_str()) && !excluded)
 }

@@ -2,12 +2,15 @@
 //! keys and the folders of all commands.
 //!
 //! * `layout`: a new workspace.
+//! * `results`: calibrations in a laboratory.
 //! * `status`: the contents of a workspace.
 
 mod layout;
+mod results;
 mod status;
 
 pub(crate) use layout::{Kind, NotMade, make};
+pub(crate) use results::{NoPassport, Results, serial_of};
 pub(crate) use status::status;
 
 use crate::files::{self, FileError};

@@ -46,7 +46,8 @@ pub(crate) enum NoPassport {
 impl Workspace {
     /// Returns the stand of a laboratory, the one with this serial number if there are several.
     pub(crate) fn stand_in_use(&self, serial: Option<&str>) -> Result<&str, NoPassport> {
-        let has = |stand: &&String| serial.is_none_or(|serial| stand.ends_with(&format!("/{serial}")) || *stand == serial);
+        let has =
+            |stand: &&String| serial.is_none_or(|serial| stand.ends_with(&format!("/{serial}")) || *stand == serial);
         let mut stands = self.stand.iter().filter(has);
         match (stands.next(), stands.next()) {
             (Some(stand), None) => Ok(stand),
@@ -135,7 +136,8 @@ fn number_of(name: &str, serial: &str) -> Option<(Date, u32)> {
     let rest = name.strip_suffix(".json")?.strip_prefix(serial)?.strip_prefix('-')?;
     let (day, number) = (rest.get(..10)?, rest.get(10..)?);
     let day: Date = day.parse().ok().filter(|date: &Date| date.to_string() == day)?;
-    let number = if number.is_empty() { 1 } else { number.strip_prefix('-')?.parse().ok().filter(|number| *number > 1)? };
+    let number =
+        if number.is_empty() { 1 } else { number.strip_prefix('-')?.parse().ok().filter(|number| *number > 1)? };
     Some((day, number))
 }
 

@@ -4,7 +4,7 @@ use super::{WORKSPACE_FILE, Workspace};
 use crate::batch::paths::{is_stand, is_yaml};
 use crate::files::walk::{Entry, Walk};
 use crate::files::{self, FileError};
-use crate::folder::overview::{Overview, Query};
+use crate::folder::overview::{Overview, Query, StandRows};
 use crate::parallel;
 use crate::passport::{Question, Trust};
 use crate::register::{Row, State};
@@ -17,7 +17,7 @@ use crate::stand::Stand;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, name_of, printable, shown};
 use crate::trust::PublicKey;
 use crate::wording::Text;
-use crate::wording::texts::{register as register_texts, status as texts};
+use crate::wording::texts::{checks, register as register_texts, status as texts};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use serde::Serialize;
@@ -70,6 +70,9 @@ struct Passports {
     /// Current passports that have expired, for the text.
     #[serde(skip)]
     expired: Vec<Row>,
+    /// The registers of a laboratory's stands, and what is in force by them, for the text.
+    #[serde(skip)]
+    in_force: Vec<Words>,
     /// Registers that will soon no longer be fresh: stand and last day, for the text.
     #[serde(skip)]
     aging: Vec<(String, Date)>,
@@ -143,7 +146,7 @@ pub(crate) fn status(
         time,
         stands,
         sites,
-        passports: register.map(|overview| passports(&overview, time)),
+        passports: register.map(|overview| passports(&overview, time, workspace.is_of_a_laboratory())),
         keys,
         signing_key: workspace.key.as_deref().map(|key| signing_key(key, workspace, trust, time)),
         remarks,
@@ -208,22 +211,34 @@ fn read_each<T, L>(
     Ok(lines)
 }
 
-fn passports(overview: &Overview, time: Timestamp) -> Passports {
-    let rows = |wanted: &dyn Fn(&Row) -> bool| overview.rows().filter(|row| wanted(row)).cloned().collect::<Vec<_>>();
+/// Returns the passports of a folder; a laboratory counts only those that it has.
+fn passports(overview: &Overview, time: Timestamp, is_of_a_laboratory: bool) -> Passports {
+    let counts_here = |row: &&Row| row.file.is_some() || !is_of_a_laboratory;
+    let all = || overview.rows().filter(counts_here);
+    let rows = |wanted: &dyn Fn(&Row) -> bool| all().filter(|row| wanted(row)).cloned().collect::<Vec<_>>();
     let expired = rows(&|row| row.state == State::Current && row.expired);
     let expiring = rows(&|row| row.is_in_force() && row.days_left(time).is_some_and(|days| days <= SOON_DAYS));
     let mut counts = BTreeMap::from([("expired", expired.len()), ("expiring", expiring.len())]);
     for state in State::ALL {
-        let number =
-            overview.rows().filter(|row| row.state == state && !(state == State::Current && row.expired)).count();
+        let number = all().filter(|row| row.state == state && !(state == State::Current && row.expired)).count();
         counts.insert(state.key(), number);
     }
     let today = time.to_zoned(jiff::tz::TimeZone::UTC).date();
     let is_soon = |last: &Date| today.until(*last).is_ok_and(|span| (0..=SOON_DAYS).contains(&span.get_days()));
     let aging = overview.stands.iter().filter_map(|one| Some((one.stand.clone(), one.fresh_until.filter(is_soon)?)));
+    let of_stand = |stand: &StandRows| {
+        let fresh = stand.fresh_until.map_or_else(|| "".into(), checks::register_fresh);
+        let register = register_texts::register_of(stand.sequence, stand.issued_at, fresh);
+        let in_force = stand.rows.iter().filter(|row| row.is_in_force() && row.file.is_some()).map(|row| {
+            let until = row.valid_until.map(|last| Words::All(vec!["  ".into(), register_texts::valid_until(last)]));
+            Words::All([given(&row.id)].into_iter().chain(until).collect())
+        });
+        [vec![given(&stand.stand), "  ".into(), register].into()].into_iter().chain(in_force).collect::<Vec<Words>>()
+    };
+    let in_force = overview.stands.iter().filter(|_| is_of_a_laboratory).flat_map(of_stand).collect();
     let alarms = overview.alarms.iter().map(ToString::to_string).collect();
     let found = overview.alarms.iter().map(alarm).collect();
-    Passports { counts, expiring, expired, aging: aging.collect(), alarms, found }
+    Passports { counts, expiring, expired, in_force, aging: aging.collect(), alarms, found }
 }
 
 fn keys(trust: &Trust, time: Timestamp) -> Vec<KeyLine> {
@@ -368,6 +383,7 @@ impl Passports {
         let counts: Vec<Words> = counts.map(|(count, state)| register_texts::counted(count, state)).collect();
         let counts = if counts.is_empty() { texts::NONE.into() } else { listed(counts) };
         let mut lines = vec![vec![texts::PASSPORTS.into(), counts]];
+        below(&mut lines, self.in_force.iter().cloned());
         let of_row = |row: &Row, words: Words| Words::All(vec![given(&row.id), "  ".into(), words]);
         below(&mut lines, self.expiring.iter().map(|row| of_row(row, register_texts::valid_until(row.valid_until))));
         let was_valid = |row: &Row| texts::was_valid(marked(Outcome::Failed, texts::EXPIRED), row.valid_until);

@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 /// A workspace of a factory with two stands, and next to it whatever a test makes.
-struct Place(tempfile::TempDir);
+pub struct Place(tempfile::TempDir);
 
 impl Place {
-    fn new() -> Self {
+    pub fn new() -> Self {
         let place = Self(tempfile::tempdir().unwrap());
         place.good("init factory --identity factory@example.org");
         place.good(
@@ -41,17 +41,22 @@ impl Place {
         place
     }
 
-    fn path(&self, name: &str) -> PathBuf {
+    pub fn path(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
     }
 
-    fn run(&self, arguments: &str) -> Output {
+    pub fn run(&self, arguments: &str) -> Output {
+        self.command(&arguments.split_whitespace().collect::<Vec<_>>())
+    }
+
+    pub fn command(&self, words: &[&str]) -> Output {
         let mut command = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
-        let words: Vec<&str> = arguments.split_whitespace().collect();
+        // No browser prints here; what one prints is tested elsewhere.
+        command.env("DTG_PASSPORT_BROWSER", "no-browser-of-this-name");
         command.args(words).current_dir(&self.0).stdin(Stdio::null()).output().unwrap()
     }
 
-    fn good(&self, arguments: &str) -> String {
+    pub fn good(&self, arguments: &str) -> String {
         let output = self.run(arguments);
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(output.status.success(), "{arguments}: {said}");
@@ -59,7 +64,7 @@ impl Place {
     }
 
     /// Runs the program, which must refuse with exit code 1 and the `words`, and returns all that it said.
-    fn refused(&self, arguments: &str, words: &str) -> String {
+    pub fn refused(&self, arguments: &str, words: &str) -> String {
         let output = self.run(arguments);
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(output.status.code(), Some(1), "{arguments}: {said}");
@@ -68,13 +73,13 @@ impl Place {
     }
 
     /// The fingerprint as OpenSSH tells it.
-    fn fingerprint(&self, key: &str) -> String {
+    pub fn fingerprint(&self, key: &str) -> String {
         let output = Command::new("ssh-keygen").arg("-lf").arg(self.path(key)).output().unwrap();
         String::from_utf8(output.stdout).unwrap().split(' ').nth(1).unwrap().to_owned()
     }
 
     /// Every file below the folder of the test, with its content.
-    fn files(&self) -> BTreeMap<PathBuf, Vec<u8>> {
+    pub fn files(&self) -> BTreeMap<PathBuf, Vec<u8>> {
         fn add(folder: &Path, all: &mut BTreeMap<PathBuf, Vec<u8>>) {
             for entry in fs::read_dir(folder).unwrap() {
                 let path = entry.unwrap().path();

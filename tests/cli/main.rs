@@ -18,6 +18,7 @@ mod history;
 mod hostile_words;
 mod json_keys;
 mod keystrokes;
+mod laboratory;
 #[cfg(unix)]
 mod links;
 mod recertify;
