@@ -17,7 +17,7 @@ use crate::folder::{Folder, Memory, Registers};
 use crate::passport::{Question, Trust, Verification, verify};
 use crate::register::{Entry, FILE_NAME, RegisterRefused, State};
 use crate::report::Languages;
-use crate::report::doc::{Block, Words, given, line, marked};
+use crate::report::doc::{Block, Words, given, line, listed, marked};
 use crate::report::page::instructions::instructions;
 use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, name_of as shown_name};
 use crate::trust::PublicKey;
@@ -27,13 +27,20 @@ use archive::BadArchive;
 use place::name_of;
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Stand, or one site of it, whose passports are handed over.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Wanted {
     pub stand: String,
     pub site: Option<String>,
+}
+
+impl Wanted {
+    /// Returns the path of its archive in a folder of archives.
+    pub(crate) fn path_in(&self, folder: &Path) -> PathBuf {
+        folder.join(&self.stand).join(format!("{}.zip", self.site.as_deref().unwrap_or("all")))
+    }
 }
 
 impl std::str::FromStr for Wanted {
@@ -158,6 +165,18 @@ impl Delivery {
         lines.extend(keys(&self.keys));
         vec![line(marked(Some(true), texts::delivered(given(name)))), Block::Whole("", lines), line(texts::TELL)]
     }
+
+    /// Returns what is handed over in the file of this name as one line.
+    pub(crate) fn row(&self, name: &str) -> Vec<Block> {
+        let ids = listed(self.passports.iter().map(|passport| given(&passport.id)));
+        let words = vec![texts::delivered(given(name)), "  ".into(), ids];
+        vec![Block::Whole("", vec![vec![marked(Some(true), words)]])]
+    }
+}
+
+/// Returns the fingerprints that go by another way.
+pub(crate) fn tell(of: &[Signer]) -> Vec<Block> {
+    vec![Block::Whole("", keys(of).collect()), line(texts::TELL)]
 }
 
 fn passports(all: &[Delivered]) -> Vec<Vec<Words>> {

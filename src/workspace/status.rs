@@ -1,5 +1,6 @@
 //! Contents of a workspace: stands, sites, passports in force, passports that expire soon, alarms, keys.
 
+use super::due::{self, Due};
 use super::{WORKSPACE_FILE, Workspace};
 use crate::batch::paths::{is_stand, is_yaml};
 use crate::files::walk::{Entry, Walk};
@@ -25,7 +26,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Number of days before the expiry date from which a passport or certificate is listed as expiring.
-const SOON_DAYS: i32 = 90;
+pub(crate) const SOON_DAYS: i32 = 90;
 
 /// Most lines of one kind in the text; the rest is counted.
 const MOST_LINES: usize = 20;
@@ -34,11 +35,13 @@ const MOST_LINES: usize = 20;
 pub(crate) struct Status {
     workspace: String,
     time: Timestamp,
-    stands: Vec<StandLine>,
+    pub(super) stands: Vec<StandLine>,
     sites: Vec<SiteLine>,
     passports: Option<Passports>,
-    keys: Vec<KeyLine>,
+    pub(super) keys: Vec<KeyLine>,
     signing_key: Option<SigningKeyLine>,
+    /// What will expire or stop being fresh, by date.
+    pub(crate) due: Vec<Due>,
     /// Files that cannot be read, and parts that the workspace does not state, in words.
     remarks: Vec<String>,
     /// Whether the register could not be read completely.
@@ -47,12 +50,14 @@ pub(crate) struct Status {
 }
 
 #[derive(Debug, Serialize)]
-struct StandLine {
-    id: String,
+pub(super) struct StandLine {
+    pub(super) id: String,
     file: String,
-    certificate: String,
-    valid_until: Option<Date>,
+    pub(super) certificate: String,
+    pub(super) valid_until: Option<Date>,
     expired: bool,
+    #[serde(skip)]
+    pub(super) customer: Option<String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -84,12 +89,12 @@ struct Passports {
 
 /// A trusted key, as a line of allowed_signers states it.
 #[derive(Debug, Serialize)]
-struct KeyLine {
-    principals: String,
+pub(super) struct KeyLine {
+    pub(super) principals: String,
     namespaces: Option<String>,
     fingerprint: String,
     valid_after: Option<Timestamp>,
-    valid_before: Option<Timestamp>,
+    pub(super) valid_before: Option<Timestamp>,
     valid: bool,
 }
 
@@ -105,12 +110,12 @@ struct SigningKeyLine {
 
 /// Returns what `workspace` holds at `time`; without `trust`, passports are not examined.
 ///
-/// Freshness is judged at the later of `time` and `now`.
+/// Freshness is judged at the later of `time` and `now`. What is due is listed for `days` days.
 pub(crate) fn status(
     workspace: &Workspace,
     trust: Option<&Trust>,
-    time: Timestamp,
-    now: Timestamp,
+    (time, now): (Timestamp, Timestamp),
+    days: i32,
 ) -> Result<Status, FileError> {
     let mut remarks = Vec::new();
     let stands = stands(workspace, time, &mut remarks)?;
@@ -141,17 +146,20 @@ pub(crate) fn status(
     let incomplete = register.as_ref().is_some_and(Overview::is_incomplete);
     remarks.extend(register.iter().flat_map(|overview| overview.remarks.clone()));
     let keys = trust.map_or_else(Vec::new, |trust| keys(trust, time));
-    Ok(Status {
+    let mut status = Status {
         workspace: name_of(&workspace.root),
         time,
         stands,
         sites,
-        passports: register.map(|overview| passports(&overview, time, workspace.is_of_a_laboratory())),
+        passports: register.as_ref().map(|overview| passports(overview, time, workspace.is_of_a_laboratory())),
         keys,
         signing_key: workspace.key.as_deref().map(|key| signing_key(key, workspace, trust, time)),
+        due: Vec::new(),
         remarks,
         incomplete,
-    })
+    };
+    status.due = due::due(workspace, register.as_ref(), &status, (time, days));
+    Ok(status)
 }
 
 fn stands(workspace: &Workspace, time: Timestamp, remarks: &mut Vec<String>) -> Result<Vec<StandLine>, FileError> {
@@ -160,6 +168,7 @@ fn stands(workspace: &Workspace, time: Timestamp, remarks: &mut Vec<String>) -> 
     let line = |file: String, stand: Stand| StandLine {
         id: stand.stand.id(),
         file,
+        customer: stand.stand.customer,
         certificate: stand.certificate.number,
         valid_until: stand.certificate.valid_until,
         expired: stand.certificate.valid_until.is_some_and(|last| last < today),

@@ -11,6 +11,16 @@ pub struct Place(tempfile::TempDir);
 
 impl Place {
     pub fn new() -> Self {
+        let place = Self::before_issue();
+        place.good(
+            "issue SPS-2/0017 SPS-2/0018 --site moscow-bmstu --site torino-inrim --workspace factory \
+             --allow-uncalibratable",
+        );
+        place
+    }
+
+    /// Makes the workspace with stands and sites, but without passports.
+    pub fn before_issue() -> Self {
         let place = Self(tempfile::tempdir().unwrap());
         place.good("init factory --identity factory@example.org");
         place.good(
@@ -34,10 +44,6 @@ impl Place {
             let name = format!("{site}.yaml");
             fs::copy(programs::project("sites").join(&name), place.path("factory/sites").join(&name)).unwrap();
         }
-        place.good(
-            "issue SPS-2/0017 SPS-2/0018 --site moscow-bmstu --site torino-inrim --workspace factory \
-             --allow-uncalibratable",
-        );
         place
     }
 

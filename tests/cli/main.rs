@@ -12,6 +12,7 @@ mod certify;
 mod dcc;
 mod deliver;
 mod export;
+mod fleet;
 mod generated;
 mod history;
 #[cfg(unix)]
