@@ -72,12 +72,13 @@
 //! | `schema` | JSON Schemas of the formats; what makes them with `generate` | `cli` |
 //! | `template` | commented files to begin with | `cli` |
 //! | `workspace` | a folder that states key, trust and folders; its contents | `cli` |
+//! | `delivery` | what a laboratory gets in one file: written, and received from anyone | `cli` |
 //! | `pdf` | a page as PDF, printed by an installed browser | `cli` |
 //! | `demonstration` | the whole story on a built-in example | `cli` |
 //! | [`cli`] | the command line: read, call, write | `cli` |
 //!
 //! The feature `cli`, which has all the others and is the default, builds the program. Only `files`, `signing`, `folder`,
-//! `batch`, `workspace`, `pdf` and `demonstration` touch the file system or start a program; nothing reads the
+//! `batch`, `workspace`, `delivery`, `pdf` and `demonstration` touch the file system or start a program; nothing reads the
 //! clock, prints, or looks at the environment (`ssh-keygen`, where it signs, looks for its agent there, and `pdf` for the
 //! browser).
 //!
@@ -108,6 +109,8 @@ pub mod cli;
 pub mod coefficients;
 #[cfg(feature = "cli")]
 pub(crate) mod dcc;
+#[cfg(feature = "cli")]
+pub(crate) mod delivery;
 #[cfg(feature = "cli")]
 pub(crate) mod demonstration;
 pub(crate) mod document;

@@ -1,6 +1,7 @@
 //! Batch that issues revision 1 of every stand at every site, with one new register for each stand.
 
 use super::catalogue::{Catalogue, Listed};
+use super::deliveries::Terms;
 use super::{Batch, Event, Failure, Listener, Outcome, Purpose, fail, parallel, paths, sweep};
 use crate::files::folder_of;
 use crate::files::walk::Visited;
@@ -28,6 +29,16 @@ pub(crate) struct Job<'a> {
     pub sites: &'a [PathBuf],
     /// Order that all passports have in common.
     pub order: &'a Issue,
+    /// Stands and sites that belong together, by their identifiers; every stand and every site if `None`.
+    pub rows: Option<&'a BTreeMap<(String, String), Terms>>,
+}
+
+impl Job<'_> {
+    /// Returns what is agreed for a stand at a site, or `None` if no passport is to be issued for it.
+    fn terms(&self, stand: &PreparedStand, site: &Site) -> Option<Terms> {
+        let id = || (stand.stand().stand.id(), site.id.to_string());
+        self.rows.map_or_else(|| Some(Terms::default()), |rows| rows.get(&id()).cloned())
+    }
 }
 
 /// Stand whose passports are being issued. Their outcomes are reported once its register lists them.
@@ -50,7 +61,8 @@ impl Batch<'_> {
         let all_sites = (sites.len() + bad_files) as u64;
         fail(bad_stands, all_sites, tell);
         fail(bad_sites, stands.len() as u64, tell);
-        tell(Event::Planned(self.shard.share((stands.len() * sites.len()) as u64)));
+        let all = job.rows.map_or(stands.len() * sites.len(), BTreeMap::len);
+        tell(Event::Planned(self.shard.share(all as u64)));
         let names = sites.ids().map(|id| format!("{id}-{}.yaml", job.order.revision)).collect();
         let run = Run { batch: self, job, swept: Visited::default(), names };
         if !self.is_dry() {
@@ -82,6 +94,8 @@ impl<'a> Run<'a> {
                 self.remark_on_misplaced(&works, &sites, tell);
                 let pairs: Vec<(usize, &Site)> =
                     (0..works.len()).flat_map(|work| sites.iter().map(move |site| (work, &**site))).collect();
+                let is_wanted = |(work, site): &(usize, &Site)| self.job.terms(&works[*work].stand, site).is_some();
+                let pairs: Vec<_> = pairs.into_iter().filter(is_wanted).collect();
                 for chunk in pairs.chunks(self.batch.chunk()) {
                     if self.batch.cancelled() {
                         break;
@@ -184,7 +198,14 @@ impl<'a> Run<'a> {
 
     /// Issues a single passport; every passport of a batch is made here.
     fn one(&self, Work { folder, stand, .. }: &Work, site: &Site) -> Outcome {
-        let order = self.job.order;
+        let Terms { valid_until, customer } = self.job.terms(stand, site).unwrap_or_default();
+        let order = &Issue { valid_until: valid_until.or(self.job.order.valid_until), ..self.job.order.clone() };
+        let of_customer = customer.map(|customer| {
+            let mut stand = stand.stand().clone();
+            stand.stand.customer = Some(customer);
+            PreparedStand::new(stand)
+        });
+        let stand = of_customer.as_ref().unwrap_or(stand);
         if !self.batch.is_dry() {
             sweep(&self.swept, folder_of(&folder.path_of(site.id.as_str(), order.revision)));
         }

@@ -7,6 +7,8 @@
 //!
 //! * `paths`: arguments of the user: files, folders, patterns, lists.
 //! * `catalogue`: stand and site files by their ids.
+//! * `certificates`: one header for many stands.
+//! * `deliveries`: which stand goes where.
 //! * `shard`: a part of a job, for one of several machines.
 //! * `once`: readings that are given twice under two names.
 //! * `issue`: every stand at every site.
@@ -14,6 +16,8 @@
 //! * `recertification`: a new certificate of one stand, and the successors of its passports.
 
 pub(crate) mod catalogue;
+pub(crate) mod certificates;
+pub(crate) mod deliveries;
 pub(crate) mod issue;
 pub(crate) mod once;
 pub(crate) mod paths;

@@ -29,12 +29,14 @@ use crate::report::{CalibrationPage, PassportPage, UsedPassport};
 use crate::report::{issued, style};
 use crate::text::{Kind, Printable, name_of, printable, shown};
 use crate::wording::plain;
+use crate::workspace::{NoPassport, Results, serial_of};
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueEnum};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use serde::Serialize;
 use serde_json::Value;
+use std::cell::Cell;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -42,11 +44,16 @@ use std::path::{Path, PathBuf};
 ///
 /// For several gyros on one stand, give several files, a quoted pattern, or a folder, whose *.csv files are read; with -
 /// the paths are read from standard input. Each gyro gives one line of output, and with --format json one line of JSON.
+///
+/// In the workspace of a laboratory that states its stand, PASSPORT may be left out: the one in force is used. The name of a
+/// file of currents is then the serial number of its gyro, the last result of this gyro is compared, and the new result and
+/// its report are written into the folder of results.
 #[derive(Args)]
+#[command(allow_missing_positional = true)]
 pub(super) struct Options {
     /// Passport file; in a workspace also its identifier
     #[arg(value_name = "PASSPORT", value_parser = defaults::passport())]
-    passport: PathBuf,
+    passport: Option<PathBuf>,
     /// Currents of a gyro: CSV with the header i,j,jx_ma,jy_ma and optionally cycle, visit, time_s; without visit,
     /// successive rows of a position belong to one visit
     #[arg(required = true, value_name = "CURRENTS.csv")]
@@ -161,24 +168,52 @@ fn limit(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let one = paths::one_file(&options.currents).filter(|_| options.out.is_none());
+    let (passport, currents) = options.inputs();
+    let one = paths::one_file(&currents).filter(|_| options.out.is_none());
     if one.is_none() {
         options.check_for_several()?;
     }
-    let enquiry = options.whom.load()?;
+    let mut enquiry = options.whom.load()?;
+    let (passport, results) = match passport {
+        Some(passport) => (passport.to_owned(), None),
+        None => in_force(enquiry.as_mut())?,
+    };
     let bench = Bench {
         options,
-        passport: Read::of(&options.passport, enquiry.as_ref())?,
+        passport: Read::of(&passport, enquiry.as_ref())?,
         enquiry,
         laboratory: inputs::laboratory(options.laboratory.as_deref())?,
         gyro_type: inputs::gyro(options.gyro.as_deref())?,
         previous: previous(options)?,
+        results: results.filter(|_| options.out.is_none()),
+        lacks_pdf: Cell::new(false),
         administrative: AdministrativeFile::read(options.administrative.as_deref())?,
     };
-    bench.check()?;
+    bench.check(&bench.subject(), &bench.previous)?;
     match one {
-        Some(currents) => bench.one(currents),
-        None => bench.several(),
+        Some(path) => bench.one(path),
+        None => bench.several(&currents),
+    }
+}
+
+/// Returns the passport that is in force in the workspace of a laboratory, and its folder of results.
+fn in_force(enquiry: Option<&mut Enquiry>) -> Result<(PathBuf, Option<PathBuf>), Failure> {
+    let missing = "missing PASSPORT; give it, or use the workspace of a laboratory that states `stand`";
+    let workspace = defaults::workspace().ok_or_else(|| Failure::usage(missing))?;
+    let enquiry = enquiry.ok_or_else(|| Failure::usage("--no-verify needs PASSPORT"))?;
+    let stand = workspace.stand_in_use(enquiry.question.serial.as_deref()).map_err(no_passport)?;
+    let serial = stand.rsplit('/').next().unwrap_or(stand);
+    enquiry.question.serial = Some(serial.to_owned());
+    let path = workspace.passport_in_force(stand, enquiry).map_err(no_passport)?;
+    Ok((path, workspace.results.clone()))
+}
+
+fn no_passport(error: NoPassport) -> Failure {
+    match error {
+        NoPassport::File(error) => error.into(),
+        NoPassport::Unreadable(error) => error.into(),
+        error @ (NoPassport::Register(_) | NoPassport::None(_) | NoPassport::Unusable(..)) => Failure::refused(error),
+        error => Failure::usage(error),
     }
 }
 
@@ -191,6 +226,10 @@ struct Bench<'a> {
     laboratory: Laboratory,
     gyro_type: Option<GyroType>,
     previous: Vec<CalibrationDocument>,
+    /// Folder of the results of a laboratory, with which each new one is compared.
+    results: Option<PathBuf>,
+    /// `true` once no browser has printed a report.
+    lacks_pdf: Cell<bool>,
     administrative: AdministrativeFile,
 }
 
@@ -198,6 +237,9 @@ struct Found {
     /// Name of the file of currents, and the SHA-256 of its content.
     currents: (String, String),
     done: Done,
+    previous: Vec<CalibrationDocument>,
+    /// Path of the result in the folder of results, without its extension.
+    place: Option<PathBuf>,
     uncertainty: uncertainty::Found,
 }
 
@@ -246,10 +288,10 @@ impl Bench<'_> {
 
     /// Refuses readings of a day that has not come, and warns of those from before the stand was measured, and of previous
     /// results of another gyro type or without a serial number.
-    fn check(&self) -> Result<(), Failure> {
-        let early = self.subject().check_date(&self.passport.content.certificate).map_err(Failure::unusable)?;
-        let another = another_type(&self.previous, self.gyro_type.as_ref());
-        let unknown = self.subject().unknown_gyro(&self.previous);
+    fn check(&self, subject: &Subject, previous: &[CalibrationDocument]) -> Result<(), Failure> {
+        let early = subject.check_date(&self.passport.content.certificate).map_err(Failure::unusable)?;
+        let another = another_type(previous, self.gyro_type.as_ref());
+        let unknown = subject.unknown_gyro(previous);
         early.iter().chain(&another).chain(&unknown).for_each(|words| output::warn(words));
         Ok(())
     }
@@ -263,12 +305,22 @@ impl Bench<'_> {
         exclude(options, &name, &mut prepared.readings)?;
         prepared.readings.remarks.iter().for_each(|remark| output::say(remark));
         let asked = options.asked();
-        let mut done = prepared.run(&asked, self.subject(), &self.previous)?;
+        let (mut subject, mut previous, mut place) = (self.subject(), self.previous.clone(), None);
+        if let Some(folder) = &self.results {
+            let serial = serial_of(path, options.gyro_serial.as_deref()).map_err(no_passport)?;
+            let day = || self.verified_as_of().unwrap_or_else(Timestamp::now).to_zoned(jiff::tz::TimeZone::UTC).date();
+            let results = Results::of(folder, &serial, options.date.unwrap_or_else(day)).map_err(no_passport)?;
+            subject.gyro_serial = Some(serial);
+            previous.extend(results.last);
+            place = Some(results.next);
+            self.check(&subject, &previous)?;
+        }
+        let mut done = prepared.run(&asked, subject, &previous)?;
         done.document.register = self.passport.verification.as_ref().and_then(Verification::register).cloned();
         let tolerance = self.gyro_type.as_ref().map(|gyro_type| &gyro_type.tolerance);
         let asked = (&asked, tolerance);
         let uncertainty = options.uncertainty.find(&done.setup, &done.readings, &done.calibration, asked)?;
-        Ok(Found { currents: (name, sha256_hex(&bytes)), done, uncertainty })
+        Ok(Found { currents: (name, sha256_hex(&bytes)), done, previous, place, uncertainty })
     }
 
     fn one(&self, path: &Path) -> Result<Code, Failure> {
@@ -288,6 +340,7 @@ impl Bench<'_> {
             written.push((path, output::page(path, self.page(&found)?, force)?));
         }
         written.iter().try_for_each(|(path, bytes)| output::saved_too(path, bytes, force))?;
+        self.keep(&found)?.iter().for_each(|path| output::say_after(&format!("wrote {}", shown(path))));
         if options.dcc.is_some() {
             output::say_after("the DCC is not signed; the passport of the stand is, and its SHA-256 is in the DCC");
         }
@@ -300,7 +353,7 @@ impl Bench<'_> {
                 output::json(&found.whole())?;
             }
             Format::Text => {
-                let of = report::Report::of(done, self.gyro_type.as_ref(), &self.previous, options.details);
+                let of = report::Report::of(done, self.gyro_type.as_ref(), &found.previous, options.details);
                 let (language, checks) = (lang::of_text(), self.checks());
                 let how = report::Said { language, meter_assumed: options.laboratory.is_none(), checks };
                 let text = report::text(done, trials, &of, &how);
@@ -311,7 +364,7 @@ impl Bench<'_> {
     }
 
     /// Calibrates several gyros, with one line for each.
-    fn several(&self) -> Result<Code, Failure> {
+    fn several(&self, currents: &[PathBuf]) -> Result<Code, Failure> {
         let options = self.options;
         let certificate = &self.passport.content.certificate;
         if let Some(warning) = TemperatureOutside::of(certificate, &self.subject(), Some(&self.laboratory)) {
@@ -328,19 +381,29 @@ impl Bench<'_> {
             if let Some(folder) = &options.out {
                 self.write(folder, path, &found, &mut written)?;
             }
+            if let Some(serial) = found.done.document.gyro_serial().filter(|_| found.place.is_some()) {
+                // Otherwise the second of one gyro would be compared with the first.
+                let other = written.insert(PathBuf::from(serial), found.currents.0.clone());
+                if let Some(other) = other {
+                    let words = format!("nothing was written: gyro {serial} is that of {} too", Printable(other));
+                    return Err(Failure::refused(words));
+                }
+                self.keep(&found)?;
+            }
             let trials = found.uncertainty.monte_carlo.as_ref();
             let text = gyros::line(&found.currents.0, &found.done, trials, self.gyro_name(), lang::of_text());
             let result = serde_json::to_value(found.whole()).map_err(Failure::unusable)?;
             all.add(&found.done, self.gyro_name(), self.checks());
             Ok(((Line { file: found.currents.0.clone(), result }, text), found.code()))
         };
-        let code = inputs::each(&options.currents, Purpose::Tables, calibrate, |done| {
+        let code = inputs::each(currents, Purpose::Tables, calibrate, |done| {
             if let Each::Refused { refusal, .. } = &done {
                 failed.push(issued::outcome(refusal));
             }
             inputs::print(&done, options.format)
         })?;
-        if let Some(folder) = options.out.as_ref().filter(|_| !written.is_empty()) {
+        let folder = options.out.as_ref().or(self.results.as_ref());
+        if let Some(folder) = folder.filter(|_| !written.is_empty()) {
             let (count, folder) = (written.len(), shown(folder));
             let plural = if count == 1 { "" } else { "s" };
             output::say(&format!(
@@ -386,6 +449,31 @@ impl Bench<'_> {
         Ok(())
     }
 
+    /// Writes the result and the report into the folder of results, as PDF too where a browser prints it, and returns their
+    /// paths.
+    fn keep(&self, found: &Found) -> Result<Vec<PathBuf>, Failure> {
+        let Some(place) = &found.place else { return Ok(Vec::new()) };
+        let named = |extension: &str| {
+            let mut path = place.clone().into_os_string();
+            path.push(extension);
+            PathBuf::from(path)
+        };
+        let html = self.page(found)?;
+        let pdf = (!self.lacks_pdf.get()).then(|| output::page(&named(".pdf"), html.clone(), false));
+        let json = printable::json(&found.whole()).map_err(Failure::unusable)? + "\n";
+        let mut files = vec![(named(".json"), json.into_bytes()), (named(".html"), html.into_bytes())];
+        match pdf {
+            Some(Ok(pdf)) => files.push((named(".pdf"), pdf)),
+            Some(Err(error)) => {
+                self.lacks_pdf.set(true);
+                output::say_after(&format!("no PDF was written: {error}"));
+            }
+            None => {}
+        }
+        files::together::write_replaceable_together(&files, false)?;
+        Ok(files.into_iter().map(|(path, _)| path).collect())
+    }
+
     fn gyro_name(&self) -> Option<&str> {
         self.gyro_type.as_ref().map(|gyro_type| gyro_type.r#type.as_str())
     }
@@ -402,7 +490,7 @@ impl Bench<'_> {
             calibration: &done.calibration,
             missing: &done.missing,
             document: &done.document,
-            previous: &self.previous,
+            previous: &found.previous,
             budget: found.uncertainty.budget.as_ref().map(|(budget, _)| budget),
             monte_carlo: found.uncertainty.monte_carlo.as_ref(),
             details: self.options.details,
@@ -421,6 +509,19 @@ impl Bench<'_> {
 }
 
 impl Options {
+    /// Returns the passport, if it is given, and the files of currents. Where the workspace tells the passport, tables alone
+    /// are given.
+    fn inputs(&self) -> (Option<&Path>, Vec<PathBuf>) {
+        let tells = defaults::workspace().is_some_and(|workspace| !workspace.stand.is_empty());
+        let first = self.passport.as_deref();
+        let is_table =
+            |path: &Path| path.extension().is_some_and(|end| end.eq_ignore_ascii_case("csv")) || path.is_dir();
+        match first.filter(|first| tells && is_table(first)) {
+            Some(table) => (None, [table.to_owned()].into_iter().chain(self.currents.iter().cloned()).collect()),
+            None => (first, self.currents.clone()),
+        }
+    }
+
     /// Refuses options that describe a single gyro.
     fn check_for_several(&self) -> Result<(), Failure> {
         let given = [

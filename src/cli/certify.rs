@@ -5,6 +5,7 @@ use super::exclusion::ExclusionOptions;
 use super::lang::{self, Lang};
 use super::trust_options::OptionalTrust;
 use super::{Code, Failure, Format, REFUSED, defaults, inputs, output};
+use crate::batch::certificates::Certificates;
 use crate::batch::once::Once;
 use crate::batch::{Purpose, paths};
 use crate::certification::found::Found;
@@ -23,6 +24,7 @@ use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, Printable, name_of, shown};
 use clap::Args;
 use serde::Serialize;
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Certify a stand from repeated readings of its angles, or check that it has not changed
@@ -51,6 +53,11 @@ pub(super) struct Options {
     /// Folder for the stand files of several stands: <model>/<serial>/stand.yaml
     #[arg(long, value_name = "DIR", value_parser = output::folder("; for one stand use -o stand.yaml"), conflicts_with_all = ["against", "report", "exclude"])]
     out: Option<PathBuf>,
+    /// Table of certificates: --stand is then one header for all stands, which may lack serial, number and issued. CSV with the
+    /// columns serial, number, issued and any of performed, received, valid_until, customer, temperature_c; the readings of a
+    /// row are SERIAL.csv
+    #[arg(long, value_name = "TABLE.csv", requires_all = ["out", "stand"])]
+    certificates: Option<PathBuf>,
     /// Replace an existing stand file
     #[arg(long)]
     force: bool,
@@ -96,16 +103,29 @@ struct Line {
 /// Certifies several stands, with one line for each.
 fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
     let headers = options.stand.as_deref().ok_or_else(|| Failure::usage("missing --stand"))?;
-    if !headers.is_dir() {
+    let table = options.certificates.as_deref();
+    let table = table.map(|path| inputs::document(path, "a table of certificates (CSV)", Certificates::read));
+    let table = table.transpose()?;
+    let common = table.iter().map(|_| inputs::bytes(headers, inputs::HEADER)).next().transpose()?;
+    let mut used = BTreeSet::new();
+    if table.is_none() && !headers.is_dir() {
         let words = "expected a folder; with --out, --stand is the folder of the headers, NAME.yaml for NAME.csv";
         return Err(Failure::usage(format!("--stand {}: {words}", shown(headers))));
     }
     let folder = Folder::new(folder);
     let (mut measured, mut numbered) = (Once::new(), Once::new());
     let work = |readings: &Path| {
-        let header = header_of(headers, readings)?;
-        let bytes = inputs::bytes(readings, Kind::Angles.words())?;
         let name = name_of(readings);
+        let header = match (&table, &common) {
+            (Some(table), Some(common)) => {
+                let serial = readings.file_stem().unwrap_or_default().to_string_lossy();
+                used.insert(serial.clone().into_owned());
+                let header = table.header(&name_of(headers), common, &serial);
+                header.map_err(|why| Failure::refused(format!("{}: {why}", Printable(&name))))?
+            }
+            _ => header_of(headers, readings)?,
+        };
+        let bytes = inputs::bytes(readings, Kind::Angles.words())?;
         let read = AngleReadings::from_csv(&name, &bytes, &header.positions)?;
         if let Some(remark) = &read.remark {
             output::say(&format!("{}: {remark}", Printable(&name)));
@@ -129,7 +149,13 @@ fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
         let result = report::to_json(Some(&certified), None, None);
         Ok(((Line { file: name, stand_file: name_of(&path), result }, text), 0))
     };
-    inputs::each(&options.readings, Purpose::Tables, work, |done| inputs::print(&done, options.format))
+    let mut code = inputs::each(&options.readings, Purpose::Tables, work, |done| inputs::print(&done, options.format))?;
+    let serials = table.iter().flat_map(Certificates::serials);
+    for serial in serials.filter(|serial| !used.contains(*serial)) {
+        output::complain(&format!("serial {}: the table has a row, but no readings are given", Printable(serial)));
+        code = code.max(REFUSED);
+    }
+    Ok(code)
 }
 
 /// Returns the failure for readings that give no certificate.

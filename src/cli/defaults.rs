@@ -36,8 +36,13 @@ pub(super) fn add(arguments: &mut Vec<OsString>) -> Result<Vec<String>, Failure>
     };
     let folder =
         matches.get_one::<PathBuf>("workspace").cloned().or_else(|| variable(WORKSPACE_VARIABLE).map(Into::into));
-    // `init` makes a workspace, so the one that the environment names need not be there yet.
-    let folder = folder.filter(|_| matches.subcommand_name() != Some("init"));
+    folder.iter().cloned().for_each(open_workspace::set_folder);
+    // `init` and `receive` make a workspace, so the one that the environment names need not be there yet.
+    let folder = folder.filter(|folder| match matches.subcommand_name() {
+        Some("init") => false,
+        Some("receive") => folder.join(WORKSPACE_FILE).exists(),
+        _ => true,
+    });
     let workspace = folder.map(|folder| Workspace::read(&folder).map_err(|error| no_workspace(&folder, error)));
     let workspace = workspace.transpose()?;
     let mut added: Vec<Added> = Vec::new();
@@ -112,7 +117,11 @@ fn values(workspace: Option<&Workspace>, verb: &str) -> impl Iterator<Item = Add
         let named = variable(name).map(|value| (option, value, ENVIRONMENT));
         named.or(stated.map(|value| (option, value, FILE)))
     });
+    let calibrates = verb == "calibrate";
     let of_this_verb = [
+        ("--at", calibrates || verb == "verify", stated(|workspace| workspace.at.clone().map(Into::into))),
+        ("--laboratory", calibrates, stated(|workspace| workspace.laboratory.clone().map(Into::into))),
+        ("--gyro", calibrates, stated(|workspace| workspace.gyro.clone().map(Into::into))),
         ("--out", WRITE_PASSPORTS.contains(&verb), passports()),
         ("--register-key", true, stated(|workspace| workspace.register_key.clone().map(Into::into))),
         // `register` has its folder without an option.
@@ -137,7 +146,7 @@ fn lacks(command: &Command, matches: &ArgMatches, option: &str) -> bool {
         .find(|argument| argument.get_long().is_some_and(|long| option.strip_prefix("--") == Some(long)));
     let given =
         |id: &str| matches.try_contains_id(id).is_ok() && matches.value_source(id) == Some(ValueSource::CommandLine);
-    let excluded = ["--trust", "--register"].contains(&option) && given("no_verify")
+    let excluded = ["--trust", "--register", "--at"].contains(&option) && given("no_verify")
         || option == "--register-key" && given("without_register");
     found.is_some_and(|argument| !given(argument.get_id().as_str()) && !excluded)
 }

@@ -2,7 +2,7 @@
 
 use super::{Code, Failure, Format, key_options, output};
 use crate::text::{name_of, shown};
-use crate::workspace::{NotMade, make};
+use crate::workspace::{Kind, NotMade, make};
 use clap::Args;
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -16,6 +16,9 @@ pub(super) struct Options {
     /// Issuer to state in dtg-passport.toml
     #[arg(long, value_name = "WHO", value_parser = key_options::identity)]
     identity: Option<String>,
+    /// Make the workspace of a laboratory, which receives passports and calibrates gyros
+    #[arg(long, conflicts_with = "identity")]
+    laboratory: bool,
     /// Replace existing files of a workspace
     #[arg(long)]
     force: bool,
@@ -25,7 +28,11 @@ pub(super) struct Options {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let made = make(&options.folder, options.identity.as_deref(), options.force).map_err(|error| match error {
+    let kind = match options.laboratory {
+        true => Kind::Laboratory(&[]),
+        false => Kind::Factory(options.identity.as_deref()),
+    };
+    let made = make(&options.folder, &kind, options.force).map_err(|error| match error {
         NotMade::File(error) => Failure::from(error),
         error => Failure::usage(error),
     })?;
@@ -34,6 +41,11 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         || json!({ "workspace": name_of(&options.folder), "made": names() }),
         || made.iter().map(|path| format!("{}\n", shown(path))).collect(),
     )?;
+    if options.laboratory {
+        let folder = quoted(&options.folder);
+        output::say(&format!("next, receive what the factory sent:\ndtg-passport receive FILE.zip {folder}"));
+        return Ok(0);
+    }
     let (key, signers) = (options.folder.join("factory.key"), options.folder.join("allowed_signers"));
     let identity = options.identity.as_deref().unwrap_or("WHO");
     output::say(&format!(

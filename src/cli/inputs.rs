@@ -2,6 +2,7 @@
 
 use super::{Code, Failure, Format, lang, output};
 use crate::batch::catalogue::Listed as _;
+use crate::batch::deliveries::Deliveries;
 use crate::batch::{Purpose, paths};
 use crate::dcc::Administrative;
 use crate::files::{self, FileError};
@@ -40,6 +41,11 @@ pub(super) fn document<T>(
 
 pub(super) fn stand(path: &Path) -> Result<Stand, Failure> {
     document(path, Kind::Stand.words(), Stand::from_yaml)
+}
+
+/// Reads a table of deliveries.
+pub(super) fn deliveries(path: &Path) -> Result<Deliveries, Failure> {
+    document(path, "a table of deliveries (CSV)", Deliveries::read)
 }
 
 /// Reads a site file, and remarks on a file that has not the name of its site.

@@ -3,6 +3,7 @@
 use super::batch::BatchOptions;
 use super::key_options::refuse_distrusted;
 use super::{Code, Failure, defaults, inputs, output, trust_options};
+use crate::batch::deliveries::{Deliveries, Placed};
 use crate::batch::issue::Job;
 use crate::gyro::GyroType;
 use crate::passport::Stated;
@@ -19,11 +20,20 @@ use std::path::{Path, PathBuf};
 #[derive(Args)]
 pub(super) struct Options {
     /// Stand files (dtg-stand/1); in a workspace also MODEL/SERIAL
-    #[arg(required = true, value_name = "STAND", value_parser = defaults::stand())]
+    #[arg(required_unless_present = "deliveries", value_name = "STAND", value_parser = defaults::stand())]
     stands: Vec<PathBuf>,
     /// Site files (dtg-site/1; repeatable); in a workspace also the identifiers of sites
-    #[arg(long = "site", required = true, value_name = "SITE", value_parser = defaults::site())]
+    #[arg(
+        long = "site",
+        required_unless_present = "deliveries",
+        value_name = "SITE",
+        value_parser = defaults::site()
+    )]
     sites: Vec<PathBuf>,
+    /// Instead of STAND and --site: a table of which stand goes where, one passport for each row. CSV with the columns stand,
+    /// site and optionally valid_until, customer; names as in a workspace, or paths of files
+    #[arg(long, value_name = "TABLE.csv", conflicts_with_all = ["stands", "sites"])]
+    deliveries: Option<PathBuf>,
     /// Folder of passports
     #[arg(short, long, visible_aliases = ["passports", "output"], value_name = "DIR", value_parser = output::folder_of_passports(), default_value = "passports")]
     out: PathBuf,
@@ -74,9 +84,27 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         ..Issue::first(&options.batch.issuer.identity, issued_at)
     };
     let folder = options.batch.folder(&options.out);
-    let job = Job { folder: &folder, stands: &options.stands, sites: &options.sites, order: &order };
+    let placed = options.deliveries.as_deref().map(|path| placed(&inputs::deliveries(path)?)).transpose()?;
+    let (stands, sites) = match &placed {
+        Some(placed) => (&placed.stands, &placed.sites),
+        None => (&options.stands, &options.sites),
+    };
+    let rows = placed.as_ref().map(|placed| &placed.rows);
+    let job = Job { folder: &folder, stands, sites, order: &order, rows };
     options.batch.run(&keys, &trust, |batch, tell| {
         batch.issue(&job, &mut std::io::stdin().lock(), tell);
+    })
+}
+
+/// Finds the files of the stands and sites of a table, by their names in the workspace or by their paths.
+fn placed(deliveries: &Deliveries) -> Result<Placed, Failure> {
+    let workspace = defaults::workspace();
+    let stand = |name: &str| workspace.and_then(|workspace| workspace.stand(name)).unwrap_or_else(|| name.into());
+    let site = |name: &str| workspace.and_then(|workspace| workspace.site(name)).unwrap_or_else(|| name.into());
+    deliveries.placed(stand, site).map_err(|failures| {
+        let (last, others) = failures.split_last().expect("a refusal has a reason");
+        others.iter().for_each(|failed| output::complain(&Failure::input(failed).failed.message));
+        Failure::input(last)
     })
 }
 

@@ -10,6 +10,7 @@ mod calibrate;
 mod certify;
 mod completions;
 mod defaults;
+mod deliver;
 mod demo;
 mod diff;
 mod exclusion;
@@ -30,6 +31,7 @@ mod new;
 mod open_workspace;
 mod output;
 mod plan;
+mod receive;
 mod recertify;
 mod register;
 mod reissue;
@@ -86,26 +88,29 @@ macro_rules! verbs {
     };
 }
 
+// Those of a factory's day, then those of a laboratory's, then the rest.
 verbs! {
-    Demo = demo,
-    Init = init,
-    New = new,
-    Status = status,
-    Keygen = keygen,
     Certify = certify,
     Issue = issue,
+    Deliver = deliver,
     Reissue = reissue,
     Recertify = recertify,
+    Register = register,
+    Revoke = revoke,
+    Receive = receive,
     Verify = verify,
+    Calibrate = calibrate,
+    Status = status,
     Show = show,
+    Render = render,
     Export = export,
     Diff = diff,
     History = history,
-    Render = render,
-    Calibrate = calibrate,
-    Register = register,
-    Revoke = revoke,
     Plan = plan,
+    Init = init,
+    New = new,
+    Keygen = keygen,
+    Demo = demo,
     Simulate = simulate,
     Selftest = selftest,
     Schema = schema,

@@ -1,8 +1,8 @@
 //! Verb `new`: templates of the hand-written files.
 
-use super::trust_options::place;
 use super::{Code, Failure, Format, inputs, output};
 use crate::earth::Place;
+use crate::interface::enquiry::place_of;
 use crate::plan::document::Planned;
 use crate::template::{self, Positions};
 use crate::text::{Identifier, Printable, name_of, shown};
@@ -31,7 +31,7 @@ pub(super) struct Options {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100))]
     runs: Option<u32>,
     /// Place of a site: latitude and longitude in degrees, north and east positive
-    #[arg(long, value_name = "LAT,LON", value_parser = place, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LAT,LON", value_parser = place_of, allow_hyphen_values = true)]
     at: Option<Place>,
     /// Height of a site above the ellipsoid, metres
     #[arg(long, value_name = "H", value_parser = height, allow_hyphen_values = true)]

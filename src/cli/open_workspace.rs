@@ -1,10 +1,23 @@
 //! The workspace of this process.
 
 use crate::workspace::Workspace;
+use std::path::PathBuf;
 use std::sync::OnceLock;
 
 /// The workspace of the command line or the environment; there is at most one.
 static WORKSPACE: OnceLock<Workspace> = OnceLock::new();
+
+/// The folder that the command line or the environment names, which need not be a workspace yet.
+static FOLDER: OnceLock<PathBuf> = OnceLock::new();
+
+/// Sets the folder, once, before anything reads it.
+pub(super) fn set_folder(folder: PathBuf) {
+    let _ = FOLDER.set(folder);
+}
+
+pub(super) fn folder() -> Option<&'static PathBuf> {
+    FOLDER.get()
+}
 
 /// Sets the workspace, once, before anything reads it.
 pub(super) fn set(workspace: Workspace) {

@@ -135,7 +135,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     };
     let mut overview = Overview::of(folder, query)?;
     let code = code(overview.is_incomplete(), overview.needs_attention());
-    overview.remarks.iter().for_each(|words| output::say(words));
+    overview.remarks.iter().chain(&overview.absent).for_each(|words| output::say(words));
     overview.alarms.iter().for_each(|alarm| output::complain_after(&alarm.to_string()));
     let serial = question.serial.as_deref();
     for words in [no_such_stand(serial, &overview), options.no_such_site(&overview)].into_iter().flatten() {

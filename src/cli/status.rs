@@ -1,10 +1,10 @@
 //! Verb `status`: the contents of a workspace.
 
-use super::lang::Lang;
+use super::lang::{self, Lang};
 use super::trust_options::{self, OptionalLists, time};
-use super::{Code, Failure, Format, code, defaults};
-use crate::workspace::status;
-use clap::Args;
+use super::{Code, Failure, code, defaults, output};
+use crate::workspace::{SOON_DAYS, due, status};
+use clap::{Args, ValueEnum};
 use jiff::Timestamp;
 
 /// Show the contents of a workspace: stands, sites, passports in force, expiring within 90 days, alarms, keys
@@ -15,11 +15,26 @@ pub(super) struct Options {
     /// Verify as of this time: RFC 3339, or a UTC date (00:00) [default: now]
     #[arg(long, value_name = "TIME", value_parser = time)]
     time: Option<Timestamp>,
+    /// List what expires or stops being fresh within DAYS days, by date, with certificate and customer
+    #[arg(long, value_name = "DAYS", value_parser = clap::value_parser!(i32).range(0..=36_500))]
+    days: Option<i32>,
     #[command(flatten)]
     _lang: Lang,
-    /// Output format
+    /// Output format; csv and ics list what is due
     #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    format: Form,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Form {
+    /// Text for a terminal
+    Text,
+    /// JSON for programs
+    Json,
+    /// CSV for spreadsheet programs
+    Csv,
+    /// Calendar with an event for each day
+    Ics,
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
@@ -32,7 +47,17 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let now = trust_options::now();
     let time = options.time.unwrap_or(now);
     let trust = options.lists.load()?;
-    let status = status(workspace, trust.as_ref(), time, now)?;
-    options.format.show(|| &status, || status.document())?;
+    let days = options.days.unwrap_or(SOON_DAYS);
+    let status = status(workspace, trust.as_ref(), (time, now), days)?;
+    match options.format {
+        Form::Json => output::json(&status)?,
+        Form::Text => {
+            let due = options.days.map(|days| due::lines(&status.due, days));
+            output::document(&[status.document(), due.unwrap_or_default()].concat())?;
+        }
+        // Its cells are escaped; a byte order mark must not be.
+        Form::Csv => output::own(&due::csv(&status.due, lang::of_text()))?,
+        Form::Ics => output::own(&due::ics(&status.due, time, lang::of_text()))?,
+    }
     Ok(code(status.incomplete, status.needs_attention()))
 }

@@ -25,8 +25,8 @@ pub(super) struct Asked {
     /// Require this serial number; read it from the stand
     #[arg(long, value_name = "S", value_parser = NonEmptyStringValueParser::new())]
     serial: Option<String>,
-    /// Place of the stand: latitude and longitude in degrees, north and east positive
-    #[arg(long, value_name = "LAT,LON", value_parser = place, allow_hyphen_values = true)]
+    /// Place of the stand: latitude and longitude in degrees, north and east positive, or 55°45′56″N,37°41′08″E
+    #[arg(long, value_name = "LAT,LON", value_parser = enquiry::place_of, allow_hyphen_values = true)]
     at: Option<Place>,
     /// Verify as of this time: RFC 3339, or a UTC date (00:00) [default: now]
     #[arg(long, value_name = "TIME", value_parser = time)]
@@ -151,22 +151,6 @@ pub(super) fn load(signers: &Path, revoked: &[PathBuf]) -> Result<Trust, Failure
     let trust = enquiry::trust((&name_of(signers), &keys?), &revoked)?;
     trust.skipped().iter().for_each(|remark| output::complain_after(remark));
     Ok(trust)
-}
-
-pub(super) fn place(text: &str) -> Result<Place, String> {
-    const FORM: &str = "expected two numbers with decimal points, such as 55.7658,37.6856";
-    // Without its letter, a southern latitude would be one of the north.
-    const SIGNS: &str = "expected decimal degrees, such as -33.8688,151.2093; south and west are negative";
-    let in_letters = text.contains(|c: char| c.is_alphabetic() || ":°′″'\"".contains(c));
-    let form = if in_letters { SIGNS } else { FORM };
-    let (latitude, longitude) = text.split_once(',').ok_or(form)?;
-    let number = |text: &str| text.trim().parse::<f64>().map_err(|_| form.to_owned());
-    let (latitude_deg, longitude_deg) = (number(latitude)?, number(longitude)?);
-    enquiry::place(latitude_deg, longitude_deg).map_err(|refused| match text.contains('.') {
-        true => refused,
-        // A decimal comma splits a number in two.
-        false => format!("{refused}; the decimal mark is a point, as in 55.7658,37.6856"),
-    })
 }
 
 /// Returns the current time in whole seconds, as passports state it.

@@ -107,6 +107,9 @@ pub(crate) struct Overview {
     /// Remarks on files that have no effect, for the user.
     #[serde(skip)]
     pub remarks: Vec<String>,
+    /// Listed passports that are absent, which a laboratory need not have; in words.
+    #[serde(skip)]
+    pub absent: Vec<String>,
 }
 
 /// Findings in one folder.
@@ -115,6 +118,7 @@ struct Found {
     stand: Option<StandRows>,
     alarms: Vec<Alarm>,
     remarks: Vec<String>,
+    absent: Vec<String>,
     /// Fingerprint of the certified angles, by certificate number, of the current passports.
     angles: BTreeSet<(String, u64)>,
 }
@@ -143,6 +147,7 @@ impl Overview {
         for found in found {
             overview.alarms.extend(found.alarms);
             overview.remarks.extend(found.remarks);
+            overview.absent.extend(found.absent);
             let Some(stand) = found.stand else { continue };
             for angles in found.angles {
                 shared.entry(angles).or_default().push(stand.stand.clone());
@@ -383,7 +388,7 @@ impl Query<'_> {
                 continue;
             }
             match self.may_lack {
-                true => found.remarks.push(format!("{}: listed, but not here", row.id)),
+                true => found.absent.push(format!("{}: listed, but not here", row.id)),
                 false => {
                     let detail = format!("{} is listed, but its file is missing; restore it from the backup", row.id);
                     found.alarm(AlarmCode::Missing, stand, &path, detail);

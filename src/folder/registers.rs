@@ -156,7 +156,8 @@ impl Registers {
         Ok(Found { register, doubt, remark })
     }
 
-    fn bytes_of(&self, stand: &str) -> Result<(PathBuf, Vec<u8>), RegisterRefused> {
+    /// Reads the register of a stand, and returns its path and its bytes.
+    pub(crate) fn bytes_of(&self, stand: &str) -> Result<(PathBuf, Vec<u8>), RegisterRefused> {
         let read = |path: PathBuf| bytes(&path).map(|bytes| (path, bytes));
         if !self.path.is_dir() {
             return read(self.path.clone());

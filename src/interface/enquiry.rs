@@ -260,6 +260,56 @@ pub(crate) fn date(text: &str) -> Result<Date, String> {
     date.ok_or_else(|| impossible_date(text).unwrap_or_else(|| "expected a UTC date such as 2026-11-02".to_owned()))
 }
 
+/// Parses a place: latitude and longitude as decimal degrees, or in degrees, minutes and seconds with the letters of the
+/// hemispheres. A semicolon between them permits decimal commas.
+#[cfg(feature = "cli")]
+pub(crate) fn place_of(text: &str) -> Result<Place, String> {
+    const FORM: &str = "expected two numbers with decimal points, such as 55.7658,37.6856, or 55°45′56″N,37°41′08″E";
+    let (latitude, longitude) = match (text.split_once(';'), text.matches(',').count()) {
+        (Some((latitude, longitude)), _) => (latitude.replace(',', "."), longitude.replace(',', ".")),
+        (None, 1) => text.split_once(',').map(|(one, other)| (one.to_owned(), other.to_owned())).ok_or(FORM)?,
+        (None, 0) => return Err(FORM.to_owned()),
+        (None, _) => return Err("with decimal commas, put a semicolon between the two: 55,7658; 37,6856".to_owned()),
+    };
+    let latitude_deg = angle(&latitude, ['N', 'S']).ok_or(FORM)?;
+    let longitude_deg = angle(&longitude, ['E', 'W']).ok_or(FORM)?;
+    place(latitude_deg, longitude_deg).map_err(|refused| match text.contains(['.', ';', '°']) {
+        true => refused,
+        // A decimal comma splits a number in two.
+        false => format!("{refused}; the decimal mark is a point, as in 55.7658,37.6856"),
+    })
+}
+
+/// Reads one coordinate, degrees; `letters` are those of its positive and of its negative side. Minutes need a letter: without
+/// it, a southern latitude would be one of the north.
+#[cfg(feature = "cli")]
+fn angle(text: &str, letters: [char; 2]) -> Option<f64> {
+    let text = text.trim();
+    let side = letters.into_iter().position(|letter| text.ends_with(letter));
+    let digits = text.trim_end_matches(letters).trim_end();
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    let Some((degrees, rest)) = digits.split_once('°') else {
+        let value = number(digits)?;
+        return match side {
+            None => Some(value),
+            Some(side) => (value >= 0.0 && !digits.starts_with('-')).then_some(if side == 0 { value } else { -value }),
+        };
+    };
+    let whole = |text: &str| text.trim().parse::<u16>().ok().map(f64::from);
+    let sixtieth = |text: &str| number(text).filter(|part| (0.0..60.0).contains(part) && !text.contains(['-', '+']));
+    let rest = rest.trim().replace(['\'', '’'], "′").replace(['"', '”'], "″").replace("′′", "″");
+    let value = match rest.split_once('′') {
+        None if rest.is_empty() => number(degrees).filter(|_| !degrees.contains(['-', '+']))?,
+        None => return None,
+        Some((minutes, seconds)) if seconds.trim().is_empty() => whole(degrees)? + sixtieth(minutes)? / 60.0,
+        Some((minutes, seconds)) => {
+            let seconds = sixtieth(seconds.trim().strip_suffix('″')?)?;
+            whole(degrees)? + (whole(minutes).filter(|minutes| *minutes < 60.0)? * 60.0 + seconds) / 3600.0
+        }
+    };
+    Some(if side? == 0 { value } else { -value })
+}
+
 /// Checks the place of a question, degrees.
 pub(crate) fn place(latitude_deg: f64, longitude_deg: f64) -> Result<Place, String> {
     if !(-90.0..=90.0).contains(&latitude_deg) {
@@ -298,6 +348,45 @@ mod tests {
             let answer = ask(question).unwrap().verify("p.yaml", PASSPORT);
             let worst = answer.verification.failed().map_or("ok", |check| check.code.as_str());
             assert_eq!(worst, code, "{question}");
+        }
+    }
+
+    /// Expected: each angle in degrees, by hand; 45′ 56″ are 2756″, of which 3600 make a degree.
+    #[cfg(feature = "cli")]
+    #[test]
+    fn a_place_is_written_in_several_ways() {
+        let dms = (55.0 + 2756.0 / 3600.0, 37.0 + 2468.0 / 3600.0);
+        for (text, due) in [
+            ("55.7658,37.6856", (55.7658, 37.6856)),
+            ("-33.8688, 151.2093", (-33.8688, 151.2093)),
+            ("33.8688S,151.2093 E", (-33.8688, 151.2093)),
+            ("55,7658; 37,6856", (55.7658, 37.6856)),
+            ("55°45′56″N,37°41′08″E", dms),
+            ("55°45'56\"N, 37° 41' 8\" E", dms),
+            ("55°45'56''N,37°41'8.0''E", dms),
+            ("55°30′S; 37°W", (-55.5, -37.0)),
+        ] {
+            let found = place_of(text).unwrap_or_else(|why| panic!("{text}: {why}"));
+            assert_eq!((found.latitude_deg, found.longitude_deg), due, "{text}");
+        }
+        for text in [
+            "",
+            "55.7",
+            "55,7658,37,6856",
+            "55°45′56″,37°41′08″",
+            "-55°45′56″N,37°E",
+            "55°60′00″N,37°E",
+            "55°45′60″N,37°E",
+            "37°E,55°N",
+            "-33.8S,151",
+            "55°45N,37°E",
+            "inf,0",
+            "NaN,0",
+            "91,0",
+            "5°-1′N,0°E",
+            "55.5°45′N,37°E",
+        ] {
+            assert!(place_of(text).is_err(), "{text}");
         }
     }
 

@@ -311,11 +311,16 @@ fn column(heading: Vec<String>, lines: usize, cells: Vec<String>) -> Vec<String>
 /// before it makes the cell text. The same applies after a semicolon, because in many countries spreadsheets begin a
 /// new cell there, even within quotes.
 pub(crate) fn csv_row<'a>(cells: impl Iterator<Item = &'a str>) -> String {
+    csv_row_by(",", cells)
+}
+
+/// Returns a row of CSV as [`csv_row`] does, with another separator.
+pub(crate) fn csv_row_by<'a>(separator: &str, cells: impl Iterator<Item = &'a str>) -> String {
     let quoted = |cell: &str| {
         let cell = neutral(&printable(cell));
         if cell.contains([',', '"', ';']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell }
     };
-    cells.map(quoted).collect::<Vec<_>>().join(",") + "\n"
+    cells.map(quoted).collect::<Vec<_>>().join(separator) + "\n"
 }
 
 /// Inserts an apostrophe wherever a spreadsheet would begin a formula; full-width signs can begin one too.

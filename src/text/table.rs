@@ -100,7 +100,7 @@ impl<'a> Table<'a> {
                 break;
             }
         }
-        if problems.is_empty() && separator == ',' {
+        if problems.is_empty() && separator == ',' && !measured.is_empty() {
             problems.extend(split_numbers(&rows, range));
         }
         let mut rows: Vec<Row> = rows.into_iter().map(|(row, _)| row).collect();

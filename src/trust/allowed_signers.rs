@@ -88,6 +88,12 @@ impl AllowedSigners {
         line.point.get_or_init(|| KeyPoint::of(key)).as_ref()
     }
 
+    /// Returns `true` if a line has a key of `principal`.
+    #[cfg(feature = "cli")]
+    pub(crate) fn knows(&self, principal: &str) -> bool {
+        self.lines.iter().any(|line| matches_list(principal, &line.principals))
+    }
+
     /// Checks that `key` is trusted for a document of `namespace` that `principal` issued at the instant `at`.
     ///
     /// Patterns are matched as by OpenSSH. The validity period includes both of its ends. Instants are compared in

@@ -36,6 +36,8 @@ tables! {
     compass
     /// A digital calibration certificate.
     dcc
+    /// What a factory hands to a laboratory, and what was received.
+    delivery
     /// Differences of two passports.
     difference
     /// Causes that explain the readings of a calibration; `{p}` is a probability with its relation.

@@ -7,7 +7,22 @@ use crate::text::rule;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const FOLDERS: [&str; 4] = ["stands", "sites", "readings", "passports"];
+/// What a workspace is for.
+pub(crate) enum Kind<'a> {
+    /// A factory, which issues as this identity if it is known.
+    Factory(Option<&'a str>),
+    /// A laboratory with these stands, `<model>/<serial>`.
+    Laboratory(&'a [String]),
+}
+
+impl Kind<'_> {
+    fn folders(&self) -> &'static [&'static str] {
+        match self {
+            Self::Factory(_) => &["stands", "sites", "readings", "passports"],
+            Self::Laboratory(_) => &["passports", "readings", "results"],
+        }
+    }
+}
 
 /// Reason why a workspace was not made.
 #[derive(Debug, thiserror::Error)]
@@ -20,34 +35,38 @@ pub(crate) enum NotMade {
     Identity,
 }
 
-/// Makes the folders and files of a workspace in `root`, for the issuer `identity` if known, and returns their paths.
+/// Makes the folders and files of a workspace in `root`, and returns their paths.
 ///
 /// Existing files are replaced only with `force`; without it nothing is written if one exists. After an error, the new
 /// files and folders are removed.
-pub(crate) fn make(root: &Path, identity: Option<&str>, force: bool) -> Result<Vec<PathBuf>, NotMade> {
+pub(crate) fn make(root: &Path, kind: &Kind, force: bool) -> Result<Vec<PathBuf>, NotMade> {
+    let readme = match kind {
+        Kind::Factory(_) => include_str!("new/README.md"),
+        Kind::Laboratory(_) => include_str!("new/laboratory.md"),
+    };
     let written = [
-        (root.join(WORKSPACE_FILE), settings(identity)?),
+        (root.join(WORKSPACE_FILE), settings(kind)?),
         (root.join(".gitignore"), include_str!("new/gitignore").to_owned()),
         (root.join(".gitattributes"), include_str!("new/gitattributes").to_owned()),
-        (root.join("README.md"), include_str!("new/README.md").to_owned()),
+        (root.join("README.md"), readme.to_owned()),
     ];
     files::check_replaceable(written.iter().map(|(path, _)| path), force)?;
     let mut made = Vec::new();
-    if let Err(error) = folders(root, &mut made).and_then(|()| write_replaceable_together(&written, force)) {
+    if let Err(error) = folders(root, kind, &mut made).and_then(|()| write_replaceable_together(&written, force)) {
         // What cannot be removed is left, because the first error counts.
         made.iter().rev().for_each(|folder| drop(fs::remove_dir(folder)));
         return Err(error.into());
     }
-    let folders = FOLDERS.iter().map(|name| root.join(name));
+    let folders = kind.folders().iter().map(|name| root.join(name));
     Ok(written.iter().map(|(path, _)| path.clone()).chain(folders).collect())
 }
 
 /// Makes the folders that are missing, and adds them to `made` in the order of their creation.
-fn folders(root: &Path, made: &mut Vec<PathBuf>) -> Result<(), FileError> {
+fn folders(root: &Path, kind: &Kind, made: &mut Vec<PathBuf>) -> Result<(), FileError> {
     let missing: Vec<&Path> = root.ancestors().take_while(|folder| !folder.exists()).collect();
     // The path of the current folder is empty.
     let missing = missing.into_iter().rev().filter(|folder| !folder.as_os_str().is_empty()).map(Path::to_owned);
-    for folder in missing.chain(FOLDERS.iter().map(|name| root.join(name))) {
+    for folder in missing.chain(kind.folders().iter().map(|name| root.join(name))) {
         if !folder.is_dir() {
             fs::create_dir(&folder).map_err(|error| FileError::Write(folder.clone(), error))?;
             made.push(folder);
@@ -56,13 +75,24 @@ fn folders(root: &Path, made: &mut Vec<PathBuf>) -> Result<(), FileError> {
     Ok(())
 }
 
-fn settings(identity: Option<&str>) -> Result<String, NotMade> {
-    let identity = match identity {
-        None => "# identity = \"factory@example.org\"".to_owned(),
-        Some(identity) if identity.chars().all(rule::allowed_in_string) && !identity.contains(['"', '\\']) => {
+/// Returns the text of the file of a new workspace.
+pub(super) fn settings(kind: &Kind) -> Result<String, NotMade> {
+    let identity = match kind {
+        Kind::Laboratory(stands) => {
+            let stands: Vec<String> = stands.iter().map(|stand| format!("{stand:?}")).collect();
+            let stands = match stands.is_empty() {
+                true => "# stand = [\"MODEL/SERIAL\"]".to_owned(),
+                false => format!("stand = [{}]", stands.join(", ")),
+            };
+            return Ok(include_str!("new/laboratory.toml").replace("{stand}", &stands));
+        }
+        Kind::Factory(None) => "# identity = \"factory@example.org\"".to_owned(),
+        Kind::Factory(Some(identity))
+            if identity.chars().all(rule::allowed_in_string) && !identity.contains(['"', '\\']) =>
+        {
             format!("identity = \"{identity}\"")
         }
-        Some(_) => return Err(NotMade::Identity),
+        Kind::Factory(Some(_)) => return Err(NotMade::Identity),
     };
     Ok(include_str!("new/dtg-passport.toml").replace("{identity}", &identity))
 }
@@ -83,15 +113,20 @@ mod tests {
     fn it_is_whole_and_its_own_reader_reads_it() {
         let folder = tempfile::tempdir().unwrap();
         let root = folder.path().join("a/b");
-        make(&root, Some("factory@example.org"), false).unwrap();
+        make(&root, &Kind::Factory(Some("factory@example.org")), false).unwrap();
         let workspace = Workspace::read(&root).unwrap();
         assert_eq!(workspace.identity.as_deref(), Some("factory@example.org"));
         assert_eq!(workspace.key, Some(root.join("factory.key")));
         assert_eq!(workspace.passports, Some(root.join("passports")));
         fs::write(root.join("README.md"), "mine").unwrap();
-        assert!(make(&root, None, false).unwrap_err().to_string().contains("dtg-passport.toml: already exists"));
+        assert!(
+            make(&root, &Kind::Factory(None), false)
+                .unwrap_err()
+                .to_string()
+                .contains("dtg-passport.toml: already exists")
+        );
         assert_eq!(fs::read_to_string(root.join("README.md")).unwrap(), "mine");
-        make(&root, None, true).unwrap();
+        make(&root, &Kind::Factory(None), true).unwrap();
         assert_eq!(Workspace::read(&root).unwrap().identity, None);
     }
 
@@ -99,10 +134,13 @@ mod tests {
     fn after_an_error_nothing_is_left() {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join("stands"), "a file").unwrap();
-        assert!(make(folder.path(), None, false).is_err());
+        assert!(make(folder.path(), &Kind::Factory(None), false).is_err());
         assert_eq!(files(folder.path()), ["stands"]);
-        assert!(make(&folder.path().join("stands/below"), None, false).is_err());
-        assert!(matches!(make(&folder.path().join("new"), Some("a\"b"), false), Err(NotMade::Identity)));
+        assert!(make(&folder.path().join("stands/below"), &Kind::Factory(None), false).is_err());
+        assert!(matches!(
+            make(&folder.path().join("new"), &Kind::Factory(Some("a\"b")), false),
+            Err(NotMade::Identity)
+        ));
         assert_eq!(files(folder.path()), ["stands"]);
     }
 }

@@ -1,22 +1,28 @@
 //! Workspace of a factory or a laboratory: a folder whose `dtg-passport.toml` states the key, the issuer, the trusted
 //! keys and the folders of all commands.
 //!
+//! * `due`: what ends, and when.
 //! * `layout`: a new workspace.
+//! * `results`: calibrations in a laboratory.
 //! * `status`: the contents of a workspace.
 
+pub(crate) mod due;
 mod layout;
+mod results;
 mod status;
 
-pub(crate) use layout::{NotMade, make};
-pub(crate) use status::status;
+pub(crate) use layout::{Kind, NotMade, make};
+pub(crate) use results::{NoPassport, Results, serial_of};
+pub(crate) use status::{SOON_DAYS, status};
 
 use crate::files::{self, FileError};
 use crate::folder::{Folder, Memory};
+use crate::interface::enquiry::place_of;
 use crate::text::node::{location_of, odd_character, utf8, without_byte_order_mark};
 use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, Location, Problem, Unreadable, misspelt, name_of};
 use crate::wording::Language;
 use std::path::{Path, PathBuf};
-use toml::de::DeTable;
+use toml::de::{DeTable, DeValue};
 
 /// Name of the file in the folder of a workspace.
 pub(crate) const WORKSPACE_FILE: &str = "dtg-passport.toml";
@@ -24,7 +30,21 @@ pub(crate) const WORKSPACE_FILE: &str = "dtg-passport.toml";
 /// Folder of the last accepted register of each stand.
 const REGISTERS_FOLDER: &str = "registers";
 
-const KEYS: [&str; 8] = ["key", "identity", "register_key", "trust", "passports", "stands", "sites", "lang"];
+const KEYS: [&str; 13] = [
+    "key",
+    "identity",
+    "register_key",
+    "trust",
+    "passports",
+    "stands",
+    "sites",
+    "lang",
+    "stand",
+    "at",
+    "laboratory",
+    "gyro",
+    "results",
+];
 
 /// Workspace: the values that the options of commands have if they are not given. Paths begin with that of its folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -42,6 +62,15 @@ pub(crate) struct Workspace {
     pub sites: Option<PathBuf>,
     /// Language of what is printed.
     pub lang: Option<Language>,
+    /// Stands of a laboratory, `<model>/<serial>`.
+    pub stand: Vec<String>,
+    /// Place of the stands, as `--at` takes it.
+    pub at: Option<String>,
+    /// Laboratory, and type of the gyros.
+    pub laboratory: Option<PathBuf>,
+    pub gyro: Option<PathBuf>,
+    /// Folder of the results of calibrations.
+    pub results: Option<PathBuf>,
 }
 
 /// Reason why a workspace cannot be used.
@@ -81,41 +110,68 @@ impl Workspace {
             })
             .collect();
         let language = |tag: &str| Language::ALL.into_iter().find(|language| language.tag() == tag);
-        let mut values: [Option<String>; 8] = Default::default();
+        let mut values: [Vec<String>; KEYS.len()] = Default::default();
         for (key, value) in table.get_ref().iter() {
-            match KEYS.iter().position(|known| known == key.get_ref()) {
-                None => problems.push(unknown_key(key.get_ref(), location(bytes, key.span().start))),
-                Some(place) => match value.get_ref().as_str().filter(|text| !text.is_empty()) {
-                    Some(text) if KEYS[place] == "lang" && language(text).is_none() => {
-                        let at = Some(location(bytes, value.span().start));
-                        problems.push(Problem::new(at, KEYS[place], format!("{text:?}"), "\"en\" or \"ru\"", ""));
-                    }
-                    Some(text) => values[place] = Some(text.to_owned()),
-                    None => {
-                        let found = text.get(value.span()).unwrap_or("nothing");
-                        let at = Some(location(bytes, value.span().start));
-                        problems.push(Problem::new(at, KEYS[place], found, "text", "put it in double quotes"));
-                    }
+            let Some(index) = KEYS.iter().position(|known| known == key.get_ref()) else {
+                problems.push(unknown_key(key.get_ref(), location(bytes, key.span().start)));
+                continue;
+            };
+            let name = KEYS[index];
+            let one = |value: &DeValue| value.as_str().filter(|text| !text.is_empty()).map(str::to_owned);
+            let found = match value.get_ref() {
+                DeValue::Array(all) if name == "stand" => all.iter().map(|value| one(value.get_ref())).collect(),
+                value => one(value).map(|text| vec![text]),
+            };
+            let mut refuse = |found: String, expected: &str, advice: &str| {
+                problems.push(Problem::new(Some(location(bytes, value.span().start)), name, found, expected, advice));
+            };
+            let Some(found) = found else {
+                refuse(text.get(value.span()).unwrap_or("nothing").to_owned(), "text", "put it in double quotes");
+                continue;
+            };
+            let is_stand =
+                |text: &String| identifiers(&text.split('/').collect::<Vec<_>>()).is_some_and(|names| names.len() == 2);
+            match (name, found.first()) {
+                ("lang", Some(tag)) if language(tag).is_none() => refuse(format!("{tag:?}"), "\"en\" or \"ru\"", ""),
+                ("stand", _) if !found.iter().all(is_stand) => {
+                    refuse(format!("{found:?}"), "\"MODEL/SERIAL\", or a list of such texts", "");
+                }
+                ("at", Some(at)) => match place_of(at) {
+                    Ok(_) => values[index] = found,
+                    Err(why) => refuse(format!("{at:?}"), "latitude and longitude", &why),
                 },
+                _ => values[index] = found,
             }
         }
         if !problems.is_empty() {
             problems.sort_by_key(|problem| problem.location.map(|at| (at.line, at.column)));
             return Err(Unreadable::of(name, problems));
         }
-        let [key, identity, register_key, trust, passports, stands, sites, lang] = values;
-        let path = |stated: Option<String>| stated.map(|stated| root.join(stated));
+        let [key, identity, register_key, trust, passports, stands, sites, lang, stand, at, laboratory, gyro, results] =
+            values;
+        let path = |stated: Vec<String>| stated.first().map(|stated| root.join(stated));
         Ok(Self {
             root: root.to_owned(),
             key: path(key),
-            identity,
+            identity: identity.into_iter().next(),
             register_key: path(register_key),
             trust: path(trust),
             passports: path(passports),
             stands: path(stands),
             sites: path(sites),
-            lang: lang.as_deref().and_then(language),
+            lang: lang.first().and_then(|tag| language(tag)),
+            stand,
+            at: at.into_iter().next(),
+            laboratory: path(laboratory),
+            gyro: path(gyro),
+            results: path(results),
         })
+    }
+
+    /// Returns the workspace that [`make`] makes for a laboratory with these stands.
+    pub(crate) fn of_a_new_laboratory(root: &Path, stands: &[String]) -> Result<Self, Unreadable> {
+        let text = layout::settings(&Kind::Laboratory(stands)).unwrap_or_default();
+        Self::from_toml(root, WORKSPACE_FILE, text.as_bytes())
     }
 
     /// Returns the memory of the last accepted registers, in the folder `registers`.

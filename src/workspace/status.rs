@@ -1,10 +1,11 @@
 //! Contents of a workspace: stands, sites, passports in force, passports that expire soon, alarms, keys.
 
+use super::due::{self, Due};
 use super::{WORKSPACE_FILE, Workspace};
 use crate::batch::paths::{is_stand, is_yaml};
 use crate::files::walk::{Entry, Walk};
 use crate::files::{self, FileError};
-use crate::folder::overview::{Overview, Query};
+use crate::folder::overview::{Overview, Query, StandRows};
 use crate::parallel;
 use crate::passport::{Question, Trust};
 use crate::register::{Row, State};
@@ -17,7 +18,7 @@ use crate::stand::Stand;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, name_of, printable, shown};
 use crate::trust::PublicKey;
 use crate::wording::Text;
-use crate::wording::texts::{register as register_texts, status as texts};
+use crate::wording::texts::{checks, register as register_texts, status as texts};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use serde::Serialize;
@@ -25,7 +26,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Number of days before the expiry date from which a passport or certificate is listed as expiring.
-const SOON_DAYS: i32 = 90;
+pub(crate) const SOON_DAYS: i32 = 90;
 
 /// Most lines of one kind in the text; the rest is counted.
 const MOST_LINES: usize = 20;
@@ -34,11 +35,13 @@ const MOST_LINES: usize = 20;
 pub(crate) struct Status {
     workspace: String,
     time: Timestamp,
-    stands: Vec<StandLine>,
+    pub(super) stands: Vec<StandLine>,
     sites: Vec<SiteLine>,
     passports: Option<Passports>,
-    keys: Vec<KeyLine>,
+    pub(super) keys: Vec<KeyLine>,
     signing_key: Option<SigningKeyLine>,
+    /// What will expire or stop being fresh, by date.
+    pub(crate) due: Vec<Due>,
     /// Files that cannot be read, and parts that the workspace does not state, in words.
     remarks: Vec<String>,
     /// Whether the register could not be read completely.
@@ -47,12 +50,14 @@ pub(crate) struct Status {
 }
 
 #[derive(Debug, Serialize)]
-struct StandLine {
-    id: String,
+pub(super) struct StandLine {
+    pub(super) id: String,
     file: String,
-    certificate: String,
-    valid_until: Option<Date>,
+    pub(super) certificate: String,
+    pub(super) valid_until: Option<Date>,
     expired: bool,
+    #[serde(skip)]
+    pub(super) customer: Option<String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -70,6 +75,9 @@ struct Passports {
     /// Current passports that have expired, for the text.
     #[serde(skip)]
     expired: Vec<Row>,
+    /// The registers of a laboratory's stands, and what is in force by them, for the text.
+    #[serde(skip)]
+    in_force: Vec<Words>,
     /// Registers that will soon no longer be fresh: stand and last day, for the text.
     #[serde(skip)]
     aging: Vec<(String, Date)>,
@@ -81,12 +89,12 @@ struct Passports {
 
 /// A trusted key, as a line of allowed_signers states it.
 #[derive(Debug, Serialize)]
-struct KeyLine {
-    principals: String,
+pub(super) struct KeyLine {
+    pub(super) principals: String,
     namespaces: Option<String>,
     fingerprint: String,
     valid_after: Option<Timestamp>,
-    valid_before: Option<Timestamp>,
+    pub(super) valid_before: Option<Timestamp>,
     valid: bool,
 }
 
@@ -102,12 +110,12 @@ struct SigningKeyLine {
 
 /// Returns what `workspace` holds at `time`; without `trust`, passports are not examined.
 ///
-/// Freshness is judged at the later of `time` and `now`.
+/// Freshness is judged at the later of `time` and `now`. What is due is listed for `days` days.
 pub(crate) fn status(
     workspace: &Workspace,
     trust: Option<&Trust>,
-    time: Timestamp,
-    now: Timestamp,
+    (time, now): (Timestamp, Timestamp),
+    days: i32,
 ) -> Result<Status, FileError> {
     let mut remarks = Vec::new();
     let stands = stands(workspace, time, &mut remarks)?;
@@ -138,17 +146,20 @@ pub(crate) fn status(
     let incomplete = register.as_ref().is_some_and(Overview::is_incomplete);
     remarks.extend(register.iter().flat_map(|overview| overview.remarks.clone()));
     let keys = trust.map_or_else(Vec::new, |trust| keys(trust, time));
-    Ok(Status {
+    let mut status = Status {
         workspace: name_of(&workspace.root),
         time,
         stands,
         sites,
-        passports: register.map(|overview| passports(&overview, time)),
+        passports: register.as_ref().map(|overview| passports(overview, time, workspace.is_of_a_laboratory())),
         keys,
         signing_key: workspace.key.as_deref().map(|key| signing_key(key, workspace, trust, time)),
+        due: Vec::new(),
         remarks,
         incomplete,
-    })
+    };
+    status.due = due::due(workspace, register.as_ref(), &status, (time, days));
+    Ok(status)
 }
 
 fn stands(workspace: &Workspace, time: Timestamp, remarks: &mut Vec<String>) -> Result<Vec<StandLine>, FileError> {
@@ -157,6 +168,7 @@ fn stands(workspace: &Workspace, time: Timestamp, remarks: &mut Vec<String>) -> 
     let line = |file: String, stand: Stand| StandLine {
         id: stand.stand.id(),
         file,
+        customer: stand.stand.customer,
         certificate: stand.certificate.number,
         valid_until: stand.certificate.valid_until,
         expired: stand.certificate.valid_until.is_some_and(|last| last < today),
@@ -208,22 +220,34 @@ fn read_each<T, L>(
     Ok(lines)
 }
 
-fn passports(overview: &Overview, time: Timestamp) -> Passports {
-    let rows = |wanted: &dyn Fn(&Row) -> bool| overview.rows().filter(|row| wanted(row)).cloned().collect::<Vec<_>>();
+/// Returns the passports of a folder; a laboratory counts only those that it has.
+fn passports(overview: &Overview, time: Timestamp, is_of_a_laboratory: bool) -> Passports {
+    let counts_here = |row: &&Row| row.file.is_some() || !is_of_a_laboratory;
+    let all = || overview.rows().filter(counts_here);
+    let rows = |wanted: &dyn Fn(&Row) -> bool| all().filter(|row| wanted(row)).cloned().collect::<Vec<_>>();
     let expired = rows(&|row| row.state == State::Current && row.expired);
     let expiring = rows(&|row| row.is_in_force() && row.days_left(time).is_some_and(|days| days <= SOON_DAYS));
     let mut counts = BTreeMap::from([("expired", expired.len()), ("expiring", expiring.len())]);
     for state in State::ALL {
-        let number =
-            overview.rows().filter(|row| row.state == state && !(state == State::Current && row.expired)).count();
+        let number = all().filter(|row| row.state == state && !(state == State::Current && row.expired)).count();
         counts.insert(state.key(), number);
     }
     let today = time.to_zoned(jiff::tz::TimeZone::UTC).date();
     let is_soon = |last: &Date| today.until(*last).is_ok_and(|span| (0..=SOON_DAYS).contains(&span.get_days()));
     let aging = overview.stands.iter().filter_map(|one| Some((one.stand.clone(), one.fresh_until.filter(is_soon)?)));
+    let of_stand = |stand: &StandRows| {
+        let fresh = stand.fresh_until.map_or_else(|| "".into(), checks::register_fresh);
+        let register = register_texts::register_of(stand.sequence, stand.issued_at, fresh);
+        let in_force = stand.rows.iter().filter(|row| row.is_in_force() && row.file.is_some()).map(|row| {
+            let until = row.valid_until.map(|last| Words::All(vec!["  ".into(), register_texts::valid_until(last)]));
+            Words::All([given(&row.id)].into_iter().chain(until).collect())
+        });
+        [vec![given(&stand.stand), "  ".into(), register].into()].into_iter().chain(in_force).collect::<Vec<Words>>()
+    };
+    let in_force = overview.stands.iter().filter(|_| is_of_a_laboratory).flat_map(of_stand).collect();
     let alarms = overview.alarms.iter().map(ToString::to_string).collect();
     let found = overview.alarms.iter().map(alarm).collect();
-    Passports { counts, expiring, expired, aging: aging.collect(), alarms, found }
+    Passports { counts, expiring, expired, in_force, aging: aging.collect(), alarms, found }
 }
 
 fn keys(trust: &Trust, time: Timestamp) -> Vec<KeyLine> {
@@ -368,6 +392,7 @@ impl Passports {
         let counts: Vec<Words> = counts.map(|(count, state)| register_texts::counted(count, state)).collect();
         let counts = if counts.is_empty() { texts::NONE.into() } else { listed(counts) };
         let mut lines = vec![vec![texts::PASSPORTS.into(), counts]];
+        below(&mut lines, self.in_force.iter().cloned());
         let of_row = |row: &Row, words: Words| Words::All(vec![given(&row.id), "  ".into(), words]);
         below(&mut lines, self.expiring.iter().map(|row| of_row(row, register_texts::valid_until(row.valid_until))));
         let was_valid = |row: &Row| texts::was_valid(marked(Outcome::Failed, texts::EXPIRED), row.valid_until);

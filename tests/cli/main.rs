@@ -10,13 +10,16 @@ mod programs;
 mod calibrate;
 mod certify;
 mod dcc;
+mod deliver;
 mod export;
+mod fleet;
 mod generated;
 mod history;
 #[cfg(unix)]
 mod hostile_words;
 mod json_keys;
 mod keystrokes;
+mod laboratory;
 #[cfg(unix)]
 mod links;
 mod recertify;

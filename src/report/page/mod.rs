@@ -2,6 +2,7 @@
 //!
 //! * [`calibration`]: the report of a calibration.
 //! * `certification`: the record of a certification.
+//! * `instructions`: the first steps of a laboratory.
 //! * [`language`]: the languages of a page, and texts as its elements.
 //! * [`texts`]: the table of texts.
 //! * [`number`]: numbers as elements, and columns of them.
@@ -16,6 +17,8 @@ pub(crate) mod calibration;
 #[cfg(feature = "factory")]
 pub(crate) mod certification;
 pub(crate) mod code;
+#[cfg(feature = "cli")]
+pub(crate) mod instructions;
 pub(crate) mod language;
 pub(crate) mod number;
 pub(crate) mod parts;

@@ -1,0 +1,130 @@
+//! Table of deliveries: which stand goes where. One row is one passport, and one archive.
+
+use super::Failure;
+use crate::files;
+use crate::interface::enquiry::date;
+use crate::site::Site;
+use crate::stand::Stand;
+use crate::text::table::Table;
+use crate::text::{LARGEST_DOCUMENT_BYTES, Location, Problem, Unreadable, name_of, rule};
+use jiff::civil::Date;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
+
+/// What a row says of one stand at one site.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(crate) struct Terms {
+    /// Expiry date of the passport (inclusive).
+    pub valid_until: Option<Date>,
+    /// Customer, instead of that of the stand.
+    pub customer: Option<String>,
+}
+
+/// Rows of a table, by the texts in their columns `stand` and `site`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Deliveries(BTreeMap<(String, String), Terms>);
+
+/// Rows by the identifiers of stand and site, and the files of both.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Placed {
+    pub rows: BTreeMap<(String, String), Terms>,
+    pub stands: Vec<PathBuf>,
+    pub sites: Vec<PathBuf>,
+}
+
+impl Deliveries {
+    /// Reads a table with the columns `stand`, `site` and optionally `valid_until`, `customer`.
+    ///
+    /// # Errors
+    /// Returns every cell that is not as it should be, and every row that is there twice.
+    pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
+        let table = Table::read(name, bytes, &["stand", "site"], &[], &["valid_until", "customer"])?;
+        let (mut rows, mut problems) = (BTreeMap::new(), Vec::new());
+        for row in &table.rows {
+            let text = |column: &str| table.place(column).map(|place| (place, &row[place]));
+            let mut refuse = |column: usize, expected: &str| {
+                let cell = &row[column];
+                problems.push(table.problem(cell, column, format!("{:?}", cell.text), expected, ""));
+            };
+            for column in [0, 1].into_iter().filter(|column| row[*column].text.is_empty()) {
+                refuse(column, "a name");
+            }
+            let mut terms = Terms::default();
+            if let Some((place, cell)) = text("valid_until").filter(|(_, cell)| !cell.text.is_empty()) {
+                match date(&cell.text) {
+                    Ok(day) => terms.valid_until = Some(day),
+                    Err(why) => refuse(place, why.strip_prefix("expected ").unwrap_or(&why)),
+                }
+            }
+            if let Some((place, cell)) = text("customer").filter(|(_, cell)| !cell.text.is_empty()) {
+                match cell.text.chars().all(rule::allowed_in_string) {
+                    true => terms.customer = Some(cell.text.clone()),
+                    false => refuse(place, "characters that a passport may contain"),
+                }
+            }
+            if rows.insert((row[0].text.clone(), row[1].text.clone()), terms).is_some() {
+                refuse(0, "each stand once for a site");
+            }
+        }
+        if rows.is_empty() && problems.is_empty() {
+            let at = Some(Location { line: 1, column: 1 });
+            problems.push(Problem::new(at, "", "no row", "a row for each passport", ""));
+        }
+        if problems.is_empty() { Ok(Self(rows)) } else { Err(table.refuse(problems)) }
+    }
+
+    /// Returns the stands and sites of the rows, as they are written.
+    pub(crate) fn rows(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.0.keys().map(|(stand, site)| (stand.as_str(), site.as_str()))
+    }
+
+    /// Reads the files that `stand` and `site` find for the names in the rows.
+    ///
+    /// # Errors
+    /// Returns the files that cannot be read, and two names for one stand at one site.
+    pub(crate) fn placed(
+        &self,
+        stand: impl Fn(&str) -> PathBuf,
+        site: impl Fn(&str) -> PathBuf,
+    ) -> Result<Placed, Vec<Failure>> {
+        let mut failures = Vec::new();
+        let id_of_stand = |name: &str, bytes: &[u8]| Stand::from_yaml(name, bytes).map(|stand| stand.stand.id());
+        let id_of_site = |name: &str, bytes: &[u8]| Site::from_yaml(name, bytes).map(|site| site.id.to_string());
+        let stands = found(self.rows().map(|row| row.0), stand, id_of_stand, &mut failures);
+        let sites = found(self.rows().map(|row| row.1), site, id_of_site, &mut failures);
+        let mut rows = BTreeMap::new();
+        for ((stand, site), terms) in &self.0 {
+            let Some(((stand, path), (site, _))) = stands.get(stand).zip(sites.get(site)) else { continue };
+            if rows.insert((stand.clone(), site.clone()), terms.clone()).is_some() {
+                failures.push(Failure::refused(path, format!("{stand} has two rows for {site}")));
+            }
+        }
+        let paths = |all: Found| all.into_values().map(|(_, path)| path).collect();
+        if failures.is_empty() {
+            Ok(Placed { rows, stands: paths(stands), sites: paths(sites) })
+        } else {
+            Err(failures)
+        }
+    }
+}
+
+/// Identifiers and paths of files by the names in a table.
+type Found = BTreeMap<String, (String, PathBuf)>;
+
+/// Reads the files of names, each once, and notes those that cannot be read.
+fn found<'a>(
+    names: impl Iterator<Item = &'a str>,
+    path_of: impl Fn(&str) -> PathBuf,
+    id_of: impl Fn(&str, &[u8]) -> Result<String, Unreadable>,
+    failures: &mut Vec<Failure>,
+) -> Found {
+    let read = |name: &str| {
+        let path = path_of(name);
+        let bytes = files::read(&path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
+        let id = id_of(&name_of(&path), &bytes);
+        let id = id.map_err(|error| Failure::unreadable(&path, error.in_text(&bytes)))?;
+        Ok((name.to_owned(), (id, path)))
+    };
+    let names: BTreeSet<&str> = names.collect();
+    names.into_iter().filter_map(|name| read(name).map_err(|failure| failures.push(failure)).ok()).collect()
+}

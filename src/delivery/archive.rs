@@ -1,0 +1,164 @@
+//! ZIP archives of deliveries. One from a stranger is refused as a whole unless every byte of it is accounted for: members
+//! follow each other without a gap, both of their headers agree, and nothing but regular files of expected names is in it.
+
+use super::place::{Member, place_of};
+use crate::text::{Printable, printable};
+use std::collections::BTreeSet;
+use std::io::{Cursor, Read, Write};
+use zip::read::ZipReadOptions;
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipArchive, ZipWriter};
+
+/// Most bytes of all members, unpacked.
+const LARGEST_BYTES: usize = 16 << 20;
+
+/// Most members, with folders.
+const MOST_MEMBERS: usize = 200;
+
+/// Most bytes of an archive: stored members, and headers.
+pub(crate) const LARGEST_ARCHIVE_BYTES: usize = LARGEST_BYTES + (1 << 20);
+
+/// Record at the end of an archive: signature, and its length without a comment.
+const END: (&[u8], usize) = (b"PK\x05\x06", 22);
+
+/// Type of a file in a Unix mode, and those of a regular file and of a folder.
+const TYPE: u32 = 0o170_000;
+const REGULAR: u32 = 0o100_000;
+const FOLDER: u32 = 0o040_000;
+
+/// Reason why an archive is refused as a whole.
+#[derive(Debug, PartialEq, Eq, thiserror::Error)]
+pub(crate) enum BadArchive {
+    #[error("is not a ZIP archive, or it is damaged ({0})")]
+    Damaged(String),
+    #[error("has bytes before, between or after its members")]
+    Bytes,
+    #[error("has a comment")]
+    Comment,
+    #[error("has more than {MOST_MEMBERS} members")]
+    Members,
+    #[error("has members of more than {} MiB in all", LARGEST_BYTES >> 20)]
+    Bytes16,
+    #[error("member {0}: is encrypted")]
+    Encrypted(String),
+    #[error("member {0}: is compressed by another method than deflate")]
+    Compression(String),
+    #[error("member {0}: is not a regular file")]
+    NotAFile(String),
+    #[error("member {0}: no file of this name belongs in a delivery")]
+    Name(String),
+    #[error("member {0}: another one has this name, or differs from it only in case")]
+    Twice(String),
+    #[error("member {0}: its length is not the one that is stated")]
+    Length(String),
+}
+
+impl From<zip::result::ZipError> for BadArchive {
+    fn from(error: zip::result::ZipError) -> Self {
+        Self::Damaged(Printable(error).to_string())
+    }
+}
+
+/// Returns the members of an archive.
+///
+/// # Errors
+/// Returns [`BadArchive`] for the first thing that a delivery does not have.
+pub(super) fn read(bytes: &[u8]) -> Result<Vec<(Member, Vec<u8>)>, BadArchive> {
+    let end = bytes.len().checked_sub(END.1).filter(|end| bytes[*end..].starts_with(END.0)).ok_or(BadArchive::Bytes)?;
+    let number = |at: usize| usize::from(u16::from_le_bytes([bytes[at], bytes[at + 1]]));
+    let long = |at: usize| number(at) | number(at + 2) << 16;
+    // The counts on this disk and in all, and what the directory's length and place leave to the end.
+    if number(end + 8) > MOST_MEMBERS || number(end + 10) > MOST_MEMBERS {
+        return Err(BadArchive::Members);
+    }
+    let directory = long(end + 16);
+    if directory.checked_add(long(end + 12)) != Some(end) {
+        return Err(BadArchive::Bytes);
+    }
+    let mut archive = ZipArchive::new(Cursor::new(bytes))?;
+    if !archive.comment().is_empty() {
+        return Err(BadArchive::Comment);
+    }
+    let is_at_its_place = archive.offset() == 0 && archive.central_directory_start() == directory as u64;
+    if !is_at_its_place || archive.len() != number(end + 10) {
+        return Err(BadArchive::Bytes);
+    }
+    let mut ranges = Vec::new();
+    for index in 0..archive.len() {
+        let entry = archive.by_index_data(index)?;
+        let name = printable(String::from_utf8_lossy(entry.name_raw()));
+        if entry.encrypted() {
+            return Err(BadArchive::Encrypted(name));
+        }
+        if ![CompressionMethod::Stored, CompressionMethod::Deflated].contains(&entry.compression()) {
+            return Err(BadArchive::Compression(name));
+        }
+        ranges.push((entry.header_start() as usize, entry.compressed_size() as usize));
+    }
+    archive.validate_header_consistency()?;
+    check_bytes(bytes, ranges, directory)?;
+    let (mut members, mut names, mut left) = (Vec::new(), BTreeSet::new(), LARGEST_BYTES);
+    for index in 0..archive.len() {
+        let options = ZipReadOptions::new().enforce_header_consistency(true);
+        let mut file = archive.by_index_with_options(index, options)?;
+        let raw = file.name_raw().to_vec();
+        let name = printable(String::from_utf8_lossy(&raw));
+        if !names.insert(raw.to_ascii_lowercase()) {
+            return Err(BadArchive::Twice(name));
+        }
+        let due = if file.is_dir() { FOLDER } else { REGULAR };
+        if file.unix_mode().is_some_and(|mode| ![0, due].contains(&(mode & TYPE))) || file.is_dir() && file.size() > 0 {
+            return Err(BadArchive::NotAFile(name));
+        }
+        let place = std::str::from_utf8(&raw).ok().and_then(place_of).ok_or_else(|| BadArchive::Name(name.clone()))?;
+        let stated = usize::try_from(file.size()).ok().filter(|size| *size <= left).ok_or(BadArchive::Bytes16)?;
+        let mut content = Vec::new();
+        // One byte more than stated shows that the statement is false.
+        let unpacked = (&mut file).take(stated as u64 + 1).read_to_end(&mut content);
+        unpacked.map_err(|error| BadArchive::Damaged(format!("{name}: {error}")))?;
+        if content.len() != stated {
+            return Err(BadArchive::Length(name));
+        }
+        left -= stated;
+        members.push((place, content));
+    }
+    Ok(members)
+}
+
+/// Checks that members, each with the places of its header and its length, follow each other from the first byte to the
+/// directory, with a data descriptor after one whose header announces it.
+fn check_bytes(bytes: &[u8], mut members: Vec<(usize, usize)>, directory: usize) -> Result<(), BadArchive> {
+    members.sort_unstable();
+    let mut at = 0;
+    for (index, (start, length)) in members.iter().enumerate() {
+        let header = bytes.get(*start..*start + 30).filter(|_| *start == at).ok_or(BadArchive::Bytes)?;
+        let variable = [26, 28].map(|at| usize::from(u16::from_le_bytes([header[at], header[at + 1]])));
+        at = start + 30 + variable.iter().sum::<usize>() + length;
+        let next = members.get(index + 1).map_or(directory, |(start, _)| *start);
+        // CRC and two lengths, with or without a signature.
+        if header[6] & 8 != 0 && [12, 16].contains(&next.saturating_sub(at)) {
+            at = next;
+        }
+    }
+    if at == directory { Ok(()) } else { Err(BadArchive::Bytes) }
+}
+
+/// Returns an archive with these members, the same bytes at any time.
+///
+/// # Errors
+/// Returns [`BadArchive`] if there are more members or bytes than a reader takes.
+pub(super) fn write(members: &[(String, Vec<u8>)]) -> Result<Vec<u8>, BadArchive> {
+    if members.len() > MOST_MEMBERS {
+        return Err(BadArchive::Members);
+    }
+    if members.iter().map(|(_, bytes)| bytes.len()).sum::<usize>() > LARGEST_BYTES {
+        return Err(BadArchive::Bytes16);
+    }
+    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
+    let options = SimpleFileOptions::default().compression_method(CompressionMethod::Deflated).unix_permissions(0o644);
+    for (name, bytes) in members {
+        archive.start_file(name.as_str(), options)?;
+        archive.write_all(bytes).map_err(|error| BadArchive::Damaged(error.to_string()))?;
+    }
+    Ok(archive.finish()?.into_inner())
+}

@@ -1,0 +1,578 @@
+//! A delivery from the factory to the laboratory, and archives that no factory made.
+
+use crate::programs;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+/// A workspace of a factory with two stands, and next to it whatever a test makes.
+pub struct Place(tempfile::TempDir);
+
+impl Place {
+    pub fn new() -> Self {
+        let place = Self::before_issue();
+        place.good(
+            "issue SPS-2/0017 SPS-2/0018 --site moscow-bmstu --site torino-inrim --workspace factory \
+             --allow-uncalibratable",
+        );
+        place
+    }
+
+    /// Makes the workspace with stands and sites, but without passports.
+    pub fn before_issue() -> Self {
+        let place = Self(tempfile::tempdir().unwrap());
+        place.good("init factory --identity factory@example.org");
+        place.good(
+            "keygen factory/factory.key --no-passphrase --identity factory@example.org --allowed-signers \
+             factory/allowed_signers",
+        );
+        let stand = fs::read_to_string(programs::project("passports/SPS-2/0017/stand.yaml")).unwrap();
+        for serial in ["0017", "0018"] {
+            let folder = place.path(&format!("factory/stands/SPS-2/{serial}"));
+            fs::create_dir_all(&folder).unwrap();
+            // No two stands have the same deviations.
+            let of_this = match serial {
+                "0017" => stand.clone(),
+                _ => {
+                    stand.replace("\"0017\"", "\"0018\"").replace("C-2026-0142", "C-2026-0143").replace("12.4", "13.4")
+                }
+            };
+            fs::write(folder.join("stand.yaml"), of_this).unwrap();
+        }
+        for site in ["moscow-bmstu", "torino-inrim"] {
+            let name = format!("{site}.yaml");
+            fs::copy(programs::project("sites").join(&name), place.path("factory/sites").join(&name)).unwrap();
+        }
+        place
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    pub fn run(&self, arguments: &str) -> Output {
+        self.command(&arguments.split_whitespace().collect::<Vec<_>>())
+    }
+
+    pub fn command(&self, words: &[&str]) -> Output {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
+        // No browser prints here; what one prints is tested elsewhere.
+        command.env("DTG_PASSPORT_BROWSER", "no-browser-of-this-name");
+        command.args(words).current_dir(&self.0).stdin(Stdio::null()).output().unwrap()
+    }
+
+    pub fn good(&self, arguments: &str) -> String {
+        let output = self.run(arguments);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{arguments}: {said}");
+        String::from_utf8(output.stdout).unwrap()
+    }
+
+    /// Runs the program, which must refuse with exit code 1 and the `words`, and returns all that it said.
+    pub fn refused(&self, arguments: &str, words: &str) -> String {
+        let output = self.run(arguments);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(1), "{arguments}: {said}");
+        assert!(said.contains(words), "{arguments}: lacks {words}\n{said}");
+        said + &String::from_utf8_lossy(&output.stdout)
+    }
+
+    /// The fingerprint as OpenSSH tells it.
+    pub fn fingerprint(&self, key: &str) -> String {
+        let output = Command::new("ssh-keygen").arg("-lf").arg(self.path(key)).output().unwrap();
+        String::from_utf8(output.stdout).unwrap().split(' ').nth(1).unwrap().to_owned()
+    }
+
+    /// Every file below the folder of the test, with its content.
+    pub fn files(&self) -> BTreeMap<PathBuf, Vec<u8>> {
+        fn add(folder: &Path, all: &mut BTreeMap<PathBuf, Vec<u8>>) {
+            for entry in fs::read_dir(folder).unwrap() {
+                let path = entry.unwrap().path();
+                match path.is_dir() {
+                    true => add(&path, all),
+                    false => drop(all.insert(path.clone(), fs::read(&path).unwrap_or_default())),
+                }
+            }
+        }
+        let mut all = BTreeMap::new();
+        add(self.0.path(), &mut all);
+        all
+    }
+}
+
+/// Packs or unpacks an archive with Python's `zipfile`, a reader and writer of its own.
+fn python(script: &str, arguments: &[&Path]) {
+    let mut command = programs::python();
+    programs::output({
+        command.args(["-c", script]).args(arguments);
+        command
+    });
+}
+
+fn unpacked(archive: &Path) -> BTreeMap<String, Vec<u8>> {
+    let place = Place(tempfile::tempdir().unwrap());
+    let root = place.0.path();
+    python("import sys, zipfile; zipfile.ZipFile(sys.argv[1]).extractall(sys.argv[2])", &[archive, root]);
+    let name = |path: &Path| path.strip_prefix(root).unwrap().to_str().unwrap().replace('\\', "/");
+    place.files().iter().map(|(path, bytes)| (name(path), bytes.clone())).collect()
+}
+
+#[test]
+fn a_laboratory_gets_its_stand_alone() {
+    let place = Place::new();
+    let said = place.good("deliver SPS-2/0017/moscow-bmstu -o d.zip --workspace factory");
+    let fingerprint = place.fingerprint("factory/factory.key.pub");
+    assert!(said.contains(&fingerprint), "{said}");
+    let stand = "passports/SPS-2/0017";
+    let unpacked = unpacked(&place.path("d.zip"));
+    let (passport, register) = (format!("{stand}/moscow-bmstu-1.yaml"), format!("{stand}/register.yaml"));
+    let names: Vec<&str> = unpacked.keys().map(String::as_str).collect();
+    assert_eq!(names, ["START-HERE.html", &passport, &register, "signing_keys.pub"]);
+    let key = fs::read_to_string(place.path("factory/factory.key.pub")).unwrap();
+    assert_eq!(unpacked["signing_keys.pub"], key.as_bytes());
+    for (name, bytes) in &unpacked {
+        assert!(!String::from_utf8_lossy(bytes).contains(&fingerprint[7..]), "{name} has the fingerprint");
+    }
+    let page = String::from_utf8(unpacked["START-HERE.html"].clone()).unwrap();
+    assert!(page.contains("fingerprint") && page.contains("отпечаток"), "{page}");
+    place.good("deliver SPS-2/0017/moscow-bmstu -o again.zip --workspace factory");
+    assert_eq!(fs::read(place.path("again.zip")).unwrap(), fs::read(place.path("d.zip")).unwrap());
+
+    // Nothing is believed, written or shown before the fingerprint is given.
+    let before = place.files();
+    let other = "SHA256:AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA";
+    for given in ["", "--new-key", &format!("--fingerprint {other}"), "--format json"] {
+        let said = place.refused(&format!("receive d.zip lab {given}"), "nothing was written");
+        assert!(!said.contains(&fingerprint[7..]), "{given}: {said}");
+        assert_eq!(place.files(), before, "{given}");
+    }
+
+    let received = place.good(&format!("receive d.zip lab --fingerprint {fingerprint} --format json"));
+    let received: serde_json::Value = serde_json::from_str(&received).unwrap();
+    assert_eq!((&received["made"], &received["keys"][0]["fingerprint"]), (&true.into(), &fingerprint.as_str().into()));
+    let of_factory = |name: &str| fs::read(place.path("factory").join(name)).unwrap();
+    for name in [&passport, &register] {
+        assert_eq!(fs::read(place.path("lab").join(name)).unwrap(), of_factory(name), "{name}");
+    }
+    assert!(!place.path("lab").join(stand).join("torino-inrim-1.yaml").exists());
+    let bare: Vec<&str> = key.split(' ').take(2).collect();
+    let line = format!("factory@example.org namespaces=\"dtg-passport,dtg-register\" {}\n", bare.join(" "));
+    assert_eq!(fs::read_to_string(place.path("lab/allowed_signers")).unwrap(), line);
+    let settings = fs::read_to_string(place.path("lab/dtg-passport.toml")).unwrap();
+    assert!(settings.contains("\nstand = [\"SPS-2/0017\"]\n"), "{settings}");
+    assert!(!settings.lines().any(|line| line.starts_with("at ")), "a person states the place");
+    let page = fs::read_to_string(place.path("lab/pages/SPS-2/0017/moscow-bmstu-1.html")).unwrap();
+    assert!(page.contains("moscow-bmstu"));
+    place.good("verify SPS-2/0017/moscow-bmstu/1 --workspace lab");
+    // Again, it needs no fingerprint and changes nothing.
+    let before = place.files();
+    place.good("receive d.zip lab");
+    assert!(place.files() == before);
+}
+
+#[test]
+fn only_what_is_in_force_and_fresh_is_handed_over() {
+    let place = Place::new();
+    place.refused("deliver SPS-2/0019 -o d.zip --workspace factory", "register.yaml: missing");
+    place.refused("deliver SPS-2/0017/samara -o d.zip --workspace factory", "no passport is in force");
+    place.good("revoke SPS-2/0017/torino-inrim/1 --reason moved --workspace factory");
+    let words = "no passport is in force (SPS-2/0017/torino-inrim/1 is withdrawn)";
+    place.refused("deliver SPS-2/0017/torino-inrim -o d.zip --workspace factory", words);
+    place.refused("deliver SPS-2/0017 -o d.zip --time 2031-01-01 --workspace factory", "valid until 2028-11-01");
+    place.good("register factory/passports --renew --fresh-until 2026-01-01 --workspace factory");
+    place.refused("deliver SPS-2/0017 -o d.zip --workspace factory", "fresh until 2026-01-01");
+    fs::write(place.path("factory/passports/SPS-2/0018/moscow-bmstu-1.yaml"), "format: \"dtg-passport/1\"\n").unwrap();
+    place.refused("deliver SPS-2/0018 -o d.zip --workspace factory", "nothing was handed over");
+    assert!(!place.path("d.zip").exists());
+}
+
+/// A header of a member; those of the file and of the directory are alike, unless a test changes one.
+#[derive(Clone)]
+struct Header {
+    name: Vec<u8>,
+    flags: u16,
+    method: u16,
+    crc: u32,
+    packed: u32,
+    size: u32,
+}
+
+/// A member of an archive, with every field in the hand of the test. Expected: APPNOTE.TXT of PKWARE, 4.3 and 4.4.
+#[derive(Clone)]
+struct Entry {
+    local: Header,
+    listed: Header,
+    data: Vec<u8>,
+    /// Mode of Unix, in the upper half of the external attributes.
+    mode: u32,
+    /// Bytes before the header.
+    before: Vec<u8>,
+    is_listed: bool,
+}
+
+fn crc32(bytes: &[u8]) -> u32 {
+    !bytes
+        .iter()
+        .fold(!0, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), |crc, _| (crc >> 1) ^ (0xedb8_8320 * (crc & 1))))
+}
+
+fn entry(name: impl Into<Vec<u8>>, data: &[u8]) -> Entry {
+    let size = u32::try_from(data.len()).unwrap();
+    let header = Header { name: name.into(), flags: 0, method: 0, crc: crc32(data), packed: size, size };
+    Entry {
+        local: header.clone(),
+        listed: header,
+        data: data.to_vec(),
+        mode: 0o100_644,
+        before: Vec::new(),
+        is_listed: true,
+    }
+}
+
+impl Entry {
+    /// Changes both headers.
+    fn both(mut self, change: impl Fn(&mut Header)) -> Self {
+        change(&mut self.local);
+        change(&mut self.listed);
+        self
+    }
+
+    fn local(mut self, change: impl Fn(&mut Header)) -> Self {
+        change(&mut self.local);
+        self
+    }
+}
+
+impl Header {
+    fn bytes(&self) -> Vec<u8> {
+        let length = u16::try_from(self.name.len()).unwrap();
+        let mut bytes = [20u16, self.flags, self.method, 0, 0x21].map(u16::to_le_bytes).concat();
+        bytes.extend([self.crc, self.packed, self.size].map(u32::to_le_bytes).concat());
+        bytes.extend([length, 0].map(u16::to_le_bytes).concat());
+        bytes
+    }
+}
+
+/// An archive of these members with `count` in its last record, and `comment`.
+fn archive_of(entries: &[Entry], count: usize, comment: &[u8]) -> Vec<u8> {
+    let (mut file, mut directory) = (Vec::new(), Vec::new());
+    for entry in entries {
+        file.extend(&entry.before);
+        let start = u32::try_from(file.len()).unwrap();
+        file.extend([b"PK\x03\x04", entry.local.bytes().as_slice(), &entry.local.name, &entry.data].concat());
+        if entry.is_listed {
+            directory
+                .extend([b"PK\x01\x02".as_slice(), &(3u16 << 8 | 20).to_le_bytes(), &entry.listed.bytes()].concat());
+            directory.extend([0u16, 0, 0].map(u16::to_le_bytes).concat());
+            directory.extend([entry.mode << 16, start].map(u32::to_le_bytes).concat());
+            directory.extend(&entry.listed.name);
+        }
+    }
+    let [count, length] = [count, comment.len()].map(|number| u16::try_from(number).unwrap());
+    let [size, start] = [directory.len(), file.len()].map(|number| u32::try_from(number).unwrap());
+    file.extend(
+        [b"PK\x05\x06".as_slice(), &[0u16, 0, count, count].map(u16::to_le_bytes).concat()].concat().as_slice(),
+    );
+    let end = file.split_off(usize::try_from(start).unwrap());
+    [
+        file,
+        directory,
+        end,
+        [size, start].map(u32::to_le_bytes).concat(),
+        length.to_le_bytes().to_vec(),
+        comment.to_vec(),
+    ]
+    .concat()
+}
+
+fn archive(entries: &[Entry]) -> Vec<u8> {
+    archive_of(entries, entries.iter().filter(|entry| entry.is_listed).count(), b"")
+}
+
+/// Zeros, deflated: a thousandth of their length.
+fn zeros(length: usize) -> Vec<u8> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("deflated");
+    let script = format!(
+        "import sys, zlib; c = zlib.compressobj(9, zlib.DEFLATED, -15)\n\
+         open(sys.argv[1], 'wb').write(c.compress(bytes({length})) + c.flush())"
+    );
+    python(&script, &[&path]);
+    fs::read(path).unwrap()
+}
+
+/// Archives that no factory made, each with what is wrong in it; `good` are the members of a good one.
+fn hostile(good: &[Entry]) -> Vec<(String, Vec<u8>)> {
+    let mut all = Vec::new();
+    let mut add = |what: &str, bytes: Vec<u8>| all.push((what.to_owned(), bytes));
+    let with = |more: Entry| archive(&[good, &[more]].concat());
+    let page = b"<p>hello</p>";
+    let names: [&[u8]; 26] = [
+        b"../outside",
+        b"passports/../../outside",
+        b"/tmp/outside",
+        b"//host/outside",
+        b"..\\outside",
+        b"C:\\outside",
+        b"C:outside",
+        b"passports/SPS-2/0017/../../../outside",
+        b"passports/SPS-2/0017/\xff-1.yaml",
+        b"passports/SPS-2/0017/\xd0\xb0-1.yaml",
+        b"passports/SPS-2/0017/a\0-1.yaml",
+        b"passports/SPS-2/0017/moscow\n-1.yaml",
+        b"passports/CON/0017/x-1.yaml",
+        b"",
+        b".",
+        b"/",
+        b"passports/SPS-2/0017/./x-1.yaml",
+        b"passports//0017/x-1.yaml",
+        b"allowed_signers",
+        b"dtg-passport.toml",
+        b"registers/SPS-2/0017.yaml",
+        b"passports/SPS-2/0017/x.yaml",
+        b"passports/x-1.yaml",
+        b"passports/SPS-2/0017/stand.yaml",
+        b"passports/SPS-2/0017/deep/x-1.yaml",
+        b"~/outside",
+    ];
+    for name in names {
+        add(&format!("the name {:?}", String::from_utf8_lossy(name)), with(entry(name, page)));
+    }
+    let first = good[0].clone();
+    let changed = |change: &dyn Fn(Entry) -> Entry| {
+        let mut entries = good.to_vec();
+        entries[0] = change(entries[0].clone());
+        archive(&entries)
+    };
+    for (what, mode) in
+        [("a link", 0o120_777), ("a pipe", 0o010_644), ("a device", 0o020_644), ("a folder's mode", 0o040_755)]
+    {
+        add(what, changed(&|entry| Entry { mode, ..entry }));
+    }
+    add(
+        "a link of another name",
+        with(Entry { mode: 0o120_777, ..entry("passports/SPS-2/0017/x-1.yaml", b"../../../outside") }),
+    );
+    add("a folder with content", with(entry("passports/", page)));
+    add("a name twice", with(first.clone()));
+    let upper = |header: &mut Header| header.name.make_ascii_uppercase();
+    add("a name twice, in upper case", with(first.clone().both(upper)));
+    add("another name in the file", changed(&|entry| entry.local(|header| header.name[0] = b'X')));
+    add("a longer name in the file", changed(&|entry| entry.local(|header| header.name.push(b'X'))));
+    add("another method in the file", changed(&|entry| entry.local(|header| header.method = 8)));
+    add("another length in the file", changed(&|entry| entry.local(|header| header.size += 1)));
+    add("another packed length in the file", changed(&|entry| entry.local(|header| header.packed -= 1)));
+    add("another CRC in the file", changed(&|entry| entry.local(|header| header.crc ^= 1)));
+    add("other flags in the file", changed(&|entry| entry.local(|header| header.flags = 1)));
+    add("a wrong CRC", changed(&|entry| entry.both(|header| header.crc ^= 1)));
+    add("a wrong length", changed(&|entry| entry.both(|header| header.size += 1)));
+    add("encryption", changed(&|entry| entry.both(|header| header.flags |= 1)));
+    add("strong encryption", changed(&|entry| entry.both(|header| header.flags |= 0x41)));
+    for method in [1, 6, 9, 12, 14, 93, 95, 98, 99] {
+        add(&format!("compression {method}"), changed(&|entry| entry.both(|header| header.method = method)));
+    }
+    add("stored bytes that claim to be deflated", changed(&|entry| entry.both(|header| header.method = 8)));
+    let bomb = |length: u32, stated: u32| {
+        let packed = zeros(length as usize);
+        let mut bomb = entry("START-HERE.html", &packed).both(|header| (header.method, header.size) = (8, stated));
+        for header in [&mut bomb.local, &mut bomb.listed] {
+            header.crc = crc32(&vec![0; length as usize]);
+        }
+        archive(&[&[bomb], &good[1..]].concat())
+    };
+    add("a bomb of 17 MiB", bomb(17 << 20, 17 << 20));
+    add("a bomb that claims to be small", bomb(17 << 20, 1000));
+    add("a bomb that claims 4 GiB", bomb(1 << 20, u32::MAX));
+    let many: Vec<Entry> =
+        (0..200).map(|number| entry(format!("passports/SPS-2/0017/s{number}-1.yaml"), b"x")).collect();
+    add("204 members", archive(&[good, &many].concat()));
+    let large = vec![b' '; 9 << 20];
+    let two = ["passports/SPS-2/0017/a-1.yaml", "passports/SPS-2/0017/b-1.yaml"].map(|name| entry(name, &large));
+    add("18 MiB, stored", archive(&[good, &two].concat()));
+    let whole = archive(good);
+    add("bytes after the end", [&whole, b"x".as_slice()].concat());
+    add("another archive after the end", [whole.clone(), whole.clone()].concat());
+    add("bytes before the beginning", [b"#!/bin/sh\n".as_slice(), &whole].concat());
+    add("bytes between members", changed(&|entry| Entry { before: b"x".to_vec(), ..entry }));
+    add("a comment", archive_of(good, good.len(), b"hello"));
+    add("a comment that is an end", archive_of(good, good.len(), &whole[whole.len() - 22..]));
+    add("fewer members than counted", archive_of(good, good.len() + 1, b""));
+    add("more members than counted", archive_of(good, good.len() - 1, b""));
+    add("a member that is not listed", {
+        let hidden = Entry { is_listed: false, ..entry("../outside", page) };
+        archive(&[good, &[hidden]].concat())
+    });
+    add("no member", archive(&[]));
+    add("no archive", b"hello".to_vec());
+    add("an empty file", Vec::new());
+    for cut in [1, 4, 22, 40, 100, whole.len() / 2, whole.len() - 4] {
+        add(&format!("{cut} bytes cut off"), whole[..whole.len() - cut].to_vec());
+    }
+    // Two names for the bytes of one member.
+    let mut twice = whole.clone();
+    let start = u32::from_le_bytes(whole[whole.len() - 6..whole.len() - 2].try_into().unwrap()) as usize;
+    let second = start + 46 + good[0].listed.name.len();
+    twice.copy_within(start + 42..start + 46, second + 42);
+    add("two members in the same bytes", twice);
+    // The size of the directory and its place, which say that there is a larger record elsewhere.
+    let mut sixty_four = whole.clone();
+    let at = sixty_four.len() - 14;
+    sixty_four[at..at + 12].fill(0xff);
+    add("a promise of ZIP64", sixty_four);
+    let without = |name: &str| {
+        good.iter().filter(|entry| !entry.listed.name.ends_with(name.as_bytes())).cloned().collect::<Vec<_>>()
+    };
+    add("no register", archive(&without("register.yaml")));
+    add("no passport", archive(&without("-1.yaml")));
+    all
+}
+
+#[test]
+fn hostile_archives_are_refused_whole() {
+    let place = Place::new();
+    place.good("deliver SPS-2/0017/moscow-bmstu -o d.zip --workspace factory");
+    let fingerprint = place.fingerprint("factory/factory.key.pub");
+    let good: Vec<Entry> =
+        unpacked(&place.path("d.zip")).iter().map(|(name, bytes)| entry(name.as_str(), bytes)).collect();
+    // What is hostile differs from this in one thing.
+    fs::write(place.path("x.zip"), archive(&good)).unwrap();
+    place.good(&format!("receive x.zip good --fingerprint {fingerprint}"));
+    let hostile = hostile(&good);
+    assert!(hostile.len() >= 80, "{}", hostile.len());
+    for (what, bytes) in hostile {
+        fs::write(place.path("x.zip"), bytes).unwrap();
+        let before = place.files();
+        for folder in ["good", "new"] {
+            let output = place.run(&format!("receive x.zip {folder} --fingerprint {fingerprint}"));
+            let said = String::from_utf8_lossy(&output.stderr).into_owned();
+            assert!(matches!(output.status.code(), Some(1 | 2)), "{what}: {said}");
+            assert!(!said.contains("internal error"), "{what}: {said}");
+            assert!(place.files() == before, "{what}: something was written");
+        }
+    }
+    assert!(!place.path("outside").exists());
+}
+
+#[test]
+fn an_archive_that_was_packed_again_is_received() {
+    let place = Place::new();
+    place.good("deliver SPS-2/0017 -o d.zip --workspace factory");
+    let fingerprint = place.fingerprint("factory/factory.key.pub");
+    // Stored, deflated, deflated into a stream that cannot be rewound (so with data descriptors), and with folders.
+    let script = "import sys, zipfile\n\
+        class Stream:\n    def __init__(self, file): self.file = file\n    def write(self, data): return self.file.write(data)\n    \
+        def flush(self): self.file.flush()\n\
+        old = zipfile.ZipFile(sys.argv[1])\n\
+        for name, method, seeks in [('a', 0, True), ('b', 8, True), ('c', 8, False)]:\n    \
+        out = open(sys.argv[2] + '/' + name + '.zip', 'wb')\n    \
+        with zipfile.ZipFile(out if seeks else Stream(out), 'w', method) as new:\n        \
+        if name == 'b': new.writestr('passports/', ''); new.writestr('passports/SPS-2/', '')\n        \
+        for member in old.namelist(): new.writestr(member, old.read(member))\n";
+    python(script, &[&place.path("d.zip"), place.0.path()]);
+    for name in ["a", "b", "c"] {
+        place.good(&format!("receive {name}.zip lab-{name} --fingerprint {fingerprint}"));
+        place.good(&format!("verify SPS-2/0017/torino-inrim/1 --workspace lab-{name}"));
+    }
+}
+
+#[test]
+fn a_register_goes_forward_only_and_a_key_needs_its_fingerprint() {
+    let place = Place::new();
+    place.good("deliver SPS-2/0017/moscow-bmstu -o old.zip --workspace factory");
+    let fingerprint = place.fingerprint("factory/factory.key.pub");
+    place.good(&format!("receive old.zip lab --fingerprint {fingerprint}"));
+    place.good("revoke SPS-2/0017/torino-inrim/1 --reason moved --workspace factory");
+    place.good("deliver SPS-2/0017 -o new.zip --workspace factory");
+    place.good("receive new.zip lab");
+    let before = place.files();
+    place.refused("receive old.zip lab", "is older than 2");
+    // What the workspace remembers counts, whatever lies in its folder.
+    let register = "lab/passports/SPS-2/0017/register.yaml";
+    fs::remove_file(place.path(register)).unwrap();
+    place.refused("receive old.zip lab", "is older than 2");
+    fs::write(place.path(register), &before[&place.path(register)]).unwrap();
+
+    // Another key of the same factory, and a stranger with its name.
+    place.good("keygen other.key --no-passphrase --identity factory@example.org --allowed-signers other_signers");
+    place.good(
+        "issue factory/stands/SPS-2/0018/stand.yaml --site factory/sites/moscow-bmstu.yaml --key other.key --identity \
+         factory@example.org --out other --allow-uncalibratable",
+    );
+    place.good("deliver SPS-2/0018 --passports other --trust other_signers -o other.zip");
+    let other = place.fingerprint("other.key.pub");
+    let before = place.files();
+    place.refused("receive other.zip lab", "trusts another key of factory@example.org");
+    place.refused(&format!("receive other.zip lab --fingerprint {other}"), "trusts another key of factory@example.org");
+    place.refused("receive other.zip lab --new-key", "does not trust the key");
+    place.refused(&format!("receive other.zip lab --new-key --fingerprint {fingerprint}"), "no key that signed it");
+    assert!(place.files() == before);
+    let said = place.good(&format!("receive other.zip lab --new-key --fingerprint {other}"));
+    assert!(said.contains("add SPS-2/0018 to stand"), "{said}");
+    place.good("verify SPS-2/0018/moscow-bmstu/1 --workspace lab");
+
+    // The stranger's register for a stand that is here already contradicts the one that is remembered.
+    place.good(
+        "issue factory/stands/SPS-2/0017/stand.yaml --site factory/sites/torino-inrim.yaml --key other.key --identity \
+         factory@example.org --out other --allow-uncalibratable",
+    );
+    place.good("deliver SPS-2/0017 --passports other --trust other_signers -o other.zip --force");
+    let before = place.files();
+    place.refused("receive other.zip lab", "nothing was written");
+    assert!(place.files() == before);
+    place.refused("receive new.zip factory", "is the workspace of a factory");
+}
+
+#[test]
+fn what_was_changed_after_it_was_signed_is_not_received() {
+    let place = Place::new();
+    place.good("deliver SPS-2/0017 -o d.zip --workspace factory");
+    let fingerprint = place.fingerprint("factory/factory.key.pub");
+    let good: Vec<Entry> =
+        unpacked(&place.path("d.zip")).iter().map(|(name, bytes)| entry(name.as_str(), bytes)).collect();
+    let before = place.files();
+    for (index, old, new) in
+        [(1, "alpha_arcsec: 12.4", "alpha_arcsec: 12.5"), (2, "state: \"current\"", "state: \"Current\"")]
+    {
+        let text = String::from_utf8(good[index].data.clone()).unwrap();
+        assert!(text.contains(old), "{index}");
+        let mut entries = good.clone();
+        entries[index] = entry(entries[index].listed.name.clone(), text.replacen(old, new, 1).as_bytes());
+        fs::write(place.path("x.zip"), archive(&entries)).unwrap();
+        let said = place.refused(&format!("receive x.zip lab --fingerprint {fingerprint}"), "nothing was written");
+        assert!(!said.contains(&fingerprint[7..]), "{said}");
+    }
+    // One stand's passport at another's place.
+    let mut entries = good.clone();
+    for entry in &mut entries[1..4] {
+        let name = String::from_utf8(entry.listed.name.clone()).unwrap().replace("0017", "0018");
+        *entry = self::entry(name, &entry.data);
+    }
+    fs::write(place.path("x.zip"), archive(&entries)).unwrap();
+    place.refused(&format!("receive x.zip lab --fingerprint {fingerprint}"), "is of another stand");
+    fs::remove_file(place.path("x.zip")).unwrap();
+    assert!(place.files() == before);
+}
+
+/// What a workspace writes stays in it, wherever a link in it leads.
+#[cfg(unix)]
+#[test]
+fn nothing_is_received_through_a_link() {
+    use std::os::unix::fs::symlink;
+    let place = Place::new();
+    place.good("deliver SPS-2/0017/moscow-bmstu -o d.zip --workspace factory");
+    let fingerprint = place.fingerprint("factory/factory.key.pub");
+    fs::create_dir(place.path("elsewhere")).unwrap();
+    for name in ["passports/SPS-2", "pages", "pages/SPS-2", "registers", "allowed_signers"] {
+        place.good("init lab --laboratory");
+        let link = place.path("lab").join(name);
+        fs::create_dir_all(link.parent().unwrap()).unwrap();
+        symlink(place.path(if name == "allowed_signers" { "elsewhere/signers" } else { "elsewhere" }), &link).unwrap();
+        let before = place.files();
+        let output = place.run(&format!("receive d.zip lab --fingerprint {fingerprint}"));
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(matches!(output.status.code(), Some(1 | 2)) && said.contains("link"), "{name}: {said}");
+        assert!(place.files() == before, "{name}");
+        fs::remove_dir_all(place.path("lab")).unwrap();
+    }
+}

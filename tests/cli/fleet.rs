@@ -1,0 +1,214 @@
+//! A fleet: tables say which stand goes where.
+
+use crate::deliver::Place;
+use crate::programs;
+use std::fs;
+
+const TABLE: &str = "stand,site,valid_until,customer\n\
+                     SPS-2/0017,moscow-bmstu,2027-06-30,\"Gyro Works, Moscow\"\n\
+                     # a stand at two sites\n\
+                     SPS-2/0018,torino-inrim,,Torino Lab\n\
+                     SPS-2/0018,moscow-bmstu,,\n";
+
+#[test]
+fn each_row_of_a_table_is_a_passport_and_an_archive() {
+    let place = Place::before_issue();
+    fs::write(place.path("table.csv"), TABLE).unwrap();
+    let issue = "issue --deliveries table.csv --workspace factory --allow-uncalibratable";
+    let said = place.good(issue);
+    assert!(said.contains("SPS-2/0017/moscow-bmstu/1"), "{said}");
+    let passports = place.path("factory/passports/SPS-2");
+    let there = |name: &str| fs::read_to_string(passports.join(name)).unwrap_or_default();
+    // Expected: the cells of each row, and the date of the certificate where it states none.
+    for (name, customer, valid_until) in [
+        ("0017/moscow-bmstu-1.yaml", Some("Gyro Works, Moscow"), Some("2027-06-30")),
+        ("0018/torino-inrim-1.yaml", Some("Torino Lab"), None),
+        ("0018/moscow-bmstu-1.yaml", None, None),
+    ] {
+        let text = there(name);
+        assert!(text.contains("format: \"dtg-passport/1\""), "{name}");
+        let customer = customer.map(|customer| format!("customer: \"{customer}\""));
+        assert_eq!(text.contains("customer:"), customer.is_some(), "{name}");
+        assert!(customer.is_none_or(|customer| text.contains(&customer)), "{name}\n{text}");
+        let header =
+            text.lines().find(|line| line.starts_with("passport:") || line.contains("  valid_until")).unwrap_or("");
+        assert!(valid_until.is_none_or(|day| text.contains(&format!("valid_until: \"{day}\""))), "{name}: {header}");
+    }
+    assert_eq!(there("0017/torino-inrim-1.yaml"), "", "the cross product is not asked for");
+    // The same again changes nothing.
+    let before = place.files();
+    place.good(issue);
+    assert!(place.files() == before);
+
+    let said = place.good("deliver --deliveries table.csv --out archives --workspace factory");
+    assert!(said.contains(&place.fingerprint("factory/factory.key.pub")), "{said}");
+    for (name, holds, lacks) in [
+        ("0017/moscow-bmstu", "0017/moscow-bmstu-1.yaml", "0018"),
+        ("0018/torino-inrim", "0018/torino-inrim-1.yaml", "moscow-bmstu-1.yaml"),
+        ("0018/moscow-bmstu", "0018/moscow-bmstu-1.yaml", "torino-inrim-1.yaml"),
+    ] {
+        let archive = fs::read(place.path("archives/SPS-2").join(name).with_extension("zip")).unwrap();
+        let text = String::from_utf8_lossy(&archive);
+        assert!(text.contains(holds) && !text.contains(lacks), "{name}");
+    }
+}
+
+#[test]
+fn a_table_with_a_mistake_issues_nothing() {
+    let place = Place::before_issue();
+    let before = place.files();
+    for (table, words) in [
+        ("stand,site\nSPS-2/0017,moscow-bmstu\nSPS-2/0017,moscow-bmstu\n", "each stand once for a site"),
+        ("stand,site\nSPS-2/0017,\n", "a name"),
+        ("stand,site,valid_until\nSPS-2/0017,moscow-bmstu,30.06.2027\n", "valid_until"),
+        ("stand,site,customer\nSPS-2/0017,moscow-bmstu,a\u{202e}b\n", "customer"),
+        ("stand,site\nSPS-2/0019,moscow-bmstu\n", "0019"),
+        ("stand,sites\nSPS-2/0017,moscow-bmstu\n", "site"),
+        ("stand,site\n", "no row"),
+        ("stand;site\nSPS-2/0017;samara\n", "samara"),
+    ] {
+        fs::write(place.path("table.csv"), table).unwrap();
+        let output = place.run("issue --deliveries table.csv --workspace factory --allow-uncalibratable");
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(matches!(output.status.code(), Some(1 | 2)) && said.contains(words), "{table}\n{said}");
+        fs::remove_file(place.path("table.csv")).unwrap();
+        assert!(place.files() == before, "{table}");
+    }
+}
+
+/// The header of the example without what a table states, and the readings of stands that differ by `shift` arcseconds.
+fn readings(place: &Place, serials: &[&str]) {
+    let header = fs::read_to_string(programs::project("docs/header.yaml")).unwrap();
+    let open: Vec<&str> =
+        header.lines().filter(|line| !line.contains("  number:") && !line.contains("  issued:")).collect();
+    fs::write(place.path("header.yaml"), open.join("\n").replace("serial: \"0017\", ", "") + "\n").unwrap();
+    fs::create_dir(place.path("angles")).unwrap();
+    let angles = fs::read_to_string(programs::project("docs/angles.csv")).unwrap();
+    for (shift, serial) in serials.iter().enumerate() {
+        let row = |line: &str| {
+            let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+            if let Some(alpha) = cells.get(3).and_then(|cell| cell.trim().parse::<f64>().ok()) {
+                cells[3] = format!("{:.2}", alpha + shift as f64);
+            }
+            cells.join(",")
+        };
+        let text: Vec<String> = angles.lines().map(row).collect();
+        fs::write(place.path(&format!("angles/{serial}.csv")), text.join("\n") + "\n").unwrap();
+    }
+}
+
+#[test]
+fn one_header_certifies_a_fleet() {
+    let place = Place::before_issue();
+    readings(&place, &["0101", "0102", "0103"]);
+    let table = "serial,number,issued,customer,temperature_c\n\
+                 0101,C-2026-0201,2026-11-03,Gyro Works,20.5\n0102,C-2026-0202,2026-11-04,,\n0103,C-2026-0203,2026-11-05,,\n";
+    fs::write(place.path("table.csv"), table).unwrap();
+    let certify = "certify angles --stand header.yaml --certificates table.csv --out stands";
+    place.good(certify);
+    for (serial, number, issued, customer, temperature) in [
+        ("0101", "C-2026-0201", "2026-11-03", Some("Gyro Works"), "20.5"),
+        ("0102", "C-2026-0202", "2026-11-04", None, "20"),
+    ] {
+        let text = fs::read_to_string(place.path(&format!("stands/SPS-2/{serial}/stand.yaml"))).unwrap();
+        let words = [format!("serial: \"{serial}\""), format!("number: \"{number}\""), format!("issued: \"{issued}\"")];
+        assert!(words.iter().all(|words| text.contains(words)), "{text}");
+        assert!(text.contains(&format!("temperature_c: {temperature}")), "{text}");
+        assert_eq!(text.contains("customer: "), customer.is_some(), "{text}");
+        assert!(customer.is_none_or(|customer| text.contains(&format!("customer: \"{customer}\""))), "{text}");
+    }
+    // The same angles as with a header of its own. Expected: `certify` of one stand.
+    let own = fs::read_to_string(place.path("header.yaml")).unwrap();
+    let own = own.replace("model: \"SPS-2\"", "model: \"SPS-2\", serial: \"0103\"");
+    let own = own.replace("certificate:\n", "certificate:\n  number: \"C-2026-0203\"\n  issued: \"2026-11-05\"\n");
+    fs::write(place.path("own.yaml"), own).unwrap();
+    place.good("certify angles/0103.csv --stand own.yaml -o own-stand.yaml");
+    let [own, common] =
+        ["own-stand.yaml", "stands/SPS-2/0103/stand.yaml"].map(|name| fs::read(place.path(name)).unwrap());
+    assert!(own == common);
+}
+
+#[test]
+fn a_row_or_a_file_without_its_partner_is_refused_and_the_others_are_done() {
+    let place = Place::before_issue();
+    readings(&place, &["0101", "0102", "0103", "0104", "0105"]);
+    let table = "serial,number,issued\n0101,C-2026-0201,2026-11-03\n0102,C-2026-0202,2026-11-04\n\
+                 0103,C-2026-0202,2026-11-04\n0104,C-2026-0204,2026-11-04\n0104,C-2026-0205,2026-11-04\n\
+                 0109,C-2026-0209,2026-11-04\n";
+    fs::write(place.path("table.csv"), table).unwrap();
+    let said = place
+        .refused("certify angles --stand header.yaml --certificates table.csv --out stands", "serial 0109: the table");
+    for words in
+        ["certificate C-2026-0202 has two rows", "serial 0104 has two rows", "the table has no row for serial 0105"]
+    {
+        assert!(said.contains(words), "lacks {words}\n{said}");
+    }
+    let stands: Vec<_> =
+        fs::read_dir(place.path("stands/SPS-2")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(stands, ["0101"]);
+}
+
+#[test]
+fn what_is_due_is_listed_by_its_days() {
+    let place = Place::before_issue();
+    let table = TABLE.replace("Torino Lab", "=1+1").replace("2027-06-30", "2027-01-15");
+    fs::write(place.path("table.csv"), table).unwrap();
+    place.good("issue --deliveries table.csv --workspace factory --allow-uncalibratable");
+    place.good("register factory/passports --renew --fresh-until 2027-01-10 --workspace factory");
+    let json = place.good("status --days 60 --time 2026-12-01 --workspace factory --format json");
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let due = json["due"].as_array().unwrap();
+    let row = |place: usize, key: &str| due[place][key].as_str().unwrap_or_default().to_owned();
+    let rows: Vec<[String; 3]> =
+        (0..due.len()).map(|place| [row(place, "date"), row(place, "what"), row(place, "id")]).collect();
+    let text = |row: [&str; 3]| row.map(str::to_owned);
+    assert_eq!(
+        rows,
+        [
+            text(["2027-01-10", "register_stale", "SPS-2/0017"]),
+            text(["2027-01-10", "register_stale", "SPS-2/0018"]),
+            text(["2027-01-15", "passport_expires", "SPS-2/0017/moscow-bmstu/1"]),
+        ]
+    );
+    assert_eq!(due[2]["days_left"], 45);
+    assert_eq!((row(2, "site"), row(2, "certificate")), ("moscow-bmstu".into(), "C-2026-0142".into()));
+    assert_eq!(row(2, "customer"), "Gyro Works, Moscow");
+    let said = place.good("status --days 60 --time 2026-12-01 --workspace factory");
+    assert!(said.contains("2027-01-15") && said.contains("Gyro Works, Moscow"), "{said}");
+    assert!(
+        place.good("status --days 3 --time 2026-12-01 --workspace factory").contains("nothing is due within 3 days")
+    );
+
+    // As a table, in which no cell is a formula; in Russian as spreadsheet programs there expect it.
+    let of =
+        |options: &str| place.run(&format!("status --days 900 --time 2026-12-01 --workspace factory {options}")).stdout;
+    let csv = String::from_utf8(of("--format csv")).unwrap();
+    let lines: Vec<&str> = csv.lines().collect();
+    assert_eq!(lines[0], "date,days_left,what,id,site,certificate,customer");
+    let due =
+        "2027-01-15,45,passport_expires,SPS-2/0017/moscow-bmstu/1,moscow-bmstu,C-2026-0142,\"Gyro Works, Moscow\"";
+    assert!(lines.contains(&due), "{csv}");
+    assert!(csv.contains(",'=1+1\n") && !csv.contains(",=1+1"), "{csv}");
+    let russian = String::from_utf8(of("--format csv --lang ru")).unwrap();
+    assert!(russian.starts_with("\u{feff}date;days_left;what;"), "{russian}");
+    assert_eq!(russian.lines().count(), lines.len());
+
+    // As a calendar. Expected: RFC 5545, 3.1 (lines), 3.6.1 (events), 3.8.4.7 (UID).
+    let calendar = |time: &str| {
+        let arguments = format!("status --days 60 --time {time} --workspace factory --format ics");
+        String::from_utf8(place.run(&arguments).stdout).unwrap()
+    };
+    let ics = calendar("2026-12-01");
+    assert!(ics.starts_with("BEGIN:VCALENDAR\r\nVERSION:2.0\r\n") && ics.ends_with("END:VCALENDAR\r\n"), "{ics}");
+    assert!(ics.split("\r\n").all(|line| line.len() <= 75 && !line.contains('\n')), "{ics}");
+    assert_eq!(ics.matches("BEGIN:VEVENT").count(), 3);
+    assert!(ics.contains("DTSTART;VALUE=DATE:20270115"), "{ics}");
+    let unfolded = ics.replace("\r\n ", "");
+    assert!(unfolded.contains("C-2026-0142\\, Gyro Works\\, Moscow\r\n"), "{unfolded}");
+    let uids = |ics: &str| ics.lines().filter(|line| line.starts_with("UID:")).map(str::to_owned).collect::<Vec<_>>();
+    let mut all = uids(&ics);
+    assert_eq!(all, uids(&calendar("2026-12-05")), "the same events on another day");
+    all.sort();
+    all.dedup();
+    assert_eq!(all.len(), 3);
+}
