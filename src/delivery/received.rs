@@ -343,7 +343,7 @@ pub(crate) fn receive(bytes: &[u8], order: &Order) -> Result<Received, NotReceiv
     let good = parcel.verified(&workspace, &trust, &question)?;
     let mut files = Files::default();
     let root = workspace.passports.as_deref().unwrap_or(order.root);
-    let folder = Folder::new(root);
+    let (folder, workspace_folder) = (Folder::new(root), Folder::new(order.root));
     let (mut passports, mut pages) = (Vec::new(), Vec::new());
     for Good { id, path, bytes, verification } in good {
         let below = path.strip_prefix(root).unwrap_or(&path);
@@ -359,17 +359,18 @@ pub(crate) fn receive(bytes: &[u8], order: &Order) -> Result<Received, NotReceiv
         let page = PassportPage::of(bytes, &question, verification);
         let page = page.map_err(|verification| NotReceived::NotValid(id.clone(), verification))?;
         pages.push(shown_name(&place));
-        files.replace(place, page.html(order.languages).into_bytes())?;
+        files.replace(&workspace_folder, place, page.html(order.languages).into_bytes())?;
         passports.push(Delivered { id, sha256 });
     }
     for (stand, lot) in &parcel.stands {
-        files.replace(workspace.memory().path_of(stand), lot.register.clone())?;
-        let path = root.join(stand).join(FILE_NAME);
-        folder.check_place(&path)?;
-        files.replace(path, lot.register.clone())?;
+        files.replace(&workspace_folder, workspace.memory().path_of(stand), lot.register.clone())?;
+        files.replace(&folder, root.join(stand).join(FILE_NAME), lot.register.clone())?;
     }
     if !new.is_empty() {
-        files.replace(path, text)?;
+        if path.is_symlink() {
+            return Err(FolderRefused::Link(path).into());
+        }
+        files.last.push((path, text));
     }
     if !is_there {
         make(order.root, &Kind::Laboratory(&stands), false)?;
@@ -389,11 +390,9 @@ struct Files {
 }
 
 impl Files {
-    /// Adds a file that may replace another one, but not a link.
-    fn replace(&mut self, path: PathBuf, bytes: Vec<u8>) -> Result<(), FolderRefused> {
-        if path.is_symlink() {
-            return Err(FolderRefused::Link(path));
-        }
+    /// Adds a file in `folder` that may replace another one; no link is on the way to it.
+    fn replace(&mut self, folder: &Folder, path: PathBuf, bytes: Vec<u8>) -> Result<(), FolderRefused> {
+        folder.check_place(&path)?;
         self.last.push((path, bytes));
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! Reports of the orders of a batch.
 //!
 //! Reports are written one after the other, so that not all are held in memory. For a few orders the text is complete;
-//! for many it contains only the failures and a summary.
+//! for many it contains only the failures, what a dry run plans, and a summary.
 
 use super::columns::csv_row;
 use super::doc::{Block, Words, given, line, listed, longest, marked, padded, said, typed};
@@ -268,9 +268,10 @@ impl Reports {
                 String::new()
             }
             Form::Text => {
-                let failed = self.held.drain(..).chain([report]).filter(|report| report.state == State::Refused);
-                let failed: Vec<_> = failed.map(|report| first(&report)).collect();
-                typed(&[Block::Whole("", failed)], self.language)
+                let told = |report: &Report| [State::Refused, State::Planned].contains(&report.state);
+                let told = self.held.drain(..).chain([report]).filter(told);
+                let told: Vec<_> = told.map(|report| first(&report)).collect();
+                typed(&[Block::Whole("", told)], self.language)
             }
         }
     }
@@ -379,6 +380,18 @@ mod tests {
         let due = "✕ REFUSED    7  nothing was written\n✕ REFUSED    1007  nothing was written\n\
                    ✕ issued 1,998, unchanged 0, refused 2\n";
         assert_eq!(style::plain(&text), due);
+    }
+
+    #[test]
+    fn a_dry_run_lists_every_passport() {
+        let mut reports = Reports::new(Form::Text, Language::English);
+        let mut text = String::new();
+        for number in 0..100 {
+            text += &reports.add(Report::new(format!("id-{number}"), State::Planned));
+        }
+        text += &reports.end();
+        assert!((0..100).all(|number| text.contains(&format!("id-{number}  "))), "{text}");
+        assert_eq!(text.lines().count(), 101);
     }
 
     #[test]

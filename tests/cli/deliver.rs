@@ -553,3 +553,26 @@ fn what_was_changed_after_it_was_signed_is_not_received() {
     fs::remove_file(place.path("x.zip")).unwrap();
     assert!(place.files() == before);
 }
+
+/// What a workspace writes stays in it, wherever a link in it leads.
+#[cfg(unix)]
+#[test]
+fn nothing_is_received_through_a_link() {
+    use std::os::unix::fs::symlink;
+    let place = Place::new();
+    place.good("deliver SPS-2/0017/moscow-bmstu -o d.zip --workspace factory");
+    let fingerprint = place.fingerprint("factory/factory.key.pub");
+    fs::create_dir(place.path("elsewhere")).unwrap();
+    for name in ["passports/SPS-2", "pages", "pages/SPS-2", "registers", "allowed_signers"] {
+        place.good("init lab --laboratory");
+        let link = place.path("lab").join(name);
+        fs::create_dir_all(link.parent().unwrap()).unwrap();
+        symlink(place.path(if name == "allowed_signers" { "elsewhere/signers" } else { "elsewhere" }), &link).unwrap();
+        let before = place.files();
+        let output = place.run(&format!("receive d.zip lab --fingerprint {fingerprint}"));
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(matches!(output.status.code(), Some(1 | 2)) && said.contains("link"), "{name}: {said}");
+        assert!(place.files() == before, "{name}");
+        fs::remove_dir_all(place.path("lab")).unwrap();
+    }
+}
