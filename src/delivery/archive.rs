@@ -33,12 +33,10 @@ pub(crate) enum BadArchive {
     Damaged(String),
     #[error("has bytes before, between or after its members")]
     Bytes,
-    #[error("has a comment")]
-    Comment,
     #[error("has more than {MOST_MEMBERS} members")]
     Members,
     #[error("has members of more than {} MiB in all", LARGEST_BYTES >> 20)]
-    Bytes16,
+    Large,
     #[error("member {0}: is encrypted")]
     Encrypted(String),
     #[error("member {0}: is compressed by another method than deflate")]
@@ -64,7 +62,10 @@ impl From<zip::result::ZipError> for BadArchive {
 /// # Errors
 /// Returns [`BadArchive`] for the first thing that a delivery does not have.
 pub(super) fn read(bytes: &[u8]) -> Result<Vec<(Member, Vec<u8>)>, BadArchive> {
-    let end = bytes.len().checked_sub(END.1).filter(|end| bytes[*end..].starts_with(END.0)).ok_or(BadArchive::Bytes)?;
+    let end = bytes.len().checked_sub(END.1).filter(|end| bytes[*end..].starts_with(END.0));
+    let end =
+        end.ok_or_else(|| BadArchive::Damaged("it does not end as one, or has bytes after its end".to_owned()))?;
+    // With this record at the end there is no comment.
     let number = |at: usize| usize::from(u16::from_le_bytes([bytes[at], bytes[at + 1]]));
     let long = |at: usize| number(at) | number(at + 2) << 16;
     // The counts on this disk and in all, and what the directory's length and place leave to the end.
@@ -76,9 +77,6 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<(Member, Vec<u8>)>, BadArchive> {
         return Err(BadArchive::Bytes);
     }
     let mut archive = ZipArchive::new(Cursor::new(bytes))?;
-    if !archive.comment().is_empty() {
-        return Err(BadArchive::Comment);
-    }
     let is_at_its_place = archive.offset() == 0 && archive.central_directory_start() == directory as u64;
     if !is_at_its_place || archive.len() != number(end + 10) {
         return Err(BadArchive::Bytes);
@@ -111,7 +109,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<(Member, Vec<u8>)>, BadArchive> {
             return Err(BadArchive::NotAFile(name));
         }
         let place = std::str::from_utf8(&raw).ok().and_then(place_of).ok_or_else(|| BadArchive::Name(name.clone()))?;
-        let stated = usize::try_from(file.size()).ok().filter(|size| *size <= left).ok_or(BadArchive::Bytes16)?;
+        let stated = usize::try_from(file.size()).ok().filter(|size| *size <= left).ok_or(BadArchive::Large)?;
         let mut content = Vec::new();
         // One byte more than stated shows that the statement is false.
         let unpacked = (&mut file).take(stated as u64 + 1).read_to_end(&mut content);
@@ -152,7 +150,7 @@ pub(super) fn write(members: &[(String, Vec<u8>)]) -> Result<Vec<u8>, BadArchive
         return Err(BadArchive::Members);
     }
     if members.iter().map(|(_, bytes)| bytes.len()).sum::<usize>() > LARGEST_BYTES {
-        return Err(BadArchive::Bytes16);
+        return Err(BadArchive::Large);
     }
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default().compression_method(CompressionMethod::Deflated).unix_permissions(0o644);

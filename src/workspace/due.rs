@@ -11,7 +11,7 @@ use crate::register::{Row, State};
 use crate::report::columns;
 use crate::report::doc::{Block, Words, given, marked};
 use crate::report::style::Outcome;
-use crate::text::{LARGEST_DOCUMENT_BYTES, words};
+use crate::text::{LARGEST_DOCUMENT_BYTES, printable, words};
 use crate::wording::texts::status as texts;
 use crate::wording::{Language, Text};
 use jiff::Timestamp;
@@ -157,7 +157,7 @@ pub(crate) fn ics(all: &[Due], time: Timestamp, language: Language) -> String {
     };
     let escaped = |text: &str| {
         let mut escaped = String::new();
-        for c in text.chars().filter(|c| !c.is_control()) {
+        for c in printable(text).chars() {
             let _ = if "\\;,".contains(c) { write!(escaped, "\\{c}") } else { write!(escaped, "{c}") };
         }
         escaped
