@@ -41,6 +41,9 @@ pub(super) struct Layer {
     later: DMatrix<f64>,
     later_times: Vec<f64>,
     along_times: DVector<f64>,
+    /// Sum of the squares of the times, and those of the values by group.
+    times_squared: f64,
+    squares: DVector<f64>,
 }
 
 /// Fit of shifts to a layer.
@@ -65,8 +68,23 @@ impl Layer {
             later_times[run - 1] += later_times[run];
         }
         let groups = group.iter().max().map_or(0, |last| last + 1);
+        let times_squared = times.iter().map(|time| time * time).sum();
+        let mut squares = DVector::zeros(groups);
+        group.iter().enumerate().for_each(|(row, group)| squares[*group] += values.row(row).norm_squared());
         let is_reduced = false;
-        Self { values, keeps, group, groups, is_reduced, times, later, later_times, along_times }
+        Self {
+            values,
+            keeps,
+            group,
+            groups,
+            is_reduced,
+            times,
+            later,
+            later_times,
+            along_times,
+            times_squared,
+            squares,
+        }
     }
 
     /// Returns the number of runs less one.
@@ -86,7 +104,7 @@ impl Layer {
         match (one, other) {
             (Runs::One(one), Runs::One(other)) => f64::from(u8::from(one == other)) - 1.0 / count as f64,
             (Runs::From(one), Runs::From(other)) => each(one.max(other)) - each(one) * each(other) / count as f64,
-            (Runs::Line, Runs::Line) => self.times.iter().map(|time| time * time).sum(),
+            (Runs::Line, Runs::Line) => self.times_squared,
             (Runs::One(one), Runs::From(from)) | (Runs::From(from), Runs::One(one)) => {
                 f64::from(u8::from(one >= from)) - each(from) / count as f64
             }
@@ -131,7 +149,7 @@ impl Layer {
         let spread = root.filter(|root| root.l_dirty().diagonal().iter().all(is_determined))?.inverse();
         let sizes = &spread * DVector::from_iterator(count, along.iter().map(DVector::sum));
         let changes = self.changes();
-        let mut squares = self.by_group(|row| self.values.row(row).norm_squared());
+        let mut squares = self.squares.clone();
         let mut freedom = self.by_group(|row| self.keeps[(row, row)] * changes);
         along.iter().zip(&sizes).for_each(|(along, size)| squares -= along * (2.0 * size));
         for (a, b, both) in &shared {
