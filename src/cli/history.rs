@@ -60,14 +60,18 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     };
     let (history, is_incomplete) = overview::history(&options.passports, &options.stand, query)?;
     let history = history.map_err(|known| {
-        let there =
-            if known.is_empty() { "no registers".to_owned() } else { format!("registers of {}", first_few(&known)) };
-        Failure::refused(format!(
-            "{}: found no register of {}; the folder contains {}",
-            shown(&options.passports),
-            options.stand,
-            Printable(there)
-        ))
+        let (folder, stand) = (shown(&options.passports), &options.stand);
+        Failure::refused(match known.contains(stand) {
+            true => format!(
+                "{folder}: has passports of {stand}, but no register of it that counts; make it with `register {folder} \
+                 --renew`, or restore it from the backup"
+            ),
+            false if known.is_empty() => format!("{folder}: found no register of {stand}; the folder contains no registers"),
+            false => format!(
+                "{folder}: found no register of {stand}; the folder contains registers of {}",
+                Printable(first_few(&known))
+            ),
+        })
     })?;
     if let Some(path) = &options.output {
         output::saved_too(path, picture::history(&history, question.time), options.force)?;
