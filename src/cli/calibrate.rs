@@ -168,14 +168,14 @@ fn limit(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let (passport, currents) = options.inputs();
+    let (passport, currents) = options.inputs()?;
     let one = paths::one_file(&currents).filter(|_| options.out.is_none());
     if one.is_none() {
         options.check_for_several()?;
     }
     let mut enquiry = options.whom.load()?;
     let (passport, results) = match passport {
-        Some(passport) => (passport.to_owned(), None),
+        Some(passport) => (passport, None),
         None => in_force(enquiry.as_mut())?,
     };
     let bench = Bench {
@@ -511,15 +511,21 @@ impl Bench<'_> {
 impl Options {
     /// Returns the passport, if it is given, and the files of currents. Where the workspace tells the passport, tables alone
     /// are given.
-    fn inputs(&self) -> (Option<&Path>, Vec<PathBuf>) {
+    fn inputs(&self) -> Result<(Option<PathBuf>, Vec<PathBuf>), Failure> {
         let tells = defaults::workspace().is_some_and(|workspace| !workspace.stand.is_empty());
-        let first = self.passport.as_deref();
         let is_table =
             |path: &Path| path.extension().is_some_and(|end| end.eq_ignore_ascii_case("csv")) || path.is_dir();
-        match first.filter(|first| tells && is_table(first)) {
-            Some(table) => (None, [table.to_owned()].into_iter().chain(self.currents.iter().cloned()).collect()),
-            None => (first, self.currents.clone()),
-        }
+        let currents = || self.currents.iter().cloned();
+        Ok(match (&self.passport, &self.currents[..]) {
+            (Some(table), _) if tells && is_table(table) => {
+                (None, [table.clone()].into_iter().chain(currents()).collect())
+            }
+            // An option between the two files makes clap take both for currents.
+            (None, [first, rest @ ..]) if !rest.is_empty() && !(tells && is_table(first)) => {
+                (Some(defaults::path_of_passport(first.clone()).map_err(Failure::usage)?), rest.to_vec())
+            }
+            (passport, _) => (passport.clone(), currents().collect()),
+        })
     }
 
     /// Refuses options that describe a single gyro.

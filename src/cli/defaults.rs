@@ -164,7 +164,15 @@ pub(super) fn site() -> impl TypedValueParser<Value = PathBuf> {
 
 /// Parser of the path of a passport; in a workspace also its identifier.
 pub(super) fn passport() -> impl TypedValueParser<Value = PathBuf> {
-    PathBufValueParser::new().try_map(|path| named(path, |workspace, name| workspace.passport(name), id_of_passport))
+    PathBufValueParser::new().try_map(path_of_passport)
+}
+
+/// Returns the file that is meant as a passport.
+///
+/// # Errors
+/// As of [`named`].
+pub(super) fn path_of_passport(path: PathBuf) -> Result<PathBuf, String> {
+    named(path, |workspace, name| workspace.passport(name), id_of_passport)
 }
 
 /// Parser of the path of a stand file or of a passport; in a workspace also what names one of them.

@@ -39,7 +39,7 @@ const SAME_K: f64 = 0.02;
 const OTHER_RANGE: f64 = 1.5;
 
 /// Probability of the F test below which u(K) contains the scatter of K between turn-ons.
-const MAY_DIFFER: f64 = 0.5;
+const MAY_DIFFER: f64 = 0.3;
 
 /// Difference of ω_0 between turn-ons that is usual, °/h.
 const USUAL_DEG_PER_H: f64 = 0.1;
