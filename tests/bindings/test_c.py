@@ -206,7 +206,7 @@ def test_the_parameters_are_numbers_and_say_whether_they_may_be_used() -> None:
     rows = np.genfromtxt(CURRENTS, delimiter=",", skip_header=1, comments="#")[-8:]
     wrong = rows.copy()
     wrong[3, 2] += 0.01
-    for given, code, words in ((rows, 0, None), (rows * [1, 1, 1e-3, 1e-3], 1, "factor of 1000"), (wrong, 1, "not consistent")):
+    for given, code, words in ((rows, 0, None), (rows * [1, 1, 1e-3, 1e-3], 1, "0.001000 times those of the gyro"), (wrong, 1, "not consistent")):
         given = np.ascontiguousarray(given)
         assert c.dtg_calibrate(passport, given.ctypes.data, len(given), None, ctypes.byref(result)) == 0
         value, u = np.zeros(8), np.zeros(8)
