@@ -521,7 +521,7 @@ impl Options {
                 (None, [table.clone()].into_iter().chain(currents()).collect())
             }
             // An option between the two files makes clap take both for currents.
-            (None, [first, rest @ ..]) if !rest.is_empty() && !(tells && is_table(first)) => {
+            (None, [first, rest @ ..]) if !(rest.is_empty() || tells && is_table(first)) => {
                 (Some(defaults::path_of_passport(first.clone()).map_err(Failure::usage)?), rest.to_vec())
             }
             (passport, _) => (passport.clone(), currents().collect()),
