@@ -6,12 +6,14 @@ pub(crate) const SECONDS_PER_HOUR: f64 = 3600.0;
 
 pub(crate) const ARCSECONDS_PER_DEGREE: f64 = 3600.0;
 
+pub(crate) const ARCSECONDS_PER_RADIAN: f64 = 648_000.0 / PI;
+
 pub(crate) fn radians_from_arcseconds(arcseconds: f64) -> f64 {
     arcseconds * (PI / 648_000.0)
 }
 
 pub(crate) fn arcseconds_from_radians(radians: f64) -> f64 {
-    radians * (648_000.0 / PI)
+    radians * ARCSECONDS_PER_RADIAN
 }
 
 pub(crate) fn radians_from_degrees(degrees: f64) -> f64 {

@@ -11,7 +11,7 @@ use jiff::civil::Date;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-/// What a row says of one stand at one site.
+/// Expiry date and customer of the passport for one stand at one site.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Terms {
     /// Expiry date of the passport (inclusive).

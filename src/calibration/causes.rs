@@ -8,7 +8,7 @@ use super::data::Data;
 use super::estimates::{Basis, Estimates};
 use super::inputs::Setup;
 use super::least_squares::Fit;
-use super::scatter::Repeats;
+use super::repeats::Repeats;
 use super::sensitivity::Sensitivity;
 use crate::attitude::ANGLES;
 use crate::coefficients::PositionIndex;

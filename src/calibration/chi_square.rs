@@ -8,6 +8,9 @@ use crate::statistics::distributions::chi_square_larger;
 use crate::statistics::scaled_f::{self, Part, ScaledF};
 use nalgebra::{DMatrix, DVector, Matrix2};
 
+/// Probability of chi-square below which a fit is examined.
+pub(crate) const ALARM: f64 = 0.005;
+
 /// Degrees of freedom of uncertainties below which they are stated beside the probability.
 pub(crate) const FEW_DEGREES: f64 = 1000.0;
 

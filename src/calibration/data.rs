@@ -1,11 +1,11 @@
 //! Mean currents of all positions with their errors as stated or observed, and fits to them.
 
-use super::finding::visits::{Explained, explained};
 use super::inputs::{Setup, at_places};
 use super::least_squares::{Fit, NoLeastSquares, Problem, SETTLED};
 use super::offsets::{Differences, Offsets};
 use super::readings::Readings;
-use super::scatter::{Observed, Repeats};
+use super::repeats::Repeats;
+use super::scatter::Observed;
 use super::sensitivity::Sensitivity;
 use super::unknowns::{Model, Unknowns};
 use nalgebra::{Matrix2, Vector2};
@@ -34,22 +34,9 @@ pub(crate) struct Observation {
     pub(crate) seen: Observed,
     /// Differences between the visits to each position; `None` if no position has two.
     pub(crate) differences: Option<Differences>,
-    /// What explains these differences.
-    pub(crate) explained: Vec<Explained>,
 }
 
 impl Observation {
-    /// Fits with one K of all turn-ons, and with one of each if the differences between visits show that they differ.
-    pub(crate) fn new(setup: &Setup, readings: &Readings, model: Model, drift: bool) -> Result<Self, NoLeastSquares> {
-        let mut plain = Self::plain(setup, readings, model, (drift, false))?;
-        let (explained, scale) = explained(setup, readings, &plain);
-        if scale && let Ok(each) = Self::plain(setup, readings, model, (drift, true)) {
-            return Ok(Self { explained, ..each });
-        }
-        plain.explained = explained;
-        Ok(plain)
-    }
-
     /// Fits with the errors as stated, updates them from their scatter, and fits again while that changes anything. The pair
     /// says whether a drift in time is fitted, and whether a K of each turn-on is.
     pub(crate) fn plain(
@@ -86,7 +73,7 @@ impl Observation {
         }
         seen.turn_ons = data.repeats.observe_turn_ons(&data.offsets, &fit);
         data.repeats.observe_scale(&data.offsets, &fit);
-        Ok(Self { data, fit, seen, differences, explained: Vec::new() })
+        Ok(Self { data, fit, seen, differences })
     }
 }
 

@@ -6,7 +6,7 @@
 //! and the same size for every position.
 
 use super::inputs::{InputUncertainty, Setup};
-use super::scatter::Repeats;
+use super::repeats::Repeats;
 
 /// Largest relative difference of Σ u² between positions whose angles rest on a common estimate. It is not 0 because
 /// the axes of α and γ are not quite at right angles.

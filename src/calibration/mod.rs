@@ -6,11 +6,12 @@
 //! * `analytic`: the paper's analytic method, eq. (13)-(16) and (8).
 //! * [`iterative`]: the paper's iterative method, eq. (17)-(19).
 //! * `least_squares`: weighted least squares on all readings of any positions.
-//! * `procedure`: all methods side by side; `result`: their results with uncertainties and residuals.
+//! * `procedure`: all methods side by side, with `options`; `result`: their results with uncertainties and residuals.
 //! * `data`: mean currents with their errors, and fits to them; `chi_square`: the test of a fit.
 //! * `recorded`: rounding of the readings, and repeated readings without scatter.
-//! * `scatter`: numbers of visits and readings, the errors assumed for each, and their agreement with what was stated.
-//! * `noise`: the gyro's own noise; `offsets`: drift that changes during a run.
+//! * `repeats`: numbers of visits and readings, and the errors assumed for each; `scatter`: their agreement with what was
+//!   stated.
+//! * `noise`: the gyro's own noise; `offsets`: drift that changes during a run; `drift`: the test of a drift in time.
 //! * `finding`: what explains readings that do not agree, or parameters that are not the gyro's: one list of causes.
 //! * `verdict`: comparison with a type's specification and with an earlier calibration.
 //! * `document`: the result as JSON; `remarks`: what is said about it.
@@ -47,6 +48,7 @@ pub(crate) mod causes;
 pub(crate) mod chi_square;
 pub(crate) mod data;
 pub(crate) mod document;
+pub(crate) mod drift;
 pub(crate) mod estimates;
 pub(crate) mod finding;
 pub(crate) mod inputs;
@@ -54,6 +56,7 @@ pub mod iterative;
 pub(crate) mod least_squares;
 pub(crate) mod noise;
 pub(crate) mod offsets;
+pub(crate) mod options;
 pub(crate) mod parameter;
 pub(crate) mod prediction;
 pub(crate) mod procedure;
@@ -61,6 +64,7 @@ pub(crate) mod propagation;
 pub(crate) mod readings;
 pub(crate) mod recorded;
 pub(crate) mod remarks;
+pub(crate) mod repeats;
 pub(crate) mod result;
 pub(crate) mod scatter;
 pub(crate) mod sensitivity;
@@ -78,9 +82,10 @@ pub use inputs::{InputUncertainty, MeterUncertainty, NoSetup, Setup};
 pub use iterative::Iteration;
 pub use least_squares::NoLeastSquares;
 pub use noise::{DriftNoise, NoiseSource};
+pub use options::Options;
 pub use parameter::Parameter;
 pub use prediction::predicted;
-pub use procedure::{Options, calibrate};
+pub use procedure::calibrate;
 pub use readings::{NoReadings, PositionReadings, Reading, Readings, Visit};
 pub use result::{Calibration, Method, MethodRefusal, MethodResult, NotValid, Residual};
 pub use scatter::{Agreement, RowScatter, Scatter};

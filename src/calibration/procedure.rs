@@ -3,40 +3,19 @@
 use super::analytic::{self, AnalyticMap, AnalyticSolution};
 use super::chi_square::chi_square;
 use super::data::{Data, Observation};
-use super::estimates::Estimates;
-use super::finding::{self, ALARM, by_type::by_size};
+use super::drift::drift_can_be_fitted;
+use super::finding::{self, by_type::by_size, visits};
 use super::iterative::{self, IterativeSolution, NoIterativeSolution, StopRule};
 use super::least_squares::Fit;
-use super::offsets::{Differences, Offsets};
-use super::propagation::{Propagation, covariance, product, standard_deviations};
+use super::propagation::{Propagation, covariance, standard_deviations};
 use super::result::{Cycle, Drift, GMatrix, ModelTest};
 use super::unknowns::Unknowns;
 use super::{
     Calibration, ChiSquare, Iteration, Method, MethodRefusal, MethodResult, Model, NoAnalyticSolution, NoLeastSquares,
-    Parameter, Readings, Residual, Setup, causes,
+    Options, Parameter, Readings, Residual, Setup,
 };
 use crate::gyro::{GyroParameters, GyroType};
-use crate::statistics::scaled_f::{self, Part};
 use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2};
-
-/// Options of a calibration.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Options {
-    /// Requested methods, in the order of the results.
-    pub methods: Vec<Method>,
-    /// Stop rule of the iterative method.
-    pub stop_rule: StopRule,
-    /// Model of the g-sensitive drift that least squares fits; the paper's methods have the paper's.
-    pub model: Model,
-    /// `true` if least squares also fits a linear drift of ω_0 in time.
-    pub drift: bool,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self { methods: Method::ALL.to_vec(), stop_rule: StopRule::default(), model: Model::Paper, drift: false }
-    }
-}
 
 /// Calibrates the gyro whose currents are `readings` with the requested methods.
 ///
@@ -55,10 +34,11 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
     if options.drift {
         possible.clone()?;
     }
-    let observation = Observation::new(setup, readings, options.model, options.drift)?;
+    let (observation, explained) = visits::observe(setup, readings, options.model, options.drift)?;
     let Observation { data, fit, seen, .. } = &observation;
     let evaluation = Evaluation::new(Propagation::new(setup, data, fit));
-    let (causes, consistent) = finding::all(setup, readings, (&observation, options), &evaluation.chi_square);
+    let (causes, consistent) =
+        finding::all(setup, readings, (&observation, &explained), options, &evaluation.chi_square);
     let mut calibration = Calibration {
         results: Vec::new(),
         refused: Vec::new(),
@@ -95,73 +75,10 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
         }
     }
     let usual = GyroType::gvk_6().nominal.to_model();
-    let valid = calibration.adopted().filter(|_| calibration.consistent && calibration.settled);
+    let valid = calibration.adopted().filter(|_| calibration.fits());
     let range = valid.map_or_else(Vec::new, |found| by_size(&found.parameters, &usual));
     calibration.with_words(range);
     Ok(calibration)
-}
-
-/// Checks that all readings have times, and not all the same, and that the noise of the gyro is still known with a drift:
-/// stated, or estimated if it is without the drift.
-pub(super) fn drift_can_be_fitted(setup: &Setup, readings: &Readings) -> Result<(), NoLeastSquares> {
-    let mut times = readings.positions().iter().flat_map(|at| &at.visits).map(|visit| visit.time_s);
-    let first = times.next().flatten().ok_or(NoLeastSquares::NoTimes)?;
-    let mut same = true;
-    for time_s in times {
-        same &= time_s.ok_or(NoLeastSquares::NoTimes)? == first;
-    }
-    if same {
-        return Err(NoLeastSquares::ConstantTime);
-    }
-    let of_noise = |drift| {
-        let differences = Differences::new(readings, &Offsets::new(readings, (drift, false)));
-        differences.map_or(0, |differences| differences.degrees_of_freedom())
-    };
-    let stated = setup.uncertainty().visit_deg_per_h.is_some();
-    if !stated && of_noise(false) > 0 && of_noise(true) == 0 { Err(NoLeastSquares::DriftOrNoise) } else { Ok(()) }
-}
-
-/// Returns the drift in time that the readings show, °/h², the probability of a larger one if there is none, and whether they fit
-/// with it; `None` if they do not determine it.
-pub(crate) fn drift_test(setup: &Setup, readings: &Readings, options: &Options) -> Option<(Vector2<f64>, f64, bool)> {
-    let Observation { data, fit, .. } = Observation::plain(setup, readings, options.model, (true, false)).ok()?;
-    let drift = fit.drift(&data.offsets)?;
-    let propagation = Propagation::new(setup, &data, &fit);
-    let rest = chi_square(&propagation);
-    let explains = !rest.judges() || rest.probability >= ALARM;
-    let probability = probability_of_drift(&propagation, &drift)?;
-    Some((drift, probability, explains))
-}
-
-/// Returns the probability of a larger drift than `drift` if there is none; `None` if its covariance has no inverse.
-fn probability_of_drift(propagation: &Propagation, drift: &Vector2<f64>) -> Option<f64> {
-    let Propagation { setup, data, fit, .. } = propagation;
-    let (inputs, columns) = causes::inputs(setup, data, fit);
-    let response = propagation.response_of_least_squares();
-    let spread = product(&response.rows(response.nrows() - 2, 2).into_owned(), &columns);
-    let estimates = Estimates::new(setup, &data.repeats);
-    let mut whole = Matrix2::zeros();
-    let mut of_estimates = vec![Matrix2::zeros(); estimates.degrees_of_freedom.len()];
-    for (input, change) in inputs.iter().zip(spread.column_iter()) {
-        let change = change.fixed_rows::<2>(0);
-        let square = change * change.transpose();
-        whole += square;
-        for (estimate, share) in input.basis.shares() {
-            of_estimates[estimate] += square * share;
-        }
-    }
-    let inverse = whole.try_inverse()?;
-    let parts = of_estimates.iter().zip(&estimates.degrees_of_freedom).map(|(part, &degrees_of_freedom)| {
-        let s = inverse * part;
-        Part { degrees_of_freedom, trace: s.trace(), square: (s * s).trace() }
-    });
-    let parts: Vec<Part> = parts.collect();
-    let of_visits = estimates.of_visits().map_or_else(Matrix2::zeros, |estimate| of_estimates[estimate]);
-    let value = |factor: f64| {
-        let inverse = (whole + of_visits * (factor - 1.0)).try_inverse();
-        inverse.map_or(0.0, |inverse| drift.dot(&(inverse * drift)))
-    };
-    Some(scaled_f::larger(2, &parts, estimates.of_visits(), value))
 }
 
 /// First-order response of a calibration to small changes of all its inputs.
@@ -187,7 +104,7 @@ pub(crate) fn linearise(
 ) -> Result<Linearised, MethodRefusal> {
     let setup = &*setup.of_readings(readings);
     let model = if method == Method::LeastSquares { options.model } else { Model::Paper };
-    let Observation { data, fit, .. } = Observation::new(setup, readings, model, options.drift)?;
+    let (Observation { data, fit, .. }, _) = visits::observe(setup, readings, model, options.drift)?;
     let propagation = Propagation::new(setup, &data, &fit);
     let (found, response) = match method {
         Method::LeastSquares => (fit.unknowns, propagation.response_of_least_squares()),

@@ -1,6 +1,7 @@
 //! Results of a calibration.
 
-use super::finding::{ALARM, Finding};
+use super::chi_square::ALARM;
+use super::finding::{Finding, Kind};
 use super::iterative::NoIterativeSolution;
 use super::recorded::Digits;
 use super::{
@@ -111,12 +112,39 @@ impl Calibration {
     /// parameters.
     pub fn valid(&self) -> Result<&MethodResult, NotValid> {
         let causes = || self.meaningless().unwrap_or_else(|| self.causes_in_words());
-        NotValid::checked(self.adopted(), self.settled && self.consistent, self.mistake().is_some(), causes)
+        NotValid::checked(self.adopted(), self.fits(), self.mistake().is_some(), causes)
+    }
+
+    /// Returns `true` if the readings fit the stand and the fit converged.
+    pub(crate) fn fits(&self) -> bool {
+        self.settled && self.consistent
     }
 
     /// Returns the adopted result even if it is not valid; `None` if no method gave a result.
     pub(crate) fn adopted(&self) -> Option<&MethodResult> {
         self.results.iter().find(|result| result.method == Method::LeastSquares).or(self.results.last())
+    }
+
+    /// Returns the cause that makes the result invalid, if there is one: the first that is not chance.
+    pub fn mistake(&self) -> Option<&Finding> {
+        let first = self.causes.iter().find(|cause| cause.kind != Kind::Chance);
+        first.filter(|cause| !self.consistent || cause.invalidates())
+    }
+
+    /// Returns `true` if the parameters are not valid.
+    pub(crate) fn is_invalid(&self) -> bool {
+        !self.consistent || self.mistake().is_some()
+    }
+
+    /// Adds the sentences, and a cause of another kind, such as one that the gyro type shows.
+    pub(crate) fn with_words(&mut self, further: impl IntoIterator<Item = Finding>) {
+        let all = further.into_iter().chain(std::mem::take(&mut self.causes));
+        self.causes = all.map(Finding::in_words).collect();
+    }
+
+    /// Returns the visits and rows that are probably wrong.
+    pub(crate) fn suspects(&self) -> impl Iterator<Item = &Finding> {
+        self.causes.iter().filter(|cause| cause.is_reading())
     }
 
     /// Returns the noises of the gyro that are neither stated nor shown by the readings.

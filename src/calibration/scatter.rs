@@ -1,5 +1,5 @@
-//! Numbers of visits and readings, and the errors assumed for each: stated, or estimated from their scatter; agreement of
-//! the rows of a visit, of the visits of a position and of the turn-ons with what was stated.
+//! Agreement of the rows of a visit, of the visits of a position and of the turn-ons with what was stated of their errors,
+//! which are estimated from their scatter if it is larger, or if nothing was stated.
 //!
 //! Rows of a visit differ only by the noise of a reading. Visits differ also by the repeatability of positioning. The
 //! specification of the meter contributes no scatter, because its error is the same every time.
@@ -8,6 +8,7 @@ use super::estimates::Estimates;
 use super::least_squares::Fit;
 use super::noise;
 use super::offsets::{Differences, Offsets};
+use super::repeats::Repeats;
 use super::sensitivity::Sensitivity;
 use super::{Basis, DriftNoise, NoiseSource, PositionReadings, Readings, Setup, Visit};
 use crate::statistics::distributions::chi_square_larger;
@@ -77,70 +78,7 @@ impl Scatter {
     }
 }
 
-/// Numbers of visits and readings of each position, and the errors assumed for a visit and a reading.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Repeats {
-    /// For each position: fractions of its variance that an error of a single visit, and of a single reading, has in
-    /// the mean.
-    pub(crate) shares: Vec<[f64; 2]>,
-    /// Standard deviation of a single reading, mA, and its degrees of freedom if estimated from repeated rows.
-    pub(crate) noise_ma: f64,
-    pub(crate) noise_degrees_of_freedom: f64,
-    /// Factor by which the variance of a visit (repeatability, readings and gyro together) is enlarged, and its degrees
-    /// of freedom if it is estimated.
-    pub(crate) visit_factor: f64,
-    pub(crate) visit_degrees_of_freedom: f64,
-    /// Noise of the gyro's drift from visit to visit, and from one turn-on to the next.
-    pub(crate) visit: DriftNoise,
-    pub(crate) turn_on: DriftNoise,
-    /// Number of turn-ons.
-    pub(crate) cycles: usize,
-    /// Standard deviation of the elements of K from turn-on to turn-on, °/(h·mA), by rows; 0 if K does not differ.
-    pub(crate) scale: [f64; 4],
-}
-
 impl Repeats {
-    /// Creates the errors as the laboratory and the certificate state them.
-    pub(crate) fn stated(setup: &Setup, readings: &Readings) -> Self {
-        let shares = |at: &PositionReadings| [at.visit_share(), at.reading_share()];
-        Self {
-            shares: readings.positions().iter().map(shares).collect(),
-            noise_ma: setup.uncertainty().meter.noise_ma,
-            noise_degrees_of_freedom: f64::INFINITY,
-            visit_factor: 1.0,
-            visit_degrees_of_freedom: f64::INFINITY,
-            visit: DriftNoise::stated(setup.uncertainty().visit_deg_per_h),
-            turn_on: DriftNoise::stated(setup.uncertainty().turn_on_deg_per_h),
-            cycles: readings.cycles().len(),
-            scale: [0.0; 4],
-        }
-    }
-
-    /// Returns the variance of the mean of a position from the gyro's noise from visit to visit, (°/h)², each axis.
-    pub(crate) fn drift_variance(&self, place: usize) -> f64 {
-        self.return_share(place) * self.visit.deg_per_h * self.visit.deg_per_h
-    }
-
-    /// Returns the standard uncertainty of the mean of the turn-ons, °/h, each axis.
-    pub(crate) fn turn_on_of_mean_deg_per_h(&self) -> f64 {
-        self.turn_on.deg_per_h / (self.cycles as f64).sqrt()
-    }
-
-    /// Returns the standard uncertainty of an element of the mean K of the turn-ons, °/(h·mA), from their scatter.
-    pub(crate) fn scale_of_mean(&self, element: usize) -> f64 {
-        self.scale[element] / (self.cycles as f64).sqrt()
-    }
-
-    /// Returns the fraction of the variance of one visit that the mean of a position has.
-    pub(crate) fn return_share(&self, place: usize) -> f64 {
-        self.visit_factor * self.shares[place][0]
-    }
-
-    /// Returns the variance of the mean of a position from the noise of its readings, mA².
-    pub(crate) fn noise_variance_ma2(&self, place: usize) -> f64 {
-        self.visit_factor * self.shares[place][1] * self.noise_ma * self.noise_ma
-    }
-
     /// Compares the scatter of rows and visits at a fit with what was stated. Replaces the errors if the scatter is larger
     /// than stated, or if nothing was stated; `offsets` takes over what differences between visits say.
     pub(crate) fn observe(
@@ -287,11 +225,6 @@ impl Repeats {
             let each = (squares.sum::<f64>().max(0.0) / freedom).sqrt();
             pair.into_iter().zip(units).for_each(|(element, unit)| self.scale[element] = each * unit);
         }
-    }
-
-    /// Returns the degrees of freedom of the scatter of two elements of K between turn-ons.
-    pub(crate) fn scale_degrees_of_freedom(&self) -> f64 {
-        2.0 * self.cycles.saturating_sub(1) as f64
     }
 }
 

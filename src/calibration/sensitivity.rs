@@ -3,7 +3,7 @@
 //! Rotations are passive. If the case rotates by the small vector δ, the coordinates v of a fixed vector change by
 //! v × δ. If the base rotates by δ about east, north and up, Ã w changes by Ã (w × δ), with w in these axes.
 
-use super::scatter::Repeats;
+use super::repeats::Repeats;
 use super::unknowns::Unknowns;
 use super::{Cause, Setup};
 use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2, Vector3};

@@ -1,9 +1,10 @@
 //! Differences between a check and the certificate as rotations of the case, and the tests of them.
 
-use super::comparison::{CommonTurn, NotCompared, Test};
+use super::compared::Untested;
+use super::compared::{CommonTurn, NotCompared, Test};
 use super::components::{RunModel, Variance, case_turn, turns_at};
-use super::finding::Untested;
-use super::found::{Found, Kind, OUTLIER, Setting, arcsec};
+use super::found::{Found, Scope, arcsec};
+use super::kind::{Kind, OUTLIER, Setting};
 use super::{AngleReadings, Certification, NominalPosition};
 use crate::calibration::inputs::Turn;
 use crate::stand::{ActsOn, Certificate, CertifiedPosition, Stand};
@@ -203,7 +204,7 @@ impl Differences {
         found.min_by(|(one, _), (other, _)| one.total_cmp(other)).map(|(_, (setting, angle_deg, turn))| {
             let words = texts::setting_changed(symbol(setting.symbol()), Number::exact(angle_deg), arcsec(turn));
             let probability = self.rest(&places).map_or(1.0, |test| test.probability);
-            let found = Found::new(Kind::StandChanged, setting.scope(angle_deg), probability, words);
+            let found = Found::new(Kind::StandChanged, Scope::of_setting(setting, angle_deg), probability, words);
             found.sized(turn).advised(texts::DO_CHECK_SETTING)
         })
     }

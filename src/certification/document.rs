@@ -1,7 +1,8 @@
 //! Certified stand file as text: canonical, with comments on the origin of its numbers.
 
 use super::Certification;
-use super::found::{Kind, Scope};
+use super::found::Scope;
+use super::kind::Kind;
 use crate::stand::{ActsOn, Stand};
 use crate::text::Unreadable;
 use crate::text::yaml::write_document;

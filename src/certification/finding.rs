@@ -1,8 +1,9 @@
 //! Findings of a comparison: reasons for its result and its limits, and their words in each language.
 
 use super::Certification;
-use super::comparison::{CommonTurn, ComparedPosition, TOO_CLOSE, Test};
-use super::found::{Found, Kind, OUTLIER, STRAGGLER, Scope};
+use super::compared::{CommonTurn, ComparedPosition, Test, Untested};
+use super::found::{Found, Scope};
+use super::kind::{Kind, OUTLIER, STRAGGLER};
 use super::remark::{advised, in_english};
 use crate::wording::Words;
 use crate::wording::number::{Number, Probability};
@@ -10,6 +11,9 @@ use crate::wording::texts::remarks as texts;
 use crate::wording::words::code;
 use nalgebra::Vector3;
 use std::fmt::{Display, Formatter};
+
+/// Probability by chance below which a check agrees better with the certificate than a new measurement can.
+pub(super) const TOO_CLOSE: f64 = 1e-6;
 
 /// Ratio of the scatter of a check to the certified one above which nothing is decided.
 const MUCH_MORE: f64 = 2.0;
@@ -59,17 +63,6 @@ impl Display for Finding {
     fn fmt(&self, to: &mut Formatter<'_>) -> std::fmt::Result {
         to.write_str(&in_english(&self.advised()))
     }
-}
-
-/// Reason why the rotation of the stand as a whole was not tested.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Untested {
-    /// Variation between the check runs that is unknown.
-    Variation,
-    /// The check has one run, and the certificate does not state its number of runs.
-    NumberOfRuns,
-    /// Certificate without common parts of the uncertainty.
-    CommonParts,
 }
 
 impl Finding {

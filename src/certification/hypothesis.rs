@@ -6,7 +6,7 @@
 //! all hypotheses together: each kind has a share of the level, which its hypotheses divide equally.
 
 use super::components::{Combinations, Components};
-use super::found::{Kind, OUTLIER, Part, STEPS_OF_ROUNDING, STRAGGLER, Setting};
+use super::kind::{Kind, OUTLIER, Part, STEPS_OF_ROUNDING, STRAGGLER, Setting};
 use super::layer::{Column, Fit, Layer, Runs};
 use super::{AngleReadings, Header};
 use crate::calibration::inputs::Turn;

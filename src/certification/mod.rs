@@ -5,17 +5,17 @@
 //! * `components`: variance components (the positions' own scatter, and the part common to a run).
 //! * `layer`: readings within the runs, and rotations of the runs, with fits of shifts.
 //! * `hypothesis`: the list of what may be wrong, and the search for what explains the measurement.
-//! * `found`: findings, their words, and their JSON.
+//! * `kind`: kinds of findings and the probabilities at which they are reported; `found`: findings, their words, their JSON.
 //! * `remark`: remarks for the signatory.
-//! * `comparison`: the comparison of a later check run with the certificate.
+//! * `comparison`: the comparison of a later check run with the certificate; `compared`: its tests of positions and of all.
 //! * `differences`: check minus certificate as rotations, and the tests of them.
 //! * `finding`: reasons for the result of that comparison, and its limits.
 //! * `transformation`: other units, columns, rows or signs of a file or a run.
-//! * `texts`: the words of remarks and findings in every language.
 //! * `document`: the stand file as text, with comments on the origin of its numbers.
 //!
 //! The model and the meaning of each number are described in docs/certification.md.
 
+pub(crate) mod compared;
 pub(crate) mod comparison;
 pub(crate) mod components;
 pub(crate) mod differences;
@@ -24,16 +24,19 @@ pub(crate) mod finding;
 pub(crate) mod found;
 pub(crate) mod header;
 pub(crate) mod hypothesis;
+pub(crate) mod kind;
 mod layer;
 pub(crate) mod readings;
 pub(crate) mod remark;
 mod transformation;
 
-pub use comparison::{CommonTurn, ComparedPosition, Comparison, NotCompared, Test, compare};
+pub use compared::{CommonTurn, ComparedPosition, NotCompared, Test};
+pub use comparison::{Comparison, compare};
 use components::{Common, Components, Variance};
-use found::{Found, Kind, Naming, Scope};
+use found::{Found, Naming, Scope};
 pub use header::{Header, NominalPosition};
 use hypothesis::{Cause, Explanation, Measurement, predictions};
+use kind::Kind;
 use layer::Fit;
 pub use readings::{AngleReadings, NotBalanced};
 use remark::Remark;
@@ -216,7 +219,7 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
 /// is tested; it is left out, and with it whatever else is named.
 fn between(components: &Components, explanation: &Explanation) -> RunVariance {
     let is_of_runs = |cause: Cause| matches!(cause, Cause::Run { .. } | Cause::Move { .. } | Cause::Drift { .. });
-    let accused = explanation.accepted.iter().any(|at| is_of_runs(at.cause) && at.probability < found::OUTLIER);
+    let accused = explanation.accepted.iter().any(|at| is_of_runs(at.cause) && at.probability < kind::OUTLIER);
     if !accused {
         return RunVariance {
             changes: components.run_turns.len() as f64 - 1.0,

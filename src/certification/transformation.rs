@@ -1,11 +1,13 @@
 //! Transformations of all angles of a file or a run: another unit, other signs, columns or rows than those of a reference,
 //! which is the certificate or the other runs.
 
-use super::found::{Found, Kind, Scope};
+use super::found::{Found, Scope};
+use super::kind::Kind;
 use crate::attitude::{ANGLE_SYMBOLS, ANGLES};
 use crate::coefficients::PositionIndex;
 use crate::statistics::student::f_beyond;
 use crate::text::words::first_few;
+use crate::units::{ARCSECONDS_PER_DEGREE, ARCSECONDS_PER_RADIAN};
 use crate::wording::number::Number;
 use crate::wording::texts::transformations as texts;
 use crate::wording::{Text, Words};
@@ -13,17 +15,17 @@ use nalgebra::{DVector, Vector3};
 
 /// Units of angles: key, words, and size in arcseconds. That of an autocollimator may turn by twice the angle of the mirror.
 const UNITS: [(&str, Text, f64); 11] = [
-    ("deg", texts::DEGREES, 3600.0),
+    ("deg", texts::DEGREES, ARCSECONDS_PER_DEGREE),
     ("arcmin", texts::ARCMINUTES, 60.0),
-    ("rad", texts::RADIANS, 206_264.806_247),
+    ("rad", texts::RADIANS, ARCSECONDS_PER_RADIAN),
     ("turn", texts::TURNS, 1_296_000.0),
     ("gon", texts::GONS, 3240.0),
     ("mgon", texts::MILLIGONS, 3.24),
     ("mil", texts::MILS, 202.5),
     ("beam", texts::BEAM, 0.5),
     // Of two units that agree with a measured factor about as well, the first is named first.
-    ("mrad", texts::MILLIRADIANS, 206.264_806_247),
-    ("urad", texts::MICRORADIANS, 0.206_264_806_247),
+    ("mrad", texts::MILLIRADIANS, 1e-3 * ARCSECONDS_PER_RADIAN),
+    ("urad", texts::MICRORADIANS, 1e-6 * ARCSECONDS_PER_RADIAN),
     ("mdeg", texts::MILLIDEGREES, 3.6),
 ];
 

@@ -49,15 +49,12 @@ use std::path::{Path, PathBuf};
 /// file of currents is then the serial number of its gyro, the last result of this gyro is compared, and the new result and
 /// its report are written into the folder of results.
 #[derive(Args)]
-#[command(allow_missing_positional = true)]
 pub(super) struct Options {
-    /// Passport file; in a workspace also its identifier
-    #[arg(value_name = "PASSPORT", value_parser = defaults::passport())]
-    passport: Option<PathBuf>,
-    /// Currents of a gyro: CSV with the header i,j,jx_ma,jy_ma and optionally cycle, visit, time_s; without visit,
-    /// successive rows of a position belong to one visit
-    #[arg(required = true, value_name = "CURRENTS.csv")]
-    currents: Vec<PathBuf>,
+    /// Passport file, in a workspace also its identifier; then the currents of a gyro: CSV with the header i,j,jx_ma,jy_ma
+    /// and optionally cycle, visit, time_s; without visit, successive rows of a position belong to one visit
+    // One list, because clap cannot tell which of two positional arguments is absent; the brackets make two of it in the usage.
+    #[arg(required = true, value_name = "PASSPORT> <CURRENTS.csv")]
+    files: Vec<PathBuf>,
     #[command(flatten)]
     whom: Whom,
     /// Folder for the results of several gyros: <name of the currents>.json, as --format json writes it, and .html, the
@@ -169,7 +166,7 @@ fn limit(text: &str) -> Result<f64, String> {
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (passport, currents) = options.inputs()?;
-    let one = paths::one_file(&currents).filter(|_| options.out.is_none());
+    let one = paths::one_file(currents).filter(|_| options.out.is_none());
     if one.is_none() {
         options.check_for_several()?;
     }
@@ -192,7 +189,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     bench.check(&bench.subject(), &bench.previous)?;
     match one {
         Some(path) => bench.one(path),
-        None => bench.several(&currents),
+        None => bench.several(currents),
     }
 }
 
@@ -509,23 +506,17 @@ impl Bench<'_> {
 }
 
 impl Options {
-    /// Returns the passport, if it is given, and the files of currents. Where the workspace tells the passport, tables alone
-    /// are given.
-    fn inputs(&self) -> Result<(Option<PathBuf>, Vec<PathBuf>), Failure> {
+    /// Returns the passport, or `None` if tables alone are given because the workspace tells it, and the files of currents.
+    fn inputs(&self) -> Result<(Option<PathBuf>, &[PathBuf]), Failure> {
         let tells = defaults::workspace().is_some_and(|workspace| !workspace.stand.is_empty());
         let is_table =
             |path: &Path| path.extension().is_some_and(|end| end.eq_ignore_ascii_case("csv")) || path.is_dir();
-        let currents = || self.currents.iter().cloned();
-        Ok(match (&self.passport, &self.currents[..]) {
-            (Some(table), _) if tells && is_table(table) => {
-                (None, [table.clone()].into_iter().chain(currents()).collect())
+        match &self.files[..] {
+            [first, currents @ ..] if !(currents.is_empty() || tells && is_table(first)) => {
+                Ok((Some(defaults::path_of_passport(first.clone()).map_err(Failure::usage)?), currents))
             }
-            // An option between the two files makes clap take both for currents.
-            (None, [first, rest @ ..]) if !(rest.is_empty() || tells && is_table(first)) => {
-                (Some(defaults::path_of_passport(first.clone()).map_err(Failure::usage)?), rest.to_vec())
-            }
-            (passport, _) => (passport.clone(), currents().collect()),
-        })
+            tables => Ok((None, tables)),
+        }
     }
 
     /// Refuses options that describe a single gyro.

@@ -286,7 +286,7 @@ impl<'a> Prepared<'a> {
         }
         calibration.causes.retain(|cause| cause.kind != Kind::Range || !calibration.consistent);
         let case = (&setup, &readings, options);
-        let of_type = by_type::causes(case, &calibration, &found, gyro_type, &usual);
+        let of_type = if calibration.fits() { by_type::causes(case, &found, gyro_type, &usual) } else { Vec::new() };
         calibration.with_words(of_type);
         let mut document = document.explained_by(&calibration);
         document.remarks = calibration::remarks::remarks(&calibration, &readings);

@@ -2,7 +2,8 @@
 
 use crate::attitude::{ANGLE_SYMBOLS, ANGLES};
 use crate::calibration::document::finite;
-use crate::certification::found::{self, Found, Kind, Part, Scope, together};
+use crate::certification::found::{self, Found, Scope, together};
+use crate::certification::kind::{Kind, Part};
 use crate::history::drift::{CommonJump, DRIFTS, Drift, Jump, SUSPECTED, Series, Value};
 use crate::history::{History, PastCertificate, PastPassport};
 use crate::report::columns::decimals;

@@ -223,8 +223,8 @@ impl Statement {
     }
 }
 
-/// Returns a name without the capital letter of its first word; a symbol keeps its letters.
-fn within_a_sentence(name: &str) -> String {
+/// Returns a name or a sentence without its first capital letter; a symbol keeps its letters.
+pub(crate) fn within_a_sentence(name: &str) -> String {
     let mut letters = name.chars();
     match (letters.next(), letters.clone().next()) {
         (Some(first), Some(next)) if next.is_lowercase() => first.to_lowercase().chain(letters).collect(),

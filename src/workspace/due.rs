@@ -1,7 +1,6 @@
 //! What of a workspace will expire or stop being fresh, in the order of its days.
 
 use super::Workspace;
-use super::status::Status;
 use crate::document::sha256_hex;
 use crate::files;
 use crate::folder::Folder;
@@ -53,36 +52,49 @@ pub(crate) struct Due {
 /// Names of the columns.
 const COLUMNS: [&str; 7] = ["date", "days_left", "what", "id", "site", "certificate", "customer"];
 
-/// Returns what ends within `days` days, or has ended.
-pub(super) fn due(
-    workspace: &Workspace,
-    overview: Option<&Overview>,
-    status: &Status,
-    (time, days): (Timestamp, i32),
-) -> Vec<Due> {
-    let day = |time: Timestamp| time.to_zoned(jiff::tz::TimeZone::UTC).date();
-    let today = day(time);
-    let due = |what, id: &str, date: Date| {
-        let days_left = today.until(date).map_or(i32::MAX, |span| span.get_days());
+/// Days that are listed.
+pub(super) struct Horizon {
+    today: Date,
+    days: i32,
+}
+
+impl Horizon {
+    pub(super) fn new(time: Timestamp, days: i32) -> Self {
+        Self { today: day(time), days }
+    }
+
+    /// Returns what ends on a day, or `None` if that is later than the days that are listed.
+    pub(super) fn ends(&self, what: What, id: &str, date: Date) -> Option<Due> {
+        let days_left = self.today.until(date).map_or(i32::MAX, |span| span.get_days());
         let id = id.to_owned();
-        (days_left <= days).then_some(Due { date, days_left, what, id, site: None, certificate: None, customer: None })
-    };
+        (days_left <= self.days).then_some(Due {
+            date,
+            days_left,
+            what,
+            id,
+            site: None,
+            certificate: None,
+            customer: None,
+        })
+    }
+}
+
+/// Returns the day of a time, UTC.
+pub(super) fn day(time: Timestamp) -> Date {
+    time.to_zoned(jiff::tz::TimeZone::UTC).date()
+}
+
+/// Returns the passports and registers of a workspace that are due.
+pub(super) fn of_passports(workspace: &Workspace, overview: &Overview, horizon: &Horizon) -> Vec<Due> {
     let is_here = |row: &&Row| row.state == State::Current && (row.file.is_some() || !workspace.is_of_a_laboratory());
-    let passports = overview.iter().flat_map(|overview| overview.rows()).filter(is_here).filter_map(|row| {
+    let passports = overview.rows().filter(is_here).filter_map(|row| {
         let (site, certificate) = (Some(row.site.clone()), Some(row.certificate.clone()));
-        let found = due(What::PassportExpires, &row.id, row.valid_until?)?;
+        let found = horizon.ends(What::PassportExpires, &row.id, row.valid_until?)?;
         Some(Due { site, certificate, customer: customer(workspace, row), ..found })
     });
-    let stands = overview.iter().flat_map(|overview| &overview.stands);
-    let registers = stands.filter_map(|stand| due(What::RegisterStale, &stand.stand, stand.fresh_until?));
-    let certificates = status.stands.iter().filter_map(|stand| {
-        let found = due(What::CertificateExpires, &stand.id, stand.valid_until?)?;
-        Some(Due { certificate: Some(stand.certificate.clone()), customer: stand.customer.clone(), ..found })
-    });
-    let keys = status.keys.iter().filter_map(|key| due(What::KeyExpires, &key.principals, day(key.valid_before?)));
-    let mut all: Vec<Due> = passports.chain(registers).chain(certificates).chain(keys).collect();
-    all.sort();
-    all
+    let registers =
+        overview.stands.iter().filter_map(|of| horizon.ends(What::RegisterStale, &of.stand, of.fresh_until?));
+    passports.chain(registers).collect()
 }
 
 /// Returns the customer that the listed file of a row states.

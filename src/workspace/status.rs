@@ -1,6 +1,6 @@
 //! Contents of a workspace: stands, sites, passports in force, passports that expire soon, alarms, keys.
 
-use super::due::{self, Due};
+use super::due::{self, Due, Horizon, What};
 use super::{WORKSPACE_FILE, Workspace};
 use crate::batch::paths::{is_stand, is_yaml};
 use crate::files::walk::{Entry, Walk};
@@ -35,10 +35,10 @@ const MOST_LINES: usize = 20;
 pub(crate) struct Status {
     workspace: String,
     time: Timestamp,
-    pub(super) stands: Vec<StandLine>,
+    stands: Vec<StandLine>,
     sites: Vec<SiteLine>,
     passports: Option<Passports>,
-    pub(super) keys: Vec<KeyLine>,
+    keys: Vec<KeyLine>,
     signing_key: Option<SigningKeyLine>,
     /// What will expire or stop being fresh, by date.
     pub(crate) due: Vec<Due>,
@@ -50,14 +50,14 @@ pub(crate) struct Status {
 }
 
 #[derive(Debug, Serialize)]
-pub(super) struct StandLine {
-    pub(super) id: String,
+struct StandLine {
+    id: String,
     file: String,
-    pub(super) certificate: String,
-    pub(super) valid_until: Option<Date>,
+    certificate: String,
+    valid_until: Option<Date>,
     expired: bool,
     #[serde(skip)]
-    pub(super) customer: Option<String>,
+    customer: Option<String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -89,12 +89,12 @@ struct Passports {
 
 /// A trusted key, as a line of allowed_signers states it.
 #[derive(Debug, Serialize)]
-pub(super) struct KeyLine {
-    pub(super) principals: String,
+struct KeyLine {
+    principals: String,
     namespaces: Option<String>,
     fingerprint: String,
     valid_after: Option<Timestamp>,
-    pub(super) valid_before: Option<Timestamp>,
+    valid_before: Option<Timestamp>,
     valid: bool,
 }
 
@@ -146,7 +146,8 @@ pub(crate) fn status(
     let incomplete = register.as_ref().is_some_and(Overview::is_incomplete);
     remarks.extend(register.iter().flat_map(|overview| overview.remarks.clone()));
     let keys = trust.map_or_else(Vec::new, |trust| keys(trust, time));
-    let mut status = Status {
+    let due = due(workspace, register.as_ref(), (&stands, &keys), &Horizon::new(time, days));
+    Ok(Status {
         workspace: name_of(&workspace.root),
         time,
         stands,
@@ -154,12 +155,28 @@ pub(crate) fn status(
         passports: register.as_ref().map(|overview| passports(overview, time, workspace.is_of_a_laboratory())),
         keys,
         signing_key: workspace.key.as_deref().map(|key| signing_key(key, workspace, trust, time)),
-        due: Vec::new(),
+        due,
         remarks,
         incomplete,
-    };
-    status.due = due::due(workspace, register.as_ref(), &status, (time, days));
-    Ok(status)
+    })
+}
+
+/// Returns what is due, by date.
+fn due(
+    workspace: &Workspace,
+    overview: Option<&Overview>,
+    (stands, keys): (&[StandLine], &[KeyLine]),
+    horizon: &Horizon,
+) -> Vec<Due> {
+    let certificates = stands.iter().filter_map(|stand| {
+        let found = horizon.ends(What::CertificateExpires, &stand.id, stand.valid_until?)?;
+        Some(Due { certificate: Some(stand.certificate.clone()), customer: stand.customer.clone(), ..found })
+    });
+    let ends = |key: &KeyLine| horizon.ends(What::KeyExpires, &key.principals, due::day(key.valid_before?));
+    let of_passports = overview.map_or_else(Vec::new, |overview| due::of_passports(workspace, overview, horizon));
+    let mut all: Vec<Due> = of_passports.into_iter().chain(certificates).chain(keys.iter().filter_map(ends)).collect();
+    all.sort();
+    all
 }
 
 fn stands(workspace: &Workspace, time: Timestamp, remarks: &mut Vec<String>) -> Result<Vec<StandLine>, FileError> {

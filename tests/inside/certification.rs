@@ -2,7 +2,8 @@
 
 use crate::inside::simulated_stands::{HEADER, Truth, certified, csv, header, read};
 use dtg_passport::attitude;
-use dtg_passport::certification::found::{Found, Kind};
+use dtg_passport::certification::found::Found;
+use dtg_passport::certification::kind::Kind;
 use dtg_passport::certification::{AngleReadings, Header, NotCertified, certify};
 use dtg_passport::coefficients::{EIGHT_POSITIONS, PositionIndex};
 use dtg_passport::stand::{Excluded, Stand};

@@ -1,6 +1,7 @@
 //! Drift of one position that the seating of the platform hides: found in simulated histories of a stand.
 
-use crate::certification::found::{Found, Kind};
+use crate::certification::found::Found;
+use crate::certification::kind::Kind;
 use crate::coefficients::PositionIndex;
 use crate::history::drift::{Drift, SUSPECTED, Series};
 use crate::inside::simulated_stands::{Truth, angles, certified, turn};

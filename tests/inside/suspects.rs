@@ -1,7 +1,8 @@
 //! What is wrong with readings is named, and nothing that is right: one reading, one position, a whole run.
 
 use crate::inside::simulated_stands::{Truth, csv, header, normal, read};
-use dtg_passport::certification::found::{Found, Kind};
+use dtg_passport::certification::found::Found;
+use dtg_passport::certification::kind::Kind;
 use dtg_passport::certification::{AngleReadings, Certification, certify};
 use dtg_passport::coefficients::PositionIndex;
 use dtg_passport::statistics::random::Stream;

@@ -1,7 +1,8 @@
 //! Files and runs whose angles are in another unit, column or row, with another sign, constant or copied: named as that.
 
 use crate::inside::simulated_stands::{Truth, csv, header, normal, read};
-use dtg_passport::certification::found::{Found, Kind};
+use dtg_passport::certification::found::Found;
+use dtg_passport::certification::kind::Kind;
 use dtg_passport::certification::{AngleReadings, Comparison, certify, compare};
 use dtg_passport::stand::Stand;
 use dtg_passport::statistics::random::Stream;

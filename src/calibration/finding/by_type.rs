@@ -7,7 +7,7 @@
 use super::fits::{LARGEST_ROTATION_DEG, fitted, numberings};
 use super::{Finding, Kind, Scope, minimum};
 use crate::calibration::data::{Data, Observation};
-use crate::calibration::{Calibration, Found, Model, Options, Readings, Setup, Verdict, against_type};
+use crate::calibration::{Found, Model, Options, Readings, Setup, Verdict, against_type};
 use crate::earth::{NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2, normal_gravity_m_per_s2};
 use crate::gyro::{GyroParameters, GyroType};
 use nalgebra::Matrix2;
@@ -59,14 +59,10 @@ type Tried = (f64, Vec<Finding>);
 /// of the `usual` parameters.
 pub(crate) fn causes(
     (setup, readings, options): (&Setup, &Readings, &Options),
-    calibration: &Calibration,
     found: &Found,
     gyro_type: Option<&GyroType>,
     usual: &GyroParameters,
 ) -> Vec<Finding> {
-    if !calibration.consistent || !calibration.settled {
-        return Vec::new();
-    }
     let Some(gyro_type) = gyro_type else { return by_size(&found.parameters, usual) };
     let setup = &*setup.of_readings(readings);
     let Ok(Observation { data, fit, .. }) = Observation::plain(setup, readings, options.model, (options.drift, false))

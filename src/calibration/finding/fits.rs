@@ -4,8 +4,8 @@ use super::visits::{SETTLING, settling};
 use super::{Finding, Kind, Scope, minimum};
 use crate::calibration::chi_square::{self, ChiSquare};
 use crate::calibration::data::{Data, Observation};
+use crate::calibration::drift::drift_can_be_fitted;
 use crate::calibration::least_squares::Fit;
-use crate::calibration::procedure::drift_can_be_fitted;
 use crate::calibration::propagation::Propagation;
 use crate::calibration::sensitivity::Sensitivity;
 use crate::calibration::{Model, NoiseSource, Options, Readings, Setup};
@@ -20,7 +20,7 @@ const POSSIBLE: f64 = 0.001;
 /// Difference of chi-square above which the worse of two possible causes is dropped: it is e^(10/2) = 150 times less likely.
 const WORSE: f64 = 10.0;
 
-/// The same of a noise of the gyro that is not stated, which is more likely than any fault before the readings.
+/// Difference of chi-square above which an unstated noise of the gyro is dropped. It is likelier than a fault before any reading.
 const UNSTATED: f64 = 20.0;
 
 /// Chi-square that a cause must gain for each number that it chooses.
@@ -87,7 +87,7 @@ pub(super) fn causes(
     let is_noise = |cause: &Finding| cause.kind == Kind::GyroNoise;
     let is_likely = |(score, cause): &Possible| *score <= best + if is_noise(cause) { UNSTATED } else { WORSE };
     let mut likely: Vec<Finding> = possible.into_iter().filter(is_likely).map(|(_, cause)| cause).collect();
-    // A noise that nobody stated comes before what accuses stand, meter or model.
+    // An unstated noise of the gyro is listed before a fault of the stand, the meter or the model.
     let accuses = |cause: &Finding| !matches!(cause.kind, Kind::Drift | Kind::Settling | Kind::GyroNoise);
     if let Some(noise) = likely.iter().position(is_noise) {
         let before = likely.iter().position(accuses).unwrap_or(noise).min(noise);

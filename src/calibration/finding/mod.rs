@@ -1,4 +1,4 @@
-//! What explains readings that do not agree: one list of causes, one level of false alarms for all together.
+//! Causes of readings that do not agree: one list, with one level of false alarms for all of them together.
 //!
 //! A cause changes the set-up or the readings, and the readings are fitted again. Causes within turn-ons and visits are
 //! compared by F tests on the differences between visits (`visits`), causes of the whole run by the fit of the positions
@@ -13,20 +13,18 @@ pub(crate) mod rows;
 pub(crate) mod visits;
 mod words;
 
+use super::chi_square::ALARM;
 use super::data::Observation;
-use super::procedure::{drift_can_be_fitted, drift_test};
+use super::drift::{drift_can_be_fitted, drift_test};
 use super::readings::Exclusion;
-use super::{Calibration, ChiSquare, Options, Readings, Scatter, Setup};
+use super::{ChiSquare, Options, Readings, Scatter, Setup};
 use crate::coefficients::PositionIndex;
 use crate::gyro::GyroParameters;
 use crate::wording::Language;
 use serde::{Deserialize, Serialize};
 
 /// Probability that a good run alarms in any test.
-pub(crate) const LEVEL: f64 = 0.01;
-
-/// Probability of chi-square below which a fit is examined.
-pub(crate) const ALARM: f64 = LEVEL / 2.0;
+pub(crate) const LEVEL: f64 = 2.0 * ALARM;
 
 /// Probability above which chance is named among the causes.
 const BY_CHANCE: f64 = 0.001;
@@ -103,7 +101,7 @@ pub enum Kind {
     Chance,
 }
 
-/// Where a cause acts; a key that is absent does not limit it.
+/// Part of the readings on which a cause acts. An absent key is no restriction.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Scope {
@@ -185,7 +183,7 @@ impl Finding {
     }
 
     /// Returns the finding with its sentences in English.
-    fn in_words(self) -> Self {
+    pub(super) fn in_words(self) -> Self {
         Self { words: crate::wording::plain(&self.said().plain(Language::English)), ..self }
     }
 
@@ -226,11 +224,12 @@ impl Finding {
 pub(crate) fn all(
     setup: &Setup,
     readings: &Readings,
-    (observation, options): (&Observation, &Options),
+    (observation, explained): (&Observation, &[visits::Explained]),
+    options: &Options,
     chi_square: &ChiSquare,
 ) -> (Vec<Finding>, bool) {
     let Observation { data, fit, seen, .. } = observation;
-    let mut causes = visits::causes(setup, readings, observation, options);
+    let mut causes = visits::causes(setup, readings, (observation, explained), options);
     let is_layered = !causes.is_empty();
     let mut consistent = !causes.iter().any(Finding::invalidates);
     causes.extend(rows::causes(setup, readings, observation, options));
@@ -291,30 +290,6 @@ fn drift(setup: &Setup, readings: &Readings, options: &Options) -> Option<Findin
     let size = Some((drift.norm(), "deg/h/h"));
     let found = Finding { pair: drift.into(), ..Finding::new(Kind::Drift, Scope::default(), size, probability) };
     (probability < LEVEL).then_some(found)
-}
-
-impl Calibration {
-    /// Returns the cause that makes the result invalid, if there is one: the first that is not chance.
-    pub fn mistake(&self) -> Option<&Finding> {
-        let first = self.causes.iter().find(|cause| cause.kind != Kind::Chance);
-        first.filter(|cause| !self.consistent || cause.invalidates())
-    }
-
-    /// Returns `true` if the parameters are not valid.
-    pub(crate) fn is_invalid(&self) -> bool {
-        !self.consistent || self.mistake().is_some()
-    }
-
-    /// Adds the sentences, and a cause of another kind, such as one that the gyro type shows.
-    pub(crate) fn with_words(&mut self, further: impl IntoIterator<Item = Finding>) {
-        let all = further.into_iter().chain(std::mem::take(&mut self.causes));
-        self.causes = all.map(Finding::in_words).collect();
-    }
-
-    /// Returns the visits and rows that are probably wrong.
-    pub(crate) fn suspects(&self) -> impl Iterator<Item = &Finding> {
-        self.causes.iter().filter(|cause| cause.is_reading())
-    }
 }
 
 /// Returns the minimum point of a function with one minimum between `low` and `high`, by ternary search to 1e-6 of

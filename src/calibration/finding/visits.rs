@@ -11,7 +11,7 @@ use crate::calibration::offsets::{VisitRow, VisitRows};
 use crate::calibration::propagation::Propagation;
 use crate::calibration::scatter::{IMPROBABLE, VisitErrors};
 use crate::calibration::sensitivity::Sensitivity;
-use crate::calibration::{NoiseSource, Options, Readings, Setup, Visit};
+use crate::calibration::{Model, NoLeastSquares, NoiseSource, Options, Readings, Setup, Visit};
 use crate::statistics::distributions::chi_square_larger;
 use crate::statistics::student::f_larger;
 use crate::units::{SECONDS_PER_HOUR, arcseconds_from_radians, sin_cos_of_degrees};
@@ -184,9 +184,23 @@ impl Layer {
     }
 }
 
+/// Fits the readings with one K of all turn-ons, and with one of each if the differences between visits show that they differ.
+/// Returns the fit, and what explains these differences.
+pub(crate) fn observe(
+    setup: &Setup,
+    readings: &Readings,
+    model: Model,
+    drift: bool,
+) -> Result<(Observation, Vec<Explained>), NoLeastSquares> {
+    let plain = Observation::plain(setup, readings, model, (drift, false))?;
+    let (explained, scale) = explained(setup, readings, &plain);
+    let each = if scale { Observation::plain(setup, readings, model, (drift, true)).ok() } else { None };
+    Ok((each.unwrap_or(plain), explained))
+}
+
 /// Returns the causes that explain the differences between visits, the first one first, and whether every turn-on must have a K
 /// of its own. This needs less evidence than naming it, because an uncertainty without the scatter of K would be too small.
-pub(crate) fn explained(setup: &Setup, readings: &Readings, of: &Observation) -> (Vec<Explained>, bool) {
+fn explained(setup: &Setup, readings: &Readings, of: &Observation) -> (Vec<Explained>, bool) {
     let Some(mut layer) = Layer::new(setup, readings, of) else { return (Vec::new(), false) };
     let mut candidates = candidates(setup, readings, of);
     // A turn-on with few positions has no K of its own.
@@ -325,10 +339,15 @@ fn candidates<'a>(setup: &'a Setup, readings: &'a Readings, of: &'a Observation)
 }
 
 /// Returns what was found in the differences between visits: causes, and turn-ons whose currents are exchanged.
-pub(super) fn causes(setup: &Setup, readings: &Readings, of: &Observation, options: &Options) -> Vec<Finding> {
+pub(super) fn causes(
+    setup: &Setup,
+    readings: &Readings,
+    (of, explained): (&Observation, &[Explained]),
+    options: &Options,
+) -> Vec<Finding> {
     let mut found = Vec::new();
     let mut visits = Vec::new();
-    for one in &of.explained {
+    for one in explained {
         let Explained { kind, scope, probability, values } = one;
         let new = |size: Option<(f64, &str)>| Finding::new(*kind, scope.clone(), size, *probability);
         let pair = [values[0], values.get(1).copied().unwrap_or(0.0)];

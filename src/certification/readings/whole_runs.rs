@@ -3,7 +3,8 @@
 
 use super::{Reading, averages};
 use crate::attitude::ANGLES;
-use crate::certification::found::{Found, Kind, Scope};
+use crate::certification::found::{Found, Scope};
+use crate::certification::kind::Kind;
 use crate::certification::remark::in_english;
 use crate::certification::transformation::{CLEARLY, Rows, Transformation, exchanged};
 use crate::coefficients::PositionIndex;
@@ -13,6 +14,7 @@ use crate::text::problem::{MOST_PROBLEMS, Problem};
 use crate::text::table::Table;
 use crate::wording::Words;
 use crate::wording::texts::transformations as texts;
+use crate::wording::words::within_a_sentence;
 use nalgebra::{DVector, Vector3};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -234,7 +236,7 @@ impl<'a> Runs<'a> {
                 _ => texts::OF_OTHERS.into(),
             };
             let found = change.of(other, &self.shared(run, &self.each[reference]).1, scope);
-            let advice = lower(&found.advice.as_ref().map_or_else(String::new, in_english));
+            let advice = within_a_sentence(&found.advice.as_ref().map_or_else(String::new, in_english));
             let advice = match open {
                 true => format!(
                     "the runs disagree, and either may be wrong: compare them with a certificate (--against), or measure a third run; {advice}"
@@ -301,10 +303,4 @@ fn spread(values: &[f64]) -> f64 {
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
     (values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>() / (count - 1.0)).sqrt()
-}
-
-/// Returns words with a small first letter.
-fn lower(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
 }

@@ -1,9 +1,9 @@
 //! Agreement of the readings with the fit, possible causes of disagreement, and errors that the residuals do not show.
 
 use super::Report;
+use crate::calibration::chi_square::ALARM;
 use crate::calibration::chi_square::FEW_DEGREES;
 use crate::calibration::document::{ResidualDocument, ResultDocument};
-use crate::calibration::finding::ALARM;
 use crate::calibration::remarks::{Weight, scatter};
 use crate::calibration::{Calibration, Finding, NotStated};
 use crate::report::doc::{Block, On, Rows, Words, drawn, fields, in_unit, joined, probability, say, symbol};

@@ -1,8 +1,10 @@
 //! Change of a stand since its last certificate.
 
 use super::outcome_of;
-use crate::certification::comparison::{ComparedPosition, Comparison, Test};
-use crate::certification::found::{AXES, OUTLIER, together};
+use crate::certification::compared::{ComparedPosition, Test};
+use crate::certification::comparison::Comparison;
+use crate::certification::found::together;
+use crate::certification::kind::{AXES, OUTLIER};
 use crate::passport::difference::NumberDifference;
 use crate::report::doc::{
     Block, Rows, Words, drawn, fields, heading, in_unit, listed, marked, probability, say, symbol,

@@ -2,7 +2,8 @@
 
 use crate::certification::Certification;
 use crate::certification::components::Common;
-use crate::certification::found::{AXES, Found, Kind};
+use crate::certification::found::Found;
+use crate::certification::kind::{AXES, Kind};
 use crate::report::doc::{Block, On, Rows, Words, fields, heading, in_unit, listed, marked, probability, say, symbol};
 use crate::report::page::language::Text;
 use crate::report::page::number::Number;

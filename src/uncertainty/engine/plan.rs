@@ -6,7 +6,7 @@
 
 use super::ReadingShape;
 use crate::calibration::estimates::Estimates;
-use crate::calibration::scatter::Repeats;
+use crate::calibration::repeats::Repeats;
 use crate::calibration::{Basis, Cause, Input, Setup};
 use dtg_passport_trials::draw::{Draw, Input as Drawn, Slot};
 use nalgebra::Vector2;

@@ -2,7 +2,8 @@
 
 use crate::inside::simulated_stands::{Truth, certified, csv, header};
 use dtg_passport::certification::comparison::compare;
-use dtg_passport::certification::found::{Found, Kind};
+use dtg_passport::certification::found::Found;
+use dtg_passport::certification::kind::Kind;
 use dtg_passport::certification::{AngleReadings, NotCertified, certify};
 use dtg_passport::stand::{Evidence, Stand};
 use dtg_passport::statistics::random::Stream;

@@ -367,7 +367,10 @@ fn explained_for(
     let found = found(&calibration, latitude_deg);
     let setup = setup(stand, latitude_deg);
     let (readings, options) = (readings(&setup, currents_ma), least_squares_only());
-    types.map(|gyro_type| by_type::causes((&setup, &readings, &options), &calibration, &found, gyro_type, &gvk_6()))
+    if !calibration.fits() {
+        return [Vec::new(), Vec::new()];
+    }
+    types.map(|gyro_type| by_type::causes((&setup, &readings, &options), &found, gyro_type, &gvk_6()))
 }
 
 /// The causes, each with its channel and its size.

@@ -1,7 +1,8 @@
 //! Faults of simulated measurements: which are named, and how often a good stand is suspected.
 
 use crate::inside::simulated_stands::{Truth, header, normal};
-use dtg_passport::certification::found::{Found, Kind};
+use dtg_passport::certification::found::Found;
+use dtg_passport::certification::kind::Kind;
 use dtg_passport::certification::{AngleReadings, certify};
 use dtg_passport::coefficients::{EIGHT_POSITIONS, PositionIndex};
 use dtg_passport::statistics::random::Stream;

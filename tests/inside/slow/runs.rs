@@ -1,12 +1,12 @@
 //! Real runs: turn-ons, drift in time, gyro noise, the general model, positions that are missing.
 
 use crate::inside::reference::*;
+use dtg_passport::calibration::drift::drift_test as drift_of;
 use dtg_passport::calibration::finding::visits::{Columns, Layer};
 use dtg_passport::calibration::noise::NoiseSource;
 use dtg_passport::calibration::offsets::{Differences, Offsets};
 use dtg_passport::calibration::parameter::Parameter;
 use dtg_passport::calibration::prediction::best_further_visit;
-use dtg_passport::calibration::procedure::drift_test as drift_of;
 use dtg_passport::calibration::readings::Reading;
 use dtg_passport::calibration::{
     Calibration, InputUncertainty, Kind, Method, MethodResult, Model, NoLeastSquares, Options, Readings, Setup,
