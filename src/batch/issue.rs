@@ -199,7 +199,8 @@ impl<'a> Run<'a> {
     /// Issues a single passport; every passport of a batch is made here.
     fn one(&self, Work { folder, stand, .. }: &Work, site: &Site) -> Outcome {
         let Terms { valid_until, customer } = self.job.terms(stand, site).unwrap_or_default();
-        let order = &Issue { valid_until: valid_until.or(self.job.order.valid_until), ..self.job.order.clone() };
+        let of_row = valid_until.map(|day| Issue { valid_until: Some(day), ..self.job.order.clone() });
+        let order = of_row.as_ref().unwrap_or(self.job.order);
         let of_customer = customer.map(|customer| {
             let mut stand = stand.stand().clone();
             stand.stand.customer = Some(customer);

@@ -106,7 +106,7 @@ fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
     let table = options.certificates.as_deref();
     let table = table.map(|path| inputs::document(path, "a table of certificates (CSV)", Certificates::read));
     let table = table.transpose()?;
-    let common = table.iter().map(|_| inputs::bytes(headers, inputs::HEADER)).next().transpose()?;
+    let common = table.as_ref().map(|_| inputs::bytes(headers, inputs::HEADER)).transpose()?;
     let mut used = BTreeSet::new();
     if table.is_none() && !headers.is_dir() {
         let words = "expected a folder; with --out, --stand is the folder of the headers, NAME.yaml for NAME.csv";
