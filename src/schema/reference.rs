@@ -65,7 +65,7 @@ impl Section<'_> {
         reference(found).map_or_else(|| Some(found.clone()), |record| self.definition(record))
     }
 
-    /// Returns the kind of a value, in words; empty for a mapping.
+    /// Returns the kind of a value, in words; empty for a text and a mapping.
     fn value(&self, property: &Map<String, Value>) -> String {
         // Of a mapping these are keys that exclude each other.
         if let Some(choices) = property.get("oneOf").and_then(Value::as_array).filter(|_| !is_mapping(property)) {
@@ -74,7 +74,7 @@ impl Section<'_> {
                 .filter_map(Value::as_object)
                 .map(|one| self.value(one))
                 .collect::<Vec<_>>()
-                .join(" or ");
+                .join(", ");
         }
         if let Some(constant) = property.get("const") {
             return format!("`{constant}`");
@@ -85,12 +85,12 @@ impl Section<'_> {
         match property.get("type").and_then(Value::as_str) {
             Some("object") => String::new(),
             Some("array") => self.list(property),
-            Some("integer") => "whole number".to_owned(),
+            Some("integer") => "integer".to_owned(),
             Some("boolean") => "true or false".to_owned(),
             Some("string") => match property.get("format").and_then(Value::as_str) {
                 Some("date") => "day".to_owned(),
                 Some("date-time") => "time".to_owned(),
-                _ => "text".to_owned(),
+                _ => String::new(),
             },
             Some(other) => other.to_owned(),
             None => String::new(),
