@@ -1,4 +1,4 @@
-//! JSON Schemas of the file formats, and the tables of their keys.
+//! JSON Schemas of the file formats, and the lists of their keys.
 //!
 //! The program contains the schemas as `generate` made them. So users need not compile what makes them.
 
@@ -6,7 +6,7 @@
 pub(crate) mod generate;
 mod reference;
 
-pub(crate) use reference::tables;
+pub(crate) use reference::lists;
 
 use serde_json::{Map, Value};
 

@@ -1,11 +1,11 @@
-//! Tables of keys in Markdown, generated from the schemas, so that they always agree with what the program reads.
+//! Lists of keys in Markdown, generated from the schemas, so that they always agree with what the program reads.
 
 use serde_json::{Map, Value};
 use std::collections::HashMap;
 use std::fmt::Write;
 
-/// Returns the keys of every format as Markdown, with a section for each; shared parts are described in the first.
-pub(crate) fn tables(schemas: &[&Value]) -> String {
+/// Returns the keys of every format as Markdown, with a section for each; what has the same keys is described once.
+pub(crate) fn lists(schemas: &[&Value]) -> String {
     let mut seen = HashMap::new();
     schemas.iter().map(|&schema| Section { schema, seen: &mut seen }.write()).collect::<Vec<_>>().join("\n")
 }
@@ -13,17 +13,16 @@ pub(crate) fn tables(schemas: &[&Value]) -> String {
 /// Section of one format.
 struct Section<'a> {
     schema: &'a Value,
-    /// Names of shared parts, each with the title of the section that describes it.
-    seen: &'a mut HashMap<String, String>,
+    /// Key sets of described mappings, each with the format and the key (empty for a whole file) that describe it.
+    seen: &'a mut HashMap<Vec<String>, (String, String)>,
 }
 
 impl Section<'_> {
     fn write(mut self) -> String {
         let root = self.schema.as_object().cloned().unwrap_or_default();
         let format = self.schema.pointer("/properties/format/const").and_then(Value::as_str).unwrap_or_default();
-        let mut out = format!("## `{format}`\n\n");
-        let _ = writeln!(out, "{}\n", text(&root, "description"));
-        let _ = writeln!(out, "| key | value | required | meaning |\n|---|---|---|---|");
+        let mut out = format!("## `{format}`\n\n{}\n\n", text(&root, "description"));
+        self.seen.insert(keys(&root), (format.to_owned(), String::new()));
         self.rows(&root, "", format, &mut out);
         out
     }
@@ -33,24 +32,28 @@ impl Section<'_> {
         let required: Vec<&str> =
             mapping.get("required").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str).collect();
         for (name, property) in mapping.get("properties").and_then(Value::as_object).into_iter().flatten() {
-            let Some(property) = property.as_object() else { continue };
+            let Some(property) = property.as_object().filter(|_| name != "format") else { continue };
             let key = format!("{prefix}{name}");
             let (part, below) = match items(property) {
                 Some(items) if reference(items).is_some() => (reference(items), "[]."),
                 _ => (reference(property), "."),
             };
-            let part = part.and_then(|name| Some((name, self.definition(name)?))).filter(|(_, part)| is_mapping(part));
-            let known = part.as_ref().and_then(|(name, _)| self.seen.get(*name).filter(|there| *there != format));
+            let part = part.and_then(|name| self.definition(name)).filter(is_mapping);
+            let known = part.as_ref().and_then(|part| self.seen.get(&keys(part)));
             let mut meaning = text(property, "description");
-            if let Some(there) = known {
-                meaning = format!("{meaning} As in `{there}`.");
+            if let Some((there, same)) = known {
+                let same = if there == format { same } else { there };
+                meaning = format!("{meaning} See `{same}`.");
             }
-            let (value, meaning) = (self.value(property), meaning.replace('|', "\\|"));
-            let is_required = if required.contains(&name.as_str()) { "yes" } else { "" };
-            let _ = writeln!(out, "| `{key}` | {value} | {is_required} | {meaning} |");
+            let bold = if required.contains(&name.as_str()) { "**" } else { "" };
+            let value = match self.value(property) {
+                value if value.is_empty() => value,
+                value => format!(" ({value})"),
+            };
+            let _ = writeln!(out, "- {bold}`{key}`{bold}{value}: {meaning}");
             let described = known.is_some();
-            if let Some((name, part)) = part.filter(|_| !described) {
-                self.seen.insert(name.to_owned(), format.to_owned());
+            if let Some(part) = part.filter(|_| !described) {
+                self.seen.insert(keys(&part), (format.to_owned(), key.clone()));
                 self.rows(&part, &format!("{key}{below}"), format, out);
             }
         }
@@ -62,7 +65,7 @@ impl Section<'_> {
         reference(found).map_or_else(|| Some(found.clone()), |record| self.definition(record))
     }
 
-    /// Returns the kind of a value, in words.
+    /// Returns the kind of a value, in words; empty for a text and a mapping.
     fn value(&self, property: &Map<String, Value>) -> String {
         // Of a mapping these are keys that exclude each other.
         if let Some(choices) = property.get("oneOf").and_then(Value::as_array).filter(|_| !is_mapping(property)) {
@@ -71,7 +74,7 @@ impl Section<'_> {
                 .filter_map(Value::as_object)
                 .map(|one| self.value(one))
                 .collect::<Vec<_>>()
-                .join(" or ");
+                .join(", ");
         }
         if let Some(constant) = property.get("const") {
             return format!("`{constant}`");
@@ -80,14 +83,14 @@ impl Section<'_> {
             return self.value(&part);
         }
         match property.get("type").and_then(Value::as_str) {
-            Some("object") => "mapping".to_owned(),
+            Some("object") => String::new(),
             Some("array") => self.list(property),
-            Some("integer") => "whole number".to_owned(),
+            Some("integer") => "integer".to_owned(),
             Some("boolean") => "true or false".to_owned(),
             Some("string") => match property.get("format").and_then(Value::as_str) {
                 Some("date") => "day".to_owned(),
                 Some("date-time") => "time".to_owned(),
-                _ => "text".to_owned(),
+                _ => String::new(),
             },
             Some(other) => other.to_owned(),
             None => String::new(),
@@ -97,10 +100,17 @@ impl Section<'_> {
     fn list(&self, property: &Map<String, Value>) -> String {
         let of = items(property).map_or_else(String::new, |items| self.value(items));
         match property.get("minItems").and_then(Value::as_u64) {
-            Some(length) if property.get("maxItems") == property.get("minItems") => format!("list of {length}: {of}"),
+            Some(length) if property.get("maxItems") == property.get("minItems") => format!("{length} × {of}"),
+            _ if of.is_empty() => "list".to_owned(),
             _ => format!("list: {of}"),
         }
     }
+}
+
+/// Returns the names of a mapping's keys without `format`, by which a file that is part of another one is recognised.
+fn keys(mapping: &Map<String, Value>) -> Vec<String> {
+    let properties = mapping.get("properties").and_then(Value::as_object);
+    properties.into_iter().flatten().map(|(name, _)| name.clone()).filter(|name| name != "format").collect()
 }
 
 fn is_mapping(part: &Map<String, Value>) -> bool {

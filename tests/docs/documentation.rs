@@ -105,7 +105,7 @@ fn run(command: &str, folder: &Path) -> String {
     String::from_utf8(shell.output().unwrap().stdout).unwrap()
 }
 
-/// The tables of keys are those that the program writes.
+/// The lists of keys are those that the program writes.
 #[test]
 fn every_key_is_in_the_reference() {
     let page = fs::read_to_string(programs::project("docs/keys.md")).unwrap();
@@ -113,7 +113,7 @@ fn every_key_is_in_the_reference() {
     let tables = &page[page.find("## ").unwrap()..];
     assert!(
         run(command, &fresh_folder("keys-of-the-program")) == tables,
-        "docs/keys.md: write it anew with `{command}`"
+        "docs/keys.md: write it again with `{command}`"
     );
 }
 
