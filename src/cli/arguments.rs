@@ -1,21 +1,20 @@
 //! The arguments: completed from the environment and the workspace, and parsed. What cannot be parsed is reported here.
 
 use super::failure::Failure;
-use super::{Cli, UNUSABLE, defaults, help, lang, output};
+use super::{Cli, Format, UNUSABLE, defaults, help, lang, output};
 use crate::text::{printable, shown};
 use crate::workspace::WORKSPACE_FILE;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::parser::ValueSource;
-use clap::{ArgMatches, FromArgMatches};
+use clap::{FromArgMatches, ValueEnum};
 use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// The arguments as parsed, and whether a failure is also reported as JSON.
+/// The arguments as parsed, and the format in which a failure is also reported.
 pub(super) struct Parsed {
     pub cli: Cli,
-    pub json: bool,
+    pub format: Format,
     /// Options that the environment or the workspace added, in words.
     pub added: Vec<String>,
 }
@@ -27,23 +26,24 @@ pub(super) struct Parsed {
 pub(super) fn parse(mut arguments: Vec<OsString>) -> Result<Parsed, ExitCode> {
     let added = match defaults::add(&mut arguments) {
         Ok(added) => added,
-        Err(failure) => return Err(failure.report(names_json(&arguments))),
+        Err(failure) => return Err(failure.report(format_of(&arguments))),
     };
     let parsed = |arguments: &[OsString]| {
         let matches = help::command().try_get_matches_from(arguments)?;
         lang::set(&matches);
-        Ok((Cli::from_arg_matches(&matches)?, asks_for_json(&matches)))
+        Cli::from_arg_matches(&matches)
     };
+    let format = format_of(&arguments);
     let error: clap::Error = match parsed(&arguments) {
-        Ok((cli, json)) => match named_twice(&arguments) {
-            None => return Ok(Parsed { cli, json, added }),
+        Ok(cli) => match named_twice(&arguments) {
+            None => return Ok(Parsed { cli, format, added }),
             Some(path) => {
                 let words = format!(
                     "{}: is specified twice, so that with --force the new file could replace one that is read; give the \
                      new file another name",
                     shown(&path)
                 );
-                return Err(Failure::usage(words).report(json));
+                return Err(Failure::usage(words).report(format));
             }
         },
         Err(error) => error,
@@ -60,9 +60,7 @@ pub(super) fn parse(mut arguments: Vec<OsString>) -> Result<Parsed, ExitCode> {
         return Err(written.map_or_else(|failure| ExitCode::from(failure.code), |()| ExitCode::SUCCESS));
     }
     let advice = refused.as_ref().map(advice).unwrap_or_default();
-    if names_json(&arguments) {
-        output::failure(&Failure::usage(words(refused.as_ref().unwrap_or(&error)) + &advice));
-    }
+    Failure::usage(words(refused.as_ref().unwrap_or(&error)) + &advice).print(format);
     match refused {
         Some(refused) => {
             output::usage(&help::fitted(&clearer(&refused.render().ansi().to_string())));
@@ -157,17 +155,9 @@ fn clearer(words: &str) -> String {
         .replace(": invalid float literal", ": expected a number with a decimal point")
 }
 
-/// Returns `true` if the verb was called with `--format json`.
-fn asks_for_json(matches: &ArgMatches) -> bool {
-    let Some((_, verb)) = matches.subcommand() else { return false };
-    let formats = verb.try_get_raw("format").ok().flatten().into_iter().flatten();
-    let is_json = formats.into_iter().any(|format| format == "json");
-    // The schemas are JSON by default; that says nothing about failures.
-    (is_json && verb.value_source("format") == Some(ValueSource::CommandLine)) || asks_for_json(verb)
-}
-
-/// Returns `true` if arguments that cannot be parsed ask for JSON.
-fn names_json(arguments: &[OsString]) -> bool {
-    arguments.iter().any(|argument| argument == "--format=json")
-        || arguments.windows(2).any(|pair| pair[0] == "--format" && pair[1] == "json")
+/// Returns the format that the arguments ask for, parsed or not: that of failures too.
+fn format_of(arguments: &[OsString]) -> Format {
+    let joined = arguments.iter().filter_map(|argument| argument.to_str()?.strip_prefix("--format="));
+    let apart = arguments.windows(2).filter(|pair| pair[0] == "--format").filter_map(|pair| pair[1].to_str());
+    joined.chain(apart).find_map(|format| Format::from_str(format, false).ok()).unwrap_or(Format::Text)
 }

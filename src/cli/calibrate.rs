@@ -343,11 +343,11 @@ impl Bench<'_> {
         }
         let trials = found.uncertainty.monte_carlo.as_ref();
         match options.format {
-            Format::Json => {
+            Format::Json | Format::Ndjson => {
                 report::doubts(done, trials)
                     .iter()
                     .for_each(|doubt| output::complain(&plain(&doubt.plain(lang::of_text()))));
-                output::json(&found.whole())?;
+                options.format.json(&found.whole())?;
             }
             Format::Text => {
                 let of = report::Report::of(done, self.gyro_type.as_ref(), &found.previous, options.details);
@@ -410,8 +410,8 @@ impl Bench<'_> {
         failed.into_iter().for_each(|word| all.add_failed(word));
         match (options.format, all.summary()) {
             (Format::Text, _) => output::text(&all.text(options.laboratory.is_none(), self.gyro_name()))?,
-            (Format::Json, words) if words.is_empty() => (),
-            (Format::Json, words) => output::say_verdict(&style::plain(&words)),
+            (_, words) if words.is_empty() => (),
+            (_, words) => output::say_verdict(&style::plain(&words)),
         }
         Ok(code)
     }

@@ -24,14 +24,14 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let mut steps = Vec::new();
     let passed = demonstration::run(&folder, trust_options::now(), &mut |line| match options.format {
         Format::Text => output::text(&format!("{line}\n")).is_ok(),
-        Format::Json => {
+        _ => {
             steps.push(style::plain(line));
             true
         }
     });
     let passed = passed.map_err(Failure::unusable)?;
-    if options.format == Format::Json {
-        output::json(&json!({ "folder": name_of(&folder), "passed": passed, "steps": steps }))?;
+    if options.format != Format::Text {
+        options.format.json(&json!({ "folder": name_of(&folder), "passed": passed, "steps": steps }))?;
     }
     Ok(if passed { 0 } else { REFUSED })
 }

@@ -1,6 +1,6 @@
 //! Verb `export`: verified passports in other forms: stand and site files, JSON, and a DCC.
 
-use super::inputs::{self, AdministrativeFile, Each};
+use super::inputs::{AdministrativeFile, Each};
 use super::lang::Lang;
 use super::trust_options::{Enquiry, TrustAmong};
 use super::{Code, Failure, Format, REFUSED, UNUSABLE, defaults, output};
@@ -124,10 +124,10 @@ impl Run<'_> {
     fn failed(&mut self, file: String, failure: Failure, has_line: bool) -> Result<(), Failure> {
         failure.complain(&failure.failed.message);
         self.code = self.code.max(failure.code);
-        match self.options.format {
-            Format::Json if !has_line => inputs::json_line(&Each::<Value>::Refused { file, refusal: failure.failed }),
-            _ => Ok(()),
+        if has_line || self.options.format == Format::Text {
+            return Ok(());
         }
+        output::json_line(&Each::<Value>::Refused { file, refusal: failure.failed })
     }
 
     fn chunk(&mut self) -> Result<(), Failure> {
@@ -212,10 +212,10 @@ impl Run<'_> {
             output::say(&format!("wrote {}", shown(&target)));
             self.written.insert(target, (sha256_hex(text.as_bytes()), path.clone()));
         }
-        match self.options.format {
-            Format::Json if line.is_none() => inputs::json_line(&json!({ "file": name, "written": written })),
-            _ => Ok(()),
+        if line.is_some() || self.options.format == Format::Text {
+            return Ok(());
         }
+        output::json_line(&json!({ "file": name, "written": written }))
     }
 
     /// Returns the files of one passport that are not there yet.

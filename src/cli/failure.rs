@@ -1,6 +1,6 @@
 //! Failure of a verb: the message and an exit code for people, and the same as JSON for programs.
 
-use super::{Code, REFUSED, UNUSABLE, lang, open_workspace, output};
+use super::{Code, Format, REFUSED, UNUSABLE, lang, open_workspace, output};
 use crate::files::FileError;
 use crate::folder::Folder;
 use crate::interface::{self, Failed, Place};
@@ -71,12 +71,17 @@ impl Failure {
     }
 
     /// Reports the failure, which ends the program, and returns the exit code.
-    pub(super) fn report(&self, as_json: bool) -> ExitCode {
-        if as_json {
-            output::failure(self);
-        }
+    pub(super) fn report(&self, format: Format) -> ExitCode {
+        self.print(format);
         self.complain(&self.failed.message);
         ExitCode::from(self.code)
+    }
+
+    /// Writes the failure as JSON instead of a result. An error is ignored, because the message and the exit code remain.
+    pub(super) fn print(&self, format: Format) {
+        if format != Format::Text {
+            let _ = format.json(&self.failed.document());
+        }
     }
 
     /// Writes the message, or `words` that contain it.

@@ -14,7 +14,7 @@ use crate::report::issued;
 use crate::site::Site;
 use crate::stand::Stand;
 use crate::text::problem::MISSING;
-use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, Printable, Problems, Unreadable, name_of, printable, shown};
+use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, Printable, Problems, Unreadable, name_of, shown};
 use serde::{Serialize, Serializer};
 use std::ops::RangeBounds;
 use std::path::{Path, PathBuf};
@@ -166,10 +166,6 @@ fn words(file: &str, failure: &Failure) -> String {
     if message.contains(&name) { message.clone() } else { format!("{name}: {message}") }
 }
 
-pub(super) fn json_line(value: &impl Serialize) -> Result<(), Failure> {
-    output::result(&(printable::json_line(value).map_err(Failure::unusable)? + "\n"))
-}
-
 /// Prints the result for one of several inputs: its JSON on one line, or its text.
 pub(super) fn print<T: Serialize>(result: &Each<(T, String)>, format: Format) -> Result<(), Failure> {
     match (format, result) {
@@ -177,7 +173,7 @@ pub(super) fn print<T: Serialize>(result: &Each<(T, String)>, format: Format) ->
         (Format::Text, Each::Refused { file, refusal }) => {
             output::text(&issued::failed_line(file, refusal, lang::of_text()))
         }
-        (Format::Json, Each::Done((value, _))) => json_line(value),
-        (Format::Json, refused @ Each::Refused { .. }) => json_line(refused),
+        (_, Each::Done((value, _))) => output::json_line(value),
+        (_, refused @ Each::Refused { .. }) => output::json_line(refused),
     }
 }

@@ -73,8 +73,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         Format::Text if appended_to.is_none() => output::result(&format!("{line}\n"))?,
         Format::Text => {}
         // A failure is then reported instead; its message comes after that with the line.
-        Format::Json if failed.is_some() => output::say(&line),
-        Format::Json => output::json(&json!({
+        _ if failed.is_some() => output::say(&line),
+        format => format.json(&json!({
             "key": name_of(&options.key),
             "public_key": name_of(&public_path),
             "fingerprint": key.public_key().fingerprint(),

@@ -31,8 +31,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     // All or none: the page of an older version would contradict the others.
     write_replaceable_together(&pages, options.force)?;
     output::say(&format!("wrote {} pages to {}", pages.len(), shown(&options.folder)));
-    if options.format == Format::Json {
-        output::json(&json!({ "pages": pages.iter().map(|(path, _)| name_of(path)).collect::<Vec<_>>() }))?;
+    if options.format != Format::Text {
+        options.format.json(&json!({ "pages": pages.iter().map(|(path, _)| name_of(path)).collect::<Vec<_>>() }))?;
     }
     Ok(0)
 }

@@ -144,7 +144,7 @@ pub fn main() -> ExitCode {
     // The message of a broken invariant may quote untrusted text.
     std::panic::set_hook(Box::new(|panic| output::complain(&format!("internal error: {}", printable(panic)))));
     let start = Instant::now();
-    let Parsed { cli, json, added } = match arguments::parse(std::env::args_os().collect()) {
+    let Parsed { cli, format, added } = match arguments::parse(std::env::args_os().collect()) {
         Ok(parsed) => parsed,
         Err(code) => return code,
     };
@@ -160,6 +160,6 @@ pub fn main() -> ExitCode {
     }
     match result {
         Ok(code) => ExitCode::from(code),
-        Err(failure) => failure.report(json),
+        Err(failure) => failure.report(format),
     }
 }

@@ -94,10 +94,10 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         output::say(&format!("wrote {}; replace the values that its comments describe", shown(path)));
     }
     match (options.format, &options.file) {
-        (Format::Json, Some(file)) => output::json(&json!({ "file": name_of(file) }))?,
-        (Format::Json, None) => output::json(&json!({ "file": null, "template": text }))?,
         (Format::Text, Some(_)) => {}
         (Format::Text, None) => output::own(&text)?,
+        (format, Some(file)) => format.json(&json!({ "file": name_of(file) }))?,
+        (format, None) => format.json(&json!({ "file": null, "template": text }))?,
     }
     Ok(0)
 }

@@ -9,6 +9,7 @@ use crate::text::{excerpt, printable, shown};
 use clap::ValueEnum;
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use serde::Serialize;
+use serde_json::Value;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -21,17 +22,30 @@ pub(super) enum Format {
     Text,
     /// JSON for programs
     Json,
+    /// JSON on one line; of several results one line each
+    Ndjson,
 }
 
 impl Format {
+    /// Writes JSON, or a line for each element of a list.
+    pub(super) fn json(self, value: &impl Serialize) -> Result<(), Failure> {
+        if self != Self::Ndjson {
+            return json(value);
+        }
+        match serde_json::to_value(value).map_err(Failure::unusable)? {
+            Value::Array(each) => each.iter().try_for_each(json_line),
+            one => json_line(&one),
+        }
+    }
+
     pub(super) fn write<T: Serialize>(
         self,
         as_json: impl FnOnce() -> T,
         as_text: impl FnOnce() -> String,
     ) -> Result<(), Failure> {
         match self {
-            Self::Json => json(&as_json()),
             Self::Text => text(&as_text()),
+            _ => self.json(&as_json()),
         }
     }
 
@@ -131,9 +145,8 @@ pub(super) fn json(value: &impl Serialize) -> Result<(), Failure> {
     result(&(text + "\n"))
 }
 
-/// Writes a failure as JSON instead of a result. Errors are ignored, because the message and the exit code remain.
-pub(super) fn failure(failure: &Failure) {
-    let _ = json(&failure.failed.document());
+pub(super) fn json_line(value: &impl Serialize) -> Result<(), Failure> {
+    result(&(printable::json_line(value).map_err(Failure::unusable)? + "\n"))
 }
 
 /// Writes a result to a file. An existing file is replaced only on request.

@@ -3,7 +3,7 @@
 use super::key_options::IssuerOptions;
 use super::lang::Lang;
 use super::trust_options::{TrustOptions, date};
-use super::{Code, Failure, code, defaults, output};
+use super::{Code, Failure, Format, code, defaults, output};
 use crate::folder::overview::{Overview, Query};
 use crate::folder::renewal::{NotRenewed, Renewal};
 use crate::parallel;
@@ -154,6 +154,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     match options.format {
         Form::Text => output::document(&report::document(&overview, listed))?,
         Form::Json => output::json(&overview)?,
+        Form::Ndjson => overview.stands.iter().try_for_each(output::json_line)?,
         Form::Csv => output::result(&report::csv(&overview))?,
     }
     Ok(code)
@@ -185,7 +186,8 @@ fn renew(options: &Options, folder: &Path) -> Result<Code, Failure> {
     let renewed = renewal.run(folder, &keys.authority(&trust)).map_err(not_renewed)?;
     let dry_run = options.renewal.keys.dry_run;
     match options.format {
-        Form::Json => output::json(&report::renewed_json(&renewed))?,
+        Form::Json => Format::Json.json(&report::renewed_json(&renewed))?,
+        Form::Ndjson => Format::Ndjson.json(&report::renewed_json(&renewed))?,
         _ => output::document(&[report::renewed(&renewed, dry_run)])?,
     }
     Ok(0)

@@ -82,8 +82,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
             results.push(rendered);
             Ok(())
         })?;
-        if options.format == Format::Json {
-            output::json(&results)?;
+        if options.format != Format::Text {
+            options.format.json(&results)?;
         }
         return Ok(code);
     };
@@ -95,8 +95,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         return Err(Failure::usage(format!("{}: {words}", shown(passport))));
     }
     let rendered = write(passport, Some(output))?;
-    if options.format == Format::Json {
-        output::json(&rendered)?;
+    if options.format != Format::Text {
+        options.format.json(&rendered)?;
     }
     Ok(0)
 }

@@ -1,4 +1,4 @@
-//! Verb `schema`: JSON Schemas of the formats, for editors.
+//! Verb `schema`: JSON Schemas of the formats and of results.
 
 use super::{Code, Failure, output};
 use crate::schema::{FORMATS, lists, schemas};
@@ -6,10 +6,11 @@ use clap::{Args, ValueEnum};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// Print the JSON Schema of a format (for several, an object with one for each name), or lists of its keys
+/// Print the JSON Schema of a format, or of the result that a verb prints as JSON (for several, an object with one for
+/// each name), or lists of its keys
 #[derive(Args)]
 pub(super) struct Options {
-    /// Formats
+    /// Formats, or verbs
     #[arg(required = true, value_parser = FORMATS, value_delimiter = ',', value_name = "FORMAT")]
     formats: Vec<String>,
     /// Form of the description: JSON Schema for editors, or lists for reading

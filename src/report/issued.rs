@@ -15,7 +15,7 @@ use crate::folder::Issued;
 use crate::interface::{self, Failed};
 use crate::passport::annotations::Absence;
 use crate::passport::issue::Remarks;
-use crate::text::printable::json;
+use crate::text::printable::{json, json_line};
 use crate::text::words;
 use crate::text::{Cause, Printable, name_of, printable};
 use crate::wording::Text;
@@ -220,6 +220,8 @@ pub(crate) enum Form {
     Text,
     /// JSON for programs.
     Json,
+    /// JSON, a line for each element of the list.
+    Ndjson,
     /// CSV for spreadsheets.
     Csv,
 }
@@ -262,6 +264,7 @@ impl Reports {
                 let json = json(&report).unwrap_or_default().replace('\n', "\n  ");
                 format!("{}\n  {json}", if self.count == 1 { "[" } else { "," })
             }
+            Form::Ndjson => json_line(&report).unwrap_or_default() + "\n",
             Form::Csv => self.csv(&report),
             Form::Text if self.holds() => {
                 self.held.push(report);
@@ -288,7 +291,7 @@ impl Reports {
             Form::Json if self.count == 0 => "[]\n".to_owned(),
             Form::Json => "\n]\n".to_owned(),
             Form::Csv if self.count == 0 => CSV_HEADER.to_owned(),
-            Form::Csv => String::new(),
+            Form::Csv | Form::Ndjson => String::new(),
             // There were no orders and no unusable inputs, so the text says that there was nothing to do.
             Form::Text if self.totals != Totals::default() && self.count <= FEW => {
                 let lines = self.held.iter().flat_map(detailed).collect();

@@ -20,7 +20,8 @@ struct Section<'a> {
 impl Section<'_> {
     fn write(mut self) -> String {
         let root = self.schema.as_object().cloned().unwrap_or_default();
-        let format = self.schema.pointer("/properties/format/const").and_then(Value::as_str).unwrap_or_default();
+        let format = self.schema.pointer("/properties/format/const").or(self.schema.get("title"));
+        let format = format.and_then(Value::as_str).unwrap_or_default();
         let mut out = format!("## `{format}`\n\n{}\n\n", text(&root, "description"));
         self.seen.insert(keys(&root), format.to_owned());
         self.rows(&root, "", format, &mut out);

@@ -35,9 +35,12 @@ fn of_two_keys_that_exclude_each_other_a_schema_requires_one() {
     let one_of = |keys: [&str; 2]| json!(keys.map(|key| json!({"required": [key]})));
     let tolerances = one_of(["k_cross_percent", "k_cross_deg_per_h_per_ma"]);
     let latitudes = one_of(["latitude_deg", "astronomic_latitude_deg"]);
-    let formats = "stand,site,gyro,laboratory,dcc,passport,register-file";
+    let formats =
+        "stand,site,gyro,laboratory,dcc,passport,register-file,verify,register,calibrate,certify,plan,history";
     let schemas: Value = serde_json::from_slice(&program(&["schema", formats])).unwrap();
-    assert_eq!(schemas.as_object().unwrap().len(), 7);
+    assert_eq!(schemas.as_object().unwrap().len(), 13);
+    // Of a result as of a format: tests/cmd compares it with what the verb prints.
+    assert_eq!(schemas["verify"].pointer("/items/properties/valid/type"), Some(&json!("boolean")));
     assert_eq!(schemas["gyro"].pointer("/$defs/Tolerance/oneOf"), Some(&tolerances));
     assert_eq!(schemas["site"].pointer("/oneOf"), Some(&latitudes));
     assert_eq!(schemas["passport"].pointer("/$defs/Tolerance/oneOf"), Some(&tolerances));

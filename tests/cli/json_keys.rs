@@ -154,6 +154,40 @@ fn verify_gives_every_check_in_its_order() {
     assert_eq!(of(bad, "code").iter().filter(|code| *code == "not_run").count(), 8);
 }
 
+/// Expected: the contract, one element per line in every verb with several inputs, refusals included.
+#[test]
+fn ndjson_has_a_line_for_each_input() {
+    let folder = Folder::new();
+    let stand = std::fs::read_to_string(folder.path("stand.yaml")).unwrap();
+    std::fs::write(folder.path("other.yaml"), stand.replace("0017", "0018").replace("C-2026-0142", "C-2")).unwrap();
+    let lines = |arguments: &str, code: i32| -> Vec<Keys> {
+        let printed = folder.run(&format!("{arguments} --format ndjson"), code);
+        printed.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+    };
+    let issue = format!("issue stand.yaml other.yaml --site here.yaml {SIGN} --issued-at 2026-11-03");
+    let issued = lines(&issue, 0);
+    let ids: Vec<&str> = issued.iter().map(|line| line.at("id").text()).collect();
+    assert_eq!(ids, ["SPS-2/0017/here/1", "SPS-2/0018/here/1"]);
+    let both = "passports/SPS-2/0017/here-1.yaml passports/SPS-2/0018/here-1.yaml";
+    let verdicts = lines(&format!("verify {both} stand.yaml {TRUST}"), 1);
+    let valid: Vec<&str> = verdicts.iter().map(|line| line.at("valid").text()).collect();
+    assert_eq!(valid, ["true", "true", "false"]);
+    // The same elements as in the list.
+    assert_eq!(folder.json(&format!("verify {both} stand.yaml {TRUST}"), 1).items(), verdicts);
+    let register = lines(&format!("register passports {TRUST}"), 0);
+    assert_eq!(folder.json(&format!("register passports {TRUST}"), 0).at("stands").items(), register);
+    assert_eq!(register.len(), 2);
+    for (verb, code) in [("show", 1), ("export --to json", 1)] {
+        let shown = lines(&format!("{verb} {both} stand.yaml {TRUST}"), code);
+        assert_eq!(shown.len(), 3, "{verb}");
+    }
+    let refused = lines(&format!("verify {PASSPORT} --trust nowhere"), 2);
+    assert_eq!((refused.len(), refused[0].names().as_str()), (1, "error"));
+    let withdrawn =
+        lines(&format!("revoke SPS-2/*/here/* --reason x {SIGN} --trust allowed_signers --passports passports"), 0);
+    assert_eq!(withdrawn.len(), 2);
+}
+
 #[test]
 fn issue_and_reissue_report_alike() {
     let folder = Folder::new();

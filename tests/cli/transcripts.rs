@@ -3,7 +3,8 @@
 //! In a fenced block `console` a line `$ …` is typed into `sh`, and below it stand the lines that come back: standard
 //! output first, then standard error with `! ` before each line, then `? 2` when the exit code is 2 instead of 0.
 //! Every heading begins in a fresh folder with the files of `tests/cmd/files` and the published test key. SHA-256,
-//! the program's version, and times of the run itself are shown as `[sha256]`, `[version]` and `[now]`.
+//! the program's version, and times of the run itself are shown as `[sha256]`, `[version]` and `[now]`. What the verbs
+//! with a schema print, or would print, as JSON is compared with it.
 //!
 //! `TRANSCRIPTS=write cargo test --test cli transcripts` writes what comes back into the transcripts: read the difference.
 //!
@@ -70,10 +71,12 @@ transcripts! {
 fn is_what_comes_back(file: &str) {
     let path = programs::project("tests/cmd").join(file);
     let told = fs::read_to_string(&path).unwrap();
-    if std::env::var_os(FOLDER).is_some() {
-        return compare_for_windows(file, &told);
+    if let Some(folder) = std::env::var_os(FOLDER) {
+        return compare_for_windows(file, &told, folder.as_ref());
     }
-    let played = play(&told);
+    let recorder = recorder();
+    let played = play(&told, recorder.path());
+    results_fit_their_schemas(file, recorder.path());
     if played == told {
         return;
     }
@@ -96,13 +99,13 @@ const FOLDER: &str = "DTG_PASSPORT_FOLDER";
 const PLAYS: usize = 4;
 
 /// Fails unless exactly those headings differ, each time that they are played, that `tests/windows/differences.md` lists.
-fn compare_for_windows(file: &str, told: &str) {
+fn compare_for_windows(file: &str, told: &str, program: &Path) {
     let differences = fs::read_to_string(programs::project("tests/windows/differences.md")).unwrap();
     let due = parts_for_windows(told);
     let mut unequal: Vec<usize> = (0..due.len()).collect();
     let mut words = String::new();
     for _ in 0..PLAYS {
-        let played = parts_for_windows(&play(told));
+        let played = parts_for_windows(&play(told, program));
         unequal.retain(|&place| played[place] != due[place]);
         let listed = |place: &usize| differences.contains(&format!("| `{file}#{}` |", due[*place].0));
         words.clear();
@@ -142,15 +145,15 @@ fn parts_for_windows(text: &str) -> Vec<(String, String)> {
 }
 
 /// The transcript with what comes back now.
-fn play(told: &str) -> String {
-    let mut stage = Stage::new();
+fn play(told: &str, program: &Path) -> String {
+    let mut stage = Stage::new(program);
     let mut played = String::new();
     let mut in_console = false;
     for line in told.lines() {
         if line.starts_with("```") {
             in_console = line == "```console";
         } else if !in_console && line.starts_with('#') {
-            stage = Stage::new();
+            stage = Stage::new(program);
         }
         match line.strip_prefix("$ ").filter(|_| in_console) {
             Some(command) => played += &format!("{line}\n{}", stage.run(command)),
@@ -165,12 +168,14 @@ fn play(told: &str) -> String {
 /// A fresh folder.
 struct Stage {
     folder: tempfile::TempDir,
+    /// Folder of the program.
+    program: PathBuf,
     /// Time at which the heading began, as RFC 3339.
     begun: String,
 }
 
 impl Stage {
-    fn new() -> Self {
+    fn new(program: &Path) -> Self {
         let folder = tempfile::tempdir().unwrap();
         copy(&programs::project("tests/cmd/files"), folder.path());
         fs::copy(programs::project("tests/keys/examples"), folder.path().join("key")).unwrap();
@@ -178,14 +183,12 @@ impl Stage {
         // Git does not keep this mode, and a private key that others can read is refused.
         let mode = Command::new("chmod").arg("600").arg(folder.path().join("key")).status().unwrap();
         assert!(mode.success());
-        Self { folder, begun: now() }
+        Self { folder, program: program.to_owned(), begun: now() }
     }
 
     fn run(&self, command: &str) -> String {
-        let built = || Path::new(env!("CARGO_BIN_EXE_dtg-passport")).parent().unwrap().to_owned();
-        let program = std::env::var_os(FOLDER).map_or_else(built, PathBuf::from);
         let own = programs::project("tests/cmd/bin");
-        let path = std::env::join_paths([&program, &own, Path::new("/usr/bin"), Path::new("/bin")]).unwrap();
+        let path = std::env::join_paths([&self.program, &own, Path::new("/usr/bin"), Path::new("/bin")]).unwrap();
         let output = Command::new("sh")
             .args(["-c", command])
             .current_dir(self.folder.path())
@@ -236,6 +239,42 @@ impl Stage {
             lasting.match_indices(&ended[..2]).filter_map(|(start, _)| of_run(start)).map(str::to_owned).collect();
         times.dedup();
         times.iter().fold(lasting, |text, time| text.replace(time, "[now]"))
+    }
+}
+
+/// A `dtg-passport` that starts the program, in a folder where it keeps what some verbs print as JSON. Commands may empty
+/// the environment, so it has both paths.
+fn recorder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let script = fs::read_to_string(programs::project("tests/cmd/bin/recorder")).unwrap();
+    let records = folder.path().join("records");
+    fs::create_dir(&records).unwrap();
+    let paths = format!("PROGRAM='{}'\nRECORDS='{}'\n", env!("CARGO_BIN_EXE_dtg-passport"), records.display());
+    let program = folder.path().join("dtg-passport");
+    fs::write(&program, script.replacen('\n', &format!("\n{paths}"), 1)).unwrap();
+    assert!(Command::new("chmod").arg("755").arg(program).status().unwrap().success());
+    folder
+}
+
+/// Transcripts that surely have results of a verb.
+const RECORDED: [(&str, &str); 6] = [
+    ("good.md", "verify"),
+    ("register.md", "register"),
+    ("calibrate.md", "calibrate"),
+    ("several.md", "certify"),
+    ("plan.md", "plan"),
+    ("years.md", "history"),
+];
+
+/// Fails unless every result that the recorder has kept fits the schema of its verb, which then leaves no key unsaid.
+fn results_fit_their_schemas(file: &str, recorder: &Path) {
+    let mut python = programs::python();
+    python.arg(programs::project("tests/readers/results.py")).arg(programs::project("src/schema/results.json"));
+    python.arg(recorder.join("records"));
+    let counts: serde_json::Value = serde_json::from_str(&programs::output(python)).unwrap();
+    println!("{file}: {counts}");
+    for (_, verb) in RECORDED.iter().filter(|(transcript, _)| *transcript == file) {
+        assert!(counts[verb].as_u64().is_some_and(|count| count > 0), "{file}: {counts}");
     }
 }
 

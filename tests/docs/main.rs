@@ -9,5 +9,6 @@ mod programs;
 
 mod documentation;
 mod examples;
+mod recipes;
 mod self_check;
 mod worksheet;

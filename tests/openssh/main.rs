@@ -1,12 +1,14 @@
 //! The real OpenSSH against `trust`, both ways: signatures, key files, allowed signers, revocation, tokens, the agent.
 //!
 //! Needs `ssh-keygen`, `ssh-add`, `ssh-agent` (Debian: openssh-client) and, for the token in software, gcc and OpenSSL's
-//! headers (gcc, libssl-dev). What is missing fails its tests: nothing is skipped.
+//! headers (gcc, libssl-dev), and for the verifier in Java a JDK (default-jdk-headless). What is missing fails its tests:
+//! nothing is skipped.
 
 #![cfg(feature = "cli")]
 
 mod agent;
 mod allowed_signers;
+mod java;
 mod keys;
 mod other_types;
 mod program;

@@ -246,6 +246,41 @@ function crowded() {
   return found;
 }
 
+/** Parts of pictures that `use` repeats in other colours than where they are drawn: style sheets may not reach them. */
+async function recoloured(page) {
+  const found = [];
+  const hrefs = await page.evaluate(() => [...new Set([...document.querySelectorAll("svg.picture use")].map((use) => use.getAttribute("href")))]);
+  for (const href of hrefs) {
+    const places = [page.locator(href), page.locator(`svg.picture use[href="${href}"]`).last()];
+    const seen = [];
+    for (const drawn of places) {
+      await drawn.scrollIntoViewIfNeeded();
+      // Where the part is not hidden by another, in shares of its box.
+      seen.push(await drawn.evaluate((element) => {
+        const box = element.getBoundingClientRect();
+        const shares = [...Array(24).keys()].flatMap((down) => [...Array(24).keys()].map((across) => [(across + 0.5) / 24, (down + 0.5) / 24]));
+        const is_there = ([across, down]) => document.elementFromPoint(box.left + across * box.width, box.top + down * box.height)?.closest("use, g[id]") === element;
+        return shares.filter(is_there).map(String);
+      }));
+    }
+    const both = seen[0].filter((share) => seen[1].includes(share)).map((share) => share.split(",").map(Number));
+    if (both.length === 0) found.push(`${href} is seen in no place`);
+    // Points on an edge are mixed with what is behind, and pixels lie differently: a colour may be that of another point.
+    const shots = [];
+    for (const drawn of places) {
+      await drawn.scrollIntoViewIfNeeded();
+      const { x, y, width, height } = await drawn.boundingBox();
+      const clips = both.map(([across, down]) => ({ x: Math.floor(x + across * width), y: Math.floor(y + down * height), width: 1, height: 1 }));
+      const shot = [];
+      for (const clip of clips.filter((_, index) => index % Math.ceil(both.length / 7) === 0)) shot.push(await page.screenshot({ clip }));
+      shots.push(shot);
+    }
+    const same = shots[1].filter((shot) => shots[0].some((first) => first.equals(shot))).length;
+    if (same < shots[1].length / 4) found.push(`${href} has other colours where it is repeated: ${same} of ${shots[0].length} points are the same`);
+  }
+  return found;
+}
+
 /** Type that is too small in print: 8 pt, in pictures and in the annex 6.5 pt, indices 5 pt. */
 function small() {
   const found = new Set();
@@ -390,7 +425,7 @@ async function look(browser, folder, name) {
   const file = path.join(folder, `${name}.html`);
   const address = `file://${file}`;
   const html = fs.readFileSync(file, "utf8");
-  const result = { bytes: Buffer.byteLength(html), asked: [], complaints: [], unfit: {}, crowded: {}, cut: [], axe: {}, html: [] };
+  const result = { bytes: Buffer.byteLength(html), asked: [], complaints: [], unfit: {}, crowded: {}, recoloured: [], cut: [], axe: {}, html: [] };
   const page = await browser.newPage();
   page.on("request", (request) => { if (request.url() !== address) result.asked.push(request.url()); });
   page.on("console", (message) => result.complaints.push(message.text()));
@@ -409,6 +444,7 @@ async function look(browser, folder, name) {
       if (device === "phone") result.cut = await cut(page);
       if (process.env.SCREENS === "write") await page.screenshot({ path: path.join(folder, `${name}-${device}-${colours}.png`), fullPage: true });
     }
+    if (colours === "light") result.recoloured = await recoloured(page);
     // The page's policy forbids scripts, so axe comes in through the debugger, as the measurements do.
     const rules = colours === "dark" ? { runOnly: ["color-contrast"] } : {};
     const violations = await page.evaluate(`${axe}; axe.run(${JSON.stringify(rules)}).then((found) => found.violations)`);
@@ -434,16 +470,25 @@ async function look(browser, folder, name) {
   return result;
 }
 
-async function main() {
-  const [executablePath, folder, ...names] = process.argv.slice(2);
+/** Looks at some pages, one after the other, in a browser of their own: a tab in the background would draw nothing. */
+async function looked(executablePath, folder, names) {
   const profile = fs.mkdtempSync(path.join(os.tmpdir(), "chromium-"));
   const quiet = ["--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"];
   const context = await chromium.launchPersistentContext(profile, { executablePath, chromiumSandbox: false, args: quiet });
   const results = {};
-  for (const name of names) results[name] = await look(context, folder, name);
+  while (names.length > 0) {
+    const name = names.shift();
+    results[name] = await look(context, folder, name);
+  }
   await context.close();
   fs.rmSync(profile, { recursive: true, force: true });
-  process.stdout.write(JSON.stringify(results));
+  return results;
+}
+
+async function main() {
+  const [executablePath, folder, ...names] = process.argv.slice(2);
+  const both = await Promise.all([0, 1].map(() => looked(executablePath, folder, names)));
+  process.stdout.write(JSON.stringify(Object.assign(...both)));
 }
 
 main().catch((error) => { console.error(error); process.exit(1); });

@@ -81,6 +81,14 @@ fn no_words_of_a_picture_lie_on_others() {
     all_pages().for_each(|page| page.nothing("crowded"));
 }
 
+/// The base of the stand is drawn once and repeated in the picture of each position.
+#[test]
+fn what_pictures_repeat_keeps_its_colours() {
+    for page in all_pages() {
+        assert_eq!(strings(&page.found["recoloured"]), [""; 0], "{}", page.name);
+    }
+}
+
 /// In print: nothing below 8 pt, 6.5 pt in pictures and in the annex; decimal marks of a column one below the other; symbols of
 /// quantities italic; units directly after their numbers; rows of forms 8 mm high; at the foot of a sheet no heading, caption or
 /// table head without three rows, or all it has.

@@ -48,12 +48,19 @@ pub(super) const AXIS: f64 = 1.27;
 pub(crate) fn positions(languages: &Languages, positions: &[CertifiedPosition], frame_axis_azimuth_deg: f64) -> Markup {
     let base = attitude::base(frame_axis_azimuth_deg);
     let factor = exaggeration(positions);
-    // The plate is the same in all of them: it is drawn once, with an id of its own for each language of a page.
-    let id = format!("plate-{}", languages.iter().map(Language::tag).collect::<Vec<_>>().join("-"));
-    let drawn = html! { g id=(id) { (plate(&View::new(CENTRE, UNIT, &base), &base)) } };
-    let again = html! { use href={ "#" (id) } {} };
-    let plates = std::iter::once(&drawn).chain(std::iter::repeat(&again));
-    let drawings = positions.iter().zip(plates).map(|(at, plate)| position(languages, at, &base, factor, plate));
+    let view = View::new(CENTRE, UNIT, &base);
+    // The base is the same in all of them: it is drawn once, with ids of their own for each language of a page.
+    let tags = languages.iter().map(Language::tag).collect::<Vec<_>>().join("-");
+    let parts = [
+        ("behind", base_behind(&view, &base)),
+        ("before", html! { (base_before(&view, &base)) (axles(&view, &base)) }),
+    ];
+    let [behind, before] = parts.map(|(part, drawing)| {
+        let id = format!("{part}-{tags}");
+        (html! { g id=(id) { (drawing) } }, html! { use href={ "#" (id) } {} })
+    });
+    let bases = std::iter::once((&behind.0, &before.0)).chain(std::iter::repeat((&behind.1, &before.1)));
+    let drawings = positions.iter().zip(bases).map(|(at, around)| position(languages, at, &base, factor, around));
     let drawings: Vec<Markup> = drawings.collect();
     panels(COLUMNS, PANEL_PIXELS, &drawings, &key(languages))
 }
@@ -64,8 +71,8 @@ fn key(languages: &Languages) -> Markup {
     let entries = [
         (stroke("axis"), texts::CASE_AXES),
         (line([2.0, 7.0], [26.0, 7.0], "ideal"), texts::CASE_AXES_IDEAL),
-        (swatch("solid frame s2"), texts::FRAME),
-        (swatch("solid platform s1"), texts::PLATFORM),
+        (swatch("frame s2"), texts::FRAME),
+        (swatch("platform s1"), texts::PLATFORM),
     ];
     legend(languages, &entries)
 }
@@ -108,15 +115,20 @@ impl View {
         [self.centre[0] + self.unit * self.right.dot(at), self.centre[1] - self.unit * self.up.dot(at)]
     }
 
+    /// Returns the end of an axis that is nearer to the viewer: 1 or −1.
+    fn near_end(&self, axis: &Vector3<f64>) -> f64 {
+        if axis.dot(&self.towards) < 0.0 { -1.0 } else { 1.0 }
+    }
+
     /// Draws the visible faces of a box, given by its `centre` and three half edges. Each pair of faces has its shade,
     /// at any angle; the faces across the last half edge are the lightest.
     fn cuboid(&self, centre: &Vector3<f64>, half: &[Vector3<f64>; 3], class: &str) -> Markup {
         let faces = [(0, 1, 2), (1, 2, 0), (2, 0, 1)].map(|(normal, one, other)| {
-            let out = half[normal] * if half[normal].dot(&self.towards) < 0.0 { -1.0 } else { 1.0 };
+            let out = half[normal] * self.near_end(&half[normal]);
             let (one, other) = (half[one], half[other]);
             let corners = [one + other, one - other, -one - other, other - one];
             let points = corners.map(|corner| self.point(&(centre + out + corner)));
-            polygon(&points, &format!("solid {class} s{}", 3 - normal))
+            polygon(&points, &format!("{class} s{}", 3 - normal))
         });
         html! { @for face in faces { (face) } }
     }
@@ -144,11 +156,11 @@ impl View {
         let side = self.across(&axis) * radius;
         let edge = [far + side, near + side, near - side, far - side].map(|at| self.point(&at));
         html! {
-            (self.circle(&far, &axis, radius, &format!("solid {class} s3")))
+            (self.circle(&far, &axis, radius, &format!("{class} s3")))
             (polygon(&edge, &format!("{class} s3 inner")))
             (line(edge[0], edge[1], "edge"))
             (line(edge[2], edge[3], "edge"))
-            (self.circle(&near, &axis, radius, &format!("solid {class} s1")))
+            (self.circle(&near, &axis, radius, &format!("{class} s1")))
         }
     }
 }
@@ -158,9 +170,9 @@ fn position(
     at: &CertifiedPosition,
     base_axes: &Matrix3<f64>,
     factor: f64,
-    plate: &Markup,
+    around: (&Markup, &Markup),
 ) -> Markup {
-    let name = format!("position-{}-{}", at.i, at.j);
+    let name = format!("at-{}-{}", at.i, at.j);
     let panel = Panel { name: &name, languages, size: SIZE };
     let position = at.to_model();
     let designed = attitude::nominal(at.theta_deg, at.phi_deg) * base_axes;
@@ -170,12 +182,7 @@ fn position(
     let (true_axes, real) = (turned(&position.deviation), turned(&drawn));
     let frame = attitude::nominal(at.theta_deg, 0.0) * base_axes;
     let view = View::new(CENTRE, UNIT, base_axes);
-    let drawing = [
-        heading(at, languages),
-        html! { (plate) },
-        stand(&view, base_axes, &frame, &real),
-        axes(&view, &designed, &real),
-    ];
+    let drawing = [heading(at, languages), stand(&view, &frame, &real, around), axes(&view, &designed, &real)];
     panel.svg(
         |language| texts::position_title(position.index).plain(language),
         |language| in_words(language, at, &true_axes),
@@ -192,50 +199,65 @@ fn heading(at: &CertifiedPosition, languages: &Languages) -> Markup {
     label([4.0, 16.0], Anchor::Start, "", &words)
 }
 
-/// Draws the plate that carries the posts, with its upper side at the foot of the axes.
-pub(super) fn plate(view: &View, base_axes: &Matrix3<f64>) -> Markup {
+/// Draws the part of the base that is behind the frame: the plate, with its upper side at the foot of the axes, and a post.
+pub(super) fn base_behind(view: &View, base_axes: &Matrix3<f64>) -> Markup {
     const HALF: f64 = 0.045;
     let [xi, eta, _] = rows(base_axes);
     let half = [xi * 1.56, eta * 0.9, Vector3::new(0.0, 0.0, HALF)];
-    view.cuboid(&Vector3::new(0.0, 0.0, -AXIS_HEIGHT - HALF), &half, "base")
+    let plate = view.cuboid(&Vector3::new(0.0, 0.0, -AXIS_HEIGHT - HALF), &half, "base");
+    html! { (plate) (post(view, base_axes, -view.near_end(&xi))) }
 }
 
-/// Draws posts, frame, platform and gyro from back to front; planes across ξ separate them.
-pub(super) fn stand(view: &View, base_axes: &Matrix3<f64>, frame: &Matrix3<f64>, real: &Matrix3<f64>) -> Markup {
-    let [_, eta, _] = rows(base_axes);
+/// Draws the post in front of the frame.
+pub(super) fn base_before(view: &View, base_axes: &Matrix3<f64>) -> Markup {
+    post(view, base_axes, view.near_end(&rows(base_axes)[0]))
+}
+
+fn post(view: &View, base_axes: &Matrix3<f64>, end: f64) -> Markup {
+    let [xi, eta, _] = rows(base_axes);
+    let height = 0.5 * (AXIS_HEIGHT + 0.12);
+    let centre = xi * (end * POST) + Vector3::new(0.0, 0.0, height - AXIS_HEIGHT);
+    view.cuboid(&centre, &[xi * 0.06, eta * 0.13, Vector3::new(0.0, 0.0, height)], "base")
+}
+
+fn axles(view: &View, base_axes: &Matrix3<f64>) -> Markup {
+    let [xi, _, _] = rows(base_axes);
+    let axle = |end: f64| line(view.point(&(xi * (end * 1.1))), view.point(&(xi * (end * 1.42))), "axle");
+    html! { (axle(-1.0)) (axle(1.0)) }
+}
+
+/// Draws frame, platform and gyro from back to front, between the two parts of the base `around` them; planes across ξ
+/// separate them.
+pub(super) fn stand(
+    view: &View,
+    frame: &Matrix3<f64>,
+    real: &Matrix3<f64>,
+    (behind, before): (&Markup, &Markup),
+) -> Markup {
     let [xi, across, out] = rows(frame);
     let [x, _, spin] = rows(real);
     let bar = |centre: Vector3<f64>, along: Vector3<f64>, thick: Vector3<f64>| {
         view.cuboid(&centre, &[along, thick, out * BAR_HALF], "frame")
     };
-    let side = |sign: f64| {
-        let centre = xi * (sign * (FRAME_HALF[0] - BAR_HALF));
+    let side = |end: f64| {
+        let centre = xi * (end * (FRAME_HALF[0] - BAR_HALF));
         bar(centre, across * FRAME_HALF[1], xi * BAR_HALF)
     };
-    let crossbar = |sign: f64| {
-        let centre = across * (sign * (FRAME_HALF[1] - BAR_HALF));
+    let crossbar = |end: f64| {
+        let centre = across * (end * (FRAME_HALF[1] - BAR_HALF));
         bar(centre, xi * (FRAME_HALF[0] - 2.0 * BAR_HALF), across * BAR_HALF)
     };
-    let post = |sign: f64| {
-        let height = 0.5 * (AXIS_HEIGHT + 0.12);
-        let centre = xi * (sign * POST) + Vector3::new(0.0, 0.0, height - AXIS_HEIGHT);
-        let half = [xi * 0.06, eta * 0.13, Vector3::new(0.0, 0.0, height)];
-        view.cuboid(&centre, &half, "base")
-    };
-    let near_end = if xi.dot(&view.towards) < 0.0 { -1.0 } else { 1.0 };
-    let nearer = if across.dot(&view.towards) < 0.0 { -1.0 } else { 1.0 };
+    let (near_end, nearer) = (view.near_end(&xi), view.near_end(&across));
     let centre = Vector3::zeros();
     let gyro_is_near = spin.dot(&view.towards) > 0.0;
     let gyro = view.cylinder(&centre, &(spin * GYRO_HEIGHT), GYRO, "gyro");
     html! {
-        (post(-near_end)) (side(-near_end)) (crossbar(-nearer))
+        (behind) (side(-near_end)) (crossbar(-nearer))
         @if !gyro_is_near { (gyro) }
-        (view.circle(&centre, &spin, PLATFORM, "solid platform s1"))
+        (view.circle(&centre, &spin, PLATFORM, "platform s1"))
         // The two pins of the gyro seat, which are along x.
         @for sign in [-1.0, 1.0] { (view.circle(&(x * (sign * 0.5)), &spin, 0.055, "pin")) }
-        (crossbar(nearer)) (side(near_end)) (post(near_end))
-        (line(view.point(&(xi * -1.42)), view.point(&(xi * -1.1)), "axle"))
-        (line(view.point(&(xi * 1.1)), view.point(&(xi * 1.42)), "axle"))
+        (crossbar(nearer)) (side(near_end)) (before)
         @if gyro_is_near { (gyro) }
     }
 }

@@ -3,7 +3,7 @@
 
 use super::drawing::{Anchor, Panel, Point, arrow, coordinate, label, line, list, symbols, words};
 use super::label::width;
-use super::positions::{AXIS, AXIS_HEIGHT, GYRO, GYRO_HEIGHT, View, plate, rows, stand as parts};
+use super::positions::{AXIS, AXIS_HEIGHT, GYRO, GYRO_HEIGHT, View, base_before, base_behind, rows, stand as parts};
 use crate::attitude;
 use crate::report::page::Number;
 use crate::report::page::language::Languages;
@@ -59,8 +59,7 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
         Part { names: languages.iter().map(name).collect(), at: view.point(&at), within }
     });
     let drawing = [
-        plate(&view, &base),
-        parts(&view, &base, &frame, &platform),
+        parts(&view, &frame, &platform, (&base_behind(&view, &base), &base_before(&view, &base))),
         line(view.point(&(xi * -1.1)), view.point(&(xi * -1.6)), "axle"),
         arrow(view.point(&(xi * 1.1)), view.point(&(xi * 1.5)), "base-axis"),
         axis(&x, GYRO),
