@@ -13,8 +13,8 @@ pub(crate) fn lists(schemas: &[&Value]) -> String {
 /// Section of one format.
 struct Section<'a> {
     schema: &'a Value,
-    /// Key sets of described mappings, each with the format and the key (empty for a whole file) that describe it.
-    seen: &'a mut HashMap<Vec<String>, (String, String)>,
+    /// Key sets of described mappings, each with the place of its description.
+    seen: &'a mut HashMap<Vec<String>, String>,
 }
 
 impl Section<'_> {
@@ -23,7 +23,7 @@ impl Section<'_> {
         let format = self.schema.pointer("/properties/format/const").or(self.schema.get("title"));
         let format = format.and_then(Value::as_str).unwrap_or_default();
         let mut out = format!("## `{format}`\n\n{}\n\n", text(&root, "description"));
-        self.seen.insert(keys(&root), (format.to_owned(), String::new()));
+        self.seen.insert(keys(&root), format.to_owned());
         self.rows(&root, "", format, &mut out);
         out
     }
@@ -40,21 +40,13 @@ impl Section<'_> {
                 _ => (reference(property), "."),
             };
             let part = part.and_then(|name| self.definition(name)).filter(is_mapping);
-            let known = part.as_ref().and_then(|part| self.seen.get(&keys(part)));
-            let mut meaning = text(property, "description");
-            if let Some((there, same)) = known {
-                let same = if there == format { same } else { there };
-                meaning = format!("{meaning} See `{same}`.");
-            }
+            let seen = part.as_ref().and_then(|part| self.seen.get(&keys(part)));
+            let see = seen.map_or_else(String::new, |place| format!(" See `{place}`."));
             let bold = if required.contains(&name.as_str()) { "**" } else { "" };
-            let value = match self.value(property) {
-                value if value.is_empty() => value,
-                value => format!(" ({value})"),
-            };
-            let _ = writeln!(out, "- {bold}`{key}`{bold}{value}: {meaning}");
-            let described = known.is_some();
-            if let Some(part) = part.filter(|_| !described) {
-                self.seen.insert(keys(&part), (format.to_owned(), key.clone()));
+            let value = format!(" ({})", self.value(property)).replace(" ()", "");
+            let _ = writeln!(out, "- {bold}`{key}`{bold}{value}: {}{see}", text(property, "description"));
+            if let Some(part) = part.filter(|_| see.is_empty()) {
+                self.seen.insert(keys(&part), format!("{key}` of `{format}"));
                 self.rows(&part, &format!("{key}{below}"), format, out);
             }
         }
