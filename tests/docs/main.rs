@@ -7,6 +7,7 @@ mod fixtures;
 #[path = "../shared/programs.rs"]
 mod programs;
 
+mod compatibility;
 mod documentation;
 mod examples;
 mod recipes;
