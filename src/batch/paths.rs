@@ -127,7 +127,7 @@ pub(crate) fn is_yaml(name: &OsStr) -> bool {
 }
 
 /// Returns `true` if a file name has one of the extensions and is not hidden.
-fn has_extension(name: &OsStr, extensions: &[&str]) -> bool {
+pub(crate) fn has_extension(name: &OsStr, extensions: &[&str]) -> bool {
     let found = Path::new(name).extension();
     let has = extensions.iter().any(|due| found.is_some_and(|found| found.eq_ignore_ascii_case(due)));
     has && !name.as_encoded_bytes().starts_with(b".")

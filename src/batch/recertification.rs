@@ -16,7 +16,7 @@ use crate::passport::checks::for_the_issuer;
 use crate::passport::difference::{NumberDifference, of_deviations};
 use crate::passport::issue::PreparedStand;
 use crate::passport::reissue::{Order, successor};
-use crate::passport::{Code, Content, Question, Trust, Verification, verify};
+use crate::passport::{Code, Content, Question, Trust, Verification, content_from_anyone, verify};
 use crate::register::{Entry, Row, State, VerifiedRegister};
 use crate::site::Site;
 use crate::stand::{Excluded, Stand};
@@ -79,6 +79,8 @@ pub(crate) struct Recertification<'a> {
     pub out: Option<PathBuf>,
     /// Root of the stand file; that of the new files if `None`.
     pub stands: Option<PathBuf>,
+    /// `true` to recertify a stand that has changed since its certificate.
+    pub accept_change: bool,
     /// Makes the record of the certification before anything is written, so that nothing is if it fails.
     pub record: &'a Record<'a>,
     /// Flag that cancels the recertification before anything is written.
@@ -94,6 +96,13 @@ pub(crate) struct Recertified {
     pub old_number: String,
     /// Deviations of the old and the new certificate.
     pub changes: Vec<NumberDifference>,
+    /// Passports under the old certificate, in every state, with the customer of the stand, if the stand has changed: results
+    /// since its measurement are in question.
+    pub in_question: Vec<(Row, Option<String>)>,
+    /// Date of the measurement of the old certificate, the last good check.
+    pub measured: Date,
+    /// `true` if nothing was written, because the stand has changed and this was not accepted.
+    pub refused: bool,
     /// Passports that an earlier run issued, which were in force before this one.
     pub done: Vec<Row>,
     /// Successors that exist now, or that would be issued without the dry run.
@@ -174,6 +183,9 @@ impl Recertification<'_> {
             .transpose()
             .map_err(failed)?;
         let chosen = self.chosen(&from, &old_stand, &new)?;
+        let has_changed = !comparison.same_stand && !comparison.is_undecided();
+        let in_question = if has_changed { self.in_question(&from, &old_stand) } else { Vec::new() };
+        let refused_change = has_changed && !self.accept_change;
         let to = to.as_ref().unwrap_or(&from);
         let prepared = Arc::new(PreparedStand::new(new.clone()));
         let mut next = Vec::new();
@@ -182,8 +194,10 @@ impl Recertification<'_> {
         }
         let superseded = Superseded::of(&stand_file, text.as_bytes())?;
         let changes = of_deviations(&old_stand, &new);
-        (self.record)(&certification, &comparison, &changes)?;
-        let passports = match self.authority.signer {
+        if !refused_change {
+            (self.record)(&certification, &comparison, &changes)?;
+        }
+        let passports = match self.authority.signer.filter(|_| !refused_change) {
             None => next.into_iter().map(Outcome::from).collect(),
             Some(_) => {
                 let sealed = next.into_iter().map(|next| {
@@ -200,7 +214,10 @@ impl Recertification<'_> {
         };
         Ok(Recertified {
             changes,
+            measured: old_stand.certificate.measured(),
             old_number: old_stand.certificate.number,
+            in_question,
+            refused: refused_change,
             certification,
             comparison,
             done: chosen.done,
@@ -358,6 +375,18 @@ impl Recertification<'_> {
         }
         self.check_sites(&chosen, &current)?;
         Ok(chosen)
+    }
+
+    /// Returns the passports under the certificate of `old`, in every state, with the customer that their files state.
+    fn in_question(&self, from: &StandFolder, old: &Stand) -> Vec<(Row, Option<String>)> {
+        let entries = from.register().map_or(&[][..], VerifiedRegister::entries);
+        let of_entry = |entry: &Entry| {
+            let bytes = files::read(&from.path_of_entry(entry), LARGEST_DOCUMENT_BYTES).ok();
+            let bytes = bytes.filter(|bytes| sha256_hex(bytes) == entry.sha256);
+            let content = bytes.and_then(|bytes| content_from_anyone(&entry.id, &bytes).ok());
+            (Row::of(entry, self.question.time), content.and_then(|content| content.stand.customer))
+        };
+        entries.iter().filter(|entry| entry.certificate == old.certificate.number).map(of_entry).collect()
     }
 
     /// Checks that every requested place is among those of the current passports.

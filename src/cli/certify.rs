@@ -10,6 +10,7 @@ use crate::batch::once::Once;
 use crate::batch::{Purpose, paths};
 use crate::certification::found::Found;
 use crate::certification::{AngleReadings, Certification, Header, NotCertified, certify, compare, predicted};
+use crate::document::sha256_hex;
 use crate::files;
 use crate::folder::Folder;
 use crate::folder::archive::Superseded;
@@ -69,8 +70,8 @@ pub(super) struct Options {
     trust: OptionalTrust,
     #[command(flatten)]
     exclusions: ExclusionOptions,
-    /// Write a printable record of the certification: readings, tests, uncertainty, signature lines. It needs two runs or more;
-    /// FILE.pdf is printed by an installed Chromium, Chrome or Edge
+    /// Write a printable record of the certification: readings, tests, uncertainty, signature lines. It needs two runs or more,
+    /// or, with --against, the readings of that certificate; FILE.pdf is printed by an installed Chromium, Chrome or Edge
     #[arg(long, value_name = "FILE.html", value_parser = output::path_of(output::PAGE))]
     report: Option<PathBuf>,
     #[command(flatten)]
@@ -201,21 +202,40 @@ fn write(path: &Path, certified: &Certification, known: &[&Stand], force: bool) 
 fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
     files::check_distinct(options.output.iter().chain(&options.report))?;
     let against = options.against.as_deref().map(|path| certified(path, &options.trust)).transpose()?;
+    let bytes = inputs::bytes(readings, Kind::Angles.words())?;
+    let evidence = against.as_ref().and_then(|stand| stand.certificate.evidence.as_ref());
+    // The record of a certificate that is there, from its own readings.
+    let own = evidence.filter(|evidence| evidence.readings_sha256 == sha256_hex(&bytes));
+    let own = own.filter(|_| options.report.is_some() && options.stand.is_none());
     let header = match (&options.stand, &against) {
         (Some(path), _) => inputs::document(path, inputs::HEADER, Header::from_yaml)?,
+        (None, Some(stand)) if own.is_some() => {
+            Header { certificate: stand.certificate.clone(), ..Header::from(stand) }
+        }
         (None, Some(stand)) => Header::from(stand),
         (None, None) => return Err(Failure::unusable("missing --stand or --against")),
     };
-    let bytes = inputs::bytes(readings, Kind::Angles.words())?;
     let name = name_of(readings);
-    let excluded = options.exclusions.excluded()?;
-    let readings = AngleReadings::from_csv_without(&name, &bytes, &header.positions, &excluded, against.as_ref())?;
+    let excluded = match own {
+        Some(evidence) => evidence.excluded.clone().unwrap_or_default(),
+        None => options.exclusions.excluded()?,
+    };
+    let earlier = against.as_ref().filter(|_| own.is_none());
+    let readings = AngleReadings::from_csv_without(&name, &bytes, &header.positions, &excluded, earlier)?;
     if let Some(remark) = &readings.remark {
         output::say(remark);
     }
     let (readings, _) = predicted(&header, &readings).map_err(Failure::refused)?;
     let certified = certify(&header, &readings);
-    let comparison = against.as_ref().map(|stand| compare(stand, &header, &readings, certified.as_ref().ok()));
+    if let (Some(_), Some(stand), Ok(again)) = (own, &against, &certified)
+        && again.stand != *stand
+    {
+        let number = Printable(&stand.certificate.number);
+        let words =
+            format!("certificate {number} states other numbers than follow from its readings; it was changed by hand");
+        return Err(Failure::refused(words));
+    }
+    let comparison = earlier.map(|stand| compare(stand, &header, &readings, certified.as_ref().ok()));
     let comparison = comparison.transpose().map_err(Failure::refused)?;
     // A check of one run needs no certificate of its own. If an output file was requested, the program says why there
     // is none.
@@ -225,7 +245,7 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
         Err(why) => return Err(refused(&name, &why)),
     };
     let page = certified.as_ref().zip(options.report.as_ref()).map(|(certified, path)| {
-        let change = comparison.as_ref().zip(against.as_ref());
+        let change = comparison.as_ref().zip(earlier);
         let change = change.map(|(comparison, old)| (comparison, of_deviations(old, &certified.stand)));
         let page = CertificationPage { certification: certified, readings: (&name, &bytes), change, dry_run: false };
         Ok::<_, Failure>((path, output::page(path, page.html(&options.lang.languages()), options.force)?))
@@ -247,7 +267,7 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
         output::saved_too(path, page, options.force)?;
     }
     let document = || {
-        let shown = certified.as_ref().filter(|_| options.output.is_some()).map(report::certification);
+        let shown = certified.as_ref().filter(|_| options.output.is_some() || own.is_some()).map(report::certification);
         let compared = comparison.as_ref().map(|found| report::comparison(found, true));
         // Whether the stand has changed comes first: it decides whether the new certificate is of any use.
         let between = (compared.is_some() && shown.is_some()).then(|| vec![Block::Typed("\n".to_owned())]);

@@ -50,11 +50,15 @@ pub(super) fn add(arguments: &mut Vec<OsString>) -> Result<Vec<String>, Failure>
         && let Some(of_command) = command.find_subcommand(verb)
     {
         added.extend(values(workspace.as_ref(), verb).filter(|(option, ..)| lacks(of_command, of_verb, option)));
-        let root = workspace.as_ref().and_then(|workspace| workspace.passports.clone());
         let given = |id: &str| of_verb.value_source(id).is_some();
-        if let Some(root) = root.filter(|_| verb == "register" && !given("folder") && !given("passports")) {
-            added.push(("", root.into(), FILE));
-        }
+        let paths = workspace.as_ref().map(|workspace| match verb {
+            "register" if !given("folder") && !given("passports") => vec![("", &workspace.passports)],
+            "keygen" if !given("key") => vec![("", &workspace.key), ("--allowed-signers", &workspace.trust)],
+            _ => Vec::new(),
+        });
+        let paths =
+            paths.into_iter().flatten().filter(|(option, _)| option.is_empty() || lacks(of_command, of_verb, option));
+        added.extend(paths.filter_map(|(option, path)| Some((option, path.clone()?.into(), FILE))));
     }
     let end = arguments.iter().position(|argument| argument == "--").unwrap_or(arguments.len());
     let options: Vec<OsString> = added.iter().map(|(option, value, _)| argument(option, value)).collect();
@@ -156,10 +160,14 @@ pub(super) fn stand() -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().try_map(|path| named(path, |workspace, name| workspace.stand(name), id_of_stand))
 }
 
-/// Parser of the path of a site file; in a workspace also the identifier of the site.
+/// Parser of the path of a site file; in a workspace also the identifier of the site, or `*` for all of its sites.
 pub(super) fn site() -> impl TypedValueParser<Value = PathBuf> {
+    let find = |workspace: &Workspace, name: &str| match name {
+        "*" => workspace.sites.clone(),
+        _ => workspace.site(name),
+    };
     let id = |name: &str, bytes: &[u8]| Some(Site::from_yaml(name, bytes).ok()?.id.to_string());
-    PathBufValueParser::new().try_map(move |path| named(path, |workspace, name| workspace.site(name), id))
+    PathBufValueParser::new().try_map(move |path| named(path, find, id))
 }
 
 /// Parser of the path of a passport; in a workspace also its identifier.

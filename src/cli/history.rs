@@ -10,15 +10,16 @@ use crate::passport::Question;
 use crate::report::history as report;
 use crate::report::picture::history as picture;
 use crate::text::{Identifier, Printable, first_few, shown};
-use crate::workspace::Workspace;
+use crate::workspace::{Trace, Workspace};
 use clap::Args;
+use clap::builder::NonEmptyStringValueParser;
 use std::path::PathBuf;
 
 /// Show one stand over the years: certificates, passports, sites, withdrawals, and whether it drifts
 #[derive(Args)]
 pub(super) struct Options {
-    /// Stand
-    #[arg(value_name = "MODEL/SERIAL", value_parser = stand)]
+    /// Stand; or the number of a certificate, whose files and passports are then found in the workspace or the folder of passports
+    #[arg(value_name = "MODEL/SERIAL|NUMBER", value_parser = NonEmptyStringValueParser::new())]
     stand: String,
     /// Folder of passports
     #[arg(long, value_name = "DIR", default_value = "passports")]
@@ -38,10 +39,9 @@ pub(super) struct Options {
     format: Format,
 }
 
-fn stand(text: &str) -> Result<String, String> {
-    let parts =
-        text.split_once('/').filter(|(model, serial)| [model, serial].iter().all(|name| Identifier::new(name).is_ok()));
-    parts.map(|_| text.to_owned()).ok_or_else(|| "expected model and serial number, such as SPS-2/0017".to_owned())
+/// Returns `true` for model and serial number, which may also be the number of a certificate.
+fn is_stand(text: &str) -> bool {
+    text.split_once('/').is_some_and(|(model, serial)| [model, serial].iter().all(|name| Identifier::new(name).is_ok()))
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
@@ -58,24 +58,40 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         may_lack: defaults::is_of_a_laboratory(),
         threads: parallel::processors(),
     };
-    let (history, is_incomplete) = overview::history(&options.passports, &options.stand, query)?;
-    let history = history.map_err(|known| {
-        let (folder, stand) = (shown(&options.passports), &options.stand);
-        Failure::refused(match known.contains(stand) {
-            true => format!(
-                "{folder}: has passports of {stand}, but no register of it that counts; make it with `register {folder} \
-                 --renew`, or restore it from the backup"
-            ),
-            false if known.is_empty() => format!("{folder}: found no register of {stand}; the folder contains no registers"),
-            false => format!(
-                "{folder}: found no register of {stand}; the folder contains registers of {}",
-                Printable(first_few(&known))
-            ),
-        })
-    })?;
+    let found = is_stand(&options.stand).then(|| overview::history(&options.passports, &options.stand, query));
+    let (history, is_incomplete) = match found.transpose()? {
+        Some((Ok(history), is_incomplete)) => (history, is_incomplete),
+        Some((Err(known), _)) => return of_certificate(options, query, &known),
+        None => return of_certificate(options, query, &[]),
+    };
     if let Some(path) = &options.output {
         output::saved_too(path, picture::history(&history, question.time), options.force)?;
     }
     options.format.show(|| report::to_json(&history), || report::document(&history))?;
     Ok(code(is_incomplete, false))
+}
+
+/// Shows the files and passports of a certificate; `known` are the stands of the folder.
+fn of_certificate(options: &Options, query: Query, known: &[String]) -> Result<Code, Failure> {
+    let root = defaults::workspace().map_or(&options.passports, |workspace| &workspace.root);
+    if let Some(found) = Trace::of(&options.stand, root, &options.passports, query)? {
+        if options.output.is_some() {
+            return Err(Failure::usage("-o draws the years of a stand; give MODEL/SERIAL"));
+        }
+        options.format.show(|| &found, || found.document())?;
+        return Ok(0);
+    }
+    let (folder, stand) = (shown(&options.passports), Printable(&options.stand));
+    Err(Failure::refused(match is_stand(&options.stand) {
+        false => format!("{folder}: no register and no stand file states certificate {stand}; a stand is MODEL/SERIAL"),
+        true if known.contains(&options.stand) => format!(
+            "{folder}: has passports of {stand}, but no register of it that counts; make it with `register {folder} \
+             --renew`, or restore it from the backup"
+        ),
+        true if known.is_empty() => format!("{folder}: found no register of {stand}; the folder contains no registers"),
+        true => format!(
+            "{folder}: found no register of {stand}; the folder contains registers of {}",
+            Printable(first_few(known))
+        ),
+    }))
 }

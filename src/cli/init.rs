@@ -46,15 +46,12 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         output::say(&format!("next, receive what the factory sent:\ndtg-passport receive FILE.zip {folder}"));
         return Ok(0);
     }
-    let (key, signers) = (options.folder.join("factory.key"), options.folder.join("allowed_signers"));
-    let identity = options.identity.as_deref().unwrap_or("WHO");
+    let identity = if options.identity.is_some() { "" } else { " --identity WHO" };
+    let folder = quoted(&options.folder);
     output::say(&format!(
         "next, create the signing key, and look at the workspace:\n\
-         dtg-passport keygen {} --identity {identity} --allowed-signers {}\n\
-         dtg-passport status --workspace {}",
-        quoted(&key),
-        quoted(&signers),
-        quoted(&options.folder)
+         dtg-passport keygen{identity} --workspace {folder}\n\
+         dtg-passport status --workspace {folder}"
     ));
     Ok(0)
 }

@@ -1,14 +1,15 @@
 //! Verb `keygen`: a new signing key.
 
 use super::key_options::{self, PASSPHRASE_VARIABLE, passphrase, with_pub};
-use super::{Code, Failure, Format, output};
+use super::{Code, Failure, Format, defaults, output};
 use crate::files::{self, Access};
 use crate::signing::{self, allowed_signers_line, forbid_core_dumps};
 use crate::text::{name_of, shown};
 use crate::trust::SigningKey;
+use crate::workspace::Workspace;
 use clap::Args;
 use serde_json::json;
-use std::path::{Path, PathBuf};
+use std::path::{Path, PathBuf, absolute};
 use zeroize::Zeroizing;
 
 /// Create a signing key: KEY (mode 0600) and KEY.pub; print the line for allowed_signers, or append it
@@ -17,7 +18,8 @@ use zeroize::Zeroizing;
 #[derive(Args)]
 #[command(verbatim_doc_comment)]
 pub(super) struct Options {
-    /// Private key file to write; an existing file is not replaced
+    /// Private key file to write; an existing file is not replaced [default: that of the workspace, which then states
+    /// the owner as its issuer and gets the line]
     key: PathBuf,
     /// Owner of the key: the issuer in allowed_signers and passports [default: the file name]
     #[arg(long, value_name = "WHO", value_parser = key_options::identity)]
@@ -54,11 +56,18 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let signers = options.allowed_signers.as_deref();
     // For the same reason, check first that the line can be appended to the file.
     signers.map(|path| signing::with_signer(path, &line)).transpose().map_err(Failure::unusable)?;
+    let is_the_key = |workspace: &&Workspace| workspace.key.as_deref().is_some_and(|key| same(key, &options.key));
+    let workspace = defaults::workspace().filter(|workspace| workspace.identity.is_none()).filter(is_the_key);
+    let settings = workspace.map(|workspace| workspace.with_identity(&identity)).transpose().map_err(Failure::usage)?;
     let passphrase = new_passphrase(options)?;
     let private = key.to_openssh(&identity, passphrase.as_ref().map(|p| p.as_str())).map_err(Failure::unusable)?;
     files::write_new(&options.key, private.as_bytes(), Access::Private)?;
     let public = format!("{} {identity}\n", key.public_key().to_openssh());
     files::write_new(&public_path, public.as_bytes(), Access::Shared)?;
+    if let Some((path, text)) = settings {
+        files::rewrite(&path, text.as_bytes())?;
+        output::say(&format!("stated {identity} as the issuer in {}", shown(&path)));
+    }
     let wrote = format!("wrote {} (keep it secret) and {}", shown(&options.key), shown(&public_path));
     let failed = signers.and_then(|path| signing::append_signer(path, &line).err());
     let appended_to = signers.filter(|_| failed.is_none());
@@ -83,6 +92,11 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         }))?,
     }
     failed.map_or(Ok(0), |failed| Err(Failure::unusable(failed)))
+}
+
+/// Returns `true` if two paths are the same; the files need not exist.
+fn same(one: &Path, other: &Path) -> bool {
+    matches!((absolute(one), absolute(other)), (Ok(one), Ok(other)) if one == other)
 }
 
 fn refuse_existing(path: &Path) -> Result<(), Failure> {

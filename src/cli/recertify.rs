@@ -4,7 +4,7 @@ use super::exclusion::ExclusionOptions;
 use super::key_options::{IssuerOptions, refuse_distrusted};
 use super::lang::{self, Lang};
 use super::trust_options::{self, TrustOptions};
-use super::{Code, Failure, Format, defaults, inputs, interrupt, output};
+use super::{Code, Failure, Format, REFUSED, defaults, inputs, interrupt, output};
 use crate::batch::Outcome;
 use crate::batch::recertification::{AtSite, NotRecertified, Recertification, check};
 use crate::certification::{Certification, Comparison, Header};
@@ -26,7 +26,7 @@ use std::path::{Path, PathBuf};
 /// Recertify a stand: check it against its certificate, issue a new one, and re-issue its passports in force
 ///
 /// Everything is computed, signed and verified first; then all files are written, or none. The superseded stand file is
-/// kept as stand-<certificate number>.superseded.yaml.
+/// kept as stand-<certificate number>.superseded.yaml. If the stand has changed, nothing is written without --accept-change.
 #[derive(Args)]
 pub(super) struct Options {
     /// Passport of the stand, in force or expired; in a workspace also its identifier
@@ -68,6 +68,10 @@ pub(super) struct Options {
     /// Folder of passports [default: the parent of <model>/<serial> in the path of the passport]
     #[arg(short, long, visible_aliases = ["passports", "output"], value_name = "DIR", value_parser = output::folder_of_passports())]
     out: Option<PathBuf>,
+    /// Recertify a stand that has changed since its certificate; without it, the sites whose results are in question are
+    /// listed, and nothing is written
+    #[arg(long)]
+    accept_change: bool,
     #[command(flatten)]
     exclusions: ExclusionOptions,
     /// Write a printable record of the certification, with a table and a picture of the changes; FILE.pdf is printed
@@ -132,6 +136,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         question,
         out: options.out.clone(),
         stands: stands(options),
+        accept_change: options.accept_change,
         record: &print,
         cancel: Some(&cancel),
     };
@@ -141,10 +146,13 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     }
     options.format.show(|| report::to_json(&found, dry_run), || report::document(&found, dry_run))?;
     let mut told = Told::new(lang::of_text());
-    found.passports.iter().filter_map(Outcome::remarks).for_each(|(id, remarks)| told.add_all(id, remarks));
+    let issued = found.passports.iter().filter(|_| !found.refused);
+    issued.filter_map(Outcome::remarks).for_each(|(id, remarks)| told.add_all(id, remarks));
     told.lines(output::is_quiet()).iter().for_each(|line| output::complain(line));
-    keys.say_without_register();
-    Ok(0)
+    if !found.refused {
+        keys.say_without_register();
+    }
+    Ok(if found.refused { REFUSED } else { 0 })
 }
 
 fn failure(why: NotRecertified) -> Failure {

@@ -21,6 +21,9 @@ pub(crate) const LARGEST_ARCHIVE_BYTES: usize = LARGEST_BYTES + (1 << 20);
 /// Record at the end of an archive: signature, and its length without a comment.
 const END: (&[u8], usize) = (b"PK\x05\x06", 22);
 
+/// Flags of a member: how it was deflated, a data descriptor, a name in UTF-8.
+const KNOWN_FLAGS: u16 = 0x080e;
+
 /// Type of a file in a Unix mode, and those of a regular file and of a folder.
 const TYPE: u32 = 0o170_000;
 const REGULAR: u32 = 0o100_000;
@@ -130,12 +133,15 @@ fn check_bytes(bytes: &[u8], mut members: Vec<(usize, usize)>, directory: usize)
     let mut at = 0;
     for (index, (start, length)) in members.iter().enumerate() {
         let header = bytes.get(*start..*start + 30).filter(|_| *start == at).ok_or(BadArchive::Bytes)?;
+        if u16::from_le_bytes([header[6], header[7]]) & !KNOWN_FLAGS != 0 {
+            return Err(BadArchive::Damaged("it has flags of no known meaning".to_owned()));
+        }
         let variable = [26, 28].map(|at| usize::from(u16::from_le_bytes([header[at], header[at + 1]])));
         at = start + 30 + variable.iter().sum::<usize>() + length;
         let next = members.get(index + 1).map_or(directory, |(start, _)| *start);
         // CRC and two lengths, with or without a signature.
-        if header[6] & 8 != 0 && [12, 16].contains(&next.saturating_sub(at)) {
-            at = next;
+        if header[6] & 8 != 0 {
+            at += [12, 16].into_iter().find(|length| at + length == next).ok_or(BadArchive::Bytes)?;
         }
     }
     if at == directory { Ok(()) } else { Err(BadArchive::Bytes) }

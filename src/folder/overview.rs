@@ -468,17 +468,24 @@ pub(crate) fn history(
     let folder = if below.is_dir() { &below } else { root };
     let overview = Overview::of(folder, query)?;
     let is_incomplete = overview.is_incomplete();
-    let Some(found) = overview.stands.into_iter().find(|found| found.stand == stand) else {
-        let known = place::stands(root)?.into_iter().map(|(_, stand)| stand).collect();
-        return Ok((Err(known), is_incomplete));
-    };
-    let recorded = parallel::map(&found.rows, query.threads, |row| {
-        let bytes = row.file.as_deref().and_then(|file| files::read(Path::new(file), LARGEST_DOCUMENT_BYTES).ok());
-        // A file that has changed since it was compared with the register has no content.
-        let bytes = bytes.filter(|bytes| sha256_hex(bytes) == row.sha256);
-        let content = bytes.and_then(|bytes| crate::passport::content_from_anyone(&row.id, &bytes).ok());
-        Recorded { row: row.clone(), content }
-    });
-    let alarms = overview.alarms.iter().map(ToString::to_string).collect();
-    Ok((Ok(History::of(stand, recorded, alarms, query.question.time)), is_incomplete))
+    let history = overview.history(stand, query).map(Ok);
+    let known = || Ok(place::stands(root)?.into_iter().map(|(_, stand)| stand).collect());
+    Ok((history.map_or_else(|| known().map(Err), Ok)?, is_incomplete))
+}
+
+impl Overview {
+    /// Returns the history of a stand, or `None` without a register of it.
+    pub(crate) fn history(&self, stand: &str, query: Query) -> Option<History> {
+        let found = self.stands.iter().find(|found| found.stand == stand)?;
+        let recorded = parallel::map(&found.rows, query.threads, |row| {
+            let bytes = row.file.as_deref().and_then(|file| files::read(Path::new(file), LARGEST_DOCUMENT_BYTES).ok());
+            // A file that has changed since it was compared with the register has no content.
+            let bytes = bytes.filter(|bytes| sha256_hex(bytes) == row.sha256);
+            let content = bytes.and_then(|bytes| crate::passport::content_from_anyone(&row.id, &bytes).ok());
+            Recorded { row: row.clone(), content }
+        });
+        let concerns = |alarm: &&Alarm| alarm.stand.as_ref().is_none_or(|of| of == stand);
+        let alarms = self.alarms.iter().filter(concerns).map(ToString::to_string).collect();
+        Some(History::of(stand, recorded, alarms, query.question.time))
+    }
 }

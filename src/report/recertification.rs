@@ -1,10 +1,12 @@
 //! Result of a recertification, also as JSON.
 
 use crate::batch::recertification::Recertified;
+use crate::register::Row;
 use crate::report::certification::{self, change};
 use crate::report::difference;
-use crate::report::doc::{Block, Words, code, given, line, listed, marked};
+use crate::report::doc::{Block, Words, code, given, line, listed, marked, say};
 use crate::report::issued::{self, Report, State};
+use crate::report::register::state;
 use crate::report::style::Outcome;
 use crate::text::{name_of, shown};
 use crate::wording::texts::{calibration, issued as texts};
@@ -20,17 +22,21 @@ fn reports(found: &Recertified) -> impl Iterator<Item = Report> {
     done.chain(found.passports.iter().map(Report::of))
 }
 
-/// Returns the result as JSON: `{dry_run, certification, comparison, old_certificate, changes, passports, remaining,
-/// stand_file, superseded_file}`.
+/// Returns the result as JSON: `{dry_run, refused, certification, comparison, old_certificate, in_question, changes, passports,
+/// remaining, stand_file, superseded_file}`.
 pub(crate) fn to_json(found: &Recertified, dry_run: bool) -> Value {
     let certified = certification::to_json(Some(&found.certification), None, Some(&found.comparison));
     let passports =
         reports(found).map(|row| json!({"id": row.id, "state": row.state, "file": row.file, "sha256": row.sha256}));
     json!({
         "dry_run": dry_run,
+        "refused": found.refused,
         "certification": certified["certification"],
         "comparison": certified["comparison"],
         "old_certificate": found.old_number,
+        "in_question": found.in_question.iter().map(|(row, customer)| {
+            json!({"id": row.id, "site": row.site, "customer": customer, "state": row.state, "since": row.since})
+        }).collect::<Vec<_>>(),
         "changes": difference::numbers_json(&found.changes),
         "passports": passports.collect::<Vec<_>>(),
         "remaining": found.remaining,
@@ -41,6 +47,12 @@ pub(crate) fn to_json(found: &Recertified, dry_run: bool) -> Value {
 
 /// The new certificate, the check against the old one, what has changed, and the passports.
 pub(crate) fn document(found: &Recertified, dry_run: bool) -> Vec<Block> {
+    if found.refused {
+        let nothing = issued::done(Some(false), texts::NOTHING_WRITTEN);
+        let first = line(vec![nothing, "  ".into(), texts::not_accepted(code("--accept-change"))]);
+        let compared = certification::comparison(&found.comparison, true);
+        return [compared, in_question(found), vec![first]].concat();
+    }
     let stand = &found.certification.stand;
     let [number, old] = [&stand.certificate.number, &found.old_number].map(given);
     let checked = certification::outcome_of(&found.comparison, found.comparison.same_stand);
@@ -58,6 +70,7 @@ pub(crate) fn document(found: &Recertified, dry_run: bool) -> Vec<Block> {
     doc.extend(certification::certification(&found.certification));
     doc.push(blank());
     doc.extend(certification::comparison(&found.comparison, false));
+    doc.extend(in_question(found));
     doc.push(blank());
     doc.extend(change::deviations(&found.old_number, &found.changes));
     doc.push(blank());
@@ -77,4 +90,16 @@ pub(crate) fn document(found: &Recertified, dry_run: bool) -> Vec<Block> {
         doc.push(line(calibration::warning(still)));
     }
     doc
+}
+
+/// The passports by which results were obtained since the last good check, if the stand has changed.
+fn in_question(found: &Recertified) -> Vec<Block> {
+    if found.in_question.is_empty() {
+        return Vec::new();
+    }
+    let of_passport = |(row, customer): &(Row, Option<String>)| {
+        vec![given(&row.id), state(row).into(), customer.as_ref().map_or_else(|| "".into(), given)]
+    };
+    let rows = found.in_question.iter().map(of_passport).collect();
+    vec![say([texts::in_question(found.measured, given(&found.old_number))]), Block::Lines("  ", rows)]
 }

@@ -52,15 +52,17 @@ pub(super) fn character(c: char) -> String {
 const ALIKE: &str = "аеорсухіјѕԁһАВЕКМНОРСТХІЈЅοανρτυχΑΒΕΖΗΙΚΜΝΟΡΤΥΧ";
 const LATIN: &str = "aeopcyxijsdhABEKMHOPCTXIJSoavptuxABEZHIKMNOPTYX";
 
-/// Returns the text with the Latin letters that its letters of other alphabets look like, and a description of the
-/// first of these; `None` if there are none, or if others remain.
+/// Returns the text with Latin letters in place of those of other alphabets that look like them.
+pub(crate) fn with_latin(text: &str) -> String {
+    let alike = |c: char| ALIKE.chars().zip(LATIN.chars()).find(|(alike, _)| *alike == c).map_or(c, |(_, latin)| latin);
+    text.chars().map(alike).collect()
+}
+
+/// Returns the text as [`with_latin`] does, and a description of the first letter that was replaced; `None` if there are none,
+/// or if letters of other alphabets remain.
 pub(crate) fn latin(text: &str) -> Option<(String, String)> {
     let odd = text.chars().find(|c| !c.is_ascii())?;
-    let alike = |c: char| match ALIKE.chars().position(|alike| alike == c) {
-        Some(place) => LATIN.chars().nth(place).unwrap_or(c),
-        None => c,
-    };
-    let latin: String = text.chars().map(alike).collect();
+    let latin = with_latin(text);
     latin.is_ascii().then(|| (latin, character(odd)))
 }
 

@@ -1,9 +1,9 @@
 //! A new workspace: its folders and files.
 
-use super::WORKSPACE_FILE;
+use super::{WORKSPACE_FILE, Workspace};
 use crate::files::together::write_replaceable_together;
 use crate::files::{self, FileError};
-use crate::text::rule;
+use crate::text::{LARGEST_DOCUMENT_BYTES, rule};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -75,6 +75,26 @@ fn folders(root: &Path, kind: &Kind, made: &mut Vec<PathBuf>) -> Result<(), File
     Ok(())
 }
 
+/// Line of a new workspace in place of the issuer.
+const NO_IDENTITY: &str = "# identity = \"factory@example.org\"";
+
+/// Returns the line that states the issuer.
+fn identity_line(identity: &str) -> Result<String, NotMade> {
+    let is_plain = identity.chars().all(rule::allowed_in_string) && !identity.contains(['"', '\\']);
+    if is_plain { Ok(format!("identity = \"{identity}\"")) } else { Err(NotMade::Identity) }
+}
+
+impl Workspace {
+    /// Returns the file of this workspace, which states no issuer, and its text with one.
+    pub(crate) fn with_identity(&self, identity: &str) -> Result<(PathBuf, String), NotMade> {
+        let path = self.root.join(WORKSPACE_FILE);
+        let text = files::read(&path, LARGEST_DOCUMENT_BYTES)?;
+        let (text, line) = (String::from_utf8_lossy(&text), identity_line(identity)?);
+        let stated = text.replacen(NO_IDENTITY, &line, 1);
+        Ok((path, if stated == text { format!("{}\n{line}\n", text.trim_end()) } else { stated }))
+    }
+}
+
 /// Returns the text of the file of a new workspace.
 pub(super) fn settings(kind: &Kind) -> Result<String, NotMade> {
     let identity = match kind {
@@ -86,13 +106,8 @@ pub(super) fn settings(kind: &Kind) -> Result<String, NotMade> {
             };
             return Ok(include_str!("new/laboratory.toml").replace("{stand}", &stands));
         }
-        Kind::Factory(None) => "# identity = \"factory@example.org\"".to_owned(),
-        Kind::Factory(Some(identity))
-            if identity.chars().all(rule::allowed_in_string) && !identity.contains(['"', '\\']) =>
-        {
-            format!("identity = \"{identity}\"")
-        }
-        Kind::Factory(Some(_)) => return Err(NotMade::Identity),
+        Kind::Factory(None) => NO_IDENTITY.to_owned(),
+        Kind::Factory(Some(identity)) => identity_line(identity)?,
     };
     Ok(include_str!("new/dtg-passport.toml").replace("{identity}", &identity))
 }
@@ -100,7 +115,6 @@ pub(super) fn settings(kind: &Kind) -> Result<String, NotMade> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::workspace::Workspace;
 
     fn files(root: &Path) -> Vec<String> {
         let mut names: Vec<String> =

@@ -1,16 +1,19 @@
 //! Workspace of a factory or a laboratory: a folder whose `dtg-passport.toml` states the key, the issuer, the trusted
 //! keys and the folders of all commands.
 //!
+//! * `certificate`: the files and passports of one certificate.
 //! * `due`: what ends, and when.
 //! * `layout`: a new workspace.
 //! * `results`: calibrations in a laboratory.
 //! * `status`: the contents of a workspace.
 
+mod certificate;
 pub(crate) mod due;
 mod layout;
 mod results;
 mod status;
 
+pub(crate) use certificate::Trace;
 pub(crate) use layout::{Kind, NotMade, make};
 pub(crate) use results::{NoPassport, Results, serial_of};
 pub(crate) use status::{SOON_DAYS, status};

@@ -338,15 +338,18 @@ impl Status {
         let mut lines = Vec::new();
         let of_workspace = vec![given(&self.workspace), ", ".into(), self.time.into()];
         lines.push(vec![texts::WORKSPACE.into(), of_workspace.into()]);
-        let stands = self.stands.len();
-        let stands = if of_stands > 0 { texts::with_expired(stands, of_stands) } else { stands.into() };
-        lines.push(vec![texts::STANDS.into(), stands]);
+        // A laboratory certifies no stands, and has no files of sites.
+        let (stands, is_of_a_laboratory) = (self.stands.len(), self.signing_key.is_none());
+        if !is_of_a_laboratory {
+            let stands = if of_stands > 0 { texts::with_expired(stands, of_stands) } else { stands.into() };
+            lines.push(vec![texts::STANDS.into(), stands]);
+        }
         let expired = self.stands.iter().filter(|stand| stand.expired).map(|stand| {
             let certificate = texts::expired_certificate(given(&stand.certificate), stand.valid_until);
             vec![given(&stand.id), "  ".into(), certificate].into()
         });
         below(&mut lines, expired);
-        lines.push(vec![texts::SITES.into(), self.sites.len().into()]);
+        lines.extend((!is_of_a_laboratory).then(|| vec![texts::SITES.into(), self.sites.len().into()]));
         if let Some(passports) = &self.passports {
             lines.extend(passports.lines());
         }

@@ -501,3 +501,19 @@ fn the_advice_for_an_empty_cell_works() {
     let (code, _, said) = run(&folder, "empty.csv --stand header.yaml -o empty.yaml --exclude 2,3,4 --why skipped");
     assert_eq!(code, 0, "{said}");
 }
+
+/// Expected: the record that was written with the certificate, with its exclusion; a stand file that was changed by hand gets none.
+#[test]
+fn a_certificate_gets_its_record_later() {
+    let folder = folder("later");
+    let certify = "angles.csv --stand header.yaml --exclude 2,3,4 --why lamp -o stand.yaml --report first.html";
+    assert_eq!(run(&folder, certify).0, 0);
+    let (code, stdout, said) = run(&folder, "angles.csv --against stand.yaml --report later.html");
+    assert!(code == 0 && stdout.contains("CERTIFIED"), "{stdout}{said}");
+    let record = |name: &str| fs::read_to_string(folder.join(name)).unwrap();
+    assert_eq!(record("first.html"), record("later.html"));
+    let (stand, other) = (record("stand.yaml"), "alpha_arcsec: 9");
+    fs::write(folder.join("stand.yaml"), stand.replacen("alpha_arcsec: ", other, 1)).unwrap();
+    let (code, _, said) = run(&folder, "angles.csv --against stand.yaml --report changed.html");
+    assert!(code == 1 && said.contains("was changed by hand") && !folder.join("changed.html").exists(), "{said}");
+}

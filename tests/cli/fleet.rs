@@ -10,6 +10,33 @@ const TABLE: &str = "stand,site,valid_until,customer\n\
                      SPS-2/0018,torino-inrim,,Torino Lab\n\
                      SPS-2/0018,moscow-bmstu,,\n";
 
+/// `init` and `keygen --identity` are enough for a workspace that issues, to all of its sites.
+#[test]
+fn a_workspace_gets_its_key_and_its_issuer() {
+    let place = Place::before_issue();
+    place.good("init new");
+    place.good("keygen --identity works@example.org --no-passphrase --workspace new");
+    let settings = fs::read_to_string(place.path("new/dtg-passport.toml")).unwrap();
+    assert!(settings.contains("\nidentity = \"works@example.org\"\n"), "{settings}");
+    for name in ["stands/SPS-2/0017", "sites"] {
+        let (from, to) = (place.path("factory").join(name), place.path("new").join(name));
+        fs::create_dir_all(&to).unwrap();
+        for entry in fs::read_dir(from).unwrap() {
+            let path = entry.unwrap().path();
+            fs::copy(&path, to.join(path.file_name().unwrap())).unwrap();
+        }
+    }
+    let issue = ["issue", "SPS-2/0017", "--site", "*", "--workspace", "new", "--allow-uncalibratable"];
+    let said = place.command(&issue);
+    assert!(said.status.success(), "{}", String::from_utf8_lossy(&said.stderr));
+    for site in ["moscow-bmstu", "torino-inrim"] {
+        place.good(&format!("verify SPS-2/0017/{site}/1 --issuer works@example.org --workspace new"));
+    }
+    // Another key is not the workspace's, and a second issuer is not stated.
+    place.good("keygen other --identity other@example.org --no-passphrase --workspace new");
+    assert_eq!(fs::read_to_string(place.path("new/dtg-passport.toml")).unwrap(), settings);
+}
+
 #[test]
 fn each_row_of_a_table_is_a_passport_and_an_archive() {
     let place = Place::before_issue();
@@ -211,4 +238,60 @@ fn what_is_due_is_listed_by_its_days() {
     all.sort();
     all.dedup();
     assert_eq!(all.len(), 3);
+}
+
+/// Expected: SHA-256 of coreutils, and the names of the files that the test makes.
+#[test]
+fn a_certificate_is_found_by_its_number() {
+    let place = Place::before_issue();
+    let header = fs::read_to_string(programs::project("docs/header.yaml")).unwrap();
+    fs::write(place.path("factory/header.yaml"), header.replace("C-2026-0143", "C-2026-0102")).unwrap();
+    fs::copy(programs::project("docs/angles.csv"), place.path("factory/readings/a.csv")).unwrap();
+    place.good(
+        "certify factory/readings/a.csv --stand factory/header.yaml -o factory/stands/SPS-2/0017/stand.yaml --force --report \
+         factory/record.html",
+    );
+    place.good("issue SPS-2/0017 --site moscow-bmstu --workspace factory");
+    place.good("reissue SPS-2/0017/moscow-bmstu/1 --reason again --same-content --workspace factory");
+    let traced = |number: &str| -> serde_json::Value {
+        serde_json::from_str(&place.good(&format!("history {number} --workspace factory --format json"))).unwrap()
+    };
+    // The second number begins with a Cyrillic letter.
+    let found = traced("C-2026-0102");
+    assert_eq!(found, traced("\u{421}-2026-0102"));
+    let mut sha256 = std::process::Command::new("sha256sum");
+    let sha256 = programs::output({
+        sha256.arg(place.path("factory/readings/a.csv"));
+        sha256
+    });
+    let readings = serde_json::json!([{"path": "factory/readings/a.csv", "sha256": sha256.split(' ').next()}]);
+    assert_eq!(found["readings"], readings);
+    for (key, path) in [
+        ("header", "factory/header.yaml"),
+        ("record", "factory/record.html"),
+        ("stand_file", "factory/stands/SPS-2/0017/stand.yaml"),
+    ] {
+        assert_eq!(found[key], path);
+    }
+    let states = |found: &serde_json::Value| {
+        let passports = found["passports"].as_array().unwrap().iter();
+        let state = |at: &serde_json::Value| [&at["id"], &at["state"]].map(|text| text.as_str().unwrap().to_owned());
+        passports.map(state).collect::<Vec<_>>()
+    };
+    let [first, second] = ["SPS-2/0017/moscow-bmstu/1", "SPS-2/0017/moscow-bmstu/2"];
+    let due = [[first, "superseded"], [second, "current"]].map(|row| row.map(str::to_owned));
+    assert_eq!(states(&found), due);
+    assert_eq!((&found["missing"], &found["changed"]), (&serde_json::json!([]), &serde_json::json!([])));
+
+    // What is missing or has changed is said.
+    let stand = place.path("factory/stands/SPS-2/0017/stand.yaml");
+    let text = fs::read_to_string(&stand).unwrap();
+    fs::write(&stand, text.replacen("alpha_arcsec: ", "alpha_arcsec: 9", 1)).unwrap();
+    fs::write(place.path("factory/readings/a.csv"), "i,j,run\n").unwrap();
+    let found = traced("C-2026-0102");
+    assert_eq!(found["missing"], serde_json::json!(["readings", "stand_file"]));
+    assert_eq!(found["changed"], serde_json::json!(["factory/stands/SPS-2/0017/stand.yaml"]));
+    let said = place.good("history C-2026-0102 --workspace factory");
+    assert!(said.contains("not found") && said.contains("stand.yaml: has changed"), "{said}");
+    place.refused("history C-2026-0999 --workspace factory", "states certificate C-2026-0999");
 }

@@ -3,6 +3,7 @@
 use crate::deliver::Place;
 use crate::programs;
 use serde_json::Value;
+use std::ffi::OsString;
 use std::fs;
 
 /// A laboratory that has received both passports of a stand, states its place, and has currents of gyro 4711.
@@ -161,5 +162,55 @@ fn status_says_what_is_in_force_and_until_when() {
     {
         assert!(said.contains(words), "lacks {words}\n{said}");
     }
-    assert!(!said.contains("torino"), "what is not here is not the laboratory's\n{said}");
+    for words in ["torino", "Stands", "Sites"] {
+        assert!(!said.contains(words), "{words} is not the laboratory's\n{said}");
+    }
+}
+
+/// A real browser prints the report next to the result. Expected: poppler reads the serial number in it.
+#[cfg(unix)]
+#[test]
+fn a_report_is_printed_into_the_results() {
+    let place = laboratory();
+    state(&place, "# at =", "at =");
+    let mut calibrate = std::process::Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
+    calibrate.args("calibrate lab/readings/4711.csv --workspace lab --date 2026-11-27".split(' '));
+    // As root, Chromium starts only without its sandbox.
+    calibrate.current_dir(place.path("")).env("DTG_PASSPORT_BROWSER", "chromium --no-sandbox");
+    programs::output(calibrate);
+    let mut names: Vec<_> =
+        fs::read_dir(place.path("lab/results")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    names.sort();
+    assert_eq!(names, ["html", "json", "pdf"].map(|end| format!("4711-2026-11-27.{end}").into()) as [OsString; 3]);
+    let mut text = programs::on_path("pdftotext");
+    text.arg(place.path("lab/results/4711-2026-11-27.pdf")).arg("-");
+    assert!(programs::output(text).contains("4711"));
+}
+
+/// Expected: at most 230 characters, with the line ends, for two commands on each side; workspaces by the environment.
+#[test]
+fn a_moved_stand_is_handed_over_in_four_commands() {
+    let place = Place::before_issue();
+    place.good("issue SPS-2/0017 --site moscow-bmstu --workspace factory");
+    place.good("deliver SPS-2/0017 -o old.zip --workspace factory");
+    let fingerprint = place.fingerprint("factory/factory.key.pub");
+    place.good(&format!("receive old.zip lab --fingerprint {fingerprint}"));
+    fs::copy(programs::project("docs/currents.csv"), place.path("4711.csv")).unwrap();
+    let mut characters = 0;
+    for (workspace, typed) in [
+        ("factory", "dtg-passport reissue SPS-2/0017/moscow-bmstu/1 --site torino-inrim --moved --reason sold"),
+        ("factory", "dtg-passport deliver SPS-2/0017 -o d.zip"),
+        ("lab", "dtg-passport receive d.zip"),
+        ("lab", "dtg-passport calibrate 4711.csv"),
+    ] {
+        characters += typed.chars().count() + 1;
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
+        command.args(typed.split(' ').skip(1)).current_dir(place.path(""));
+        command.env("DTG_PASSPORT_WORKSPACE", workspace).env("DTG_PASSPORT_BROWSER", "no-browser-of-this-name");
+        programs::output(command);
+    }
+    println!("{characters} characters");
+    assert!(characters <= 230, "{characters}");
+    let results: Vec<_> = fs::read_dir(place.path("lab/results")).unwrap().collect();
+    assert_eq!(results.len(), 2, "JSON and HTML");
 }

@@ -10,7 +10,8 @@ use std::process::{Command, Stdio};
 const HERE: &str = "passports/SPS-2/0017/here-1.yaml";
 const SIGN: &str = "--key key --identity factory";
 const TRUST: &str = "--trust allowed_signers --time 2026-11-21";
-const ORDER: &str = "--number C-2026-0300 --issued 2026-11-20 --issued-at 2026-11-20T10:00:00Z --reason recertified";
+const ORDER: &str =
+    "--number C-2026-0300 --issued 2026-11-20 --issued-at 2026-11-20T10:00:00Z --reason recertified --accept-change";
 
 /// A factory's folder with a certified stand and its passports for two places.
 struct Factory(tempfile::TempDir);
@@ -100,6 +101,19 @@ fn all_places_get_the_new_certificate() {
     let planned = factory.json(&format!("{recertify} --dry-run"));
     assert_eq!(factory.passports(), before, "a dry run writes nothing");
     assert_eq!((&planned["dry_run"], &planned["passports"][0]["state"]), (&Value::Bool(true), &"planned".into()));
+
+    // Expected: the places under the old certificate, and nothing written, until the change is accepted.
+    let careful = format!("{recertify} --key key").replace(" --accept-change", "");
+    let (code, stdout, _) = factory.run(&format!("{careful} --format json --report record.html"));
+    let refused: Value = serde_json::from_str(&stdout).unwrap();
+    let sites = refused["in_question"].as_array().unwrap().iter().map(|at| at["site"].as_str().unwrap());
+    assert_eq!((code, sites.collect::<Vec<_>>()), (1, vec!["here", "there"]), "{stdout}");
+    let (code, stdout, _) = factory.run(&careful);
+    assert!(code == 1 && stdout.starts_with("✕ CHANGED") && stdout.contains("ISO/IEC 17025, 7.10"), "{stdout}");
+    assert!(
+        factory.passports() == before && !factory.path("record.html").exists(),
+        "an unaccepted change writes nothing"
+    );
 
     let found = factory.json(&format!("{recertify} --key key"));
     let ids: Vec<&str> = found["passports"].as_array().unwrap().iter().map(|at| at["id"].as_str().unwrap()).collect();
