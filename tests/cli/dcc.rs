@@ -637,7 +637,13 @@ fn a_gyro_has_its_certificate_with_decisions() {
         let lists = texts("valueXMLList");
         for (group, keys) in keys.iter().enumerate() {
             let numbers =
-                |place: usize| lists[3 * group + place].split(' ').map(|number| number.parse::<f64>().unwrap());
+                |place: usize| lists[4 * group + place].split(' ').map(|number| number.parse::<f64>().unwrap());
+            let rows = verdict["parameters"].as_array().unwrap();
+            for (risk, key) in numbers(3).zip(keys.split(' ')) {
+                let row = rows.iter().find(|row| row["parameter"] == key).unwrap();
+                let due = row.get("specific_risk").map(|risk| risk.as_f64().unwrap());
+                assert!(due.map_or(risk.is_nan(), |due| due == risk), "{key}: {risk}, {due:?}");
+            }
             for (((value, lower), upper), key) in numbers(0).zip(numbers(1)).zip(numbers(2)).zip(keys.split(' ')) {
                 let simple = ["pass", "conditionalPass"].contains(&decision(key));
                 assert_eq!((lower..=upper).contains(&value), simple, "{key}: {lower} {value} {upper}");
