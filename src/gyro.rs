@@ -4,7 +4,7 @@
 
 use crate::coefficients::PositionCoefficients;
 use crate::earth::STANDARD_GRAVITY_M_PER_S2;
-use crate::text::{Document, Path, Problems, record};
+use crate::text::{Document, Path, Problems, record, word_of_a_key, words};
 use crate::wording::Words;
 use crate::wording::number::Number;
 use crate::wording::texts::implausible;
@@ -113,6 +113,40 @@ record! {
     }
 }
 
+words! {
+    /// Rule by which conformity is decided ([JCGM 106](crate::bibliography::Bibliography::Jcgm106), 8.2 and 8.3).
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[cfg_attr(feature = "generate", derive(schemars::JsonSchema), schemars(rename_all = "snake_case"))]
+    #[non_exhaustive]
+    pub enum Rule: pub(crate) word {
+        /// Pass if the deviation is inside the tolerance by the guard band, fail if it is outside by it.
+        Guarded = "guarded",
+        /// Pass if the deviation is within the tolerance, otherwise fail.
+        Simple = "simple",
+    }
+}
+
+word_of_a_key!(Rule, word, "");
+
+record! {
+    /// Decision rule that was agreed with the customer.
+    pub struct DecisionRule {
+        /// "guarded": pass if |deviation| + guard band ≤ tolerance, fail if |deviation| − guard band > tolerance, otherwise
+        /// undecided. "simple": pass if |deviation| ≤ tolerance, otherwise fail.
+        pub rule: Rule,
+        /// Guard band as a fraction of the expanded uncertainty U (95.45 %), above 0 and at most 1; 1 if absent. Not with
+        /// "simple".
+        pub guard_band_of_u: Option<f64>,
+    }
+}
+
+impl DecisionRule {
+    /// Returns the guard band as a fraction of U; 0 by simple acceptance.
+    pub(crate) fn guard_band(&self) -> f64 {
+        if self.rule == Rule::Simple { 0.0 } else { self.guard_band_of_u.unwrap_or(1.0) }
+    }
+}
+
 record! {
     /// Gyro type: nominal parameters and their tolerances (`dtg-gyro/1`).
     pub struct GyroType {
@@ -122,6 +156,8 @@ record! {
         pub nominal: Parameters,
         /// Tolerances of the parameters.
         pub tolerance: Tolerance,
+        /// Decision rule; guarded acceptance with a guard band of U if absent.
+        pub decision: Option<DecisionRule>,
         /// Value of g to which the drifts of the type refer; 9.80665 if absent.
         pub gravity_m_per_s2: Option<f64>,
         /// Noise of the gyro's own drift.
@@ -165,6 +201,15 @@ impl GyroType {
             let advice = "state k_cross_percent, or k_cross_deg_per_h_per_ma if a nominal value is 0 or near 0";
             problems.at(&at.key("tolerance"), format!("{found} of K_xy and K_yx"), "one", advice);
         }
+        if let Some(DecisionRule { rule, guard_band_of_u: Some(band) }) = self.decision {
+            let decision = at.key("decision");
+            let at = decision.key("guard_band_of_u");
+            if rule == Rule::Simple {
+                problems.at(&at, format!("{band}"), "no guard band, because the rule is simple", "remove the key");
+            } else if !(band > 0.0 && band <= 1.0) {
+                problems.at(&at, format!("{band}"), "a number above 0, at most 1", "");
+            }
+        }
         problems.within(&at.key("gravity_m_per_s2"), self.gravity_m_per_s2, 9.7, 9.9);
         if let Some(noise) = &self.noise {
             let at = at.key("noise");
@@ -193,6 +238,13 @@ impl GyroType {
         self.gravity_m_per_s2.unwrap_or(STANDARD_GRAVITY_M_PER_S2)
     }
 
+    /// Returns the decision rule with its guard band, if it has one.
+    pub(crate) fn decision_rule(&self) -> DecisionRule {
+        let rule = self.decision.as_ref().map_or(Rule::Guarded, |decision| decision.rule);
+        let stated = self.decision.as_ref().and_then(|decision| decision.guard_band_of_u);
+        DecisionRule { rule, guard_band_of_u: (rule == Rule::Guarded).then(|| stated.unwrap_or(1.0)) }
+    }
+
     /// Creates the type of the paper's gyro, GVK-6, with its nominal values and tolerances (paper, table).
     pub fn gvk_6() -> Self {
         Self {
@@ -211,6 +263,7 @@ impl GyroType {
                 omega_g_deg_per_h_per_g: 0.01,
                 omega_k_deg_per_h_per_g: 0.01,
             },
+            decision: None,
             gravity_m_per_s2: None,
             noise: None,
         }

@@ -75,6 +75,11 @@ record! {
         pub method: Option<String>,
         /// Traceability to the SI.
         pub traceability: Option<String>,
+        /// Certificates of the instruments.
+        pub references: Option<Vec<Reference>>,
+        /// Smallest expanded uncertainty (k = 2) of an angle for which the laboratory is accredited (CMC); a certificate that
+        /// states a smaller one is refused.
+        pub cmc_arcsec: Option<f64>,
         /// Temperature during the measurement.
         pub temperature_c: Option<f64>,
         /// Temperature range in which the certificate is valid.
@@ -91,6 +96,20 @@ record! {
         pub type_b: Option<Vec<TypeB>>,
         /// Readings from which the certificate was computed; written by `certify`.
         pub evidence: Option<Evidence>,
+    }
+}
+
+record! {
+    /// Certificate of an instrument.
+    pub struct Reference {
+        /// Number of the certificate.
+        pub number: String,
+        /// Laboratory that issued it.
+        pub laboratory: String,
+        /// Date of issue.
+        pub issued: Date,
+        /// SHA-256 of its file, in lower-case hexadecimal.
+        pub sha256: String,
     }
 }
 
@@ -156,6 +175,17 @@ impl Certificate {
             u_gamma_arcsec: with_common(at.u_gamma_arcsec, cos_beta),
             ..at.clone()
         }
+    }
+}
+
+impl Certificate {
+    /// Returns the accredited capability and the smallest expanded uncertainty that is stated, arcsec (k = 2), if the latter is
+    /// smaller, which ILAC-P14 (5.4) does not permit. Of an angle it contains the common parts.
+    pub(crate) fn below_capability_arcsec(&self, positions: &[CertifiedPosition]) -> Option<[f64; 2]> {
+        let common = [self.common_platform_arcsec, self.common_base_arcsec].map(Option::unwrap_or_default);
+        let stated = positions.iter().flat_map(CertifiedPosition::u_arcsec).flatten();
+        let smallest = stated.map(|u| 2.0 * libm::hypot(u, libm::hypot(common[0], common[1]))).reduce(f64::min)?;
+        self.cmc_arcsec.filter(|cmc| smallest < cmc * (1.0 - type_b::ROUNDING)).map(|cmc| [cmc, smallest])
     }
 }
 
@@ -243,6 +273,15 @@ pub(crate) fn geometry(positions: &[CertifiedPosition]) -> Result<StandGeometry,
 pub(crate) fn check(certificate: &Certificate, positions: &[CertifiedPosition], problems: &mut Problems) {
     check_certificate(certificate, problems);
     type_b::check(certificate, positions, problems);
+    let cmc = Path::Root.key("certificate");
+    let cmc = cmc.key("cmc_arcsec");
+    if let Some([capability, smallest]) = certificate.below_capability_arcsec(positions) {
+        let expected = format!("at most {smallest:.4}, the smallest U (k = 2) that the certificate states");
+        problems.at(&cmc, format!("{capability}"), expected, "state no U below the accredited capability");
+    }
+    if let Some(capability) = certificate.cmc_arcsec.filter(|capability| *capability <= 0.0) {
+        problems.at(&cmc, format!("{capability}"), "a positive number", "");
+    }
     let at = Path::Root.key("positions");
     if positions.is_empty() {
         problems.at(&at, "an empty list", "at least one position", "");
@@ -300,6 +339,17 @@ fn check_certificate(certificate: &Certificate, problems: &mut Problems) {
         ("common_base_arcsec", certificate.common_base_arcsec),
     ] {
         problems.within(&at.key(key), value, 0.0, f64::MAX);
+    }
+    if certificate.references.as_ref().is_some_and(Vec::is_empty) {
+        problems.at(
+            &at.key("references"),
+            "an empty list",
+            "at least one certificate",
+            "omit the key if there is none",
+        );
+    }
+    for (index, reference) in certificate.references.iter().flatten().enumerate() {
+        problems.sha256(&at.key("references").item(index).key("sha256"), &reference.sha256);
     }
     let degrees_of_freedom = certificate.repeatability_degrees_of_freedom;
     check_degrees_of_freedom(degrees_of_freedom, &at.key("repeatability_degrees_of_freedom"), problems);

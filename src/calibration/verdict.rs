@@ -1,12 +1,12 @@
 //! Comparison of a result with the specification of the gyro type, and with an earlier result.
 //!
-//! Decisions are made by simple acceptance, and by guarded acceptance with a guard band of one expanded uncertainty
-//! ([JCGM 106](crate::bibliography::Bibliography::Jcgm106), 8.2 and 8.3; ILAC-G8), with the specific risk (7.3). The
-//! coverage factor is 2, or that of Student's t for the same probability, if the uncertainty rests on few degrees of
+//! Decisions are made by the rule of the gyro type: simple acceptance, or guarded acceptance with a guard band of a part of
+//! the expanded uncertainty ([JCGM 106](crate::bibliography::Bibliography::Jcgm106), 8.2 and 8.3; ILAC-G8), with the
+//! specific risk (7.3). The coverage factor is 2, or that of Student's t for the same probability, if the uncertainty rests on few degrees of
 //! freedom ([JCGM 100](crate::bibliography::Bibliography::Gum), G.3).
 
 use super::parameter::Parameter;
-use crate::gyro::{GyroParameters, GyroType};
+use crate::gyro::{DecisionRule, GyroParameters, GyroType, Rule};
 use crate::statistics::student::{effective_degrees_of_freedom, student_beyond, student_factor};
 use crate::wording::Words;
 use crate::wording::number::Number;
@@ -38,8 +38,10 @@ pub enum Decision {
 /// Comparison of a result with a specification or an earlier result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Verdict {
-    /// Overall decision: fail if a parameter fails by guarded acceptance, pass if all eight pass, otherwise undecided.
+    /// Overall decision: fail if a parameter fails, pass if all eight pass, otherwise undecided.
     pub overall: Decision,
+    /// Rule of the decisions.
+    pub rule: DecisionRule,
     /// Value of g to which the drifts of the type refer and at which drifts are compared, m/s².
     pub gravity_m_per_s2: f64,
     /// Decisions, one for each parameter; the general model has no ω_g and ω_k.
@@ -82,10 +84,12 @@ pub struct ParameterVerdict {
     pub expanded_uncertainty_from_gravity: Option<f64>,
     /// Decision by simple acceptance: whether the deviation is within the tolerance.
     pub simple: Decision,
-    /// Decision by guarded acceptance: whether the deviation is inside or outside by more than the expanded
-    /// uncertainty.
+    /// Decision by guarded acceptance: whether the deviation is inside or outside by more than the guard band, which is that
+    /// of the type's rule, and the expanded uncertainty if that is simple acceptance.
     pub guarded: Decision,
-    /// Specific risk: probability that the decision by simple acceptance is wrong; absent if it is undecided.
+    /// Decision by the type's rule, one of the two.
+    pub decision: Decision,
+    /// Specific risk: probability that the decision is wrong; absent if it is undecided.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub specific_risk: Option<f64>,
 }
@@ -240,7 +244,7 @@ fn compare(found: &Found, reference: &Found, gyro_type: &GyroType) -> Verdict {
         let from_gravity = libm::hypot(from_gravity[0], from_gravity[1]);
         judge(parameter, values, u, [from_gravity, conversion], gyro_type)
     });
-    Verdict::of(gravity_m_per_s2, parameters.collect())
+    Verdict::of(gyro_type.decision_rule(), gravity_m_per_s2, parameters.collect())
 }
 
 /// Returns the change of each parameter since an earlier result, in units of the standard uncertainty of the change, in
@@ -282,23 +286,22 @@ impl Verdict {
         Parameter::AS_IN_THE_PAPER.into_iter().filter(|parameter| !found(parameter)).collect()
     }
 
-    /// Returns the parameters that no gyro could pass, because the expanded uncertainty alone exceeds the tolerance.
+    /// Returns the parameters that no gyro could pass, because the guard band alone exceeds the tolerance.
     pub(crate) fn too_uncertain(&self) -> Vec<Parameter> {
-        let is_too_uncertain = |row: &&ParameterVerdict| row.expanded_uncertainty > row.tolerance;
+        let is_too_uncertain = |row: &&ParameterVerdict| self.guard_band(row) > row.tolerance;
         self.parameters.iter().filter(is_too_uncertain).map(|row| row.parameter).collect()
     }
 
-    /// Returns `true` if simple acceptance and its risks mean something: not of parameters that are not valid, nor with an
-    /// uncertainty above every tolerance.
-    pub(crate) fn has_simple(&self) -> bool {
-        !self.withheld && self.too_uncertain().len() < self.parameters.len()
+    /// Returns the guard band of a parameter, in the unit of the deviation; 0 by simple acceptance.
+    pub(crate) fn guard_band(&self, row: &ParameterVerdict) -> f64 {
+        self.rule.guard_band() * row.expanded_uncertainty
     }
 
     /// Returns the parameters that fail and would pass with the other sign: the type may count them in the other direction.
     pub(crate) fn opposite(&self) -> Vec<Parameter> {
         let is_opposite = |row: &&ParameterVerdict| {
             let (difference, sum) = (row.value - row.reference_value, row.value + row.reference_value);
-            row.guarded == Decision::Fail && (row.deviation * sum / difference).abs() <= row.tolerance
+            row.decision == Decision::Fail && (row.deviation * sum / difference).abs() <= row.tolerance
         };
         self.parameters.iter().filter(is_opposite).map(|row| row.parameter).collect()
     }
@@ -317,10 +320,10 @@ impl Verdict {
         let is_explained = |row: &&ParameterVerdict| {
             let (difference, rest) = (row.value - row.reference_value, row.value / factor - row.reference_value);
             let largest = row.tolerance + row.expanded_uncertainty / factor;
-            row.guarded == Decision::Fail && (row.deviation * rest / difference).abs() <= largest
+            row.decision == Decision::Fail && (row.deviation * rest / difference).abs() <= largest
         };
         let is_common = factor > 0.0 && k.iter().all(is_explained);
-        (is_common && drifts.iter().all(|row| row.guarded != Decision::Fail)).then_some(factor)
+        (is_common && drifts.iter().all(|row| row.decision != Decision::Fail)).then_some(factor)
     }
 
     /// Returns the worse of the decisions of this verdict and on a change since an earlier result.
@@ -331,7 +334,7 @@ impl Verdict {
     /// Returns the parameters that are not decided, whatever U is, because the decision depends on a suspect reading.
     pub(crate) fn dependent(&self) -> Vec<Parameter> {
         let is_dependent =
-            |row: &&ParameterVerdict| row.guarded != decide(row.deviation, row.expanded_uncertainty, row.tolerance).1;
+            |row: &&ParameterVerdict| row.decision != decide(row.deviation, self.guard_band(row), row.tolerance);
         self.parameters.iter().filter(is_dependent).map(|row| row.parameter).collect()
     }
 
@@ -340,9 +343,9 @@ impl Verdict {
         self.parameters.iter().find(|row| row.parameter == parameter)
     }
 
-    /// Returns the decision on a parameter by guarded acceptance, or `None` if no statement is made.
+    /// Returns the decision on a parameter, or `None` if no statement is made.
     pub(crate) fn decision(&self, row: &ParameterVerdict) -> Option<Decision> {
-        (!self.withheld).then_some(row.guarded)
+        (!self.withheld).then_some(row.decision)
     }
 
     /// Returns the comparison without the decisions that differ from those of `other`, a comparison of the same gyro, or
@@ -350,26 +353,25 @@ impl Verdict {
     pub(crate) fn agreed(mut self, other: Option<Self>) -> Self {
         for row in &mut self.parameters {
             let other = other.as_ref().and_then(|other| other.parameter(row.parameter));
-            if other.map(|other| other.guarded) != Some(row.guarded) {
-                row.guarded = Decision::Undecided;
+            let by: [fn(&mut ParameterVerdict) -> &mut Decision; 3] =
+                [|row| &mut row.simple, |row| &mut row.guarded, |row| &mut row.decision];
+            for decision in by {
+                if other.cloned().map(|mut other| *decision(&mut other)) != Some(*decision(row)) {
+                    *decision(row) = Decision::Undecided;
+                }
             }
-            if other.map(|other| other.simple) != Some(row.simple) {
-                (row.simple, row.specific_risk) = (Decision::Undecided, None);
-            }
+            row.specific_risk = row.specific_risk.filter(|_| row.decision != Decision::Undecided);
         }
-        Self { withheld: self.withheld, ..Self::of(self.gravity_m_per_s2, self.parameters) }
+        Self { withheld: self.withheld, ..Self::of(self.rule, self.gravity_m_per_s2, self.parameters) }
     }
 
     /// Returns the comparison with nothing decided, for parameters that are not valid.
-    pub(crate) fn undecided(mut self) -> Self {
-        for row in &mut self.parameters {
-            (row.simple, row.guarded, row.specific_risk) = (Decision::Undecided, Decision::Undecided, None);
-        }
-        Self { withheld: true, ..Self::of(self.gravity_m_per_s2, self.parameters) }
+    pub(crate) fn undecided(self) -> Self {
+        Self { withheld: true, ..self.agreed(None) }
     }
 
-    fn of(gravity_m_per_s2: f64, parameters: Vec<ParameterVerdict>) -> Self {
-        let number = |decision| parameters.iter().filter(|parameter| parameter.guarded == decision).count();
+    fn of(rule: DecisionRule, gravity_m_per_s2: f64, parameters: Vec<ParameterVerdict>) -> Self {
+        let number = |decision| parameters.iter().filter(|parameter| parameter.decision == decision).count();
         let overall = if number(Decision::Fail) > 0 {
             Decision::Fail
         } else if number(Decision::Pass) == Parameter::EIGHT.len() {
@@ -378,7 +380,7 @@ impl Verdict {
         } else {
             Decision::Undecided
         };
-        Self { overall, gravity_m_per_s2, parameters, withheld: false }
+        Self { overall, rule, gravity_m_per_s2, parameters, withheld: false }
     }
 }
 
@@ -415,8 +417,13 @@ fn judge(
     let deviation = (value - reference_value) * scale;
     let coverage_factor = coverage_factor(degrees_of_freedom);
     let expanded_uncertainty = coverage_factor * u * scale;
-    let (simple, guarded) = decide(deviation, expanded_uncertainty, limit);
-    let specific_risk = Some(risk(deviation, (u * scale, degrees_of_freedom), limit));
+    let rule = gyro_type.decision_rule();
+    let simple = decide(deviation, 0.0, limit);
+    let guarded = decide(deviation, rule.guard_band_of_u.unwrap_or(1.0) * expanded_uncertainty, limit);
+    let decision = if rule.rule == Rule::Simple { simple } else { guarded };
+    // A decision by guarded acceptance is also that by simple acceptance.
+    let specific_risk =
+        (decision != Decision::Undecided).then(|| risk(deviation, (u * scale, degrees_of_freedom), limit));
     ParameterVerdict {
         parameter,
         value,
@@ -431,19 +438,19 @@ fn judge(
         expanded_uncertainty_from_gravity: (from_gravity > 0.0).then_some(coverage_factor * from_gravity),
         simple,
         guarded,
+        decision,
         specific_risk,
     }
 }
 
-fn decide(deviation: f64, expanded_uncertainty: f64, limit: f64) -> (Decision, Decision) {
-    let guarded = if deviation.abs() + expanded_uncertainty <= limit {
+fn decide(deviation: f64, guard_band: f64, limit: f64) -> Decision {
+    if deviation.abs() + guard_band <= limit {
         Decision::Pass
-    } else if deviation.abs() - expanded_uncertainty > limit {
+    } else if deviation.abs() - guard_band > limit {
         Decision::Fail
     } else {
         Decision::Undecided
-    };
-    (if deviation.abs() <= limit { Decision::Pass } else { Decision::Fail }, guarded)
+    }
 }
 
 /// Returns the probability that the decision by simple acceptance is wrong.

@@ -62,7 +62,7 @@ const LEAST_WEIGHT: f64 = 0.1;
 const LEAST_SCATTER_ARCSEC: f64 = 0.1;
 
 /// Reason why a stand was not certified.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotCertified {
     /// Only one run, which does not show repeatability.
@@ -97,6 +97,13 @@ pub enum NotCertified {
     /// Readings that do not scatter once the common rotation of each run is removed.
     #[error("the readings do not vary; check whether the runs are shifted copies of each other")]
     NoScatter,
+    /// Accredited capability and a smaller expanded uncertainty (k = 2) that the certificate would state, arcsec.
+    #[error(
+        "the smallest U (k = 2) is {:.4} arcsec, below the accredited capability of {} arcsec (cmc_arcsec); state what the \
+         capability contains in type_b",
+        .0[1], .0[0]
+    )]
+    BelowCapability([f64; 2]),
 }
 
 impl NotCertified {
@@ -204,6 +211,9 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
         excluded: Some(readings.excluded.clone()).filter(|excluded| !excluded.is_empty()),
     };
     certificate.evidence = readings.sha256.as_deref().map(of_readings);
+    if let Some(below) = stand.certificate.below_capability_arcsec(&stand.positions) {
+        return Err(NotCertified::BelowCapability(below));
+    }
     let between = between(&components, &explanation);
     let mut remarks: Vec<Remark> = findings.iter().cloned().map(Box::new).map(Remark::Found).collect();
     remarks.extend(remarks_on(&components, readings, &stand.positions));

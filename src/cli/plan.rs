@@ -97,7 +97,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     }
     let of_site = site.frame_axis_azimuth_deg();
     let assumed = [options.gyro.is_none(), options.laboratory.is_none()];
-    let document = || report::document(&found, (site.id.as_str(), of_site), &gyro.r#type, assumed);
+    let document = || report::document(&found, (site.id.as_str(), of_site), &gyro, assumed);
     options.format.show(|| &found, document)?;
     Ok(0)
 }

@@ -13,7 +13,7 @@ use crate::interface::calibrated::Done;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
 use crate::report::Languages;
-use crate::report::calibration::{not_stated, temperature_outside};
+use crate::report::calibration::{band_of_u, not_stated, temperature_outside};
 use crate::report::page::language::Text;
 use crate::text::Problems;
 use crate::wording::texts::calibration as texts;
@@ -109,7 +109,10 @@ fn statements(calibrated: &Calibrated) -> Vec<Element> {
             .with("id", RULE_ID)
             .with("refType", "basic_conformity")
             .and(in_words("dcc:name", words::conformity(&gyro_type.r#type)))
-            .and(in_words("dcc:declaration", words::RULE))
+            .and(match verdict.rule.guard_band_of_u {
+                None => in_words("dcc:declaration", words::RULE_SIMPLE),
+                Some(band) => in_words("dcc:declaration", words::rule_guarded(band_of_u(band))),
+            })
             .and(Element::text("dcc:conformity", decided(verdict.overall, verdict.parameters.iter().all(passes))))
     });
     let currents = parts::statement(texts::CURRENTS_SHA256, None)
@@ -152,10 +155,10 @@ fn passes(row: &ParameterVerdict) -> bool {
     row.simple == Decision::Pass
 }
 
-/// Returns the decision by guarded acceptance. Where it is not determined, the one by simple acceptance is conditional
+/// Returns the decision by the rule. Where it is not determined, the one by simple acceptance is conditional
 /// (ILAC-G8:09/2019, 4.2.3).
-fn decided(guarded: Decision, simple_passes: bool) -> &'static str {
-    match guarded {
+fn decided(decision: Decision, simple_passes: bool) -> &'static str {
+    match decision {
         Decision::Pass => "pass",
         Decision::Fail => "fail",
         Decision::Undecided if simple_passes => "conditionalPass",
@@ -225,25 +228,28 @@ fn quantities(calibrated: &Calibrated) -> Vec<Element> {
     quantities
 }
 
-/// Returns the decisions on parameters and the limits of their tolerances, in their order and unit.
+/// Returns the decisions on parameters, the limits of their tolerances and the risks, in their order and unit. The risk
+/// where nothing is decided is not a number.
 fn decisions(verdict: &Verdict, parameters: &[Parameter], unit: &str) -> Element {
     let rows = parameters.iter().filter_map(|one| verdict.parameter(*one));
     let rows: Vec<_> = rows.collect();
-    let each: Vec<&str> = rows.iter().map(|row| decided(row.guarded, passes(row))).collect();
+    let each: Vec<&str> = rows.iter().map(|row| decided(row.decision, passes(row))).collect();
     let limit = |kind, name, sign: f64| {
         let values: Vec<f64> = rows.iter().map(|row| limit_of(row, sign, verdict.gravity_m_per_s2)).collect();
         quantity(Some(kind), name, parts::reals(None, &values, unit, &[]))
     };
-    let limits = [
+    let risks: Vec<f64> = rows.iter().map(|row| row.specific_risk.unwrap_or(f64::NAN)).collect();
+    let further = [
         limit("basic_toleranceLimitLower", words::LOWER_LIMIT, -1.0),
         limit("basic_toleranceLimitUpper", words::UPPER_LIMIT, 1.0),
+        quantity(None, words::SPECIFIC_RISK, parts::reals(None, &risks, units::ONE, &[])),
     ];
     let decision = Element::new("dcc:metaData")
         .with("refId", RULE_ID)
         .with("refType", "basic_conformity")
         .and(in_words("dcc:name", words::DECISIONS))
         .and(Element::text("dcc:conformityXMLList", each.join(" ")))
-        .and(Element::new("dcc:data").and(limits));
+        .and(Element::new("dcc:data").and(further));
     Element::new("dcc:measurementMetaData").and(decision)
 }
 

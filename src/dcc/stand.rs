@@ -104,6 +104,7 @@ fn statements(content: &Content, facts: &Facts) -> Vec<Element> {
         (words::REPEATABILITY, certificate.repeatability_arcsec),
         (words::COMMON_PLATFORM, certificate.common_platform_arcsec),
         (words::COMMON_BASE, certificate.common_base_arcsec),
+        (words::CMC, certificate.cmc_arcsec),
     ];
     let shared = shared.into_iter().filter_map(|(name, value)| {
         let value = quantity(None, name, real(value?, units::ARCSECOND, None));
@@ -114,10 +115,20 @@ fn statements(content: &Content, facts: &Facts) -> Vec<Element> {
 
 fn result(content: &Content, facts: &Facts) -> Element {
     let quantities = quantities(&content.positions);
+    let references = content.certificate.references.iter().flatten().map(|reference| {
+        let number = parts::identification(&reference.number, words::REFERENCE);
+        Element::new("dcc:measuringEquipment")
+            .and(in_words("dcc:name", words::INSTRUMENT))
+            .and(parts::hashed("dcc:certificate", words::REFERENCE, &reference.number, &reference.sha256))
+            .and(Element::new("dcc:identifications").and(number))
+    });
+    let references: Vec<Element> = references.collect();
+    let equipment = (!references.is_empty()).then(|| Element::new("dcc:measuringEquipments").and(references));
     Element::new("dcc:measurementResult")
         .and(in_words("dcc:name", words::STAND_RESULT))
         .and(Element::new("dcc:usedMethods").and(parts::stated_method(facts)))
         .and(parts::software("dcc:usedSoftware"))
+        .and(equipment)
         .and(Element::new("dcc:influenceConditions").and(parts::temperature(facts.temperature_c)))
         .and(parts::results(words::POSITIONS, words::POSITIONS_NOTE, quantities))
 }

@@ -75,7 +75,9 @@ impl Stated {
         let u =
             |parameter| calibration.adopted().and_then(|found| found.standard_uncertainty(parameter)).unwrap_or(0.0);
         let standard_uncertainty = Parameters::of(&GyroParameters::from_vector(&Parameter::EIGHT.map(u)));
-        Ok(Accuracy { gyro: self.gyro.clone(), laboratory: self.laboratory.clone(), standard_uncertainty })
+        // The laboratory and its customer agree on the decision rule.
+        let gyro = GyroType { decision: None, ..self.gyro.clone() };
+        Ok(Accuracy { gyro, laboratory: self.laboratory.clone(), standard_uncertainty })
     }
 }
 

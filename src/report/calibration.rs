@@ -15,7 +15,7 @@ mod result;
 pub(crate) use fit::{causes, not_stated};
 pub(super) use headline::headline;
 pub(crate) use methods::parameters;
-pub(crate) use result::counted;
+pub(crate) use result::{band_of_u, counted, rule};
 
 use super::doc::{self, Block, Words};
 use super::page::language::Text;

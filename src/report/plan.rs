@@ -9,6 +9,7 @@ use super::uncertainty::unit_of;
 use crate::calibration::Parameter;
 use crate::calibration::parameter::symbols;
 use crate::calibration::verdict::COVERAGE_FACTOR;
+use crate::gyro::GyroType;
 use crate::plan::criterion::Criterion;
 use crate::plan::sensitivity::Effect;
 use crate::plan::{Evaluation, Plan, Visited};
@@ -27,17 +28,19 @@ const LARGE_SHARE: f64 = 0.1;
 pub(crate) fn document(
     plan: &Plan,
     (site, site_azimuth_deg): (&str, f64),
-    gyro_type: &str,
+    gyro: &GyroType,
     assumed: [bool; 2],
 ) -> Vec<Block> {
     let failed = |words: Words| line(marked(Outcome::Failed, words));
+    let gyro_type = gyro.r#type.as_str();
+    let prevented = gravity_prevents_a_pass(plan, gyro);
     let mut turn_ons = turn_ons(plan).map(line);
     let mut doc = Vec::new();
-    if let Some(sentence) = no_gyro_can_pass(plan, gyro_type) {
+    if let Some(sentence) = no_gyro_can_pass(plan, gyro) {
         doc.push(failed(sentence));
         doc.extend(turn_ons.take());
     }
-    if gravity_prevents_a_pass(plan) {
+    if prevented {
         let share = percent(COVERAGE_FACTOR * plan.gravity_over_tolerance);
         doc.push(failed(texts::gravity_prevents(given(gyro_type), share)));
     }
@@ -64,7 +67,7 @@ pub(crate) fn document(
     doc.extend(uncertainties(plan));
     doc.extend(common_errors(plan));
     doc.push(Block::Typed("\n".to_owned()));
-    doc.extend(turn_ons.into_iter().chain(remarks(plan, site_azimuth_deg).into_iter().map(line)));
+    doc.extend(turn_ons.into_iter().chain(remarks(plan, prevented, site_azimuth_deg).into_iter().map(line)));
     doc
 }
 
@@ -172,20 +175,20 @@ type Named = fn(&Effect) -> bool;
 type Said = fn(Words) -> Words;
 
 /// The parameters of which no value can be found within the tolerance, if there are any.
-fn no_gyro_can_pass(plan: &Plan, gyro_type: &str) -> Option<Words> {
+fn no_gyro_can_pass(plan: &Plan, gyro: &GyroType) -> Option<Words> {
     let of_tolerance = |parameter: &Parameter| {
         plan.evaluation.standard_uncertainty[parameter.place()] / plan.tolerance[parameter.place()]
     };
-    let beyond =
-        Parameter::AS_IN_THE_PAPER.into_iter().filter(|parameter| COVERAGE_FACTOR * of_tolerance(parameter) > 1.0);
+    let band = COVERAGE_FACTOR * gyro.decision_rule().guard_band();
+    let beyond = Parameter::AS_IN_THE_PAPER.into_iter().filter(|parameter| band * of_tolerance(parameter) > 1.0);
     let beyond: Vec<Parameter> = beyond.collect();
     let no_other = if plan.exhaustive { Words::from(texts::NO_OTHER) } else { "".into() };
-    (!beyond.is_empty()).then(|| texts::no_gyro_can_pass(given(gyro_type), symbols(beyond), no_other))
+    (!beyond.is_empty()).then(|| texts::no_gyro_can_pass(given(gyro.r#type.as_str()), symbols(beyond), no_other))
 }
 
-/// Returns `true` if the uncertainty of local g alone exceeds a tolerance.
-fn gravity_prevents_a_pass(plan: &Plan) -> bool {
-    COVERAGE_FACTOR * plan.gravity_over_tolerance > 1.0
+/// Returns `true` if the guard band that the uncertainty of local g alone makes exceeds a tolerance.
+fn gravity_prevents_a_pass(plan: &Plan, gyro: &GyroType) -> bool {
+    COVERAGE_FACTOR * gyro.decision_rule().guard_band() * plan.gravity_over_tolerance > 1.0
 }
 
 /// What the noise between turn-ons contributes, if it is much.
@@ -194,9 +197,9 @@ fn turn_ons(plan: &Plan) -> Option<Words> {
 }
 
 /// What a user of the plan must know besides the numbers.
-fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<Words> {
+fn remarks(plan: &Plan, prevented: bool, site_azimuth_deg: f64) -> Vec<Words> {
     let mut remarks = Vec::new();
-    if plan.gravity_over_tolerance > LARGE_SHARE && !gravity_prevents_a_pass(plan) {
+    if plan.gravity_over_tolerance > LARGE_SHARE && !prevented {
         remarks.push(texts::gravity(percent(plan.gravity_over_tolerance)));
     }
     if plan.beyond_range > 0 {

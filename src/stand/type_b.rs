@@ -106,7 +106,7 @@ impl Certificate {
 
 /// Relative difference by which an uncertainty may be smaller than its part of type B, because certificates state four
 /// digits.
-const ROUNDING: f64 = 5e-4;
+pub(super) const ROUNDING: f64 = 5e-4;
 
 /// Checks the contributions themselves, and that the certified uncertainties include them.
 pub(super) fn check(certificate: &Certificate, positions: &[CertifiedPosition], problems: &mut Problems) {

@@ -265,6 +265,8 @@ certificate:
   address: "<?xml?> 中文"
   authorized_by: "D"
   accreditation: "<E>"
+  references: [{number: "<C>&1", laboratory: "F", issued: "2025-06-30", sha256: "0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a"}]
+  cmc_arcsec: 0.6
 positions:
   - {i: 3, j: 7, theta_deg: -12.5, phi_deg: 1.0e-05, alpha_arcsec: 0.1, beta_arcsec: -0.0, gamma_arcsec: 1.0e+05, u_alpha_arcsec: 0.30000000000000004}
   - {i: 3, j: 8, theta_deg: 33.3, phi_deg: 77.7, alpha_arcsec: 5.0e-324, beta_arcsec: 1, gamma_arcsec: -161999.99999999997}
@@ -318,9 +320,17 @@ temperature_c: -1.5
     assert_eq!(judged["results"][5]["u"], Value::Null);
     let document = Document::parse(&xml).unwrap();
     let texts: Vec<&str> = document.descendants().filter(Node::is_element).filter_map(|node| node.text()).collect();
-    for text in
-        ["<A> & ]]> \"B\" 'C'", "</dcc:content><x/>", "<!--", "<?xml?> 中文", "<E>", "<script>alert(1)</script>", "'\""]
-    {
+    for text in [
+        "<A> & ]]> \"B\" 'C'",
+        "</dcc:content><x/>",
+        "<!--",
+        "<?xml?> 中文",
+        "<E>",
+        "<C>&1",
+        "0.6",
+        "<script>alert(1)</script>",
+        "'\"",
+    ] {
         assert!(texts.contains(&text), "{text}: {xml}");
     }
     // The person who authorised the certificate is the main signer; each name is there once.
@@ -637,7 +647,13 @@ fn a_gyro_has_its_certificate_with_decisions() {
         let lists = texts("valueXMLList");
         for (group, keys) in keys.iter().enumerate() {
             let numbers =
-                |place: usize| lists[3 * group + place].split(' ').map(|number| number.parse::<f64>().unwrap());
+                |place: usize| lists[4 * group + place].split(' ').map(|number| number.parse::<f64>().unwrap());
+            let rows = verdict["parameters"].as_array().unwrap();
+            for (risk, key) in numbers(3).zip(keys.split(' ')) {
+                let row = rows.iter().find(|row| row["parameter"] == key).unwrap();
+                let due = row.get("specific_risk").map(|risk| risk.as_f64().unwrap());
+                assert!(due.map_or(risk.is_nan(), |due| due == risk), "{key}: {risk}, {due:?}");
+            }
             for (((value, lower), upper), key) in numbers(0).zip(numbers(1)).zip(numbers(2)).zip(keys.split(' ')) {
                 let simple = ["pass", "conditionalPass"].contains(&decision(key));
                 assert_eq!((lower..=upper).contains(&value), simple, "{key}: {lower} {value} {upper}");

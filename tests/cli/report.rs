@@ -297,7 +297,10 @@ fn parameters_that_no_gyro_can_pass_are_named_with_the_reason() {
     let text = terminal.args([VERIFIED, LABORATORY, GYRO].concat()).output().unwrap().stdout;
     let text = String::from_utf8(text).unwrap();
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(text.contains("No value of ω_g, ω_k can pass by guarded acceptance: U exceeds the tolerance."), "{text}");
+    assert!(
+        text.contains("No value of ω_g, ω_k can pass by guarded acceptance: the guard band exceeds the tolerance."),
+        "{text}"
+    );
     assert!(
         text.contains(
             "The height is not stated, so g is that at 0 m; its standard uncertainty, 0.0071 m/s², is the r.m.s. error"

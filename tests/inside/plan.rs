@@ -644,7 +644,7 @@ fn the_report_states_an_uncertainty_of_the_local_g_that_matters() {
     for (gravity, is_said) in [("", true), (MEASURED, false)] {
         let site = moscow(gravity);
         let found = plan(&question(&noise, &site)).unwrap();
-        let said = dtg_passport::report::plan::document(&found, ("moscow", EAST), "GVK-6", [false, false]);
+        let said = dtg_passport::report::plan::document(&found, ("moscow", EAST), &GyroType::gvk_6(), [false, false]);
         let said = dtg_passport::report::doc::typed(&said, dtg_passport::report::Language::English);
         let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
         assert_eq!(said.contains("uncertainty of local g alone"), is_said, "{said}");

@@ -19,6 +19,9 @@ const TYPE_B: &str = r#"  type_b:
     - {source: "theodolite", acts_on: "base", u_arcsec: 2.0}
 "#;
 
+const REFERENCES: &str = r#"  references: [{number: "A/1", laboratory: "M", issued: "2025-06-30", sha256: "0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a"}]
+"#;
+
 fn with_type_b(file: &str) -> String {
     file.replace("datum:", &format!("{TYPE_B}datum:"))
 }
@@ -155,6 +158,41 @@ fn what_cannot_be_so_is_refused_with_its_place() {
     let end = good.find("  evidence:").unwrap();
     let empty = format!("{}  type_b: []\n{}", &good[..start], &good[end..]);
     assert!(refused(&empty).contains("type_b: found an empty list"), "{}", refused(&empty));
+}
+
+/// Expected: ILAC-P14, 5.4. U of two stated digits is by hand from the stand file: 2·√(u² + 0.3² + 0.4²) for u = 1.2 is 2.6.
+#[test]
+fn an_uncertainty_below_the_capability_is_refused() {
+    let text = r#"format: "dtg-stand/1"
+stand: {model: "S", serial: "1"}
+certificate: {number: "C-1", issued: "2026-11-02", laboratory: "L", references: [{number: "A/1", laboratory: "M", issued: "2025-06-30", sha256: "DIGEST"}], cmc_arcsec: 2.6, common_platform_arcsec: 0.3, common_base_arcsec: 0.4}
+positions:
+  - {i: 1, j: 1, theta_deg: 0, phi_deg: 0, alpha_arcsec: 12.4, beta_arcsec: -31.0, gamma_arcsec: 7.7, u_alpha_arcsec: 3.0, u_beta_arcsec: 1.2}
+"#;
+    let text = text.replace("DIGEST", &"0a".repeat(32));
+    Stand::from_yaml("s.yaml", text.as_bytes()).unwrap();
+    for (from, to, said) in [
+        ("cmc_arcsec: 2.6", "cmc_arcsec: 2.61", "certificate.cmc_arcsec: found 2.61, expected at most 2.6000"),
+        ("cmc_arcsec: 2.6", "cmc_arcsec: 0.0", "certificate.cmc_arcsec: found 0, expected a positive number"),
+        ("0a0a", "0A0A", "certificate.references[0].sha256"),
+        ("issued: \"2025-06-30\", ", "", "certificate.references[0].issued: missing"),
+    ] {
+        assert!(refused(&text.replacen(from, to, 1)).contains(said), "{}", refused(&text.replacen(from, to, 1)));
+    }
+    // A new certificate: the smallest U of the example is about 2 arcseconds; a header alone states none.
+    let header_of = |cmc: &str| header(&HEADER.replace("datum:", &format!("  cmc_arcsec: {cmc}\n{REFERENCES}datum:")));
+    let good = certified(&header_of("0.5"));
+    assert_eq!(Header::from(&good.stand).certificate.cmc_arcsec, Some(0.5));
+    let content = fixtures::content(&good.stand, &fixtures::site(fixtures::SITE));
+    let shown =
+        dtg_passport::report::doc::typed(&printed::document(&content, None), dtg_passport::wording::Language::English);
+    for words in ["A/1, M, 2025-06-30, SHA-256", "0.5″"] {
+        assert!(shown.contains(words), "no {words:?} in\n{shown}");
+    }
+    let high = header_of("9.5");
+    let readings = AngleReadings::from_csv("angles.csv", READINGS.as_bytes(), &high.positions).unwrap();
+    let below = certify(&high, &readings).unwrap_err().to_string();
+    assert!(below.contains("below the accredited capability of 9.5 arcsec (cmc_arcsec)"), "{below}");
 }
 
 /// Four digits of 0.22360… are 0.2236: rounding alone refuses nothing.

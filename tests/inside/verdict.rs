@@ -6,7 +6,7 @@ use dtg_passport::calibration::stated::{NotStated, TemperatureOutside};
 use dtg_passport::calibration::verdict::{Decision, Found, against_earlier, against_type, change_in_uncertainties};
 use dtg_passport::calibration::{InputUncertainty, Options, Parameter, Setup, calibrate};
 use dtg_passport::coefficients::EarthRate;
-use dtg_passport::gyro::{GyroParameters, GyroType};
+use dtg_passport::gyro::{DecisionRule, GyroParameters, GyroType, Rule};
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::site::Site;
 use dtg_passport::stand::{Certificate, Stand};
@@ -28,6 +28,38 @@ fn found(change: impl Fn(&mut [f64; 8]), u: [f64; 8]) -> Found {
 
 const SMALL: [f64; 8] = [0.005, 0.01, 0.01, 0.005, 0.002, 0.002, 0.002, 0.002];
 
+fn by(rule: Rule, guard_band_of_u: Option<f64>) -> GyroType {
+    GyroType { decision: Some(DecisionRule { rule, guard_band_of_u }), ..GyroType::gvk_6() }
+}
+
+/// Expected: the contract: a band above 0 and at most 1, none with simple acceptance, no other rule.
+#[test]
+fn decision_rules_of_files() {
+    let file = |decision: &str| {
+        let text = include_str!("../../docs/gvk-6.yaml").to_owned() + decision;
+        GyroType::from_yaml("gyro.yaml", text.as_bytes())
+    };
+    for (decision, band) in [
+        ("", 1.0),
+        ("decision: {rule: \"guarded\"}\n", 1.0),
+        ("decision: {rule: \"guarded\", guard_band_of_u: 0.5}\n", 0.5),
+        ("decision: {rule: \"guarded\", guard_band_of_u: 1}\n", 1.0),
+        ("decision: {rule: \"simple\"}\n", 0.0),
+    ] {
+        assert_eq!(file(decision).unwrap().decision_rule().guard_band(), band, "{decision}");
+    }
+    for (decision, said) in [
+        ("{rule: \"lenient\"}", "decision.rule: found \"lenient\", expected \"guarded\" or \"simple\""),
+        ("{guard_band_of_u: 0.5}", "decision.rule: missing"),
+        ("{rule: \"guarded\", guard_band_of_u: 0}", "found 0, expected a number above 0, at most 1"),
+        ("{rule: \"guarded\", guard_band_of_u: 1.01}", "found 1.01, expected a number above 0, at most 1"),
+        ("{rule: \"simple\", guard_band_of_u: 0.5}", "found 0.5, expected no guard band, because the rule is simple"),
+    ] {
+        let refused = file(&format!("decision: {decision}\n")).unwrap_err().to_string();
+        assert!(refused.contains(said), "{refused}");
+    }
+}
+
 /// Expected by hand, tolerances 0.05 % of 95 = 0.0475, 0.5 % of 9.5 = 0.0475, 0.01.
 #[test]
 fn decisions() {
@@ -41,13 +73,24 @@ fn decisions() {
     let omega0 = &verdict.parameters[4];
     assert_eq!((omega0.parameter.key(), omega0.unit), ("omega_0x", "deg/h"));
     assert_eq!((omega0.simple, omega0.guarded), (Decision::Pass, Decision::Undecided));
-    assert_eq!(verdict.overall, Decision::Undecided);
+    assert_eq!((verdict.overall, omega0.decision, omega0.specific_risk), (Decision::Undecided, omega0.guarded, None));
+    let verdict = against_type(&found(|v| v[4] += 0.008, SMALL), &by(Rule::Simple, None));
+    let omega0 = &verdict.parameters[4];
+    assert_eq!(
+        (verdict.overall, omega0.decision, omega0.guarded),
+        (Decision::Pass, Decision::Pass, Decision::Undecided)
+    );
     assert!((omega0.specific_risk.unwrap() - 0.158_655_253_931_457).abs() < 1e-9, "{omega0:?}");
+    // A guard band of half of U is 0.002: just enough. One of a quarter decides 0.0115 to be out.
+    let half = against_type(&found(|v| v[4] += 0.007_999, SMALL), &by(Rule::Guarded, Some(0.5)));
+    assert_eq!((half.overall, half.parameters[4].guarded), (Decision::Pass, Decision::Pass));
+    let quarter = against_type(&found(|v| v[4] += 0.011_5, SMALL), &by(Rule::Guarded, Some(0.25)));
+    assert_eq!((quarter.overall, quarter.parameters[4].decision), (Decision::Fail, Decision::Fail));
     assert!((omega0.expanded_uncertainty - 0.004).abs() < 1e-15);
     // Out by 0.012: simply out, not decided; the same risk from the other side. Out by 0.015: out.
-    let verdict = against_type(&found(|v| v[4] -= 0.012, SMALL), &GyroType::gvk_6());
+    let verdict = against_type(&found(|v| v[4] -= 0.012, SMALL), &by(Rule::Simple, None));
     let omega0 = &verdict.parameters[4];
-    assert_eq!((omega0.simple, omega0.guarded), (Decision::Fail, Decision::Undecided));
+    assert_eq!((omega0.decision, omega0.guarded), (Decision::Fail, Decision::Undecided));
     assert!((omega0.specific_risk.unwrap() - 0.158_655_253_931_457).abs() < 1e-9, "{omega0:?}");
     let verdict = against_type(&found(|v| v[4] += 0.015, SMALL), &GyroType::gvk_6());
     assert_eq!((verdict.parameters[4].guarded, verdict.overall), (Decision::Fail, Decision::Fail));
@@ -111,7 +154,7 @@ fn few_degrees_of_freedom_need_a_larger_factor() {
         assert_eq!(verdict.overall, if k < 4.75 { Decision::Pass } else { Decision::Undecided });
         // ω_0x is one standard uncertainty within its tolerance.
         let edge = Found { degrees_of_freedom: [degrees_of_freedom; 8], ..found(|v| v[4] += 0.008, SMALL) };
-        let found = against_type(&edge, &GyroType::gvk_6()).parameters[4].specific_risk.unwrap();
+        let found = against_type(&edge, &by(Rule::Simple, None)).parameters[4].specific_risk.unwrap();
         assert!((found - risk).abs() < 1e-9, "{found} instead of {risk}");
     }
 }
@@ -218,7 +261,7 @@ fn an_unknown_height_leaves_drifts_undecided() {
         assert!((row.deviation - (omega_g - 10.0) + 0.0039).abs() < 1e-4, "{row:?}");
         // 10 · 7.1e-3/9.8 = 0.00724, and the readings' 0.0013: 0.00736.
         assert!((row.expanded_uncertainty - 2.0 * 0.00736).abs() < 5e-5, "{row:?}");
-        assert!(row.guarded == Decision::Undecided && row.specific_risk.unwrap() > 0.1, "{row:?}");
+        assert!(row.decision == Decision::Undecided && row.specific_risk.is_none(), "{row:?}");
         assert!(row.is_mostly_from_gravity());
     }
     let known = format!("{HOLLOMAN}height_m: 1225.0\n");

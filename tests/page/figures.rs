@@ -117,7 +117,7 @@ fn verdict_and_change_are_where_their_axes_say() {
             if let Some(band) = band.first() {
                 axis.says(end(*band, 1.0), percent(accepted));
             }
-            let (class, other) = match line["guarded"].as_str().unwrap() {
+            let (class, other) = match line["decision"].as_str().unwrap() {
                 "pass" => ("mark", "site"),
                 "undecided" => ("site", "mark"),
                 decision => panic!("{decision} is not the example's"),

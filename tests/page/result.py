@@ -439,14 +439,14 @@ class Report:
             marks = {"pass": "●", "undecided": "◐", "fail": "✕"}
             if not self.stated():
                 marks = dict.fromkeys(marks, "○")
-            if near != marks[line["guarded"]]:
-                self.wrong.append(f"{part}, {name}: {near} beside the name, and {line['guarded']} in the result")
-            if not row[7]["text"].startswith(marks[line["guarded"]]):
-                self.wrong.append(f"{part}, {name}: {row[7]['text']}, and {line['guarded']} in the result")
-            # Without a decision by simple acceptance there is no risk.
-            if not self.is_simple(part):
+            if near != marks[line["decision"]]:
+                self.wrong.append(f"{part}, {name}: {near} beside the name, and {line['decision']} in the result")
+            if not row[7]["text"].startswith(marks[line["decision"]]):
+                self.wrong.append(f"{part}, {name}: {row[7]['text']}, and {line['decision']} in the result")
+            # Without a decision there is no risk.
+            if "specific_risk" not in line:
                 if row[8]["text"] != "–":
-                    self.wrong.append(f"{part}, {name}: risk {row[8]['text']} without a statement")
+                    self.wrong.append(f"{part}, {name}: risk {row[8]['text']} without a decision")
                 continue
             if row[8]["values"]:
                 self.cell(f"{part}, {name}, risk", row[8], line["specific_risk"])
@@ -479,14 +479,9 @@ class Report:
             + (f"; несоответствие: {fails}." if fails else "."),
         }
         said = "".join(words["text"] for words in self.said["words"]).replace("\u00a0", " ")
-        shown = self.is_simple(part) and not self.usual
+        shown = self.stated() and not self.usual and self.result[part]["rule"]["rule"] == "guarded"
         if shown != (due[self.said["lang"]] in said):
             self.wrong.append(f"{part}: {due[self.said['lang']]!r} is{'' if shown else ' not'} to be on the page")
-
-    def is_simple(self, part):
-        """Simple acceptance needs parameters that are valid, and an uncertainty that is not above every tolerance."""
-        lines = self.result[part]["parameters"]
-        return self.stated() and any(line["expanded_uncertainty"] <= line["tolerance"] for line in lines)
 
 
 def of_file(file):

@@ -22,9 +22,9 @@ pub(in crate::report) fn headline(document: &CalibrationDocument, gyro_type: Opt
             let worst = verdict.with_change(document.change.as_ref());
             let of_change: Option<Words> = document.change.as_ref().map(|change| match change.withheld {
                 true => texts::CHANGE_NOT_ASSESSED.into(),
-                false => counted(change, |row| row.guarded, texts::change_passed),
+                false => counted(change, |row| row.decision, texts::change_passed),
             });
-            let of_values = counted(verdict, |row| row.guarded, texts::passed);
+            let of_values = counted(verdict, |row| row.decision, texts::passed);
             let not_found = verdict.not_found();
             let not_found = (!not_found.is_empty()).then(|| texts::not_in_the_model(symbols(not_found)));
             let of_values = joined([of_values].into_iter().chain(not_found), "; ");

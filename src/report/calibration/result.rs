@@ -24,8 +24,7 @@ pub(super) fn section(of: &Report) -> Vec<Block> {
             doc.push(heading(texts::conformity(name)));
             doc.push(compared(verdict, texts::verdict_caption, [texts::NOMINAL, texts::DEVIATION], Extent::Values));
             doc.push(legend(verdict, true));
-            let open = verdict.overall == Decision::Undecided && !verdict.withheld;
-            doc.push(say(open.then_some(texts::RULE)).only(On::Terminal));
+            doc.push(say((!verdict.withheld).then(|| rule(verdict))).only(On::Terminal));
             doc.push(simple(verdict, Some(texts::RISK_NOTE), of.details));
             doc.extend(from_gravity(of, verdict));
             let u = of.calibration.mostly_from_turn_ons();
@@ -59,7 +58,13 @@ pub(super) fn brief(of: &Report) -> Vec<Block> {
     let mut doc = vec![of.left_out()];
     doc.push(compared(verdict, texts::brief_caption, [texts::NOMINAL, texts::DEVIATION], Extent::Brief));
     doc.extend(further);
-    doc.push(say(names.into_iter().flatten().filter(|_| !verdict.withheld)));
+    // The column says the usual rule.
+    let agreed = (verdict.rule.guard_band() != 1.0).then(|| {
+        let largest = verdict.parameters.iter().filter_map(|row| row.specific_risk).reduce(f64::max);
+        [Some(rule(verdict)), largest.map(|risk| texts::largest_risk(probability(risk)))]
+    });
+    let said = agreed.into_iter().flatten().chain(names).flatten();
+    doc.push(say(said.filter(|_| !verdict.withheld)));
     doc.extend(from_gravity(of, verdict));
     doc
 }
@@ -118,6 +123,19 @@ fn names(text: fn(Words) -> Words, which: impl IntoIterator<Item = Parameter>) -
     (!which.is_empty()).then(|| text(symbols(which)))
 }
 
+/// The decision rule.
+pub(crate) fn rule(verdict: &Verdict) -> Words {
+    match verdict.rule.guard_band_of_u {
+        None => texts::RULE_SIMPLE.into(),
+        Some(band) => texts::rule_guarded(band_of_u(band)),
+    }
+}
+
+/// A guard band as a multiple of U.
+pub(crate) fn band_of_u(band: f64) -> Words {
+    if band == 1.0 { "U".into() } else { Words::All(vec![Number::exact(band).into(), "\u{a0}U".into()]) }
+}
+
 /// Simple acceptance, a note on the risks, and the parameters that no gyro could pass, would pass with the other sign, or
 /// are not decided.
 fn simple(verdict: &Verdict, note: Option<Text>, details: bool) -> Block {
@@ -125,13 +143,13 @@ fn simple(verdict: &Verdict, note: Option<Text>, details: bool) -> Block {
         return say::<Words>([]);
     }
     let full_stop = |words: Words| Words::All(vec![words, ".".into()]);
-    let has = verdict.has_simple();
-    let by_simple = (has && details).then(|| full_stop(counted(verdict, |row| row.simple, texts::passed_by_simple)));
+    let is_guarded = verdict.rule.guard_band() > 0.0;
+    let by_simple =
+        (is_guarded && details).then(|| full_stop(counted(verdict, |row| row.simple, texts::passed_by_simple)));
     let all = [
         by_simple,
-        note.filter(|_| has).map(Words::from),
+        note.map(Words::from),
         names(texts::too_uncertain, verdict.too_uncertain()),
-        (!has).then(|| texts::NO_RISK.into()),
         names(texts::opposite, verdict.opposite()),
         verdict.common_factor_in_words(),
         names(texts::dependent, verdict.dependent()),
@@ -164,8 +182,8 @@ fn compared(
     let rows = &verdict.parameters;
     let u = ParameterVerdict::expanded_uncertainty_of_value;
     // One digit stands before every decimal mark, so that these align where the numbers begin at one place.
-    let risk =
-        |row: &ParameterVerdict| vec![Words::from(row.specific_risk.filter(|_| verdict.has_simple()).map(probability))];
+    let risk = |row: &ParameterVerdict| vec![Words::from(row.specific_risk.map(probability))];
+    let by = if verdict.rule.guard_band() > 0.0 { texts::GUARDED } else { texts::SIMPLE };
     let outcome = |row: &ParameterVerdict| Outcome::of(verdict.decision(row));
     let mut table = Rows::of(rows, "numbers result")
         .named(texts::PARAMETER, |row| {
@@ -185,7 +203,7 @@ fn compared(
             |row| BESIDE_DECISIONS.of_parameter(verdict, row),
             |languages| BESIDE_DECISIONS.axis(languages),
         )
-        .column(texts::GUARDED, |row| {
+        .column(by, |row| {
             // In the first language: the key below the table has the mark in all of them.
             Words::First(Box::new(marked(outcome(row), decision(verdict.decision(row)))))
         })

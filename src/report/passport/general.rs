@@ -5,7 +5,7 @@ use crate::passport::Content;
 use crate::passport::content::Header;
 use crate::report::doc::{Block, On, Words, blank, field, given, heading, record, say, wide};
 use crate::report::page::number::Number;
-use crate::stand::{Certificate, Identity};
+use crate::stand::{Certificate, Identity, Reference};
 use crate::trust::PublicKey;
 use crate::wording::texts::{passport as texts, record as forms, units, words};
 
@@ -73,8 +73,14 @@ pub(crate) fn certificate(certificate: &Certificate) -> Block {
         field(texts::TEMPERATURE_RANGE, range),
         wide(texts::METHOD, certificate.method.as_ref().map(given)),
         wide(texts::TRACEABILITY, certificate.traceability.as_ref().map(given)),
+        field(texts::CMC, certificate.cmc_arcsec.map(|cmc| Words::Quantity(Number::exact(cmc), units::ARCSEC))),
     ];
-    Block::Within("titled", vec![heading(texts::CERTIFICATE), record(fields)])
+    let references = certificate.references.iter().flatten().map(|Reference { number, laboratory, issued, sha256 }| {
+        let words = vec![given(number), ", ".into(), given(laboratory), ", ".into(), Words::Date(*issued)];
+        let words = words.into_iter().chain([", SHA-256 ".into(), Words::Code(sha256.clone())]);
+        wide(texts::REFERENCE, Some(Words::All(words.collect())))
+    });
+    Block::Within("titled", vec![heading(texts::CERTIFICATE), record(fields.into_iter().chain(references))])
 }
 
 fn left_to_the_laboratory() -> Block {

@@ -53,7 +53,7 @@ impl Strips {
     pub(crate) fn of_parameter(self, verdict: &Verdict, row: &ParameterVerdict) -> Markup {
         let scale = self.scale(1.0);
         let decision = verdict.decision(row);
-        let (y, guarded) = (0.5 * HEIGHT, row.tolerance - row.expanded_uncertainty);
+        let (y, guarded) = (0.5 * HEIGHT, row.tolerance - verdict.guard_band(row));
         let share = |value: f64| scale.clamped(value / row.tolerance);
         let (x, outwards) = (share(row.deviation), row.deviation.signum() * (ROOM_FOR_ARROW - 1.0));
         let limits = [-1.0, 1.0].map(|limit| scale.place(limit));

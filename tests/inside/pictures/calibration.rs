@@ -4,6 +4,7 @@ use crate::inside::picture::{Axis, both, end, english, number, of_class, reach, 
 use dtg_passport::calibration::Parameter;
 use dtg_passport::calibration::document::{CalibrationDocument, ResultDocument};
 use dtg_passport::calibration::verdict::{Decision, ParameterVerdict, Verdict};
+use dtg_passport::gyro::GyroType;
 use dtg_passport::report::picture::tolerances::BESIDE_DECISIONS;
 use dtg_passport::report::picture::{convergence, residuals};
 use dtg_passport::wording::texts::units;
@@ -68,6 +69,7 @@ fn row(
         expanded_uncertainty_from_gravity: None,
         simple,
         guarded,
+        decision: guarded,
         specific_risk: Some(0.0),
         conversion_of_g: None,
     }
@@ -75,7 +77,8 @@ fn row(
 
 /// The strips of a verdict, each as a document, and the axis below them.
 fn strips(parameters: Vec<ParameterVerdict>) -> (Vec<String>, String) {
-    let verdict = Verdict { overall: Decision::Fail, gravity_m_per_s2: 9.8, parameters, withheld: false };
+    let rule = GyroType::gvk_6().decision_rule();
+    let verdict = Verdict { overall: Decision::Fail, rule, gravity_m_per_s2: 9.8, parameters, withheld: false };
     let each = verdict.parameters.iter().map(|row| whole(&[BESIDE_DECISIONS.of_parameter(&verdict, row)])).collect();
     (each, whole(&[BESIDE_DECISIONS.axis(&english())]))
 }

@@ -7,6 +7,8 @@ mod causes;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod coarse_readings;
 #[cfg(feature = "monte-carlo")]
+mod decisions;
+#[cfg(feature = "monte-carlo")]
 mod diagnosis;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod findings;

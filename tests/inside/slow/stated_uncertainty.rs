@@ -8,6 +8,7 @@ use dtg_passport::calibration::parameter::Parameter;
 use dtg_passport::calibration::readings::Reading;
 use dtg_passport::calibration::{InputUncertainty, Method, Options, Readings, calibrate};
 use dtg_passport::coefficients::{EarthRate, Position};
+use dtg_passport::gyro::GyroParameters;
 use dtg_passport::statistics::random::{Run, Stream};
 use dtg_passport::statistics::summary::Summary;
 use dtg_passport::units::{degrees_from_radians, radians_from_arcseconds};
@@ -37,9 +38,14 @@ fn normal(stream: &mut Stream, u: [f64; 3]) -> Vector3<f64> {
 const VISITS: u32 = 2;
 const ROWS: u32 = 3;
 
-/// One set of readings, [`ROWS`] in each of [`VISITS`] visits, of the paper's gyro on a stand that is not quite what its certificate
+/// One set of readings, [`ROWS`] in each of [`VISITS`] visits, of a gyro on a stand that is not quite what its certificate
 /// says, at a place that is not quite where it should be, through a meter that is not quite right.
-fn read(stream: &mut Stream, certified: &[Position], u: &InputUncertainty) -> Vec<Reading> {
+pub(super) fn read(
+    stream: &mut Stream,
+    certified: &[Position],
+    u: &InputUncertainty,
+    gyro: &GyroParameters,
+) -> Vec<Reading> {
     let platform = turned(normal(stream, [u.common_platform_rad; 3])) * turned(normal(stream, u.seating_rad));
     let base = turned(normal(stream, [u.common_base_rad; 3]))
         * turned(normal(stream, [u.level_rad, u.level_rad, u.azimuth_rad]));
@@ -59,7 +65,7 @@ fn read(stream: &mut Stream, certified: &[Position], u: &InputUncertainty) -> Ve
             let returned = turned(normal(stream, [u.repeatability_rad; 3]));
             let attitude = returned * platform * real * base;
             let there = [with_attitude(position, &attitude)];
-            let exact = currents(&setup(&there, latitude_deg), &gvk_6())[0];
+            let exact = currents(&setup(&there, latitude_deg), gyro)[0];
             for _ in 0..ROWS {
                 let current_ma = exact.zip_map(&of_meter, |j, error| {
                     let own = u.meter.own_variance_ma2(j).sqrt() * error + u.meter.noise_ma * stream.normal();
@@ -72,8 +78,8 @@ fn read(stream: &mut Stream, certified: &[Position], u: &InputUncertainty) -> Ve
     readings
 }
 
-#[test]
-fn uncertainties_cover_what_they_state() {
+/// Returns a stand as certified, and the uncertainties of everything that [`read`] draws.
+pub(super) fn inputs() -> (Vec<Position>, InputUncertainty) {
     let arcsec = radians_from_arcseconds;
     let u = InputUncertainty {
         angles_rad: (0..8).map(|place| [4.0, 3.0, 6.0 + f64::from(place)].map(arcsec)).collect(),
@@ -92,7 +98,12 @@ fn uncertainties_cover_what_they_state() {
         visit_deg_per_h: Some(0.0),
         ..u
     };
-    let certified = drawn_stand(&mut Stream::new(21), 5.0);
+    (drawn_stand(&mut Stream::new(21), 5.0), u)
+}
+
+#[test]
+fn uncertainties_cover_what_they_state() {
+    let (certified, u) = inputs();
     let earth = EarthRate::at_astronomic_latitude(LATITUDE_DEG);
     let setup = dtg_passport::calibration::Setup::new(&certified, earth, u.clone()).unwrap();
     let trials = 10_000;
@@ -104,7 +115,7 @@ fn uncertainties_cover_what_they_state() {
         let (mut improbable, mut scattered, mut noisy) = (0_u64, 0_u64, 0_u64);
         let (mut residuals, mut differences) = (Summary::default(), Summary::default());
         for _ in 0..trials {
-            let readings = Readings::of_rows(setup.coefficients(), &read(stream, &certified, &u)).unwrap();
+            let readings = Readings::of_rows(setup.coefficients(), &read(stream, &certified, &u, &gvk_6())).unwrap();
             let found = calibrate(&setup, &readings, &options).unwrap();
             for (errors, result) in errors.iter_mut().zip(&found.results) {
                 let nominal = gvk_6().to_vector();

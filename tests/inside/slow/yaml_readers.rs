@@ -407,7 +407,7 @@ const KEYS: &[&str] = &[
     "format", "passport", "id", "revision", "issued_at", "issuer", "valid_until", "issued_with", "reissued_from",
     "sha256", "reason", "changed", "supersedes", "stand", "manufacturer", "model", "serial", "configuration", "name",
     "customer", "certificate", "number", "issued", "performed", "received", "valid_until_basis", "laboratory",
-    "address", "authorized_by", "accreditation", "method", "traceability", "temperature_c", "temperature_range_c",
+    "address", "authorized_by", "accreditation", "method", "traceability", "references", "cmc_arcsec", "temperature_c", "temperature_range_c",
     "repeatability_arcsec", "repeatability_degrees_of_freedom", "common_platform_arcsec", "common_base_arcsec",
     "type_b", "acts_on", "u_arcsec", "evidence", "readings_sha256", "runs", "excluded", "run", "why", "datum", "level", "azimuth", "gyro_seat", "positions", "i", "j", "theta_deg", "phi_deg", "alpha_arcsec",
     "beta_arcsec", "gamma_arcsec", "u_alpha_arcsec", "u_beta_arcsec", "u_gamma_arcsec", "degrees_of_freedom", "site",

@@ -20,7 +20,7 @@ use crate::calibration::verdict::{Decision, Verdict};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
-use crate::report::calibration::{Report, causes, counted, not_linear, why_no_change};
+use crate::report::calibration::{Report, causes, counted, not_linear, rule, why_no_change};
 use crate::report::doc::{Block, listed, marked, outcome_box, say, told};
 use crate::report::style::Outcome;
 use crate::report::uncertainty;
@@ -261,7 +261,7 @@ impl CalibrationPage<'_> {
         });
         let mut words = vec![counted_in_all(verdict, texts::passed, self.not_in_u())];
         words.extend(of_change);
-        words.extend([self.not_linear(), self.implausible(), say([texts::RULE])]);
+        words.extend([self.not_linear(), self.implausible(), say([rule(verdict)])]);
         outcome_box(verdict.with_change(change), name, words)
     }
 
@@ -290,7 +290,7 @@ fn counted_in_all(
     passed: fn(usize, usize) -> Words,
     then: impl IntoIterator<Item = Words>,
 ) -> Block {
-    let mut all = vec![counted(verdict, |row| row.guarded, passed)];
+    let mut all = vec![counted(verdict, |row| row.decision, passed)];
     let not_found = verdict.not_found();
     if !not_found.is_empty() {
         all.extend(["; ".into(), texts::not_in_the_model(symbols(not_found))]);
