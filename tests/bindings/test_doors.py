@@ -15,7 +15,7 @@ import dtg_passport
 import pytest
 from conftest import PROGRAM, PROJECT, Corpus, Registers
 
-QUESTIONS, PASSPORTS = 300, 200
+QUESTIONS, PASSPORTS = int(os.environ.get("QUESTIONS", 300)), int(os.environ.get("PASSPORTS", 200))
 KEYS = ("valid", "id", "not_asked", "remarks", "checks")
 
 
@@ -35,7 +35,10 @@ class Asked:
     def __init__(self, folder: Path, corpus: Corpus, registers: Registers) -> None:
         draw = random.Random(57)
         self.signers = folder / "allowed_signers"
-        self.signers.write_bytes(corpus.signers.read_bytes() + registers.signers.read_bytes() + b"old@example.org ssh-rsa AAAAB3NzaC1yc2EAAAADAQABAAAAQQC7\n")
+        # A key of another type is skipped with a remark.
+        subprocess.run(["ssh-keygen", "-q", "-t", "ecdsa", "-N", "", "-f", folder / "other"], check=True)
+        other = b"other@example.org " + (folder / "other.pub").read_bytes()
+        self.signers.write_bytes(corpus.signers.read_bytes() + registers.signers.read_bytes() + other)
         others = [asked.passport for asked in registers.asked]
         chosen = [*dict.fromkeys(others), *draw.sample(corpus.good, 110), *draw.sample(corpus.altered, 100)][:PASSPORTS]
         assert len(chosen) == PASSPORTS
