@@ -79,6 +79,35 @@ int dtg_matrix(const dtg_passport *passport,
                double *out);
 
 /*
+ Copies numbers of the passport row by row into `out`, which has room for `length` of them; NaN where nothing is stated.
+
+ `name` is "gravity" (m/s^2), the key of a matrix as in dtg_matrix, or with a row for each position "ij", "angles" (nominal
+ theta and phi, degrees), "n" (g), "omega" (deg/h), "deviations" or "u_deviations" (arcsec; alpha, beta, gamma). Returns
+ DTG_OK; DTG_UNUSABLE if the name is unknown, if the numbers are not `length`, or if an argument is NULL.
+ */
+int dtg_array(const dtg_passport *passport,
+              const char *name,
+              double *out,
+              size_t length);
+
+/*
+ Returns the content of the passport as JSON, the keys of the file without `signature`, to be freed with dtg_string_free; NULL
+ if `passport` is NULL.
+ */
+char *dtg_content(const dtg_passport *passport);
+
+/*
+ Returns the SHA-256 of the whole file in lower-case hexadecimal, which lives as long as the passport; NULL if `passport` is
+ NULL.
+ */
+const char *dtg_sha256(const dtg_passport *passport);
+
+/*
+ Returns the version of this library.
+ */
+const char *dtg_version(void);
+
+/*
  Returns the number of positions, or 0 if `passport` is NULL.
  */
 size_t dtg_positions(const dtg_passport *passport);
@@ -101,15 +130,17 @@ int dtg_position(const dtg_passport *passport,
  `currents_csv` is the content of a CSV file with the columns i, j, jx_ma, jy_ma, and if present cycle, visit, time_s.
  `order_json` is NULL or JSON, `{"method": "least-squares", "model": "paper", "anisoelasticity": false, "drift": false,
  "exclude": [{"i": 2, "j": 4, "visit": 1, "cycle": 3, "why": "door opened"}], "laboratory": {…}, "gyro": {…},
- "gyro_serial": "4711", "operator": "A. Ivanova", "date": "2026-11-20", "temperature_c": 21.5, "previous": [{…}]}`; every
- key may be absent. `method` may also be "analytic" or "iterative", `model` "general". `laboratory` and `gyro` have the
- keys of the files dtg-laboratory/1 and dtg-gyro/1. Without a laboratory the uncertainties are those of the paper's
- meter, 0.015 % of the reading. Without a gyro type there is no verdict, and most errors such as currents in another unit
- are not recognised: `not_tested` in the result lists them. `previous` are earlier results of the same gyro.
+ "gyro_serial": "4711", "operator": "A. Ivanova", "date": "2026-11-20", "temperature_c": 21.5, "previous": [{…}], "budget":
+ false}`; every key may be absent. `method` may also be "analytic" or "iterative", `model` "general". `laboratory` and `gyro`
+ are the files dtg-laboratory/1 and dtg-gyro/1: their text, YAML or JSON, or an object. Without a laboratory the
+ uncertainties are those of the meter that `assumed_meter` in the result names. Without a gyro type there is no verdict, and
+ most errors such as currents in another unit are not recognised: `not_tested` in the result lists them. `previous` are
+ earlier results of the same gyro. `budget` in the result is the budget of the uncertainty.
 
  `result_json`, unless NULL, receives a text to be freed with dtg_string_free: the JSON of the command `calibrate`,
- or `{"error": …}` as from dtg_load. Returns DTG_OK; DTG_REFUSED if the readings do not give a result; DTG_UNUSABLE if
- an argument, the order or a current cannot be used.
+ or `{"error": …}` as from dtg_load. Returns DTG_OK; DTG_REFUSED if the readings do not give a result, or with the result
+ if it is not valid: the readings do not fit the stand, or an error explains the parameters; DTG_UNUSABLE if an argument, the
+ order or a current cannot be used.
  */
 int dtg_calibrate_csv(const dtg_passport *passport,
                       const char *currents_csv,
@@ -117,7 +148,7 @@ int dtg_calibrate_csv(const dtg_passport *passport,
                       char **result_json);
 
 /*
- Calibrates a gyro with the paper's meter, as dtg_calibrate_csv does.
+ Calibrates a gyro as dtg_calibrate_csv does without a laboratory: `assumed_meter` in the result names the meter.
 
  `currents` has `rows` rows of four numbers: i, j, and the currents along x and y in mA. `method` is NULL or
  "least-squares", "analytic", "iterative".
@@ -140,6 +171,13 @@ int dtg_calibrate(const dtg_passport *passport,
 int dtg_parameters(const char *result_json,
                    double *value,
                    double *u);
+
+/*
+ Copies the covariance of the parameters of a result, 8 rows of 8, in the order and units of dtg_parameters; NaN for omega_g and
+ omega_k in the general model. Returns as dtg_parameters does.
+ */
+int dtg_covariance(const char *result_json,
+                   double *out);
 
 /*
  Frees a passport; NULL is allowed.

@@ -174,7 +174,7 @@ impl GyroType {
     ///
     /// # Errors
     /// Returns [`crate::text::Unreadable`] with the line, column and field of every error.
-    #[cfg(feature = "factory")]
+    #[cfg(feature = "yaml")]
     pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, crate::text::Unreadable> {
         crate::text::yaml::read_document(name, bytes, |gyro: &Self, problems| gyro.check(&Path::Root, problems))
     }

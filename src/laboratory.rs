@@ -81,7 +81,7 @@ impl Laboratory {
     ///
     /// # Errors
     /// Returns [`crate::text::Unreadable`] with the line, column and field of every error.
-    #[cfg(feature = "factory")]
+    #[cfg(feature = "yaml")]
     pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, crate::text::Unreadable> {
         crate::text::yaml::read_document(name, bytes, |laboratory: &Self, problems| {
             laboratory.check(&Path::Root, problems);

@@ -9,7 +9,7 @@
 //! The whole chain, stand → passport → signed text → verified → matrices:
 //!
 //! ```
-//! use dtg_passport::passport::{Question, Trust, issue, verify};
+//! use dtg_passport::passport::{Question, Trust, accept, issue};
 //! use dtg_passport::signing::allowed_signers_line;
 //! use dtg_passport::trust::{AllowedSigners, SigningKey};
 //! use dtg_passport::{site::Site, stand::Stand};
@@ -27,8 +27,7 @@
 //! let line = allowed_signers_line("factory@example.org", &key.public_key())?;
 //! let trust = Trust::of(AllowedSigners::parse("allowed_signers", line.as_bytes())?);
 //! let question = Question { serial: Some("0017".into()), ..Question::at("2026-12-01T00:00:00Z".parse()?) };
-//! let answer = verify("moscow-bmstu-1.yaml", passport.as_bytes(), &trust, &question);
-//! let passport = answer.passport().ok_or("a check failed: see answer.checks()")?;
+//! let passport = accept("moscow-bmstu-1.yaml", passport.as_bytes(), &trust, &question)?;
 //! let matrices = passport.coefficients().matrices.ok_or("not all of the eight positions")?;
 //! assert!((matrices.b_deg_per_h.m12 - 16.9235).abs() < 1e-4);
 //! # Ok(())
@@ -45,7 +44,7 @@
 //! | [`bibliography`] | the papers and standards that formulas link to | |
 //! | `units` | angles and rates: the one place that converts | |
 //! | `parallel` | the same work on many things at once | |
-//! | [`text`] | one canonical form out and in, tables, errors that point into the file; hand-written YAML with `factory` | |
+//! | [`text`] | one canonical form out and in, tables, errors that point into the file; hand-written YAML with `yaml` | |
 //! | [`trust`] | signatures, allowed signers, revocation: bytes and time in, a verdict out; private keys with `factory` | |
 //! | `document` | a signed text: split, checked, parsed, joined | |
 //! | [`attitude`] | eq. (3), (4): A, E, Ã | |

@@ -236,7 +236,7 @@ impl Stand {
     ///
     /// # Errors
     /// Returns [`crate::text::Unreadable`] with the line, column and field of every error.
-    #[cfg(feature = "factory")]
+    #[cfg(feature = "yaml")]
     pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, crate::text::Unreadable> {
         let read = crate::text::yaml::read_document(name, bytes, |stand: &Self, problems| {
             check(&stand.certificate, &stand.positions, problems);

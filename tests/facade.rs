@@ -210,7 +210,8 @@ fn calibrated(currents: &str, order: &interface::Order) -> serde_json::Value {
         ("run.csv", currents.as_bytes()),
         order,
     );
-    serde_json::from_str(&found.unwrap().json).unwrap()
+    let found = found.unwrap_or_else(|failed| failed.result.unwrap());
+    serde_json::from_str(&found).unwrap()
 }
 
 /// Returns a run of `turn_ons`, each with `visits` of `count` rows to each position, whose currents are those of

@@ -8,7 +8,8 @@ const here = (name) => readFileSync(new URL(name, import.meta.url), "utf8");
 const digest = (text) => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
 
 const compressed = gzipSync(readFileSync(wasm), { level: 9 }).toString("base64");
-const module = here("dtg_passport.mjs").replace("@WASM@", () => compressed);
+const [, version] = here("Cargo.toml").match(/^version = "(.*)"$/m);
+const module = here("dtg_passport.mjs").replace("@WASM@", () => compressed).replace("@VERSION@", version);
 writeFileSync(`${folder}/dtg_passport.mjs`, module);
 copyFileSync(new URL("dtg_passport.d.mts", import.meta.url), `${folder}/dtg_passport.d.mts`);
 

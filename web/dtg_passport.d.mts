@@ -1,3 +1,6 @@
+/** Version of this module. */
+export const version: string;
+
 /** Bytes of a file; of allowed_signers, currents, lists of revoked keys and registers also the text. */
 export type Bytes = Uint8Array | ArrayBuffer;
 
@@ -26,10 +29,10 @@ export interface Order {
     anisoelasticity?: boolean;
     drift?: boolean;
     exclude?: { i: number; j: number; visit: number; cycle?: number; why: string }[];
-    /** The keys of a file dtg-laboratory/1; default: the paper's meter. */
-    laboratory?: object;
-    /** The keys of a file dtg-gyro/1; default: no verdict. */
-    gyro?: object;
+    /** A file dtg-laboratory/1: its text, YAML or JSON, or an object; default: the paper's meter. */
+    laboratory?: object | string;
+    /** A file dtg-gyro/1: its text, YAML or JSON, or an object; default: no verdict. */
+    gyro?: object | string;
     gyro_serial?: string;
     operator?: string;
     /** Day of the readings, YYYY-MM-DD. */
@@ -38,6 +41,8 @@ export interface Order {
     temperature_c?: number;
     /** Earlier results of the same gyro. */
     previous?: Calibration[];
+    /** Add the budget of the uncertainty to the result. */
+    budget?: boolean;
 }
 
 /** Register of a stand, by which a passport was checked. */
@@ -50,43 +55,112 @@ export interface Register {
     fresh_until: string | null;
 }
 
+export type CheckName =
+    | "grammar" | "signature" | "schema" | "signer" | "revocation" | "recomputed" | "in_force" | "issuer" | "stand"
+    | "place" | "register";
+
+/** Results of checks; further ones may follow. */
+export type Code =
+    | "ok" | "not_run" | "not_asked" | "unreadable" | "malformed" | "unsupported_key" | "altered" | "wrong_namespace"
+    | "bad_content" | "newer_format" | "unknown_key" | "wrong_principal" | "key_not_yet_valid" | "key_expired"
+    | "key_revoked" | "wrong_number" | "not_yet_valid" | "expired" | "wrong_issuer" | "wrong_stand" | "wrong_place"
+    | "withdrawn" | "superseded" | "moved" | "not_listed" | "register_stale" | "register_older"
+    | "register_contradicted" | "register_unknown"
+    | (string & {});
+
 export interface Verdict {
     valid: boolean;
     id: string | null;
     /** Names of the checks that the question did not request. */
-    not_asked: string[];
+    not_asked: CheckName[];
     /** What else to show. */
     remarks: string[];
     /** Register that was asked and accepted; absent otherwise. */
     register?: Register;
-    checks: { name: string; passed: boolean | null; code: string; detail: string }[];
+    checks: { name: CheckName; passed: boolean | null; code: Code; detail: string }[];
 }
 
-/**
- * The JSON of `calibrate`, described in docs/commands.md. Use the parameters only if `consistent` is true and `mistake` is
- * absent; `remarks` has what else to show.
- */
-export interface Calibration {
-    consistent: boolean;
-    mistake?: object;
-    /** Errors that were not looked for, because the order has no gyro type. */
-    not_tested?: string[];
-    register?: Register;
-    remarks?: string[];
-    verdict?: { overall: "pass" | "fail" | "undecided"; [key: string]: unknown };
-    results: { [key: string]: any }[];
+/** Content of a passport: the keys of the file but `signature`, described in docs/keys.md, and the SHA-256 of the file. */
+export interface Content {
+    sha256: string;
+    passport: { id: string; revision: number; issued_at: string; issuer: string; valid_until?: string; [key: string]: unknown };
+    stand: { model: string; serial: string; [key: string]: unknown };
+    site: { id: string; [key: string]: unknown };
+    earth: { latitude_deg: number; gravity_m_per_s2: number; [key: string]: unknown };
+    positions: {
+        i: number; j: number; theta_deg: number; phi_deg: number;
+        alpha_arcsec: number; beta_arcsec: number; gamma_arcsec: number; [key: string]: unknown;
+    }[];
+    vectors: { i: number; j: number; specific_force_g: [number, number]; omega_deg_per_h: [number, number]; [key: string]: unknown }[];
+    /** Absent without the paper's eight positions. */
+    matrices?: { [key: string]: [[number, number], [number, number]] };
     [key: string]: unknown;
 }
 
-// Unusable input throws an Error with `cause: {code, message, problems}`; a refusal, one with `cause: {valid, id, checks}`.
+/** Values of a method, or their standard uncertainties; a key without a value is absent. */
+export interface Values {
+    k_deg_per_h_per_ma: [[number, number], [number, number]];
+    omega0_deg_per_h: [number, number];
+    omega_n_deg_per_h_per_g?: [[number, number], [number, number]];
+    omega_g_deg_per_h_per_g?: number;
+    omega_k_deg_per_h_per_g?: number;
+    g_matrix_deg_per_h_per_g?: [[number, number, number], [number, number, number]];
+    drift_deg_per_h_per_h?: [number, number];
+    anisoelasticity_deg_per_h_per_g2?: number;
+}
+
+export interface Result extends Values {
+    method: "least-squares" | "analytic" | "iterative";
+    model: "paper" | "general";
+    standard_uncertainty: Values;
+    chi_square: { value: number; degrees_of_freedom: number; probability?: number; uncertainty_degrees_of_freedom?: number };
+    residuals_deg_per_h?: { i: number; j: number; x: number; y: number; u_x?: number; u_y?: number }[];
+    [key: string]: unknown;
+}
+
+/** A parameter of a gyro; lists and the covariance have this order. */
+export type Parameter = "k_x" | "k_xy" | "k_yx" | "k_y" | "omega_0x" | "omega_0y" | "omega_g" | "omega_k";
+
+export type Decision = "pass" | "fail" | "undecided";
+
+/** The JSON of `calibrate`, described in docs/commands.md; `remarks` has what else to show. */
+export interface Calibration {
+    passport_id: string;
+    passport_verified: boolean;
+    register?: Register;
+    gravity_m_per_s2: number;
+    /** Meter whose uncertainty is assumed, because the order has no laboratory. */
+    assumed_meter?: string;
+    /** `false` only in the `cause` of an Error. */
+    consistent: boolean;
+    /** Only in the `cause` of an Error. */
+    mistake?: object;
+    /** Those without a key are unlimited. */
+    degrees_of_freedom?: { [parameter: string]: number };
+    /** Covariance of the eight parameters; null for omega_g and omega_k in the general model. */
+    covariance: (number | null)[][];
+    results: [Result, ...Result[]];
+    not_stated?: string[];
+    /** Errors that were not looked for, because the order has no gyro type. */
+    not_tested?: string[];
+    causes?: { kind: string; words: string; [key: string]: unknown }[];
+    remarks?: string[];
+    verdict?: { overall: Decision; parameters: { parameter: Parameter; [key: string]: unknown }[]; [key: string]: unknown };
+    change?: { overall: Decision; [key: string]: unknown };
+    budget?: { [key: string]: unknown };
+    [key: string]: unknown;
+}
+
+// Unusable input throws an Error with `cause: {code, message, problems}`; a refusal, one with `cause: {valid, id, checks}`; a
+// calibration whose result is not valid, one with the Calibration as `cause`.
 
 /** Verifies a passport with the keys of an OpenSSH allowed_signers file. */
 export function verify(passport: Bytes, allowedSigners: string | Bytes, question?: Question): Promise<Verdict>;
-/** Verifies a passport and returns its content: the keys of the file but `signature`. Throws if a check failed. */
-export function content(passport: Bytes, allowedSigners: string | Bytes, question?: Question): Promise<{ [key: string]: any }>;
+/** Verifies a passport and returns its content. Throws if a check failed. */
+export function content(passport: Bytes, allowedSigners: string | Bytes, question?: Question): Promise<Content>;
 /** Verifies a passport and returns it in printed form, one HTML document. Throws if the passport is not authentic. */
 export function print(passport: Bytes, allowedSigners: string | Bytes, question?: Question): Promise<string>;
-/** Verifies a passport and calibrates a gyro from currents as CSV. Throws if refused. */
+/** Verifies a passport and calibrates a gyro from currents as CSV. Throws if refused, or if the result is not valid. */
 export function calibrate(
     passport: Bytes, allowedSigners: string | Bytes, currents: string | Bytes, question?: Question, order?: Order | string,
 ): Promise<Calibration>;

@@ -9,6 +9,8 @@
 
 const WASM = "@WASM@"; // base64 of the module, compressed with gzip
 
+export const version = "@VERSION@";
+
 let module;
 
 async function compiled() {
@@ -73,11 +75,12 @@ function parsed(text) {
     return found;
 }
 
-/** Calls a function that verifies first; throws if a check failed. */
+/** Calls a function that verifies first; throws if a check failed, or the result of a calibration is not valid. */
 async function accepted(...inputs) {
     const text = await call(...inputs);
     const found = text.startsWith("{") ? parsed(text) : text;
-    const { valid, id, checks } = found;
+    const { valid, id, checks, consistent, mistake, remarks } = found;
+    if (consistent === false || mistake !== undefined) throw new Error(`not valid: ${remarks.join("\n")}`, { cause: found });
     if (valid !== false || !Array.isArray(checks)) return found;
     const failed = checks.filter((check) => check.passed === false);
     const words = failed.map(({ name, code, detail }) => `${name} (${code}): ${detail}`).join("\n");

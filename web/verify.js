@@ -43,8 +43,7 @@ function numbers({ matrices, vectors, positions }) {
     return parts;
 }
 
-function parameters({ consistent, mistake, verdict, remarks = [], results: [found] }) {
-    const unusable = !consistent || mistake !== undefined;
+function parameters({ verdict, remarks = [], assumed_meter, results: [found] }) {
     const rows = [];
     const u = found.standard_uncertainty;
     for (const [key, unit] of [["k_deg_per_h_per_ma", "°/(h·mA)"], ["omega0_deg_per_h", "°/h"],
@@ -53,7 +52,7 @@ function parameters({ consistent, mistake, verdict, remarks = [], results: [foun
         if (found[key] !== undefined) rows.push([key, [found[key]].flat(2).join("  "), [u[key]].flat(2).join("  "), unit]);
     }
     const { value, degrees_of_freedom, probability } = found.chi_square;
-    const said = remarks.map((words, place) => element(unusable && place === 0 ? "strong" : "p", words));
+    const said = [...remarks, ...(assumed_meter ? [`Meter: ${assumed_meter}`] : [])].map((words) => element("p", words));
     if (verdict) said.push(element("p", `Decision for the gyro type: ${verdict.overall}`));
     return [element("h2", `Calibration by ${found.method}`), ...said,
         table(["parameter", "value", "u (k = 1)", "unit"], rows),

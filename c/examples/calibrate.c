@@ -80,10 +80,10 @@ int main(int argc, char **argv) {
     char *result = NULL;
     code = dtg_calibrate_csv(passport, csv, argc == 5 ? argv[4] : NULL, &result);
     puts(result);
-    double value[8], u[8]; /* K_x, K_xy, K_yx, K_y, omega_0x, omega_0y, omega_g, omega_k */
+    double value[8], u[8]; /* k_x, k_xy, k_yx, k_y, omega_0x, omega_0y, omega_g, omega_k */
     int usable = code == DTG_OK && dtg_parameters(result, value, u) == DTG_OK;
-    if (code == DTG_OK && !usable) {
-        fputs("WARNING: do not use these parameters; the remarks of the result say why\n", stderr);
+    if (code == DTG_REFUSED) {
+        fputs("do not use these parameters; the remarks of the result say why\n", stderr);
     }
     dtg_string_free(result);
 

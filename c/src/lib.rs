@@ -5,7 +5,7 @@
 
 #![allow(unsafe_op_in_unsafe_fn)]
 
-use passports::interface::{Enquiry, Failed, calibrate, matrix, parameters};
+use passports::interface::{Enquiry, Failed, array, calibrate, content_json, covariance, matrix, parameters};
 use passports::jiff::Timestamp;
 use passports::passport::{Content, RegisterUsed};
 use passports::text::LARGEST_DOCUMENT_BYTES;
@@ -29,6 +29,7 @@ pub const DTG_UNUSABLE: c_int = 2;
 #[allow(non_camel_case_types)]
 pub struct dtg_passport {
     content: Content,
+    sha256: CString,
     verified_as_of: Timestamp,
     register: Option<RegisterUsed>,
 }
@@ -96,7 +97,8 @@ unsafe fn loaded<'a>(
         let answer = enquiry.verify(&name, &passport);
         let Some(passport) = answer.verification.passport() else { return Ok((DTG_REFUSED, answer.to_json())) };
         let register = answer.verification.register().cloned();
-        let passport = dtg_passport { content: passport.content().clone(), verified_as_of: answer.time, register };
+        let (content, sha256) = (passport.content().clone(), CString::new(passport.sha256()).unwrap_or_default());
+        let passport = dtg_passport { content, sha256, verified_as_of: answer.time, register };
         give(out, Box::into_raw(Box::new(passport)));
         Ok((DTG_OK, answer.to_json()))
     })
@@ -118,6 +120,57 @@ pub unsafe extern "C" fn dtg_matrix(passport: *const dtg_passport, key: *const c
         out.copy_from_slice(rows.as_flattened());
         Ok((DTG_OK, String::new()))
     })
+}
+
+/// Copies numbers of the passport row by row into `out`, which has room for `length` of them; NaN where nothing is stated.
+///
+/// `name` is "gravity" (m/s^2), the key of a matrix as in dtg_matrix, or with a row for each position "ij", "angles" (nominal
+/// theta and phi, degrees), "n" (g), "omega" (deg/h), "deviations" or "u_deviations" (arcsec; alpha, beta, gamma). Returns
+/// DTG_OK; DTG_UNUSABLE if the name is unknown, if the numbers are not `length`, or if an argument is NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dtg_array(
+    passport: *const dtg_passport,
+    name: *const c_char,
+    out: *mut c_double,
+    length: usize,
+) -> c_int {
+    guarded(ptr::null_mut(), || {
+        let (name, passport) = (text(name, "name")?, given(passport, "passport")?);
+        let numbers = array(&passport.content, name).filter(|numbers| numbers.len() == length);
+        let numbers = numbers.ok_or_else(|| Failed::unusable("unknown name, or another length"))?;
+        room(out, length, "out")?.copy_from_slice(&numbers);
+        Ok((DTG_OK, String::new()))
+    })
+}
+
+/// Returns the content of the passport as JSON, the keys of the file without `signature`, to be freed with dtg_string_free; NULL
+/// if `passport` is NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dtg_content(passport: *const dtg_passport) -> *mut c_char {
+    let mut json = ptr::null_mut();
+    let code = guarded(&raw mut json, || Ok((DTG_OK, content_json(&given(passport, "passport")?.content))));
+    if code == DTG_OK {
+        return json;
+    }
+    dtg_string_free(json);
+    ptr::null_mut()
+}
+
+/// Returns the SHA-256 of the whole file in lower-case hexadecimal, which lives as long as the passport; NULL if `passport` is
+/// NULL.
+#[unsafe(no_mangle)]
+pub extern "C" fn dtg_sha256(passport: Option<&dtg_passport>) -> *const c_char {
+    passport.map_or(ptr::null(), |passport| passport.sha256.as_ptr())
+}
+
+/// Returns the version of this library.
+#[unsafe(no_mangle)]
+pub extern "C" fn dtg_version() -> *const c_char {
+    const VERSION: &CStr = match CStr::from_bytes_with_nul(concat!(env!("CARGO_PKG_VERSION"), "\0").as_bytes()) {
+        Ok(version) => version,
+        Err(_) => c"",
+    };
+    VERSION.as_ptr()
 }
 
 /// Returns the number of positions, or 0 if `passport` is NULL.
@@ -154,15 +207,17 @@ pub unsafe extern "C" fn dtg_position(
 /// `currents_csv` is the content of a CSV file with the columns i, j, jx_ma, jy_ma, and if present cycle, visit, time_s.
 /// `order_json` is NULL or JSON, `{"method": "least-squares", "model": "paper", "anisoelasticity": false, "drift": false,
 /// "exclude": [{"i": 2, "j": 4, "visit": 1, "cycle": 3, "why": "door opened"}], "laboratory": {…}, "gyro": {…},
-/// "gyro_serial": "4711", "operator": "A. Ivanova", "date": "2026-11-20", "temperature_c": 21.5, "previous": [{…}]}`; every
-/// key may be absent. `method` may also be "analytic" or "iterative", `model` "general". `laboratory` and `gyro` have the
-/// keys of the files dtg-laboratory/1 and dtg-gyro/1. Without a laboratory the uncertainties are those of the paper's
-/// meter, 0.015 % of the reading. Without a gyro type there is no verdict, and most errors such as currents in another unit
-/// are not recognised: `not_tested` in the result lists them. `previous` are earlier results of the same gyro.
+/// "gyro_serial": "4711", "operator": "A. Ivanova", "date": "2026-11-20", "temperature_c": 21.5, "previous": [{…}], "budget":
+/// false}`; every key may be absent. `method` may also be "analytic" or "iterative", `model` "general". `laboratory` and `gyro`
+/// are the files dtg-laboratory/1 and dtg-gyro/1: their text, YAML or JSON, or an object. Without a laboratory the
+/// uncertainties are those of the meter that `assumed_meter` in the result names. Without a gyro type there is no verdict, and
+/// most errors such as currents in another unit are not recognised: `not_tested` in the result lists them. `previous` are
+/// earlier results of the same gyro. `budget` in the result is the budget of the uncertainty.
 ///
 /// `result_json`, unless NULL, receives a text to be freed with dtg_string_free: the JSON of the command `calibrate`,
-/// or `{"error": …}` as from dtg_load. Returns DTG_OK; DTG_REFUSED if the readings do not give a result; DTG_UNUSABLE if
-/// an argument, the order or a current cannot be used.
+/// or `{"error": …}` as from dtg_load. Returns DTG_OK; DTG_REFUSED if the readings do not give a result, or with the result
+/// if it is not valid: the readings do not fit the stand, or an error explains the parameters; DTG_UNUSABLE if an argument, the
+/// order or a current cannot be used.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dtg_calibrate_csv(
     passport: *const dtg_passport,
@@ -176,7 +231,7 @@ pub unsafe extern "C" fn dtg_calibrate_csv(
     })
 }
 
-/// Calibrates a gyro with the paper's meter, as dtg_calibrate_csv does.
+/// Calibrates a gyro as dtg_calibrate_csv does without a laboratory: `assumed_meter` in the result names the meter.
 ///
 /// `currents` has `rows` rows of four numbers: i, j, and the currents along x and y in mA. `method` is NULL or
 /// "least-squares", "analytic", "iterative".
@@ -219,6 +274,18 @@ pub unsafe extern "C" fn dtg_parameters(result_json: *const c_char, value: *mut 
     })
 }
 
+/// Copies the covariance of the parameters of a result, 8 rows of 8, in the order and units of dtg_parameters; NaN for omega_g and
+/// omega_k in the general model. Returns as dtg_parameters does.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dtg_covariance(result_json: *const c_char, out: *mut c_double) -> c_int {
+    guarded(ptr::null_mut(), || {
+        let out = room(out, 64, "out")?;
+        let (found, usable) = covariance(text(result_json, "result_json")?)?;
+        out.copy_from_slice(found.as_flattened());
+        Ok((if usable { DTG_OK } else { DTG_REFUSED }, String::new()))
+    })
+}
+
 /// Frees a passport; NULL is allowed.
 #[unsafe(no_mangle)]
 pub extern "C" fn dtg_free(passport: Option<Box<dtg_passport>>) {
@@ -235,7 +302,7 @@ pub unsafe extern "C" fn dtg_string_free(text: *mut c_char) {
 
 fn calibrated(passport: &dtg_passport, csv: &str, order: &str) -> Result<(c_int, String), Failed> {
     let verified = Some((passport.verified_as_of, passport.register.as_ref()));
-    Ok((DTG_OK, calibrate(&passport.content, verified, ("currents", csv.as_bytes()), &order.parse()?)?.json))
+    Ok((DTG_OK, calibrate(&passport.content, verified, ("currents", csv.as_bytes()), &order.parse()?)?))
 }
 
 /// Runs `work`, hands out its text, and returns its code. A panic becomes DTG_UNUSABLE.

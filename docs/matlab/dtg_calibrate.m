@@ -8,12 +8,12 @@ function c = dtg_calibrate(passport, signers, currents, varargin)
 % currents has rows i, j, J_x, J_y, currents in mA, or is the path of a CSV file, which may also have cycle, visit and
 % time_s. Options are those of dtg_load, and laboratory, gyro, model, anisoelasticity, drift, exclude, why, gyro-serial,
 % operator, date, temperature-c and previous (the path of an earlier result) of `dtg-passport calibrate`. Without a
-% laboratory the uncertainties are those of the paper's meter. c has K (deg/(h*mA)), omega_0 (deg/h), omega_g and omega_k
+% laboratory the uncertainties are those of c.document.assumed_meter. c has K (deg/(h*mA)), omega_0 (deg/h), omega_g and omega_k
 % (deg/h per local g) or in the general model G, u with their standard uncertainties, and document with everything that
 % `dtg-passport calibrate --format json` prints.
 %
-% The warning dtg:inconsistent means that the readings do not fit the stand, and dtg:mistake that an error such as currents
-% in another unit explains the parameters; they are then not valid. Other remarks are warnings dtg:remark.
+% The error dtg:inconsistent means that the readings do not fit the stand, and dtg:mistake that an error such as currents in
+% another unit explains the parameters. Other remarks are warnings dtg:remark.
     file = currents;
     if ~ischar(currents) && ~isa(currents, 'string')
         if ~isnumeric(currents) || ~isreal(currents)
@@ -36,16 +36,13 @@ function c = dtg_calibrate(passport, signers, currents, varargin)
     if isfield(c.document, 'remarks')
         remarks = cellstr(c.document.remarks);
     end
-    ids = repmat({'dtg:remark'}, size(remarks));
-    % The first remark says why the parameters are not valid.
     if ~c.document.consistent
-        ids{1} = 'dtg:inconsistent';
+        error('dtg:inconsistent', '%s', strjoin(remarks(:)', '\n'));
     elseif isfield(c.document, 'mistake')
-        ids{1} = 'dtg:mistake';
+        error('dtg:mistake', '%s', strjoin(remarks(:)', '\n'));
     end
-    % It comes last, where lastwarn finds it.
-    for k = numel(remarks):-1:1
-        warning(ids{k}, '%s', remarks{k});
+    for k = 1:numel(remarks)
+        warning('dtg:remark', '%s', remarks{k});
     end
     c.u = parameters(struct(), c.document.results.standard_uncertainty);
     c = parameters(c, c.document.results);

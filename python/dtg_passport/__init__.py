@@ -16,10 +16,10 @@ array([[1.20000e-03, 1.69235e+01],
 '10.0003 +- 0.0013 deg/h/g'
 """
 
-from ._calibration import Calibration, MonteCarlo, Parameters
+from ._calibration import Calibration, MonteCarlo, NotValid, Parameters, table
 from ._dtg_passport import __version__ as __version__
 from ._factory import Issued, Plan, issue, plan
-from ._load import load, load_many, load_unverified, loads, verify
+from ._load import load, load_many, load_unverified, loads, verify, verify_many
 from ._passport import Check, Passport, Position, Refused, SelfCheck, Verification
 
 __all__ = [
@@ -27,6 +27,7 @@ __all__ = [
     "Check",
     "Issued",
     "MonteCarlo",
+    "NotValid",
     "Parameters",
     "Passport",
     "Plan",
@@ -40,5 +41,7 @@ __all__ = [
     "load_unverified",
     "loads",
     "plan",
+    "table",
     "verify",
+    "verify_many",
 ]

@@ -5,16 +5,17 @@ from __future__ import annotations
 import contextlib
 import json
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _dtg_passport
-from ._common import Array, Frozen, frozen, optional, whole
+from ._common import Array, Frozen, frozen, optional, whole, whole_numbers
 
-NAMES = ("K_x", "K_xy", "K_yx", "K_y", "ω_0x", "ω_0y", "ω_g", "ω_k")
-"""Order of the eight parameters."""
+NAMES = ("k_x", "k_xy", "k_yx", "k_y", "omega_0x", "omega_0y", "omega_g", "omega_k")
+"""Names and order of the eight parameters."""
 
 
 class Parameters(NamedTuple):
@@ -42,7 +43,7 @@ class MonteCarlo(NamedTuple):
     shortest: tuple[Parameters, Parameters]
     """Ends of the shortest 95 % coverage intervals."""
     covariance: Array
-    """Covariance of K_x, K_xy, K_yx, K_y, omega_0x, omega_0y, omega_g, omega_k, shape (8, 8)."""
+    """Covariance of k_x, k_xy, k_yx, k_y, omega_0x, omega_0y, omega_g, omega_k, shape (8, 8)."""
     trials: int
     """Number of trials made."""
     stable: bool
@@ -65,16 +66,46 @@ def _eight(values: list[float]) -> Parameters:
     return Parameters(frozen(values[:4], 2, 2), frozen(values[4:6], 2), *values[6:])
 
 
+def eight(of: Any) -> list[float]:
+    """Return the numbers of K (2, 2), omega_0 (2,), omega_g and omega_k in the order of `NAMES`."""
+    numbers = [np.asarray(part, dtype=np.float64).ravel() for part in of]
+    if [len(part) for part in numbers] != [4, 2, 1, 1]:
+        raise ValueError("expected K of shape (2, 2), omega_0 of shape (2,), omega_g and omega_k")
+    return list(np.concatenate(numbers).tolist())
+
+
 class Calibration(Frozen):
     """Result of `Passport.calibrate`: parameters, their uncertainty, and the fit. It cannot be changed."""
 
-    __slots__ = ("_document", "_result", "_covariance", "_draw")
+    __slots__ = ("_document", "_result", "_draw")
     __module__ = "dtg_passport"
 
     _document: dict[str, Any]
     _result: dict[str, Any]
-    _covariance: Array
-    _draw: _dtg_passport.Distributions
+    _draw: _dtg_passport.Distributions | None
+
+    @classmethod
+    def from_json(cls, result: str | bytes) -> Calibration:
+        """Return a result that was kept: the JSON of `calibrate` of the program, or of `document`.
+
+        It has no `monte_carlo`, which needs the currents.
+
+        Raises:
+            NotValid: If the parameters are not those of the gyro, as `Passport.calibrate` does.
+            ValueError: If `result` is not such JSON.
+
+        Examples:
+            >>> import json
+            >>> passport = load("passports/SPS-2/0017/moscow-bmstu-1.yaml", "docs/allowed_signers", time="2026-11-20")
+            >>> kept = json.dumps(passport.calibrate("docs/currents.csv").document)
+            >>> Calibration.from_json(kept).omega_g.__round__(4)
+            10.0003
+        """
+        text = result if isinstance(result, str) else bytes(result).decode()
+        return judged(text, _dtg_passport.earlier(text), None)
+
+    def __reduce__(self) -> Any:
+        return Calibration.from_json, (json.dumps(self._document),)
 
     @property
     def parameters(self) -> Parameters:
@@ -108,8 +139,11 @@ class Calibration(Frozen):
 
     @property
     def covariance(self) -> Array:
-        """Covariance of K_x, K_xy, K_yx, K_y, omega_0x, omega_0y, omega_g, omega_k, shape (8, 8)."""
-        return self._covariance
+        """Covariance of k_x, k_xy, k_yx, k_y, omega_0x, omega_0y, omega_g, omega_k, shape (8, 8).
+
+        It is NaN for omega_g and omega_k in the general model, and in results of earlier versions.
+        """
+        return frozen(self._document.get("covariance", np.full((8, 8), np.nan)), 8, 8)
 
     @property
     def chi_square(self) -> float:
@@ -127,9 +161,9 @@ class Calibration(Frozen):
         return float(self._result["chi_square"].get("probability", np.nan))
 
     @property
-    def ij(self) -> Array:
-        """Indices of the positions to which the rows of `residuals` belong, shape (N, 2)."""
-        return frozen([[at["i"], at["j"]] for at in self._residuals], -1, 2)
+    def ij(self) -> npt.NDArray[np.int64]:
+        """Indices of the positions to which the rows of `residuals` belong, int64, shape (N, 2)."""
+        return whole_numbers([[at["i"], at["j"]] for at in self._residuals])
 
     @property
     def residuals(self) -> Array:
@@ -151,16 +185,21 @@ class Calibration(Frozen):
         return tuple(self._document.get("remarks", ()))
 
     @property
-    def consistent(self) -> bool:
-        """Whether the readings fit the stand. If not, the parameters are not valid, and `remarks` has possible causes.
+    def assumed_meter(self) -> str | None:
+        """Meter whose uncertainty is in `u` because no laboratory was stated, or None."""
+        return self._document.get("assumed_meter")
 
-        Use the parameters only if `mistake` is None too. Without degrees of freedom (`dof` 0) any readings fit.
+    @property
+    def consistent(self) -> bool:
+        """Whether the readings fit the stand; False only in `NotValid.result`, whose `remarks` have possible causes.
+
+        Without degrees of freedom (`dof` 0) any readings fit.
         """
         return bool(self._document["consistent"])
 
     @property
     def mistake(self) -> dict[str, Any] | None:
-        """Error that explains parameters far from the gyro's, such as currents in another unit, or None.
+        """Error that explains parameters far from the gyro's, such as currents in another unit; only in `NotValid.result`.
 
         The keys are those of `calibrate --format json`; `remarks` has it in words.
         """
@@ -208,7 +247,7 @@ class Calibration(Frozen):
 
         Raises:
             KeyboardInterrupt: If Ctrl-C ended the run.
-            ValueError: If an argument cannot be used.
+            ValueError: If an argument cannot be used, or if the result is from `from_json`.
 
         Examples:
             >>> passport = load("passports/SPS-2/0017/moscow-bmstu-1.yaml", "docs/allowed_signers", time="2026-11-20")
@@ -219,6 +258,8 @@ class Calibration(Frozen):
             >>> f"{low.omega_g:.3f} to {high.omega_g:.3f} deg/h/g"
             '9.998 to 10.003 deg/h/g'
         """
+        if self._draw is None:
+            raise ValueError("a result from JSON has no currents; calibrate again for a Monte Carlo")
         trials = None if trials is None else whole("trials", trials, 1, 10**12)
         seed = whole("seed", seed, 0, 2**64 - 1)
         threads = None if threads is None else whole("threads", threads, 1, 1024)
@@ -252,13 +293,12 @@ class Calibration(Frozen):
         Examples:
             >>> passport = load("passports/SPS-2/0017/moscow-bmstu-1.yaml", "docs/allowed_signers", time="2026-11-20")
             >>> found = passport.calibrate("docs/currents.csv").ufloats()
-            >>> print(found["K_x"])  # deg/(h*mA)
+            >>> print(found["k_x"])  # deg/(h*mA)
             94.994+/-0.011
         """
         uncertainties = optional("uncertainties", "uncertainties")
-        K, omega_0, omega_g, omega_k = self.parameters
-        values = (*K.ravel().tolist(), *omega_0.tolist(), omega_g, omega_k)
-        known = 6 if np.isnan(omega_g) else 8  # omega_g and omega_k come last
+        values = eight(self.parameters)
+        known = 6 if np.isnan(values[-1]) else 8  # omega_g and omega_k come last
         return dict(zip(NAMES, uncertainties.correlated_values(values[:known], self.covariance[:known, :known])))
 
     def plot(self, ax: Any = None) -> Any:
@@ -269,7 +309,7 @@ class Calibration(Frozen):
         for axis, (name, shift) in enumerate((("x", -0.1), ("y", 0.1))):
             ax.errorbar(places + shift, self.residuals[:, axis], 2.0 * u[:, axis], fmt="o", capsize=3, label=name)
         ax.axhline(0.0, color="grey", linewidth=0.5)
-        ax.set_xticks(places, [f"({i:.0f}, {j:.0f})" for i, j in self.ij])
+        ax.set_xticks(places, [f"({i}, {j})" for i, j in self.ij])
         ax.set(xlabel="position (i, j)", ylabel="residual, deg/h", title=self._document["passport_id"])
         ax.legend()
         return ax
@@ -279,3 +319,51 @@ class Calibration(Frozen):
         marks = ("" if self.verified else " NOT VERIFIED") + ("" if self.consistent else " NOT CONSISTENT")
         marks += "" if self.mistake is None else " NOT THIS GYRO"
         return f"<Calibration by {method} with {passport}{marks}>"
+
+
+class NotValid(Exception):
+    """A result whose parameters are not those of the gyro: the readings do not fit the stand, or an error explains them."""
+
+    __module__ = "dtg_passport"
+
+    result: Calibration
+    """The result, for its `remarks`, residuals and `document["causes"]`; do not use its parameters."""
+
+    def __init__(self, reason: str, result: Calibration) -> None:
+        super().__init__(reason, result)
+        self.result = result
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+def judged(text: str, not_valid: str | None, draw: _dtg_passport.Distributions | None) -> Calibration:
+    """Return the result in the JSON of `calibrate`, or raise `NotValid` with it."""
+    document = json.loads(text)
+    found = Calibration(document, document["results"][0], draw)
+    if not_valid is not None:
+        raise NotValid(not_valid, found)
+    return found
+
+
+def table(calibrations: Iterable[Calibration]) -> Any:
+    """Return results as a pandas DataFrame, a row for each: what was calibrated, the parameters, their uncertainties, the fit.
+
+    Examples:
+        >>> passport = load("passports/SPS-2/0017/moscow-bmstu-1.yaml", "docs/allowed_signers", time="2026-11-20")
+        >>> [row] = table([passport.calibrate("docs/currents.csv", gyro_serial="4711")]).itertuples()
+        >>> f"{row.gyro_serial}: {row.k_x:.3f} +- {row.u_k_x:.3f} deg/(h*mA)"
+        '4711: 94.994 +- 0.011 deg/(h*mA)'
+    """
+    rows = []
+    for found in calibrations:
+        subject, verdict = found._document.get("subject", {}), found._document.get("verdict", {})
+        rows.append(
+            {"gyro_serial": subject.get("gyro_serial"), "date": subject.get("date"),
+             "passport": found._document["passport_id"], "method": found._result["method"]}
+            | dict(zip(NAMES, eight(found.parameters)))
+            | {f"u_{name}": u for name, u in zip(NAMES, eight(found.u))}
+            | {"chi_square": found.chi_square, "dof": found.dof, "probability": found.probability,
+               "verdict": verdict.get("overall")}
+        )  # fmt: skip
+    return optional("pandas", "pandas").DataFrame(rows)

@@ -19,8 +19,8 @@ from . import _dtg_passport
 
 Path = str | os.PathLike[str]
 Array = npt.NDArray[np.float64]
-File = Path | Mapping[str, Any]
-"""A file of the factory or the laboratory: its path, or its content as a mapping."""
+File = Path | bytes | Mapping[str, Any]
+"""A file of the factory or the laboratory: its path, or its content as bytes or as a mapping."""
 
 
 class Frozen:
@@ -47,6 +47,11 @@ def array(data: bytes, *shape: int) -> Array:
 def frozen(values: Any, *shape: int) -> Array:
     """Return numbers as an array that stays read-only."""
     return array(np.array(values, dtype=np.float64).tobytes(), *shape)
+
+
+def whole_numbers(values: Any) -> npt.NDArray[np.int64]:
+    """Return pairs of indices as an array that stays read-only."""
+    return np.frombuffer(np.array(values, dtype=np.int64).tobytes(), dtype=np.int64).reshape(-1, 2)
 
 
 def optional(module: str, extra: str) -> Any:
@@ -78,9 +83,9 @@ def whole(name: str, value: Any, least: int, most: int) -> int:
 
 
 def given(name: str, file: File) -> _dtg_passport._File:
-    """Return a file as the compiled part reads it: its path, or a name and the content of a mapping."""
+    """Return a file as the compiled part reads it: its path, or a name and its content."""
     if not isinstance(file, Mapping):
-        return file
+        return path_or_content(name, file)
     values = {key: _plain(f"{name}: {key}", value) for key, value in file.items()}
     # JSON is also YAML; errors name the line.
     return name, json.dumps(values, ensure_ascii=False, indent=1).encode()

@@ -6,7 +6,7 @@ import datetime
 import itertools
 import os
 import warnings
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from . import _dtg_passport
 from ._common import Array, Path, asked, numbers, path_or_content, whole
@@ -32,20 +32,34 @@ def _enquiry(
     return _dtg_passport.Enquiry(path_or_content("trust", trust), lists, question, register)
 
 
-def _each(paths: Iterable[Path], enquiry: _dtg_passport.Enquiry, threads: int) -> Iterator[tuple[str, _dtg_passport._Answer]]:
+def _each(
+    paths: Iterable[Path], enquiry: _dtg_passport.Enquiry, threads: int | None, raising: bool = True
+) -> Iterator[tuple[str, _dtg_passport._Answer]]:
+    if isinstance(paths, (str, bytes, os.PathLike)):
+        raise TypeError(f"paths: found {paths!r}, expected a list of paths")
+    of_all = 0 if threads is None else whole("threads", threads, 1, 1024)
     names = (os.fspath(path) for path in paths)
-    while chunk := list(itertools.islice(names, CHUNK)):
-        for name, answer in zip(chunk, enquiry.verify_files(chunk, threads)):
-            if isinstance(answer, OSError):
-                raise answer
-            yield name, answer
+
+    def each() -> Iterator[tuple[str, _dtg_passport._Answer]]:
+        while chunk := list(itertools.islice(names, CHUNK)):
+            for name, (answer, error) in zip(chunk, enquiry.verify_files(chunk, of_all)):
+                if raising and error is not None:
+                    raise error
+                yield name, answer
+
+    return each()
 
 
 def _passport(path: str, answer: _dtg_passport._Answer) -> Passport:
-    _, _, checks, content = answer
-    if content is None:
-        raise Refused(path, tuple(map(Check._make, checks)))
-    return Passport(*answer)
+    if answer[-1] is None:
+        raise Refused(path, tuple(map(Check._make, answer[3])))
+    return Passport._of(answer)
+
+
+def _verification(path: str, answer: _dtg_passport._Answer) -> Verification:
+    id, _, _, checks, not_asked, remarks, content = answer
+    passport = None if content is None else Passport._of(answer)
+    return Verification(path, content is not None, id, tuple(map(Check._make, checks)), passport, tuple(not_asked), tuple(remarks))
 
 
 def load(
@@ -139,9 +153,32 @@ def verify(
         >>> [check.name for check in answer.checks if check.passed is False]
         ['in_force']
     """
-    name, answer = next(_each([path], _enquiry(trust, serial, at, time, issuer, revoked, register), 1))
-    id, _, checks, content = answer
-    return Verification(name, content is not None, id, tuple(map(Check._make, checks)), Passport(*answer) if content else None)
+    return _verification(*next(_each([path], _enquiry(trust, serial, at, time, issuer, revoked, register), 1)))
+
+
+def verify_many(
+    paths: Iterable[Path],
+    trust: Path | bytes,
+    *,
+    threads: int | None = None,
+    serial: str | None = None,
+    at: Sequence[float] | Array | None = None,
+    time: str | datetime.date | None = None,
+    issuer: str | None = None,
+    revoked: Path | bytes | Iterable[Path | bytes] = (),
+    register: Path | bytes | None = None,
+) -> Iterator[Verification]:
+    """Verify many passports as `verify` does, in the order of `paths`; parameters as in `load_many`.
+
+    A bad file raises nothing; one that cannot be read is not valid, with the code `unreadable`.
+
+    Examples:
+        >>> paths = ["passports/SPS-2/0017/moscow-bmstu-1.yaml", "docs/nowhere.yaml"]
+        >>> [answer.valid for answer in verify_many(paths, "docs/allowed_signers", time="2026-11-20")]
+        [True, False]
+    """
+    enquiry = _enquiry(trust, serial, at, time, issuer, revoked, register)
+    return itertools.starmap(_verification, _each(paths, enquiry, threads, raising=False))
 
 
 def load_many(
@@ -149,6 +186,7 @@ def load_many(
     trust: Path | bytes,
     *,
     threads: int | None = None,
+    skip: Callable[[Refused], object] | None = None,
     serial: str | None = None,
     at: Sequence[float] | Array | None = None,
     time: str | datetime.date | None = None,
@@ -161,9 +199,10 @@ def load_many(
     Args:
         paths: Passport files, as many as you like: only some hundreds are in memory at a time.
         threads: Number of threads. Default: one for each processor. They do not hold Python's global lock.
+        skip: Function that is called with each `Refused`, also of a file that cannot be read; the others follow.
 
     Raises:
-        Refused: At the first passport that failed a check, after those before it.
+        Refused: Without `skip`, at the first passport that failed a check, after those before it.
 
     Examples:
         >>> from pathlib import Path
@@ -171,12 +210,22 @@ def load_many(
         >>> [p.id for p in load_many(paths, "docs/allowed_signers", time="2026-11-20")]
         ['SPS-2/0017/beijing-nim/1', 'SPS-2/0017/moscow-bmstu/1']
     """
-    if isinstance(paths, (str, bytes, os.PathLike)):
-        raise TypeError(f"paths: found {paths!r}, expected a list of paths")
-    threads = 0 if threads is None else whole("threads", threads, 1, 1024)
     # The trust is read at once, so that an error in it does not wait for the first passport.
     enquiry = _enquiry(trust, serial, at, time, issuer, revoked, register)
-    return (_passport(*each) for each in _each(paths, enquiry, threads))
+    answers = _each(paths, enquiry, threads, raising=skip is None)
+
+    def accepted() -> Iterator[Passport]:
+        for name, answer in answers:
+            try:
+                passport = _passport(name, answer)
+            except Refused as refused:
+                if skip is None:
+                    raise
+                skip(refused)
+            else:
+                yield passport
+
+    return accepted()
 
 
 def load_unverified(path: Path) -> Passport:
@@ -193,4 +242,4 @@ def load_unverified(path: Path) -> Passport:
     """
     answer = _dtg_passport.unverified(path)
     warnings.warn(f"{os.fspath(path)}: NOT VERIFIED: the origin of these numbers is unknown", stacklevel=2)
-    return Passport(*answer)
+    return Passport._of(answer)

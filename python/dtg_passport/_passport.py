@@ -15,8 +15,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _dtg_passport
-from ._calibration import NAMES, Calibration, Parameters
-from ._common import Array, File, Frozen, array, asked, optional, pair
+from ._calibration import NAMES, Calibration, Parameters, eight, judged
+from ._common import Array, File, Frozen, array, asked, optional, pair, whole_numbers
 
 # Unit of every array, and what its rows and columns are.
 _ARRAYS = {
@@ -58,6 +58,10 @@ class Verification(NamedTuple):
     """Every check."""
     passport: Passport | None
     """The passport if every check passed, otherwise None."""
+    not_asked: tuple[str, ...]
+    """Names of the checks that the question did not request."""
+    remarks: tuple[str, ...]
+    """Remarks on the trusted keys and the register."""
 
     def __bool__(self) -> bool:
         """Return `valid`."""
@@ -82,6 +86,38 @@ class Refused(Exception):
     def __str__(self) -> str:
         failed = [f"  {check.name} ({check.code}): {check.detail}" for check in self.checks if check.passed is False]
         return "\n".join([f"{self.path}: refused", *failed])
+
+
+class _Dict(dict[str, Any]):
+    """A mapping of the content, which cannot be changed; a deep copy can."""
+
+    def _refuse(self, *_: Any, **__: Any) -> Any:
+        raise TypeError("the content of a passport cannot be changed; change a copy.deepcopy of it")
+
+    __setitem__ = __delitem__ = __ior__ = update = setdefault = pop = popitem = clear = _refuse
+
+    def __deepcopy__(self, memo: Any) -> dict[str, Any]:
+        import copy
+
+        return {key: copy.deepcopy(value, memo) for key, value in self.items()}
+
+
+class _List(list[Any]):
+    """A list of the content, which cannot be changed; a deep copy can."""
+
+    __setitem__ = __delitem__ = __iadd__ = __imul__ = _Dict._refuse
+    append = extend = insert = pop = remove = clear = sort = reverse = _Dict._refuse
+
+    def __deepcopy__(self, memo: Any) -> list[Any]:
+        import copy
+
+        return [copy.deepcopy(value, memo) for value in self]
+
+
+def _unchangeable(value: Any) -> Any:
+    if isinstance(value, dict):
+        return _Dict((key, _unchangeable(part)) for key, part in value.items())
+    return _List(map(_unchangeable, value)) if isinstance(value, list) else value
 
 
 class Position(NamedTuple):
@@ -119,13 +155,56 @@ class Passport(Frozen):
     Rows belong to the positions in the order of `ij`.
     """
 
-    __slots__ = ("_id", "_sha256", "_checks", "_content")
+    __slots__ = ("_id", "_sha256", "_data", "_checks", "_content", "_parsed")
     __module__ = "dtg_passport"
 
     _id: str
     _sha256: str
+    _data: bytes
     _checks: list[_dtg_passport._Check]
     _content: _dtg_passport.Content
+    _parsed: _Dict
+
+    @classmethod
+    def _of(cls, answer: _dtg_passport._Answer) -> Passport:
+        id, sha256, data, checks, _, _, content = answer
+        return cls(id, sha256, data, checks, content)
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a passport is not pickled, because its verification would be believed without being made: send "
+                        "`passport.data` and verify it with `loads` where it arrives")  # fmt: skip
+
+    def __copy__(self) -> Passport:
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Passport:
+        return self
+
+    @property
+    def data(self) -> bytes:
+        """The bytes of the file, for `loads` elsewhere."""
+        return self._data
+
+    @property
+    def serial(self) -> str:
+        """Serial number of the stand."""
+        return str(self.content["stand"]["serial"])
+
+    @property
+    def site(self) -> str:
+        """Identifier of the site."""
+        return str(self.content["site"]["id"])
+
+    @property
+    def latitude(self) -> float:
+        """Latitude for which the Earth rates were computed, degrees, north positive."""
+        return float(self.content["earth"]["latitude_deg"])
+
+    @property
+    def expires(self) -> datetime.date | None:
+        """Last UTC day on which the passport is valid, or None if neither it nor its certificate states one."""
+        stated = (self.content[part].get("valid_until") for part in ("passport", "certificate"))
+        return min((datetime.date.fromisoformat(day) for day in stated if day), default=None)
 
     @property
     def id(self) -> str:
@@ -168,9 +247,19 @@ class Passport(Frozen):
         return self._array("n2_inverse", 2, 2)
 
     @property
-    def ij(self) -> Array:
-        """Indices i (frame) and j (platform) of the positions, counted from 1, shape (N, 2)."""
-        return self._array("ij", -1, 2)
+    def ij(self) -> npt.NDArray[np.int64]:
+        """Indices i (frame) and j (platform) of the positions, counted from 1, int64, shape (N, 2)."""
+        return whole_numbers(self._array("ij", -1, 2))
+
+    @property
+    def theta(self) -> Array:
+        """Nominal angle theta (frame) of each position, degrees, shape (N,)."""
+        return self._array("angles", -1, 2)[:, 0]
+
+    @property
+    def phi(self) -> Array:
+        """Nominal angle phi (platform) of each position, degrees, shape (N,)."""
+        return self._array("angles", -1, 2)[:, 1]
 
     @property
     def n(self) -> Array:
@@ -209,13 +298,15 @@ class Passport(Frozen):
 
     @property
     def content(self) -> dict[str, Any]:
-        """All keys of the file but `signature`, as a new dictionary.
+        """All keys of the file but `signature`, as a dictionary that cannot be changed.
 
         >>> passport = load("docs/self_check.yaml", "docs/allowed_signers", time="2026-11-20")
         >>> passport.content["passport"]["issuer"]
         'examples@dtg-passport.test'
         """
-        return dict(json.loads(self._content.json()))
+        if not hasattr(self, "_parsed"):
+            object.__setattr__(self, "_parsed", _unchangeable(json.loads(self._content.json())))
+        return self._parsed
 
     def _array(self, name: str, *shape: int) -> Array:
         return array(self._content.array(name), *shape)
@@ -253,6 +344,7 @@ class Passport(Frozen):
         date: datetime.date | str | None = None,
         temperature_c: float | None = None,
         previous: Iterable[Calibration | Mapping[str, Any]] = (),
+        budget: bool = False,
     ) -> Calibration:
         """Calibrate a gyro from its currents in every position.
 
@@ -260,9 +352,9 @@ class Passport(Frozen):
             currents: Path of a CSV file; a table (of pandas, Polars or Arrow, a mapping, or a structured array) with
                 the columns `i`, `j`, `jx_ma`, `jy_ma`, and if present `cycle`, `visit`, `time_s`, `theta_deg`,
                 `phi_deg`; or an array of shape (N, 4) with rows i, j, jx_ma, jy_ma. Currents in mA.
-            laboratory: Laboratory, `dtg-laboratory/1`: path of the file, or a mapping. Default: the paper's meter,
-                0.015 %.
-            gyro: Gyro type, `dtg-gyro/1`, for the verdict: path of the file, or a mapping.
+            laboratory: Laboratory, `dtg-laboratory/1`: path of the file, its bytes, or a mapping. Default: the paper's
+                meter, 0.015 %; `assumed_meter` then says so.
+            gyro: Gyro type, `dtg-gyro/1`, for the verdict: path of the file, its bytes, or a mapping.
             method: `least-squares`, `analytic` or `iterative`.
             model: Model of the g-sensitive drift: `paper`, or `general` for the full 2x3 matrix `G`; omega_g and
                 omega_k are then NaN.
@@ -274,8 +366,11 @@ class Passport(Frozen):
                 (`datetime.date` or `YYYY-MM-DD`) and temperature (°C) of the readings; the result repeats them.
             previous: Earlier results of the same gyro: a Calibration or its `document`. With `gyro`,
                 `document["change"]` is the change since the latest of them.
+            budget: Whether to add the budget of the uncertainty, `document["budget"]`.
 
         Raises:
+            NotValid: If the parameters are not those of the gyro, because the readings do not fit the stand, or an error
+                such as currents in another unit explains them. It has the `result`.
             ValueError: If the currents cannot be used, or do not determine the parameters; with the line and column. Or
                 if an argument cannot be used.
 
@@ -290,10 +385,8 @@ class Passport(Frozen):
         """
         order = asked(method=method, model=model, anisoelasticity=anisoelasticity, drift=drift, exclude=exclude,
                       gyro_serial=gyro_serial, operator=operator, date=date, temperature_c=temperature_c,
-                      previous=previous)  # fmt: skip
-        text, covariance, distributions = self._content.calibrate(_csv(currents), order, pair(gyro, laboratory))
-        document = json.loads(text)
-        found = Calibration(document, document["results"][0], array(covariance, 8, 8), distributions)
+                      previous=previous, budget=budget)  # fmt: skip
+        found = judged(*self._content.calibrate(_csv(currents), order, pair(gyro, laboratory)))
         for remark in found.remarks:
             warnings.warn(remark, stacklevel=2)
         return found
@@ -317,11 +410,8 @@ class Passport(Frozen):
         if len(currents) == 0:
             raise ValueError("this passport has no self-check: its positions do not determine the eight parameters")
         found = function(self, currents)
-        K, omega_0, omega_g, omega_k = found.parameters if isinstance(found, Calibration) else found
-        numbers = [np.asarray(part, dtype=np.float64).ravel() for part in (K, omega_0, omega_g, omega_k)]
-        if [len(part) for part in numbers] != [4, 2, 1, 1]:
-            raise ValueError("expected K of shape (2, 2), omega_0 of shape (2,), omega_g and omega_k")
-        errors, limit = self._content.self_check_errors(np.concatenate(numbers).tolist())
+        numbers = eight(found.parameters if isinstance(found, Calibration) else found)
+        errors, limit = self._content.self_check_errors(numbers)
         # A NaN is not within the limit.
         return SelfCheck(all(error <= limit for error in errors), dict(zip(NAMES, errors)), limit)
 
@@ -337,7 +427,7 @@ class Passport(Frozen):
             ("omega", "deg_per_h", ("omega_x", "omega_y")),
         ):
             columns.update(zip([f"{part}_{unit}" for part in parts], self._array(name, -1, len(parts)).T))
-        index = pandas.MultiIndex.from_arrays(self.ij.T.astype(int), names=["i", "j"])
+        index = pandas.MultiIndex.from_arrays(self.ij.T, names=["i", "j"])
         return pandas.DataFrame(columns, index=index)
 
     def to_xarray(self) -> Any:
@@ -345,7 +435,7 @@ class Passport(Frozen):
         xarray = optional("xarray", "xarray")
         named = [(name, unit, of) for name, (unit, *of) in _ARRAYS.items() if name != "ij"]
         variables = {name: (of, getattr(self, name), {"units": unit}) for name, unit, of in named}
-        i, j = self.ij.T.astype(int)
+        i, j = self.ij.T
         coordinates = {
             "i": ("position", i),
             "j": ("position", j),
@@ -362,7 +452,7 @@ class Passport(Frozen):
         for part, (symbol, shift) in enumerate((("α", -0.25), ("β", 0.0), ("γ", 0.25))):
             error = 2.0 * np.nan_to_num(self.u_deviations[:, part])
             ax.bar(places + shift, self.deviations[:, part], 0.25, yerr=error, label=symbol)
-        ax.set_xticks(places, [f"({i:.0f}, {j:.0f})" for i, j in self.ij])
+        ax.set_xticks(places, [f"({i}, {j})" for i, j in self.ij])
         ax.set(xlabel="position (i, j)", ylabel="deviation, arcsec", title=f"{self.id}{self._mark}")
         ax.legend()
         return ax

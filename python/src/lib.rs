@@ -23,8 +23,9 @@ struct File(String, Vec<u8>);
 /// Name, result, code and detail of a check.
 type Check = (&'static str, Option<bool>, &'static str, String);
 
-/// Id and SHA-256 of a passport, every check, and the content if every check passed.
-type Answer = (Option<String>, String, Vec<Check>, Option<Content>);
+/// Id and SHA-256 of a passport, its bytes, every check, the checks that were not asked, remarks, and the content if every check
+/// passed.
+type Answer = (Option<String>, String, Vec<u8>, Vec<Check>, Vec<&'static str>, Vec<String>, Option<Content>);
 
 fn failed(error: Failed) -> PyErr {
     match error.code {
@@ -56,13 +57,30 @@ impl<'py> FromPyObject<'_, 'py> for File {
     }
 }
 
-fn answered(found: &interface::Answer) -> Answer {
+fn answered(found: interface::Answer, data: Vec<u8>) -> Answer {
     let verification = &found.verification;
     let checks = verification.checks().iter();
     let checks = checks.map(|check| (check.name.as_str(), check.passed(), check.code.as_str(), check.detail.clone()));
     let verified = Some((found.time, verification.register().cloned()));
     let content = verification.passport().map(|of| Content { passport: of.content().clone(), verified });
-    (verification.id_from_anyone().map(str::to_owned), found.sha256.clone(), checks.collect(), content)
+    let (id, not_asked) = (verification.id_from_anyone().map(str::to_owned), verification.not_asked());
+    (id, found.sha256, data, checks.collect(), not_asked, found.remarks, content)
+}
+
+/// Returns the result of a calibration, and the reason why it is not valid.
+fn judged(found: Result<String, Failed>) -> Result<(String, Option<String>), Failed> {
+    match found {
+        Ok(result) => Ok((result, None)),
+        Err(Failed { result: Some(result), message, .. }) => Ok((result, Some(message))),
+        Err(failed) => Err(failed),
+    }
+}
+
+/// Returns the reason why an earlier result is not valid.
+#[pyfunction]
+fn earlier(result: &str) -> PyResult<Option<String>> {
+    let found = interface::earlier(result).map(|()| String::new());
+    judged(found).map(|(_, not_valid)| not_valid).map_err(failed)
 }
 
 /// Returns numbers as bytes, float64 each.
@@ -108,22 +126,17 @@ impl Enquiry {
     }
 
     fn verify(&self, py: Python, file: &str, data: &[u8]) -> Answer {
-        py.detach(|| answered(&self.0.verify(file, data)))
+        py.detach(|| answered(self.0.verify(file, data), data.to_owned()))
     }
 
-    /// Verifies files. The list has one element for each file: its answer, or an OSError if it cannot be read.
-    fn verify_files<'py>(
-        &self,
-        py: Python<'py>,
-        paths: Vec<PathBuf>,
-        threads: usize,
-    ) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    /// Verifies files. The list has one element for each file: its answer, and an OSError if it cannot be read.
+    fn verify_files(&self, py: Python, paths: Vec<PathBuf>, threads: usize) -> Vec<(Answer, Option<PyErr>)> {
         let answers = py.detach(|| self.0.verify_files(&paths, threads));
-        let answers = answers.into_iter().map(|answer| match answer {
-            Ok(answer) => Ok(answered(&answer).into_pyobject(py)?.into_any()),
-            Err(error) => Ok(os_error(py, &error).into_value(py).into_bound(py).into_any()),
+        let each = answers.into_iter().map(|(answer, bytes)| {
+            let error = bytes.as_ref().err().map(|error| os_error(py, error));
+            (answered(answer, bytes.unwrap_or_default()), error)
         });
-        answers.collect()
+        each.collect()
     }
 }
 
@@ -147,15 +160,15 @@ impl Content {
         Ok(float64(py, numbers))
     }
 
-    /// Returns the JSON of `calibrate`, the covariance (8, 8) as bytes, and the Monte Carlo of the same calibration; `files`
+    /// Returns the JSON of `calibrate`, the reason why it is not valid, and the Monte Carlo of the same calibration; `files`
     /// are a gyro type and a laboratory.
-    fn calibrate<'py>(
+    fn calibrate(
         slf: Py<Self>,
-        py: Python<'py>,
+        py: Python,
         currents: File,
         order: &str,
         files: [Option<File>; 2],
-    ) -> PyResult<(String, Bound<'py, PyBytes>, Distributions)> {
+    ) -> PyResult<(String, Option<String>, Distributions)> {
         let [gyro, laboratory] = files;
         let Self { passport, verified } = slf.get();
         let verified = verified.as_ref().map(|(time, register)| (*time, register.as_ref()));
@@ -163,13 +176,13 @@ impl Content {
             let mut order: Order = order.parse()?;
             order.gyro = gyro.map(|File(name, bytes)| GyroType::from_yaml(&name, &bytes)).transpose()?;
             if let Some(File(name, bytes)) = laboratory {
-                order.laboratory = Laboratory::from_yaml(&name, &bytes)?;
+                order.laboratory = Some(Laboratory::from_yaml(&name, &bytes)?);
             }
-            Ok((interface::calibrate(passport, verified, currents.given(), &order)?, order))
+            let found = interface::calibrate(passport, verified, currents.given(), &order);
+            Ok((judged(found)?, order))
         });
-        let (found, order) = done.map_err(failed)?;
-        let covariance = float64(py, found.covariance.into_iter().flatten());
-        Ok((found.json, covariance, Distributions(slf, currents, order)))
+        let ((found, not_valid), order) = done.map_err(failed)?;
+        Ok((found, not_valid, Distributions(slf, currents, order)))
     }
 
     /// Returns the relative error of each of the eight parameters found from the currents of the self-check, and the
@@ -220,7 +233,9 @@ impl Distributions {
 #[pyfunction]
 fn unverified(file: File) -> PyResult<Answer> {
     let (passport, sha256) = interface::unverified(&file.0, &file.1).map_err(failed)?;
-    Ok((Some(passport.passport.id.clone()), sha256, Vec::new(), Some(Content { passport, verified: None })))
+    let id = Some(passport.passport.id.clone());
+    let content = Some(Content { passport, verified: None });
+    Ok((id, sha256, file.1, Vec::new(), Vec::new(), Vec::new(), content))
 }
 
 /// Issues a passport; `files` are its stand and site, and `accuracy` a gyro type and a laboratory. Returns its id, path and
@@ -266,5 +281,5 @@ mod _dtg_passport {
     #[expect(non_upper_case_globals)]
     const __version__: &str = env!("CARGO_PKG_VERSION");
     #[pymodule_export]
-    use super::{Content, Distributions, Enquiry, issue, plan, unverified};
+    use super::{Content, Distributions, Enquiry, earlier, issue, plan, unverified};
 }

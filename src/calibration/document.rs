@@ -29,8 +29,8 @@ use super::readings::Exclusion;
 use super::recorded::Digits;
 use super::verdict::change_in_uncertainties;
 use super::{
-    Calibration, Finding, Found, Method, NotStated, NotValid, Parameter, Scatter, Verdict, against_earlier,
-    against_type,
+    Calibration, Finding, Found, Method, MethodResult, NotStated, NotValid, Parameter, Scatter, Verdict,
+    against_earlier, against_type,
 };
 use crate::coefficients::PositionIndex;
 use crate::document::RegisterUsed;
@@ -66,6 +66,8 @@ result! {
         pub(crate) gravity_u_m_per_s2: Option<f64> = default,
         /// Gyro, operator, conditions and file of currents; absent in results of earlier versions.
         pub(crate) subject: Option<Subject> = default,
+        /// Meter that is assumed, because no laboratory is stated.
+        pub(crate) assumed_meter: Option<String> = default,
         /// Visits that were left out, each with its reason.
         pub(crate) excluded: Vec<Exclusion> = default,
         /// Positions of the passport without a reading.
@@ -78,7 +80,10 @@ result! {
         pub(crate) consistent: bool,
         /// Effective degrees of freedom of the adopted uncertainties by the keys of the parameters; those without a key are
         /// unlimited.
-        pub(crate) degrees_of_freedom: BTreeMap<String, f64> = default,
+        pub(crate) degrees_of_freedom: BTreeMap<Parameter, f64> = default,
+        /// Covariance of the adopted parameters, 8×8, in the order and units of [`Parameter::EIGHT`]; null for ω_g and ω_k in
+        /// the general model. Results of earlier versions have none.
+        pub(crate) covariance: Vec<[Option<f64>; 8]> = default,
         /// Results, one for each method, the adopted one first.
         pub(crate) results: Vec<ResultDocument>,
         /// Reasons why methods gave no result, by the keys of the methods.
@@ -262,7 +267,8 @@ impl CalibrationDocument {
         calibration: &Calibration,
         not_stated: &[NotStated],
     ) -> Self {
-        let adopted = calibration.adopted().map(|result| result.method);
+        let best = calibration.adopted();
+        let adopted = best.map(|result| result.method);
         let mut results: Vec<_> = calibration.results.iter().collect();
         results.sort_by_key(|result| Some(result.method) != adopted);
         Self {
@@ -272,6 +278,7 @@ impl CalibrationDocument {
             gravity_u_m_per_s2,
             adopted: adopted.map_or_else(String::new, |method| method.key().to_owned()),
             consistent: calibration.consistent,
+            covariance: best.map_or_else(Vec::new, MethodResult::covariance_of_eight),
             results: results.into_iter().map(|result| ResultDocument::new(result, calibration)).collect(),
             refused: calibration
                 .refused
@@ -351,7 +358,7 @@ impl CalibrationDocument {
     /// Returns the adopted result even if it is not valid; `None` if there is no result.
     pub(crate) fn found(&self) -> Option<Found> {
         let best = self.best()?;
-        let of = |parameter: Parameter| self.degrees_of_freedom.get(parameter.key()).copied();
+        let of = |parameter: Parameter| self.degrees_of_freedom.get(&parameter).copied();
         let degrees_of_freedom = Parameter::EIGHT.map(|parameter| of(parameter).unwrap_or(f64::INFINITY));
         Some(Found { degrees_of_freedom, ..best.found(self.gravity_m_per_s2, self.gravity_u_m_per_s2) })
     }

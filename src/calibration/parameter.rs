@@ -4,7 +4,7 @@ use crate::gyro::{GyroParameters, Tolerance};
 use crate::wording::Words;
 use crate::wording::words::{listed, symbol};
 use nalgebra::{Matrix2, Vector2};
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// Returns the symbols of parameters with commas between them.
 pub(crate) fn symbols(parameters: impl IntoIterator<Item = Parameter>) -> Words {
@@ -122,6 +122,15 @@ impl Parameter {
 impl Serialize for Parameter {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(self.key())
+    }
+}
+
+/// Reads the key of an unknown of one of the models.
+impl<'de> Deserialize<'de> for Parameter {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let key = String::deserialize(deserializer)?;
+        let found = Self::NINE.into_iter().chain(Self::TWELVE).find(|one| one.key() == key);
+        found.ok_or_else(|| serde::de::Error::custom("unknown parameter"))
     }
 }
 

@@ -308,6 +308,13 @@ impl MethodResult {
         self.covariance.get((column, column)).map(|variance| variance.sqrt())
     }
 
+    /// Returns the covariance of [`Parameter::EIGHT`], 8×8; `None` for ω_g and ω_k in the general model.
+    pub(crate) fn covariance_of_eight(&self) -> Vec<[Option<f64>; 8]> {
+        let columns = Parameter::EIGHT.map(|parameter| self.model.column(parameter));
+        let element = |row: Option<usize>, column: Option<usize>| Some(self.covariance[(row?, column?)]);
+        columns.map(|row| columns.map(|column| element(row, column))).into()
+    }
+
     /// Returns the value of a parameter in its unit, or `None` if it was not fitted.
     pub fn value(&self, parameter: Parameter) -> Option<f64> {
         match parameter {

@@ -224,7 +224,7 @@ pub(crate) fn against_earlier(found: &Found, earlier: &Found, gyro_type: &GyroTy
     compare(&found.under_the_same_gravity(earlier), &earlier.under_the_same_gravity(found), gyro_type)
 }
 
-/// Compares two results at the type's g, in the order of the paper's table.
+/// Compares two results at the type's g.
 fn compare(found: &Found, reference: &Found, gyro_type: &GyroType) -> Verdict {
     let gravity_m_per_s2 = gyro_type.gravity();
     let sides = [found, reference];
@@ -232,7 +232,7 @@ fn compare(found: &Found, reference: &Found, gyro_type: &GyroType) -> Verdict {
     // The general model has no ω_g and ω_k, and the paper's tolerances say nothing of its matrix.
     let is_found =
         |parameter: &Parameter| at_type.iter().all(|side| !side.parameters.to_vector()[parameter.place()].is_nan());
-    let parameters = Parameter::AS_IN_THE_PAPER.into_iter().filter(is_found).map(|parameter| {
+    let parameters = Parameter::EIGHT.into_iter().filter(is_found).map(|parameter| {
         let of = |side: &Found| side.parameters.to_vector()[parameter.place()];
         let values = [of(&at_type[0]), of(&at_type[1])];
         let conversion = (values[0] - of(found)) - (values[1] - of(reference));

@@ -241,7 +241,7 @@ struct Found {
 }
 
 impl Found {
-    fn whole(&self) -> uncertainty::WholeDocument<'_> {
+    fn whole(&self) -> crate::interface::calibrated::WholeDocument<'_, crate::uncertainty::MonteCarlo> {
         self.uncertainty.with(&self.done.document)
     }
 
@@ -293,11 +293,16 @@ impl Bench<'_> {
         Ok(())
     }
 
+    /// Returns the laboratory if it is stated.
+    fn laboratory(&self) -> Option<&Laboratory> {
+        self.options.laboratory.is_some().then_some(&self.laboratory)
+    }
+
     fn calibrate(&self, path: &Path) -> Result<Found, Failure> {
         let (options, content) = (self.options, &self.passport.content);
         let bytes = inputs::bytes(path, Kind::Currents.words())?;
         let name = name_of(path);
-        let prepared = Prepared::new(content, &self.laboratory, self.gyro_type.as_ref(), (&name, &bytes));
+        let prepared = Prepared::new(content, self.laboratory(), self.gyro_type.as_ref(), (&name, &bytes));
         let mut prepared = prepared?;
         exclude(options, &name, &mut prepared.readings)?;
         prepared.readings.remarks.iter().for_each(|remark| output::say(remark));
@@ -483,7 +488,7 @@ impl Bench<'_> {
             time: self.verified_as_of().unwrap_or_else(Timestamp::now),
             currents: (name, sha256.clone()),
             gyro: self.gyro_type.as_ref(),
-            laboratory: self.options.laboratory.is_some().then_some(&self.laboratory),
+            laboratory: self.laboratory(),
             calibration: &done.calibration,
             missing: &done.missing,
             document: &done.document,
@@ -496,9 +501,9 @@ impl Bench<'_> {
     }
 
     fn dcc(&self, done: &Done) -> Result<String, Failure> {
-        let laboratory = self.options.laboratory.is_some().then_some(&self.laboratory);
         let sha256 = sha256_hex(&self.passport.bytes);
-        let calibrated = Calibrated::new(&self.passport.content, &sha256, laboratory, self.gyro_type.as_ref(), done);
+        let calibrated =
+            Calibrated::new(&self.passport.content, &sha256, self.laboratory(), self.gyro_type.as_ref(), done);
         let (calibrated, languages) = (calibrated.map_err(Failure::refused)?, self.options.lang.languages());
         let dcc = dcc::of_gyro(&calibrated, self.administrative.content.as_ref(), Some(&languages));
         Ok(dcc.map_err(|problems| self.administrative.refuse(problems))?.xml)

@@ -3,7 +3,7 @@
 use super::{Failure, long_run, output};
 use crate::calibration::{Calibration, CalibrationDocument, Method, Options as CalibrationOptions, Readings, Setup};
 use crate::gyro::{GyroType, Tolerance};
-use crate::interface::calibrated::distributions;
+use crate::interface::calibrated::{WholeDocument, distributions};
 use crate::report::{picture, uncertainty as report};
 use crate::uncertainty::dominant::Dominant;
 use crate::uncertainty::monte_carlo::{Trials, refused_model};
@@ -11,8 +11,6 @@ use crate::uncertainty::{Budget, MonteCarlo};
 use crate::wording::Language;
 use clap::Args;
 use indicatif::HumanDuration;
-use serde::Serialize;
-use serde_json::Value;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -70,21 +68,10 @@ impl Found {
     }
 
     /// Returns the result of a calibration with these, as JSON.
-    pub(super) fn with<'a>(&'a self, calibration: &'a CalibrationDocument) -> WholeDocument<'a> {
-        let budget = self.budget.as_ref().map(|(budget, words)| report::budget_json(budget, words.as_deref()));
+    pub(super) fn with<'a>(&'a self, calibration: &'a CalibrationDocument) -> WholeDocument<'a, MonteCarlo> {
+        let budget = self.budget.as_ref().map(|(budget, words)| budget.to_json(words.as_deref()));
         WholeDocument { calibration, budget, monte_carlo: self.monte_carlo.as_ref() }
     }
-}
-
-/// Calibration result with the requested budget and Monte Carlo.
-#[derive(Serialize)]
-pub(super) struct WholeDocument<'a> {
-    #[serde(flatten)]
-    calibration: &'a CalibrationDocument,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    budget: Option<Value>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    monte_carlo: Option<&'a MonteCarlo>,
 }
 
 impl UncertaintyOptions {

@@ -16,50 +16,78 @@ use crate::laboratory::Laboratory;
 use crate::passport::{Content, RegisterUsed};
 use crate::text::printable;
 use crate::uncertainty::Budget;
+use crate::uncertainty::dominant::Dominant;
 #[cfg(feature = "monte-carlo")]
 use crate::uncertainty::{self, Engine, MonteCarlo, ReadingShape, Trials};
 use crate::wording::{Language, plain};
 use jiff::Timestamp;
+use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Result of a calibration by one method.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Calibrated {
-    /// The JSON of `calibrate`, with one element in `results`.
-    pub json: String,
-    /// Covariance of the parameters, 8×8, in the order and units of [`Parameter::EIGHT`]; NaN for ω_g and ω_k in the
-    /// general model.
-    pub covariance: [[f64; 8]; 8],
-    /// Remarks on the currents, the laboratory and the fit, a sentence each; also in the JSON.
-    pub remarks: Vec<String>,
-}
-
-/// Calibrates a gyro with the content of a passport. `verified` is the time for which the passport was verified and the
-/// register that was asked, or `None` if the passport was not verified.
+/// Calibrates a gyro with the content of a passport, and returns the JSON of `calibrate` with one element in `results`.
+/// `verified` is the time for which the passport was verified and the register that was asked, or `None` if the passport was
+/// not verified.
 ///
 /// `currents` are the name and content of a CSV file with the columns `i`, `j`, `jx_ma`, `jy_ma`, and if present `cycle`,
 /// `visit`, `time_s`.
 ///
 /// # Errors
-/// Returns [`Failed`] if the currents cannot be read, if a visit to leave out is not among them, or if they do not
-/// determine the parameters.
+/// Returns [`Failed`] if the currents cannot be read, if a visit to leave out is not among them, if they do not determine the
+/// parameters, or if the result is not valid; it is then [`Failed::result`].
 pub fn calibrate(
     content: &Content,
     verified: Option<(Timestamp, Option<&RegisterUsed>)>,
     currents: (&str, &[u8]),
     order: &Order,
-) -> Result<Calibrated, Failed> {
+) -> Result<String, Failed> {
     let (time, register) = verified.unzip();
     let subject = Subject { passport_verified_as_of: time, ..order.subject.clone() };
     let mut done = prepared(content, currents, order)?.run(&order.options, subject, &order.previous)?;
     done.document.register = register.flatten().cloned();
-    // The document has an answer, so the calibration has one.
-    let result = done.calibration.adopted().ok_or_else(|| Failed::refused("no result"))?;
-    let columns = Parameter::EIGHT.map(|parameter| result.model.column(parameter));
-    let element = |row: Option<usize>, column: Option<usize>| Some(result.covariance[(row?, column?)]);
-    let covariance = columns.map(|row| columns.map(|column| element(row, column).unwrap_or(f64::NAN)));
-    Ok(Calibrated { json: json(&done.document), covariance, remarks: done.document.remarks })
+    let budget = budget(&done, order);
+    checked(&done.document, json(&WholeDocument { calibration: &done.document, budget, monte_carlo: None::<&()> }))
 }
+
+/// Returns the budget of the uncertainty as JSON if `order` asks for it.
+fn budget(done: &Done, order: &Order) -> Option<serde_json::Value> {
+    let answer = done.calibration.adopted().filter(|_| order.budget)?;
+    let budget = Budget::new(&done.setup, &done.readings, answer.method, &order.options).ok()?;
+    let remedy = Dominant::of(&budget, order.gyro.as_ref().map(|gyro| &gyro.tolerance));
+    Some(budget.to_json(remedy.map(|remedy| remedy.sentence()).as_deref()))
+}
+
+/// Calibration result with the requested budget and Monte Carlo.
+#[derive(Serialize)]
+pub(crate) struct WholeDocument<'a, M> {
+    #[serde(flatten)]
+    pub calibration: &'a CalibrationDocument,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub budget: Option<serde_json::Value>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub monte_carlo: Option<&'a M>,
+}
+
+/// Returns the JSON of a result if the result is valid; earlier results are read from files.
+///
+/// # Errors
+/// Returns [`Failed`], with the result, if it is not valid.
+fn checked(document: &CalibrationDocument, json: String) -> Result<String, Failed> {
+    match document.valid() {
+        Ok(_) => Ok(json),
+        Err(why) => Err(Failed { result: Some(json), ..Failed::refused(why) }),
+    }
+}
+
+/// Checks the JSON of an earlier [`calibrate`].
+///
+/// # Errors
+/// Returns [`Failed`] if it is not such JSON, or as [`calibrate`] does if the result is not valid.
+pub fn earlier(result: &str) -> Result<(), Failed> {
+    checked(&CalibrationDocument::from_json("result", result.as_bytes())?, result.to_owned()).map(drop)
+}
+
+/// Meter of [`Laboratory::paper`] in words.
+const ASSUMED_METER: &str = "the paper's meter, 0.015 % of the reading: no laboratory was stated";
 
 /// Largest number of results without suspects: of several that are wrong, each is found only without the others.
 const MOST_WITHOUT: usize = 16;
@@ -86,7 +114,7 @@ fn without_suspects(
 
 /// Reads the currents, and leaves out the visits that `order` names.
 fn prepared<'a>(content: &'a Content, currents: (&str, &[u8]), order: &'a Order) -> Result<Prepared<'a>, Failed> {
-    let mut prepared = Prepared::new(content, &order.laboratory, order.gyro.as_ref(), currents)?;
+    let mut prepared = Prepared::new(content, order.laboratory.as_ref(), order.gyro.as_ref(), currents)?;
     for exclusion in &order.exclude {
         prepared.readings.exclude(exclusion.clone()).map_err(Failed::unusable)?;
     }
@@ -103,6 +131,18 @@ pub fn parameters(result: &str) -> Result<([f64; 8], [f64; 8], bool), Failed> {
     let document = CalibrationDocument::from_json("result", result.as_bytes())?;
     let found = document.found().ok_or_else(|| Failed::unusable("result: found no parameters"))?;
     Ok((found.parameters.to_vector(), found.standard_uncertainty, document.is_valid()))
+}
+
+/// Returns the covariance of the adopted parameters, 8×8, in the order and units of [`Parameter::EIGHT`], and whether the result
+/// may be used, as [`parameters`] does.
+///
+/// # Errors
+/// Returns [`Failed`] if `result` is not the JSON of [`calibrate`], or that of an earlier version without a covariance.
+pub fn covariance(result: &str) -> Result<([[f64; 8]; 8], bool), Failed> {
+    let document = CalibrationDocument::from_json("result", result.as_bytes())?;
+    let rows: Vec<_> = document.covariance.iter().map(|row| row.map(|value| value.unwrap_or(f64::NAN))).collect();
+    let rows = rows.try_into().map_err(|_| Failed::unusable("result: has no covariance"))?;
+    Ok((rows, document.is_valid()))
 }
 
 /// Returns the distributions of the parameters by Monte Carlo (JCGM 101), as the key `monte_carlo` of `calibrate`.
@@ -148,7 +188,7 @@ pub(crate) fn distributions(
 /// Inputs of a calibration with a passport, read and checked.
 pub(crate) struct Prepared<'a> {
     content: &'a Content,
-    laboratory: &'a Laboratory,
+    laboratory: Option<&'a Laboratory>,
     gyro_type: Option<&'a GyroType>,
     setup: Setup,
     missing: Vec<NotStated>,
@@ -185,14 +225,17 @@ pub(crate) struct Done {
 }
 
 impl<'a> Prepared<'a> {
-    /// Reads the currents, a CSV file given by its name and content, for the positions of a passport.
+    /// Reads the currents, a CSV file given by its name and content, for the positions of a passport. Without a laboratory the
+    /// paper's meter is assumed.
     pub(crate) fn new(
         content: &'a Content,
-        laboratory: &'a Laboratory,
+        laboratory: Option<&'a Laboratory>,
         gyro_type: Option<&'a GyroType>,
         (name, currents): (&str, &[u8]),
     ) -> Result<Self, Failed> {
-        let stated = Setup::stated(&content.certificate, &content.positions, &content.site, laboratory);
+        let paper = Laboratory::paper();
+        let of_meter = laboratory.unwrap_or(&paper);
+        let stated = Setup::stated(&content.certificate, &content.positions, &content.site, of_meter);
         let (setup, missing) = stated.map_err(Failed::refused)?;
         let setup = setup.of_gyro(gyro_type.and_then(|gyro_type| gyro_type.noise.as_ref()));
         if let Some(parameter) = gyro_type.and_then(without_nominal) {
@@ -203,7 +246,7 @@ impl<'a> Prepared<'a> {
             )));
         }
         let angles: Vec<_> = content.positions.iter().map(|at| (at.index(), [at.theta_deg, at.phi_deg])).collect();
-        let range_ma = laboratory.meter.range_ma;
+        let range_ma = of_meter.meter.range_ma;
         let readings = Readings::from_csv_at(&angles, name, currents, setup.coefficients(), range_ma)?;
         let currents_sha256 = sha256_hex(currents);
         let name = name.to_owned();
@@ -220,7 +263,7 @@ impl<'a> Prepared<'a> {
     ) -> Result<Done, Failed> {
         let Self { content, laboratory, gyro_type, setup, mut missing, name, currents_sha256, readings } = self;
         let early = subject.check_date(&content.certificate).map_err(Failed::unusable)?;
-        let warning = TemperatureOutside::of(&content.certificate, &subject, Some(laboratory));
+        let warning = TemperatureOutside::of(&content.certificate, &subject, laboratory);
         let gyro = gyro_type.map(|gyro_type| gyro_type.r#type.clone());
         let subject = Subject { currents_sha256, gyro_type: gyro, ..subject };
         if let Some([before, now]) = subject.another_gyro(previous) {
@@ -272,6 +315,7 @@ impl<'a> Prepared<'a> {
         };
         let mut document = documented(&readings, &calibration);
         document.subject = Some(subject);
+        document.assumed_meter = laboratory.is_none().then(|| ASSUMED_METER.to_owned());
         (document.excluded, document.left_out) = (readings.exclusions.clone(), readings.left_out.clone());
         let Some(found) = document.found() else {
             let words = document.refused.iter().map(|(method, why)| format!("{method}: {why}"));
@@ -290,7 +334,8 @@ impl<'a> Prepared<'a> {
         calibration.with_words(of_type);
         let mut document = document.explained_by(&calibration);
         document.remarks = calibration::remarks::remarks(&calibration, &readings);
-        let of_files = laboratory.remarks().into_iter().chain(gyro_type.into_iter().flat_map(GyroType::remarks));
+        let of_laboratory = laboratory.into_iter().flat_map(Laboratory::remarks);
+        let of_files = of_laboratory.chain(gyro_type.into_iter().flat_map(GyroType::remarks));
         let of_conditions = warning
             .map(|warning| warning.to_string())
             .into_iter()
@@ -333,7 +378,7 @@ impl<'a> Prepared<'a> {
             let visit = best_further_visit(&setup, &readings, result, (row.parameter, options))?;
             Some((row.parameter, FurtherVisit { ratio: row.ratio_with_gravity(visit.ratio), ..visit }))
         });
-        let stated_c = document.subject.as_ref().and_then(|subject| temperature_c(subject, Some(laboratory)));
+        let stated_c = document.subject.as_ref().and_then(|subject| temperature_c(subject, laboratory));
         let unchecked_range_c = content.certificate.temperature_range_c.filter(|_| stated_c.is_none());
         let without_height = content.site.is_gravity_without_height();
         Ok(Done {

@@ -128,7 +128,10 @@ impl Enquiry {
 
     /// Verifies the bytes of a passport; `file` is the file name in messages.
     pub fn verify(&self, file: &str, bytes: &[u8]) -> Answer {
-        let verification = self.verification(file, bytes);
+        self.answer(file, self.verification(file, bytes))
+    }
+
+    fn answer(&self, file: &str, verification: Verification) -> Answer {
         let sha256 = verification.sha256().to_owned();
         Answer { file: file.to_owned(), verification, sha256, time: self.question.time, remarks: self.remarks() }
     }
@@ -165,14 +168,18 @@ impl Enquiry {
     }
 
     /// Verifies files on up to `threads` threads (0: one for each processor); the answers are in the order of the
-    /// paths.
+    /// paths, each with the bytes of the file. A file that cannot be read is not valid.
     #[cfg(feature = "factory")]
-    pub fn verify_files(&self, paths: &[PathBuf], threads: usize) -> Vec<Result<Answer, FileError>> {
+    pub fn verify_files(&self, paths: &[PathBuf], threads: usize) -> Vec<(Answer, Result<Vec<u8>, FileError>)> {
         let threads = if threads == 0 { parallel::processors() } else { threads };
         parallel::map(paths, threads, |path| {
             // One byte above the size limit is enough to show that the file is not a passport.
-            let bytes = files::read_first(path, LARGEST_DOCUMENT_BYTES + 1)?;
-            Ok(self.verify(&name_of(path), &bytes))
+            let (name, bytes) = (name_of(path), files::read_first(path, LARGEST_DOCUMENT_BYTES + 1));
+            let answer = match &bytes {
+                Ok(bytes) => self.verify(&name, bytes),
+                Err(error) => self.answer(&name, self.unreadable(&error.to_string())),
+            };
+            (answer, bytes)
         })
     }
 }

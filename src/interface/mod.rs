@@ -5,7 +5,8 @@
 //!
 //! * [`Enquiry`]: whom to trust and what to ask, and the verification of many passports.
 //! * [`fn@array`], [`matrix`]: the numbers of a passport.
-//! * [`Order`], [`calibrate`]: currents to the parameters of a gyro; [`parameters`]: the numbers of its result;
+//! * [`Order`], [`calibrate`]: currents to the parameters of a gyro; [`parameters`], [`covariance`]: the numbers of its result; [`earlier`]: a
+//!   result that was kept;
 //!   `monte_carlo` (with `monte-carlo`): their distributions.
 //! * `issue` (with `factory`), `plan` (with `monte-carlo` too): a signed passport; the best positions.
 //! * [`Failed`]: refusals as JSON.
@@ -25,7 +26,7 @@
 //! let order = r#"{"method": "least-squares"}"#.parse()?;
 //! let verified = Some((answer.time, answer.verification.register()));
 //! let found = calibrate(passport.content(), verified, ("currents.csv", currents), &order)?;
-//! assert!(found.json.contains("chi_square"));
+//! assert!(found.contains("chi_square"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -40,7 +41,7 @@ mod planned;
 
 #[cfg(feature = "monte-carlo")]
 pub use calibrated::monte_carlo;
-pub use calibrated::{Calibrated, calibrate, parameters};
+pub use calibrated::{calibrate, covariance, earlier, parameters};
 pub use enquiry::{Answer, Enquiry};
 #[cfg(feature = "factory")]
 pub use issued::issue;
@@ -78,6 +79,9 @@ pub struct Failed {
     /// Findings that are the reason, as JSON.
     #[serde(skip)]
     pub(crate) findings: Vec<serde_json::Value>,
+    /// Result of a calibration that is not valid, the JSON of `calibrate`.
+    #[serde(skip)]
+    pub result: Option<String>,
 }
 
 /// Failure as the JSON of what it ends.
@@ -119,7 +123,7 @@ impl Place {
 
 impl Failed {
     pub(crate) fn new(code: &'static str, message: String, problems: Vec<Place>) -> Self {
-        Self { code, message, problems, findings: Vec::new() }
+        Self { code, message, problems, findings: Vec::new(), result: None }
     }
 
     pub(crate) fn refused(why: impl std::fmt::Display) -> Self {
@@ -149,9 +153,9 @@ impl Failed {
     }
 
     /// Returns the failure as JSON: `{"error": {code, message, problems: [{file, line, column, message, cause}]}}`, beside
-    /// which the `findings` are that are its reason.
+    /// which the `findings` are that are its reason; or the result that is not valid.
     pub fn to_json(&self) -> String {
-        json(&self.document())
+        self.result.clone().unwrap_or_else(|| json(&self.document()))
     }
 }
 
@@ -197,8 +201,8 @@ pub(crate) struct Verdict {
 impl Verdict {
     pub(crate) fn of(file: &str, verification: &Verification, remarks: &[String]) -> Self {
         let (id, checks) = (verification.id_from_anyone().map(str::to_owned), verification.checks().to_vec());
-        let not_asked = checks.iter().filter(|check| !check.was_asked()).map(|check| check.name.as_str()).collect();
         let (file, valid, register) = (file.to_owned(), verification.valid(), verification.register().cloned());
+        let not_asked = verification.not_asked();
         Self { file, valid, id, not_asked, remarks: remarks.to_vec(), register, checks }
     }
 }

@@ -9,7 +9,7 @@ use crate::gyro::GyroType;
 use crate::laboratory::{Laboratory, TEMPERATURES_C};
 use crate::text::record::File;
 use crate::text::words::listed;
-use crate::text::{Document, Field, Node, Path, Problems};
+use crate::text::{Document, Field, Node, Path, Problems, Unreadable};
 use jiff::civil::Date;
 use serde::Deserialize;
 use serde_json::value::RawValue;
@@ -18,23 +18,24 @@ use std::str::FromStr;
 /// Order of a calibration: the laboratory's meter and seat, the gyro type, and how to calibrate.
 ///
 /// It is read from JSON, `{method, model, anisoelasticity, drift, exclude: [{i, j, visit, cycle, why}], laboratory, gyro,
-/// gyro_serial, operator, date, temperature_c, previous}`, in which every key may be absent:
+/// gyro_serial, operator, date, temperature_c, previous, budget}`, in which every key may be absent:
 ///
 /// * `method` is `least-squares` (the default), `analytic` or `iterative`.
 /// * `model` of the g-sensitive drift is `paper` (the default) or `general`; `anisoelasticity` is `true` to fit the
 ///   anisoelastic coefficient too, and `drift` is `true` to fit a linear drift of ω_0 in time.
 /// * `exclude` are visits to leave out, each with its reason, and with its `cycle` if several have a visit of that number.
-/// * `laboratory` and `gyro` have the keys of the files `dtg-laboratory/1` and `dtg-gyro/1`.
+/// * `laboratory` and `gyro` are the files `dtg-laboratory/1` and `dtg-gyro/1`: their text, YAML or JSON, or an object.
 /// * `gyro_serial`, `operator`, `date` (YYYY-MM-DD) and `temperature_c` (°C) say what was measured, by whom, when and at
 ///   which temperature; the result repeats them.
 /// * `previous` are earlier results of the same gyro, as `calibrate` returned them. With `gyro`, the result has the change
 ///   since the latest of them.
+/// * `budget` is `true` to add the budget of the uncertainty .
 ///
 /// ```
 /// use dtg_passport::interface::Order;
 ///
 /// let order: Order = r#"{"method": "analytic"}"#.parse()?;
-/// assert!(order.gyro.is_none() && order.laboratory.meter.range_ma == 1.0);
+/// assert!(order.gyro.is_none() && order.laboratory.is_none());
 /// let refused = r#"{"metod": "analytic"}"#.parse::<Order>().unwrap_err();
 /// assert!(refused.message.contains("did you mean method?"));
 /// # Ok::<(), dtg_passport::interface::Failed>(())
@@ -43,10 +44,12 @@ use std::str::FromStr;
 pub struct Order {
     pub(crate) options: Options,
     pub(crate) exclude: Vec<Exclusion>,
+    /// `true` to add the budget of the uncertainty to the result.
+    pub(crate) budget: bool,
     pub(crate) subject: Subject,
     pub(crate) previous: Vec<CalibrationDocument>,
-    /// Laboratory; by default that of the paper's meter.
-    pub laboratory: Laboratory,
+    /// Laboratory, or `None` for the paper's meter.
+    pub laboratory: Option<Laboratory>,
     /// Gyro type for the verdict, or `None` for no verdict.
     pub gyro: Option<GyroType>,
 }
@@ -74,8 +77,9 @@ impl FromStr for Order {
                 ..Options::default()
             },
             exclude: asked.key("exclude", Vec::read).unwrap_or_default(),
-            laboratory: asked.key("laboratory", file(Laboratory::check)).unwrap_or_else(Laboratory::paper),
-            gyro: asked.key("gyro", file(GyroType::check)),
+            budget: asked.key("budget", bool::read).unwrap_or_default(),
+            laboratory: None,
+            gyro: None,
             subject: Subject {
                 gyro_serial: asked.key("gyro_serial", name),
                 operator: asked.key("operator", name),
@@ -86,7 +90,10 @@ impl FromStr for Order {
             previous: Vec::new(),
         };
         let earlier = asked.key("previous", list).is_some();
+        let laboratory = asked.key("laboratory", file(Laboratory::check));
+        let gyro = asked.key("gyro", file(GyroType::check));
         asked.done()?;
+        (order.laboratory, order.gyro) = (laboratory.transpose()?, gyro.transpose()?);
         if earlier {
             order.previous = previous(text)?;
         }
@@ -137,12 +144,19 @@ fn model(node: &Node, at: &Path, problems: &mut Problems) -> Option<Model> {
     found
 }
 
-/// Returns a reader of the content of a file, with the checks that its file has.
-fn file<T: Document>(check: fn(&T, &Path, &mut Problems)) -> impl Fn(&Node, &Path, &mut Problems) -> Option<T> {
+/// Returns a reader of a file, its content as an object or with `yaml` its text, with the `check` that the file has.
+fn file<T: Document>(
+    check: fn(&T, &Path, &mut Problems),
+) -> impl Fn(&Node, &Path, &mut Problems) -> Option<Result<T, Unreadable>> {
     move |node, at, problems| {
+        #[cfg(feature = "yaml")]
+        if let Node::Text(text) = node {
+            let check = |value: &T, problems: &mut Problems| check(value, &Path::Root, problems);
+            return Some(crate::text::yaml::read_document(&at.to_string(), text.as_bytes(), check));
+        }
         let File(content) = Field::read(node, at, problems)?;
         check(&content, at, problems);
-        Some(content)
+        Some(Ok(content))
     }
 }
 
@@ -169,7 +183,8 @@ mod tests {
         assert_eq!((methods, model, drift), (vec![Method::Iterative], Model::General, true));
         let excluded = |i, j, visit, cycle, why: &str| Exclusion { i, j, visit, cycle, why: why.to_owned() };
         assert_eq!(order.exclude, [excluded(2, 4, 1, Some(3), "door"), excluded(1, 1, 2, None, "a")]);
-        assert_eq!((order.laboratory.meter.range_ma, order.laboratory.seating_arcsec.unwrap().about_z), (0.5, 10.0));
+        let laboratory = order.laboratory.unwrap();
+        assert_eq!((laboratory.meter.range_ma, laboratory.seating_arcsec.unwrap().about_z), (0.5, 10.0));
         assert_eq!(order.gyro, Some(GyroType { r#type: "T".to_owned(), ..GyroType::gvk_6() }));
         let of_gyro = r#"{"anisoelasticity": true, "gyro_serial": "4711", "operator": "A. B.", "date": "2026-11-19", "temperature_c": -5}"#;
         let order: Order = of_gyro.parse().unwrap();
@@ -178,7 +193,22 @@ mod tests {
         assert_eq!((date.unwrap().to_string(), temperature_c), ("2026-11-19".to_owned(), Some(-5.0)));
         assert_eq!(order.options.model, Model::Anisoelastic);
         let default: Order = "{}".parse().unwrap();
-        assert_eq!((default.options.methods, default.laboratory), (vec![Method::LeastSquares], Laboratory::paper()));
+        assert_eq!((default.options.methods, default.laboratory), (vec![Method::LeastSquares], None));
+    }
+
+    /// Expected: the same as from the object, and the line of an error in the text.
+    #[cfg(feature = "yaml")]
+    #[test]
+    fn a_file_is_an_object_or_its_text() {
+        let as_object: Order = format!(r#"{{"laboratory": {LABORATORY}, "gyro": {GYRO}}}"#).parse().unwrap();
+        let as_json = serde_json::json!({"laboratory": LABORATORY, "gyro": GYRO}).to_string();
+        assert_eq!(as_json.parse::<Order>().unwrap(), as_object);
+        let yaml = "format: dtg-laboratory/1\nmeter: {range_ma: 0.5, reading_percent: 0.01, gain_percent: 0, offset_ma: 0,\n  \
+                    floor_ma: 1e-6}\nseating_arcsec: {about_x: 5, about_y: 5, about_z: 10}\n";
+        let as_yaml = |text: &str| serde_json::json!({"laboratory": text, "gyro": GYRO}).to_string().parse::<Order>();
+        assert_eq!(as_yaml(yaml).unwrap(), as_object);
+        let failed = as_yaml(&yaml.replace("about_x", "about_w")).unwrap_err();
+        assert!(failed.message.contains("laboratory:4:"), "{failed}");
     }
 
     /// Expected: the words for the same error in a file.

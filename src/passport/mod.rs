@@ -36,7 +36,7 @@ pub use checks::{Check, CheckName, Code};
 pub use content::{
     Content, Dated, Header, PositionCurrents, PositionVectors, Predecessor, SelfCheck, content_from_anyone,
 };
-pub use verification::{Question, Trust, Verification, VerifiedPassport, verify};
+pub use verification::{Question, Refused, Trust, Verification, VerifiedPassport, accept, verify};
 
 /// Namespace of the signatures of passports.
 pub const NAMESPACE: &str = "dtg-passport";

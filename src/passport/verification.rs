@@ -15,7 +15,7 @@ use crate::text::{first_few, printable};
 use crate::trust::{AllowedSigners, Message, NotAuthorised, PublicKey, RevokedKeys};
 use jiff::Timestamp;
 use std::collections::BTreeSet;
-use std::fmt::Display;
+use std::fmt::{self, Debug, Display, Formatter};
 
 /// Trusted signers and revoked keys.
 #[derive(Debug, Clone)]
@@ -94,6 +94,22 @@ pub struct Verification {
 pub struct VerifiedPassport {
     content: Box<Content>,
     key: PublicKey,
+    sha256: String,
+}
+
+/// Refusal of a passport: the checks that failed. `Debug`, with which a program ends that returns an error, prints them too.
+#[derive(Clone, PartialEq, Eq, thiserror::Error)]
+#[error("refused{}", checks.iter().map(|check| format!("\n  {} ({}): {}", check.name.as_str(), check.code.as_str(), check.detail)).collect::<String>())]
+#[non_exhaustive]
+pub struct Refused {
+    /// Checks that failed.
+    pub checks: Vec<Check>,
+}
+
+impl Debug for Refused {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        Display::fmt(self, f)
+    }
 }
 
 impl VerifiedPassport {
@@ -105,6 +121,11 @@ impl VerifiedPassport {
     /// Returns the key that signed the passport.
     pub fn key(&self) -> &PublicKey {
         &self.key
+    }
+
+    /// Returns the SHA-256 of the whole file, in lower-case hexadecimal.
+    pub fn sha256(&self) -> &str {
+        &self.sha256
     }
 
     /// Returns the coefficients of the calibration equations at the site of the passport.
@@ -122,6 +143,11 @@ impl Verification {
     /// Returns `true` if every requested check passed.
     pub fn valid(&self) -> bool {
         self.checks.iter().all(|check| matches!(check.code, Code::Ok | Code::NotAsked))
+    }
+
+    /// Returns the names of the checks that the question did not request, whatever the passport is.
+    pub fn not_asked(&self) -> Vec<&'static str> {
+        self.checks.iter().filter(|check| !check.was_asked()).map(|check| check.name.as_str()).collect()
     }
 
     /// Returns the first check that failed, or `None` if none did.
@@ -207,8 +233,25 @@ impl Verification {
     /// failed.
     pub fn passport(&self) -> Option<VerifiedPassport> {
         let (content, key) = self.content.clone().zip(self.key.clone()).filter(|_| self.valid())?;
-        Some(VerifiedPassport { content, key })
+        Some(VerifiedPassport { content, key, sha256: self.sha256.clone() })
     }
+
+    /// Returns the passport if every requested check passed.
+    ///
+    /// # Errors
+    /// Returns [`Refused`] with the checks that failed.
+    pub fn accepted(&self) -> Result<VerifiedPassport, Refused> {
+        let failed = self.checks.iter().filter(|check| check.passed() == Some(false));
+        self.passport().ok_or_else(|| Refused { checks: failed.cloned().collect() })
+    }
+}
+
+/// Returns a passport if every check that [`verify`] makes passed.
+///
+/// # Errors
+/// Returns [`Refused`] with the checks that failed.
+pub fn accept(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> Result<VerifiedPassport, Refused> {
+    verify(name, bytes, trust, question).accepted()
 }
 
 /// Verifies the bytes of a passport; `name` is the file name used in messages.

@@ -1,7 +1,6 @@
-//! Uncertainty budget and Monte Carlo with the test of linear propagation, both on request; the budget also as JSON.
+//! Uncertainty budget and Monte Carlo with the test of linear propagation, both on request.
 
 use crate::calibration::causes::Cause;
-use crate::calibration::document::finite;
 use crate::calibration::verdict::{ParameterVerdict, Verdict};
 use crate::calibration::{CalibrationDocument, Parameter};
 use crate::gyro::GyroType;
@@ -14,12 +13,10 @@ use crate::report::picture::drawing::legend_with;
 use crate::report::picture::shares as strips;
 use crate::report::picture::tolerances::unit_at_type;
 use crate::report::style::Outcome;
-use crate::uncertainty::budget::COVERAGE;
 use crate::uncertainty::dominant::{Dominant, Effect, Part, percent};
 use crate::uncertainty::monte_carlo::Distribution;
 use crate::uncertainty::{Budget, Contribution, MonteCarlo, ParameterBudget};
 use crate::wording::texts::{calibration as texts, units, words};
-use serde_json::{Value, json};
 
 /// Effective degrees of freedom above which ∞ is printed.
 const MANY: f64 = 1e4;
@@ -265,50 +262,4 @@ pub(crate) fn monte_carlo(found: &MonteCarlo) -> Vec<Block> {
         say((!found.stable).then(|| warning(texts::NOT_STABLE.into()))),
         say((found.failed > 0).then(|| warning(texts::failed_trials(failed)))),
     ]
-}
-
-/// Returns a budget as JSON, `{method, sentence, parameters, covariance, inputs}`: the key `budget` of `calibrate`. The
-/// parameters have their `contributions`; `changes` of an input are those of the parameters, for one standard uncertainty.
-pub(crate) fn budget_json(budget: &Budget, sentence: Option<&str>) -> Value {
-    let contribution = |part: &Contribution| {
-        json!({
-            "input": part.cause.kind(), "inputs": part.inputs, "source": part.cause.source(),
-            "input_unit": part.cause.unit(),
-            "input_standard_uncertainty": part.cause.shown(part.standard_uncertainty[1]),
-            "contribution": part.contribution, "share": part.share,
-        })
-    };
-    let parameters = budget.parameters.iter().map(|line| {
-        stated(json!({
-            "parameter": line.parameter.key(), "unit": line.parameter.unit(), "value": line.value,
-            "standard_uncertainty": line.standard_uncertainty,
-            "effective_degrees_of_freedom": finite(line.effective_degrees_of_freedom),
-            "coverage_probability": COVERAGE, "coverage_factor": line.coverage_factor,
-            "expanded_uncertainty": line.expanded_uncertainty(),
-            "contributions": line.contributions.iter().map(contribution).collect::<Vec<_>>(),
-        }))
-    });
-    let inputs = budget.inputs.iter().zip(budget.spread.column_iter()).map(|(input, changes)| {
-        stated(json!({
-            "input": input.cause.name(), "unit": input.cause.unit(),
-            "standard_uncertainty": input.cause.shown(input.standard_uncertainty),
-            "degrees_of_freedom": finite(input.degrees_of_freedom), "changes": changes.as_slice(),
-        }))
-    });
-    let covariance = budget.covariance();
-    stated(json!({
-        "method": budget.method.key(),
-        "sentence": sentence,
-        "parameters": parameters.collect::<Vec<_>>(),
-        "covariance": covariance.row_iter().map(|row| row.iter().copied().collect()).collect::<Vec<Vec<f64>>>(),
-        "inputs": inputs.collect::<Vec<_>>(),
-    }))
-}
-
-/// Returns an object without the keys that have no value: infinite degrees of freedom, no sentence.
-fn stated(mut object: Value) -> Value {
-    if let Value::Object(keys) = &mut object {
-        keys.retain(|_, value| !value.is_null());
-    }
-    object
 }

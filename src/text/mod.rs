@@ -24,7 +24,7 @@ pub(crate) mod characters;
 pub(crate) mod excerpt;
 pub(crate) mod field;
 pub(crate) mod kind;
-#[cfg(feature = "factory")]
+#[cfg(feature = "yaml")]
 mod locate;
 pub(crate) mod misspelt;
 pub(crate) mod node;
@@ -37,7 +37,7 @@ pub(crate) mod rule;
 pub(crate) mod scalar;
 pub(crate) mod table;
 pub(crate) mod words;
-#[cfg(feature = "factory")]
+#[cfg(feature = "yaml")]
 pub(crate) mod yaml;
 
 pub(crate) use cause::Advice;

@@ -1,6 +1,6 @@
 //! Placeholders of the templates: values that only the user knows, and that no document of theirs may contain.
 
-#[cfg(feature = "factory")]
+#[cfg(feature = "yaml")]
 use super::{Node, Path, Problems};
 
 /// Word that a template contains instead of a value.
@@ -16,7 +16,7 @@ pub(super) fn is_placeholder(text: &str) -> bool {
 }
 
 /// Reports every placeholder in a hand-written document. A value with an error already, such as no number, gets the advice.
-#[cfg(feature = "factory")]
+#[cfg(feature = "yaml")]
 pub(crate) fn check(node: &Node, problems: &mut Problems) {
     node.each_text(&Path::Root, &mut |at, text| {
         if is_placeholder(text) && !problems.advise(at, ADVICE) {

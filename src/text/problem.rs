@@ -3,7 +3,7 @@
 use super::cause::{Advice, Cause};
 use super::characters::{is_sha256_hex, without_byte_order_mark};
 use super::excerpt::{Excerpt, Location, Step};
-#[cfg(feature = "factory")]
+#[cfg(feature = "yaml")]
 use super::locate::locate;
 use super::{Printable, without_secrets};
 use std::collections::HashMap;
@@ -161,7 +161,7 @@ impl Problems {
     }
 
     /// Gives another advice on the error in the value at `at` itself; returns `false` if none was recorded.
-    #[cfg(feature = "factory")]
+    #[cfg(feature = "yaml")]
     pub(crate) fn advise(&mut self, at: &Path, advice: &str) -> bool {
         let steps = at.steps();
         let recorded = self.found.iter_mut().find(|(of, _)| *of == steps);
@@ -214,7 +214,7 @@ impl Problems {
 
     /// Returns the refusal of the hand-written document `name` with the given `text`: the first errors with their lines
     /// and columns, in the order of the text, and a note if there are more.
-    #[cfg(feature = "factory")]
+    #[cfg(feature = "yaml")]
     pub(crate) fn refuse(self, name: &str, text: &str) -> Unreadable {
         let affordable = (READ_AGAIN_BYTES / text.len().max(1)).max(1);
         self.refused(name, affordable, |steps| locate(text, steps))

@@ -77,6 +77,8 @@ static void misuse(void) {
     EXPECT(dtg_matrix(NULL, "delta", numbers) == DTG_UNUSABLE);
     EXPECT(dtg_matrix(NULL, NULL, NULL) == DTG_UNUSABLE);
     EXPECT(dtg_positions(NULL) == 0);
+    EXPECT(dtg_content(NULL) == NULL && dtg_sha256(NULL) == NULL && strlen(dtg_version()) > 0);
+    EXPECT(dtg_array(NULL, "gravity", numbers, 1) == DTG_UNUSABLE && dtg_covariance(NULL, NULL) == DTG_UNUSABLE);
     EXPECT(dtg_position(NULL, 0, ij, numbers, numbers) == DTG_UNUSABLE);
     EXPECT(dtg_calibrate(NULL, numbers, 1, NULL, &text) == DTG_UNUSABLE && strstr(text, "passport is NULL"));
     dtg_string_free(text);
@@ -93,6 +95,10 @@ static void misuse_of(dtg_passport *passport) {
     uint32_t ij[2];
     EXPECT(dtg_matrix(passport, "Delta", numbers) == DTG_UNUSABLE);
     EXPECT(dtg_matrix(passport, "delta", NULL) == DTG_UNUSABLE);
+    EXPECT(dtg_array(passport, "gravity", NULL, 1) == DTG_UNUSABLE && dtg_array(passport, "gravity", numbers, 2) == DTG_UNUSABLE);
+    text = dtg_content(passport);
+    EXPECT(text != NULL && strstr(text, "b_deg_per_h"));
+    dtg_string_free(text);
     EXPECT(dtg_position(passport, dtg_positions(passport), ij, numbers, numbers) == DTG_UNUSABLE);
     EXPECT(dtg_position(passport, 0, NULL, numbers, numbers) == DTG_UNUSABLE);
     EXPECT(dtg_calibrate(passport, NULL, 2, NULL, NULL) == DTG_UNUSABLE);

@@ -43,6 +43,8 @@ ORDERS: dict[str, tuple[Path, dict]] = {
     "general": (RUN, {"model": "general", "gyro": GYRO}),
     "subject": (CURRENTS, {**SUBJECT, "date": "2020-01-02", "laboratory": OWN}),
     "change": (RUN, {**SUBJECT, "gyro": GYRO, "previous": [EARLIER, EARLIEST]}),
+    "budget": (RUN, {"gyro": GYRO, "budget": True}),
+    "files as text": (CURRENTS, {"laboratory": (PROJECT / "docs/laboratory.yaml").read_text(), "gyro": json.dumps(GYRO)}),
     "no change": (CURRENTS, {"gyro": GYRO, "previous": [EARLIEST]}),
 }
 
@@ -78,7 +80,7 @@ def calibrated(folder: Path, currents: Path, order: dict) -> str:
     """Return the JSON that the program prints for an order."""
     options: list[object] = ["--method", order.get("method", "least-squares")]
     options += [f"--model={order['model']}"] if "model" in order else []
-    options += [f"--{key}" for key in ("drift", "anisoelasticity") if order.get(key)]
+    options += [f"--{key}" for key in ("drift", "anisoelasticity", "budget") if order.get(key)]
     options += [f"--{key.replace('_', '-')}={order[key]}" for key in SUBJECT if key in order]
     for number, result in enumerate(order.get("previous", ())):
         (folder / f"{number}.json").write_text(json.dumps(result))
@@ -87,6 +89,6 @@ def calibrated(folder: Path, currents: Path, order: dict) -> str:
         options += ["--exclude", ",".join(str(visit[key]) for key in ("i", "j", "visit", "cycle")), "--why", visit["why"]]
     for key in ("laboratory", "gyro"):
         if key in order:
-            (folder / f"{key}.yaml").write_text(yaml.safe_dump(order[key]))
+            (folder / f"{key}.yaml").write_text(order[key] if isinstance(order[key], str) else yaml.safe_dump(order[key]))
             options += [f"--{key}", folder / f"{key}.yaml"]
     return program("calibrate", PASSPORT, currents, *VERIFIED, *options, accept=(0, 1))

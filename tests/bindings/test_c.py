@@ -104,8 +104,8 @@ def test_the_example_reads_every_row_or_none(tmp_path: Path) -> None:
     assert "deg/(h*mA)" not in run(example, PASSPORT, SIGNERS, QUESTION, given=seven)
     # Nor from columns in another order, nor from readings that do not fit the stand.
     turned = re.sub(r"(?m)^(\w+),(\w+),([^,]+),([^,\n]+)$", r"\1,\2,\4,\3", rows)
-    for other in (turned, rows.replace("1,3,-0.18", "1,3,0.18")):
-        printed = run(example, PASSPORT, SIGNERS, QUESTION, given=other)
+    for other, code in ((turned, 0), (rows.replace("1,3,-0.18", "1,3,0.18"), 1)):
+        printed = run(example, PASSPORT, SIGNERS, QUESTION, given=other, accept=code)
         assert "deg/(h*mA)" not in printed and '"results"' in printed
 
 
@@ -208,18 +208,46 @@ def test_the_parameters_are_numbers_and_say_whether_they_may_be_used() -> None:
     wrong[3, 2] += 0.01
     for given, code, words in ((rows, 0, None), (rows * [1, 1, 1e-3, 1e-3], 1, "0.001000 times those of the gyro"), (wrong, 1, "not consistent")):
         given = np.ascontiguousarray(given)
-        assert c.dtg_calibrate(passport, given.ctypes.data, len(given), None, ctypes.byref(result)) == 0
-        value, u = np.zeros(8), np.zeros(8)
+        assert c.dtg_calibrate(passport, given.ctypes.data, len(given), None, ctypes.byref(result)) == code
+        value, u, covariance = np.zeros(8), np.zeros(8), np.zeros(64)
         doubles = lambda array: array.ctypes.data_as(ctypes.POINTER(ctypes.c_double))
         assert c.dtg_parameters(result, doubles(value), doubles(u)) == code
         found = json.loads(result.value)
+        assert c.dtg_covariance(result, doubles(covariance)) == code and "0.015 %" in found["assumed_meter"]
+        assert covariance.tolist() == np.ravel(found["covariance"]).tolist() and np.allclose(covariance[::9], u**2, rtol=1e-12)
         for got, stated in ((value, found["results"][0]), (u, found["results"][0]["standard_uncertainty"])):
             due = [*np.ravel(stated["k_deg_per_h_per_ma"]), *stated["omega0_deg_per_h"], stated["omega_g_deg_per_h_per_g"], stated["omega_k_deg_per_h_per_g"]]
             assert got.tolist() == due
         assert (words is None and "remarks" not in found) or words in found["remarks"][0]
         c.dtg_string_free(result)
     for text in (b"", b"{}", None):
-        assert c.dtg_parameters(text, doubles(value), doubles(u)) == 2
+        assert c.dtg_parameters(text, doubles(value), doubles(u)) == 2 and c.dtg_covariance(text, doubles(covariance)) == 2
+    c.dtg_free(passport)
+
+
+def test_the_content_and_every_number_are_those_of_the_file() -> None:
+    import ctypes
+
+    c = ctypes.CDLL(str(LIBRARIES / "libdtg_passport.so"))
+    c.dtg_array.argtypes = [ctypes.c_void_p, ctypes.c_char_p, ctypes.c_void_p, ctypes.c_size_t]
+    c.dtg_version.restype = c.dtg_sha256.restype = ctypes.c_char_p
+    c.dtg_content.restype = ctypes.c_void_p
+    passport = ctypes.c_void_p()
+    assert c.dtg_load(str(PASSPORT).encode(), str(SIGNERS).encode(), QUESTION.encode(), ctypes.byref(passport), None) == 0
+    text = ctypes.c_void_p(c.dtg_content(passport))
+    content = json.loads(ctypes.string_at(text))
+    c.dtg_string_free(text)
+    assert content == yaml.safe_load(PASSPORT.read_bytes().partition(b"signature: |")[0])
+    assert c.dtg_sha256(passport).decode() == hashlib.sha256(PASSPORT.read_bytes()).hexdigest()
+    assert program("--version").split()[1] == c.dtg_version().decode()
+    angles = [[at["theta_deg"], at["phi_deg"]] for at in content["positions"]]
+    for name, due in (("gravity", content["earth"]["gravity_m_per_s2"]), ("angles", angles), ("delta", content["matrices"]["delta"])):
+        numbers = np.zeros(np.size(due))
+        assert c.dtg_array(passport, name.encode(), numbers.ctypes.data, len(numbers)) == 0
+        assert numbers.tolist() == np.ravel(due).tolist()
+        assert c.dtg_array(passport, name.encode(), numbers.ctypes.data, len(numbers) - 1) == 2
+    assert c.dtg_array(passport, b"Delta", numbers.ctypes.data, 4) == 2
+    assert c.dtg_content(None) is None and c.dtg_sha256(None) is None
     c.dtg_free(passport)
 
 
@@ -354,11 +382,9 @@ def test_octave_and_matlab_functions(tmp_path: Path) -> None:
         try, dtg_calibrate('{PASSPORT}', '{SIGNERS}', ones(8, 5)); catch e, disp(e.identifier); end
         try, dtg_calibrate('{PASSPORT}', '{SIGNERS}', [{rows}] + 1i); catch e, disp(e.identifier); end
         try, dtg_load('{PASSPORT}', '{SIGNERS}', 'at', [10 20], 'time', '{TIME}'); catch e, disp(e.message); end
-        lastwarn('', '');
-        dtg_calibrate('{OTHER}', '{SIGNERS}', [{rows}], 'time', '{TIME}');
-        [~, identifier] = lastwarn(); disp(identifier);
-        dtg_calibrate('{PASSPORT}', '{SIGNERS}', [{rows}] * diag([1 1 1e-3 1e-3]), 'time', '{TIME}');
-        [words, identifier] = lastwarn(); disp(identifier); disp(words);
+        try, dtg_calibrate('{OTHER}', '{SIGNERS}', [{rows}], 'time', '{TIME}'); catch e, disp(e.identifier); end
+        try, dtg_calibrate('{PASSPORT}', '{SIGNERS}', [{rows}] * diag([1 1 1e-3 1e-3]), 'time', '{TIME}');
+        catch e, disp(e.identifier); disp(strtok(e.message, char(10))); end
         g = dtg_calibrate('{PASSPORT}', '{SIGNERS}', '{RUN}', 'time', '{TIME}', 'model', 'general', 'drift', false);
         printf('%.17g ', g.G', g.u.G'); printf('\\n'); disp(isfield(g, 'omega_g'));
         d = dtg_calibrate('{PASSPORT}', '{SIGNERS}', '{RUN}', 'time', '{TIME}', 'laboratory', '{PROJECT}/docs/laboratory.yaml', ...

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import csv
 import datetime
 import doctest
@@ -21,7 +22,7 @@ import numpy as np
 import pytest
 import yaml
 from conftest import PROJECT, SHIPPED, SIGNERS, TIME, Corpus, Registers, program
-from orders import CURRENTS, ORDERS, PASSPORT, REFUSED, RUN, calibrated, plain
+from orders import CURRENTS, LABORATORY, ORDERS, PASSPORT, REFUSED, RUN, calibrated, plain
 
 def load(path: Path = PASSPORT, **asked: object) -> dtg_passport.Passport:
     return dtg_passport.load(path, SIGNERS, **{"time": TIME, **asked})
@@ -47,7 +48,9 @@ def test_every_number_is_the_signed_one_to_the_last_bit(path: Path) -> None:
     for name, key in (("delta", "delta"), ("B", "b_deg_per_h"), ("C", "c_deg_per_h_per_g"), ("n2_inverse", "n2_inverse")):
         assert getattr(passport, name).tobytes() == bits(matrices[key])
         assert getattr(passport, name).shape == (2, 2)
-    assert passport.ij.tobytes() == bits([[at["i"], at["j"]] for at in positions])
+    assert passport.ij.tolist() == [[at["i"], at["j"]] for at in positions]
+    assert passport.theta.tolist() == [at["theta_deg"] for at in positions]
+    assert passport.phi.tolist() == [at["phi_deg"] for at in positions]
     angles = ("alpha", "beta", "gamma")
     assert passport.deviations.tobytes() == bits([[at[f"{angle}_arcsec"] for angle in angles] for at in positions])
     u = [[at.get(f"u_{angle}_arcsec", np.nan) for angle in angles] for at in positions]
@@ -59,7 +62,11 @@ def test_every_number_is_the_signed_one_to_the_last_bit(path: Path) -> None:
     assert passport.content == content
     # 1 == 1.0, so the types are compared apart.
     assert json.dumps(passport.content) == json.dumps(content)
-    assert passport.id == content["passport"]["id"]
+    assert passport.id == content["passport"]["id"] and passport.data == path.read_bytes()
+    assert (passport.serial, passport.site) == (content["stand"]["serial"], content["site"]["id"])
+    assert passport.latitude == content["earth"]["latitude_deg"]
+    stated = [content[part]["valid_until"] for part in ("passport", "certificate") if "valid_until" in content[part]]
+    assert (passport.expires and str(passport.expires)) == min(stated, default=None)
 
 
 def test_the_digest_is_that_of_the_whole_file() -> None:
@@ -107,7 +114,7 @@ def test_nothing_can_be_changed() -> None:
     arrays = [getattr(passport, name) for name in ARRAYS] + list(passport.at(1, 1))
     arrays += [found.K, found.omega_0, found.u.K, found.u.omega_0, found.covariance, found.residuals, found.ij]
     for array in arrays:
-        assert array.dtype == np.float64 and not array.flags.writeable
+        assert array.dtype in (np.float64, np.int64) and not array.flags.writeable
         # Neither the array nor anything that it is a view of can be made writeable.
         base = array
         while isinstance(base, np.ndarray):
@@ -125,8 +132,15 @@ def test_nothing_can_be_changed() -> None:
                 delattr(thing, name)
     with pytest.raises(TypeError):
         passport.units["B"] = "rad/s"  # type: ignore[index]
-    passport.content["passport"]["issuer"] = "someone else"
-    assert passport.content["passport"]["issuer"] == "examples@dtg-passport.test"
+    changes = (lambda: passport.content["passport"].update(issuer="someone else"), lambda: passport.content.pop("passport"),
+               lambda: passport.content["positions"].append(1), lambda: passport.content["positions"].sort())  # fmt: skip
+    for change in changes:
+        with pytest.raises(TypeError, match="cannot be changed"):
+            change()
+    mine = copy.deepcopy(passport.content)
+    mine["passport"]["issuer"] = mine["positions"][0]["i"] = 7
+    assert passport.content["passport"]["issuer"] == "examples@dtg-passport.test" and passport.content["positions"][0]["i"] == 1
+    assert passport.content is passport.content
     found.document["results"][0]["omega_g_deg_per_h_per_g"] = 0.0
     assert found.omega_g > 9
 
@@ -477,7 +491,9 @@ def test_a_calibration_is_that_of_the_program(method: str) -> None:
 @pytest.mark.parametrize("name", ORDERS)
 def test_every_order_is_carried_out_as_by_the_program(tmp_path: Path, name: str) -> None:
     currents, order = ORDERS[name]
-    found, due = load().calibrate(currents, **order), json.loads(calibrated(tmp_path, currents, order))
+    due = json.loads(calibrated(tmp_path, currents, order))
+    order = {key: value.encode() if key in ("laboratory", "gyro") and isinstance(value, str) else value for key, value in order.items()}
+    found = load().calibrate(currents, **order)
     assert json.dumps(found.document) == json.dumps(due)
     files = {key: tmp_path / f"{key}.yaml" for key in ("laboratory", "gyro") if key in order}
     assert load().calibrate(currents, **{**order, **files}).document == due
@@ -497,7 +513,7 @@ def test_the_general_model_has_no_numbers_of_the_papers() -> None:
     assert (np.isnan(found.covariance) == (of_the_paper[:, None] | of_the_paper)).all()
     assert np.allclose(np.sqrt(np.diag(found.covariance))[:6], u[:6], rtol=1e-14)
     numbers = found.ufloats()
-    assert list(numbers) == ["K_x", "K_xy", "K_yx", "K_y", "ω_0x", "ω_0y"] and numbers["K_x"].n == found.K[0, 0]
+    assert list(numbers) == ["k_x", "k_xy", "k_yx", "k_y", "omega_0x", "omega_0y"] and numbers["k_x"].n == found.K[0, 0]
     with pytest.raises(ValueError, match="model"):
         found.monte_carlo(1)
 
@@ -563,14 +579,66 @@ def test_times_may_be_dates_or_durations() -> None:
         passport.calibrate(run.assign(jx_ma=seconds))
 
 
+def test_a_result_is_kept_and_read_again() -> None:
+    found = load().calibrate(RUN, gyro=PROJECT / "docs/gvk-6.yaml", laboratory=LABORATORY)
+    kept = json.dumps(found.document)
+    for again in (dtg_passport.Calibration.from_json(kept), dtg_passport.Calibration.from_json(kept.encode()), pickle.loads(pickle.dumps(found))):
+        assert again.document == found.document and again.covariance.tobytes() == found.covariance.tobytes()
+        with pytest.raises(ValueError, match="no currents"):
+            again.monte_carlo(1)
+    assert found.assumed_meter is None and "0.015 %" in load().calibrate(CURRENTS).assumed_meter
+    with pytest.raises(ValueError, match="unsuitable JSON"):
+        dtg_passport.Calibration.from_json("{}")
+    # Expected: the rows of `verdict` and the covariance have one order.
+    names = ["k_x", "k_xy", "k_yx", "k_y", "omega_0x", "omega_0y", "omega_g", "omega_k"]
+    assert [row["parameter"] for row in found.verdict["parameters"]] == names
+    of_table = dtg_passport.table([found, found])
+    assert np.array_equal(of_table.loc[1, [f"u_{name}" for name in names]].astype(float), np.sqrt(np.diag(found.covariance)))
+
+
+def test_a_passport_goes_elsewhere_as_its_bytes() -> None:
+    passport = load()
+    with pytest.raises(TypeError, match="passport.data.*loads"):
+        pickle.dumps(passport)
+    assert copy.copy(passport) is passport and copy.deepcopy([passport]) == [passport]
+    assert dtg_passport.loads(passport.data, SIGNERS, time=TIME) == passport
+
+
+def test_bad_files_do_not_end_a_batch(tmp_path: Path) -> None:
+    bad = tmp_path / "bad.yaml"
+    bad.write_bytes(PASSPORT.read_bytes().replace(b"0017", b"0018", 1))
+    paths = [PASSPORT, bad, tmp_path / "nowhere.yaml", tmp_path, PASSPORT]
+    answers = list(dtg_passport.verify_many(paths, SIGNERS, time=TIME))
+    assert [answer.valid for answer in answers] == [True, False, False, False, True]
+    due = dtg_passport.verify(PASSPORT, SIGNERS, time=TIME)
+    assert answers[0] == due and due.not_asked == ("revocation", "issuer", "stand", "place", "register")
+    assert all(answer.not_asked == due.not_asked for answer in answers)
+    assert [answer.checks[0].code for answer in answers] == ["ok", "ok", "unreadable", "unreadable", "ok"]
+    skipped: list[dtg_passport.Refused] = []
+    found = list(dtg_passport.load_many(paths, SIGNERS, time=TIME, skip=skipped.append))
+    assert found == [load(), load()] and [refused.path for refused in skipped] == [str(path) for path in paths[1:4]]
+    with pytest.raises(FileNotFoundError):
+        list(dtg_passport.load_many([PASSPORT, paths[2]], SIGNERS, time=TIME))
+
+
+def test_a_laboratory_and_a_gyro_type_are_a_path_bytes_or_a_mapping() -> None:
+    content = (PROJECT / "docs/gvk-6.yaml").read_bytes()
+    of_path = load().calibrate(CURRENTS, gyro=PROJECT / "docs/gvk-6.yaml").document
+    assert load().calibrate(CURRENTS, gyro=content).document == of_path
+
+
 def test_remarks_are_handed_on() -> None:
     import pandas
 
     frame = pandas.read_csv(CURRENTS, comment="#").assign(operator="N. N.")
     assert any("operator" in remark for remark in load().calibrate(frame).remarks)
-    amperes = load().calibrate(frame.assign(jx_ma=frame.jx_ma / 1000, jy_ma=frame.jy_ma / 1000))
+    with pytest.raises(dtg_passport.NotValid, match="far from the gyro's") as not_valid:
+        load().calibrate(frame.assign(jx_ma=frame.jx_ma / 1000, jy_ma=frame.jy_ma / 1000))
+    amperes = not_valid.value.result
     assert amperes.consistent and (amperes.mistake["kind"], amperes.mistake["size"]) == ("range", 0.001)
     assert "0.001000 times those of the gyro" in amperes.remarks[0] and "NOT THIS GYRO" in repr(amperes)
+    with pytest.raises(dtg_passport.NotValid, match="far from the gyro's"):
+        dtg_passport.Calibration.from_json(json.dumps(amperes.document))
     # Four positions have as many readings as unknowns.
     few = load().calibrate(frame.iloc[[0, 1, 2, 4]])
     assert few.dof == 0 and any("cannot be tested" in remark for remark in few.remarks)
@@ -841,8 +909,8 @@ def test_correct_software_passes_the_self_check(path: Path) -> None:
 def test_wrong_software_fails_the_self_check(wrong: object) -> None:
     passport = load(PROJECT / "docs/self_check.yaml")
     result = passport.self_check(lambda p, currents: wrong(*by_hand(p, currents)))  # type: ignore[operator]
-    assert not result.passed and result.limit == 1e-9 and set(result.errors) == {
-        "K_x", "K_xy", "K_yx", "K_y", "ω_0x", "ω_0y", "ω_g", "ω_k"}  # fmt: skip
+    names = ["k_x", "k_xy", "k_yx", "k_y", "omega_0x", "omega_0y", "omega_g", "omega_k"]
+    assert not result.passed and result.limit == 1e-9 and list(result.errors) == names
     with pytest.raises(ValueError, match="expected K"):
         passport.self_check(lambda p, currents: (1.0, 2.0, 3.0, 4.0))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import gzip
+import hashlib
 import json
 import os
 import re
@@ -59,7 +60,8 @@ def test_every_answer_and_number_is_that_of_the_program(corpus: Corpus) -> None:
         verdict = {**{key: due[key] for key in ("valid", "id", "not_asked", "remarks")}, "checks": checks}
         assert found["verdict"] == verdict, path
         if due["valid"]:
-            assert found["content"] == yaml.load(path.read_bytes().partition(b"signature: |")[0], Loader=yaml.CSafeLoader)
+            content = yaml.load(path.read_bytes().partition(b"signature: |")[0], Loader=yaml.CSafeLoader)
+            assert found["content"] == {"sha256": hashlib.sha256(path.read_bytes()).hexdigest(), **content}
         else:
             assert found["content"] is False
 
@@ -152,12 +154,13 @@ TYPED = """
     const passport = new Uint8Array();
     const question: Question = { serial: "0017", time: new Date(), at: [55.766, 37.685], revoked: [passport, "text"], register: passport };
     const visit = { i: 2, j: 4, visit: 1, why: "door opened" };
-    const order: Order = { method: "least-squares", model: "general", drift: true, exclude: [visit], laboratory: {}, gyro: {}, date: "2026-11-19" };
+    const order: Order = { method: "least-squares", model: "general", drift: true, exclude: [visit], laboratory: {}, gyro: "format: dtg-gyro/1", date: "2026-11-19" };
     const { valid, register, checks } = await verify(passport, "signers", question);
     const found = await calibrate(passport.buffer, passport, "i,j,jx_ma,jy_ma", question, order);
     const said: string[] = [...(found.remarks ?? []), register?.sha256 ?? "", found.register?.issued_at ?? "", await print(passport, "signers"), ...checks.map(({ code }) => code)];
-    const numbers: number[] = found.results[0]?.["omega0_deg_per_h"];
-    export { valid, said, numbers, content };
+    const numbers: number[] = found.results[0].omega0_deg_per_h;
+    const gravity: number = (await content(passport, "signers")).earth.gravity_m_per_s2;
+    export { valid, said, numbers, gravity };
 """
 
 
@@ -167,7 +170,7 @@ def test_the_types_for_typescript_hold(tmp_path: Path) -> None:
     tsc = PROJECT / "target/bindings/node_modules/typescript/bin/tsc"
     strict = ["--noEmit", "--strict", "--exactOptionalPropertyTypes", "--noUncheckedIndexedAccess", "--module", "nodenext", "--target", "es2022"]
     for right, wrong, words in (("", "", ""), ("serial:", "serail:", "'serail' does not exist"), ('"general"', '"full"', '"full"'),
-                                ("checks }", "check }", "'check' does not exist"), ("[55.766, 37.685]", "[55.766]", "not assignable")):  # fmt: skip
+                                ("checks }", "check }", "'check' does not exist"), ("[0].omega0", "[0].omega", "'unknown' is not assignable to type 'number[]'"), ("[55.766, 37.685]", "[55.766]", "not assignable")):  # fmt: skip
         (tmp_path / "user.mts").write_text(TYPED.replace(right, wrong) if right else TYPED)
         done = subprocess.run(["node", tsc, *strict, tmp_path / "user.mts"], capture_output=True, text=True)
         assert (done.returncode == 0) == (words == "") and words in done.stdout, done.stdout
@@ -186,11 +189,13 @@ MISUSED = """
     const semicolons = currents.toString().replaceAll(".", "¤").replaceAll(",", ";").replaceAll("¤", ",");
     const amperes = currents.toString().replace(/-?0\\.\\d+/g, (number) => (number / 1000).toPrecision(12));
     const calibrated = (text) => dtg.calibrate(passport, signers, new TextEncoder().encode(text), { time: "2026-11-20" });
+    const not_valid = (text) => calibrated(text).then(() => "valid", ({ message, cause }) => ({ message, ...cause }));
     console.log(JSON.stringify({
         refused: await Promise.all(wrong.map(said)),
         other_world: await said(other_world),
         semicolons: await calibrated(semicolons),
-        amperes: await calibrated(amperes),
+        amperes: await not_valid(amperes),
+        version: dtg.version,
     }));
 """
 
@@ -207,7 +212,9 @@ def test_a_question_is_never_left_out_and_remarks_are_handed_on(corpus: Corpus) 
         assert any(words in said for said in found["refused"]), (words, found["refused"])
     assert found["other_world"] == "valid false"
     assert any("decimal commas" in remark for remark in found["semicolons"]["remarks"])
-    assert "0.001000 times those of the gyro" in found["amperes"]["remarks"][0] and found["amperes"]["mistake"]
+    amperes = found["amperes"]
+    assert "0.001000 times those of the gyro" in amperes["remarks"][0] and amperes["mistake"] and amperes["message"].startswith("not valid: ")
+    assert found["version"] == program("--version").split()[1]
 
 
 REGISTERED = """

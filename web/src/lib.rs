@@ -37,12 +37,13 @@ pub extern "C" fn verify(inputs: &Inputs, now_s: f64) -> *const Slice {
     run(inputs, now_s, |_, answer| Ok(answer.to_json()))
 }
 
-/// Verifies a passport and gives its content as JSON, or the answer of [`verify`] if a check failed.
+/// Verifies a passport and gives its `sha256` and its content as JSON, or the answer of [`verify`] if a check failed.
 #[unsafe(no_mangle)]
 pub extern "C" fn content(inputs: &Inputs, now_s: f64) -> *const Slice {
     run(inputs, now_s, |_, answer| {
         let passport = answer.verification.passport();
-        Ok(passport.map_or_else(|| answer.to_json(), |passport| content_json(passport.content())))
+        let with_sha256 = |json: &str| format!(r#"{{"sha256":"{}",{}"#, answer.sha256, &json[1..]);
+        Ok(passport.map_or_else(|| answer.to_json(), |passport| with_sha256(&content_json(passport.content()))))
     })
 }
 
@@ -64,7 +65,7 @@ pub extern "C" fn calibrated(inputs: &Inputs, now_s: f64) -> *const Slice {
         let order = inputs.order.text()?.parse()?;
         let Some(passport) = answer.verification.passport() else { return Ok(answer.to_json()) };
         let verified = Some((answer.time, answer.verification.register()));
-        Ok(calibrate(passport.content(), verified, ("currents", inputs.currents.bytes()), &order)?.json)
+        calibrate(passport.content(), verified, ("currents", inputs.currents.bytes()), &order)
     })
 }
 

@@ -107,7 +107,8 @@ pub(crate) fn counted(
     by: fn(&ParameterVerdict) -> Decision,
     passed: fn(usize, usize) -> Words,
 ) -> Words {
-    let of = |decision| verdict.parameters.iter().filter(move |row| by(row) == decision).map(|row| row.parameter);
+    let rows = Parameter::in_paper_order(&verdict.parameters, |row| row.parameter);
+    let of = |decision| rows.iter().filter(move |row| by(row) == decision).map(|row| row.parameter);
     let mut all = vec![passed(of(Decision::Pass).count(), Parameter::EIGHT.len())];
     for (decision, text) in
         [(Decision::Fail, texts::fail as fn(Words) -> Words), (Decision::Undecided, texts::are_undecided)]
@@ -179,13 +180,13 @@ fn compared(
     [reference, deviation]: [Text; 2],
     extent: Extent,
 ) -> Block {
-    let rows = &verdict.parameters;
+    let rows = Parameter::in_paper_order(verdict.parameters.clone(), |row| row.parameter);
     let u = ParameterVerdict::expanded_uncertainty_of_value;
     // One digit stands before every decimal mark, so that these align where the numbers begin at one place.
     let risk = |row: &ParameterVerdict| vec![Words::from(row.specific_risk.map(probability))];
     let by = if verdict.rule.guard_band() > 0.0 { texts::GUARDED } else { texts::SIMPLE };
     let outcome = |row: &ParameterVerdict| Outcome::of(verdict.decision(row));
-    let mut table = Rows::of(rows, "numbers result")
+    let mut table = Rows::of(&rows, "numbers result")
         .named(texts::PARAMETER, |row| {
             let unit = Words::First(Box::new(unit_at_type(row.parameter).into()));
             vec![Words::OnTelephones(outcome(row)), symbol(row.parameter.symbol()), ", ".into(), unit]
