@@ -16,7 +16,7 @@ use geographiclib_rs::{Geodesic, InverseGeodesic};
 
 /// Earth rate Ω, rad/s: 7.292115e-5 ([IERS](crate::bibliography::Bibliography::Iers10),
 /// [WGS 84](crate::bibliography::Bibliography::Wgs84)).
-pub const ROTATION_RAD_PER_S: f64 = 7.292115e-5;
+pub(crate) const ROTATION_RAD_PER_S: f64 = 7.292115e-5;
 
 /// Returns the Earth rate Ω, °/h.
 pub(crate) fn rotation_deg_per_h() -> f64 {
@@ -189,7 +189,7 @@ pub(crate) const NORMAL_GRAVITY_U_M_PER_S2: f64 = 5e-4;
 pub(crate) const NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2: f64 = 7.1e-3;
 
 /// Standard gravity, m/s²: the g of a gyro type that states none.
-pub const STANDARD_GRAVITY_M_PER_S2: f64 = 9.80665;
+pub(crate) const STANDARD_GRAVITY_M_PER_S2: f64 = 9.80665;
 
 /// Mean radius of the Earth, m, (2a + b)/3, for limits that need few digits.
 pub(crate) const MEAN_RADIUS_M: f64 = 6_371_008.8;

@@ -63,7 +63,7 @@ pub enum KeyFileError {
 }
 
 /// Function that asks for the passphrase of a key file; it is called only for an encrypted key.
-pub type AskPassphrase<'a> = &'a dyn Fn(&Path) -> Result<Zeroizing<String>, String>;
+pub(crate) type AskPassphrase<'a> = &'a dyn Fn(&Path) -> Result<Zeroizing<String>, String>;
 
 /// Prevents core dumps of this process, which would contain the key and its passphrase, and keeps other processes of
 /// the same user from reading its memory. On systems without these settings it has no effect.

@@ -77,6 +77,8 @@ fn stand(number: usize, stream: &mut Stream) -> Stand {
             repeatability_degrees_of_freedom: Some(32.0),
             common_platform_arcsec: Some(0.8),
             common_base_arcsec: Some(0.8),
+            cmc_arcsec: None,
+            references: None,
             type_b: None,
             evidence: None,
         },

@@ -84,7 +84,6 @@ pub use least_squares::NoLeastSquares;
 pub use noise::{DriftNoise, NoiseSource};
 pub use options::Options;
 pub use parameter::Parameter;
-pub use prediction::predicted;
 pub use procedure::calibrate;
 pub use readings::{NoReadings, PositionReadings, Reading, Readings, Visit};
 pub use result::{Calibration, Method, MethodRefusal, MethodResult, NotValid, Residual};

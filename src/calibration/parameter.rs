@@ -171,7 +171,7 @@ impl Tolerance {
 
 impl GyroParameters {
     /// Returns the eight parameters in the order of [`Parameter::EIGHT`].
-    pub fn to_vector(&self) -> [f64; 8] {
+    pub(crate) fn to_vector(self) -> [f64; 8] {
         let k = &self.k_deg_per_h_per_ma;
         let omega0 = &self.omega0_deg_per_h;
         let (w_g, w_k) = (self.omega_g_deg_per_h_per_g, self.omega_k_deg_per_h_per_g);

@@ -13,7 +13,7 @@ use serde::Serialize;
 /// Returns the result of `method` for the exact currents of `gyro`, or `None` if the method gives no result.
 ///
 /// Its covariance is the one that a laboratory can expect, to first order.
-pub fn predicted(setup: &Setup, gyro: &GyroParameters, method: Method) -> Option<MethodResult> {
+pub(crate) fn predicted(setup: &Setup, gyro: &GyroParameters, method: Method) -> Option<MethodResult> {
     let readings = Readings::new(setup.coefficients(), &exact_currents_ma(setup, gyro)?).ok()?;
     let options = Options { methods: vec![method], ..Options::default() };
     calibrate(setup, &readings, &options).ok()?.results.pop()

@@ -203,7 +203,7 @@ pub(crate) enum Access {
 /// Durability of a new file after a power failure. Killing the program loses nothing in any variant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Durability {
+pub(crate) enum Durability {
     /// Durable file and name.
     Named,
     /// Durable file; its name is durable after `sync_folder` has returned, which serves many files at once.

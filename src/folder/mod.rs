@@ -18,7 +18,8 @@ pub(crate) mod registers;
 pub(crate) mod renewal;
 pub(crate) mod stand;
 
-pub use crate::files::{Durability, FileError};
+use crate::files::Durability;
+pub use crate::files::FileError;
 pub use refused::FolderRefused;
 pub(crate) use registers::{Memory, Registers};
 pub(crate) use stand::{Listing, StandFolder};
@@ -141,7 +142,7 @@ impl Folder {
     }
 
     /// Returns the handle with another `durability` of the files written to the folder.
-    pub fn with_durability(self, durability: Durability) -> Self {
+    pub(crate) fn with_durability(self, durability: Durability) -> Self {
         Self { durability, ..self }
     }
 

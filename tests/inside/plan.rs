@@ -4,8 +4,9 @@
 use crate::inside::fixtures;
 use crate::inside::reference::{LATITUDE_DEG, paper_meter};
 use dtg_passport::calibration::parameter::Parameter;
+use dtg_passport::calibration::prediction::predicted;
 use dtg_passport::calibration::unknowns::Model;
-use dtg_passport::calibration::{Cause, Method, least_squares, predicted};
+use dtg_passport::calibration::{Cause, Method, least_squares};
 use dtg_passport::coefficients::Coefficients;
 use dtg_passport::gyro::{GyroNoise, GyroType};
 use dtg_passport::laboratory::{Laboratory, Meter};
