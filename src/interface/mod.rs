@@ -5,9 +5,8 @@
 //!
 //! * [`Enquiry`]: whom to trust and what to ask, and the verification of many passports.
 //! * [`fn@array`], [`matrix`]: the numbers of a passport.
-//! * [`Order`], [`calibrate`]: currents to the parameters of a gyro; [`parameters`], [`covariance`]: the numbers of its result; [`earlier`]: a
-//!   result that was kept;
-//!   `monte_carlo` (with `monte-carlo`): their distributions.
+//! * [`Order`], [`calibrate`]: currents to the parameters of a gyro; [`parameters`], [`covariance`]: the numbers of its
+//!   result; [`earlier`]: a result that was kept; `monte_carlo` (with `monte-carlo`): their distributions.
 //! * `issue` (with `factory`), `plan` (with `monte-carlo` too): a signed passport; the best positions.
 //! * [`Failed`]: refusals as JSON.
 //!

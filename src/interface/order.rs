@@ -29,7 +29,7 @@ use std::str::FromStr;
 ///   which temperature; the result repeats them.
 /// * `previous` are earlier results of the same gyro, as `calibrate` returned them. With `gyro`, the result has the change
 ///   since the latest of them.
-/// * `budget` is `true` to add the budget of the uncertainty .
+/// * `budget` is `true` to add the budget of the uncertainty.
 ///
 /// ```
 /// use dtg_passport::interface::Order;
