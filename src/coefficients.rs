@@ -243,7 +243,7 @@ pub struct Matrices {
 }
 
 /// A 2×2 matrix, row by row.
-pub type Rows = [[f64; 2]; 2];
+pub(crate) type Rows = [[f64; 2]; 2];
 
 record! {
     /// Matrices of the paper at the site, each a list of two rows.

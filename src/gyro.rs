@@ -234,7 +234,7 @@ impl GyroType {
     }
 
     /// Returns the value of g to which the drifts of the type refer, m/s².
-    pub fn gravity(&self) -> f64 {
+    pub(crate) fn gravity(&self) -> f64 {
         self.gravity_m_per_s2.unwrap_or(STANDARD_GRAVITY_M_PER_S2)
     }
 

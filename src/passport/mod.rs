@@ -27,7 +27,8 @@ pub(crate) mod recomputed;
 pub mod reissue;
 pub(crate) mod verification;
 
-pub use crate::coefficients::{MatrixRows, Rows};
+pub use crate::coefficients::MatrixRows;
+pub(crate) use crate::coefficients::Rows;
 use crate::document::Form;
 pub use crate::document::{Malformed, OtherSignature, RegisterUsed};
 use crate::text::Limits;

@@ -10,4 +10,5 @@ pub mod draw;
 
 pub use crate::statistics::random::{Run, Stream};
 pub use accuracy::{Accuracy, AccuracyOptions, AccuracyRow, PAPER_LATITUDE_DEG, Stands, accuracy};
+
 pub use convergence::{Convergence, ConvergenceRow, LIMITS_DEG, convergence};

@@ -1,6 +1,6 @@
 //! Laboratory software for the paper's closed solution, each step of which can be replaced; it shares no code with the library.
 
-use dtg_passport::passport::{Content, Rows};
+use dtg_passport::passport::Content;
 use nalgebra::{Matrix2, Vector2};
 
 /// One position of a passport, and the currents of its self-check there.
@@ -26,7 +26,7 @@ pub struct Read {
     pub at: Vec<At>,
 }
 
-fn matrix(rows: &Rows) -> Matrix2<f64> {
+fn matrix(rows: &[[f64; 2]; 2]) -> Matrix2<f64> {
     Matrix2::new(rows[0][0], rows[0][1], rows[1][0], rows[1][1])
 }
 
