@@ -84,7 +84,7 @@ impl Job {
             }
             Part::Renew => format!("register passports --renew --key key --identity factory {trust}"),
             Part::Recertify => format!(
-                "recertify passports/SPS-2/0017/site-00000-1.yaml again.csv --number C-2027-0002 --issued 2026-11-20 \
+                "recertify passports/SPS-2/0017/site-00000-1.yaml again.csv --accept-change --number C-2027-0002 --issued 2026-11-20 \
                  --issued-at 2026-11-21 --reason recertified --key key --identity factory {trust} --time 2026-11-21"
             ),
             Part::Revoke => format!("revoke SPS-2/*/*/* --reason wrong --key key --identity factory {trust}"),

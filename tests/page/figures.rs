@@ -91,7 +91,9 @@ fn verdict_and_change_are_where_their_axes_say() {
         let axis = Axis::along_x(strips[8]);
         let body = page.descendants().find(|node| node.has_tag_name("tbody")).unwrap();
         let rows = body.children().filter(|node| node.has_tag_name("tr"));
-        for ((line, row), strip) in lines.iter().zip(rows).zip(&strips) {
+        // Pages have the paper's order: K_x, K_y, K_xy, K_yx.
+        let lines = [0, 3, 1, 2, 4, 5, 6, 7].map(|place| &lines[place]);
+        for ((line, row), strip) in lines.into_iter().zip(rows).zip(&strips) {
             let (deviation, expanded) = (get(line, "deviation"), get(line, "expanded_uncertainty"));
             let percent = |value: f64| 100.0 * value / get(line, "tolerance");
             for (limit, due) in of_class(*strip, "limit").into_iter().zip([-100.0, 100.0]) {

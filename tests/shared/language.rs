@@ -2,7 +2,7 @@
 
 /// Latin words that also occur in Russian texts: names of standards, programs, files and units of time.
 pub const LATIN_IN_RUSSIAN: &[&str] =
-    &["SHA", "WGS", "UTC", "binary", "dtg", "passport", "verify", "ssh", "keygen", "yaml", "JCGM", "QR"];
+    &["SHA", "WGS", "UTC", "binary", "dtg", "passport", "verify", "ssh", "keygen", "yaml", "JCGM", "QR", "ISO", "IEC"];
 
 pub fn cyrillic(c: char) -> bool {
     ('\u{0400}'..='\u{04FF}').contains(&c)
