@@ -417,7 +417,7 @@ class Report:
                 unit = due[head].pop(0)
                 if unit not in group and russian[unit] not in group:
                     self.wrong.append(f"{part}: ± U below {group!r}, and its unit is that of the {unit}")
-        for row, line in zip(table["rows"], self.result[part]["parameters"], strict=True):
+        for row, line in zip(table["rows"], self.as_printed(part), strict=True):
             # The decision stands beside the name, for telephones.
             near, name = row[0]["text"].split(",")[0].split("\u00a0")
             # A drift at the g of the type has another unit than one at local g.
@@ -468,9 +468,14 @@ class Report:
             if due[self.said["lang"]] not in said:
                 self.wrong.append(f"{missing} inputs are not in U, and the verdict says {said!r}")
 
+    def as_printed(self, part):
+        """The parameters of a verdict in the paper's order, which pages have."""
+        order = ["k_x", "k_y", "k_xy", "k_yx"]
+        return sorted(self.result[part]["parameters"], key=lambda line: (order + [line["parameter"]]).index(line["parameter"]))
+
     def simple(self, part):
         """The sentence on simple acceptance below the table: how many pass, and the names of those that fail."""
-        lines = self.result[part]["parameters"]
+        lines = self.as_printed(part)
         fails = ", ".join(symbol_of(line["parameter"]) for line in lines if line["simple"] == "fail")
         passed = sum(line["simple"] == "pass" for line in lines)
         due = {

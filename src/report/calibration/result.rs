@@ -134,7 +134,7 @@ pub(crate) fn rule(verdict: &Verdict) -> Words {
 
 /// A guard band as a multiple of U.
 pub(crate) fn band_of_u(band: f64) -> Words {
-    if band == 1.0 { "U".into() } else { Words::All(vec![Number::exact(band).into(), "\u{a0}U".into()]) }
+    if band == 1.0 { symbol("U") } else { Words::All(vec![Number::exact(band).into(), "\u{a0}".into(), symbol("U")]) }
 }
 
 /// Simple acceptance, a note on the risks, and the parameters that no gyro could pass, would pass with the other sign, or
