@@ -22,12 +22,12 @@ def calibrate(currents: str, passport: str, trust: bytes, time: str | None, tria
     """Verify a passport and calibrate the gyro; one task, on one processor."""
     try:
         found = dtg_passport.load(passport, trust, time=time).calibrate(currents)
-        if not found.consistent or found.mistake:
-            # The parameters are not those of the gyro; the first remark says why.
-            return {"passport": passport, "error": f"not valid: {found.remarks[0]}"}
         result = {"passport": passport, **found.document}
         if trials is not None:
             result["monte_carlo"] = found.monte_carlo(trials, threads=1, progress=False).document
+    except dtg_passport.NotValid as error:
+        # The parameters are not those of the gyro.
+        return {"passport": passport, "error": f"not valid: {error}"}
     except (dtg_passport.Refused, ValueError, OSError) as error:
         return {"passport": passport, "error": str(error)}
     return result

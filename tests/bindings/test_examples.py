@@ -134,6 +134,7 @@ def fleet(corpus: Corpus, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def run(corpus: Corpus, fleet: Path, currents: Path, *options: str, accept: int = 0) -> list[dict]:
     out = fleet / "results.ndjson"
+    out.unlink(missing_ok=True)
     command = [sys.executable, PROJECT / "docs/fleet.py", fleet / "passports", currents, "--trust", corpus.signers]
     done = subprocess.run([*command, "--time", TIME, "--out", out, *options], capture_output=True, text=True)
     assert done.returncode == accept, done.stdout + done.stderr
