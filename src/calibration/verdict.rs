@@ -2,8 +2,8 @@
 //!
 //! Decisions are made by the rule of the gyro type: simple acceptance, or guarded acceptance with a guard band of a part of
 //! the expanded uncertainty ([JCGM 106](crate::bibliography::Bibliography::Jcgm106), 8.2 and 8.3; ILAC-G8), with the
-//! specific risk (7.3). The coverage factor is 2, or that of Student's t for the same probability, if the uncertainty rests on few degrees of
-//! freedom ([JCGM 100](crate::bibliography::Bibliography::Gum), G.3).
+//! specific risk (7.3). The coverage factor is 2, or that of Student's t for the same probability, if the uncertainty rests
+//! on few degrees of freedom ([JCGM 100](crate::bibliography::Bibliography::Gum), G.3).
 
 use super::parameter::Parameter;
 use crate::gyro::{DecisionRule, GyroParameters, GyroType, Rule};
@@ -353,13 +353,12 @@ impl Verdict {
     pub(crate) fn agreed(mut self, other: Option<Self>) -> Self {
         for row in &mut self.parameters {
             let other = other.as_ref().and_then(|other| other.parameter(row.parameter));
-            let by: [fn(&mut ParameterVerdict) -> &mut Decision; 3] =
-                [|row| &mut row.simple, |row| &mut row.guarded, |row| &mut row.decision];
-            for decision in by {
-                if other.cloned().map(|mut other| *decision(&mut other)) != Some(*decision(row)) {
-                    *decision(row) = Decision::Undecided;
-                }
-            }
+            let common = |decision: fn(&ParameterVerdict) -> Decision| match other {
+                Some(other) if decision(other) == decision(row) => decision(row),
+                _ => Decision::Undecided,
+            };
+            (row.simple, row.guarded, row.decision) =
+                (common(|row| row.simple), common(|row| row.guarded), common(|row| row.decision));
             row.specific_risk = row.specific_risk.filter(|_| row.decision != Decision::Undecided);
         }
         Self { withheld: self.withheld, ..Self::of(self.rule, self.gravity_m_per_s2, self.parameters) }

@@ -52,7 +52,7 @@ pub(super) fn character(c: char) -> String {
 const ALIKE: &str = "аеорсухіјѕԁһАВЕКМНОРСТХІЈЅοανρτυχΑΒΕΖΗΙΚΜΝΟΡΤΥΧ";
 const LATIN: &str = "aeopcyxijsdhABEKMHOPCTXIJSoavptuxABEZHIKMNOPTYX";
 
-/// Returns the text with Latin letters in place of those of other alphabets that look like them.
+/// Returns the text with each letter of another alphabet that looks Latin replaced by the Latin letter.
 pub(crate) fn with_latin(text: &str) -> String {
     let alike = |c: char| ALIKE.chars().zip(LATIN.chars()).find(|(alike, _)| *alike == c).map_or(c, |(_, latin)| latin);
     text.chars().map(alike).collect()

@@ -1,4 +1,4 @@
-//! One certificate by its number: its readings, header, record, stand file and passports.
+//! Finds what belongs to a certificate number: readings, header, record, stand file and passports.
 
 use crate::batch::paths::has_extension;
 use crate::certification::Header;

@@ -75,7 +75,7 @@ fn folders(root: &Path, kind: &Kind, made: &mut Vec<PathBuf>) -> Result<(), File
     Ok(())
 }
 
-/// Line of a new workspace in place of the issuer.
+/// Comment that a new workspace has instead of its issuer.
 const NO_IDENTITY: &str = "# identity = \"factory@example.org\"";
 
 /// Returns the line that states the issuer.

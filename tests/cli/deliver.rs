@@ -580,12 +580,12 @@ fn hostile(good: &[Entry], other: &[Entry]) -> Vec<(String, Vec<u8>)> {
         });
         add(&format!("a {name} of another factory"), of(place, &|_| other[place].data.clone()));
     }
-    add("a register in place of the passport", of(1, &|_| good[2].data.clone()));
-    add("a passport in place of the register", of(2, &|_| good[1].data.clone()));
+    add("a register instead of the passport", of(1, &|_| good[2].data.clone()));
+    add("a passport instead of the register", of(2, &|_| good[1].data.clone()));
     add("keys of another factory", of(3, &|_| other[3].data.clone()));
     add("no keys", of(3, &|_| Vec::new()));
     add("keys that are none", of(3, &|_| b"ssh-ed25519 AAAA factory@example.org\n".to_vec()));
-    add("an authority in place of a key", of(3, &|bytes| [b"factory@example.org cert-authority ", bytes].concat()));
+    add("an authority instead of a key", of(3, &|bytes| [b"factory@example.org cert-authority ", bytes].concat()));
     add("another factory with the same name", archive(other));
     let without = |name: &str| {
         good.iter().filter(|entry| !entry.listed.name.ends_with(name.as_bytes())).cloned().collect::<Vec<_>>()
@@ -606,7 +606,7 @@ const IGNORED: [&str; 9] = [
     "keys of another factory",
     "no keys",
     "keys that are none",
-    "an authority in place of a key",
+    "an authority instead of a key",
     "no file of keys",
 ];
 

@@ -223,7 +223,7 @@ fn bars_are_as_long_as_contributions() {
 /// whose derivatives are finite differences.
 #[test]
 fn uncertainties_are_those_of_suncal() {
-    let samples = 5_000.0_f64;
+    let samples = 20_000.0_f64;
     let cases = three();
     let described: Vec<Value> = cases
         .iter()
