@@ -113,6 +113,7 @@ def test_nothing_can_be_changed() -> None:
     found = passport.calibrate(CURRENTS)
     arrays = [getattr(passport, name) for name in ARRAYS] + list(passport.at(1, 1))
     arrays += [found.K, found.omega_0, found.u.K, found.u.omega_0, found.covariance, found.residuals, found.ij]
+    assert [array.dtype for array in arrays].count(np.dtype(np.int64)) == 2  # the two `ij`
     for array in arrays:
         assert array.dtype in (np.float64, np.int64) and not array.flags.writeable
         # Neither the array nor anything that it is a view of can be made writeable.
