@@ -99,7 +99,7 @@ impl Planned {
     }
 }
 
-/// The keys are described in docs/commands.md.
+/// The keys are described by the schema `plan`.
 impl Serialize for Plan {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let angles = |place: &usize| [self.readings[*place].theta_deg, self.readings[*place].phi_deg];
