@@ -1,5 +1,5 @@
 //! The causes of a calibration: how often good gyros are accused, how large a fault must be to be named, whether the right one
-//! is, and whether intervals cover when K or ω_0 varies. The figures of docs/laboratory.md and docs/uncertainty.md:
+//! is, and whether intervals cover when K or ω_0 varies. The figures of docs/laboratory.md and docs/development/figures.md:
 //! `DTG_TRIALS=4000 cargo test --release --lib inside::slow::causes -- --nocapture`.
 
 use crate::inside::reference::*;
@@ -330,7 +330,7 @@ fn coverage(seed: u64, of: Design, fault: Fault, drift: bool) -> [f64; 8] {
 }
 
 /// Expected: 95 %, within 1.5 percentage points and three standard errors of the share. Two turn-ons have a single difference of
-/// K, and their intervals cover less; docs/uncertainty.md has the figures.
+/// K, and their intervals cover less; docs/development/figures.md has them.
 #[test]
 fn intervals_cover_if_k_varies_and_if_a_drift_is_fitted() {
     let error = 1.5 + 300.0 * (0.95_f64 * 0.05 / trials().max(200) as f64).sqrt();
