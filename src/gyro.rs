@@ -45,11 +45,11 @@ impl GyroParameters {
 record! {
     /// Parameters of a gyro.
     pub struct Parameters {
-        /// Scale factors K: [[K_x, K_xy], [K_yx, K_y]].
+        /// Scale factors [[K_x, K_xy], [K_yx, K_y]].
         pub k_deg_per_h_per_ma: [[f64; 2]; 2],
         /// Constant drift ω_0: [x, y].
         pub omega0_deg_per_h: [f64; 2],
-        /// g-sensitive drift ω_g: of a gyro type per g of its `gravity_m_per_s2`, otherwise per local g.
+        /// g-sensitive drift ω_g; of a gyro type per g of its `gravity_m_per_s2`, otherwise local g.
         pub omega_g_deg_per_h_per_g: f64,
         /// g-sensitive drift ω_k, as ω_g.
         pub omega_k_deg_per_h_per_g: f64,
@@ -88,11 +88,11 @@ record! {
         {"required": ["k_cross_percent"]}, {"required": ["k_cross_deg_per_h_per_ma"]}
     ])))]
     pub struct Tolerance {
-        /// Tolerance of K_x and K_y, in percent of their nominal values.
+        /// Tolerance of K_x and K_y, percent of nominal.
         pub k_main_percent: f64,
-        /// Tolerance of K_xy and K_yx, in percent of their nominal values.
+        /// Tolerance of K_xy and K_yx, percent of nominal.
         pub k_cross_percent: Option<f64>,
-        /// Tolerance of K_xy and K_yx, instead of that in percent; for types whose nominal values are 0 or near 0.
+        /// Tolerance of K_xy and K_yx for nominal values near 0, instead of that in percent.
         pub k_cross_deg_per_h_per_ma: Option<f64>,
         /// Tolerance of ω_0x and ω_0y.
         pub omega0_deg_per_h: f64,
@@ -106,9 +106,9 @@ record! {
 record! {
     /// Noise of the gyro's own drift, each axis.
     pub struct GyroNoise {
-        /// Standard deviation of the drift between visits to a position. If absent: estimated from repeated visits.
+        /// Standard deviation between visits to a position; estimated from repeated visits if absent.
         pub visit_deg_per_h: Option<f64>,
-        /// Standard deviation of ω_0 between turn-ons. If absent: estimated from repeated turn-ons.
+        /// Standard deviation of ω_0 between turn-ons; estimated if absent.
         pub turn_on_deg_per_h: Option<f64>,
     }
 }
@@ -131,11 +131,10 @@ word_of_a_key!(Rule, word, "");
 record! {
     /// Decision rule that was agreed with the customer.
     pub struct DecisionRule {
-        /// "guarded": pass if |deviation| + guard band ≤ tolerance, fail if |deviation| − guard band > tolerance, otherwise
-        /// undecided. "simple": pass if |deviation| ≤ tolerance, otherwise fail.
+        /// "guarded": pass if |deviation| + band ≤ tolerance, fail if |deviation| − band > tolerance, otherwise
+        /// undecided. "simple": without a band.
         pub rule: Rule,
-        /// Guard band as a fraction of the expanded uncertainty U (95.45 %), above 0 and at most 1; 1 if absent. Not with
-        /// "simple".
+        /// Guard band as a fraction of U (95.45 %), at most 1; 1 if absent. Not with "simple".
         pub guard_band_of_u: Option<f64>,
     }
 }
@@ -156,9 +155,9 @@ record! {
         pub nominal: Parameters,
         /// Tolerances of the parameters.
         pub tolerance: Tolerance,
-        /// Decision rule; guarded acceptance with a guard band of U if absent.
+        /// Decision rule; guarded, with a band of U, if absent.
         pub decision: Option<DecisionRule>,
-        /// Value of g to which the drifts of the type refer; 9.80665 if absent.
+        /// Value of g to which the drifts refer; 9.80665 if absent.
         pub gravity_m_per_s2: Option<f64>,
         /// Noise of the gyro's own drift.
         pub noise: Option<GyroNoise>,

@@ -19,17 +19,15 @@ record! {
     pub struct Meter {
         /// Range: the largest current in either direction.
         pub range_ma: f64,
-        /// Reading: part of the specification in percent of the reading; independent for each position and channel, and
-        /// not reduced by repeated readings.
+        /// Part of the specification in percent of the reading, independent for each position and channel.
         pub reading_percent: f64,
         /// Gain, common to all readings, in percent.
         pub gain_percent: f64,
         /// Offset, common to all readings.
         pub offset_ma: f64,
-        /// Floor: part of the specification that does not depend on the reading; must be positive, because a zero
-        /// current would otherwise have infinite weight.
+        /// Part of the specification that does not depend on the reading; must be positive.
         pub floor_ma: f64,
-        /// Noise of a single reading. If absent: 0, or estimated from repeated rows.
+        /// Noise of a single reading; estimated from repeated rows, or 0, if absent.
         pub noise_ma: Option<f64>,
     }
 }
@@ -49,9 +47,9 @@ record! {
 record! {
     /// Standard uncertainties of the base as measured by the laboratory; they replace those of the site.
     pub struct Base {
-        /// Standard uncertainty of the azimuth of the base.
+        /// Uncertainty of the azimuth of the base.
         pub azimuth_arcsec: Option<f64>,
-        /// Standard uncertainty of the level of the base, per axis.
+        /// Uncertainty of the level of the base, per axis.
         pub level_arcsec: Option<f64>,
     }
 }

@@ -54,7 +54,7 @@ record! {
         pub pillar_latitude_deg: f64,
         /// Longitude of the pillar.
         pub pillar_longitude_deg: f64,
-        /// Standard uncertainty of each coordinate of both points.
+        /// Standard uncertainty of each coordinate.
         pub position_u_m: Option<f64>,
     }
 }
@@ -62,11 +62,11 @@ record! {
 record! {
     /// Standard uncertainties of the base of the stand, as set up at the site.
     pub struct SiteUncertainty {
-        /// Standard uncertainty of the astronomic latitude.
+        /// Uncertainty of the astronomic latitude.
         pub latitude_arcsec: Option<f64>,
-        /// Standard uncertainty of the azimuth of the base relative to the mark.
+        /// Uncertainty of the azimuth of the base relative to the mark.
         pub azimuth_arcsec: Option<f64>,
-        /// Standard uncertainty of the level of the base, per axis.
+        /// Uncertainty of the level of the base, per axis.
         pub level_arcsec: Option<f64>,
     }
 }
@@ -77,7 +77,7 @@ record! {
         {"required": ["latitude_deg"]}, {"required": ["astronomic_latitude_deg"]}
     ])))]
     pub struct Site {
-        /// Identifier of the site, which is also the file name.
+        /// Identifier; also the file name.
         pub id: Identifier,
         /// Free-text name.
         pub name: Option<String>,
@@ -97,11 +97,11 @@ record! {
         pub gravity_u_m_per_s2: Option<f64>,
         /// Azimuth mark, which defines north.
         pub azimuth_mark: Option<AzimuthMark>,
-        /// Azimuth of the frame's axis ξ, clockwise from north, from 0 to less than 360; 90 (east) if absent.
+        /// Azimuth of the frame's axis ξ, clockwise from north; 90 (east) if absent.
         pub frame_axis_azimuth_deg: Option<f64>,
-        /// Change of ω_Γ or ω_B that determines the validity radius; 0.001 if absent.
+        /// Change of ω_Γ or ω_B at the validity radius; 0.001 if absent.
         pub valid_within_deg_per_h: Option<f64>,
-        /// Standard uncertainties of the base, as set up at the site.
+        /// Standard uncertainties of the base.
         pub uncertainty: Option<SiteUncertainty>,
         /// Source of the data.
         pub source: Option<String>,
@@ -119,19 +119,20 @@ record! {
         pub rate_deg_per_h: f64,
         /// Astronomic latitude Φ that was used.
         pub latitude_deg: f64,
-        /// Horizontal component of the Earth rate, ω_Γ = Ω cos Φ.
+        /// Horizontal Earth rate ω_Γ = Ω cos Φ.
         pub horizontal_deg_per_h: f64,
-        /// Vertical component of the Earth rate, ω_B = Ω sin Φ.
+        /// Vertical Earth rate ω_B = Ω sin Φ.
         pub vertical_deg_per_h: f64,
-        /// Local gravity, the g to which g-sensitive drifts refer.
+        /// Local g, to which g-sensitive drifts refer.
         pub gravity_m_per_s2: f64,
-        /// Validity radius: distance along the meridian at which ω_Γ or ω_B has changed by `valid_within_deg_per_h`.
+        /// Distance along the meridian at which ω_Γ or ω_B has changed by
+        /// `valid_within_deg_per_h`.
         pub valid_radius_m: f64,
-        /// Change of ω_Γ or ω_B that determines the validity radius.
+        /// Change of ω_Γ or ω_B at the validity radius.
         pub valid_within_deg_per_h: f64,
-        /// Astronomic azimuth from the pillar to the mark, clockwise from north.
+        /// Astronomic azimuth from the pillar to the mark.
         pub azimuth_deg: Option<f64>,
-        /// Standard uncertainty of the azimuth, from pillar, mark and η.
+        /// Standard uncertainty of the azimuth.
         pub azimuth_u_arcsec: Option<f64>,
     }
 }

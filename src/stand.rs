@@ -61,7 +61,7 @@ record! {
         pub received: Option<Date>,
         /// Expiry date (inclusive).
         pub valid_until: Option<Date>,
-        /// Basis of the validity period, for example an agreement with the customer.
+        /// Basis of the validity period.
         pub valid_until_basis: Option<String>,
         /// Certifying laboratory.
         pub laboratory: String,
@@ -77,24 +77,23 @@ record! {
         pub traceability: Option<String>,
         /// Certificates of the instruments.
         pub references: Option<Vec<Reference>>,
-        /// Smallest expanded uncertainty (k = 2) of an angle for which the laboratory is accredited (CMC); a certificate that
-        /// states a smaller one is refused.
+        /// Accredited capability (CMC): a certificate that states a smaller U (k = 2) of an angle is refused.
         pub cmc_arcsec: Option<f64>,
         /// Temperature during the measurement.
         pub temperature_c: Option<f64>,
         /// Temperature range in which the certificate is valid.
         pub temperature_range_c: Option<[f64; 2]>,
-        /// Repeatability of positioning: standard deviation of one visit, per axis.
+        /// Standard deviation of one visit, per axis.
         pub repeatability_arcsec: Option<f64>,
         /// Degrees of freedom of the repeatability; infinite if absent.
         pub repeatability_degrees_of_freedom: Option<f64>,
-        /// Uncertainty common to all positions, per axis of the platform (rotation applied from the left).
+        /// Uncertainty common to all positions, per axis of the platform.
         pub common_platform_arcsec: Option<f64>,
-        /// Uncertainty common to all positions, per axis of the base (rotation applied from the right).
+        /// Uncertainty common to all positions, per axis of the base.
         pub common_base_arcsec: Option<f64>,
-        /// Contributions that repeated measurements do not show; u_* and common_* include them.
+        /// Contributions that repetition does not show.
         pub type_b: Option<Vec<TypeB>>,
-        /// Readings from which the certificate was computed; written by `certify`.
+        /// Readings of the certificate; written by `certify`.
         pub evidence: Option<Evidence>,
     }
 }
@@ -108,7 +107,7 @@ record! {
         pub laboratory: String,
         /// Date of issue.
         pub issued: Date,
-        /// SHA-256 of its file, in lower-case hexadecimal.
+        /// SHA-256 of its file.
         pub sha256: String,
     }
 }
@@ -136,17 +135,17 @@ record! {
         pub theta_deg: f64,
         /// Platform angle φ about the spin axis.
         pub phi_deg: f64,
-        /// Deviation α, about the x axis of the platform.
+        /// Deviation α about x of the platform.
         pub alpha_arcsec: f64,
-        /// Deviation β, about the y axis of the platform.
+        /// Deviation β about y of the platform.
         pub beta_arcsec: f64,
-        /// Deviation γ, about the z axis of the platform.
+        /// Deviation γ about z of the platform.
         pub gamma_arcsec: f64,
-        /// Standard uncertainty of the certified mean of α, own part of the position.
+        /// Standard uncertainty of α, own part.
         pub u_alpha_arcsec: Option<f64>,
-        /// Standard uncertainty of the certified mean of β, own part of the position.
+        /// Standard uncertainty of β, own part.
         pub u_beta_arcsec: Option<f64>,
-        /// Standard uncertainty of the certified mean of γ, own part of the position.
+        /// Standard uncertainty of γ, own part.
         pub u_gamma_arcsec: Option<f64>,
         /// Degrees of freedom of these three uncertainties; infinite if absent.
         pub degrees_of_freedom: Option<f64>,

@@ -33,7 +33,7 @@ record! {
     pub struct Contact {
         /// Name; omit it if the passport states it.
         pub name: Option<String>,
-        /// City; required for the customer, and for the laboratory unless the passport states its address.
+        /// City; required for the customer, and for the laboratory unless the passport has its address.
         pub city: Option<String>,
         /// Street.
         pub street: Option<String>,
@@ -65,33 +65,33 @@ record! {
 }
 
 record! {
-    /// Administrative data of a Digital Calibration Certificate (`dtg-dcc/1`). Keys that a DCC requires may be omitted
-    /// only if the passport, or the calibration of the gyro, states the same; the program lists all that are missing.
+    /// Administrative data of a Digital Calibration Certificate (`dtg-dcc/1`). What passport or calibration
+    /// states may be omitted; the program lists what is missing.
     #[derive(Default)]
     pub struct Administrative {
-        /// Country in which the certificate is issued: two capital letters of ISO 3166-1.
+        /// Country of issue: two capital letters of ISO 3166-1.
         pub country: Option<String>,
-        /// Mandatory language of the certificate, "en" or "ru"; if absent, the first of `--lang`.
+        /// Mandatory language; the first of `--lang` if absent.
         pub language: Option<Language>,
-        /// Place of the measurements: "laboratory", "customer", "laboratoryBranch", "customerBranch" or "other".
+        /// Place of the measurements.
         pub location: Option<Location>,
         /// Calibration laboratory.
         pub laboratory: Option<Contact>,
         /// Customer.
         pub customer: Option<Contact>,
-        /// Names of the responsible persons, besides the one who authorised the certificate.
+        /// Further responsible persons.
         pub responsible: Option<Vec<String>>,
-        /// Days of the measurements; may be absent if the passport states the day.
+        /// Days of the measurements, unless the passport states the day.
         pub performed: Option<Performed>,
-        /// Number of the certificate: required for a gyro; that of a stand is in its passport.
+        /// Number of the certificate of a gyro.
         pub number: Option<String>,
-        /// Date of issue of the certificate of a gyro; that of a stand is in its passport.
+        /// Date of issue of the certificate of a gyro.
         pub issued: Option<Date>,
-        /// Method of measurement, if the passport states none.
+        /// Method, if the passport states none.
         pub method: Option<String>,
-        /// Temperature during the measurements, if the passport states none.
+        /// Temperature, if the passport states none.
         pub temperature_c: Option<f64>,
-        /// True if the traceability that the certificate states is a chain of calibrations to the SI.
+        /// Whether the stated traceability is a chain of calibrations to the SI.
         pub traceable: Option<bool>,
     }
 }

@@ -20,7 +20,7 @@ record! {
         pub gyro: GyroType,
         /// Laboratory.
         pub laboratory: Laboratory,
-        /// Standard uncertainties of the parameters; drifts per local g.
+        /// Standard uncertainties; drifts per local g.
         pub standard_uncertainty: Parameters,
     }
 }

@@ -29,7 +29,7 @@ record! {
     pub struct Predecessor {
         /// Identifier of the predecessor.
         pub id: String,
-        /// SHA-256 of the whole file of the predecessor, in lower-case hexadecimal.
+        /// SHA-256 of its whole file.
         pub sha256: String,
         /// Reason for the re-issue.
         pub reason: String,
@@ -55,7 +55,7 @@ record! {
         pub issued_with: Option<String>,
         /// Predecessor, if the passport is a re-issue.
         pub reissued_from: Option<Predecessor>,
-        /// Whether the passport supersedes its predecessor.
+        /// Whether it supersedes its predecessor.
         pub supersedes: Option<bool>,
     }
 }
@@ -129,10 +129,10 @@ record! {
         pub earth: Earth,
         /// Matrices of the paper; absent without its eight positions.
         pub matrices: Option<MatrixRows>,
-        /// Specific force and Earth rate in every position, for least squares.
+        /// Specific force and Earth rate in every position.
         #[cfg_attr(feature = "generate", schemars(length(max = 256)))]
         pub vectors: Vec<PositionVectors>,
-        /// Self-check of laboratory software; absent if the positions do not determine the eight parameters.
+        /// Self-check; absent if the positions do not determine the eight parameters.
         pub self_check: Option<SelfCheck>,
         /// Expected calibration uncertainty; optional.
         pub accuracy: Option<Accuracy>,

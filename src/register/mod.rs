@@ -85,11 +85,11 @@ record! {
         pub stand: String,
         /// Sequence number, from 1, increasing.
         pub sequence: u64,
-        /// SHA-256 of the whole file before, in lower-case hexadecimal; absent in the first one.
+        /// SHA-256 of the previous file; absent in the first one.
         pub previous_sha256: Option<String>,
         /// Time of issue.
         pub issued_at: Timestamp,
-        /// Last day (inclusive) on which the register counts as fresh; it does not age if absent.
+        /// Last day on which the register is fresh; for ever if absent.
         pub fresh_until: Option<Date>,
         /// Issuer: a principal of allowed_signers.
         pub issuer: String,
@@ -104,19 +104,19 @@ record! {
     pub struct Entry {
         /// Identifier of the passport.
         pub id: String,
-        /// SHA-256 of the whole file, in lower-case hexadecimal.
+        /// SHA-256 of the whole file.
         pub sha256: String,
         /// Time of issue of the passport.
         pub issued_at: Timestamp,
         /// Number of the certificate of the stand.
         pub certificate: String,
-        /// Expiry date (inclusive), the earlier of passport and certificate; absent if neither expires.
+        /// Expiry date (inclusive) of passport or certificate, if any.
         pub valid_until: Option<Date>,
-        /// "current", "superseded", "moved" or "withdrawn".
+        /// State of the passport.
         pub state: State,
-        /// Time from which the state applies; absent if current.
+        /// Time of the change of state.
         pub since: Option<Timestamp>,
-        /// Identifier of the successor of a superseded passport.
+        /// Identifier of the successor.
         pub by: Option<String>,
         /// Reason for the withdrawal.
         pub reason: Option<String>,
@@ -131,7 +131,7 @@ record! {
         pub format: String,
         /// Identity, sequence and time of the register.
         pub register: OneLine<Header>,
-        /// Passports, in the order in which they were listed.
+        /// Passports, in the order of listing.
         pub passports: Vec<Entry>,
     }
 }

@@ -93,7 +93,7 @@ impl Section<'_> {
     fn list(&self, property: &Map<String, Value>) -> String {
         let of = items(property).map_or_else(String::new, |items| self.value(items));
         match property.get("minItems").and_then(Value::as_u64) {
-            Some(length) if property.get("maxItems") == property.get("minItems") => format!("{length} × {of}"),
+            Some(length) if property.get("maxItems") == property.get("minItems") => format!("{length}×{of}"),
             _ if of.is_empty() => "list".to_owned(),
             _ => format!("list: {of}"),
         }

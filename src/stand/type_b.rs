@@ -28,11 +28,11 @@ record! {
     pub struct TypeB {
         /// Source of the contribution.
         pub source: String,
-        /// Uncertainty that includes this contribution: "position" for u_*, "platform" or "base" for common_*.
+        /// Uncertainty that includes the contribution: u_*, common_platform_* or common_base_*.
         pub acts_on: ActsOn,
         /// Standard uncertainty per axis.
         pub u_arcsec: f64,
-        /// Degrees of freedom of the contribution; infinite if absent.
+        /// Degrees of freedom; infinite if absent.
         pub degrees_of_freedom: Option<f64>,
     }
 }
@@ -40,9 +40,9 @@ record! {
 record! {
     /// Reading or run that was excluded from the certificate.
     pub struct Excluded {
-        /// Frame index of the position; absent for a whole run.
+        /// Frame index; absent for a whole run.
         pub i: Option<u32>,
-        /// Platform index of the position; absent for a whole run.
+        /// Platform index; absent for a whole run.
         pub j: Option<u32>,
         /// Number of the run.
         pub run: u32,
@@ -82,11 +82,11 @@ impl Excluded {
 record! {
     /// Readings from which the certificate was computed.
     pub struct Evidence {
-        /// SHA-256 of the file of readings, in lower-case hexadecimal.
+        /// SHA-256 of the file of readings.
         pub readings_sha256: String,
         /// Number of runs.
         pub runs: u32,
-        /// Readings and runs in the file that were excluded.
+        /// Excluded readings and runs.
         pub excluded: Option<Vec<Excluded>>,
     }
 }
