@@ -86,7 +86,7 @@ pub fn deviation(angles: &Deviation) -> Matrix3<f64> {
 ///
 /// The elements a = Ã₁₂, b = Ã₂₂ multiply the horizontal component of the Earth rate along x and y; c = Ã₁₃, d = Ã₂₃
 /// multiply the vertical component along x and y. In the paper's printed matrix b and c are exchanged: see
-/// docs/model.md, erratum 1.
+/// docs/development/reproduction.md, erratum 1.
 pub fn actual(theta_deg: f64, phi_deg: f64, angles: &Deviation) -> Matrix3<f64> {
     deviation(angles) * nominal(theta_deg, phi_deg)
 }
