@@ -43,7 +43,7 @@ impl Section<'_> {
             let seen = part.as_ref().and_then(|part| self.seen.get(&keys(part)));
             let see = seen.map_or_else(String::new, |place| format!(" See `{place}`."));
             let bold = if required.contains(&name.as_str()) { "**" } else { "" };
-            let value = format!(" ({})", self.value(property)).replace(" ()", "");
+            let value = format!(" ({})", self.value(property)).replace(" ()", "").replace(" (number)", "");
             let _ = writeln!(out, "- {bold}`{key}`{bold}{value}: {}{see}", text(property, "description"));
             if let Some(part) = part.filter(|_| see.is_empty()) {
                 self.seen.insert(keys(&part), format!("{key}` of `{format}"));
@@ -58,7 +58,7 @@ impl Section<'_> {
         reference(found).map_or_else(|| Some(found.clone()), |record| self.definition(record))
     }
 
-    /// Returns the kind of a value, in words; empty for a text and a mapping.
+    /// Returns the kind of a value, in words; empty for a text and a mapping. A line leaves out that of a number too.
     fn value(&self, property: &Map<String, Value>) -> String {
         // Of a mapping these are keys that exclude each other.
         if let Some(choices) = property.get("oneOf").and_then(Value::as_array).filter(|_| !is_mapping(property)) {
