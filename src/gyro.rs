@@ -106,7 +106,7 @@ record! {
 record! {
     /// Noise of the gyro's own drift, each axis.
     pub struct GyroNoise {
-        /// Standard deviation between visits to a position; estimated from repeated visits if absent.
+        /// Standard deviation between visits to a position; estimated if absent.
         pub visit_deg_per_h: Option<f64>,
         /// Standard deviation of ω_0 between turn-ons; estimated if absent.
         pub turn_on_deg_per_h: Option<f64>,

@@ -17,7 +17,7 @@ const LARGEST_TURN_ARCSEC: f64 = 3600.0;
 record! {
     /// Current meter. All values except the range are standard uncertainties.
     pub struct Meter {
-        /// Range: the largest current in either direction.
+        /// Largest current in either direction.
         pub range_ma: f64,
         /// Part of the specification in percent of the reading, independent for each position and channel.
         pub reading_percent: f64,
@@ -47,9 +47,9 @@ record! {
 record! {
     /// Standard uncertainties of the base as measured by the laboratory; they replace those of the site.
     pub struct Base {
-        /// Uncertainty of the azimuth of the base.
+        /// Uncertainty of the azimuth.
         pub azimuth_arcsec: Option<f64>,
-        /// Uncertainty of the level of the base, per axis.
+        /// Uncertainty of the level, per axis.
         pub level_arcsec: Option<f64>,
     }
 }
@@ -63,7 +63,7 @@ record! {
         pub meter: Meter,
         /// Standard uncertainties of the gyro seat.
         pub seating_arcsec: Option<Seating>,
-        /// Standard uncertainties of the base's azimuth and level.
+        /// Standard uncertainties of the base.
         pub base: Option<Base>,
         /// Temperature during the calibration.
         pub temperature_c: Option<f64>,

@@ -62,11 +62,11 @@ record! {
 record! {
     /// Standard uncertainties of the base of the stand, as set up at the site.
     pub struct SiteUncertainty {
-        /// Uncertainty of the astronomic latitude.
+        /// Uncertainty of the latitude.
         pub latitude_arcsec: Option<f64>,
-        /// Uncertainty of the azimuth of the base relative to the mark.
+        /// Uncertainty of the azimuth, relative to the mark.
         pub azimuth_arcsec: Option<f64>,
-        /// Uncertainty of the level of the base, per axis.
+        /// Uncertainty of the level, per axis.
         pub level_arcsec: Option<f64>,
     }
 }
@@ -117,7 +117,7 @@ record! {
     pub struct Earth {
         /// Earth rate Ω.
         pub rate_deg_per_h: f64,
-        /// Astronomic latitude Φ that was used.
+        /// Astronomic latitude Φ.
         pub latitude_deg: f64,
         /// Horizontal Earth rate ω_Γ = Ω cos Φ.
         pub horizontal_deg_per_h: f64,

@@ -32,7 +32,7 @@ record! {
         pub model: Identifier,
         /// Serial number; also a folder name.
         pub serial: Identifier,
-        /// Configuration, if the stand has several.
+        /// Configuration, if there are several.
         pub configuration: Option<String>,
         /// Free-text name.
         pub name: Option<String>,
@@ -57,7 +57,7 @@ record! {
         pub issued: Date,
         /// Date of measurement.
         pub performed: Option<Date>,
-        /// Date on which the stand was received.
+        /// Date of receipt.
         pub received: Option<Date>,
         /// Expiry date (inclusive).
         pub valid_until: Option<Date>,
@@ -81,7 +81,7 @@ record! {
         pub cmc_arcsec: Option<f64>,
         /// Temperature during the measurement.
         pub temperature_c: Option<f64>,
-        /// Temperature range in which the certificate is valid.
+        /// Temperature range of validity.
         pub temperature_range_c: Option<[f64; 2]>,
         /// Standard deviation of one visit, per axis.
         pub repeatability_arcsec: Option<f64>,
@@ -147,7 +147,7 @@ record! {
         pub u_beta_arcsec: Option<f64>,
         /// Standard uncertainty of γ, own part.
         pub u_gamma_arcsec: Option<f64>,
-        /// Degrees of freedom of these three uncertainties; infinite if absent.
+        /// Degrees of freedom of the three; infinite if absent.
         pub degrees_of_freedom: Option<f64>,
     }
 }

@@ -28,7 +28,7 @@ record! {
     pub struct TypeB {
         /// Source of the contribution.
         pub source: String,
-        /// Uncertainty that includes the contribution: u_*, common_platform_* or common_base_*.
+        /// Uncertainty that includes the contribution: `u_*`, `common_platform_arcsec` or `common_base_arcsec`.
         pub acts_on: ActsOn,
         /// Standard uncertainty per axis.
         pub u_arcsec: f64,
