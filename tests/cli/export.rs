@@ -63,23 +63,6 @@ fn the_exported_files_make_the_same_passport() {
     }
 }
 
-/// The files of one passport are written together or not at all, and nothing is replaced unless told.
-#[test]
-fn nothing_is_replaced_unless_told() {
-    let folder = folder();
-    let export = format!("export {} {TRUST} --to stand,site,json --out out", EVERY[2]);
-    fs::create_dir_all(folder.path().join("out")).unwrap();
-    let site = folder.path().join("out/moscow-bmstu.yaml");
-    fs::write(&site, "mine").unwrap();
-    let (code, stdout, said) = run(folder.path(), &export);
-    assert_eq!((code, stdout.as_str()), (1, ""), "{said}");
-    assert!(said.contains("out/moscow-bmstu.yaml: already exists, not overwritten"), "{said}");
-    assert!(fs::read_to_string(&site).unwrap() == "mine" && !folder.path().join("out/SPS-2").exists());
-    let (code, _, said) = run(folder.path(), &format!("{export} --force"));
-    assert_eq!((code, said.matches("wrote out/").count()), (0, 3), "{said}");
-    assert!(fs::read_to_string(&site).unwrap().contains("dtg-site/1"));
-}
-
 /// A folder: one line for each passport, the refused one without content; stands and sites once each.
 #[test]
 fn many_are_lines_of_json() {
