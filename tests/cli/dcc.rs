@@ -423,37 +423,6 @@ fn what_contradicts_the_passport_is_refused() {
     assert!(taken(folder.path()).contains("<dcc:traceable>true</dcc:traceable>"));
 }
 
-/// A file that cannot be one is refused with its lines, and an altered passport exports nothing.
-#[test]
-fn bad_input_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    for (from, to, found) in [
-        ("\"RU\"\nlang", "\"XX\"\nlang", "country: found \"XX\""),
-        ("\"RU\"\nlang", "\"ru\"\nlang", "country: found \"ru\""),
-        ("\"en\"", "\"de\"", "language: found"),
-        ("\"laboratory\"\n", "\"home\"\n", "location: found"),
-        ("A customer", "\u{1F600}", "U+1F600"),
-        ("A customer", "\u{202E}abc", "U+202E"),
-        ("A customer", "a\0b", "U+0000"),
-        ("A customer", "  ", "customer.name: found only spaces"),
-        ("[\"A. Person\", \"B. Person\"]", "[]", "responsible: found an empty list"),
-        ("2026-10-20", "2026-10-31", "performed.to: found"),
-        ("country: \"RU\"\nlang", "country: \"RU\"\nport: 1\nlang", "unknown key \"port\""),
-    ] {
-        assert!(ADMINISTRATIVE.contains(from), "{from}");
-        let (code, said) = export(folder.path(), MOSCOW, &ADMINISTRATIVE.replacen(from, to, 1), &[]);
-        assert_eq!(code, 2, "{said}");
-        assert!(said.contains(found) && said.contains("dcc.yaml:"), "{found}: {said}");
-        assert!(!folder.path().join("out").exists());
-    }
-    let altered = fs::read_to_string(programs::project(MOSCOW)).unwrap().replacen("12.4", "12.5", 1);
-    let passport = folder.path().join("altered.yaml");
-    fs::write(&passport, altered).unwrap();
-    let (code, said) = export(folder.path(), passport.to_str().unwrap(), ADMINISTRATIVE, &[]);
-    assert_eq!(code, 1, "{said}");
-    assert!(said.contains("nothing was exported") && !folder.path().join("out").exists(), "{said}");
-}
-
 /// Administrative file of the gyro's certificate.
 const OF_GYRO: &str = r#"format: "dtg-dcc/1"
 country: "RU"

@@ -4,7 +4,7 @@ use crate::programs;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 const HERE: &str = "passports/SPS-2/0017/here-1.yaml";
@@ -370,36 +370,6 @@ fn a_passport_is_enough_for_a_check() {
     fs::write(factory.path("altered.yaml"), altered).unwrap();
     let (code, stdout, said) = factory.run(&format!("certify new.csv --against altered.yaml {TRUST}"));
     assert!(code == 1 && stdout.is_empty() && said.contains("FAILED     signature"), "{said}");
-}
-
-/// `certify --force` keeps the stand file that it replaces.
-#[test]
-fn a_superseded_stand_file_is_kept() {
-    let factory = Factory::new();
-    let old = factory.passports()["stand.yaml"].clone();
-    let header = fs::read_to_string(factory.path("header.yaml")).unwrap().replace("C-2026-0143", "C 2026/0300");
-    fs::write(factory.path("header.yaml"), header).unwrap();
-    let certify = "certify new.csv --stand header.yaml -o passports/SPS-2/0017/stand.yaml --force";
-    let (code, _, said) = factory.run(certify);
-    assert!(code == 0 && said.contains("stand-C-2026-0143.superseded.yaml"), "{said}");
-    assert_eq!(factory.passports()["stand-C-2026-0143.superseded.yaml"], old);
-    // The same file again is not superseded.
-    factory.good(certify);
-    assert_eq!(factory.passports().len(), 5);
-    assert!(factory.states().iter().all(|line| line.ends_with("current")));
-}
-
-/// The whole of `passports` is readable for others, and no temporary file is left.
-#[test]
-fn nothing_else_is_left() {
-    let factory = Factory::new();
-    factory.good(&format!("recertify {HERE} new.csv {ORDER} {SIGN} {TRUST} --out renewed"));
-    let there: Vec<_> =
-        fs::read_dir(factory.path("renewed/SPS-2/0017")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
-    // Two passports, the stand file, the register and its lock.
-    assert_eq!(there.len(), 5, "{there:?}");
-    assert!(Path::new(&factory.path("renewed/SPS-2/0017/stand.yaml")).is_file());
-    assert_eq!(factory.passports().len(), 4);
 }
 
 /// The record of the certification shows what has changed, and the exclusion is in the certificate.

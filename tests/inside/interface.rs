@@ -109,16 +109,6 @@ fn a_tolerance_in_percent_of_nothing_is_refused() {
     assert!(refused.to_string().contains("no tolerance of K_xy"), "{refused}");
 }
 
-#[test]
-fn what_is_no_current_is_refused_with_its_line() {
-    let content = content_from_anyone("p", PASSPORT).unwrap();
-    let csv = b"i,j,jx_ma,jy_ma\n1,1,0.1,0.1\n1.5,2,0.1,0.1\n1,3,NaN,inf\n";
-    let failed = calibrate(&content, None, ("c", csv), &default()).unwrap_err();
-    for place in ["c:3:1", "c:4:5", "c:4:9"] {
-        assert!(failed.message.contains(place), "{failed}");
-    }
-}
-
 /// Expected: the currents of docs/currents.csv ten times too small give scale factors ten times too large, which only the gyro
 /// type shows.
 #[test]
