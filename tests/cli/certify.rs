@@ -1,32 +1,20 @@
 //! `certify` on the command line: what it writes, and every way in which its input is refused.
 
-use assert_cmd::Command;
+use crate::deliver::Place;
+use crate::programs;
 use std::fs;
-use std::path::{Path, PathBuf};
-
-const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 fn example(name: &str) -> String {
-    fs::read_to_string(Path::new(ROOT).join("docs").join(name)).unwrap()
+    fs::read_to_string(programs::project("docs").join(name)).unwrap()
 }
 
-/// A folder of its own for a test, with the examples of the documentation.
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("certify").join(name);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    for file in ["angles.csv", "check.csv", "header.yaml"] {
-        fs::write(folder.join(file), example(file)).unwrap();
-    }
-    folder
-}
-
-/// Exit code, standard output, standard error.
-fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
-    let mut command = Command::cargo_bin("dtg-passport").unwrap();
-    let output = command.current_dir(folder).arg("certify").args(arguments.split(' ')).output().unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+/// A folder with the examples of the documentation.
+fn folder() -> Place {
+    Place::of(&[
+        ("docs/angles.csv", "angles.csv"),
+        ("docs/check.csv", "check.csv"),
+        ("docs/header.yaml", "header.yaml"),
+    ])
 }
 
 /// The line of position (i, j) in a run, its number replaced.
@@ -45,11 +33,11 @@ fn replaced(place: &str, column: usize, value: impl Fn(&str) -> String) -> Strin
 /// A check: exit code 1 when it is not the same stand, and the position by name; another stand is refused.
 #[test]
 fn a_check_has_an_exit_code() {
-    let folder = folder("check");
-    assert_eq!(run(&folder, "angles.csv --stand header.yaml -o stand.yaml").0, 0);
-    let (code, text, _) = run(&folder, "check.csv --against stand.yaml");
+    let folder = folder();
+    assert_eq!(folder.said("certify angles.csv --stand header.yaml -o stand.yaml").0, 0);
+    let (code, text, _) = folder.said("certify check.csv --against stand.yaml");
     assert!(code == 1 && text.contains("Position (2, 3) has changed"), "{text}");
-    let (code, text, _) = run(&folder, "check.csv --against stand.yaml --format json");
+    let (code, text, _) = folder.said("certify check.csv --against stand.yaml --format json");
     let found: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert!(code == 1 && found["comparison"]["same_stand"] == false, "{text}");
     assert!(found["not_certified"].as_str().unwrap().starts_with("found one run"));
@@ -57,29 +45,29 @@ fn a_check_has_an_exit_code() {
     for (name, again) in
         [("same.csv", example("angles.csv")), ("anew.csv", example("angles.csv").replace('\n', "\r\n"))]
     {
-        fs::write(folder.join(name), again).unwrap();
-        let (code, text, _) = run(&folder, &format!("{name} --against stand.yaml"));
+        fs::write(folder.path(name), again).unwrap();
+        let (code, text, _) = folder.said(&format!("certify {name} --against stand.yaml"));
         assert!(code == 1 && text.starts_with("◐ UNDECIDED"), "{text}");
     }
     let two_runs = |line: &&str| line.starts_with(['#', 'i']) || matches!(line.split(',').nth(2), Some("1" | "2"));
     let two_runs: String = example("angles.csv").lines().filter(two_runs).map(|line| format!("{line}\n")).collect();
-    fs::write(folder.join("two.csv"), two_runs).unwrap();
-    let (code, text, said) = run(&folder, "two.csv --against stand.yaml --format json");
+    fs::write(folder.path("two.csv"), two_runs).unwrap();
+    let (code, text, said) = folder.said("certify two.csv --against stand.yaml --format json");
     let found: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert!(code == 0 && found["comparison"]["same_stand"] == true, "{said}{text}");
     assert_eq!(found["certification"]["stand"]["positions"].as_array().unwrap().len(), 8);
-    fs::write(folder.join("header.yaml"), example("header.yaml").replace("0017", "0018")).unwrap();
-    let (code, _, said) = run(&folder, "check.csv --stand header.yaml --against stand.yaml");
+    fs::write(folder.path("header.yaml"), example("header.yaml").replace("0017", "0018")).unwrap();
+    let (code, _, said) = folder.said("certify check.csv --stand header.yaml --against stand.yaml");
     assert!(code == 1 && said.contains("SPS-2 0017") && said.contains("SPS-2 0018"), "{said}");
 }
 
 /// Other angles never go under a number that is there, --force or not.
 #[test]
 fn a_number_keeps_its_angles() {
-    let folder = folder("number");
-    assert_eq!(run(&folder, "angles.csv --stand header.yaml -o stand.yaml").0, 0);
-    let old = fs::read(folder.join("stand.yaml")).unwrap();
-    fs::write(folder.join("new.csv"), replaced("1,1,", 3, |text| format!("{}", text.parse::<f64>().unwrap() + 3.0)))
+    let folder = folder();
+    assert_eq!(folder.said("certify angles.csv --stand header.yaml -o stand.yaml").0, 0);
+    let old = fs::read(folder.path("stand.yaml")).unwrap();
+    fs::write(folder.path("new.csv"), replaced("1,1,", 3, |text| format!("{}", text.parse::<f64>().unwrap() + 3.0)))
         .unwrap();
     for arguments in [
         "new.csv --against stand.yaml -o new.yaml",
@@ -87,34 +75,34 @@ fn a_number_keeps_its_angles() {
         "new.csv --against stand.yaml --stand header.yaml -o new.yaml --force",
         "new.csv --stand header.yaml -o stand.yaml --force",
     ] {
-        let (code, _, said) = run(&folder, arguments);
+        let (code, _, said) = folder.said(&format!("certify {arguments}"));
         assert_eq!(code, 1, "{arguments}: {said}");
         assert!(said.contains("certificate C-2026-0143") && said.contains("position (1, 1)"), "{said}");
         assert!(
-            !folder.join("new.yaml").exists() && fs::read(folder.join("stand.yaml")).unwrap() == old,
+            !folder.path("new.yaml").exists() && fs::read(folder.path("stand.yaml")).unwrap() == old,
             "{arguments}"
         );
     }
     // The same angles under the old number, and no header that says when: nothing to write.
-    let (code, _, said) = run(&folder, "angles.csv --against stand.yaml -o new.yaml");
+    let (code, _, said) = folder.said("certify angles.csv --against stand.yaml -o new.yaml");
     assert!(code == 2 && said.contains("--stand HEADER.yaml"), "{said}");
     let header = example("header.yaml").replace("C-2026-0143", "C-2027-0007");
-    fs::write(folder.join("header.yaml"), header).unwrap();
-    let (code, _, said) = run(&folder, "new.csv --against stand.yaml --stand header.yaml -o new.yaml");
+    fs::write(folder.path("header.yaml"), header).unwrap();
+    let (code, _, said) = folder.said("certify new.csv --against stand.yaml --stand header.yaml -o new.yaml");
     assert!(said.contains("wrote new.yaml"), "{code} {said}");
 }
 
 #[test]
 fn what_is_odd_is_said() {
-    let folder = folder("odd");
+    let folder = folder();
     let header = example("header.yaml").replace("temperature_c: 20.0", "temperature_c: 293.15");
-    fs::write(folder.join("header.yaml"), header).unwrap();
-    let (code, text, _) = run(&folder, "angles.csv --stand header.yaml -o stand.yaml");
+    fs::write(folder.path("header.yaml"), header).unwrap();
+    let (code, text, _) = folder.said("certify angles.csv --stand header.yaml -o stand.yaml");
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(code == 0 && text.contains("WARNING: temperature_c is 293.15") && text.contains("in kelvin"), "{text}");
     let shifted = replaced("2,1,", 3, |text| format!("{:.1}", text.parse::<f64>().unwrap() + 67_833.0));
-    fs::write(folder.join("r.csv"), shifted).unwrap();
-    let (code, text, _) = run(&folder, "r.csv --stand header.yaml -o odd.yaml");
+    fs::write(folder.path("r.csv"), shifted).unwrap();
+    let (code, text, _) = folder.said("certify r.csv --stand header.yaml -o odd.yaml");
     assert!(code == 0 && text.contains("alpha_arcsec of position (2, 1) is 678"), "{text}");
 }
 
@@ -163,11 +151,11 @@ print(json.dumps({"means": means, "share": share, "s": float(np.sqrt(rest @ rest
 /// the last of these; for one mean reading alone, u is that of one run less.
 #[test]
 fn an_excluded_reading_is_left_out_and_recorded() {
-    let folder = folder("exclude");
+    let folder = folder();
     // A blunder that no certification would accept.
     let bad = replaced("2,3,4,", 4, |_| "9999".into());
-    fs::write(folder.join("bad.csv"), &bad).unwrap();
-    let (code, _, said) = run(&folder, "bad.csv --stand header.yaml -o bad.yaml");
+    fs::write(folder.path("bad.csv"), &bad).unwrap();
+    let (code, _, said) = folder.said("certify bad.csv --stand header.yaml -o bad.yaml");
     assert!(code == 2 && said.contains("check the digits"), "{said}");
     for (name, exclude, left_out, runs) in [
         ("one", "--exclude 2,3,4 --why blunder", "[[2, 3, 4]]", 5),
@@ -176,16 +164,16 @@ fn an_excluded_reading_is_left_out_and_recorded() {
         ("run", "--exclude 4 --why blunder", "[[4]]", 4),
     ] {
         let (code, text, said) =
-            run(&folder, &format!("bad.csv --stand header.yaml -o {name}.yaml --format json {exclude}"));
+            folder.said(&format!("certify bad.csv --stand header.yaml -o {name}.yaml --format json {exclude}"));
         assert_eq!(code, 0, "{said}");
         let found: serde_json::Value = serde_json::from_str(&text).unwrap();
         let stand = &found["certification"]["stand"];
         let evidence = &stand["certificate"]["evidence"];
         assert_eq!((&evidence["runs"], evidence["excluded"][0]["run"].as_u64()), (&runs.into(), Some(4)));
         assert_eq!(evidence["excluded"][0]["why"], "blunder");
-        let mut python = crate::programs::python();
-        python.args(["-c", WITHOUT]).arg(folder.join("bad.csv")).arg(left_out);
-        let due: serde_json::Value = serde_json::from_str(&crate::programs::output(python)).unwrap();
+        let mut python = programs::python();
+        python.args(["-c", WITHOUT]).arg(folder.path("bad.csv")).arg(left_out);
+        let due: serde_json::Value = serde_json::from_str(&programs::output(python)).unwrap();
         let s = stand["certificate"]["repeatability_arcsec"].as_f64().unwrap();
         assert!((s / due["s"].as_f64().unwrap() - 1.0).abs() < 1e-3, "{name}: {s}, {due}");
         let positions = stand["positions"].as_array().unwrap();
@@ -202,14 +190,14 @@ fn an_excluded_reading_is_left_out_and_recorded() {
             assert!((u(at) / whole / share.sqrt() - 1.0).abs() < 5e-3, "{name}, {key}: {}, {share}", u(at) / whole);
         }
         // The file is read again, and a passport of it says what was excluded.
-        let text = fs::read_to_string(folder.join(format!("{name}.yaml"))).unwrap();
+        let text = fs::read_to_string(folder.path(&format!("{name}.yaml"))).unwrap();
         assert!(text.contains("    excluded:\n      - {"), "{text}");
     }
 }
 
 #[test]
 fn bad_exclusions_are_refused() {
-    let folder = folder("exclusions");
+    let folder = folder();
     for (exclude, code, words) in [
         ("--exclude 2,3,9 --why x", 2, "no reading of position (2, 3) in run 9 to exclude"),
         ("--exclude 9 --why x", 2, "no reading of run 9 to exclude"),
@@ -221,48 +209,49 @@ fn bad_exclusions_are_refused() {
         ("--exclude 1 --exclude 2 --exclude 3 --exclude 4 --why x", 1, "one run"),
         ("--exclude 2,1,3 --exclude 2,2,3 --exclude 2,3,3 --exclude 2,4,3 --why x", 1, "exclude the whole run"),
     ] {
-        let (found, _, said) = run(&folder, &format!("angles.csv --stand header.yaml -o out.yaml {exclude}"));
+        let (found, _, said) = folder.said(&format!("certify angles.csv --stand header.yaml -o out.yaml {exclude}"));
         assert!(found == code && said.contains(words), "{exclude}: {found} {said}");
-        assert!(!folder.join("out.yaml").exists());
+        assert!(!folder.path("out.yaml").exists());
     }
     // The same readings with other exclusions are other angles.
-    assert_eq!(run(&folder, "angles.csv --stand header.yaml -o stand.yaml").0, 0);
+    assert_eq!(folder.said("certify angles.csv --stand header.yaml -o stand.yaml").0, 0);
     let again = "angles.csv --stand header.yaml -o stand.yaml --force --exclude 2,3,4 --why x";
-    let (code, _, said) = run(&folder, again);
+    let (code, _, said) = folder.said(&format!("certify {again}"));
     assert!(code == 1 && said.contains("already states other angles"), "{said}");
 }
 
 /// A reading that was not taken: the advice is followed, and the file is then certified.
 #[test]
 fn the_advice_for_an_empty_cell_works() {
-    let folder = folder("empty_cell");
+    let folder = folder();
     for cell in ["", "NaN"] {
-        fs::write(folder.join("blank.csv"), replaced("2,3,4,", 4, |_| cell.into())).unwrap();
-        let (code, _, said) = run(&folder, "blank.csv --stand header.yaml -o blank.yaml");
+        fs::write(folder.path("blank.csv"), replaced("2,3,4,", 4, |_| cell.into())).unwrap();
+        let (code, _, said) = folder.said("certify blank.csv --stand header.yaml -o blank.yaml");
         assert!(code == 2 && said.contains("exclude it with --exclude 2,3,4 and --why"), "{said}");
         let (code, _, said) =
-            run(&folder, "blank.csv --stand header.yaml -o blank.yaml --exclude 2,3,4 --why skipped --force");
+            folder.said("certify blank.csv --stand header.yaml -o blank.yaml --exclude 2,3,4 --why skipped --force");
         assert_eq!(code, 0, "{said}");
     }
     let row = |line: &str| if line.starts_with("2,3,4,") { "2,3,4,,,\n".to_owned() } else { format!("{line}\n") };
-    let text = fs::read_to_string(folder.join("angles.csv")).unwrap();
-    fs::write(folder.join("empty.csv"), text.lines().map(row).collect::<String>()).unwrap();
-    let (code, _, said) = run(&folder, "empty.csv --stand header.yaml -o empty.yaml --exclude 2,3,4 --why skipped");
+    let text = fs::read_to_string(folder.path("angles.csv")).unwrap();
+    fs::write(folder.path("empty.csv"), text.lines().map(row).collect::<String>()).unwrap();
+    let (code, _, said) =
+        folder.said("certify empty.csv --stand header.yaml -o empty.yaml --exclude 2,3,4 --why skipped");
     assert_eq!(code, 0, "{said}");
 }
 
 /// Expected: the record that was written with the certificate, with its exclusion; a stand file that was changed by hand gets none.
 #[test]
 fn a_certificate_gets_its_record_later() {
-    let folder = folder("later");
+    let folder = folder();
     let certify = "angles.csv --stand header.yaml --exclude 2,3,4 --why lamp -o stand.yaml --report first.html";
-    assert_eq!(run(&folder, certify).0, 0);
-    let (code, stdout, said) = run(&folder, "angles.csv --against stand.yaml --report later.html");
+    assert_eq!(folder.said(&format!("certify {certify}")).0, 0);
+    let (code, stdout, said) = folder.said("certify angles.csv --against stand.yaml --report later.html");
     assert!(code == 0 && stdout.contains("CERTIFIED"), "{stdout}{said}");
-    let record = |name: &str| fs::read_to_string(folder.join(name)).unwrap();
+    let record = |name: &str| fs::read_to_string(folder.path(name)).unwrap();
     assert_eq!(record("first.html"), record("later.html"));
     let (stand, other) = (record("stand.yaml"), "alpha_arcsec: 9");
-    fs::write(folder.join("stand.yaml"), stand.replacen("alpha_arcsec: ", other, 1)).unwrap();
-    let (code, _, said) = run(&folder, "angles.csv --against stand.yaml --report changed.html");
-    assert!(code == 1 && said.contains("was changed by hand") && !folder.join("changed.html").exists(), "{said}");
+    fs::write(folder.path("stand.yaml"), stand.replacen("alpha_arcsec: ", other, 1)).unwrap();
+    let (code, _, said) = folder.said("certify angles.csv --against stand.yaml --report changed.html");
+    assert!(code == 1 && said.contains("was changed by hand") && !folder.path("changed.html").exists(), "{said}");
 }

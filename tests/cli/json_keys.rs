@@ -1,45 +1,19 @@
 //! The keys of JSON results in their order, as programs rely on them; keys and numbers of `show --format json` against those that
 //! PyYAML finds in the file.
 
+use crate::deliver::Place;
 use crate::programs;
 use serde_json::{Value, json};
-use std::path::PathBuf;
-use std::process::Command;
 
 /// A folder with the files that the transcripts use, and the published test key.
-struct Folder(tempfile::TempDir);
-
-impl Folder {
-    fn new() -> Self {
-        let folder = Self(tempfile::tempdir().unwrap());
-        for name in ["stand.yaml", "allowed_signers"] {
-            std::fs::copy(programs::project("tests/cmd/files").join(name), folder.path(name)).unwrap();
-        }
-        for name in ["here.yaml", "there.yaml"] {
-            std::fs::copy(programs::project("tests/cmd/files/sites").join(name), folder.path(name)).unwrap();
-        }
-        std::fs::copy(programs::project("tests/keys/examples"), folder.path("key")).unwrap();
-        // Git does not keep this mode, and a private key that others can read is refused.
-        assert!(Command::new("chmod").arg("600").arg(folder.path("key")).status().unwrap().success());
-        folder
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    /// Standard output, and whether the exit code is the one expected.
-    fn run(&self, arguments: &str, code: i32) -> String {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
-        let output = command.args(arguments.split(' ')).current_dir(self.0.path()).output().unwrap();
-        let words = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(code), "{arguments}\n{words}");
-        String::from_utf8(output.stdout).unwrap()
-    }
-
-    fn json(&self, arguments: &str, code: i32) -> Value {
-        serde_json::from_str(&self.run(&format!("{arguments} --format json"), code)).unwrap()
-    }
+fn folder() -> Place {
+    Place::of(&[
+        ("tests/cmd/files/stand.yaml", "stand.yaml"),
+        ("tests/cmd/files/allowed_signers", "allowed_signers"),
+        ("tests/cmd/files/sites/here.yaml", "here.yaml"),
+        ("tests/cmd/files/sites/there.yaml", "there.yaml"),
+        ("tests/keys/examples", "key"),
+    ])
 }
 
 const SIGN: &str = "--key key --identity factory";
@@ -58,8 +32,8 @@ fn each(list: &Value, key: &str) -> Vec<Value> {
 
 #[test]
 fn verify_gives_every_check_in_its_order() {
-    let folder = Folder::new();
-    folder.run(&format!("issue stand.yaml --site here.yaml {SIGN} --issued-at 2026-11-03"), 0);
+    let folder = folder();
+    folder.good(&format!("issue stand.yaml --site here.yaml {SIGN} --issued-at 2026-11-03"));
     let asked = "--issuer factory --serial 0017 --at 55.7658,37.6856";
     let verdicts = folder.json(&format!("verify {PASSPORT} stand.yaml {TRUST} {asked}"), 1);
     for verdict in verdicts.as_array().unwrap() {
@@ -86,11 +60,12 @@ fn verify_gives_every_check_in_its_order() {
 /// Expected: the contract, one element per line in every verb with several inputs, refusals included.
 #[test]
 fn ndjson_has_a_line_for_each_input() {
-    let folder = Folder::new();
+    let folder = folder();
     let stand = std::fs::read_to_string(folder.path("stand.yaml")).unwrap();
     std::fs::write(folder.path("other.yaml"), stand.replace("0017", "0018").replace("C-2026-0142", "C-2")).unwrap();
     let lines = |arguments: &str, code: i32| -> Value {
-        let printed = folder.run(&format!("{arguments} --format ndjson"), code);
+        let (found, printed, said) = folder.said(&format!("{arguments} --format ndjson"));
+        assert_eq!(found, code, "{arguments}\n{said}");
         printed.lines().map(|line| serde_json::from_str::<Value>(line).unwrap()).collect()
     };
     let issue = format!("issue stand.yaml other.yaml --site here.yaml {SIGN} --issued-at 2026-11-03");
@@ -116,7 +91,7 @@ fn ndjson_has_a_line_for_each_input() {
 
 #[test]
 fn issue_and_reissue_report_alike() {
-    let folder = Folder::new();
+    let folder = folder();
     let issue = format!("issue stand.yaml --site here.yaml {SIGN} --issued-at 2026-11-03");
     for state in ["issued", "unchanged"] {
         let report = folder.json(&issue, 0);
@@ -159,12 +134,11 @@ print(numbers)
 
 #[test]
 fn show_as_json_has_the_numbers_that_pyyaml_finds() {
-    let folder = Folder::new();
+    let folder = folder();
     let cheap = programs::project("passports/SPS-1/0203/stand.yaml").display().to_string();
-    folder
-        .run(&format!("issue stand.yaml {cheap} --site here.yaml --site there.yaml {SIGN} --issued-at 2026-11-05"), 0);
+    folder.good(&format!("issue stand.yaml {cheap} --site here.yaml --site there.yaml {SIGN} --issued-at 2026-11-05"));
     for name in ["SPS-2/0017/here-1", "SPS-2/0017/there-1", "SPS-1/0203/here-1", "SPS-1/0203/there-1"] {
-        let shown = folder.run(&format!("show passports/{name}.yaml {TRUST} --format json"), 0);
+        let shown = folder.good(&format!("show passports/{name}.yaml {TRUST} --format json"));
         std::fs::write(folder.path("shown.json"), shown).unwrap();
         let mut python = programs::python();
         python.args(["-c", COMPARE]).arg(folder.path(&format!("passports/{name}.yaml"))).arg(folder.path("shown.json"));

@@ -167,18 +167,3 @@ fn parameters_that_no_gyro_can_pass_are_named_with_the_reason() {
         assert!(page.contains(words), "{words}");
     }
 }
-
-#[test]
-fn what_nobody_stated_is_named() {
-    let folder = Folder::new();
-    let (page, result) = folder.page(CURRENTS, &[VERIFIED]);
-    assert_eq!(result["not_stated"].as_array().unwrap().len(), 8);
-    let gyro = ["gyro noise from visit to visit", "gyro noise from turn-on to turn-on"];
-    let meter = ["gain of the meter", "offset of the meter"];
-    for words in
-        ["latitude", "azimuth of the base", "level of the base", "gyro seat"].into_iter().chain(meter).chain(gyro)
-    {
-        assert!(page.contains(&format!("{words}</")), "{words}");
-    }
-    assert!(page.contains("No gyro type was specified"), "and no verdict is made up");
-}

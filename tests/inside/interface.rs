@@ -3,33 +3,12 @@
 use dtg_passport::calibration::{CalibrationDocument, Method, Options};
 use dtg_passport::gyro::{GyroNoise, GyroType};
 use dtg_passport::interface::{Order, calibrate, earlier};
-use dtg_passport::passport::content::PositionCurrents;
 use dtg_passport::passport::content_from_anyone;
 
 const PASSPORT: &[u8] = include_bytes!("../../passports/SPS-2/0017/moscow-bmstu-1.yaml");
 
 fn default() -> Order {
     "{}".parse().unwrap()
-}
-
-/// Expected: the parameters stated in the self-check, and the limit of 1e-9 of each.
-#[test]
-fn the_currents_of_the_self_check_give_its_gyro_by_every_method() {
-    let content = content_from_anyone("p", PASSPORT).unwrap();
-    let check = content.self_check.clone().unwrap();
-    let row = |at: &PositionCurrents| format!("{},{},{},{}\n", at.i, at.j, at.jx_ma, at.jy_ma);
-    let csv = "i,j,jx_ma,jy_ma\n".to_owned() + &check.currents.iter().map(row).collect::<String>();
-    for method in ["analytic", "least-squares"] {
-        let order = format!(r#"{{"method": "{method}"}}"#).parse().unwrap();
-        let found = calibrate(&content, None, ("c", csv.as_bytes()), &order).unwrap();
-        let document = CalibrationDocument::from_json("r", found.as_bytes()).unwrap();
-        let result = document.found().unwrap();
-        let errors = check.errors(&result.parameters);
-        assert!(errors.iter().all(|error| *error <= 1e-9), "{method}: {errors:?}");
-        for (place, u) in result.standard_uncertainty.iter().enumerate() {
-            assert!((document.covariance[place][place].unwrap().sqrt() - u).abs() <= 1e-15 * u);
-        }
-    }
 }
 
 /// The currents are those of a gyro on another stand.

@@ -177,15 +177,4 @@ proptest! {
         prop_assert_eq!(found.c_deg_per_h_per_g, Matrix2::identity() * earth.vertical_deg_per_h);
     }
 
-    /// The definitions of B and C (paper, under eq. (13) and (15)) against the form used, free of the site.
-    #[test]
-    fn b_and_c_are_the_papers(stand in stand_up_to(0.2), latitude in -89.0..89.0) {
-        let m = StandGeometry::new(&stand).unwrap().at(EarthRate::at_astronomic_latitude(latitude)).matrices.unwrap();
-        let b = m.omega1_deg_per_h - m.omega2_deg_per_h * m.n2_inverse * m.n1;
-        let c = m.omega2_deg_per_h * m.n2_inverse;
-        prop_assert!((b - m.b_deg_per_h).abs().max() < 1e-13);
-        prop_assert!((c - m.c_deg_per_h_per_g).abs().max() < 1e-13);
-        prop_assert!((m.n2_inverse * m.n2 - Matrix2::identity()).abs().max() < ROUNDING);
-    }
-
 }
