@@ -49,34 +49,6 @@ fn every_stand_is_issued_for_every_site_in_order_and_as_one_at_a_time() {
 }
 
 #[test]
-fn json_is_one_list_and_the_three_forms_say_the_same() {
-    let workshop = Workshop::new(2, 3);
-    workshop.write("sites/bad.yaml", "rubbish\n");
-    let said = workshop.run(&format!("issue stands --site sites {SIGN} --format json"), 2);
-    let list: Vec<serde_json::Value> = serde_json::from_str(&said.results).unwrap();
-    let states = |state: &str| list.iter().filter(|report| report["state"] == state).count();
-    assert_eq!((list.len(), states("issued"), states("refused")), (7, 6, 1));
-    assert!(list[0]["id"] == "sites/bad.yaml" && list[0]["passports"] == 2, "{}", list[0]);
-    let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 2);
-    assert_eq!((said.ids("unchanged").len(), said.ids("refused")), (6, BTreeSet::from(["sites/bad.yaml".to_owned()])));
-    let hashes = |index: usize| said.results.lines().nth(index).unwrap().split(',').nth(3).unwrap().to_owned();
-    assert_eq!(list[1]["sha256"], hashes(2).as_str());
-}
-
-#[test]
-fn remarks_are_said_once_however_many_passports_they_are_about() {
-    let workshop = Workshop::new(1, 500);
-    for number in 0..500 {
-        let text = site(&format!("site-{number:05}"), number).replace("height_m: 150.0\n", "");
-        workshop.write(&format!("sites/site-{number:05}.yaml"), &text);
-    }
-    let said = workshop.run(&format!("issue stands --site sites {SIGN} --no-sync"), 0);
-    let heights: Vec<&str> = said.words.lines().filter(|line| line.contains("The height is unknown")).collect();
-    assert_eq!(heights.len(), 1);
-    assert!(heights[0].starts_with("dtg-passport: SPS-2/0000/site-00000/1 and 499 more: "), "{heights:?}");
-}
-
-#[test]
 fn of_two_sites_with_one_id_neither_counts_unless_they_are_the_same() {
     let workshop = Workshop::new(2, 3);
     workshop.write("sites/other.yaml", &site("site-00001", 999));
@@ -98,22 +70,6 @@ fn of_two_sites_with_one_id_neither_counts_unless_they_are_the_same() {
     let others = "copy-001.yaml, sites/copy-002.yaml, sites/copy-003.yaml, sites/copy-004.yaml, sites/copy-005.yaml";
     let why = format!("sites/copy-000.yaml: has the id site-00002, like sites/{others} and 195 more, but different");
     assert!(said.words.contains(&why), "{}", said.words);
-}
-
-#[test]
-fn a_stand_given_twice_is_taken_once_and_one_given_differently_not_at_all() {
-    let workshop = Workshop::new(1, 40);
-    let twice = "issue stands/0000/stand.yaml stands ./stands/0000/stand.yaml --site sites";
-    let said = workshop.run(&format!("{twice} {SIGN} --format csv"), 0);
-    assert_eq!((said.results.lines().count(), said.ids("issued").len()), (41, 40));
-    assert!(said.words.contains("stands/0000/stand.yaml and 1 more: duplicate of stand SPS-2/0000"), "{}", said.words);
-    let text = fs::read_to_string(workshop.path("stands/0000/stand.yaml")).unwrap();
-    workshop.write("stands/copy/stand.yaml", &text.replace("12.4", "12.5"));
-    let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 1);
-    assert!(
-        said.words.contains("has the id SPS-2/0000, like stands/copy/stand.yaml, but different content; keep one file")
-    );
-    assert!(said.ids("issued").is_empty());
 }
 
 #[test]
@@ -140,20 +96,6 @@ fn links_lead_nowhere_and_nothing_is_written_through_them() {
 }
 
 #[test]
-fn a_great_many_other_files_in_a_folder_are_in_nobodys_way() {
-    let workshop = Workshop::new(1, 2);
-    for folder in ["sites", "stands", "passports/SPS-2/0000"] {
-        fs::create_dir_all(workshop.path(folder)).unwrap();
-        for number in 0..20_000 {
-            fs::File::create(workshop.path(&format!("{folder}/other-{number}.txt"))).unwrap();
-        }
-    }
-    let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 0);
-    assert_eq!(said.ids("issued").len(), 2);
-    assert_eq!(workshop.sound("passports").len(), 2);
-}
-
-#[test]
 fn a_passport_in_the_wrong_place_for_its_id_is_not_taken_for_the_right_one() {
     let workshop = Workshop::new(2, 2);
     workshop.run(&format!("issue stands/0000 --site sites {SIGN}"), 0);
@@ -169,19 +111,6 @@ fn a_passport_in_the_wrong_place_for_its_id_is_not_taken_for_the_right_one() {
         said.words
     );
     assert_eq!(fs::read(file("0000")).unwrap(), fs::read(file("0001")).unwrap());
-}
-
-#[test]
-fn a_name_in_another_unicode_form_is_refused_with_its_place() {
-    let workshop = Workshop::new(1, 1);
-    let text = site("koeln", 1).replace("id: \"koeln\"\n", "id: \"koeln\"\nname: \"Ko\u{308}ln\"\n");
-    workshop.write("sites/koeln.yaml", &text);
-    // The file's own name may be in any form.
-    workshop.write("sites/Mu\u{308}nchen.yaml", &site("muenchen", 2));
-    let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 2);
-    assert!(said.words.contains("sites/koeln.yaml:3:7: name: found character U+0308"), "{}", said.words);
-    let issued = ["SPS-2/0000/muenchen/1", "SPS-2/0000/site-00000/1"].map(str::to_owned);
-    assert_eq!(said.ids("issued"), issued.into());
 }
 
 #[test]
@@ -209,23 +138,6 @@ fn patterns_folders_and_lists_name_the_same() {
     assert_eq!(said.words, "dtg-passport: stands/x*: no file matches this pattern\n");
     let said = workshop.run(&format!("issue - --site - {SIGN}"), 2);
     assert_eq!(said.words, "dtg-passport: standard input can supply only one list, that of stands or that of sites\n");
-}
-
-#[test]
-fn parts_of_a_job_are_disjoint_and_complete_wherever_each_is_run() {
-    let workshop = Workshop::new(5, 40);
-    let whole = workshop.run(&format!("issue stands --site sites {SIGN} --dry-run --format csv"), 0).ids("planned");
-    let mut together = BTreeSet::new();
-    for part in ["3/3", "1/3", "2/3"] {
-        let said = workshop.run(&format!("issue stands --site sites {SIGN} --shard {part} --no-sync --format csv"), 0);
-        let ids = said.ids("issued");
-        assert!(!ids.is_empty() && together.is_disjoint(&ids));
-        together.extend(ids);
-    }
-    assert_eq!(together, whole);
-    assert_eq!(workshop.sound("passports"), whole);
-    let said = workshop.run(&format!("issue stands --site sites {SIGN} --shard 5/4"), 2);
-    assert!(said.words.contains("found part 5 of 4, expected 1 to 4"), "{}", said.words);
 }
 
 #[test]

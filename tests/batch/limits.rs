@@ -70,25 +70,6 @@ fn a_full_disk_costs_what_has_no_room_and_no_more() {
 }
 
 #[test]
-fn no_file_may_grow_large_enough() {
-    let workshop = Workshop::new(1, 5);
-    let issue = format!("issue stands --site sites {SIGN} --out out");
-    // The limit is in units of 512 bytes. Ignored, the signal becomes an error; otherwise it kills in the middle.
-    let limited = format!("ulimit -f 8; exec \"$DTG\" {issue}");
-    let output = workshop.shell(&format!("trap '' XFSZ; {limited} --format csv")).output().unwrap();
-    let said = Said::of(output, 2);
-    assert_eq!(said.ids("refused").len(), 5);
-    assert!(said.words.contains("cannot be written: File too large"), "{}", said.words);
-    assert!(workshop.sound("out").is_empty() && workshop.leftovers("out").is_empty());
-    let killed = workshop.shell(&limited).output().unwrap();
-    assert!(killed.status.signal().is_some(), "{}", killed.status);
-    assert!(workshop.sound("out").is_empty() && !workshop.leftovers("out").is_empty());
-    let said = workshop.run(&format!("{issue} --format csv"), 0);
-    assert_eq!(said.ids("issued").len(), 5);
-    assert!(workshop.leftovers("out").is_empty());
-}
-
-#[test]
 fn results_that_belong_together_are_there_or_not() {
     let workshop = Workshop::new(1, 1);
     fs::create_dir(workshop.path("gyros")).unwrap();
@@ -142,24 +123,6 @@ fn too_few_file_handles_cost_what_needs_them() {
         assert_eq!(said.ids("issued").len() + said.ids("unchanged").len(), 40);
     }
     assert!(out_of_handles > 0, "there were always handles enough");
-}
-
-#[test]
-fn a_folder_that_cannot_be_written_is_left_as_it_is() {
-    let workshop = Workshop::new(2, 3);
-    workshop.run(&format!("issue stands/0000 --site sites {SIGN} --out out"), 0);
-    let issue = format!("issue stands --site sites {SIGN}");
-    let script = format!(
-        "mount --bind out out; mount -o remount,bind,ro out; {} mount -o remount,bind,rw out; {}",
-        run(1, &issue),
-        run(2, &issue)
-    );
-    in_namespace(&workshop, &script);
-    let said = survived(&workshop, 1, 2);
-    assert_eq!((said.ids("unchanged").len(), said.ids("refused").len()), (3, 3));
-    assert!(said.words.contains("cannot be written: "), "{}", said.words);
-    let said = survived(&workshop, 2, 0);
-    assert_eq!((said.ids("unchanged").len(), said.ids("issued").len()), (3, 3));
 }
 
 /// By the calls that the system sees: a passport is synced before it is renamed, and its folder before the register that

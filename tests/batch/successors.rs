@@ -22,13 +22,6 @@ fn certified_again(workshop: &Workshop, stand: &str, number: &str) {
     workshop.write(&format!("new/{stand}/stand.yaml"), &text);
 }
 
-/// The stand file of a certificate so many years before, which is two years long.
-fn years_earlier(workshop: &Workshop, stand: &str, years: i32) -> String {
-    let text = fs::read_to_string(workshop.path(&format!("stands/{stand}/stand.yaml"))).unwrap();
-    let year = |year: i32| format!("\"{}-", year - years);
-    text.replace("\"2026-", &year(2026)).replace("\"2028-", &year(2028))
-}
-
 fn ids(stand: &str, sites: &[u32], revision: u32) -> BTreeSet<String> {
     sites.iter().map(|site| format!("SPS-2/{stand}/site-{site:05}/{revision}")).collect()
 }
@@ -90,25 +83,6 @@ fn parts_of_a_folder_are_disjoint_and_complete() {
     }
     assert_eq!(together.len(), 10);
     assert_eq!(workshop.sound("passports").len(), 20);
-}
-
-#[test]
-fn what_has_expired_is_issued_anew_with_the_factorys_files() {
-    let workshop = Workshop::new(2, 5);
-    for stand in ["0000", "0001"] {
-        workshop.write(&format!("old/{stand}/stand.yaml"), &years_earlier(&workshop, stand, 10));
-    }
-    workshop.run(&format!("issue old --site sites {}", SIGN.replace("2026", "2016")), 0);
-    workshop.write("new.yaml", &years_earlier(&workshop, "0000", 8));
-    let later = ANEW.replace("2026-11-20", "2018-11-03");
-    let said = workshop.run(&format!("reissue passports --stand new.yaml --reason recertified {later}"), 1);
-    assert_eq!(said.ids("refused").len(), 5);
-    assert!(said.words.contains("--sites"), "{}", said.words);
-    fs::remove_file(workshop.path("sites/site-00003.yaml")).unwrap();
-    let with_sites = format!("reissue passports --stand new.yaml --sites sites --reason recertified {later}");
-    let said = workshop.run(&with_sites, 1);
-    assert_eq!(said.ids("issued"), ids("0000", &[0, 1, 2, 4], 2));
-    assert_eq!(said.ids("refused"), BTreeSet::from(["passports/SPS-2/0000/site-00003-1.yaml".to_owned()]));
 }
 
 #[test]

@@ -1,41 +1,20 @@
 //! `certify` on the command line: what it writes, and every way in which its input is refused.
 
-use assert_cmd::Command;
+use crate::deliver::Place;
+use crate::programs;
 use std::fs;
-use std::path::{Path, PathBuf};
-
-const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 fn example(name: &str) -> String {
-    fs::read_to_string(Path::new(ROOT).join("docs").join(name)).unwrap()
+    fs::read_to_string(programs::project("docs").join(name)).unwrap()
 }
 
-/// A folder of its own for a test, with the examples of the documentation.
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("certify").join(name);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    for file in ["angles.csv", "check.csv", "header.yaml"] {
-        fs::write(folder.join(file), example(file)).unwrap();
-    }
-    folder
-}
-
-/// Exit code, standard output, standard error.
-fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
-    let mut command = Command::cargo_bin("dtg-passport").unwrap();
-    let output = command.current_dir(folder).arg("certify").args(arguments.split(' ')).output().unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
-}
-
-/// Runs with other readings; gives the exit code and what was said.
-fn with_readings(folder: &Path, readings: &str) -> (i32, String) {
-    fs::write(folder.join("r.csv"), readings).unwrap();
-    let (code, _, said) = run(folder, "r.csv --stand header.yaml -o out.yaml");
-    assert!(code == 0 || !folder.join("out.yaml").exists(), "a refusal leaves no file");
-    let _ = fs::remove_file(folder.join("out.yaml"));
-    (code, said)
+/// A folder with the examples of the documentation.
+fn folder() -> Place {
+    Place::of(&[
+        ("docs/angles.csv", "angles.csv"),
+        ("docs/check.csv", "check.csv"),
+        ("docs/header.yaml", "header.yaml"),
+    ])
 }
 
 /// The line of position (i, j) in a run, its number replaced.
@@ -51,163 +30,14 @@ fn replaced(place: &str, column: usize, value: impl Fn(&str) -> String) -> Strin
     lines.collect()
 }
 
-fn angles_of(line: &str) -> [String; 3] {
-    std::array::from_fn(|axis| line.split(',').nth(3 + axis).unwrap().to_owned())
-}
-
-#[test]
-fn bad_readings_are_refused_with_their_place() {
-    let folder = folder("bad");
-    let good = example("angles.csv");
-    let without =
-        |start: &str| good.lines().filter(|line| !line.starts_with(start)).map(|line| format!("{line}\n")).collect();
-    let one_run: String = good
-        .lines()
-        .filter(|line| line.starts_with(['#', 'i']) || line.split(',').nth(2) == Some("1"))
-        .map(|line| format!("{line}\n"))
-        .collect();
-    let degrees = |text: &str| format!("{}", text.parse::<f64>().unwrap() / 3600.0);
-    let twice = |text: &str| format!("{}", text.parse::<f64>().unwrap() * 3600.0);
-    // The readings of a run replaced: by its row and all lines of readings, those of run 1 first.
-    let readings: Vec<String> = good.lines().filter(|line| line.starts_with(['1', '2'])).map(str::to_owned).collect();
-    let of_run = |run: &str, angles: fn(usize, &[String]) -> [String; 3]| {
-        let mut row = 0;
-        let lines = good.lines().map(|line| {
-            let cells: Vec<&str> = line.split(',').collect();
-            if cells.get(2) != Some(&run) {
-                return format!("{line}\n");
-            }
-            row += 1;
-            format!("{},{},{run},{}\n", cells[0], cells[1], angles(row - 1, &readings).join(","))
-        });
-        lines.collect::<String>()
-    };
-    let cases: Vec<(String, i32, &[&str])> = vec![
-        (one_run, 1, &["one run", "repeatability can be estimated", "better five"]),
-        (
-            good.replace("\n1,3,1,", "\n1,3,9,"),
-            2,
-            &["r.csv:5:5: run: found run 9, in which 7 of 8 positions are missing"],
-        ),
-        (without("2,3,4,"), 2, &["no reading of position (2, 3) in run 4", "omit the whole run"]),
-        (without("2,3,"), 2, &["no reading of position (2, 3), expected a reading of every position", "of this stand"]),
-        (good.replace("\n2,4,", "\n3,4,"), 2, &["r.csv:10:1", "position (3, 4)", "readings of this stand"]),
-        (replaced("1,2,3,", 3, degrees), 2, &["r.csv:20:7: alpha_arcsec", "convert it from degrees to arcseconds"]),
-        (replaced("1,1,2,", 3, twice), 2, &["r.csv:11:7: alpha_arcsec", "convert it to arcseconds only once"]),
-        (replaced("1,1,2,", 3, |_| "10012.4".into()), 2, &["check the digits, the sign and the position"]),
-        (replaced("1,1,2,", 3, |_| "170000".into()), 2, &["45 degrees", "in arcseconds"]),
-        (replaced("1,1,2,", 3, |_| "x".into()), 2, &["r.csv:11:7", "a number"]),
-        (replaced("1,1,2,", 2, |_| "0".into()), 2, &["run", "a whole number of 1 or more"]),
-        (
-            of_run("2", |_, _| ["0", "0", "0"].map(str::to_owned)),
-            2,
-            &["r.csv:11:5", "the same in every position of run 2"],
-        ),
-        (
-            of_run("3", |row, lines| angles_of(&lines[(row + 1) % 8])),
-            2,
-            &["r.csv:19:5", "in other rows", "(1, 1) → (1, 2), (1, 2) → (1, 3)"],
-        ),
-        (
-            of_run("3", |row, lines| angles_of(&lines[(row + 7) % 8])),
-            2,
-            &["r.csv:19:5", "(1, 2) → (1, 1), (1, 3) → (1, 2)"],
-        ),
-        (
-            of_run("4", |row, lines| angles_of(&lines[if row < 4 { row } else { row + 24 }])),
-            2,
-            &[
-                "r.csv:27:7",
-                "the angles of run 1 again in run 4 of position (1, 1)",
-                "and 3 more of this kind, up to line 30",
-            ],
-        ),
-        (
-            good.clone() + &good.lines().last().unwrap().replace("2,4,5", "1,1,5") + "\n",
-            2,
-            &["again, after another position"],
-        ),
-        (good.replace("run,", ""), 2, &["no column run"]),
-        (String::new(), 2, &["empty file"]),
-    ];
-    for (readings, code, words) in cases {
-        let (found, said) = with_readings(&folder, &readings);
-        assert_eq!(found, code, "{said}");
-        words.iter().for_each(|word| assert!(said.contains(word), "{said:?} without {word:?}"));
-    }
-}
-
-#[test]
-fn bad_headers_are_refused_with_their_place() {
-    let folder = folder("header");
-    let good = example("header.yaml");
-    let cases = [
-        (
-            "datum:",
-            "  repeatability_arcsec: 1.5\ndatum:",
-            &["certificate.repeatability_arcsec", "it is computed from the readings"][..],
-        ),
-        (
-            "theta_deg: 90, phi_deg: 180}",
-            "theta_deg: 90, phi_deg: 180, alpha_arcsec: 1}",
-            &["unknown key \"alpha_arcsec\""],
-        ),
-        ("i: 2, j: 4, theta_deg: 90", "i: 2, j: 4, theta_deg: 80", &["theta_deg", "90 for position (2, 4)"]),
-        ("i: 2, j: 4,", "i: 2, j: 3,", &["duplicate position (2, 3)"]),
-        ("dtg-stand/1", "dtg-site/1", &["check that this is the right file"]),
-    ];
-    for (from, to, words) in cases {
-        fs::write(folder.join("header.yaml"), good.replace(from, to)).unwrap();
-        let (code, _, said) = run(&folder, "angles.csv --stand header.yaml -o out.yaml");
-        assert_eq!(code, 2, "{said}");
-        words.iter().for_each(|word| assert!(said.contains(word), "{said:?} without {word:?}"));
-    }
-}
-
-/// Rows of a position and run that stand twice are one return read twice; columns and rows come in any order.
-#[test]
-fn form_does_not_matter() {
-    let folder = folder("form");
-    let lines: Vec<String> = example("angles.csv").lines().skip(1).map(str::to_owned).collect();
-    let turned = lines.iter().rev().map(|line| line.split(',').rev().collect::<Vec<_>>().join(" , "));
-    let mut turned: Vec<String> = turned.collect();
-    let header = turned.pop().unwrap();
-    turned.insert(0, header);
-    turned.insert(1, turned[1].clone());
-    fs::write(folder.join("r.csv"), turned.join("\r\n")).unwrap();
-    let (code, text, said) = run(&folder, "r.csv --stand header.yaml -o other.yaml");
-    assert_eq!(code, 0, "{said}");
-    assert!(text.contains("of the same visit: 1\n"), "{text}");
-    assert_eq!(run(&folder, "angles.csv --stand header.yaml -o stand.yaml").0, 0);
-    // The digest alone tells that it was another file.
-    let read = |name: &str| {
-        let text = fs::read_to_string(folder.join(name)).unwrap();
-        text.lines().filter(|line| !line.contains("readings_sha256")).map(str::to_owned).collect::<Vec<_>>()
-    };
-    assert_eq!(read("other.yaml"), read("stand.yaml"));
-}
-
-#[test]
-fn files_are_not_replaced_unless_told() {
-    let folder = folder("force");
-    let certify = "angles.csv --stand header.yaml -o stand.yaml";
-    assert_eq!(run(&folder, certify).0, 0);
-    let (code, _, said) = run(&folder, certify);
-    assert!(code == 1 && said.contains("to replace it, use --force"), "{said}");
-    assert_eq!(run(&folder, &format!("{certify} --force")).0, 0);
-    assert_eq!(run(&folder, "angles.csv -o stand.yaml").0, 2);
-    assert_eq!(run(&folder, "angles.csv --stand header.yaml").0, 2);
-    assert_eq!(run(&folder, "nothing.csv --stand header.yaml -o x.yaml").0, 2);
-}
-
 /// A check: exit code 1 when it is not the same stand, and the position by name; another stand is refused.
 #[test]
 fn a_check_has_an_exit_code() {
-    let folder = folder("check");
-    assert_eq!(run(&folder, "angles.csv --stand header.yaml -o stand.yaml").0, 0);
-    let (code, text, _) = run(&folder, "check.csv --against stand.yaml");
+    let folder = folder();
+    assert_eq!(folder.said("certify angles.csv --stand header.yaml -o stand.yaml").0, 0);
+    let (code, text, _) = folder.said("certify check.csv --against stand.yaml");
     assert!(code == 1 && text.contains("Position (2, 3) has changed"), "{text}");
-    let (code, text, _) = run(&folder, "check.csv --against stand.yaml --format json");
+    let (code, text, _) = folder.said("certify check.csv --against stand.yaml --format json");
     let found: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert!(code == 1 && found["comparison"]["same_stand"] == false, "{text}");
     assert!(found["not_certified"].as_str().unwrap().starts_with("found one run"));
@@ -215,122 +45,29 @@ fn a_check_has_an_exit_code() {
     for (name, again) in
         [("same.csv", example("angles.csv")), ("anew.csv", example("angles.csv").replace('\n', "\r\n"))]
     {
-        fs::write(folder.join(name), again).unwrap();
-        let (code, text, _) = run(&folder, &format!("{name} --against stand.yaml"));
+        fs::write(folder.path(name), again).unwrap();
+        let (code, text, _) = folder.said(&format!("certify {name} --against stand.yaml"));
         assert!(code == 1 && text.starts_with("◐ UNDECIDED"), "{text}");
     }
     let two_runs = |line: &&str| line.starts_with(['#', 'i']) || matches!(line.split(',').nth(2), Some("1" | "2"));
     let two_runs: String = example("angles.csv").lines().filter(two_runs).map(|line| format!("{line}\n")).collect();
-    fs::write(folder.join("two.csv"), two_runs).unwrap();
-    let (code, text, said) = run(&folder, "two.csv --against stand.yaml --format json");
+    fs::write(folder.path("two.csv"), two_runs).unwrap();
+    let (code, text, said) = folder.said("certify two.csv --against stand.yaml --format json");
     let found: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert!(code == 0 && found["comparison"]["same_stand"] == true, "{said}{text}");
     assert_eq!(found["certification"]["stand"]["positions"].as_array().unwrap().len(), 8);
-    fs::write(folder.join("header.yaml"), example("header.yaml").replace("0017", "0018")).unwrap();
-    let (code, _, said) = run(&folder, "check.csv --stand header.yaml --against stand.yaml");
+    fs::write(folder.path("header.yaml"), example("header.yaml").replace("0017", "0018")).unwrap();
+    let (code, _, said) = folder.said("certify check.csv --stand header.yaml --against stand.yaml");
     assert!(code == 1 && said.contains("SPS-2 0017") && said.contains("SPS-2 0018"), "{said}");
-}
-
-/// The cells of every line of a run, changed.
-fn run_changed(run: &str, change: impl Fn(Vec<String>) -> Vec<String>) -> String {
-    let lines = example("angles.csv");
-    let lines = lines.lines().map(|line| {
-        let cells: Vec<String> = line.split(',').map(str::to_owned).collect();
-        let changed = cells.len() == 6 && cells[2] == run;
-        (if changed { change(cells) } else { cells }).join(",") + "\n"
-    });
-    lines.collect()
-}
-
-fn scaled(run: &str, factor: f64) -> String {
-    run_changed(run, |mut cells| {
-        cells[3..].iter_mut().for_each(|cell| *cell = format!("{:.4}", cell.parse::<f64>().unwrap() * factor));
-        cells
-    })
-}
-
-#[test]
-fn mistakes_of_a_whole_run_are_named() {
-    let folder = folder("runs");
-    let good = example("angles.csv");
-    let copy_as = |from: &str, to: &str| -> String {
-        let copied = good.lines().filter(|line| line.split(',').nth(2) == Some(from));
-        let renamed = copied.map(|line| {
-            let mut cells: Vec<&str> = line.split(',').collect();
-            cells[2] = to;
-            cells.join(",") + "\n"
-        });
-        renamed.collect()
-    };
-    let identical: String =
-        good.lines().filter(|line| line.split(',').nth(2) != Some("3")).map(|line| format!("{line}\n")).collect();
-    let two = good.lines().filter(|line| line.starts_with(['#', 'i']) || line.split(',').nth(2) == Some("1"));
-    let two: String = two.map(|line| format!("{line}\n")).collect();
-    let cases: Vec<(String, &[&str])> = vec![
-        (
-            good.clone() + &copy_as("2", "6"),
-            &["r.csv:43:5: run", "run 6 with the same angles as run 2", "delete the copy"],
-        ),
-        (identical + &copy_as("5", "3"), &["run 5 with the same angles as run 3"]),
-        (two + &copy_as("1", "2"), &["run 2 with the same angles as run 1"]),
-        (scaled("3", 1.0 / 60.0), &["r.csv:19:5: run", "run 3", "divided by 60", "arcminutes"]),
-        (scaled("1", 1.0 / 3600.0), &["run 1", "divided by 3600", "degrees"]),
-        (scaled("4", 60.0), &["run 4", "those of the other runs times 60"]),
-        (scaled("2", -1.0), &["run 2", "opposite sign", "correct the sign"]),
-    ];
-    for (readings, words) in cases {
-        let (code, said) = with_readings(&folder, &readings);
-        assert_eq!(code, 2, "{said}");
-        words.iter().for_each(|word| assert!(said.contains(word), "{said:?} without {word:?}"));
-        assert_eq!(said.matches("r.csv:").count(), 1, "one run is named: {said}");
-    }
-    // The finding stands beside the error.
-    fs::write(folder.join("r.csv"), scaled("3", 1.0 / 3240.0)).unwrap();
-    let (_, text, _) = run(&folder, "r.csv --stand header.yaml -o x.yaml --format json");
-    let found: serde_json::Value = serde_json::from_str(&text).unwrap();
-    assert_eq!(
-        (&found["error"]["code"], &found["findings"][0]["unit"]),
-        (&"unreadable".into(), &"gon".into()),
-        "{text}"
-    );
-    let mut constant = good.lines().map(str::to_owned).collect::<Vec<_>>();
-    constant.iter_mut().filter(|line| line.starts_with(['1', '2'])).for_each(|line| {
-        *line = line[..=line.rfind(',').unwrap()].to_owned() + "0.0";
-    });
-    fs::write(folder.join("r.csv"), constant.join("\n")).unwrap();
-    let (code, text, _) = run(&folder, "r.csv --stand header.yaml -o x.yaml --format json");
-    let found: serde_json::Value = serde_json::from_str(&text).unwrap();
-    assert_eq!((code, &found["findings"][0]["kind"]), (1, &"channel_constant".into()), "{text}");
-}
-
-/// Expected: of the example, whose visits scatter by 1.7″, the remark if all angles are divided by 60, and none as they are.
-#[test]
-fn a_file_in_arcminutes_is_doubted() {
-    let folder = folder("arcminutes");
-    let good = example("angles.csv");
-    let lines = good.lines().map(|line| {
-        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
-        if line.starts_with(['1', '2']) {
-            cells[3..].iter_mut().for_each(|cell| *cell = format!("{:.4}", cell.parse::<f64>().unwrap() / 60.0));
-        }
-        cells.join(",") + "\n"
-    });
-    fs::write(folder.join("arcminutes.csv"), lines.collect::<String>()).unwrap();
-    for (file, warnings) in [("angles.csv", "no warnings"), ("arcminutes.csv", "warnings: 1")] {
-        let (code, said, _) = run(&folder, &format!("{file} --stand header.yaml -o {file}.yaml"));
-        assert_eq!(code, 0);
-        assert!(said.lines().next().unwrap().contains(warnings), "{said}");
-        assert_eq!(said.contains("visits scatter by only 0.03″"), file == "arcminutes.csv", "{said}");
-    }
 }
 
 /// Other angles never go under a number that is there, --force or not.
 #[test]
 fn a_number_keeps_its_angles() {
-    let folder = folder("number");
-    assert_eq!(run(&folder, "angles.csv --stand header.yaml -o stand.yaml").0, 0);
-    let old = fs::read(folder.join("stand.yaml")).unwrap();
-    fs::write(folder.join("new.csv"), replaced("1,1,", 3, |text| format!("{}", text.parse::<f64>().unwrap() + 3.0)))
+    let folder = folder();
+    assert_eq!(folder.said("certify angles.csv --stand header.yaml -o stand.yaml").0, 0);
+    let old = fs::read(folder.path("stand.yaml")).unwrap();
+    fs::write(folder.path("new.csv"), replaced("1,1,", 3, |text| format!("{}", text.parse::<f64>().unwrap() + 3.0)))
         .unwrap();
     for arguments in [
         "new.csv --against stand.yaml -o new.yaml",
@@ -338,34 +75,34 @@ fn a_number_keeps_its_angles() {
         "new.csv --against stand.yaml --stand header.yaml -o new.yaml --force",
         "new.csv --stand header.yaml -o stand.yaml --force",
     ] {
-        let (code, _, said) = run(&folder, arguments);
+        let (code, _, said) = folder.said(&format!("certify {arguments}"));
         assert_eq!(code, 1, "{arguments}: {said}");
         assert!(said.contains("certificate C-2026-0143") && said.contains("position (1, 1)"), "{said}");
         assert!(
-            !folder.join("new.yaml").exists() && fs::read(folder.join("stand.yaml")).unwrap() == old,
+            !folder.path("new.yaml").exists() && fs::read(folder.path("stand.yaml")).unwrap() == old,
             "{arguments}"
         );
     }
     // The same angles under the old number, and no header that says when: nothing to write.
-    let (code, _, said) = run(&folder, "angles.csv --against stand.yaml -o new.yaml");
+    let (code, _, said) = folder.said("certify angles.csv --against stand.yaml -o new.yaml");
     assert!(code == 2 && said.contains("--stand HEADER.yaml"), "{said}");
     let header = example("header.yaml").replace("C-2026-0143", "C-2027-0007");
-    fs::write(folder.join("header.yaml"), header).unwrap();
-    let (code, _, said) = run(&folder, "new.csv --against stand.yaml --stand header.yaml -o new.yaml");
+    fs::write(folder.path("header.yaml"), header).unwrap();
+    let (code, _, said) = folder.said("certify new.csv --against stand.yaml --stand header.yaml -o new.yaml");
     assert!(said.contains("wrote new.yaml"), "{code} {said}");
 }
 
 #[test]
 fn what_is_odd_is_said() {
-    let folder = folder("odd");
+    let folder = folder();
     let header = example("header.yaml").replace("temperature_c: 20.0", "temperature_c: 293.15");
-    fs::write(folder.join("header.yaml"), header).unwrap();
-    let (code, text, _) = run(&folder, "angles.csv --stand header.yaml -o stand.yaml");
+    fs::write(folder.path("header.yaml"), header).unwrap();
+    let (code, text, _) = folder.said("certify angles.csv --stand header.yaml -o stand.yaml");
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(code == 0 && text.contains("WARNING: temperature_c is 293.15") && text.contains("in kelvin"), "{text}");
     let shifted = replaced("2,1,", 3, |text| format!("{:.1}", text.parse::<f64>().unwrap() + 67_833.0));
-    fs::write(folder.join("r.csv"), shifted).unwrap();
-    let (code, text, _) = run(&folder, "r.csv --stand header.yaml -o odd.yaml");
+    fs::write(folder.path("r.csv"), shifted).unwrap();
+    let (code, text, _) = folder.said("certify r.csv --stand header.yaml -o odd.yaml");
     assert!(code == 0 && text.contains("alpha_arcsec of position (2, 1) is 678"), "{text}");
 }
 
@@ -414,11 +151,11 @@ print(json.dumps({"means": means, "share": share, "s": float(np.sqrt(rest @ rest
 /// the last of these; for one mean reading alone, u is that of one run less.
 #[test]
 fn an_excluded_reading_is_left_out_and_recorded() {
-    let folder = folder("exclude");
+    let folder = folder();
     // A blunder that no certification would accept.
     let bad = replaced("2,3,4,", 4, |_| "9999".into());
-    fs::write(folder.join("bad.csv"), &bad).unwrap();
-    let (code, _, said) = run(&folder, "bad.csv --stand header.yaml -o bad.yaml");
+    fs::write(folder.path("bad.csv"), &bad).unwrap();
+    let (code, _, said) = folder.said("certify bad.csv --stand header.yaml -o bad.yaml");
     assert!(code == 2 && said.contains("check the digits"), "{said}");
     for (name, exclude, left_out, runs) in [
         ("one", "--exclude 2,3,4 --why blunder", "[[2, 3, 4]]", 5),
@@ -427,16 +164,16 @@ fn an_excluded_reading_is_left_out_and_recorded() {
         ("run", "--exclude 4 --why blunder", "[[4]]", 4),
     ] {
         let (code, text, said) =
-            run(&folder, &format!("bad.csv --stand header.yaml -o {name}.yaml --format json {exclude}"));
+            folder.said(&format!("certify bad.csv --stand header.yaml -o {name}.yaml --format json {exclude}"));
         assert_eq!(code, 0, "{said}");
         let found: serde_json::Value = serde_json::from_str(&text).unwrap();
         let stand = &found["certification"]["stand"];
         let evidence = &stand["certificate"]["evidence"];
         assert_eq!((&evidence["runs"], evidence["excluded"][0]["run"].as_u64()), (&runs.into(), Some(4)));
         assert_eq!(evidence["excluded"][0]["why"], "blunder");
-        let mut python = crate::programs::python();
-        python.args(["-c", WITHOUT]).arg(folder.join("bad.csv")).arg(left_out);
-        let due: serde_json::Value = serde_json::from_str(&crate::programs::output(python)).unwrap();
+        let mut python = programs::python();
+        python.args(["-c", WITHOUT]).arg(folder.path("bad.csv")).arg(left_out);
+        let due: serde_json::Value = serde_json::from_str(&programs::output(python)).unwrap();
         let s = stand["certificate"]["repeatability_arcsec"].as_f64().unwrap();
         assert!((s / due["s"].as_f64().unwrap() - 1.0).abs() < 1e-3, "{name}: {s}, {due}");
         let positions = stand["positions"].as_array().unwrap();
@@ -453,14 +190,14 @@ fn an_excluded_reading_is_left_out_and_recorded() {
             assert!((u(at) / whole / share.sqrt() - 1.0).abs() < 5e-3, "{name}, {key}: {}, {share}", u(at) / whole);
         }
         // The file is read again, and a passport of it says what was excluded.
-        let text = fs::read_to_string(folder.join(format!("{name}.yaml"))).unwrap();
+        let text = fs::read_to_string(folder.path(&format!("{name}.yaml"))).unwrap();
         assert!(text.contains("    excluded:\n      - {"), "{text}");
     }
 }
 
 #[test]
 fn bad_exclusions_are_refused() {
-    let folder = folder("exclusions");
+    let folder = folder();
     for (exclude, code, words) in [
         ("--exclude 2,3,9 --why x", 2, "no reading of position (2, 3) in run 9 to exclude"),
         ("--exclude 9 --why x", 2, "no reading of run 9 to exclude"),
@@ -472,48 +209,49 @@ fn bad_exclusions_are_refused() {
         ("--exclude 1 --exclude 2 --exclude 3 --exclude 4 --why x", 1, "one run"),
         ("--exclude 2,1,3 --exclude 2,2,3 --exclude 2,3,3 --exclude 2,4,3 --why x", 1, "exclude the whole run"),
     ] {
-        let (found, _, said) = run(&folder, &format!("angles.csv --stand header.yaml -o out.yaml {exclude}"));
+        let (found, _, said) = folder.said(&format!("certify angles.csv --stand header.yaml -o out.yaml {exclude}"));
         assert!(found == code && said.contains(words), "{exclude}: {found} {said}");
-        assert!(!folder.join("out.yaml").exists());
+        assert!(!folder.path("out.yaml").exists());
     }
     // The same readings with other exclusions are other angles.
-    assert_eq!(run(&folder, "angles.csv --stand header.yaml -o stand.yaml").0, 0);
+    assert_eq!(folder.said("certify angles.csv --stand header.yaml -o stand.yaml").0, 0);
     let again = "angles.csv --stand header.yaml -o stand.yaml --force --exclude 2,3,4 --why x";
-    let (code, _, said) = run(&folder, again);
+    let (code, _, said) = folder.said(&format!("certify {again}"));
     assert!(code == 1 && said.contains("already states other angles"), "{said}");
 }
 
 /// A reading that was not taken: the advice is followed, and the file is then certified.
 #[test]
 fn the_advice_for_an_empty_cell_works() {
-    let folder = folder("empty_cell");
+    let folder = folder();
     for cell in ["", "NaN"] {
-        fs::write(folder.join("blank.csv"), replaced("2,3,4,", 4, |_| cell.into())).unwrap();
-        let (code, _, said) = run(&folder, "blank.csv --stand header.yaml -o blank.yaml");
+        fs::write(folder.path("blank.csv"), replaced("2,3,4,", 4, |_| cell.into())).unwrap();
+        let (code, _, said) = folder.said("certify blank.csv --stand header.yaml -o blank.yaml");
         assert!(code == 2 && said.contains("exclude it with --exclude 2,3,4 and --why"), "{said}");
         let (code, _, said) =
-            run(&folder, "blank.csv --stand header.yaml -o blank.yaml --exclude 2,3,4 --why skipped --force");
+            folder.said("certify blank.csv --stand header.yaml -o blank.yaml --exclude 2,3,4 --why skipped --force");
         assert_eq!(code, 0, "{said}");
     }
     let row = |line: &str| if line.starts_with("2,3,4,") { "2,3,4,,,\n".to_owned() } else { format!("{line}\n") };
-    let text = fs::read_to_string(folder.join("angles.csv")).unwrap();
-    fs::write(folder.join("empty.csv"), text.lines().map(row).collect::<String>()).unwrap();
-    let (code, _, said) = run(&folder, "empty.csv --stand header.yaml -o empty.yaml --exclude 2,3,4 --why skipped");
+    let text = fs::read_to_string(folder.path("angles.csv")).unwrap();
+    fs::write(folder.path("empty.csv"), text.lines().map(row).collect::<String>()).unwrap();
+    let (code, _, said) =
+        folder.said("certify empty.csv --stand header.yaml -o empty.yaml --exclude 2,3,4 --why skipped");
     assert_eq!(code, 0, "{said}");
 }
 
 /// Expected: the record that was written with the certificate, with its exclusion; a stand file that was changed by hand gets none.
 #[test]
 fn a_certificate_gets_its_record_later() {
-    let folder = folder("later");
+    let folder = folder();
     let certify = "angles.csv --stand header.yaml --exclude 2,3,4 --why lamp -o stand.yaml --report first.html";
-    assert_eq!(run(&folder, certify).0, 0);
-    let (code, stdout, said) = run(&folder, "angles.csv --against stand.yaml --report later.html");
+    assert_eq!(folder.said(&format!("certify {certify}")).0, 0);
+    let (code, stdout, said) = folder.said("certify angles.csv --against stand.yaml --report later.html");
     assert!(code == 0 && stdout.contains("CERTIFIED"), "{stdout}{said}");
-    let record = |name: &str| fs::read_to_string(folder.join(name)).unwrap();
+    let record = |name: &str| fs::read_to_string(folder.path(name)).unwrap();
     assert_eq!(record("first.html"), record("later.html"));
     let (stand, other) = (record("stand.yaml"), "alpha_arcsec: 9");
-    fs::write(folder.join("stand.yaml"), stand.replacen("alpha_arcsec: ", other, 1)).unwrap();
-    let (code, _, said) = run(&folder, "angles.csv --against stand.yaml --report changed.html");
-    assert!(code == 1 && said.contains("was changed by hand") && !folder.join("changed.html").exists(), "{said}");
+    fs::write(folder.path("stand.yaml"), stand.replacen("alpha_arcsec: ", other, 1)).unwrap();
+    let (code, _, said) = folder.said("certify angles.csv --against stand.yaml --report changed.html");
+    assert!(code == 1 && said.contains("was changed by hand") && !folder.path("changed.html").exists(), "{said}");
 }

@@ -7,10 +7,23 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-/// A workspace of a factory with two stands, and next to it whatever a test makes.
+/// A folder of a test and the program run in it.
 pub struct Place(tempfile::TempDir);
 
 impl Place {
+    /// A folder with copies of files of the project, each with its name there; `key` is a private key.
+    pub fn of(files: &[(&str, &str)]) -> Self {
+        let place = Self(tempfile::tempdir().unwrap());
+        for (from, to) in files {
+            fs::create_dir_all(place.path(to).parent().unwrap()).unwrap();
+            fs::copy(programs::project(from), place.path(to)).unwrap();
+            // Git does not keep this mode, and a private key that others can read is refused.
+            assert!(*to != "key" || Command::new("chmod").arg("600").arg(place.path(to)).status().unwrap().success());
+        }
+        place
+    }
+
+    /// The workspace of a factory with passports for two sites.
     pub fn new() -> Self {
         let place = Self::before_issue();
         place.good(
@@ -61,6 +74,20 @@ impl Place {
         // No browser prints here; what one prints is tested elsewhere.
         command.env("DTG_PASSPORT_BROWSER", "no-browser-of-this-name");
         command.args(words).current_dir(&self.0).stdin(Stdio::null()).output().unwrap()
+    }
+
+    /// Exit code, standard output, standard error.
+    pub fn said(&self, arguments: &str) -> (i32, String, String) {
+        let output = self.run(arguments);
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+        (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+    }
+
+    /// The result as JSON of a run that must end with `code`.
+    pub fn json(&self, arguments: &str, code: i32) -> serde_json::Value {
+        let (found, stdout, said) = self.said(&format!("{arguments} --format json"));
+        assert_eq!(found, code, "{arguments}\n{said}");
+        serde_json::from_str(&stdout).unwrap()
     }
 
     pub fn good(&self, arguments: &str) -> String {

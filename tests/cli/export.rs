@@ -1,10 +1,9 @@
 //! `export`: what it writes makes the same passport again, and other programs read it.
 
-use crate::programs;
+use crate::deliver::Place;
 use serde_json::Value;
 use std::fs;
-use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 const TRUST: &str = "--trust docs/allowed_signers --time 2026-11-20";
 const EVERY: [&str; 3] = [
@@ -13,26 +12,11 @@ const EVERY: [&str; 3] = [
     "passports/SPS-2/0017/moscow-bmstu-1.yaml",
 ];
 
-/// Runs the program in `folder`: exit code, standard output, standard error.
-fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
-    command.args(arguments.split(' ')).current_dir(folder).stdin(Stdio::null());
-    let output = command.output().unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
-}
-
 /// A folder with the example passports, their allowed signers and the key that signed them.
-fn folder() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    for name in EVERY.iter().chain(&["docs/allowed_signers"]) {
-        let target = folder.path().join(name);
-        fs::create_dir_all(target.parent().unwrap()).unwrap();
-        fs::copy(programs::project(name), target).unwrap();
-    }
-    fs::copy(programs::project("tests/keys/examples"), folder.path().join("key")).unwrap();
-    assert!(Command::new("chmod").arg("600").arg(folder.path().join("key")).status().unwrap().success());
-    folder
+fn folder() -> Place {
+    let files = EVERY.map(|name| (name, name));
+    let more = [("docs/allowed_signers", "docs/allowed_signers"), ("tests/keys/examples", "key")];
+    Place::of(&[&files[..], &more].concat())
 }
 
 /// Expected: the original file. The signature of Ed25519 is deterministic, so a passport that is issued from the exported
@@ -42,10 +26,9 @@ fn the_exported_files_make_the_same_passport() {
     let folder = folder();
     for (number, passport) in EVERY.into_iter().enumerate() {
         let out = format!("out-{number}");
-        let (code, stdout, said) =
-            run(folder.path(), &format!("export {passport} {TRUST} --to stand,site --out {out}"));
+        let (code, stdout, said) = folder.said(&format!("export {passport} {TRUST} --to stand,site --out {out}"));
         assert_eq!((code, stdout.as_str()), (0, ""), "{said}");
-        let original = fs::read_to_string(folder.path().join(passport)).unwrap();
+        let original = fs::read_to_string(folder.path(passport)).unwrap();
         let value = |key: &str| {
             let line = original.lines().find(|line| line.trim_start().starts_with(key)).unwrap();
             line.split_once(": ").unwrap().1.trim_matches('"').to_owned()
@@ -56,38 +39,20 @@ fn the_exported_files_make_the_same_passport() {
             value("issued_at:"),
             if original.contains("\naccuracy:") { " --accuracy" } else { "" }
         );
-        let (code, _, said) = run(folder.path(), &again);
+        let (code, _, said) = folder.said(&again);
         assert_eq!(code, 0, "{said}");
         let path = passport.replacen("passports", &format!("again-{number}"), 1);
-        assert_eq!(fs::read_to_string(folder.path().join(path)).unwrap(), original, "{passport}");
+        assert_eq!(fs::read_to_string(folder.path(&path)).unwrap(), original, "{passport}");
     }
-}
-
-/// The files of one passport are written together or not at all, and nothing is replaced unless told.
-#[test]
-fn nothing_is_replaced_unless_told() {
-    let folder = folder();
-    let export = format!("export {} {TRUST} --to stand,site,json --out out", EVERY[2]);
-    fs::create_dir_all(folder.path().join("out")).unwrap();
-    let site = folder.path().join("out/moscow-bmstu.yaml");
-    fs::write(&site, "mine").unwrap();
-    let (code, stdout, said) = run(folder.path(), &export);
-    assert_eq!((code, stdout.as_str()), (1, ""), "{said}");
-    assert!(said.contains("out/moscow-bmstu.yaml: already exists, not overwritten"), "{said}");
-    assert!(fs::read_to_string(&site).unwrap() == "mine" && !folder.path().join("out/SPS-2").exists());
-    let (code, _, said) = run(folder.path(), &format!("{export} --force"));
-    assert_eq!((code, said.matches("wrote out/").count()), (0, 3), "{said}");
-    assert!(fs::read_to_string(&site).unwrap().contains("dtg-site/1"));
 }
 
 /// A folder: one line for each passport, the refused one without content; stands and sites once each.
 #[test]
 fn many_are_lines_of_json() {
     let folder = folder();
-    let altered =
-        fs::read_to_string(folder.path().join(EVERY[0])).unwrap().replacen("alpha_arcsec: ", "alpha_arcsec: 1", 1);
-    fs::write(folder.path().join("passports/SPS-1/0203/altered-1.yaml"), altered).unwrap();
-    let (code, stdout, said) = run(folder.path(), &format!("export passports {TRUST} --to json,stand,site"));
+    let altered = fs::read_to_string(folder.path(EVERY[0])).unwrap().replacen("alpha_arcsec: ", "alpha_arcsec: 1", 1);
+    fs::write(folder.path("passports/SPS-1/0203/altered-1.yaml"), altered).unwrap();
+    let (code, stdout, said) = folder.said(&format!("export passports {TRUST} --to json,stand,site"));
     assert_eq!(code, 1, "{said}");
     let lines: Vec<Value> = stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     let verified: Vec<_> = lines.iter().map(|line| line["verified"].as_bool().unwrap()).collect();
@@ -96,10 +61,10 @@ fn many_are_lines_of_json() {
     assert!(said.contains("REFUSED") && said.contains("nothing was exported"), "{said}");
     // Expected: sha256sum, and `show --format json`.
     for (line, file) in lines[1..].iter().zip(EVERY) {
-        let sum = Command::new("sha256sum").arg(folder.path().join(file)).output().unwrap().stdout;
+        let sum = Command::new("sha256sum").arg(folder.path(file)).output().unwrap().stdout;
         assert!(String::from_utf8(sum).unwrap().starts_with(line["sha256"].as_str().unwrap()));
         assert_eq!(line["file"], file);
-        let (_, shown, _) = run(folder.path(), &format!("show {file} {TRUST} --format json"));
+        let (_, shown, _) = folder.said(&format!("show {file} {TRUST} --format json"));
         let shown: Value = serde_json::from_str(&shown).unwrap();
         for (key, value) in shown.as_object().unwrap() {
             if key != "positions" {
@@ -116,5 +81,5 @@ fn many_are_lines_of_json() {
         }
     }
     let stands = said.lines().filter(|line| line.ends_with("stand.yaml")).count();
-    assert_eq!((stands, folder.path().join("beijing-nim.yaml").exists()), (2, true), "{said}");
+    assert_eq!((stands, folder.path("beijing-nim.yaml").exists()), (2, true), "{said}");
 }

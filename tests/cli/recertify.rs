@@ -1,11 +1,10 @@
 //! `recertify`: one step from readings to the passports of all places, or nothing at all.
 
+use crate::deliver::Place;
 use crate::programs;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
 
 const HERE: &str = "passports/SPS-2/0017/here-1.yaml";
 const SIGN: &str = "--key key --identity factory";
@@ -14,66 +13,33 @@ const ORDER: &str =
     "--number C-2026-0300 --issued 2026-11-20 --issued-at 2026-11-20T10:00:00Z --reason recertified --accept-change";
 
 /// A factory's folder with a certified stand and its passports for two places.
-struct Factory(tempfile::TempDir);
+fn factory() -> Place {
+    let factory = Place::of(&[
+        ("tests/cmd/files/allowed_signers", "allowed_signers"),
+        ("tests/cmd/files/sites/here.yaml", "here.yaml"),
+        ("tests/cmd/files/sites/there.yaml", "there.yaml"),
+        ("tests/keys/examples", "key"),
+        ("docs/angles.csv", "angles.csv"),
+        ("docs/header.yaml", "header.yaml"),
+    ]);
+    fs::write(factory.path("new.csv"), new_readings(6.0)).unwrap();
+    factory.good("certify angles.csv --stand header.yaml -o passports/SPS-2/0017/stand.yaml");
+    let stand = "passports/SPS-2/0017/stand.yaml";
+    factory.good(&format!("issue {stand} --site here.yaml --site there.yaml {SIGN} --issued-at 2026-11-03"));
+    factory
+}
 
-impl Factory {
-    fn new() -> Self {
-        let factory = Self(tempfile::tempdir().unwrap());
-        for (from, to) in [
-            ("tests/cmd/files/allowed_signers", "allowed_signers"),
-            ("tests/cmd/files/sites/here.yaml", "here.yaml"),
-            ("tests/cmd/files/sites/there.yaml", "there.yaml"),
-            ("tests/keys/examples", "key"),
-            ("docs/angles.csv", "angles.csv"),
-            ("docs/header.yaml", "header.yaml"),
-        ] {
-            fs::copy(programs::project(from), factory.path(to)).unwrap();
-        }
-        assert!(Command::new("chmod").arg("600").arg(factory.path("key")).status().unwrap().success());
-        fs::write(factory.path("new.csv"), new_readings(6.0)).unwrap();
-        factory.good("certify angles.csv --stand header.yaml -o passports/SPS-2/0017/stand.yaml");
-        let stand = "passports/SPS-2/0017/stand.yaml";
-        factory.good(&format!("issue {stand} --site here.yaml --site there.yaml {SIGN} --issued-at 2026-11-03"));
-        factory
-    }
+/// Every file under `passports` with its content.
+fn passports(factory: &Place) -> BTreeMap<String, Vec<u8>> {
+    let files = fs::read_dir(factory.path("passports/SPS-2/0017")).unwrap().map(|entry| entry.unwrap().path());
+    let named = files.map(|path| (path.file_name().unwrap().to_str().unwrap().to_owned(), fs::read(path).unwrap()));
+    named.filter(|(name, _)| name != ".register.lock").collect()
+}
 
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    /// Exit code, standard output, standard error.
-    fn run(&self, arguments: &str) -> (i32, String, String) {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
-        command.args(arguments.split(' ')).current_dir(self.0.path()).stdin(Stdio::null());
-        command.env("DTG_PASSPORT_BROWSER", "absent-browser");
-        let output = command.output().unwrap();
-        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-        (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
-    }
-
-    fn good(&self, arguments: &str) -> String {
-        let (code, stdout, said) = self.run(arguments);
-        assert_eq!(code, 0, "{arguments}: {said}");
-        stdout
-    }
-
-    fn json(&self, arguments: &str) -> Value {
-        serde_json::from_str(&self.good(&format!("{arguments} --format json"))).unwrap()
-    }
-
-    /// Every file under `passports` with its content.
-    fn passports(&self) -> BTreeMap<String, Vec<u8>> {
-        let folder = self.path("passports/SPS-2/0017");
-        let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-        let named = files.map(|path| (path.file_name().unwrap().to_str().unwrap().to_owned(), fs::read(path).unwrap()));
-        named.filter(|(name, _)| name != ".register.lock").collect()
-    }
-
-    fn states(&self) -> Vec<String> {
-        let register = self.json(&format!("register passports {TRUST}"));
-        let line = |line: &Value| format!("{} {}", line["id"].as_str().unwrap(), line["state"].as_str().unwrap());
-        register["stands"][0]["rows"].as_array().unwrap().iter().map(line).collect()
-    }
+fn states(factory: &Place) -> Vec<String> {
+    let register = factory.json(&format!("register passports {TRUST}"), 0);
+    let line = |line: &Value| format!("{} {}", line["id"].as_str().unwrap(), line["state"].as_str().unwrap());
+    register["stands"][0]["rows"].as_array().unwrap().iter().map(line).collect()
 }
 
 /// The readings of the guide, each slightly different, and γ of position (2, 3) changed by `shift_arcsec`.
@@ -95,31 +61,31 @@ fn new_readings(shift_arcsec: f64) -> String {
 
 #[test]
 fn all_places_get_the_new_certificate() {
-    let factory = Factory::new();
-    let before = factory.passports();
+    let factory = factory();
+    let before = passports(&factory);
     let recertify = format!("recertify {HERE} new.csv {ORDER} --identity factory {TRUST}");
-    let planned = factory.json(&format!("{recertify} --dry-run"));
-    assert_eq!(factory.passports(), before, "a dry run writes nothing");
+    let planned = factory.json(&format!("{recertify} --dry-run"), 0);
+    assert_eq!(passports(&factory), before, "a dry run writes nothing");
     assert_eq!((&planned["dry_run"], &planned["passports"][0]["state"]), (&Value::Bool(true), &"planned".into()));
 
     // Expected: the places under the old certificate, and nothing written, until the change is accepted.
     let careful = format!("{recertify} --key key").replace(" --accept-change", "");
-    let (code, stdout, _) = factory.run(&format!("{careful} --format json --report record.html"));
+    let (code, stdout, _) = factory.said(&format!("{careful} --format json --report record.html"));
     let refused: Value = serde_json::from_str(&stdout).unwrap();
     let sites = refused["in_question"].as_array().unwrap().iter().map(|at| at["site"].as_str().unwrap());
     assert_eq!((code, sites.collect::<Vec<_>>()), (1, vec!["here", "there"]), "{stdout}");
-    let (code, stdout, _) = factory.run(&careful);
+    let (code, stdout, _) = factory.said(&careful);
     assert!(code == 1 && stdout.starts_with("✕ CHANGED") && stdout.contains("ISO/IEC 17025, 7.10"), "{stdout}");
     assert!(
-        factory.passports() == before && !factory.path("record.html").exists(),
+        passports(&factory) == before && !factory.path("record.html").exists(),
         "an unaccepted change writes nothing"
     );
 
-    let found = factory.json(&format!("{recertify} --key key"));
+    let found = factory.json(&format!("{recertify} --key key"), 0);
     let ids: Vec<&str> = found["passports"].as_array().unwrap().iter().map(|at| at["id"].as_str().unwrap()).collect();
     assert_eq!(ids, ["SPS-2/0017/here/2", "SPS-2/0017/there/2"]);
     assert_eq!(
-        factory.states(),
+        states(&factory),
         [
             "SPS-2/0017/here/1 superseded",
             "SPS-2/0017/there/1 superseded",
@@ -127,7 +93,7 @@ fn all_places_get_the_new_certificate() {
             "SPS-2/0017/there/2 current"
         ]
     );
-    let after = factory.passports();
+    let after = passports(&factory);
     let names: Vec<&str> = after.keys().map(String::as_str).collect();
     let expected = [
         "here-1.yaml",
@@ -174,43 +140,43 @@ fn all_places_get_the_new_certificate() {
     assert_eq!(found["comparison"]["same_stand"], false);
 
     // Again: nothing to do; and half done by a kill between two files: completed.
-    let again = factory.json(&format!("{recertify} --key key"));
+    let again = factory.json(&format!("{recertify} --key key"), 0);
     assert!(again["passports"].as_array().unwrap().iter().all(|at| at["state"] == "unchanged"), "{again}");
-    assert_eq!(factory.passports(), after);
+    assert_eq!(passports(&factory), after);
     let put_back = |names: &[&str]| {
         let folder = factory.path("passports/SPS-2/0017");
         names.iter().for_each(|name| fs::write(folder.join(name), &before[*name]).unwrap());
-        let completed = factory.json(&format!("{recertify} --key key"));
+        let completed = factory.json(&format!("{recertify} --key key"), 0);
         let states = completed["passports"].as_array().unwrap().iter();
         states.map(|at| at["state"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
     };
     // Before the stand file, after the register.
     assert_eq!(put_back(&["stand.yaml"]), ["unchanged", "unchanged"]);
-    assert_eq!(factory.passports(), after, "the same files, byte by byte");
+    assert_eq!(passports(&factory), after, "the same files, byte by byte");
     // Before the register, which has another time now, and between two passports.
     fs::remove_file(factory.path("passports/SPS-2/0017/there-2.yaml")).unwrap();
     assert_eq!(put_back(&["stand.yaml", "register.yaml"]), ["unchanged", "issued"]);
-    let mut completed = factory.passports();
+    let mut completed = passports(&factory);
     assert!(completed.contains_key("register.yaml"));
     completed.insert("register.yaml".to_owned(), after["register.yaml"].clone());
     assert_eq!(completed, after, "the same files, byte by byte");
-    assert_eq!(factory.states().iter().filter(|state| state.ends_with("current")).count(), 2);
+    assert_eq!(states(&factory).iter().filter(|state| state.ends_with("current")).count(), 2);
     // A listed passport that is gone is not made again by itself.
     fs::remove_file(factory.path("passports/SPS-2/0017/there-2.yaml")).unwrap();
-    let (code, _, said) = factory.run(&format!("{recertify} --key key"));
+    let (code, _, said) = factory.said(&format!("{recertify} --key key"));
     assert!(code == 2 && said.contains("there-2.yaml: cannot be read"), "{code}: {said}");
 }
 
 #[test]
 fn a_header_and_a_place_can_be_chosen() {
-    let factory = Factory::new();
+    let factory = factory();
     let order = format!("{ORDER} --valid-until 2028-11-19 --header header.yaml --site here");
-    let (code, stdout, said) = factory.run(&format!("recertify {HERE} new.csv {order} {SIGN} {TRUST}"));
+    let (code, stdout, said) = factory.said(&format!("recertify {HERE} new.csv {order} {SIGN} {TRUST}"));
     assert_eq!(code, 0, "{said}");
     assert!(stdout.contains("issued     SPS-2/0017/here/2") && !stdout.contains("there/2"), "{stdout}");
     let words = stdout.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains("WARNING: in force under certificate C-2026-0143 still: SPS-2/0017/there/1"), "{stdout}");
-    let stand = String::from_utf8(factory.passports()["stand.yaml"].clone()).unwrap();
+    let stand = String::from_utf8(passports(&factory)["stand.yaml"].clone()).unwrap();
     assert!(stand.contains("valid_until: \"2028-11-19\"") && stand.contains("performed: \"2026-10-29\""), "{stand}");
     // The other place follows, with a corrected site.
     let site = fs::read_to_string(factory.path("there.yaml"))
@@ -219,16 +185,16 @@ fn a_header_and_a_place_can_be_chosen() {
     fs::write(factory.path("there.yaml"), site).unwrap();
     let order = order.replace("--site here", "--site there.yaml");
     factory.good(&format!("recertify passports/SPS-2/0017/there-1.yaml new.csv {order} {SIGN} {TRUST}"));
-    let there = String::from_utf8(factory.passports()["there-2.yaml"].clone()).unwrap();
+    let there = String::from_utf8(passports(&factory)["there-2.yaml"].clone()).unwrap();
     assert!(there.contains("name: \"Hall 2\"") && there.contains("C-2026-0300"));
-    assert!(factory.states().iter().filter(|line| line.ends_with("current")).all(|line| line.contains("/2 ")));
+    assert!(states(&factory).iter().filter(|line| line.ends_with("current")).all(|line| line.contains("/2 ")));
 }
 
 /// A stand that returns after its certificate has expired: the passports that expired with the given one get successors,
 /// but not one that was withdrawn, nor one that was valid for a shorter time.
 #[test]
 fn an_expired_passport_is_recertified() {
-    let factory = Factory::new();
+    let factory = factory();
     let here = fs::read_to_string(factory.path("here.yaml")).unwrap();
     fs::write(factory.path("brief.yaml"), here.replace("id: \"here\"", "id: \"brief\"")).unwrap();
     fs::write(factory.path("again.yaml"), here.replace("id: \"here\"", "id: \"again\"")).unwrap();
@@ -239,13 +205,13 @@ fn an_expired_passport_is_recertified() {
     factory.good(&format!("{revoke} {SIGN}"));
     let late = "--trust allowed_signers --time 2099-01-01";
     let recertify = format!("recertify {HERE} new.csv {ORDER} {SIGN} {late}");
-    let found = factory.json(&recertify);
+    let found = factory.json(&recertify, 0);
     let ids: Vec<&str> = found["passports"].as_array().unwrap().iter().map(|at| at["id"].as_str().unwrap()).collect();
     assert_eq!((ids, &found["remaining"]), (vec!["SPS-2/0017/here/2", "SPS-2/0017/again/2"], &Value::Array(vec![])));
-    let shown = factory.json(&format!("show passports/SPS-2/0017/here-2.yaml {late}"));
+    let shown = factory.json(&format!("show passports/SPS-2/0017/here-2.yaml {late}"), 0);
     let changed = shown["passport"]["reissued_from"]["changed"].as_str().unwrap();
     assert!(changed.contains("certificate number 'C-2026-0143' -> 'C-2026-0300'"), "{changed}");
-    let again = factory.json(&recertify);
+    let again = factory.json(&recertify, 0);
     assert_eq!(again["passports"].as_array().unwrap().len(), 2);
     assert!(again["passports"].as_array().unwrap().iter().all(|at| at["state"] == "unchanged"), "{again}");
 }
@@ -254,17 +220,17 @@ fn an_expired_passport_is_recertified() {
 /// predecessor that is withdrawn now.
 #[test]
 fn a_passport_that_was_withdrawn_later_gets_no_successor() {
-    let factory = Factory::new();
+    let factory = factory();
     let trust = "--trust allowed_signers";
     factory.good(&format!("revoke SPS-2/0017/here/1 --reason pier {trust} {SIGN}"));
-    let before = factory.passports();
+    let before = passports(&factory);
     let at = "--time 2026-11-03T00:00:01Z --issued-at 2026-11-03T00:00:02Z";
     for order in [
         format!("recertify {HERE} new.csv --number C-3 --issued 2026-11-03"),
         format!("reissue {HERE} --site there.yaml --moved"),
     ] {
-        let (code, _, said) = factory.run(&format!("{order} --reason moved {SIGN} {trust} {at}"));
-        assert_eq!((code, factory.passports()), (1, before.clone()), "{said}");
+        let (code, _, said) = factory.said(&format!("{order} --reason moved {SIGN} {trust} {at}"));
+        assert_eq!((code, passports(&factory)), (1, before.clone()), "{said}");
         // The message may be wrapped.
         let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(said.contains("withdrawn"), "{said}");
@@ -274,7 +240,7 @@ fn a_passport_that_was_withdrawn_later_gets_no_successor() {
 /// Every refusal leaves all files as they were.
 #[test]
 fn a_refusal_writes_nothing() {
-    let factory = Factory::new();
+    let factory = factory();
     let text = fs::read_to_string(factory.path("angles.csv")).unwrap();
     let one_run: String = text
         .lines()
@@ -309,7 +275,7 @@ fn a_refusal_writes_nothing() {
     fs::create_dir_all(factory.path("other/SPS-2/0017")).unwrap();
     fs::write(factory.path("other/SPS-2/0017/here-1.yaml"), altered).unwrap();
     fs::copy(factory.path(HERE), factory.path("alone.yaml")).unwrap();
-    let before = factory.passports();
+    let before = passports(&factory);
     let good = format!("{ORDER} {SIGN} {TRUST}");
     let number = |number: &str| good.replace("C-2026-0300", number);
     let cases: Vec<(String, i32, &str)> = vec![
@@ -341,80 +307,50 @@ fn a_refusal_writes_nothing() {
         (format!("{HERE} new.csv {good} --serial 0018"), 1, "not 0018"),
     ];
     for (arguments, due, words) in cases {
-        let (code, stdout, said) = factory.run(&format!("recertify {arguments}"));
+        let (code, stdout, said) = factory.said(&format!("recertify {arguments}"));
         assert_eq!((code, stdout.as_str()), (due, ""), "{arguments}: {said}");
         assert!(said.contains(words), "{arguments}: {said}");
-        assert_eq!(factory.passports(), before, "{arguments}");
+        assert_eq!(passports(&factory), before, "{arguments}");
     }
     // A file is in the way of the second passport: the first is not written either.
     fs::create_dir(factory.path("passports/SPS-2/0017/there-2.yaml")).unwrap();
-    let (code, _, said) = factory.run(&format!("recertify {HERE} new.csv {good}"));
+    let (code, _, said) = factory.said(&format!("recertify {HERE} new.csv {good}"));
     assert!(code != 0 && !factory.path("passports/SPS-2/0017/here-2.yaml").exists(), "{said}");
     fs::remove_dir(factory.path("passports/SPS-2/0017/there-2.yaml")).unwrap();
-    assert_eq!(factory.passports(), before);
+    assert_eq!(passports(&factory), before);
 }
 
 /// A laboratory has only the passport: it checks its stand against that.
 #[test]
 fn a_passport_is_enough_for_a_check() {
-    let factory = Factory::new();
-    let (code, stdout, said) = factory.run(&format!("certify new.csv --against {HERE} {TRUST}"));
+    let factory = factory();
+    let (code, stdout, said) = factory.said(&format!("certify new.csv --against {HERE} {TRUST}"));
     let of_passport = stdout.clone();
     assert_eq!(code, 1, "{said}");
     assert!(stdout.starts_with("✕ CHANGED") && stdout.contains("Position (2, 3) has changed"), "{stdout}");
-    let (_, stdout, _) = factory.run("certify new.csv --against passports/SPS-2/0017/stand.yaml");
+    let (_, stdout, _) = factory.said("certify new.csv --against passports/SPS-2/0017/stand.yaml");
     assert_eq!(of_passport, stdout, "the passport and the stand file say the same");
-    let (code, stdout, said) = factory.run(&format!("certify new.csv --against {HERE}"));
+    let (code, stdout, said) = factory.said(&format!("certify new.csv --against {HERE}"));
     assert!(code == 2 && stdout.is_empty() && said.contains("found a passport; specify --trust"), "{said}");
     let altered = fs::read_to_string(factory.path(HERE)).unwrap().replacen("gamma_arcsec: ", "gamma_arcsec: 1", 1);
     fs::write(factory.path("altered.yaml"), altered).unwrap();
-    let (code, stdout, said) = factory.run(&format!("certify new.csv --against altered.yaml {TRUST}"));
+    let (code, stdout, said) = factory.said(&format!("certify new.csv --against altered.yaml {TRUST}"));
     assert!(code == 1 && stdout.is_empty() && said.contains("FAILED     signature"), "{said}");
-}
-
-/// `certify --force` keeps the stand file that it replaces.
-#[test]
-fn a_superseded_stand_file_is_kept() {
-    let factory = Factory::new();
-    let old = factory.passports()["stand.yaml"].clone();
-    let header = fs::read_to_string(factory.path("header.yaml")).unwrap().replace("C-2026-0143", "C 2026/0300");
-    fs::write(factory.path("header.yaml"), header).unwrap();
-    let certify = "certify new.csv --stand header.yaml -o passports/SPS-2/0017/stand.yaml --force";
-    let (code, _, said) = factory.run(certify);
-    assert!(code == 0 && said.contains("stand-C-2026-0143.superseded.yaml"), "{said}");
-    assert_eq!(factory.passports()["stand-C-2026-0143.superseded.yaml"], old);
-    // The same file again is not superseded.
-    factory.good(certify);
-    assert_eq!(factory.passports().len(), 5);
-    assert!(factory.states().iter().all(|line| line.ends_with("current")));
-}
-
-/// The whole of `passports` is readable for others, and no temporary file is left.
-#[test]
-fn nothing_else_is_left() {
-    let factory = Factory::new();
-    factory.good(&format!("recertify {HERE} new.csv {ORDER} {SIGN} {TRUST} --out renewed"));
-    let there: Vec<_> =
-        fs::read_dir(factory.path("renewed/SPS-2/0017")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
-    // Two passports, the stand file, the register and its lock.
-    assert_eq!(there.len(), 5, "{there:?}");
-    assert!(Path::new(&factory.path("renewed/SPS-2/0017/stand.yaml")).is_file());
-    assert_eq!(factory.passports().len(), 4);
 }
 
 /// The record of the certification shows what has changed, and the exclusion is in the certificate.
 #[test]
 fn the_record_shows_the_change_and_the_exclusion() {
-    let factory = Factory::new();
-    let before = factory.passports();
+    let factory = factory();
+    let before = passports(&factory);
     let recertify = format!("recertify {HERE} new.csv {ORDER} --identity factory {TRUST} --report record.html");
     factory.good(&format!("{recertify} --dry-run --exclude 2,3,4 --why lamp"));
-    assert_eq!(factory.passports(), before, "a dry run writes the record alone");
-    let (code, _, said) = factory.run(&format!("{recertify} --key key"));
-    assert!(code == 1 && said.contains("record.html: already exists") && factory.passports() == before, "{said}");
-    let (code, _, said) = factory.run(&format!("{recertify} --key key").replace(".html", ".pdf"));
-    assert!(code == 2 && said.contains("absent-browser") && factory.passports() == before, "{said}");
-    let found = factory.json(&format!("{recertify} --key key --force --exclude 2,3,4 --why lamp"));
+    assert_eq!(passports(&factory), before, "a dry run writes the record alone");
+    let (code, _, said) = factory.said(&format!("{recertify} --key key"));
+    assert!(code == 1 && said.contains("record.html: already exists") && passports(&factory) == before, "{said}");
+    let (code, _, said) = factory.said(&format!("{recertify} --key key").replace(".html", ".pdf"));
+    assert!(code == 2 && said.contains("no-browser-of-this-name") && passports(&factory) == before, "{said}");
+    let found = factory.json(&format!("{recertify} --key key --force --exclude 2,3,4 --why lamp"), 0);
     let page = fs::read_to_string(factory.path("record.html")).unwrap();
     // Expected: the number of the JSON, and one bar for each of the 24 deviations above the axis.
     let changes = found["changes"].as_array().unwrap();
@@ -424,7 +360,7 @@ fn the_record_shows_the_change_and_the_exclusion() {
     assert_eq!(section.matches("picture strip").count(), changes.len() + 1);
     assert!(page.contains("lamp"));
     // Expected: `certify` with the same exclusion, whose readings the certificate names.
-    let stand = String::from_utf8(factory.passports()["stand.yaml"].clone()).unwrap();
+    let stand = String::from_utf8(passports(&factory)["stand.yaml"].clone()).unwrap();
     assert!(stand.contains("{i: 2, j: 3, run: 4, why: \"lamp\"}"), "{stand}");
     factory.good(&format!("verify passports/SPS-2/0017/here-2.yaml {TRUST}"));
     for (arguments, words) in [
@@ -432,7 +368,7 @@ fn the_record_shows_the_change_and_the_exclusion() {
         ("--exclude 2,3,4 --exclude 1,1,1 --exclude 1,1,2 --why a --why b", "found 2 --why for 3 --exclude"),
     ] {
         let (code, _, said) =
-            factory.run(&format!("recertify {HERE} new.csv {ORDER} --identity factory {TRUST} --dry-run {arguments}"));
+            factory.said(&format!("recertify {HERE} new.csv {ORDER} --identity factory {TRUST} --dry-run {arguments}"));
         assert!(code == 2 && said.contains(words), "{said}");
     }
 }
@@ -440,7 +376,7 @@ fn the_record_shows_the_change_and_the_exclusion() {
 /// In a workspace the stand file is where `issue` finds it.
 #[test]
 fn in_a_workspace_the_stand_file_is_among_the_stands() {
-    let factory = Factory::new();
+    let factory = factory();
     let settings = "key = \"key\"\nidentity = \"factory\"\ntrust = \"allowed_signers\"\npassports = \"passports\"\n\
                     stands = \"stands\"\nsites = \".\"\n";
     fs::write(factory.path("dtg-passport.toml"), settings).unwrap();

@@ -36,21 +36,6 @@ fn no_color_is_obeyed() {
     assert!(!in_a_terminal(Some("1")).contains(&ESCAPE));
 }
 
-#[test]
-fn no_line_is_wider_than_100_columns() {
-    let folder = tempfile::tempdir().unwrap();
-    let certify = format!("certify docs/angles.csv --stand docs/header.yaml -o {}", folder.path().join("a").display());
-    let check = "certify docs/check.csv --against passports/SPS-2/0017/stand.yaml";
-    let calibrate = format!("calibrate {} {CALIBRATE} {TRUST} --budget", SHOW[1]);
-    for command_line in [&SHOW.join(" "), &certify, check, &calibrate] {
-        let piped = Command::new(program()).args(command_line.split(' ')).env_remove("COLUMNS").output();
-        let piped = piped.expect("the program runs");
-        let text = String::from_utf8(piped.stdout).expect("UTF-8");
-        let widest = text.lines().max_by_key(|line| line.chars().count()).unwrap();
-        assert!((60..=100).contains(&widest.chars().count()), "{command_line}: {widest}");
-    }
-}
-
 /// Expected: what a terminal of that width gets, of stdout and stderr; without a positive number, what a pipe gets.
 #[test]
 fn columns_are_those_of_the_variable_where_no_terminal_is() {

@@ -4,11 +4,11 @@ use crate::inside::reference::*;
 use dtg_passport::calibration::iterative::{self, StopRule};
 use dtg_passport::calibration::least_squares::{self, NoLeastSquares};
 use dtg_passport::calibration::parameter::Parameter;
-use dtg_passport::calibration::{InputUncertainty, Method, MethodResult, Model, Options, Setup, calibrate};
+use dtg_passport::calibration::{InputUncertainty, Method, MethodResult, Model, Options, calibrate};
 use dtg_passport::coefficients::{EarthRate, Position, PositionIndex, StandGeometry};
 use dtg_passport::statistics::least_squares::condition;
 use dtg_passport::statistics::random::Stream;
-use dtg_passport::units::{arcseconds_from_radians, radians_from_arcseconds};
+use dtg_passport::units::radians_from_arcseconds;
 use nalgebra::{DMatrix, Vector2};
 
 /// Expected: the gyro of the reference cases, each parameter to 1e-10 of its own size. Prints the figure of
@@ -98,62 +98,6 @@ fn inputs_cost_what_was_computed_independently() {
         (w_h * w_h + w_k * w_k) / 4.0 + ((w_b - w_g).powi(2) * 4.0 * v + w_k * w_k * 4.0 * w) / (16.0 * w_h * w_h);
     assert!((omega_g / (arcsec(5.0) * variance.sqrt()) - 1.0).abs() < 1e-6, "{omega_g:e}");
     assert!((omega_g / 2.4e-4 - 1.0).abs() < 0.05, "{omega_g:e}");
-}
-
-/// A stand of `positions` whose base or platform is turned as `turned` says, against its sensitivities: the change of
-/// a result by finite differences is what the covariance says, one input at a time.
-#[test]
-fn propagation_agrees_with_finite_differences() {
-    let mut stream = dtg_passport::statistics::random::Stream::new(3);
-    let positions = drawn_stand(&mut stream, 10.0);
-    let step = radians_from_arcseconds(2.0);
-    let earth = EarthRate::at_astronomic_latitude(LATITUDE_DEG);
-    let tiny = dtg_passport::calibration::MeterUncertainty {
-        reading: 1e-12,
-        floor_ma: 1e-12,
-        noise_ma: 0.0,
-        gain: 0.0,
-        offset_ma: 0.0,
-    };
-    let true_currents = currents(&setup(&positions, LATITUDE_DEG), &gvk_6());
-    let solve = |positions: &[Position], earth: EarthRate, currents: &[Vector2<f64>]| {
-        let setup = Setup::new(positions, earth, InputUncertainty::of_meter(tiny)).unwrap();
-        let found = calibrate(&setup, &readings(&setup, currents), &Options::default()).unwrap();
-        found.results[0].parameters.to_vector()
-    };
-    let exact = solve(&positions, earth, &true_currents);
-    let predicted = |uncertainty: InputUncertainty| {
-        let setup = Setup::new(&positions, earth, uncertainty).unwrap();
-        let found = calibrate(&setup, &readings(&setup, &true_currents), &Options::default()).unwrap();
-        Parameter::EIGHT.map(|parameter| found.results[0].standard_uncertainty(parameter).unwrap())
-    };
-    let agree = |what: &str, found: [f64; 8], uncertainty: InputUncertainty| {
-        for (place, (u, (found, exact))) in predicted(uncertainty).iter().zip(found.iter().zip(exact)).enumerate() {
-            let scale = if place < 4 { 1e-5 } else { 1e-6 };
-            let change = (found - exact).abs();
-            assert!((change - u).abs() < 2e-3 * u + scale, "{what}, parameter {place}: {change:e} {u:e}");
-        }
-    };
-    // One certified angle of one position at a time.
-    for (place, angle) in [(0, 0), (3, 1), (5, 2), (6, 0), (7, 1)] {
-        let mut turned = positions.clone();
-        let deviation = &mut turned[place].deviation;
-        *[&mut deviation.alpha_rad, &mut deviation.beta_rad, &mut deviation.gamma_rad][angle] += step;
-        let mut uncertainty = InputUncertainty::of_meter(tiny);
-        uncertainty.angles_rad = vec![[0.0; 3]; 8];
-        uncertainty.angles_rad[place][angle] = step;
-        agree("angle", solve(&turned, earth, &true_currents), uncertainty);
-    }
-    // The latitude.
-    let north = EarthRate::at_astronomic_latitude(LATITUDE_DEG + arcseconds_from_radians(step) / 3600.0);
-    let uncertainty = InputUncertainty { latitude_rad: step, ..InputUncertainty::of_meter(tiny) };
-    agree("latitude", solve(&positions, north, &true_currents), uncertainty);
-    // The seat about the spin axis: every γ alike.
-    let mut turned = positions.clone();
-    turned.iter_mut().for_each(|position| position.deviation.gamma_rad += step);
-    let mut uncertainty = InputUncertainty::of_meter(tiny);
-    uncertainty.seating_rad[2] = step;
-    agree("seat", solve(&turned, earth, &true_currents), uncertainty);
 }
 
 /// Positions with θ = 0 alone see the vertical along z: neither ω_g nor ω_k can be found.

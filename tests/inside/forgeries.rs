@@ -13,13 +13,11 @@ use dtg_passport::earth::{Place, place_at};
 use dtg_passport::passport::annotations::payload;
 use dtg_passport::passport::checks::{CheckName, Code};
 use dtg_passport::passport::content::{Content, Predecessor, derive};
-use dtg_passport::passport::{NAMESPACE, Question, Trust, content, content_from_anyone, verify};
-use dtg_passport::trust::{Signature, SigningKey};
-use proptest::prelude::*;
+use dtg_passport::passport::{NAMESPACE, Question, Trust, verify};
+use dtg_passport::trust::SigningKey;
 use std::fs;
 use std::io::Write as _;
 use std::process::Stdio;
-use std::sync::OnceLock;
 
 const SIGNATURE_LINE: &str = "signature: |\n";
 const FIRST_LINE: &str = "  -----BEGIN SSH SIGNATURE-----\n";
@@ -1015,84 +1013,4 @@ fn signatures_of_stock_openssh() {
         case("RSA", sign("rsa", &[]), "rsa", Code::UnsupportedKey),
         case("ECDSA", sign("ecdsa", &[]), "ecdsa", Code::UnsupportedKey),
     ]);
-}
-
-fn good() -> &'static (Trust, String) {
-    static GOOD: OnceLock<(Trust, String)> = OnceLock::new();
-    GOOD.get_or_init(|| {
-        let bench = Bench::new();
-        (trust(&bench.key), bench.good)
-    })
-}
-
-/// Both ways into the program; neither may panic, and what the forger signs is not accepted.
-fn show(bytes: &[u8]) {
-    let (trust, good) = good();
-    let answer = verify("f", bytes, trust, &question());
-    assert!(!answer.valid() || bytes == good.as_bytes());
-    let _ = content_from_anyone("f", bytes).map_err(|error| error.to_string());
-    let _ = content::read("f", &String::from_utf8_lossy(bytes)).map_err(|error| error.to_string());
-    let _ = Signature::from_armor(&String::from_utf8_lossy(bytes));
-}
-
-/// Anybody has a key of his own, and with it comes as far as the parser.
-fn show_signed(payload: &str) {
-    static KEY: OnceLock<SigningKey> = OnceLock::new();
-    show(signed(payload, KEY.get_or_init(|| SigningKey::generate().unwrap())).as_bytes());
-}
-
-fn edited(text: &str, edits: &[(usize, u8, u8)]) -> Vec<u8> {
-    let mut bytes = text.as_bytes().to_vec();
-    for (at, byte, kind) in edits {
-        let at = at % (bytes.len() + 1);
-        let end = (at + usize::from(*byte)).min(bytes.len());
-        match kind {
-            0 => bytes.truncate(at),
-            1 => bytes.insert(at, *byte),
-            2 => drop(bytes.drain(at..end)),
-            3 => bytes.extend_from_within(at..end),
-            _ => bytes.iter_mut().skip(at).take(1).for_each(|old| *old = *byte),
-        }
-    }
-    bytes
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
-
-    #[test]
-    fn no_bytes_make_it_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
-        show(&bytes);
-        show_signed(&String::from_utf8_lossy(&bytes));
-    }
-
-    #[test]
-    fn no_text_makes_it_panic(text in "[a-z0-9 \\n:,{}\\[\\]\"\\\\#.e+|_-]{0,300}") {
-        show(text.as_bytes());
-        show_signed(&text);
-        show_signed(&format!("{text}\n"));
-    }
-
-    #[test]
-    fn no_edit_makes_it_panic(edits in prop::collection::vec((any::<usize>(), any::<u8>(), 0..6_u8), 1..5)) {
-        show(&edited(&good().1, &edits));
-    }
-
-    #[test]
-    fn no_signed_edit_makes_it_panic(edits in prop::collection::vec((any::<usize>(), any::<u8>(), 0..6_u8), 1..5)) {
-        let payload = good().1.split_once(SIGNATURE_LINE).unwrap().0;
-        show_signed(&String::from_utf8_lossy(&edited(payload, &edits)));
-    }
-
-    /// Numbers of every size in place of those that are there.
-    #[test]
-    fn no_number_makes_it_panic(changes in prop::collection::vec((any::<usize>(), any::<f64>()), 1..6)) {
-        let mut payload = good().1.split_once(SIGNATURE_LINE).unwrap().0.to_owned();
-        for (which, value) in changes.into_iter().filter(|(_, value)| value.is_finite()) {
-            let numbers = numbers(&payload);
-            let number = &numbers[which % numbers.len()];
-            payload.replace_range(number.start..number.end, &dtg_passport::text::number::decimal(value));
-        }
-        show_signed(&payload);
-    }
 }

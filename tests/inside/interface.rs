@@ -3,33 +3,12 @@
 use dtg_passport::calibration::{CalibrationDocument, Method, Options};
 use dtg_passport::gyro::{GyroNoise, GyroType};
 use dtg_passport::interface::{Order, calibrate, earlier};
-use dtg_passport::passport::content::PositionCurrents;
 use dtg_passport::passport::content_from_anyone;
 
 const PASSPORT: &[u8] = include_bytes!("../../passports/SPS-2/0017/moscow-bmstu-1.yaml");
 
 fn default() -> Order {
     "{}".parse().unwrap()
-}
-
-/// Expected: the parameters stated in the self-check, and the limit of 1e-9 of each.
-#[test]
-fn the_currents_of_the_self_check_give_its_gyro_by_every_method() {
-    let content = content_from_anyone("p", PASSPORT).unwrap();
-    let check = content.self_check.clone().unwrap();
-    let row = |at: &PositionCurrents| format!("{},{},{},{}\n", at.i, at.j, at.jx_ma, at.jy_ma);
-    let csv = "i,j,jx_ma,jy_ma\n".to_owned() + &check.currents.iter().map(row).collect::<String>();
-    for method in ["analytic", "least-squares"] {
-        let order = format!(r#"{{"method": "{method}"}}"#).parse().unwrap();
-        let found = calibrate(&content, None, ("c", csv.as_bytes()), &order).unwrap();
-        let document = CalibrationDocument::from_json("r", found.as_bytes()).unwrap();
-        let result = document.found().unwrap();
-        let errors = check.errors(&result.parameters);
-        assert!(errors.iter().all(|error| *error <= 1e-9), "{method}: {errors:?}");
-        for (place, u) in result.standard_uncertainty.iter().enumerate() {
-            assert!((document.covariance[place][place].unwrap().sqrt() - u).abs() <= 1e-15 * u);
-        }
-    }
 }
 
 /// The currents are those of a gyro on another stand.
@@ -107,16 +86,6 @@ fn a_tolerance_in_percent_of_nothing_is_refused() {
     gyro.nominal.k_deg_per_h_per_ma[0][1] = 0.0;
     let refused = calibrate(&content, None, currents, &Order { gyro: Some(gyro), ..default() }).unwrap_err();
     assert!(refused.to_string().contains("no tolerance of K_xy"), "{refused}");
-}
-
-#[test]
-fn what_is_no_current_is_refused_with_its_line() {
-    let content = content_from_anyone("p", PASSPORT).unwrap();
-    let csv = b"i,j,jx_ma,jy_ma\n1,1,0.1,0.1\n1.5,2,0.1,0.1\n1,3,NaN,inf\n";
-    let failed = calibrate(&content, None, ("c", csv), &default()).unwrap_err();
-    for place in ["c:3:1", "c:4:5", "c:4:9"] {
-        assert!(failed.message.contains(place), "{failed}");
-    }
 }
 
 /// Expected: the currents of docs/currents.csv ten times too small give scale factors ten times too large, which only the gyro

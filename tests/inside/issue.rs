@@ -5,7 +5,7 @@ use dtg_passport::document::{Signer, SigningFailed};
 use dtg_passport::folder::{Authority, Folder, FolderRefused};
 use dtg_passport::passport::annotations;
 use dtg_passport::passport::content::{REFERENCE_GYRO, derive};
-use dtg_passport::passport::issue::{Issue, IssueRefused, PreparedStand, draft, time_of_issue};
+use dtg_passport::passport::issue::{Issue, IssueRefused, PreparedStand, draft};
 use dtg_passport::stand::Stand;
 use dtg_passport::trust::{Signature, SigningKey};
 use std::fs;
@@ -82,33 +82,6 @@ fn a_passport_with_a_wrong_signature_or_an_untrusted_key_is_not_written() {
     assert!(left.is_empty(), "{left:?}");
     // With its own key the same order is carried out.
     issue(&key).unwrap();
-}
-
-/// Expected: the second of the clock is allowed, the next one is not, because no register of today could list it.
-#[test]
-fn nothing_is_issued_ahead_of_the_clock() {
-    let clock = fixtures::at("2026-11-09T08:00:00Z");
-    assert_eq!(time_of_issue(None, clock), Ok(clock));
-    for good in ["1970-01-01T00:00:07Z", "2026-11-09T08:00:00Z"] {
-        assert_eq!(time_of_issue(Some(fixtures::at(good)), clock), Ok(fixtures::at(good)));
-    }
-    for bad in ["2026-11-09T08:00:01Z", "2036-11-09T08:00:00Z"] {
-        let refused = IssueRefused::AheadOfClock { issued_at: fixtures::at(bad), clock };
-        assert_eq!(time_of_issue(Some(fixtures::at(bad)), clock), Err(refused));
-    }
-}
-
-#[test]
-fn no_passport_outlasts_its_certificate() {
-    let (stand, site) = (fixtures::stand(fixtures::ARC_MINUTES), fixtures::site(SITES[0]));
-    let mut endless = stand.clone();
-    (endless.certificate.valid_until, endless.certificate.valid_until_basis) = (None, None);
-    let last_day = |day: &str| Issue { valid_until: Some(day.parse().unwrap()), ..order() };
-    // The certificate ends on 2028-11-01.
-    draft(&stand, &site, &last_day("2028-11-01")).unwrap();
-    let refused = draft(&stand, &site, &last_day("2028-11-02"));
-    assert!(matches!(refused, Err(IssueRefused::BeyondCertificate { .. })), "{refused:?}");
-    draft(&endless, &site, &last_day("2038-11-02")).unwrap();
 }
 
 /// Expected: three positions give six readings, fewer than the eight parameters; seven give fourteen.

@@ -34,8 +34,6 @@ mod certification;
 #[cfg(feature = "monte-carlo")]
 mod chi_square;
 #[cfg(feature = "factory")]
-mod document;
-#[cfg(feature = "factory")]
 mod forgeries;
 mod frame_axis;
 #[cfg(all(feature = "factory", feature = "monte-carlo", feature = "report"))]
@@ -55,7 +53,6 @@ mod plan;
 mod readings;
 #[cfg(feature = "monte-carlo")]
 mod recorded;
-mod records;
 #[cfg(feature = "factory")]
 mod register_attacks;
 #[cfg(feature = "factory")]
@@ -81,8 +78,6 @@ pub(crate) mod texts;
 mod transformations;
 #[cfg(feature = "monte-carlo")]
 mod trials;
-#[cfg(feature = "factory")]
-mod trust_files;
 #[cfg(all(feature = "factory", feature = "report"))]
 mod type_b;
 #[cfg(feature = "factory")]

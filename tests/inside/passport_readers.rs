@@ -108,40 +108,6 @@ fn readers_agree_on_every_altered_byte() {
 }
 
 #[test]
-fn readers_agree_on_every_altered_line() {
-    for payload in payloads() {
-        let lines: Vec<&str> = payload.lines().collect();
-        for (at, line) in lines.iter().enumerate() {
-            let next = lines.get(at + 1).copied().unwrap_or_default();
-            let others = [
-                String::new(),
-                format!("{line}\n{line}"),
-                format!("{next}\n{line}"),
-                format!("{line}\n# a comment"),
-                format!("{line}\n   # a comment\n\n  "),
-                format!("  {line}"),
-                line.trim_start().to_owned(),
-                format!("{line} "),
-                line.replacen(": ", ":  ", 1),
-                line.replacen(": ", ":\n  ", 1),
-                line.replacen("- ", "-  ", 1),
-                line.replacen("  - ", "- ", 1),
-                line.replacen(", ", ",", 1),
-                line.replacen(']', ", 1.0]", 1),
-                line.replacen('{', "{ ", 1),
-                line.split_once(": ").map_or(String::new(), |(key, _)| format!("{key}: {{}}")),
-                line.split_once(": ").map_or(String::new(), |(key, _)| format!("{key}: []")),
-            ];
-            for other in others {
-                let mut altered = lines.clone();
-                altered[at] = &other;
-                readers_agree(&format!("{}\n", altered.join("\n")));
-            }
-        }
-    }
-}
-
-#[test]
 fn readers_agree_on_every_other_spelling_of_a_number() {
     for payload in payloads() {
         let digit = |c: char| c.is_ascii_digit() || "+-.e".contains(c);

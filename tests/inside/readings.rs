@@ -119,23 +119,6 @@ fn a_position_missing_or_double() {
     );
 }
 
-#[test]
-fn an_axis_without_current() {
-    let setup = paper();
-    let good = good(&setup);
-    let with = |x: bool, y: bool| {
-        let rows = good.lines().skip(1).map(|line| {
-            let cells: Vec<&str> = line.split(',').collect();
-            let cell = |keep: bool, place: usize| if keep { cells[place] } else { "0.0" };
-            format!("{},{},{},{}\n", cells[0], cells[1], cell(x, 2), cell(y, 3))
-        });
-        read(&setup, &format!("i,j,jx_ma,jy_ma\n{}", rows.collect::<String>())).unwrap_err()
-    };
-    assert!(with(false, false).contains("all zero"));
-    assert!(with(true, false).contains("J_y"));
-    assert!(with(false, true).contains("J_x"));
-}
-
 /// Order of columns and rows, comments, blanks, a byte order mark and CR LF change nothing.
 #[test]
 fn form_does_not_matter() {
@@ -155,31 +138,6 @@ fn form_does_not_matter() {
     rows.insert(3, String::new());
     let other = format!("\u{feff}{}\r\n", rows.join("\r\n"));
     assert_eq!(read(&setup, &other).unwrap(), expected);
-}
-
-/// What spreadsheet programs add to a table, or write otherwise in other countries, changes no number.
-#[test]
-fn tables_of_spreadsheet_programs_are_read() {
-    let setup = paper();
-    let good = good(&setup);
-    let expected = read(&setup, &good).unwrap();
-    let excel = format!("sep=,\r\n{},,\r\n,,,,\r\n", good.trim_end().replace('\n', ",,\r\n"));
-    assert_eq!(read(&setup, &excel).unwrap(), expected);
-    let commented = format!("\"# exported, by hand\",,,\n{good}");
-    assert_eq!(read(&setup, &commented).unwrap(), expected);
-    let quoted = good.replacen("i,j,jx_ma", "\"i\",\"j\",\"jx_ma\"", 1);
-    assert_eq!(read(&setup, &quoted).unwrap(), expected);
-    let german = good.replace(',', ";").replace('.', ",");
-    let read = |text: &str| read(&setup, text).unwrap();
-    assert_eq!(read(&german).means_ma(), expected.means_ma());
-    assert!(read(&german).remarks[0].ends_with("semicolons between columns and decimal commas"));
-    assert_eq!(read(&format!("\"sep=;\"\n{german}")), read(&german));
-    let points = good.replace(',', ";");
-    assert_eq!(read(&points).means_ma(), expected.means_ma());
-    assert!(read(&points).remarks[0].ends_with("read with semicolons between columns"));
-    let labview = german.replace(';', "\t").replace("\n1\t1\t", "\n1,000\t1,000\t");
-    assert_eq!(read(&labview).means_ma(), expected.means_ma());
-    assert!(read(&labview).remarks[0].ends_with("read with tabs between columns and decimal commas"));
 }
 
 /// (cycle, number, rows) of the visits to position (1, 1).

@@ -1,9 +1,6 @@
 //! Lists of revoked keys: key revocation lists of OpenSSH, and lists of public keys.
 
-use crate::trust::{PublicKey, RevokedKeys, SigningKey};
-use base64ct::{Base64, Encoding as _};
-use sha1::Sha1;
-use sha2::{Digest, Sha256};
+use crate::trust::RevokedKeys;
 
 /// First bytes of a key revocation list (PROTOCOL.krl, section 1).
 const MAGIC: &[u8] = b"SSHKRL\n\0";
@@ -11,15 +8,6 @@ const MAGIC: &[u8] = b"SSHKRL\n\0";
 /// Writes a string: its length in four bytes, then its bytes (RFC 4251, section 5).
 fn string(bytes: &[u8]) -> Vec<u8> {
     [&u32::try_from(bytes.len()).unwrap().to_be_bytes()[..], bytes].concat()
-}
-
-/// Returns a key as SSH transmits it.
-fn blob(key: &PublicKey) -> Vec<u8> {
-    Base64::decode_vec(key.to_openssh().split(' ').nth(1).unwrap()).unwrap()
-}
-
-fn key() -> PublicKey {
-    SigningKey::generate().unwrap().public_key()
 }
 
 fn section(kind: u8, items: &[&[u8]]) -> Vec<u8> {
@@ -34,33 +22,6 @@ fn list(sections: &[Vec<u8>]) -> Vec<u8> {
 
 fn refused(bytes: &[u8]) -> String {
     RevokedKeys::parse("krl", bytes).unwrap_err().to_string()
-}
-
-#[test]
-fn keys_are_revoked_by_themselves_or_by_either_fingerprint() {
-    let (key, other) = (key(), key());
-    let why = |section: Vec<u8>| RevokedKeys::parse("krl", &list(&[section])).unwrap().revokes(&key);
-    assert_eq!(why(section(2, &[&blob(&other), &blob(&key)])).as_deref(), Some("listed in krl"));
-    let sha1 = Sha1::digest(blob(&key));
-    assert_eq!(why(section(3, &[&sha1])).as_deref(), Some("its SHA-1 fingerprint is in krl"));
-    let sha256 = Sha256::digest(blob(&key));
-    assert_eq!(why(section(5, &[&sha256])).as_deref(), Some("its SHA-256 fingerprint is in krl"));
-    assert_eq!(why(section(2, &[&blob(&other)])), None);
-    // A section of certificates of one authority, without any certificate, revokes no plain key.
-    assert_eq!(why(section(1, &[&blob(&key), b""])), None);
-    let lines = format!("# lost\n{} bench\r\n", key.to_openssh());
-    let lines = RevokedKeys::parse("keys", lines.as_bytes()).unwrap();
-    assert_eq!((lines.revokes(&key).as_deref(), lines.revokes(&other)), (Some("listed in keys"), None));
-}
-
-#[test]
-fn every_line_counts_and_many_alike_are_one_error() {
-    let (key, other) = (key(), key());
-    let lines = format!("{}\n\n{}\n", other.to_openssh(), key.to_openssh());
-    assert!(RevokedKeys::parse("keys", lines.as_bytes()).unwrap().revokes(&key).is_some());
-    let refused = RevokedKeys::parse("keys", "lost\n".repeat(60).as_bytes()).unwrap_err();
-    let due = "keys:1:1: key: found only `lost` (and 59 more of this kind, up to line 60), expected a public key";
-    assert!(refused.to_string().starts_with(due), "{refused}");
 }
 
 #[test]

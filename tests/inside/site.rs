@@ -27,18 +27,6 @@ fn refused(keys: &str, words: &[&str]) {
     assert!(words.iter().all(|word| message.contains(word)), "{words:?}\n{message}");
 }
 
-/// Expected: a longitude counted to 360 degrees, as it would be counted to 180.
-#[test]
-fn a_longitude_beyond_180_is_named() {
-    let file = include_str!("../../sites/moscow-bmstu.yaml");
-    for (given, meant) in [("316.8", "-43.2"), ("190", "-170"), ("-200.25", "159.75")] {
-        let text = file.replace("longitude_deg: 37.6856\n", &format!("longitude_deg: {given}\n"));
-        assert_ne!(text, file);
-        let refused = Site::from_yaml("site.yaml", text.as_bytes()).unwrap_err().to_string();
-        assert!(refused.contains(&format!("this longitude is {meant}")), "{refused}");
-    }
-}
-
 #[test]
 fn the_stand_hangs_on_the_plumb_line() {
     // Φ = φ + ξ: 3600″ would be a degree; 36″ are 0.01°.

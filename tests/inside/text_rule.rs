@@ -171,37 +171,3 @@ fn no_other_character_passes_anywhere() {
         }
     }
 }
-
-#[test]
-fn bytes_that_are_no_utf_8_are_refused() {
-    let cases: [(&str, &[u8], &str); 7] = [
-        ("a continuation byte alone", b"a: \"\x80\"\n", "1:5"),
-        ("an overlong slash", b"a: \"\xC0\xAF\"\n", "1:5"),
-        ("a surrogate", b"a: \"x\xED\xA0\x80\"\n", "1:6"),
-        ("beyond U+10FFFF", b"a: 1.0\nb: \"\xF4\x90\x80\x80\"\n", "2:5"),
-        ("a character cut off", b"a: \"\xE4\xB8\"\n", "1:5"),
-        ("UTF-16, little end first", b"\xFF\xFEa\0:\0", "-"),
-        ("UTF-16, big end first", b"\xFE\xFF\0a\0:", "-"),
-    ];
-    for (what, bytes, place) in cases {
-        assert_eq!(refused_at(bytes).as_deref(), Some(place), "{what}");
-    }
-}
-
-/// The tables above refuse the construct and not its surroundings: these differ from them in little, and pass.
-#[test]
-fn what_the_rule_allows_passes() {
-    for text in [
-        "a: 1.0\n",
-        "# a comment: \"x\" & !tag *x %YAML --- ? | > 'x' \\n @ ` ~ <<\na: 1.0\n",
-        "  # an indented comment\n\na: 1.0\n",
-        "# --- x\na: 1.0\n",
-        "a: \"--- & * ! ? | > % @ ` ~ ' # << = ...\"\n",
-        "a: \"\\\"x\\\\\"\n",
-        "a: \"\\\\\"\n",
-        "a: -1.0\nb: [[-1.0e-06, 2.0], [3.0, 4.0]]\nc:\n  - {i: 1, s: \"\u{2116} \u{4E2D}\u{6587} \u{416}\"}\n",
-        "a: [true, false, null, {}, []]\n",
-    ] {
-        assert_eq!(refused_at(text.as_bytes()), None, "{text:?}");
-    }
-}

@@ -73,15 +73,6 @@ fn certify_adds_it_once() {
     assert_eq!((next.repeatability_arcsec, next.valid_until_basis, next.evidence), (None, None, None));
 }
 
-/// `sha256sum docs/angles.csv`, and its five runs.
-#[test]
-fn the_evidence_is_the_readings() {
-    let evidence = certified(&header(HEADER)).stand.certificate.evidence.unwrap();
-    let sum = std::process::Command::new("sha256sum").arg("docs/angles.csv").output().unwrap();
-    assert!(String::from_utf8(sum.stdout).unwrap().starts_with(&evidence.readings_sha256));
-    assert_eq!(evidence.runs, 5);
-}
-
 /// Positions with one θ and φ: no axis of the base can be told from the platform, but its type B is known.
 #[test]
 fn a_base_that_cannot_be_told_states_its_type_b() {

@@ -1,8 +1,6 @@
 //! Keys held by ssh-agent: `ssh-keygen -Y sign -f key.pub` signs, and we verify.
 
-use crate::{Bench, NAMESPACE, PRINCIPAL};
-use dtg_passport::trust::Signature;
-use std::fs;
+use crate::Bench;
 use std::os::unix::net::UnixStream;
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
@@ -37,29 +35,4 @@ impl Drop for Agent {
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
-}
-
-#[test]
-fn the_agent_signs_and_we_verify() {
-    let bench = Bench::new();
-    let agent = Agent::start(&bench);
-    let key = bench.new_key("key");
-    let with_agent = |program: &str, arguments: &[&str], input: &[u8]| {
-        bench.run(Command::new(program).env("SSH_AUTH_SOCK", &agent.socket).args(arguments), input)
-    };
-    let sign = ["-Y", "sign", "-q", "-f", "key.pub", "-n", NAMESPACE];
-    let added = with_agent("ssh-add", &["-q", "key"], b"");
-    assert!(added.good, "{}", added.errors);
-    fs::remove_file(bench.path("key")).unwrap();
-    bench.write("signers", format!("{PRINCIPAL} {}\n", key.public_key().to_openssh()));
-    for message in [&b""[..], b"text\n", &[9; 50_000]] {
-        let signed = with_agent("ssh-keygen", &sign, message);
-        assert!(signed.good, "{}", signed.errors);
-        assert_eq!(signed.output, key.sign(NAMESPACE, message).unwrap().to_armor());
-        assert_eq!(Signature::from_armor(&signed.output).unwrap().verify(NAMESPACE, message), Ok(()));
-        assert!(bench.verify("signers", &signed.output, message, &[]).good);
-    }
-    assert!(with_agent("ssh-add", &["-q", "-D"], b"").good);
-    assert!(!with_agent("ssh-keygen", &sign, b"text\n").good, "the key is no longer in the agent");
-    assert!(!bench.run(Command::new("ssh-keygen").args(sign), b"text\n").good, "no agent");
 }

@@ -53,16 +53,6 @@ fn we_read_what_ssh_keygen_writes() {
 }
 
 #[test]
-fn fingerprints_are_those_that_ssh_keygen_prints() {
-    let bench = Bench::new();
-    for index in 0..20 {
-        let key = bench.new_key(&format!("key{index}"));
-        let printed = bench.keygen(&["-l", "-f", &format!("key{index}.pub")]).output;
-        assert_eq!(printed.split(' ').nth(1), Some(key.public_key().fingerprint().as_str()));
-    }
-}
-
-#[test]
 fn files_of_other_kinds_are_named() {
     let bench = Bench::new();
     let made: [(&str, &[&str], &str); 8] = [

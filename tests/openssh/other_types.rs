@@ -6,7 +6,7 @@
 use crate::allowed_signers::with_case;
 use crate::{Bench, Finished, NAMESPACE, PRINCIPAL};
 use base64ct::{Base64, Encoding as _};
-use dtg_passport::trust::{AllowedSigners, KeyError, PublicKey, RevokedKeys, Signature, SignatureError, SigningKey};
+use dtg_passport::trust::{AllowedSigners, RevokedKeys, Signature, SignatureError, SigningKey};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -96,16 +96,6 @@ fn in_lists_of_keys_they_are_skipped_and_a_certificate_revokes_its_key() {
             assert_eq!(ours.revokes(&key.public_key()).is_some(), !theirs.good, "{list}{}", theirs.errors);
         }
         assert_eq!(ours.revokes(&keys[0].public_key()).is_some(), unknown.is_empty());
-    }
-}
-
-#[test]
-fn a_line_of_another_type_is_named() {
-    let bench = Bench::new();
-    bench.new_key("key");
-    for line in others(&bench) {
-        let due = line.split(' ').next().unwrap().to_owned();
-        assert_eq!(PublicKey::from_openssh(&line), Err(KeyError::OtherKeyType(due)));
     }
 }
 

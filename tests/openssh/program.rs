@@ -71,27 +71,6 @@ fn assert_issued(bench: &Bench, issued: &Finished) {
 }
 
 #[test]
-fn a_key_in_the_agent_signs_a_passport() {
-    let bench = Bench::new();
-    bench.new_key("key");
-    let agent = Agent::start(&bench);
-    let added = bench.run(Command::new("ssh-add").env("SSH_AUTH_SOCK", &agent.socket).args(["-q", "key"]), b"");
-    assert!(added.good, "{}", added.errors);
-    std::fs::remove_file(bench.path("key")).unwrap();
-    assert_issued(&bench, &issue(&bench, "key.pub", &[("SSH_AUTH_SOCK", &agent.socket)]));
-}
-
-#[test]
-fn an_agent_that_is_not_there_is_said_and_nothing_is_written() {
-    let bench = Bench::new();
-    bench.new_key("key");
-    std::fs::remove_file(bench.path("key")).unwrap();
-    let issued = issue(&bench, "key.pub", &[]);
-    assert!(!issued.good && issued.errors.contains("ssh-agent has this key"), "{}", issued.errors);
-    assert!(!bench.path("out").exists());
-}
-
-#[test]
 fn a_token_signs_a_passport_by_its_handle_file() {
     let bench = Bench::new();
     let mut keygen = Command::new("ssh-keygen");
@@ -104,16 +83,6 @@ fn a_token_signs_a_passport_by_its_handle_file() {
     assert!(!bench.path("out").exists());
     trust(&bench);
     assert_issued(&bench, &issue(&bench, "key", &[("SSH_SK_PROVIDER", provider())]));
-}
-
-#[test]
-fn an_encrypted_key_of_openssh_signs_with_its_passphrase() {
-    let bench = Bench::new();
-    let made = bench.keygen(&["-q", "-t", "ed25519", "-N", "correct horse", "-C", "factory", "-f", "key"]);
-    assert!(made.good, "{}", made.errors);
-    let wrong = issue(&bench, "key", &[("DTG_PASSPORT_PASSPHRASE", Path::new("wrong horse"))]);
-    assert!(!wrong.good && wrong.errors.contains("passphrase"), "{}", wrong.errors);
-    assert_issued(&bench, &issue(&bench, "key", &[("DTG_PASSPORT_PASSPHRASE", Path::new("correct horse"))]));
 }
 
 #[test]

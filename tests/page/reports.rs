@@ -251,15 +251,6 @@ fn files(folder: &Path) {
     write("many.csv", &format!("i,j,jx_ma,jy_ma\n{rows}"));
 }
 
-#[test]
-fn a_report_is_small() {
-    for page in REPORTED.pages() {
-        let bytes = page.found["bytes"].as_u64().unwrap();
-        println!("{:<20} {bytes:>7} bytes", page.name);
-        assert!(bytes < 200_000, "{}: {bytes} bytes", page.name);
-    }
-}
-
 /// The worst is said first and large.
 #[test]
 fn the_headline_is_the_verdict() {

@@ -1,52 +1,11 @@
 //! Pictures of a calibration.
 
-use crate::inside::picture::{Axis, both, end, english, number, of_class, reach, svgs, tip, whole};
+use crate::inside::picture::{Axis, english, number, of_class, reach, tip, whole};
 use dtg_passport::calibration::Parameter;
-use dtg_passport::calibration::document::{CalibrationDocument, ResultDocument};
 use dtg_passport::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use dtg_passport::gyro::GyroType;
 use dtg_passport::report::picture::tolerances::BESIDE_DECISIONS;
-use dtg_passport::report::picture::{convergence, residuals};
-use dtg_passport::wording::texts::units;
 use roxmltree::Document;
-
-/// A result as a file holds it, its numbers made up: two positions, and three steps that fall by 1000 and by 100.
-fn made_up_result() -> ResultDocument {
-    let u = r#"{"k_deg_per_h_per_ma": [[0,0],[0,0]], "omega0_deg_per_h": [0,0], "omega_n_deg_per_h_per_g": [[0,0],[0,0]],
-        "omega_g_deg_per_h_per_g": 0, "omega_k_deg_per_h_per_g": 0}"#;
-    let text = format!(
-        r#"{{"passport_id": "a/b/c/1", "passport_verified": true, "gravity_m_per_s2": 9.8, "results": [{{
-        "method": "iterative", "k_deg_per_h_per_ma": [[95,9.5],[9.5,95]], "omega0_deg_per_h": [20,20],
-        "omega_n_deg_per_h_per_g": [[10,-10],[10,10]], "omega_g_deg_per_h_per_g": 10, "omega_k_deg_per_h_per_g": 10,
-        "iterations": 4, "stop_rule": {{"delta1_percent": 0.1, "delta2_deg_per_h": 0.001}}, "changes": [
-            {{"step": 2, "main_scale_factors_percent": 10, "g_drifts_deg_per_h_per_g": 0.1}},
-            {{"step": 3, "main_scale_factors_percent": 0.01, "g_drifts_deg_per_h_per_g": 0.001}},
-            {{"step": 4, "main_scale_factors_percent": 0.00001, "g_drifts_deg_per_h_per_g": 0}}],
-        "spectral_radius": 0.001, "standard_uncertainty": {u},
-        "chi_square": {{"value": 1, "degrees_of_freedom": 8, "probability": 0.9}}, "residuals_deg_per_h": [
-            {{"i": 1, "j": 1, "x": 0.001, "y": -0.002, "u_x": 0.0015, "u_y": 0.001}},
-            {{"i": 1, "j": 2, "x": -0.003, "y": 0, "u_x": 0.001, "u_y": 0.0005}}]}}]}}"#
-    );
-    CalibrationDocument::from_json("made up", text.as_bytes()).unwrap().results.remove(0)
-}
-
-#[test]
-fn residuals_stand_within_limits_of_two_uncertainties() {
-    let result = made_up_result();
-    let bars = residuals::Bars::of(&result);
-    let axis = whole(&[bars.axis(&english(), Some(units::DEG_PER_H))]);
-    let axis = Document::parse(&axis).unwrap();
-    let axis = Axis::along_x(axis.root_element());
-    for (value, u) in [(0.001, 0.0015), (-0.003, 0.001), (-0.002, 0.001), (0.0, 0.0005)] {
-        let text = whole(&[bars.bar((value, Some(u)))]);
-        let page = Document::parse(&text).unwrap();
-        let (bar, limits) = (of_class(page.root(), "bar")[0], of_class(page.root(), "limits")[0]);
-        axis.says(number(of_class(page.root(), "zero")[0], "x1"), 0.0);
-        axis.says(end(bar, value), value);
-        axis.says(end(limits, -1.0), -2.0 * u);
-        axis.says(end(limits, 1.0), 2.0 * u);
-    }
-}
 
 fn row(
     parameter: Parameter,
@@ -122,67 +81,4 @@ fn an_arrow_points_outwards_from_a_value_that_the_axis_does_not_reach() {
         assert_eq!(caps, usize::from(from != to));
         assert_eq!(of_class(page.root(), class).len(), 1, "{text}");
     }
-}
-
-#[test]
-fn parameters_stand_where_they_are_in_their_tolerance() {
-    let (drawn, axis) = strips(vec![
-        row(Parameter::Kx, 0.01, 0.02, 0.05, Decision::Pass),
-        row(Parameter::Ky, -0.045, 0.02, 0.05, Decision::Undecided),
-        row(Parameter::Kxy, 0.7, 0.1, 0.5, Decision::Fail),
-        row(Parameter::Kyx, 0.1, 0.1, 0.0, Decision::Fail),
-    ]);
-    let axis = Document::parse(&axis).unwrap();
-    let axis = Axis::along_x(axis.root_element());
-    let pages: Vec<Document> = drawn.iter().map(|text| Document::parse(text).unwrap()).collect();
-    for page in &pages {
-        for (line, due) in of_class(page.root(), "limit").into_iter().zip([-100.0, 100.0]) {
-            axis.says(number(line, "x1"), due);
-        }
-    }
-    // A disc that passes at a fifth of its tolerance, a ring that is undecided at nine tenths, a cross at seven fifths.
-    axis.says(number(of_class(pages[0].root(), "mark")[0], "cx"), 20.0);
-    axis.says(number(of_class(pages[1].root(), "site")[0], "cx"), -90.0);
-    let cross = of_class(pages[2].root(), "mark")[0];
-    assert!(cross.has_tag_name("polygon"));
-    // Guarded acceptance of the first: three fifths of the tolerance either way; a tolerance of 0 has no picture.
-    let guarded = of_class(pages[0].root(), "limits")[0];
-    axis.says(number(guarded, "x"), -60.0);
-    axis.says(number(guarded, "x") + number(guarded, "width"), 60.0);
-    let drawn = ["limits", "whisker", "mark"].map(|class| of_class(pages[3].root(), class).len());
-    assert_eq!(drawn, [0, 0, 0]);
-}
-
-#[test]
-fn convergence_is_drawn_in_decades() {
-    let text = whole(&[convergence::convergence(&both(), &made_up_result()).unwrap()]);
-    let page = Document::parse(&text).unwrap();
-    let svg = svgs(&page)[0];
-    let lines: Vec<Vec<[f64; 2]>> = of_class(svg, "series")
-        .into_iter()
-        .map(|line| {
-            let points = line.attribute("points").unwrap().split(' ');
-            points
-                .map(|at| at.split_once(',').map(|(x, y)| [x.parse().unwrap(), y.parse().unwrap()]).unwrap())
-                .collect()
-        })
-        .collect();
-    let limit = number(of_class(svg, "limit")[0], "y1");
-    // Over their limits: 100, 0.1, 0.0001 and 100, 1, nothing.
-    let decade = (lines[0][1][1] - lines[0][0][1]) / 3.0;
-    assert!(decade > 5.0);
-    assert!((limit - lines[0][0][1] - 2.0 * decade).abs() < 0.2);
-    assert!((lines[0][2][1] - lines[0][1][1] - 3.0 * decade).abs() < 0.2);
-    assert!((lines[1][0][1] - lines[0][0][1]).abs() < 0.2 && (lines[1][1][1] - limit).abs() < 0.2);
-    // What did not move at all is at the lower end of the axis.
-    let lowest = of_class(svg, "zero").into_iter().map(|line| number(line, "y2")).fold(0.0, f64::max);
-    assert_eq!(lines[1][2][1], lowest);
-    let steps = [0, 1].map(|k| lines[0][k + 1][0] - lines[0][k][0]);
-    assert!((steps[0] - steps[1]).abs() < 0.2, "a step is as wide as the next");
-}
-
-#[test]
-fn other_methods_have_no_steps_to_draw() {
-    let result = ResultDocument { changes: None, stop_rule: None, ..made_up_result() };
-    assert!(convergence::convergence(&english(), &result).is_none());
 }

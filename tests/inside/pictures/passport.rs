@@ -1,14 +1,13 @@
 //! Pictures of a passport.
 
 use crate::inside::fixtures;
-use crate::inside::picture::{ROUNDING, both, english, number, of_class, reach, svgs, tip, whole};
+use crate::inside::picture::{ROUNDING, both, english, number, of_class, svgs, tip, whole};
 use dtg_passport::gyro::GyroType;
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::passport::accuracy::Stated;
 use dtg_passport::passport::content::Content;
 use dtg_passport::passport::issue::{Issue, draft};
 use dtg_passport::report::page::{Language, Languages};
-use dtg_passport::report::picture::deviations::Bars;
 use dtg_passport::report::picture::{positions, stand};
 use dtg_passport::site::Site;
 use dtg_passport::stand::{CertifiedPosition, Stand};
@@ -179,20 +178,6 @@ fn the_frames_axis_points_to_its_azimuth() {
     }
 }
 
-#[test]
-fn any_number_of_positions_at_any_angles() {
-    for count in [4, 24] {
-        let stand: Vec<CertifiedPosition> = (0..count)
-            .map(|k| position(3 + k / 6, 1 + k % 6, [f64::from(37 * k), f64::from(61 * k)], [1.0; 3]))
-            .collect();
-        let text = whole(&[positions::positions(&both(), &stand, 90.0)]);
-        let page = Document::parse(&text).unwrap();
-        assert_eq!(svgs(&page).len(), count as usize);
-        let text = whole(&[Bars::of(&stand).bar((1.0, None))]);
-        assert!(!text.contains("whisker"), "no uncertainty is stated");
-    }
-}
-
 /// By hand: drawn are 10.04°, 8°, 11.1°, 10°, and 20° as it is.
 #[test]
 fn small_deviations_are_exaggerated() {
@@ -211,29 +196,6 @@ fn small_deviations_are_exaggerated() {
     let ((_, small), (_, large)) = (factor(0.15), factor(7.5));
     for (one, other) in small.into_iter().zip(large) {
         same(one, other);
-    }
-}
-
-#[test]
-fn bars_are_as_long_as_deviations_are_large() {
-    let (content, _) = passport(fixtures::ARC_MINUTES, fixtures::SITE);
-    // The largest one, β of (1, 4), gives the scale: 90.4.
-    let bars = Bars::of(&content.positions);
-    let drawn = |value: f64, u: f64| {
-        let text = whole(&[bars.bar((value, Some(u)))]);
-        let page = Document::parse(&text).unwrap();
-        let (bar, zero) = (of_class(page.root(), "bar")[0], of_class(page.root(), "zero")[0]);
-        (number(bar, "x"), number(bar, "width"), number(zero, "x1"), reach(of_class(page.root(), "whisker")[0]))
-    };
-    let scale = drawn(-90.4, 1.2).1 / 90.4;
-    assert!(scale > 0.3, "{scale}");
-    for at in &content.positions {
-        let (value, u) = (at.alpha_arcsec, at.u_alpha_arcsec.unwrap());
-        let (x, width, zero, [from, to]) = drawn(value, u);
-        let end = if value > 0.0 { x + width } else { x };
-        assert!((end - zero - scale * value).abs() < 0.3, "{value}: from {zero} to {end}");
-        assert!((to - from - scale * 4.0 * u).abs() < 0.3, "plus and minus 2u of {u}: from {from} to {to}");
-        assert!((0.5 * (from + to) - end).abs() < 0.3);
     }
 }
 
@@ -267,17 +229,4 @@ fn pictures_have_words_and_no_colours_of_their_own() {
             assert!(!text.contains(attribute), "{attribute}");
         }
     }
-}
-
-/// A page may stand once for each language, and ids differ then too.
-#[test]
-fn ids_differ_from_one_language_to_the_other() {
-    let (content, _) = passport(fixtures::DEGREES, fixtures::SITE);
-    let (one, other) =
-        (all_pictures(&english(), &content), all_pictures(&Languages::from(Language::Russian), &content));
-    let ids = |text: &str| -> BTreeSet<String> {
-        let page = Document::parse(text).unwrap();
-        page.descendants().filter_map(|node| node.attribute("id").map(str::to_owned)).collect()
-    };
-    assert!(ids(&one).is_disjoint(&ids(&other)));
 }

@@ -72,13 +72,3 @@ fn lines_are_where_the_axes_say() {
     says(&axes, &found[0], &[[1.0, 0.0], [10.0, 12.5], [30.0, 100.0]]);
     says(&axes, &found[1], &[[10.0, 40.0]]);
 }
-
-#[test]
-fn the_limit_of_the_paper_is_drawn_where_the_axis_reaches_it() {
-    for (farthest, drawn) in [(12.5, 0), (15.0, 1), (45.0, 1)] {
-        let text = simulation::convergence(&made_up(farthest)).unwrap();
-        let page = Document::parse(&text).unwrap();
-        assert_eq!(of_class(page.root(), "limit").len(), drawn, "{farthest}");
-        assert_eq!(text.contains("paper: 15°"), drawn == 1);
-    }
-}

@@ -362,36 +362,6 @@ fn a_setting_that_has_changed_is_named() {
     }
 }
 
-/// A whole file in another unit, with the opposite sign or in other columns: the error is named, and nothing else has changed.
-#[test]
-fn a_misread_file_is_named() {
-    type Wrong = fn(&Vector3<f64>) -> Vector3<f64>;
-    let truth = quiet();
-    let mut stream = Stream::new(72);
-    let stand = certificate(&truth, &mut stream, 5);
-    let cases: [(Wrong, &str); 8] = [
-        (|at| at / 60.0, "divided by 60 (as measured: "),
-        (|at| at / 3600.0, "divided by 3600 (as measured: "),
-        (|at| at * 60.0, "those of the certificate times 60 ("),
-        (|at| at / 3.6, "divided by 3.6 ("),
-        (|at| at * std::f64::consts::PI / 0.648, "those of the certificate times 4.848 ("),
-        (|at| -at, "with the opposite sign"),
-        (|at| Vector3::new(at.x, at.z, at.y), "(read → due: γ → β, β → γ)"),
-        (|at| Vector3::new(-at.x, at.y, at.z), "(read → due: -α → α)"),
-    ];
-    for (wrong, due) in cases {
-        let mut check = truth.measured(&mut stream, 3);
-        check.each_arcsec.iter_mut().flatten().for_each(|angles| *angles = wrong(angles));
-        let found = against(&stand, &check);
-        assert!(!found.same_stand && found.words[0].contains(due), "{due}: {:?}", found.words);
-        assert!(
-            !found.words.iter().any(|words| words.contains("rotated") || words.contains("another stand")),
-            "{:?}",
-            found.words
-        );
-    }
-}
-
 /// Expected: of a stand whose deviations have become many times larger, in other directions, as after a repair, that it is
 /// another one. Divided by 60, its angles are nearer to the certified ones, as any small angles are.
 #[test]
