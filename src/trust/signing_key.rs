@@ -2,13 +2,13 @@
 
 use super::public_key::{AnyKey, shortened};
 use super::wire::{Truncated, Wire};
-use super::{KeyError, KeyPoint, Message, PublicKey, Signature, SignatureError};
+use super::{KeyError, KeyPoint, Message, PublicKey, Signature};
 use crate::text::Kind;
 use base64ct::{Base64, Encoding};
 use ed25519_dalek::Signer as _;
 use ssh_key::private::{Ed25519Keypair, KeypairData};
 use ssh_key::rand_core::{OsRng, RngCore as _};
-use ssh_key::{Algorithm, Cipher, HashAlg, Kdf, LineEnding, PrivateKey, SshSig};
+use ssh_key::{Cipher, Kdf, LineEnding, PrivateKey};
 use std::fmt::{self, Debug, Formatter};
 use zeroize::Zeroizing;
 
@@ -97,8 +97,7 @@ impl SigningKey {
 
     /// Returns the public key.
     pub fn public_key(&self) -> PublicKey {
-        let key = ssh_key::public::Ed25519PublicKey(self.key.verifying_key().to_bytes());
-        PublicKey::of_ed25519(key)
+        PublicKey::new(self.key.verifying_key().to_bytes(), None)
     }
 
     pub(crate) fn point(&self) -> KeyPoint {
@@ -114,11 +113,8 @@ impl SigningKey {
     }
 
     pub(crate) fn sign_message(&self, message: &Message) -> Result<Signature, KeyError> {
-        let bytes = self.key.sign(message.signed.as_deref().ok_or(KeyError::Namespace)?).to_bytes();
-        let block = ssh_key::Signature::new(Algorithm::Ed25519, bytes)
-            .and_then(|signature| SshSig::new(self.public_key().data, message.namespace, HashAlg::Sha512, signature))
-            .map_err(damaged)?;
-        Signature::of(block).map_err(|error: SignatureError| KeyError::DamagedPrivateKey(error.to_string()))
+        let signature = self.key.sign(message.signed.as_deref().ok_or(KeyError::Namespace)?);
+        Ok(Signature::of(self.public_key(), message.namespace, &signature.to_bytes()))
     }
 }
 
@@ -152,7 +148,8 @@ impl PublicKey {
         }
         check_kind(text)?;
         let file = PrivateKey::from_openssh(text).map_err(damaged)?;
-        Self::from_data(file.public_key().key_data().clone())
+        let blob = file.public_key().to_bytes().map_err(damaged)?;
+        AnyKey::from_blob(&blob).map_err(KeyError::DamagedPublicKey)?.signing()
     }
 }
 
