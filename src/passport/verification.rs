@@ -8,11 +8,11 @@ use super::checks::{Check, CheckName, Code, REQUEST_FROM_THE_ISSUER};
 use super::content::{Content, Dated, PASSPORT_FORMAT};
 use super::{FORM, NAMESPACE, content, place, recomputed};
 use crate::coefficients::Coefficients;
-use crate::document::{OtherSignature, RegisterUsed, SignedText, sha256_hex};
+use crate::document::{RegisterUsed, SignedText, sha256_hex};
 use crate::earth::Place;
 use crate::text::scalar::day;
 use crate::text::{first_few, printable};
-use crate::trust::{AllowedSigners, Message, NotAuthorised, PublicKey, RevokedKeys};
+use crate::trust::{AllowedSigners, Message, NotAuthorised, PublicKey, RevokedKeys, SignatureError};
 use jiff::Timestamp;
 use std::collections::BTreeSet;
 use std::fmt::{self, Debug, Display, Formatter};
@@ -328,10 +328,10 @@ impl Run {
         match &split {
             Ok(_) => self.note(CheckName::Grammar, Code::Ok, good),
             Err(malformed) => {
-                let code = match malformed.other {
-                    None => Code::Malformed,
-                    Some(OtherSignature::Namespace(_)) => Code::WrongNamespace,
-                    Some(OtherSignature::KeyType(_)) => Code::UnsupportedKey,
+                let code = match malformed.signature {
+                    Some(SignatureError::WrongNamespace { .. }) => Code::WrongNamespace,
+                    Some(SignatureError::KeyType(_)) => Code::UnsupportedKey,
+                    _ => Code::Malformed,
                 };
                 self.note(CheckName::Grammar, code, &malformed.fault);
             }

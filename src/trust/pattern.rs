@@ -78,13 +78,9 @@ mod tests {
     }
 
     #[test]
-    fn lists_and_negation() {
-        assert!(matches_list("lab@factory", "x,*@factory"));
-        assert!(!matches_list("bad@factory", "!bad@*,*@factory"));
-        assert!(!matches_list("bad@factory", "*@factory,!bad@*"));
-        assert!(matches_list("lab@factory", "!bad@*,*@factory"));
-        assert!(!matches_list("lab@factory", "!bad@*"));
+    fn a_list_is_separated_at_every_comma() {
         assert!(!matches_list("a,b", "a,b"));
+        assert!(!matches_list("lab@factory", "!bad@*"));
         assert!(matches_list("!a", "?a"));
     }
 

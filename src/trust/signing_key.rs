@@ -231,27 +231,14 @@ mod tests {
     }
 
     #[test]
-    fn a_key_comes_back_from_its_file() {
+    fn a_key_file_needs_a_passphrase_with_characters_and_a_comment_without_controls() {
         let key = SigningKey::generate().unwrap();
-        let plain = key.to_openssh("lab@factory", None).unwrap();
-        let read = SigningKey::from_openssh(&plain, None).unwrap();
-        assert_eq!(read.public_key(), key.public_key());
-        assert_eq!(read.sign("n", b"m"), key.sign("n", b"m"));
-        let windows = plain.replace('\n', "\r\n");
-        assert_eq!(SigningKey::from_openssh(&windows, Some("ignored")).unwrap().public_key(), key.public_key());
-    }
-
-    #[test]
-    fn a_passphrase_is_needed_and_must_be_the_right_one() {
-        let key = SigningKey::generate().unwrap();
-        let sealed = key.to_openssh("", Some("пароль")).unwrap();
-        assert_eq!(refused(&sealed), KeyError::Encrypted);
-        assert_eq!(SigningKey::from_openssh(&sealed, Some("")).unwrap_err(), KeyError::WrongPassphrase);
-        assert_eq!(SigningKey::from_openssh(&sealed, Some("parol")).unwrap_err(), KeyError::WrongPassphrase);
-        let opened = SigningKey::from_openssh(&sealed, Some("пароль")).unwrap();
-        assert_eq!(opened.public_key(), key.public_key());
         assert_eq!(key.to_openssh("", Some("")), Err(KeyError::EmptyPassphrase));
         assert_eq!(key.to_openssh("a\nb", None), Err(KeyError::Comment));
+        let sealed = key.to_openssh("", Some("пароль")).unwrap();
+        assert_eq!(SigningKey::from_openssh(&sealed, Some("")).unwrap_err(), KeyError::WrongPassphrase);
+        let plain = key.to_openssh("lab@factory", None).unwrap().replace('\n', "\r\n");
+        assert_eq!(SigningKey::from_openssh(&plain, Some("ignored")).unwrap().public_key(), key.public_key());
     }
 
     #[test]
@@ -266,11 +253,7 @@ mod tests {
         let public = SigningKey::generate().unwrap().public_key().to_openssh();
         for (text, words) in [
             ("", "an empty file"),
-            (public.as_str(), "a public key, expected an OpenSSH private key file"),
-            ("-----BEGIN PRIVATE KEY-----\nMC4=\n-----END PRIVATE KEY-----", "PKCS#8"),
             ("-----BEGIN ENCRYPTED PRIVATE KEY-----", "PKCS#8"),
-            ("-----BEGIN RSA PRIVATE KEY-----", "an RSA key in PEM"),
-            ("-----BEGIN EC PRIVATE KEY-----", "an ECDSA key in PEM"),
             ("-----BEGIN CERTIFICATE-----", "found a certificate, expected an OpenSSH private key file"),
             ("---- BEGIN SSH2 PUBLIC KEY ----", "found a public key, expected an OpenSSH private key file"),
             (public.as_str(), "give the private key, the file without .pub"),

@@ -174,12 +174,17 @@ impl Signature {
         self.verify_message(&Message::new(namespace, message), None)
     }
 
+    /// Checks that the signature was made for the namespace `expected`.
+    pub(crate) fn check_namespace(&self, expected: &str) -> Result<(), SignatureError> {
+        if self.namespace == expected {
+            return Ok(());
+        }
+        Err(SignatureError::WrongNamespace { found: self.namespace.clone(), expected: expected.to_owned() })
+    }
+
     /// Verifies a message that is already hashed, with the key's curve point if that is already known.
     pub(crate) fn verify_message(&self, message: &Message, point: Option<&KeyPoint>) -> Result<(), SignatureError> {
-        if self.namespace != message.namespace {
-            let found = self.namespace.clone();
-            return Err(SignatureError::WrongNamespace { found, expected: message.namespace.to_owned() });
-        }
+        self.check_namespace(message.namespace)?;
         let signed = message.signed.as_deref().ok_or(SignatureError::DoesNotHold)?;
         let own;
         let point = match point.filter(|point| point.is_of(&self.key)) {

@@ -1,10 +1,10 @@
 //! Form of a signed document: payload, signature line, armor, and nothing else.
 
 use super::fixtures;
-use crate::document::{Form, OtherSignature, SignedText, parse};
+use crate::document::{Form, SignedText, parse};
 use crate::passport::content::Content;
 use crate::passport::{FORM, NAMESPACE};
-use crate::trust::SigningKey;
+use crate::trust::{SignatureError, SigningKey};
 
 fn signed(payload: &str) -> String {
     fixtures::signed(payload, &SigningKey::generate().unwrap())
@@ -39,7 +39,8 @@ fn nothing_may_stand_after_the_armor_or_beside_it() {
         assert!(SignedText::split("x", text.as_bytes(), &FORM).is_err(), "{text}");
     }
     let other = SignedText::split("x", good.as_bytes(), &Form { namespace: "dtg-register", ..FORM }).unwrap_err();
-    assert_eq!(other.other, Some(OtherSignature::Namespace(NAMESPACE.to_owned())));
+    let expected = "dtg-register".to_owned();
+    assert_eq!(other.signature, Some(SignatureError::WrongNamespace { found: NAMESPACE.to_owned(), expected }));
 }
 
 /// Expected: by hand, the first line of a passport that is not in its form, the column of what is left to read.
