@@ -3,7 +3,7 @@
 //! This reader is stricter than OpenSSH, which skips a line that it cannot read. Here such a line is an error, because
 //! its author meant to trust a key or to end that trust. Only keys that cannot sign passports are skipped here too.
 
-use super::pattern::matches_list;
+use super::principal::matches_list;
 use super::signer_line::{self, SignerLine};
 use super::{KeyPoint, PublicKey, lines};
 use crate::text::kind::mistaken;
@@ -57,7 +57,7 @@ impl AllowedSigners {
     }
 
     fn read(name: &str, text: &[u8]) -> Result<Self, Unreadable> {
-        let kept = lines::each(name, &lines::of(name, text)?, signer_line::read)?;
+        let kept = lines::read(name, text, signer_line::read)?;
         if kept.is_empty() {
             let advice = "add the line that `keygen` prints";
             return Err(Unreadable::whole(name, None, "no key", "a line for each trusted key", advice));

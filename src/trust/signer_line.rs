@@ -1,7 +1,7 @@
 //! A line of allowed signers (ssh-keygen(1), ALLOWED SIGNERS): `principals [options] key-type base64-key [comment]`.
 
 use super::lines::Line;
-use super::pattern::LONGEST_PATTERN;
+use super::principal::LONGEST_PATTERN;
 use super::public_key::{AnyKey, fingerprint, shortened};
 use super::{KeyError, KeyPoint};
 use crate::text::Cause;

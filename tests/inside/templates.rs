@@ -10,7 +10,7 @@ use crate::laboratory::Laboratory;
 use crate::site::Site;
 use crate::stand::{CertifiedPosition, Stand};
 use crate::template::{self, DCC, GYRO, LABORATORY, Positions, currents, header, readings, stand};
-use crate::text::{Problems, placeholder, yaml};
+use crate::text::{Problems, advice, yaml};
 
 const EACH: [(Positions, usize); 3] = [(Positions::Four, 4), (Positions::Eight, 8), (Positions::TwentyFour, 24)];
 
@@ -107,7 +107,7 @@ fn every_placeholder_is_found_at_its_place() {
     let text = "a: \"CHANGE\"  # CHANGE\nb: {c: [\"good\", \"CHANGE: where from\"]}\nd: \"CHANGED\"\n";
     let (node, text) = yaml::tree("f.yaml", text.as_bytes()).unwrap();
     let mut problems = Problems::default();
-    placeholder::check(&node, &mut problems);
+    advice::check_placeholders(&node, &mut problems);
     let refused = problems.refuse("f.yaml", &text).to_string();
     assert!(refused.contains("f.yaml:1:4: a: found \"CHANGE\", expected your value"), "{refused}");
     assert!(refused.contains("b.c[1]: found \"CHANGE: where from\""), "{refused}");

@@ -118,13 +118,7 @@ impl<O: Output> Sink for Writer<'_, O> {
     }
 
     fn integer(&mut self, value: i64) {
-        const DIGITS: [&str; 10] = ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9"];
-        // Most integers are indices of positions, which have one digit.
-        let digit = usize::try_from(value).ok().and_then(|value| DIGITS.get(value));
-        self.on_the_line(|writer| match digit {
-            Some(digit) => writer.text.push(digit),
-            None => writer.text.push(&value.to_string()),
-        });
+        self.on_the_line(|writer| writer.text.push(&value.to_string()));
     }
 
     fn number(&mut self, value: f64) {
