@@ -225,10 +225,6 @@ impl Verification {
         self.content.as_deref().filter(|_| self.checks.iter().all(good))
     }
 
-    fn without_content(checks: Vec<Check>) -> Self {
-        Self { checks, key: None, content: None, sha256: String::new(), register: None }
-    }
-
     /// Returns the passport if every requested check passed, otherwise `None`; [`Verification::checks`] then tells what
     /// failed.
     pub fn passport(&self) -> Option<VerifiedPassport> {
@@ -303,13 +299,13 @@ pub(crate) fn verify_known(
 pub(crate) fn unreadable(why: &str, trust: &Trust, question: &Question) -> Verification {
     let mut run = Run { checks: Vec::new() };
     run.note(CheckName::Grammar, Code::Unreadable, why);
-    Verification::without_content(run.completed(question, trust))
+    Verification { checks: run.completed(question, trust), ..not_run() }
 }
 
 /// Creates the result for a passport that was not verified on request: no check was run.
 pub(crate) fn not_run() -> Verification {
     let checks = CheckName::ALL.map(|name| Check::not_run(name, false, "the passport was not verified"));
-    Verification::without_content(checks.into())
+    Verification { checks: checks.into(), key: None, content: None, sha256: String::new(), register: None }
 }
 
 /// Checks completed so far.

@@ -26,12 +26,6 @@ pub struct PublicKey {
     pub(super) application: Option<String>,
 }
 
-/// Returns the fingerprint of a key as SSH transmits it, as `ssh-keygen -l` prints it.
-pub(super) fn fingerprint(blob: &[u8]) -> String {
-    let base64 = Base64::encode_string(&Sha256::digest(blob));
-    format!("SHA256:{}", base64.trim_end_matches('='))
-}
-
 impl PublicKey {
     /// Reads a line of OpenSSH's public key format, `ssh-ed25519 AAAA… comment` (sshd(8), AUTHORIZED_KEYS FILE FORMAT,
     /// without options).
@@ -57,7 +51,8 @@ impl PublicKey {
 
     /// Returns the fingerprint as `ssh-keygen -l` prints it, `SHA256:…`.
     pub fn fingerprint(&self) -> String {
-        fingerprint(&self.blob)
+        let base64 = Base64::encode_string(&Sha256::digest(&self.blob));
+        format!("SHA256:{}", base64.trim_end_matches('='))
     }
 
     /// Returns the key type as OpenSSH names it.
