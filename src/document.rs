@@ -273,8 +273,9 @@ where
 #[cfg(feature = "factory")]
 /// Joins payload and signature into the file that [`SignedText::split`] separates.
 pub(crate) fn join(payload: &str, signature: &Signature) -> String {
-    let mut text = String::with_capacity(payload.len() + 2 * signature.armor().len());
+    let armor = signature.to_armor();
+    let mut text = String::with_capacity(payload.len() + 2 * armor.len());
     text.extend([payload, SIGNATURE_LINE]);
-    signature.armor().split_inclusive('\n').for_each(|line| text.extend([INDENT, line]));
+    armor.split_inclusive('\n').for_each(|line| text.extend([INDENT, line]));
     text
 }

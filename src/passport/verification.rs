@@ -208,20 +208,11 @@ impl Verification {
     /// Returns the content if every requested check passed, even if the passport has expired or may have been
     /// superseded or withdrawn; otherwise `None`: for a comparison with the past, not for use.
     pub(crate) fn content_even_if_past(&self) -> Option<&Content> {
-        let past = [
-            Code::Ok,
-            Code::NotAsked,
-            Code::Expired,
-            Code::Withdrawn,
-            Code::Superseded,
-            Code::Moved,
-            Code::NotListed,
-            Code::RegisterStale,
-            Code::RegisterOlder,
-            Code::RegisterContradicted,
-            Code::RegisterUnknown,
-        ];
-        let good = |check: &Check| past.contains(&check.code);
+        let good = |check: &Check| match check.code {
+            Code::Ok | Code::NotAsked | Code::Expired => true,
+            // Every answer of a register is about the present.
+            code => check.name == CheckName::Register && code != Code::NotRun,
+        };
         self.content.as_deref().filter(|_| self.checks.iter().all(good))
     }
 

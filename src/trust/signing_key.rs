@@ -195,7 +195,15 @@ fn check_header(pem: &str) -> Result<(), KeyError> {
     let rest = bytes
         .strip_prefix(b"openssh-key-v1\0")
         .ok_or_else(|| KeyError::DamagedPrivateKey("its first bytes are not those of an OpenSSH key".to_owned()))?;
-    let (cipher, key_type) = header(rest).map_err(|error: Truncated| KeyError::DamagedPrivateKey(error.to_string()))?;
+    // The cipher, and the type of the first key (PROTOCOL.key, sections 1 and 2).
+    let header = || -> Result<[String; 2], Truncated> {
+        let mut wire = Wire::new(rest);
+        let cipher = wire.string()?;
+        let (_kdf, _kdf_options, _keys) = (wire.string()?, wire.string()?, wire.u32()?);
+        let key_type = wire.nested()?.string()?;
+        Ok([cipher, key_type].map(|bytes| String::from_utf8_lossy(bytes).into_owned()))
+    };
+    let [cipher, key_type] = header().map_err(|error| KeyError::DamagedPrivateKey(error.to_string()))?;
     match key_type.as_str() {
         "ssh-ed25519" => {}
         "sk-ssh-ed25519@openssh.com" | "sk-ecdsa-sha2-nistp256@openssh.com" => {
@@ -207,18 +215,6 @@ fn check_header(pem: &str) -> Result<(), KeyError> {
         Ok(Cipher::TDesCbc) | Err(_) => Err(KeyError::Encryption(shortened(&cipher))),
         Ok(_) => Ok(()),
     }
-}
-
-/// Returns the cipher and the type of the first key (PROTOCOL.key, sections 1 and 2).
-fn header(bytes: &[u8]) -> Result<(String, String), Truncated> {
-    let text = |bytes| String::from_utf8_lossy(bytes).into_owned();
-    let mut wire = Wire::new(bytes);
-    let cipher = text(wire.string()?);
-    let _kdf = wire.string()?;
-    let _kdf_options = wire.string()?;
-    let _keys = wire.u32()?;
-    let mut public_key = wire.nested()?;
-    Ok((cipher, text(public_key.string()?)))
 }
 
 #[cfg(all(test, feature = "factory"))]

@@ -148,10 +148,6 @@ impl Signature {
         self.armor.clone()
     }
 
-    pub(crate) fn armor(&self) -> &str {
-        &self.armor
-    }
-
     pub(crate) fn namespace(&self) -> &str {
         &self.namespace
     }
