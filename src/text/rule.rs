@@ -12,18 +12,17 @@ use super::problem::Unreadable;
 use super::without_secrets;
 use std::ops::Range;
 
-/// Writes a string in double quotes, with the only two escapes of the rule, in parts.
-pub(super) fn write_quoted(text: &str, mut push: impl FnMut(&str)) {
-    push("\"");
+/// Writes a string in double quotes, with the only two escapes of the rule.
+pub(super) fn write_quoted(text: &str, out: &mut String) {
+    out.push('"');
     let mut rest = text;
     while let Some(at) = memchr::memchr2(b'"', b'\\', rest.as_bytes()) {
         let (plain, others) = rest.split_at(at);
         let (escaped, after) = others.split_at(1);
-        [plain, "\\", escaped].into_iter().for_each(&mut push);
+        out.extend([plain, "\\", escaped]);
         rest = after;
     }
-    push(rest);
-    push("\"");
+    out.extend([rest, "\""]);
 }
 
 /// Advice for text that is not as the writer writes it.
@@ -93,12 +92,7 @@ fn check_parts(text: &str) -> Result<(), Fault> {
 }
 
 /// Checks that each byte of a part of a text is an ASCII character that `may` be there.
-fn check_all(
-    text: &str,
-    part: Range<usize>,
-    may: impl Fn(u8) -> bool,
-    expected: &'static str,
-) -> Result<(), Fault> {
+fn check_all(text: &str, part: Range<usize>, may: impl Fn(u8) -> bool, expected: &'static str) -> Result<(), Fault> {
     let bytes = &text.as_bytes()[part.clone()];
     // As in `is_printable_ascii`.
     if bytes.iter().fold(true, |all, byte| all & may(*byte)) {
@@ -145,21 +139,16 @@ fn named(c: char) -> String {
 /// Returns the first difference of `text`, without comments and empty lines, from `canonical`: line number, found
 /// content and expected content. Returns `None` if they are equal.
 pub(crate) fn differs(text: &str, canonical: &str) -> Option<(usize, String, String)> {
-    let mut expected = canonical.lines();
-    let content = text
-        .lines()
-        .enumerate()
-        .filter(|(_, line)| !line.trim_matches(' ').is_empty() && !line.trim_start_matches(' ').starts_with('#'));
-    for (index, found) in content {
-        match expected.next() {
-            Some(expected) if expected == found => {}
-            other => {
-                let expected = other.map_or_else(|| "the end of the file".to_owned(), shortened);
-                return Some((index + 1, shortened(found), expected));
-            }
+    let end = || "the end of the file".to_owned();
+    let mut expected = canonical.lines().peekable();
+    // A carriage return is part of the line.
+    for (number, found) in (1..).zip(text.split('\n')) {
+        let words = found.trim_start_matches(' ');
+        if expected.next_if_eq(&found).is_none() && !words.is_empty() && !words.starts_with('#') {
+            return Some((number, shortened(found), expected.next().map_or_else(end, shortened)));
         }
     }
-    expected.next().map(|missing| (text.lines().count() + 1, "the end of the file".to_owned(), shortened(missing)))
+    expected.next().map(|missing| (text.lines().count() + 1, end(), shortened(missing)))
 }
 
 /// Returns a line as messages show it.

@@ -363,8 +363,7 @@ fn is_without_point(cells: &[Cell]) -> bool {
 }
 
 /// Beginnings of the names of statistics: English, Russian, German.
-const STATISTICS: &str =
-    "mean average avg std stdev sd median total sum min max rms средн ско сумм мин макс mittel";
+const STATISTICS: &str = "mean average avg std stdev sd median total sum min max rms средн ско сумм мин макс mittel";
 
 struct Header<'a> {
     /// Requested columns that are present.

@@ -5,7 +5,7 @@ use crate::text::node::{Node, location_of};
 use crate::text::problem::UPDATE;
 use crate::text::{Limits, Problem, rule};
 
-/// Reads a text with `read`. It may accept a number in another form, so check the result with [`super::is_written()`].
+/// Reads a text with `read`. It may accept a number in another form, so write the result again and compare the texts.
 ///
 /// # Errors
 /// Returns the place at which the scanner stopped.
