@@ -119,26 +119,27 @@ pub(crate) struct SignedText<'a> {
 pub struct Malformed {
     /// Description and location of the fault.
     pub fault: Unreadable,
-    /// Kind of the signature if that is the fault, otherwise `None`.
-    pub other: Option<OtherSignature>,
-}
-
-/// Kind of a whole signature that no document of this kind has.
-#[derive(Debug, Clone, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum OtherSignature {
-    /// Signature for this other namespace.
-    Namespace(String),
-    /// Signature with a key of this type, which cannot sign passports, or with an OpenSSH certificate.
-    KeyType(String),
+    /// Error of the signature if that is the fault, otherwise `None`.
+    pub signature: Option<SignatureError>,
 }
 
 /// Form of the signature in a document.
 const BLOCK: &str = "a signature block of OpenSSH, indented by two spaces, and nothing after it";
+const CHANGED: &str = "the signature or the text after it has changed; get the file from the issuer again";
 
-/// Returns noun phrases for what was found instead of a signature, and for what was expected.
-fn found_and_expected(error: SignatureError) -> (String, &'static str) {
-    match error {
+/// Returns noun phrases for what was found instead of a signature and for what was expected, and the advice.
+fn refusal_of(error: &SignatureError) -> (String, String, &'static str) {
+    let (found, expected) = match error {
+        SignatureError::KeyType(other) => {
+            let what = if other.contains("-cert-v") { "an OpenSSH certificate" } else { "a key" };
+            let found = format!("a text signed with {what} of type {other}");
+            let expected = "a key of type ssh-ed25519 or sk-ssh-ed25519@openssh.com";
+            return (found, expected.to_owned(), "ask the issuer to sign it with such a key");
+        }
+        SignatureError::WrongNamespace { found, expected } => {
+            let advice = "it is signed as another kind of document";
+            return (format!("a signature for {found:?}"), format!("a signature for {expected:?}"), advice);
+        }
         SignatureError::Damaged(why) => (format!("a damaged signature block ({why})"), BLOCK),
         SignatureError::NotCanonical => {
             ("a signature block whose lines or padding are not as OpenSSH writes them".to_owned(), BLOCK)
@@ -149,8 +150,9 @@ fn found_and_expected(error: SignatureError) -> (String, &'static str) {
         SignatureError::Algorithm { key, signature } => {
             (format!("a signature of type {signature} with a key of type {key}"), "the same type twice")
         }
-        other => (format!("a signature block that is refused ({other})"), BLOCK),
-    }
+        SignatureError::DoesNotHold => ("a signature of another text".to_owned(), BLOCK),
+    };
+    (found, expected.to_owned(), CHANGED)
 }
 
 impl<'a> SignedText<'a> {
@@ -163,7 +165,7 @@ impl<'a> SignedText<'a> {
             let mistaken = || mistaken(name, bytes, form.expected, is_signed);
             signature_line(bytes).is_none().then(mistaken).flatten()
         };
-        let malformed = |fault| Malformed { fault: other().unwrap_or(fault), other: None };
+        let malformed = |fault| Malformed { fault: other().unwrap_or(fault), signature: None };
         if bytes.len() > limits.bytes {
             rule::check(name, bytes, limits.bytes).map_err(malformed)?;
         }
@@ -177,36 +179,17 @@ impl<'a> SignedText<'a> {
             let advice = "the file is unsigned, or may be truncated; get it from the issuer again";
             return Err(malformed(Unreadable::whole(name, location, "no signature", "`signature: |`", advice)));
         };
-        let fault = |found: String, expected: &str, advice: &str| {
-            let at = Location { line: payload.lines().count() + 2, column: 1 };
-            Unreadable::whole(name, Some(at), found, expected, advice)
-        };
-        let refuse = |found: String, expected: &str| {
-            let advice = "the signature or the text after it has changed; get the file from the issuer again";
-            malformed(fault(found, expected, advice))
-        };
         let tail = &bytes[payload_end + SIGNATURE_LINE.len()..];
         let armor = std::str::from_utf8(tail).ok().and_then(unindented);
-        let armor = armor.ok_or_else(|| refuse("a line that is not indented like the signature".to_owned(), BLOCK))?;
-        let signature = Signature::from_armor(&armor).map_err(|error| match error {
-            SignatureError::KeyType(other) => {
-                let what = if other.contains("-cert-v") { "an OpenSSH certificate" } else { "a key" };
-                let found = format!("a text signed with {what} of type {other}");
-                let expected = "a key of type ssh-ed25519 or sk-ssh-ed25519@openssh.com";
-                let fault = fault(found, expected, "ask the issuer to sign it with such a key");
-                Malformed { fault, other: Some(OtherSignature::KeyType(other)) }
-            }
-            error => {
-                let (found, expected) = found_and_expected(error);
-                refuse(found, expected)
-            }
-        })?;
-        if signature.namespace() != namespace {
-            let other = signature.namespace().to_owned();
-            let (found, expected) = (format!("a signature for {other:?}"), format!("a signature for {namespace:?}"));
-            let fault = fault(found, &expected, "it is signed as another kind of document");
-            return Err(Malformed { fault, other: Some(OtherSignature::Namespace(other)) });
-        }
+        let refuse = |(found, expected, advice): (String, String, &str), signature| {
+            let at = Location { line: payload.lines().count() + 2, column: 1 };
+            Malformed { fault: Unreadable::whole(name, Some(at), found, expected, advice), signature }
+        };
+        let not_indented = "a line that is not indented like the signature";
+        let armor = armor.ok_or_else(|| refuse((not_indented.to_owned(), BLOCK.to_owned(), CHANGED), None))?;
+        let signature = Signature::from_armor(&armor);
+        let signature = signature.and_then(|signature| signature.check_namespace(namespace).map(|()| signature));
+        let signature = signature.map_err(|error| refuse(refusal_of(&error), Some(error.clone())))?;
         Ok(Self { payload, signature })
     }
 
@@ -290,8 +273,9 @@ where
 #[cfg(feature = "factory")]
 /// Joins payload and signature into the file that [`SignedText::split`] separates.
 pub(crate) fn join(payload: &str, signature: &Signature) -> String {
-    let mut text = String::with_capacity(payload.len() + 2 * signature.armor().len());
+    let armor = signature.to_armor();
+    let mut text = String::with_capacity(payload.len() + 2 * armor.len());
     text.extend([payload, SIGNATURE_LINE]);
-    signature.armor().split_inclusive('\n').for_each(|line| text.extend([INDENT, line]));
+    armor.split_inclusive('\n').for_each(|line| text.extend([INDENT, line]));
     text
 }

@@ -96,18 +96,9 @@ pub(crate) enum Absence {
     AzimuthMark,
 }
 
-/// Returns the missing statements of this passport and their effects, one sentence each, in ASCII.
-pub(crate) fn absences(content: &Content) -> Vec<String> {
-    sentences(absent(content))
-}
-
 /// Returns the missing statements of this passport.
 pub(crate) fn absent(content: &Content) -> Vec<Absence> {
     [of_the_certificate(content), of_the_site(content)].concat()
-}
-
-fn sentences(absences: Vec<Absence>) -> Vec<String> {
-    absences.iter().map(Absence::to_string).collect()
 }
 
 fn of_the_certificate(content: &Content) -> Vec<Absence> {
@@ -170,7 +161,7 @@ fn of_the_stand(path: &str, absences: impl Fn() -> Vec<Absence>) -> Vec<String> 
     match path {
         "certificate" => {
             let mut lines = vec!["Certified measurement of the stand, with its uncertainty.".to_owned()];
-            lines.extend(sentences(absences()));
+            lines.extend(absences().iter().map(Absence::to_string));
             lines
         }
         "positions" => vec![
@@ -207,7 +198,7 @@ fn comments(content: &Content, path: &str) -> Vec<String> {
     };
     let mut lines: Vec<String> = fixed.iter().map(|line| (*line).to_owned()).collect();
     match path {
-        "site" => lines.extend(sentences(of_the_site(content))),
+        "site" => lines.extend(of_the_site(content).iter().map(Absence::to_string)),
         "earth" => lines.extend(of_the_earth(content)),
         _ => {}
     }

@@ -1,7 +1,7 @@
 //! Issue of a signed passport from a certified stand and a site.
 
 use super::accuracy::NoAccuracy;
-use super::annotations::{self, Absence, absences, absent};
+use super::annotations::{self, Absence, absent};
 use super::content::{Dated, PASSPORT_FORMAT, REFERENCE_GYRO, derive_from, passport_id};
 use super::verification::{Known, Question, Trust, Verification, verify_known};
 use super::{Content, Header, NAMESPACE, Predecessor, SelfCheck, Stated, content};
@@ -380,13 +380,7 @@ impl Draft {
         odd.extend(content.site.odd());
         let (positions, gravity) = (content.coefficients().positions, content.earth.gravity_m_per_s2);
         odd.extend(content.accuracy.as_ref().and_then(|accuracy| accuracy.beyond_range(&positions, gravity)));
-        Remarks {
-            noise,
-            uncertainty_growth: content.site.uncertainty_growth(),
-            odd,
-            absences: absences(content),
-            missing: absent(content),
-        }
+        Remarks { noise, uncertainty_growth: content.site.uncertainty_growth(), odd, missing: absent(content) }
     }
 }
 
@@ -405,17 +399,20 @@ pub struct Remarks {
     pub uncertainty_growth: f64,
     /// Implausible statements of certificate, site and accuracy, one sentence each.
     pub odd: Vec<String>,
-    /// Missing statements and their effects, one sentence each.
-    pub absences: Vec<String>,
     /// Missing statements, from which a page or a terminal makes sentences with symbols of units.
     pub(crate) missing: Vec<Absence>,
 }
 
 impl Remarks {
+    /// Returns the missing statements and their effects, one sentence each in ASCII.
+    pub fn absences(&self) -> Vec<String> {
+        self.missing.iter().map(Absence::to_string).collect()
+    }
+
     /// Returns warnings for the factory, and the inputs that the passport does not state, one sentence each in English.
     pub(crate) fn words(&self) -> Vec<String> {
         let warnings = self.warnings().into_iter().map(|words| plain(&warning(words).plain(Language::English)));
-        warnings.chain(self.absences.iter().cloned()).collect()
+        warnings.chain(self.absences()).collect()
     }
 
     /// Returns warnings for the factory, one sentence each.

@@ -30,7 +30,7 @@ pub(crate) mod verification;
 pub use crate::coefficients::MatrixRows;
 pub(crate) use crate::coefficients::Rows;
 use crate::document::Form;
-pub use crate::document::{Malformed, OtherSignature, RegisterUsed};
+pub use crate::document::{Malformed, RegisterUsed};
 use crate::text::Limits;
 pub use accuracy::{Accuracy, NoAccuracy, Stated};
 pub use checks::{Check, CheckName, Code};

@@ -110,7 +110,8 @@ fn numbers(path: &str, node: Option<Node>) -> Vec<(String, f64)> {
     }
 }
 
-/// Compares numbers that stand in the same place of their set, where `set` names the set to which a field belongs.
+/// Compares numbers that stand in the same place of their set, relative to the largest of it; `set` names the set to which
+/// a field belongs.
 fn compare_numbers(
     stated: &[(String, f64)],
     computed: &[(String, f64)],
@@ -122,24 +123,19 @@ fn compare_numbers(
         let of_set = |numbers: &[(String, f64)]| -> Vec<(String, f64)> {
             numbers.iter().filter(|(field, _)| set(field) == name).cloned().collect()
         };
-        compare_set(&of_set(stated), &of_set(computed), quantum(&name), wrong);
-    }
-}
-
-/// Compares the numbers of one set, relative to the largest of them.
-fn compare_set(stated: &[(String, f64)], computed: &[(String, f64)], quantum: f64, wrong: &mut Vec<WrongNumber>) {
-    let largest = computed.iter().fold(0.0, |largest: f64, (_, value)| largest.max(value.abs()));
-    // Allow 1.5 steps: neighbouring rounded values, plus their own binary64 rounding.
-    let limit = (LIMIT * largest).max(1.5 * quantum);
-    for index in 0..stated.len().max(computed.len()) {
-        let number = |numbers: &[(String, f64)]| numbers.get(index).map_or(f64::NAN, |(_, value)| *value);
-        let (s, c) = (number(stated), number(computed));
-        // Check that `c` is finite, because the limit would be infinite for an infinite number. A NaN fails every
-        // comparison.
-        let agrees = c.is_finite() && (s - c).abs() <= limit;
-        if !agrees {
-            let field = stated.get(index).or(computed.get(index)).map(|(field, _)| field.clone()).unwrap_or_default();
-            wrong.push(WrongNumber { field, stated: s, computed: c });
+        let (stated, computed) = (of_set(stated), of_set(computed));
+        let largest = computed.iter().fold(0.0, |largest: f64, (_, value)| largest.max(value.abs()));
+        // Allow 1.5 steps: neighbouring rounded values, plus their own binary64 rounding.
+        let limit = (LIMIT * largest).max(1.5 * quantum(&name));
+        for index in 0..stated.len().max(computed.len()) {
+            let number = |numbers: &[(String, f64)]| numbers.get(index).map_or(f64::NAN, |(_, value)| *value);
+            let (s, c) = (number(&stated), number(&computed));
+            // Check that `c` is finite, because the limit would be infinite for an infinite number. A NaN fails every
+            // comparison.
+            let agrees = c.is_finite() && (s - c).abs() <= limit;
+            if let Some((field, _)) = stated.get(index).or(computed.get(index)).filter(|_| !agrees) {
+                wrong.push(WrongNumber { field: field.clone(), stated: s, computed: c });
+            }
         }
     }
 }

@@ -8,11 +8,11 @@ use super::checks::{Check, CheckName, Code, REQUEST_FROM_THE_ISSUER};
 use super::content::{Content, Dated, PASSPORT_FORMAT};
 use super::{FORM, NAMESPACE, content, place, recomputed};
 use crate::coefficients::Coefficients;
-use crate::document::{OtherSignature, RegisterUsed, SignedText, sha256_hex};
+use crate::document::{RegisterUsed, SignedText, sha256_hex};
 use crate::earth::Place;
 use crate::text::scalar::day;
 use crate::text::{first_few, printable};
-use crate::trust::{AllowedSigners, Message, NotAuthorised, PublicKey, RevokedKeys};
+use crate::trust::{AllowedSigners, Message, NotAuthorised, PublicKey, RevokedKeys, SignatureError};
 use jiff::Timestamp;
 use std::collections::BTreeSet;
 use std::fmt::{self, Debug, Display, Formatter};
@@ -208,25 +208,12 @@ impl Verification {
     /// Returns the content if every requested check passed, even if the passport has expired or may have been
     /// superseded or withdrawn; otherwise `None`: for a comparison with the past, not for use.
     pub(crate) fn content_even_if_past(&self) -> Option<&Content> {
-        let past = [
-            Code::Ok,
-            Code::NotAsked,
-            Code::Expired,
-            Code::Withdrawn,
-            Code::Superseded,
-            Code::Moved,
-            Code::NotListed,
-            Code::RegisterStale,
-            Code::RegisterOlder,
-            Code::RegisterContradicted,
-            Code::RegisterUnknown,
-        ];
-        let good = |check: &Check| past.contains(&check.code);
+        let good = |check: &Check| match check.code {
+            Code::Ok | Code::NotAsked | Code::Expired => true,
+            // Every answer of a register is about the present.
+            code => check.name == CheckName::Register && code != Code::NotRun,
+        };
         self.content.as_deref().filter(|_| self.checks.iter().all(good))
-    }
-
-    fn without_content(checks: Vec<Check>) -> Self {
-        Self { checks, key: None, content: None, sha256: String::new(), register: None }
     }
 
     /// Returns the passport if every requested check passed, otherwise `None`; [`Verification::checks`] then tells what
@@ -303,13 +290,13 @@ pub(crate) fn verify_known(
 pub(crate) fn unreadable(why: &str, trust: &Trust, question: &Question) -> Verification {
     let mut run = Run { checks: Vec::new() };
     run.note(CheckName::Grammar, Code::Unreadable, why);
-    Verification::without_content(run.completed(question, trust))
+    Verification { checks: run.completed(question, trust), ..not_run() }
 }
 
 /// Creates the result for a passport that was not verified on request: no check was run.
 pub(crate) fn not_run() -> Verification {
     let checks = CheckName::ALL.map(|name| Check::not_run(name, false, "the passport was not verified"));
-    Verification::without_content(checks.into())
+    Verification { checks: checks.into(), key: None, content: None, sha256: String::new(), register: None }
 }
 
 /// Checks completed so far.
@@ -328,10 +315,10 @@ impl Run {
         match &split {
             Ok(_) => self.note(CheckName::Grammar, Code::Ok, good),
             Err(malformed) => {
-                let code = match malformed.other {
-                    None => Code::Malformed,
-                    Some(OtherSignature::Namespace(_)) => Code::WrongNamespace,
-                    Some(OtherSignature::KeyType(_)) => Code::UnsupportedKey,
+                let code = match malformed.signature {
+                    Some(SignatureError::WrongNamespace { .. }) => Code::WrongNamespace,
+                    Some(SignatureError::KeyType(_)) => Code::UnsupportedKey,
+                    _ => Code::Malformed,
                 };
                 self.note(CheckName::Grammar, code, &malformed.fault);
             }

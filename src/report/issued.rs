@@ -122,7 +122,7 @@ impl Report {
     }
 
     fn with(self, remarks: &Remarks) -> Self {
-        Self { noise_growth: remarks.noise, absences: remarks.absences.clone(), ..self }
+        Self { noise_growth: remarks.noise, absences: remarks.absences(), ..self }
     }
 }
 

@@ -1,9 +1,30 @@
 //! Advice on what a person or a program wrote where a number belongs, and on unknown names that are known ones in letters of
 //! another alphabet, or in another unit.
 
+#[cfg(feature = "yaml")]
+use super::Problems;
 use super::characters::{STRAIGHT_QUOTES, latin, typographic_quote};
-use super::placeholder::{self, is_placeholder};
 use super::{Advice, Cause, Node, Path};
+
+/// Word that a template contains instead of a value that only the user knows, and that no document of theirs may contain.
+const PLACEHOLDER: &str = "CHANGE";
+const REPLACE: &str = "replace the word from the template";
+
+/// Returns `true` if `text` is a placeholder: the word alone, or the word, a colon and what is to be written.
+fn is_placeholder(text: &str) -> bool {
+    let rest = text.trim().strip_prefix(PLACEHOLDER);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(':'))
+}
+
+/// Reports every placeholder in a hand-written document. A value with an error already, such as no number, gets the advice.
+#[cfg(feature = "yaml")]
+pub(crate) fn check_placeholders(node: &Node, problems: &mut Problems) {
+    node.each_text(&Path::Root, &mut |at, text| {
+        if is_placeholder(text) && !problems.advise(at, REPLACE) {
+            problems.at(at, format!("{text:?}"), "your value", REPLACE);
+        }
+    });
+}
 
 /// Text where a number is expected.
 #[derive(Debug, Clone, Copy)]
@@ -28,7 +49,7 @@ type Way = (fn(&Written) -> bool, Option<Cause>, &'static str);
 
 /// Ways in which people and programs write what is not a number; the first that fits is taken.
 const WAYS: &[Way] = &[
-    (|it| is_placeholder(it.text), None, placeholder::ADVICE),
+    (|it| is_placeholder(it.text), None, REPLACE),
     (|it| it.of == Of::Tolerance && it.text.contains(['±', '/']), None, TOLERANCE),
     (|it| it.text.chars().any(char::is_control), Some(Cause::ControlCharacter), ""),
     (|it| it.of == Of::Cell && it.text.contains(';'), None, "separate columns by commas"),

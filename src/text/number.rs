@@ -1,16 +1,9 @@
 //! Canonical form of numbers.
 
-/// Writes a binary64 value so that every YAML reader reads it back bit for bit.
-///
-/// The text is the shortest decimal that gives the value back, always with a decimal point. Below 1e-4 and from 1e16 it
-/// has an exponent with a sign and at least two digits (`1.0e-06`, because PyYAML and Psych read `1e-6` as a string).
-///
-/// # Panics
-/// Only in debug builds, if the value is not finite. Documents cannot contain such a value, because it is refused
-/// earlier.
+/// Returns a binary64 value in canonical form: see [`write`].
 pub(crate) fn decimal(value: f64) -> String {
     let mut text = String::new();
-    write(value, |part| text.push_str(part));
+    write(value, &mut text);
     text
 }
 
@@ -43,45 +36,46 @@ pub(crate) fn exponent_of(scientific: &str) -> i32 {
     scientific.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0)
 }
 
-/// Writes a value as [`decimal`] does, in parts.
-pub(super) fn write(value: f64, mut push: impl FnMut(&str)) {
+/// Writes a binary64 value so that every YAML reader reads it back bit for bit.
+///
+/// The text is the shortest decimal that gives the value back, always with a decimal point. Below 1e-4 and from 1e16 it
+/// has an exponent with a sign and at least two digits (`1.0e-06`, because PyYAML and Psych read `1e-6` as a string).
+///
+/// # Panics
+/// Only in debug builds, if the value is not finite. Documents cannot contain such a value, because it is refused
+/// earlier.
+pub(super) fn write(value: f64, out: &mut String) {
     debug_assert!(value.is_finite(), "only finite numbers are written");
     let magnitude = value.abs();
     if magnitude == 0.0 {
-        return push("0.0");
+        return out.push_str("0.0");
     }
     let plain = (1e-4..1e16).contains(&magnitude);
     let mut buffer = zmij::Buffer::new();
     let shortest = buffer.format_finite(value);
     if may_be_midway(value, shortest) {
-        let digits = if plain { format!("{value}") } else { format!("{value:e}") };
-        return push_parts(&digits, push);
+        return write_parts(&if plain { format!("{value}") } else { format!("{value:e}") }, out);
     }
     match shortest.strip_prefix('-').unwrap_or(shortest).strip_prefix("0.0000") {
         // Magnitude below 1e-4 and not below 1e-5.
         Some(digits) => {
             let (first, others) = digits.split_at(1);
-            push(if value < 0.0 { "-" } else { "" });
-            push(first);
-            push(".");
-            push(if others.is_empty() { "0" } else { others });
-            push("e-05");
+            let sign = if value < 0.0 { "-" } else { "" };
+            out.extend([sign, first, ".", if others.is_empty() { "0" } else { others }, "e-05"]);
         }
-        _ if plain => push(shortest),
-        _ => push_parts(shortest, push),
+        _ if plain => out.push_str(shortest),
+        _ => write_parts(shortest, out),
     }
 }
 
 /// Writes a number in canonical form from the digits of another form.
-fn push_parts(digits: &str, mut push: impl FnMut(&str)) {
+fn write_parts(digits: &str, out: &mut String) {
     let (mantissa, exponent) = digits.split_once('e').map_or((digits, None), |(m, e)| (m, Some(e)));
-    push(mantissa);
-    push(if mantissa.contains('.') { "" } else { ".0" });
+    out.extend([mantissa, if mantissa.contains('.') { "" } else { ".0" }]);
     if let Some(exponent) = exponent {
         let unsigned = exponent.trim_start_matches(['-', '+']);
-        push(if exponent.starts_with('-') { "e-" } else { "e+" });
-        push(if unsigned.len() < 2 { "0" } else { "" });
-        push(unsigned);
+        let sign = if exponent.starts_with('-') { "e-" } else { "e+" };
+        out.extend([sign, if unsigned.len() < 2 { "0" } else { "" }, unsigned]);
     }
 }
 

@@ -437,6 +437,6 @@ impl<T: Field, const N: usize> Field for [T; N] {
     }
 
     fn scan(scanner: &mut Scanner) -> Option<Self> {
-        scanner.array(T::scan)
+        scanner.list(T::scan)?.try_into().ok()
     }
 }

@@ -10,24 +10,19 @@ use super::characters::is_printable_ascii;
 use super::node::{location_of, plain_text};
 use super::problem::Unreadable;
 use super::without_secrets;
+use std::ops::Range;
 
-/// Returns `true` if `c` is allowed outside strings and comments: in keys, numbers, `true`, `false` and brackets.
-fn allowed_outside(c: char) -> bool {
-    c.is_ascii_lowercase() || c.is_ascii_digit() || " _:,{}[]+-.".contains(c)
-}
-
-/// Writes a string in double quotes, with the only two escapes of the rule, in parts.
-pub(super) fn write_quoted(text: &str, mut push: impl FnMut(&str)) {
-    push("\"");
+/// Writes a string in double quotes, with the only two escapes of the rule.
+pub(super) fn write_quoted(text: &str, out: &mut String) {
+    out.push('"');
     let mut rest = text;
     while let Some(at) = memchr::memchr2(b'"', b'\\', rest.as_bytes()) {
         let (plain, others) = rest.split_at(at);
         let (escaped, after) = others.split_at(1);
-        [plain, "\\", escaped].into_iter().for_each(&mut push);
+        out.extend([plain, "\\", escaped]);
         rest = after;
     }
-    push(rest);
-    push("\"");
+    out.extend([rest, "\""]);
 }
 
 /// Advice for text that is not as the writer writes it.
@@ -48,94 +43,89 @@ pub(crate) fn check<'a>(name: &str, bytes: &'a [u8], largest_bytes: usize) -> Re
         let (at, advice) = (location_of(bytes), "the file may be truncated; get it from the issuer again");
         return Err(Unreadable::whole(name, Some(at), "no line feed at the end", "a line feed", advice));
     }
-    if obeys_at_first_sight(text) {
-        return Ok(text);
-    }
-    let mut line_start = 0;
-    for line_end in memchr::memchr_iter(b'\n', bytes) {
-        if let Some((offset, found, expected)) = first_fault(&text[line_start..line_end]) {
-            let at = location_of(&bytes[..line_start + offset]);
-            return Err(Unreadable::whole(name, Some(at), found, expected, NOT_CANONICAL));
-        }
-        line_start = line_end + 1;
-    }
-    Ok(text)
+    first_fault(text).map_or(Ok(text), |(at, found, expected)| {
+        Err(Unreadable::whole(name, Some(location_of(&bytes[..at])), found, expected, NOT_CANONICAL))
+    })
 }
 
-/// Returns `true` if a fast check of many bytes at once shows that a text obeys the rule. It returns `false` for other
-/// texts, and also for those with an escape in a string or a line that might be a document marker.
-fn obeys_at_first_sight(text: &str) -> bool {
-    let marks = |line: &[u8]| line.first().is_some_and(|first| b"-.".contains(first));
-    let bytes = text.as_bytes();
-    if marks(bytes) || memchr::memchr_iter(b'\n', bytes).any(|end| marks(&bytes[end + 1..])) {
-        return false;
-    }
-    let mut rest = text;
-    let mut at_line_start = true;
-    while let Some(at) = memchr::memchr2(b'"', b'#', rest.as_bytes()) {
-        let (outside, inside) = (&rest[..at], &rest[at + 1..]);
-        if !may_stand_outside(outside.as_bytes()) {
-            return false;
-        }
-        let comment = rest[at..].starts_with('#');
-        if comment {
-            let line = outside.rfind('\n').map(|end| &outside[end + 1..]).or(at_line_start.then_some(outside));
-            let alone = line.is_some_and(|before| before.bytes().all(|byte| byte == b' '));
-            let end = memchr::memchr(b'\n', inside.as_bytes());
-            let Some(end) = end.filter(|&end| alone && is_printable_ascii(&inside.as_bytes()[..end])) else {
-                return false;
-            };
-            rest = &inside[end + 1..];
-        } else {
-            let Some(end) = memchr::memchr3(b'"', b'\\', b'\n', inside.as_bytes()) else { return false };
-            let (string, after) = inside.split_at(end);
-            if !(is_printable_ascii(string.as_bytes()) || string.chars().all(allowed_in_string)) {
-                return false;
-            }
-            let Some(after) = after.strip_prefix('"') else { return false };
-            rest = after;
-        }
-        at_line_start = comment;
-    }
-    may_stand_outside(rest.as_bytes())
-}
+/// First character that breaks the rule: byte offset, description and expected content.
+type Fault = (usize, String, &'static str);
 
-/// Returns `true` if lines, or the rest of a line, contain only characters that [`allowed_outside`] accepts.
-fn may_stand_outside(bytes: &[u8]) -> bool {
-    let may =
-        |byte: u8| matches!(byte, b'a'..=b'{' | b'0'..=b':' | b'+'..=b'.' | b' ' | b'[' | b']' | b'_' | b'}' | b'\n');
-    // As in `is_printable_ascii`.
-    bytes.iter().fold(true, |all, byte| all & may(*byte))
-}
-
-/// Returns the first character of a line that breaks the rule: byte offset, description and expected content. Returns
-/// `None` if the line obeys the rule.
-fn first_fault(line: &str) -> Option<(usize, String, &'static str)> {
+/// Returns the first fault of a text that ends with a line feed, or `None` if it obeys the rule.
+fn first_fault(text: &str) -> Option<Fault> {
+    let other = check_parts(text).err();
     // A document marker has only allowed characters, but starts another document, and readers differ in which one they
     // return.
-    if let Some(marker) = ["---", "..."].into_iter().find(|marker| line.starts_with(marker)) {
-        return Some((0, format!("document marker `{marker}`"), "a document without markers"));
-    }
-    let comment = line.trim_start_matches(' ').starts_with('#');
-    let mut in_string = false;
-    let mut escaped = false;
-    for (offset, c) in line.char_indices() {
-        let (allowed, expected) = match (comment, in_string) {
-            (true, _) => ((' '..='~').contains(&c), "printable ASCII in a comment"),
-            (_, true) if escaped => (c == '"' || c == '\\', "\" or \\ after the backslash"),
-            (_, true) => (allowed_in_string(c), "a character that is allowed in strings"),
-            (_, false) => (c == '"' || allowed_outside(c), "only keys, numbers, brackets and double-quoted strings"),
+    let marked = |start: usize| {
+        let marker = ["---", "..."].into_iter().find(|marker| text[start..].starts_with(marker))?;
+        Some((start, format!("document marker `{marker}`"), "a document without markers"))
+    };
+    let line_ends = memchr::memchr_iter(b'\n', text.as_bytes());
+    let marker = std::iter::once(0).chain(line_ends.map(|end| end + 1)).find_map(marked);
+    marker.into_iter().chain(other).min_by_key(|(at, ..)| *at)
+}
+
+/// Checks a text part by part: what is outside strings and comments, and each of them.
+fn check_parts(text: &str) -> Result<(), Fault> {
+    const OUTSIDE: &str = "only keys, numbers, brackets and double-quoted strings";
+    // What may be in keys, numbers, `true`, `false` and brackets, and between lines.
+    let may_stand_outside =
+        |byte: u8| matches!(byte, b'a'..=b'{' | b'0'..=b':' | b'+'..=b'.' | b' ' | b'[' | b']' | b'_' | b'}' | b'\n');
+    let bytes = text.as_bytes();
+    let mut at = 0;
+    loop {
+        let end = memchr::memchr2(b'"', b'#', &bytes[at..]).map_or(bytes.len(), |length| at + length);
+        check_all(text, at..end, may_stand_outside, OUTSIDE)?;
+        // A comment is alone on its line.
+        let begins_line = || matches!(bytes[..end].iter().rfind(|byte| **byte != b' '), None | Some(b'\n'));
+        at = match bytes.get(end) {
+            None => return Ok(()),
+            Some(b'"') => check_string(text, end + 1)?,
+            Some(_) if begins_line() => {
+                let line_end = memchr::memchr(b'\n', &bytes[end..]).map_or(bytes.len(), |length| end + length);
+                check_all(text, end..line_end, |byte| matches!(byte, b' '..=b'~'), "printable ASCII in a comment")?;
+                line_end
+            }
+            Some(_) => return Err((end, named('#'), OUTSIDE)),
         };
-        if !allowed {
-            return Some((offset, named(c), expected));
+    }
+}
+
+/// Checks that each byte of a part of a text is an ASCII character that `may` be there.
+fn check_all(text: &str, part: Range<usize>, may: impl Fn(u8) -> bool, expected: &'static str) -> Result<(), Fault> {
+    let bytes = &text.as_bytes()[part.clone()];
+    // As in `is_printable_ascii`.
+    if bytes.iter().fold(true, |all, byte| all & may(*byte)) {
+        return Ok(());
+    }
+    let at = part.start + bytes.iter().take_while(|byte| may(**byte)).count();
+    Err((at, text[at..].chars().next().map_or_else(String::new, named), expected))
+}
+
+/// Checks the string that begins at `at`, just after its opening quote, and returns the place after its closing quote.
+fn check_string(text: &str, mut at: usize) -> Result<usize, Fault> {
+    loop {
+        let rest = &text[at..];
+        let end = memchr::memchr3(b'"', b'\\', b'\n', rest.as_bytes()).unwrap_or(rest.len());
+        if !is_printable_ascii(&rest.as_bytes()[..end])
+            && let Some((odd, c)) = rest[..end].char_indices().find(|(_, c)| !allowed_in_string(*c))
+        {
+            return Err((at + odd, named(c), "a character that is allowed in strings"));
         }
-        if !comment {
-            let quote = c == '"' && !escaped;
-            escaped = in_string && c == '\\' && !escaped;
-            in_string ^= quote;
+        at += end;
+        let mut after = rest[end..].chars();
+        match (after.next(), after.next()) {
+            (Some('"'), _) => return Ok(at + 1),
+            (Some('\\'), Some('"' | '\\')) => at += 2,
+            (Some('\\'), Some(c)) if c != '\n' => {
+                return Err((at + 1, named(c), "\" or \\ after the backslash"));
+            }
+            (first, _) => {
+                let line_end = at + usize::from(first == Some('\\'));
+                return Err((line_end, "the end of the line within a string".to_owned(), "a closing double quote"));
+            }
         }
     }
-    in_string.then(|| (line.len(), "the end of the line within a string".to_owned(), "a closing double quote"))
 }
 
 fn named(c: char) -> String {
@@ -149,21 +139,16 @@ fn named(c: char) -> String {
 /// Returns the first difference of `text`, without comments and empty lines, from `canonical`: line number, found
 /// content and expected content. Returns `None` if they are equal.
 pub(crate) fn differs(text: &str, canonical: &str) -> Option<(usize, String, String)> {
-    let mut expected = canonical.lines();
-    let content = text
-        .lines()
-        .enumerate()
-        .filter(|(_, line)| !line.trim_matches(' ').is_empty() && !line.trim_start_matches(' ').starts_with('#'));
-    for (index, found) in content {
-        match expected.next() {
-            Some(expected) if expected == found => {}
-            other => {
-                let expected = other.map_or_else(|| "the end of the file".to_owned(), shortened);
-                return Some((index + 1, shortened(found), expected));
-            }
+    let end = || "the end of the file".to_owned();
+    let mut expected = canonical.lines().peekable();
+    // A carriage return is part of the line.
+    for (number, found) in (1..).zip(text.split('\n')) {
+        let words = found.trim_start_matches(' ');
+        if expected.next_if_eq(&found).is_none() && !words.is_empty() && !words.starts_with('#') {
+            return Some((number, shortened(found), expected.next().map_or_else(end, shortened)));
         }
     }
-    expected.next().map(|missing| (text.lines().count() + 1, "the end of the file".to_owned(), shortened(missing)))
+    expected.next().map(|missing| (text.lines().count() + 1, end(), shortened(missing)))
 }
 
 /// Returns a line as messages show it.
@@ -180,67 +165,13 @@ pub(super) fn shortened(line: &str) -> String {
 mod tests {
     use super::*;
 
-    #[test]
-    fn good_lines_are_accepted_and_all_but_escapes_at_first_sight() {
-        for line in [
-            "a: \"x\"",
-            "  # a comment!",
-            "  - {i: 1, s: \"\\\"\\\\\", m: [[1.0e-06, -2.0]]}",
-            "a: \"# no comment\"",
-            "",
-        ] {
-            assert_eq!(first_fault(line), None, "{line}");
-            assert!(obeys_at_first_sight(&format!("{line}\n")) || line.contains('\\'), "{line}");
-        }
-    }
-
-    /// Tests every character of a few blocks between neighbours: outside strings, inside them and in comments, on the
-    /// first, a middle and the last line. The fast check must agree with the full check.
-    #[test]
-    fn first_sight_sees_what_a_closer_look_sees() {
-        let around =
-            [("", ""), ("a: ", "1.0"), ("a: \"x", "y\""), ("  # ", "z"), ("a: \"x\\", "\"\""), ("a: \"", "\" #")];
-        let mut seen = 0;
-        for c in (0..0x250).filter_map(char::from_u32) {
-            for (before, after) in around {
-                let line = format!("{before}{c}{after}");
-                for text in [format!("{line}\n"), format!("b: \"c\"\n{line}\n# d\n"), format!("b: 1\n{line}\n{line}\n")]
-                {
-                    let obeys = text.lines().all(|line| first_fault(line).is_none());
-                    // `lines` hides a line ending with a carriage return.
-                    let obeys = obeys && !text.contains('\r');
-                    let first_sight = obeys_at_first_sight(&text);
-                    assert!(!first_sight || obeys, "{text:?}");
-                    // Escapes, and lines that begin like a document marker, need the full check.
-                    let simple = !text.contains('\\') && !text.lines().any(|line| line.starts_with(['-', '.']));
-                    assert!(!simple || first_sight == obeys, "{text:?}");
-                    seen += usize::from(first_sight);
-                }
-            }
-        }
-        assert!(seen > 1000, "{seen}");
-        // Test every position in a block.
-        for length in 0..100 {
-            let line = "a".repeat(length);
-            assert!(obeys_at_first_sight(&format!("{line}\n  - b\n")));
-            for bad in ["\n---\n", "\n...\n", "A\n", "\n\tb\n"] {
-                assert!(!obeys_at_first_sight(&format!("{line}{bad}")), "{length} {bad:?}");
-            }
-        }
-    }
-
-    /// Many bytes are tested without stopping: several faults must not cancel each other.
+    /// Many bytes are tested without stopping: several faults must not cancel each other, wherever they are.
     #[test]
     fn several_faults_do_not_cancel_each_other() {
         for faults in 1..=32 {
-            let line = format!("{}{}", "A".repeat(faults), "a".repeat(68 - faults));
-            assert!(!may_stand_outside(line.as_bytes()), "{faults}");
+            let text = format!("{}{}{}\n", "a".repeat(68 - faults), "A".repeat(faults), "a".repeat(68));
+            assert_eq!(first_fault(&text).map(|fault| fault.0), Some(68 - faults));
         }
-        for begun in 1..=10 {
-            let lines = format!("a: 1{}{}\n", "\n-".repeat(begun), "a".repeat(68));
-            assert!(!obeys_at_first_sight(&lines), "{begun}");
-        }
-        assert!(may_stand_outside("a".repeat(68).as_bytes()));
     }
 
     /// Expected: Unicode's code points, and letters that a reader sees as they are.
@@ -252,7 +183,7 @@ mod tests {
             ("a: \u{e9}", "character U+00E9"),
             ("a: \u{7f}", "character U+007F"),
         ] {
-            assert_eq!(first_fault(line).map(|fault| fault.1).as_deref(), Some(name));
+            assert_eq!(first_fault(&format!("{line}\n")).map(|fault| fault.1).as_deref(), Some(name));
         }
     }
 

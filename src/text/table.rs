@@ -362,6 +362,9 @@ fn is_without_point(cells: &[Cell]) -> bool {
     cells.iter().all(|cell| !cell.text.contains('.'))
 }
 
+/// Beginnings of the names of statistics: English, Russian, German.
+const STATISTICS: &str = "mean average avg std stdev sd median total sum min max rms средн ско сумм мин макс mittel";
+
 struct Header<'a> {
     /// Requested columns that are present.
     columns: Vec<&'a str>,
@@ -500,26 +503,6 @@ impl<'a> Header<'a> {
 
     /// Describes a row of names, units or statistics instead of readings, with its cause; `None` for any other row.
     fn not_readings(&self, cells: &[Cell]) -> Option<(&'static str, Cause)> {
-        const STATISTICS: [&str; 18] = [
-            "mean",
-            "average",
-            "avg",
-            "std",
-            "stdev",
-            "sd",
-            "median",
-            "total",
-            "sum",
-            "min",
-            "max",
-            "rms",
-            "средн",
-            "ско",
-            "сумм",
-            "мин",
-            "макс",
-            "mittel",
-        ];
         let is_name = |name: &&str| cells.iter().any(|cell| cell.text.trim_start_matches('\u{FEFF}') == *name);
         let measured = self.order[self.measured.clone()].iter().filter_map(|place| cells.get(*place));
         let indices = self.order[..self.measured.start].iter().filter_map(|place| cells.get(*place));
@@ -529,7 +512,7 @@ impl<'a> Header<'a> {
         let is_unit = |cell: &Cell| advice::unit(&cell.text).is_some();
         let is_statistic = |cell: &Cell| {
             let word = cell.text.to_lowercase();
-            STATISTICS.iter().any(|statistic| word.starts_with(statistic))
+            STATISTICS.split_whitespace().any(|statistic| word.starts_with(statistic))
         };
         if self.columns[..self.measured.end].iter().all(is_name) {
             Some(("the header again", Cause::RepeatedHeader))

@@ -3,8 +3,8 @@
 //! This reader is stricter than OpenSSH, which skips a line that it cannot read. Here such a line is an error, because
 //! its author meant to trust a key or to end that trust. Only keys that cannot sign passports are skipped here too.
 
-use super::pattern::matches_list;
-use super::signer_line::{self, SignerLine};
+use super::principal::matches_list;
+use super::signer_line::{self, Options, SignerLine};
 use super::{KeyPoint, PublicKey, lines};
 use crate::text::kind::mistaken;
 use crate::text::{Kind, Printable, Unreadable};
@@ -57,7 +57,7 @@ impl AllowedSigners {
     }
 
     fn read(name: &str, text: &[u8]) -> Result<Self, Unreadable> {
-        let kept = lines::each(name, &lines::of(name, text)?, signer_line::read)?;
+        let kept = lines::read(name, text, signer_line::read)?;
         if kept.is_empty() {
             let advice = "add the line that `keygen` prints";
             return Err(Unreadable::whole(name, None, "no key", "a line for each trusted key", advice));
@@ -84,7 +84,7 @@ impl AllowedSigners {
 
     /// Returns the curve point of a key in the list, decoded once; `None` for any other key.
     pub(crate) fn point(&self, key: &PublicKey) -> Option<&KeyPoint> {
-        let line = self.lines.iter().find(|line| line.key == key.blob)?;
+        let line = self.lines.iter().find(|line| line.key == *key)?;
         line.point.get_or_init(|| KeyPoint::of(key)).as_ref()
     }
 
@@ -109,7 +109,7 @@ impl AllowedSigners {
         at: Timestamp,
     ) -> Result<(), NotAuthorised> {
         let mut nearest = NotAuthorised::UnknownKey;
-        for line in self.lines.iter().filter(|line| line.key == key.blob) {
+        for line in self.lines.iter().filter(|line| line.key == *key) {
             match line.authorise(principal, namespace, at) {
                 Ok(()) => return Ok(()),
                 Err(miss) => nearest = nearest.nearer(miss),
@@ -124,13 +124,14 @@ impl SignerLine {
         if !matches_list(principal, &self.principals) {
             return Err(NotAuthorised::WrongPrincipal(vec![self.principals.clone()]));
         }
-        if let Some(allowed) = self.namespaces.as_deref().filter(|allowed| !matches_list(namespace, allowed)) {
+        let Options { namespaces, valid_after, valid_before } = &self.options;
+        if let Some(allowed) = namespaces.as_deref().filter(|allowed| !matches_list(namespace, allowed)) {
             return Err(NotAuthorised::WrongNamespace(allowed.to_owned()));
         }
-        if let Some(from) = self.valid_after.filter(|from| at.as_second() < from.as_second()) {
+        if let Some(from) = valid_after.filter(|from| at.as_second() < from.as_second()) {
             return Err(NotAuthorised::NotYetValid(from));
         }
-        if let Some(until) = self.valid_before.filter(|until| at.as_second() > until.as_second()) {
+        if let Some(until) = valid_before.filter(|until| at.as_second() > until.as_second()) {
             return Err(NotAuthorised::Expired(until));
         }
         Ok(())

@@ -31,22 +31,6 @@ fn refusal(found: impl Into<String>, expected: &str) -> Problem {
     Problem::whole(found, expected, "transfer the list again, or create it again with `ssh-keygen -k`")
 }
 
-/// Section types (PROTOCOL.krl, section 1).
-mod section {
-    pub(super) const CERTIFICATES: u8 = 1;
-    pub(super) const EXPLICIT_KEYS: u8 = 2;
-    pub(super) const SHA1: u8 = 3;
-    pub(super) const SHA256: u8 = 5;
-}
-
-/// Section types inside a section of certificates (PROTOCOL.krl, section 2).
-mod certificates {
-    pub(super) const SERIAL_LIST: u8 = 0x20;
-    pub(super) const SERIAL_RANGE: u8 = 0x21;
-    pub(super) const SERIAL_BITMAP: u8 = 0x22;
-    pub(super) const KEY_ID: u8 = 0x23;
-}
-
 /// Largest mpint that OpenSSH reads, in bytes without the zero before a number whose highest bit is set.
 const LARGEST_MPINT_BYTES: usize = 2048;
 
@@ -76,11 +60,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<Revoked, Problem> {
         let at = wire.offset;
         let kind = wire.byte()?;
         let body = wire.nested()?;
+        // PROTOCOL.krl, section 1.
         match kind {
-            section::CERTIFICATES => certificates(body)?,
-            section::EXPLICIT_KEYS => collect(body, None, &mut revoked.keys)?,
-            section::SHA1 => collect(body, Some(20), &mut revoked.sha1)?,
-            section::SHA256 => collect(body, Some(32), &mut revoked.sha256)?,
+            1 => certificates(body)?,
+            2 => collect(body, None, &mut revoked.keys)?,
+            3 => collect(body, Some(20), &mut revoked.sha1)?,
+            5 => collect(body, Some(32), &mut revoked.sha256)?,
             unknown => return Err(unknown_section(unknown, at)),
         }
     }
@@ -119,18 +104,19 @@ fn certificates(mut body: Wire) -> Result<(), Problem> {
         let at = body.offset;
         let kind = body.byte()?;
         let mut part = body.nested()?;
+        // PROTOCOL.krl, section 2: serial numbers one by one, as a range and as a bitmap, and names of certificates.
         match kind {
-            certificates::SERIAL_LIST => {
+            0x20 => {
                 while !part.rest.is_empty() {
                     serials(part.u64()?, 0, at)?;
                 }
             }
-            certificates::SERIAL_RANGE => {
+            0x21 => {
                 let (first, last) = (part.u64()?, part.u64()?);
                 serials(first, last.checked_sub(first).ok_or_else(|| bad_serials(at))?, at)?;
             }
-            certificates::SERIAL_BITMAP => bitmap(&mut part, at)?,
-            certificates::KEY_ID => {
+            0x22 => bitmap(&mut part, at)?,
+            0x23 => {
                 while !part.rest.is_empty() {
                     name(&mut part)?;
                 }

@@ -1,4 +1,4 @@
-//! Checks that apply to all textual trust files before their lines are read.
+//! Lines of textual trust files, and the checks that apply to all of these files.
 
 use super::LARGEST_TRUST_FILE_BYTES;
 use crate::text::node::{odd, utf8, without_byte_order_mark};
@@ -36,19 +36,32 @@ impl Line<'_> {
     }
 }
 
-/// Reads each line of a trust file.
+/// Reads each line of a trust file that is neither empty nor a comment; line endings are LF or CRLF, and a byte order mark
+/// is left out, as in other hand-written files.
 ///
 /// # Errors
-/// Returns [`Unreadable`] with the errors in the lines. Of many of one kind, which mostly have one cause, only the
-/// first is shown, with the number of others.
-pub(super) fn each<T>(
+/// Returns [`Unreadable`] if the file is larger than [`LARGEST_TRUST_FILE_BYTES`], is not UTF-8, or contains a private
+/// key, or with the errors in the lines. Of many of one kind, which mostly have one cause, only the first is shown, with
+/// the number of others.
+pub(super) fn read<T>(
     name: &str,
-    lines: &[Line],
+    bytes: &[u8],
     read: impl Fn(&Line) -> Result<T, Vec<Problem>>,
 ) -> Result<Vec<T>, Unreadable> {
+    check_size(name, bytes)?;
+    let text = utf8(name, without_byte_order_mark(bytes), None)?;
+    if text.contains("PRIVATE KEY-----") {
+        // The lines of a private key must not appear in messages, because messages end up in logs.
+        let advice = "use the line of the .pub file, and keep the private key secret";
+        return Err(Unreadable::whole(name, None, "a private key", "public keys", advice));
+    }
     let (mut kept, mut problems) = (Vec::new(), Vec::new());
-    for line in lines {
-        match read(line) {
+    for (number, text) in (1..).zip(text.split('\n')) {
+        let text = text.strip_suffix('\r').unwrap_or(text);
+        if text.trim().is_empty() || text.trim_start().starts_with('#') {
+            continue;
+        }
+        match read(&Line { number, text }) {
             Ok(line) => kept.push(line),
             Err(mut found) => problems.append(&mut found),
         }
@@ -69,44 +82,20 @@ pub(super) fn check_size(name: &str, bytes: &[u8]) -> Result<(), Unreadable> {
     Err(Unreadable::whole(name, None, found, expected, "check that this is the right file"))
 }
 
-/// Returns the lines of a trust file that are neither empty nor comments; line endings are LF or CRLF, and a byte order
-/// mark is left out, as in other hand-written files.
-///
-/// # Errors
-/// Returns [`Unreadable`] if the file is larger than [`LARGEST_TRUST_FILE_BYTES`], is not UTF-8, or contains a private
-/// key.
-pub(super) fn of<'a>(name: &str, bytes: &'a [u8]) -> Result<Vec<Line<'a>>, Unreadable> {
-    check_size(name, bytes)?;
-    let text = utf8(name, without_byte_order_mark(bytes), None)?;
-    if text.contains("PRIVATE KEY-----") {
-        // The lines of a private key must not appear in messages, because messages end up in logs.
-        let advice = "use the line of the .pub file, and keep the private key secret";
-        return Err(Unreadable::whole(name, None, "a private key", "public keys", advice));
-    }
-    let lines = text
-        .split('\n')
-        .enumerate()
-        .map(|(index, line)| Line { number: index + 1, text: line.strip_suffix('\r').unwrap_or(line) });
-    Ok(lines.filter(|line| !line.text.trim().is_empty() && !line.text.trim_start().starts_with('#')).collect())
-}
-
 #[cfg(all(test, feature = "factory"))]
 mod tests {
     use super::*;
 
     #[test]
-    fn comments_and_empty_lines_are_left_out() {
-        let text = "# one\n\n \t\r\n  a b\r\n\t# two\nc";
-        for text in [text, &format!("\u{FEFF}{text}"), "\u{FEFF}\n\n\n  a b\n\nc"] {
-            let lines = of("f", text.as_bytes()).unwrap();
-            let kept: Vec<_> = lines.iter().map(|line| (line.number, line.text)).collect();
-            assert_eq!(kept, [(4, "  a b"), (6, "c")], "{text:?}");
-        }
+    fn a_byte_order_mark_shifts_no_line() {
+        let text = "\u{FEFF}\n# one\n \t\r\n  a b\r\n\nc";
+        let kept = read("f", text.as_bytes(), |line| Ok((line.number, line.text.to_owned()))).unwrap();
+        assert_eq!(kept, [(4, "  a b".to_owned()), (6, "c".to_owned())]);
     }
 
     #[test]
     fn other_encodings_are_named_with_their_place() {
-        let refusal = |bytes: &[u8]| of("f", bytes).unwrap_err().to_string();
+        let refusal = |bytes: &[u8]| read("f", bytes, |_| Ok(())).unwrap_err().to_string();
         assert!(refusal(b"\xFF\xFEa\0").contains("found UTF-16"));
         assert!(refusal(b"a\0\n\0").contains("found UTF-16"));
         assert!(refusal("# жж\nж".as_bytes().split_last().unwrap().1).starts_with("f:2:1: found byte 0xD0"));
@@ -116,7 +105,7 @@ mod tests {
     #[test]
     fn a_private_key_does_not_come_back_in_the_message() {
         let key = crate::trust::SigningKey::generate().unwrap().to_openssh("c", None).unwrap();
-        let refusal = of("f", key.as_bytes()).unwrap_err().to_string();
+        let refusal = read("f", key.as_bytes(), |_| Ok(())).unwrap_err().to_string();
         assert!(refusal.starts_with("f: found a private key, expected public keys"), "{refusal}");
         assert!(key.lines().all(|line| !refusal.contains(line)), "{refusal}");
     }

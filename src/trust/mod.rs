@@ -10,7 +10,7 @@
 //! * `allowed_signers`: principals, namespaces and validity periods of keys (ssh-keygen(1), ALLOWED SIGNERS).
 //! * `revoked_keys`: keys that are no longer trusted, in a key revocation list (OpenSSH's PROTOCOL.krl) or a list of
 //!   public keys.
-//! * `identity`: names of signers in lists of allowed signers.
+//! * `principal`: names of signers in lists of allowed signers, and patterns of them.
 //! * `error`: errors of keys and signatures.
 //!
 //! A correct signature shows that the bytes are those that the key signed; [`AllowedSigners`] and [`RevokedKeys`]
@@ -18,10 +18,9 @@
 
 pub(crate) mod allowed_signers;
 pub(crate) mod error;
-pub(crate) mod identity;
 mod krl;
 mod lines;
-mod pattern;
+pub(crate) mod principal;
 pub(crate) mod public_key;
 pub(crate) mod revoked_keys;
 mod signer_line;
@@ -32,8 +31,8 @@ mod wire;
 
 pub use allowed_signers::{AllowedSigners, NotAuthorised};
 pub use error::{KeyError, SignatureError};
-pub use identity::BadIdentity;
-pub(crate) use identity::check_identity;
+pub use principal::BadIdentity;
+pub(crate) use principal::check_identity;
 pub use public_key::PublicKey;
 pub use revoked_keys::RevokedKeys;
 #[cfg(feature = "factory")]

@@ -74,7 +74,7 @@ fn text(name: &str, bytes: &[u8], skipped: &mut Vec<String>) -> Result<Revoked, 
         let start = line.text.len() - line.text.trim_start().len();
         line.control_character().map_or_else(|| read_key(line, start), Err).map_err(|problem| vec![problem])
     };
-    for key in lines::each(name, &lines::of(name, bytes)?, read)? {
+    for key in lines::read(name, bytes, read)? {
         match key {
             AnyKey::Signing(key) | AnyKey::Other { certified: Some(key), .. } => drop(revoked.keys.insert(key.blob)),
             AnyKey::Other { algorithm, .. } => skipped.push(algorithm),

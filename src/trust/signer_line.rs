@@ -1,9 +1,9 @@
 //! A line of allowed signers (ssh-keygen(1), ALLOWED SIGNERS): `principals [options] key-type base64-key [comment]`.
 
 use super::lines::Line;
-use super::pattern::LONGEST_PATTERN;
-use super::public_key::{AnyKey, fingerprint, shortened};
-use super::{KeyError, KeyPoint};
+use super::principal::LONGEST_PATTERN;
+use super::public_key::{AnyKey, shortened};
+use super::{KeyError, KeyPoint, PublicKey};
 use crate::text::Cause;
 use crate::text::problem::{MOST_COUNTED, Problem};
 use jiff::Timestamp;
@@ -16,23 +16,21 @@ use std::sync::OnceLock;
 pub(crate) struct SignerLine {
     /// Patterns of the principals that the key may sign as.
     pub(crate) principals: String,
+    pub(crate) options: Options,
+    pub(crate) key: PublicKey,
+    /// Curve point of the key, decoded at the first request.
+    pub(super) point: OnceLock<Option<KeyPoint>>,
+}
+
+/// Namespaces and validity period that a key is trusted for.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Options {
     /// Patterns of the namespaces that the key may sign for; any namespace if `None`.
     pub(crate) namespaces: Option<String>,
     /// First instant of the validity period; unlimited if `None`.
     pub(crate) valid_after: Option<Timestamp>,
     /// Last instant of the validity period; unlimited if `None`.
     pub(crate) valid_before: Option<Timestamp>,
-    /// Key as SSH transmits it.
-    pub(super) key: Vec<u8>,
-    /// Curve point of the key, decoded at the first request.
-    pub(super) point: OnceLock<Option<KeyPoint>>,
-}
-
-impl SignerLine {
-    /// Returns the fingerprint of the key as `ssh-keygen -l` prints it.
-    pub(crate) fn fingerprint(&self) -> String {
-        fingerprint(&self.key)
-    }
 }
 
 /// Reads a line and reports every error in it. Of a line with a key that cannot sign passports, returns the type of that
@@ -62,11 +60,8 @@ pub(super) fn read(line: &Line) -> Result<Result<SignerLine, String>, Vec<Proble
         return Err(blank(at, "a space in the list of principals"));
     }
     check_patterns(line, start, "principals", &principals, &mut problems);
-    let (namespaces, valid_after, valid_before) = (None, None, None);
-    let (key, point) = (Vec::new(), OnceLock::new());
-    let mut signer = SignerLine { principals, namespaces, valid_after, valid_before, key, point };
+    let mut options = Options::default();
     let mut key_at = at;
-    let mut other = None;
     if !AnyKey::is_type(word(line.text, at)) && read_key(line, at).is_err() {
         let unclosed = |quote| line.problem(at + quote, "", "a quote that is not closed", "a closing quote", "");
         let end = at + length_before(&BLANKS, &line.text[at..]).map_err(|quote| vec![unclosed(quote)])?;
@@ -76,14 +71,17 @@ pub(super) fn read(line: &Line) -> Result<Result<SignerLine, String>, Vec<Proble
         if continues && !AnyKey::is_type(next) && !line.text[at..end].contains("cert-authority") {
             return Err(blank(end, "a space between or within the options"));
         }
-        signer.read_options(line, at, end, &mut problems);
+        options.read(line, at, end, &mut problems);
     }
     match read_key(line, key_at) {
-        Ok(AnyKey::Signing(key)) => signer.key = key.blob,
-        Ok(AnyKey::Other { algorithm, .. }) => other = Some(algorithm),
-        Err(problem) => problems.push(problem),
+        Ok(_) if !problems.is_empty() => Err(problems),
+        Ok(AnyKey::Signing(key)) => Ok(Ok(SignerLine { principals, options, key, point: OnceLock::new() })),
+        Ok(AnyKey::Other { algorithm, .. }) => Ok(Err(algorithm)),
+        Err(problem) => {
+            problems.push(problem);
+            Err(problems)
+        }
     }
-    if problems.is_empty() { Ok(other.map_or(Ok(signer), Err)) } else { Err(problems) }
 }
 
 const BLANKS: [char; 2] = [' ', '\t'];
@@ -153,8 +151,8 @@ fn length_before(ends: &[char], text: &str) -> Result<usize, usize> {
     quote.map_or(Ok(text.len()), Err)
 }
 
-impl SignerLine {
-    fn read_options(&mut self, line: &Line, start: usize, end: usize, problems: &mut Vec<Problem>) {
+impl Options {
+    fn read(&mut self, line: &Line, start: usize, end: usize, problems: &mut Vec<Problem>) {
         let mut seen = Vec::new();
         let mut at = start;
         while at < end && problems.len() < MOST_COUNTED {
@@ -300,6 +298,14 @@ mod tests {
 
     fn seconds(text: &str) -> Option<i64> {
         instant(text).ok().map(Timestamp::as_second)
+    }
+
+    #[test]
+    fn dates_in_utc_are_read() {
+        assert_eq!(seconds("20260101Z"), Some(1_767_225_600));
+        assert_eq!(seconds("202601010130Z"), Some(1_767_225_600 + 5400));
+        assert_eq!(seconds("20260101013007z"), Some(1_767_225_600 + 5407));
+        assert_eq!(seconds("20240229Z"), Some(1_709_164_800));
     }
 
     #[test]

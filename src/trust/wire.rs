@@ -74,24 +74,3 @@ impl<'a> Wire<'a> {
 pub(super) fn string(bytes: &[u8]) -> Vec<u8> {
     [&(bytes.len() as u32).to_be_bytes()[..], bytes].concat()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn strings_are_read_and_offsets_count_from_the_start() {
-        let mut wire = Wire::new(b"\x00\x00\x00\x06\x00\x00\x00\x02abz");
-        let mut nested = wire.nested().unwrap();
-        assert_eq!(nested.string(), Ok(&b"ab"[..]));
-        assert_eq!((nested.offset, nested.rest.is_empty()), (10, true));
-        assert_eq!(wire.byte(), Ok(b'z'));
-        assert_eq!(wire.byte(), Err(Truncated { offset: 11, needed: 1, left: 0 }));
-    }
-
-    #[test]
-    fn a_length_past_the_end_is_refused_in_words() {
-        let error = Wire::new(b"\xff\xff\xff\xffab").string().unwrap_err();
-        assert_eq!(error.to_string(), "an item of 4294967295 bytes at byte 4, where only 2 bytes are left");
-    }
-}

@@ -268,13 +268,11 @@ fn passports(overview: &Overview, time: Timestamp, is_of_a_laboratory: bool) -> 
 }
 
 fn keys(trust: &Trust, time: Timestamp) -> Vec<KeyLine> {
-    let lines = trust.signers.lines().iter().map(|key| KeyLine {
-        valid: key.valid_after.is_none_or(|from| from <= time) && key.valid_before.is_none_or(|until| time <= until),
-        principals: key.principals.clone(),
-        namespaces: key.namespaces.clone(),
-        fingerprint: key.fingerprint(),
-        valid_after: key.valid_after,
-        valid_before: key.valid_before,
+    let lines = trust.signers.lines().iter().map(|line| {
+        let (principals, namespaces) = (line.principals.clone(), line.options.namespaces.clone());
+        let (valid_after, valid_before) = (line.options.valid_after, line.options.valid_before);
+        let valid = valid_after.is_none_or(|from| from <= time) && valid_before.is_none_or(|until| time <= until);
+        KeyLine { principals, namespaces, fingerprint: line.key.fingerprint(), valid_after, valid_before, valid }
     });
     lines.collect()
 }

@@ -109,3 +109,11 @@ fn the_same_mistake_in_many_lines_is_one_error_with_a_count() {
     let sixty = refused(&format!("a {} {key}", sixty.join(",")));
     assert!(sixty.contains("found `x0` (and 59 more of this kind, up to line 1), expected"), "{sixty}");
 }
+
+#[test]
+fn quotes_inside_values_are_kept_and_keys_of_other_types_are_counted() {
+    let rsa = "ssh-rsa AAAAB3NzaC1yc2EAAAADAQABAAAAAwUAAQ==";
+    let signers = parsed(&format!("a namespaces=\"x\\\"y,z\" {}\nb {rsa}", key().to_openssh()));
+    assert_eq!(signers.lines()[0].options.namespaces.as_deref(), Some("x\"y,z"));
+    assert_eq!((signers.lines().len(), signers.skipped), (1, vec!["ssh-rsa".to_owned()]));
+}

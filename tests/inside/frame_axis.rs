@@ -162,7 +162,6 @@ mod passports {
     use dtg_passport::calibration::{Method, Options, Readings, Setup, calibrate};
     use dtg_passport::coefficients::PositionIndex;
     use dtg_passport::laboratory::Laboratory;
-    use dtg_passport::passport::annotations::absences;
     use dtg_passport::passport::checks::Code;
     use dtg_passport::passport::reissue::{Order, changes};
     use dtg_passport::passport::{Content, Verification, reissue, verify};
@@ -243,7 +242,7 @@ mod passports {
         let content = draft.content();
         assert_eq!(content.matrices, None);
         let words = "Some of the eight standard positions are not certified; there are no matrices, and only least";
-        assert!(absences(content).iter().any(|sentence| sentence.starts_with(words)));
+        assert!(draft.remarks().absences().iter().any(|sentence| sentence.starts_with(words)));
         assert!(draft.payload().contains("# Axes: base xi (axis of the frame) at the azimuth 0.0 deg, clockwise"));
         assert!(!draft.payload().contains("base xi east"));
         let check = content.self_check.as_ref().expect("the positions determine the parameters");

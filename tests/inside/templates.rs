@@ -6,6 +6,7 @@ use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::site::Site;
 use crate::template::{self, DCC, GYRO, LABORATORY};
+use crate::text::{Problems, advice, yaml};
 
 /// Fills in what is `CHANGE`, cells of a table with different numbers.
 fn filled(template: &str) -> String {
@@ -48,4 +49,17 @@ fn what_is_a_comment_is_right_too() {
     let dcc = filled(&uncommented(DCC));
     let read = Administrative::from_yaml("dcc.yaml", dcc.as_bytes()).unwrap();
     assert!(read.traceable == Some(true) && read.issued.is_some(), "{dcc}");
+}
+
+/// Expected: by hand. A comment and another word that begins like the placeholder are none.
+#[test]
+fn every_placeholder_is_found_at_its_place() {
+    let text = "a: \"CHANGE\"  # CHANGE\nb: {c: [\"good\", \"CHANGE: where from\"]}\nd: \"CHANGED\"\n";
+    let (node, text) = yaml::tree("f.yaml", text.as_bytes()).unwrap();
+    let mut problems = Problems::default();
+    advice::check_placeholders(&node, &mut problems);
+    let refused = problems.refuse("f.yaml", &text).to_string();
+    assert!(refused.contains("f.yaml:1:4: a: found \"CHANGE\", expected your value"), "{refused}");
+    assert!(refused.contains("b.c[1]: found \"CHANGE: where from\""), "{refused}");
+    assert_eq!(refused.matches("f.yaml:").count(), 2, "{refused}");
 }

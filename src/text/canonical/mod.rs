@@ -7,9 +7,7 @@ pub(crate) mod scanner;
 mod writer;
 
 pub(crate) use scanner::Scanner;
-#[cfg(any(test, fuzzing))]
-pub(crate) use writer::write_bare;
-pub(crate) use writer::{write, write_some};
+pub(crate) use writer::{write, write_bare, write_some};
 
 use super::{Field, Limits, Location, Problem, rule};
 
@@ -21,11 +19,13 @@ use super::{Field, Limits, Location, Problem, rule};
 /// Returns the first place that is not in canonical form, and what was found there, up to the end of its line.
 pub(crate) fn read<T: Field>(text: &str, limits: Limits) -> Result<T, Problem> {
     let document = scanner::scan(text, limits, T::scan)?;
-    if writer::is_written(&document, text) {
-        return Ok(document);
+    match rule::differs(text, &write_bare(&document)) {
+        None => Ok(document),
+        Some((line, found, expected)) => {
+            let at = Location { line, column: 1 };
+            Err(Problem::new(Some(at), "", found, expected, rule::NOT_CANONICAL))
+        }
     }
-    let (line, found, expected) = rule::differs(text, &writer::write_bare(&document)).unwrap_or_default();
-    Err(Problem::new(Some(Location { line, column: 1 }), "", found, expected, rule::NOT_CANONICAL))
 }
 
 /// Returns the text after any empty lines and comments.

@@ -5,7 +5,7 @@ use crate::text::node::{Node, location_of};
 use crate::text::problem::UPDATE;
 use crate::text::{Limits, Problem, rule};
 
-/// Reads a text with `read`. It may accept a number in another form, so check the result with [`super::is_written()`].
+/// Reads a text with `read`. It may accept a number in another form, so write the result again and compare the texts.
 ///
 /// # Errors
 /// Returns the place at which the scanner stopped.
@@ -164,26 +164,6 @@ impl<'t> Scanner<'t> {
         })
     }
 
-    /// Reads a list of exactly `N` items, none of them a mapping, on one line.
-    pub(crate) fn array<T: Clone, const N: usize>(&mut self, read: impl Fn(&mut Self) -> Option<T>) -> Option<[T; N]> {
-        self.on_the_line(|scanner| {
-            scanner.take("[")?;
-            let mut item = read(scanner)?;
-            let mut complete = true;
-            let items = std::array::from_fn(|index| {
-                if index > 0 {
-                    match scanner.take(", ").and_then(|()| read(scanner)) {
-                        Some(next) => item = next,
-                        None => complete = false,
-                    }
-                }
-                item.clone()
-            });
-            scanner.take("]")?;
-            complete.then_some(items)
-        })
-    }
-
     /// Reads a value that is neither list nor mapping.
     pub(crate) fn scalar(&mut self) -> Option<Node> {
         self.on_the_line(|scanner| match scanner.rest.strip_prefix('"') {
@@ -206,9 +186,7 @@ impl<'t> Scanner<'t> {
     }
 
     fn word(&mut self) -> Option<&'t str> {
-        let is_end = |byte: u8| matches!(byte, b',' | b']' | b'}' | b'\n');
-        // Most bytes are digits.
-        let end = self.rest.bytes().position(|byte| !byte.is_ascii_digit() && is_end(byte))?;
+        let end = self.rest.bytes().position(|byte| matches!(byte, b',' | b']' | b'}' | b'\n'))?;
         let (word, rest) = self.rest.split_at(end);
         self.rest = rest;
         Some(word)

@@ -1,6 +1,5 @@
-//! Writer of the canonical form, whose output is either a text or compared with one.
+//! Writer of the canonical form.
 
-use super::after_comments;
 use crate::text::field::Sink;
 use crate::text::{Field, number, rule};
 
@@ -16,54 +15,21 @@ pub(crate) fn write(document: &impl Field, comments: Comments) -> String {
 
 /// Writes a mapping without comments, the form in which texts are compared.
 pub(crate) fn write_bare(document: &impl Field) -> String {
-    Writer::new(String::with_capacity(USUAL_BYTES)).written(document)
+    let mut text = String::with_capacity(USUAL_BYTES);
+    document.emit(&mut Writer::new(&mut text));
+    text
 }
 
 /// Appends the `wanted` top-level keys of a mapping, with all keys nested in them, to a text.
 pub(crate) fn write_some(text: &mut String, document: &impl Field, comments: Comments, wanted: &dyn Fn(&str) -> bool) {
-    let writer = Writer { wanted, comments: Some(comments), ..Writer::new(std::mem::take(text)) };
-    *text = writer.written(document);
-}
-
-/// Returns `true` if `text`, without its comments and empty lines, is what [`write()`] makes of the document.
-pub(super) fn is_written(document: &impl Field, text: &str) -> bool {
-    let compared = Writer::new(Compared(Some(text.as_bytes()))).written(document);
-    compared.0.is_some_and(|rest| after_comments(rest).is_empty())
+    document.emit(&mut Writer { wanted, comments: Some(comments), ..Writer::new(text) });
 }
 
 /// Initial capacity of a text, in bytes; a passport has about 9,000.
 const USUAL_BYTES: usize = 12_000;
 
-/// Destination of the parts of a text, one after the other.
-trait Output {
-    fn push(&mut self, part: &str);
-
-    /// Announces that the next part begins a line.
-    fn begin_line(&mut self) {}
-}
-
-impl Output for String {
-    fn push(&mut self, part: &str) {
-        self.push_str(part);
-    }
-}
-
-/// Remaining text to compare the parts with; `None` after the first difference.
-struct Compared<'t>(Option<&'t [u8]>);
-
-impl Output for Compared<'_> {
-    #[inline]
-    fn push(&mut self, part: &str) {
-        self.0 = self.0.and_then(|rest| rest.strip_prefix(part.as_bytes()));
-    }
-
-    fn begin_line(&mut self) {
-        self.0 = self.0.map(after_comments);
-    }
-}
-
-struct Writer<'a, O> {
-    text: O,
+struct Writer<'a> {
+    text: &'a mut String,
     /// Keys from the top to the current one, joined by points.
     path: String,
     /// Length of the part of `path` that leads to the current mapping, bytes.
@@ -80,19 +46,14 @@ struct Writer<'a, O> {
     wanted: &'a dyn Fn(&str) -> bool,
 }
 
-impl<'a, O: Output> Writer<'a, O> {
-    fn new(text: O) -> Self {
+impl<'a> Writer<'a> {
+    fn new(text: &'a mut String) -> Self {
         let path = String::new();
         Self { text, path, outer: 0, depth: 0, inline: 0, first: true, comments: None, wanted: &|_| true }
     }
 
-    fn written(mut self, document: &impl Field) -> O {
-        document.emit(&mut self);
-        self.text
-    }
-
     fn indent(&mut self) {
-        (1..self.depth).for_each(|_| self.text.push("  "));
+        (1..self.depth).for_each(|_| self.text.push_str("  "));
     }
 
     /// Writes a value on the line of its key.
@@ -100,9 +61,9 @@ impl<'a, O: Output> Writer<'a, O> {
         if self.inline > 0 {
             return write(self);
         }
-        self.text.push(" ");
+        self.text.push(' ');
         self.bracketed(write);
-        self.text.push("\n");
+        self.text.push('\n');
     }
 
     fn bracketed(&mut self, write: impl FnOnce(&mut Self)) {
@@ -112,55 +73,48 @@ impl<'a, O: Output> Writer<'a, O> {
     }
 }
 
-impl<O: Output> Sink for Writer<'_, O> {
+impl Sink for Writer<'_> {
     fn boolean(&mut self, value: bool) {
-        self.on_the_line(|writer| writer.text.push(if value { "true" } else { "false" }));
+        self.on_the_line(|writer| writer.text.push_str(if value { "true" } else { "false" }));
     }
 
     fn integer(&mut self, value: i64) {
-        const DIGITS: [&str; 10] = ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9"];
-        // Most integers are indices of positions, which have one digit.
-        let digit = usize::try_from(value).ok().and_then(|value| DIGITS.get(value));
-        self.on_the_line(|writer| match digit {
-            Some(digit) => writer.text.push(digit),
-            None => writer.text.push(&value.to_string()),
-        });
+        self.on_the_line(|writer| writer.text.push_str(&value.to_string()));
     }
 
     fn number(&mut self, value: f64) {
         if !value.is_finite() {
             // No text may contain it: the readers refuse it, and so does the reader that checks what was written.
             debug_assert!(false, "only finite numbers are written");
-            return self.text.push(" null");
+            return self.text.push_str(" null");
         }
-        self.on_the_line(|writer| number::write(value, |part| writer.text.push(part)));
+        self.on_the_line(|writer| number::write(value, writer.text));
     }
 
     fn text(&mut self, value: &str) {
-        self.on_the_line(|writer| rule::write_quoted(value, |part| writer.text.push(part)));
+        self.on_the_line(|writer| rule::write_quoted(value, writer.text));
     }
 
     fn list<T: Field>(&mut self, items: &[T]) {
         if self.inline == 0 && items.first().is_some_and(Field::is_mapping) {
-            self.text.push("\n");
+            self.text.push('\n');
             for item in items {
-                self.text.begin_line();
                 self.indent();
-                self.text.push("  - ");
+                self.text.push_str("  - ");
                 self.bracketed(|writer| item.emit(writer));
-                self.text.push("\n");
+                self.text.push('\n');
             }
             return;
         }
         self.on_the_line(|writer| {
-            writer.text.push("[");
+            writer.text.push('[');
             for (index, item) in items.iter().enumerate() {
                 if index > 0 {
-                    writer.text.push(", ");
+                    writer.text.push_str(", ");
                 }
                 writer.bracketed(|writer| item.emit(writer));
             }
-            writer.text.push("]");
+            writer.text.push(']');
         });
     }
 
@@ -171,15 +125,15 @@ impl<O: Output> Sink for Writer<'_, O> {
     fn mapping(&mut self, empty: bool, entries: impl FnOnce(&mut Self)) {
         if self.inline > 0 || (empty && self.depth > 0) {
             return self.on_the_line(|writer| {
-                writer.text.push("{");
+                writer.text.push('{');
                 let outer = std::mem::replace(&mut writer.first, true);
                 writer.bracketed(entries);
                 writer.first = outer;
-                writer.text.push("}");
+                writer.text.push('}');
             });
         }
         if self.depth > 0 {
-            self.text.push("\n");
+            self.text.push('\n');
         }
         let outer = std::mem::replace(&mut self.outer, self.path.len());
         self.depth += 1;
@@ -191,28 +145,27 @@ impl<O: Output> Sink for Writer<'_, O> {
     fn key(&mut self, key: &str) -> bool {
         if self.inline > 0 {
             if !std::mem::take(&mut self.first) {
-                self.text.push(", ");
+                self.text.push_str(", ");
             }
-            self.text.push(key);
-            self.text.push(": ");
+            self.text.push_str(key);
+            self.text.push_str(": ");
             return true;
         }
         if self.depth == 1 && !(self.wanted)(key) {
             return false;
         }
-        self.text.begin_line();
         if let Some(comments) = self.comments {
             self.path.truncate(self.outer);
             self.path.push_str(if self.outer > 0 { "." } else { "" });
             self.path.push_str(key);
             for line in comments(&self.path) {
                 self.indent();
-                ["# ", &line, "\n"].into_iter().for_each(|part| self.text.push(part));
+                self.text.extend(["# ", &line, "\n"]);
             }
         }
         self.indent();
-        self.text.push(key);
-        self.text.push(":");
+        self.text.push_str(key);
+        self.text.push(':');
         true
     }
 }
