@@ -2,7 +2,6 @@
 
 use crate::inside::reference::*;
 use dtg_passport::calibration::inputs::MeterUncertainty;
-use dtg_passport::calibration::iterative::{Plan, StopRule};
 use dtg_passport::calibration::{InputUncertainty, Model, Options, Readings, calibrate};
 use dtg_passport::statistics::random::Stream;
 use nalgebra::Vector2;
@@ -39,17 +38,6 @@ proptest! {
                 prop_assert!((0.0..=1.0).contains(&result.chi_square.probability), "{:?}", result.chi_square);
             }
             prop_assert!(found.consistent || !found.causes.is_empty() || !found.settled, "{found:?}");
-        }
-    }
-
-    /// Whatever the prediction, it never claims convergence where the radius forbids it.
-    #[test]
-    fn predictions(seed in any::<u64>(), limit_deg in 0.0..40.0, delta1_percent in 0.0..1.0, delta2_deg_per_h in 0.0..0.1) {
-        let setup = setup(&drawn_stand(&mut Stream::new(seed), limit_deg), LATITUDE_DEG);
-        let currents = currents(&setup, &gvk_6());
-        if let Ok(plan) = Plan::new(setup.coefficients(), &currents) {
-            let predicted = plan.predicted_steps(&StopRule { delta1_percent, delta2_deg_per_h });
-            prop_assert_eq!(predicted.is_some(), plan.spectral_radius() < 1.0);
         }
     }
 }

@@ -173,7 +173,7 @@ fn an_earlier_result_is_judged_by_its_own_degrees_of_freedom() {
         "residuals_deg_per_h": []}}]}}"#
     );
     let earlier = CalibrationDocument::from_json("earlier.json", result.as_bytes()).unwrap();
-    let verdict = against_type(&earlier.answer().unwrap(), &GyroType::gvk_6());
+    let verdict = against_type(&earlier.valid().unwrap(), &GyroType::gvk_6());
     for row in verdict.parameters {
         let k = match row.parameter.key() {
             "k_xy" => 4.53,
@@ -311,7 +311,7 @@ fn json_is_read_back() {
     let found = calibrate(&setup, &readings(&setup, &currents), &Options::default()).unwrap();
     let mut document =
         CalibrationDocument::new("SPS-2/0017/moscow/1", true, (9.8156, Some(5e-4)), &found, &[NotStated::Latitude]);
-    let (result, answer) = (found.results.last().unwrap(), document.answer().unwrap());
+    let (result, answer) = (found.results.last().unwrap(), document.valid().unwrap());
     let u = Parameter::EIGHT.map(|parameter| result.standard_uncertainty(parameter).unwrap());
     assert_eq!((answer.parameters, answer.standard_uncertainty), (result.parameters, u));
     document.verdict = Some(against_type(&answer, &GyroType::gvk_6()));
@@ -321,7 +321,7 @@ fn json_is_read_back() {
     }
     assert!(!json.contains("anisoelasticity"), "absent when not fitted");
     let back = CalibrationDocument::from_json("result.json", json.as_bytes()).unwrap();
-    assert_eq!(back.answer().unwrap(), answer);
+    assert_eq!(back.valid().unwrap(), answer);
     assert_eq!(back.results, document.results);
     let error = CalibrationDocument::from_json("result.json", b"{\n \"passport\": 1}").unwrap_err().to_string();
     assert!(error.contains("result.json:2:") && error.contains("unknown field `passport`"), "{error}");
