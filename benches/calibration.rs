@@ -1,5 +1,5 @@
 //! Time of one calibration by all three methods, and of linear propagation in addition (budget of all parameters with
-//! covariance, degrees of freedom and coverage factors; covariance of a passport's numbers):
+//! covariance, degrees of freedom and coverage factors):
 //! `cargo bench --bench calibration`.
 
 use dtg_passport::calibration::{InputUncertainty, Method, Options, Readings, Setup, calibrate};
@@ -8,7 +8,7 @@ use dtg_passport::gyro::GyroType;
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::simulation::draw::{self, CurrentError, Deviations};
 use dtg_passport::simulation::{PAPER_LATITUDE_DEG, Stream};
-use dtg_passport::uncertainty::{Budget, EntryUncertainty};
+use dtg_passport::uncertainty::Budget;
 use nalgebra::Vector2;
 use std::hint::black_box;
 use std::time::Instant;
@@ -56,10 +56,8 @@ fn main() {
         let of_parameters = time(CALIBRATIONS / 10, || {
             Budget::new(&setup, &readings, Method::LeastSquares, &Options::default()).map(|budget| budget.covariance())
         });
-        let of_entries = time(CALIBRATIONS / 10, || EntryUncertainty::new(&setup).covariance());
         println!(
-            "{one:.1} us for one calibration, {of_run:.1} us with 24 visits in 3 turn-ons; first order: {of_parameters:.0} us for a budget, \
-             {of_entries:.0} us for a passport's numbers"
+            "{one:.1} us for one calibration, {of_run:.1} us with 24 visits in 3 turn-ons; first order: {of_parameters:.0} us for a budget"
         );
     }
 }

@@ -1,7 +1,7 @@
 //! Monte Carlo compared with NumPy, in one run: `cargo bench --bench monte_carlo`.
 //!
-//! The paper's gyro on a stand with arbitrary angles; each trial draws 24 normal angles (5″) and 16 uniform currents
-//! (±0.015 %) and computes the passport's coefficients and one method. NumPy runs on one core, from `target/test-tools`
+//! The paper's gyro on a stand with arbitrary angles; each trial draws 24 angles (5″) and 16 currents (0.015 %/√3),
+//! all normal, and computes the passport's coefficients and one method. NumPy runs on one core, from `target/test-tools`
 //! if the tests have installed it there, otherwise as `python3`.
 //!
 //! Short slices of every kind of work alternate, and the medians are printed. There are two columns. The first is the
@@ -15,7 +15,7 @@ use dtg_passport::coefficients::{EarthRate, Position};
 use dtg_passport::gyro::GyroType;
 use dtg_passport::simulation::draw::{self, Deviations};
 use dtg_passport::simulation::{PAPER_LATITUDE_DEG, Stream};
-use dtg_passport::uncertainty::{Budget, Engine, ReadingShape, Trials, monte_carlo};
+use dtg_passport::uncertainty::{Budget, Engine, Trials, monte_carlo};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::hint::black_box;
@@ -153,7 +153,7 @@ fn resident_mb() -> Option<f64> {
 
 fn main() {
     let Some(case) = case() else { return };
-    let engine = |method| Engine::new(&case.setup, &case.readings, method, ReadingShape::Uniform);
+    let engine = |method| Engine::new(&case.setup, &case.readings, method);
     let budget = |method| Budget::new(&case.setup, &case.readings, method, &Options::default());
     let (Ok(closed), Ok(refit)) = (engine(Method::Analytic), engine(Method::LeastSquares)) else { return };
     let (Ok(of_closed), Ok(of_refit)) = (budget(Method::Analytic), budget(Method::LeastSquares)) else { return };

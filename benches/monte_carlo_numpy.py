@@ -27,7 +27,7 @@ generator = np.random.Generator(np.random.SFC64(1))
 def seen(m, normals, units):
     """n, omega and currents of m trials: 2 x 8 x m each."""
     generator.standard_normal(out=normals)
-    generator.random(out=units)
+    generator.standard_normal(out=units)
     np.multiply(normals, u_angle, out=normals)
     angles = normals.reshape(3, 8, m)
     angles += certified
@@ -40,8 +40,8 @@ def seen(m, normals, units):
         x2 = cb * x[0] - sb * z1
         return cg * x2 + sg * y1, cg * y1 - sg * x2
 
-    units *= 2.0 * limit
-    units += 1.0 - limit
+    units *= limit / 3.0**0.5
+    units += 1.0
     return turned(v), turned(w), means * units.reshape(2, 8, m)
 
 

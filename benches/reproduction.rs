@@ -115,11 +115,8 @@ fn missing_over_bound(stand: &[Position]) -> Option<f64> {
     let gyro = GyroType::gvk_6().nominal.to_model();
     let currents: Vec<_> = at.positions.iter().map(|at| gyro.currents_ma(at)).collect::<Option<_>>()?;
     let found = iterative::solve(&at, &currents, &StopRule::default()).ok()?;
-    let rho = found.iteration.spectral_radius;
-    Some(
-        found.iteration.remainder_k_deg_per_h_per_ma.norm()
-            / (found.last_change_k_deg_per_h_per_ma.norm() * rho / (1.0 - rho)),
-    )
+    let rho = found.spectral_radius;
+    Some(found.remainder_k_deg_per_h_per_ma.norm() / (found.last_change_k_deg_per_h_per_ma.norm() * rho / (1.0 - rho)))
 }
 
 fn independent() {

@@ -189,14 +189,6 @@ base: {azimuth_arcsec: 10.0, level_arcsec: 3.0}
 temperature_c: 21.0
 "#;
 
-    #[test]
-    fn reads_what_the_format_says() {
-        let laboratory = Laboratory::from_yaml("laboratory.yaml", FILE.as_bytes()).unwrap();
-        assert_eq!(laboratory.meter, Laboratory::paper().meter);
-        assert_eq!(laboratory.seating_arcsec.unwrap().about_z, 10.0);
-        assert_eq!(laboratory.base.unwrap().level_arcsec, Some(3.0));
-    }
-
     /// Expected: a remark on the key alone that is a thousand times too large, as of a unit a thousand times smaller.
     #[test]
     fn an_uncertainty_in_another_unit_has_a_remark() {

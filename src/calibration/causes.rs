@@ -184,43 +184,37 @@ pub struct Input {
 pub(crate) fn inputs(setup: &Setup, data: &Data, fit: &Fit) -> (Vec<Input>, DMatrix<f64>) {
     let (sensitivity, currents_ma) = (Sensitivity::new(setup, &fit.unknowns), &fit.currents_ma);
     let estimates = Estimates::new(setup, &data.repeats);
-    let mut inputs = of_stand_and_site(setup, &estimates);
-    inputs.extend(of_gyro_and_meter(setup, &data.repeats, &estimates));
-    let positions = inputs.len();
-    let differences = data.offsets.rows.nrows();
-    let basis = estimates.visits;
-    let degrees_of_freedom = estimates.degrees_of_freedom(basis);
-    let of_row = |row| Input { cause: Cause::Differences(row), standard_uncertainty: 1.0, degrees_of_freedom, basis };
-    inputs.extend((0..differences).map(of_row));
-    let mut columns = DMatrix::zeros(2 * currents_ma.len() + differences, inputs.len());
-    columns.view_mut((2 * currents_ma.len(), positions), (differences, differences)).fill_with_identity();
-    for (column, input) in inputs.iter().enumerate().take(positions) {
+    let (rows, differences) = (2 * currents_ma.len(), data.offsets.rows.nrows());
+    let own_and_common = own_and_common(setup, &data.repeats, &estimates);
+    let of_differences = (0..differences).map(|row| (Cause::Differences(row), 1.0, estimates.visits));
+    let each = own_and_common.into_iter().chain(of_differences);
+    let inputs: Vec<Input> = each.filter_map(|(cause, u, basis)| estimates.input(cause, u, basis)).collect();
+    let mut columns = DMatrix::zeros(rows + differences, inputs.len());
+    for (column, input) in inputs.iter().enumerate() {
+        if let Cause::Differences(row) = input.cause {
+            columns[(rows + row, column)] = 1.0;
+        }
         for (place, current_ma) in currents_ma.iter().enumerate() {
             let change = sensitivity.to(place, current_ma, input.cause) * input.standard_uncertainty;
-            columns[(2 * place, column)] = change.x;
-            columns[(2 * place + 1, column)] = change.y;
+            columns.fixed_view_mut::<2, 1>(2 * place, column).copy_from(&change);
         }
     }
     (inputs, columns)
 }
 
-/// Returns the inputs with a positive uncertainty from stand and site; they also determine the uncertainty of a
-/// passport's numbers.
-pub(crate) fn of_stand_and_site(setup: &Setup, estimates: &Estimates) -> Vec<Input> {
+/// Returns the inputs behind the misclosures of the positions with their standard uncertainties and what these rest on: those of
+/// stand and site, then those that a calibration adds. Exact ones have an uncertainty of 0.
+fn own_and_common(setup: &Setup, repeats: &Repeats, estimates: &Estimates) -> Vec<(Cause, f64, Basis)> {
     let u = setup.uncertainty();
+    let positions = || setup.coefficients().positions.iter().map(|at| at.index).enumerate();
     let mut inputs = Vec::new();
-    for (place, at) in setup.coefficients().positions.iter().enumerate() {
-        let angles = u.angles_rad.get(place).copied().unwrap_or_default();
-        let basis = estimates.angles[place];
-        inputs.extend(
-            (0..3).filter_map(|angle| estimates.input(Cause::Angle(at.index, angle), angles[angle], basis[angle])),
-        );
+    for (place, index) in positions() {
+        let angles = u.angles_rad.get(place).copied().unwrap_or_default().into_iter().zip(estimates.angles[place]);
+        inputs.extend(angles.enumerate().map(|(angle, (u, basis))| (Cause::Angle(index, angle), u, basis)));
     }
-    inputs.extend(
-        (0..3).filter_map(|axis| estimates.input(Cause::Platform(axis), u.common_platform_rad, estimates.platform)),
-    );
-    inputs.extend((0..3).filter_map(|axis| estimates.input(Cause::Base(axis), u.common_base_rad, estimates.base)));
-    let others = [
+    inputs.extend([0, 1, 2].map(|axis| (Cause::Platform(axis), u.common_platform_rad, estimates.platform)));
+    inputs.extend([0, 1, 2].map(|axis| (Cause::Base(axis), u.common_base_rad, estimates.base)));
+    let of_site = [
         (Cause::Level(0), u.level_rad),
         (Cause::Level(1), u.level_rad),
         (Cause::Azimuth, u.azimuth_rad),
@@ -228,37 +222,26 @@ pub(crate) fn of_stand_and_site(setup: &Setup, estimates: &Estimates) -> Vec<Inp
         (Cause::Latitude, u.latitude_rad),
         (Cause::Deflection, u.deflection_rad),
     ];
-    inputs.extend(others.into_iter().filter_map(|(cause, u)| estimates.input(cause, u, Basis::Known)));
-    inputs
-}
-
-/// Returns the inputs with a positive uncertainty that a calibration adds: repeatability, gyro seat, currents.
-fn of_gyro_and_meter(setup: &Setup, repeats: &Repeats, estimates: &Estimates) -> Vec<Input> {
-    let u = setup.uncertainty();
-    let known = |cause, u| estimates.input(cause, u, Basis::Known);
-    let mut inputs = Vec::new();
-    for (place, at) in setup.coefficients().positions.iter().enumerate() {
+    inputs.extend(of_site.map(|(cause, u)| (cause, u, Basis::Known)));
+    for (place, index) in positions() {
         let of_returns = u.repeatability_rad * repeats.return_share(place).sqrt();
-        inputs.extend(
-            (0..3).filter_map(|axis| estimates.input(Cause::Return(at.index, axis), of_returns, estimates.returns)),
-        );
-        let noise = repeats.noise_variance_ma2(place).sqrt();
+        inputs.extend([0, 1, 2].map(|axis| (Cause::Return(index, axis), of_returns, estimates.returns)));
         for axis in 0..2 {
-            inputs.extend(known(Cause::Reading(at.index, axis), u.meter.reading));
-            inputs.extend(known(Cause::Floor(at.index, axis), u.meter.floor_ma));
-            inputs.extend(estimates.input(Cause::Noise(at.index, axis), noise, estimates.noise));
-            let drift = repeats.drift_variance(place).sqrt();
-            inputs.extend(estimates.input(Cause::Visits(at.index, axis), drift, estimates.visits));
+            inputs.extend([
+                (Cause::Reading(index, axis), u.meter.reading, Basis::Known),
+                (Cause::Floor(index, axis), u.meter.floor_ma, Basis::Known),
+                (Cause::Noise(index, axis), repeats.noise_variance_ma2(place).sqrt(), estimates.noise),
+                (Cause::Visits(index, axis), repeats.drift_variance(place).sqrt(), estimates.visits),
+            ]);
         }
     }
-    inputs.extend((0..3).filter_map(|axis| known(Cause::Seat(axis), u.seating_rad[axis])));
-    inputs.extend(known(Cause::Gain, u.meter.gain));
-    inputs.extend(known(Cause::Offset, u.meter.offset_ma));
+    inputs.extend([0, 1, 2].map(|axis| (Cause::Seat(axis), u.seating_rad[axis], Basis::Known)));
+    inputs.extend([(Cause::Gain, u.meter.gain, Basis::Known), (Cause::Offset, u.meter.offset_ma, Basis::Known)]);
     let turn_on = repeats.turn_on_of_mean_deg_per_h();
-    inputs.extend((0..2).filter_map(|axis| estimates.input(Cause::TurnOn(axis), turn_on, estimates.turn_ons)));
-    let scale =
-        |element| estimates.input(Cause::Scale(element), repeats.scale_of_mean(element), estimates.scale[element]);
-    inputs.extend((0..4).filter_map(scale));
+    inputs.extend([0, 1].map(|axis| (Cause::TurnOn(axis), turn_on, estimates.turn_ons)));
+    inputs.extend(
+        [0, 1, 2, 3].map(|element| (Cause::Scale(element), repeats.scale_of_mean(element), estimates.scale[element])),
+    );
     inputs
 }
 

@@ -19,9 +19,9 @@ macro_rules! result {
     };
 }
 
-mod result;
+pub(crate) mod result;
 
-pub(crate) use result::{ResidualDocument, ResultDocument, RowScatterDocument, finite};
+pub(crate) use result::{ResidualDocument, ResultDocument, finite};
 
 use super::finding::by_type::NEED_A_GYRO_TYPE;
 use super::parameter::symbols;
@@ -29,7 +29,7 @@ use super::readings::Exclusion;
 use super::recorded::Digits;
 use super::verdict::change_in_uncertainties;
 use super::{
-    Calibration, Finding, Found, Method, MethodResult, NotStated, NotValid, Parameter, Scatter, Verdict,
+    Calibration, Finding, Found, Method, MethodResult, NotStated, NotValid, Parameter, RowScatter, Scatter, Verdict,
     against_earlier, against_type,
 };
 use crate::coefficients::PositionIndex;
@@ -97,7 +97,7 @@ result! {
         /// Agreement of the turn-ons with the gyro type; present if there are several and the type states their noise.
         pub(crate) turn_on_scatter: Option<Scatter> = default,
         /// Scatter of the rows of a visit; present if there are several rows.
-        pub(crate) row_scatter: Option<RowScatterDocument> = default,
+        pub(crate) row_scatter: Option<RowScatter> = default,
         /// Rounding of the currents, and repeated readings without scatter; absent if there is nothing to state.
         pub(crate) digits: Option<Digits> = default,
         /// Causes that explain the readings or the parameters, the most likely first.
@@ -183,7 +183,7 @@ fn yes() -> bool {
     true
 }
 
-fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+pub(crate) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
@@ -198,7 +198,14 @@ impl Subject {
     /// # Errors
     /// Refuses, in words, a day of the readings that had not begun at the time of the verification.
     pub(crate) fn check_date(&self, certificate: &Certificate) -> Result<Option<String>, String> {
-        if let Some((date, time)) = self.day_after_verification() {
+        const LARGEST_OFFSET: SignedDuration = SignedDuration::from_hours(14);
+        let day_begins = |time: Timestamp| {
+            let latest = time.saturating_add(LARGEST_OFFSET).unwrap_or(Timestamp::MAX);
+            TimeZone::UTC.to_datetime(latest).date()
+        };
+        // The day has not begun in any time zone.
+        let later = self.date.zip(self.passport_verified_as_of).filter(|(date, time)| *date > day_begins(*time));
+        if let Some((date, time)) = later {
             return Err(format!(
                 "the day of the readings, {date}, is later than the time of the verification, {time}; check the date"
             ));
@@ -210,15 +217,6 @@ impl Subject {
                  the date; nothing shows that the stand was then as it is certified"
             )
         }))
-    }
-
-    /// Returns the day of the readings and the time of the verification if the day has not begun by then in any time zone,
-    /// or `None` if it has, or if one of them is not stated.
-    fn day_after_verification(&self) -> Option<(Date, Timestamp)> {
-        const LARGEST_OFFSET: SignedDuration = SignedDuration::from_hours(14);
-        let (date, time) = self.date.zip(self.passport_verified_as_of)?;
-        let latest = time.saturating_add(LARGEST_OFFSET).unwrap_or(Timestamp::MAX);
-        (date > TimeZone::UTC.to_datetime(latest).date()).then_some((date, time))
     }
 
     /// Returns the day of the readings and that on which the stand was measured for its `certificate` if the readings are
@@ -279,7 +277,7 @@ impl CalibrationDocument {
             adopted: adopted.map_or_else(String::new, |method| method.key().to_owned()),
             consistent: calibration.consistent,
             covariance: best.map_or_else(Vec::new, MethodResult::covariance_of_eight),
-            results: results.into_iter().map(|result| ResultDocument::new(result, calibration)).collect(),
+            results: results.into_iter().map(|result| result.document.clone()).collect(),
             refused: calibration
                 .refused
                 .iter()
@@ -289,7 +287,7 @@ impl CalibrationDocument {
             not_tested: NEED_A_GYRO_TYPE.map(str::to_owned).into(),
             scatter: calibration.scatter,
             turn_on_scatter: calibration.turn_on_scatter,
-            row_scatter: calibration.row_scatter.as_ref().map(RowScatterDocument::new),
+            row_scatter: calibration.row_scatter,
             digits: calibration.digits,
             ..Self::default()
         }
@@ -339,13 +337,7 @@ impl CalibrationDocument {
         }
     }
 
-    /// Returns the adopted result if it is valid. A result that is not that of the gyro is never returned;
-    /// [`CalibrationDocument::valid`] gives the reason.
-    pub fn answer(&self) -> Option<Found> {
-        self.valid().ok()
-    }
-
-    /// Returns the adopted result.
+    /// Returns the adopted result if it is valid. A result that is not that of the gyro is never returned.
     ///
     /// # Errors
     /// Returns [`NotValid`] for the keys `consistent` and `mistake`, with the words of `causes`: if the readings do not fit the stand, or an

@@ -46,8 +46,8 @@ pub(crate) struct Estimates {
 }
 
 impl Estimates {
-    /// Returns the estimates behind stand and site.
-    pub(crate) fn of_stand(setup: &Setup) -> Self {
+    /// Returns the estimates behind stand and site and those from the scatter of a calibration's readings.
+    pub(crate) fn new(setup: &Setup, repeats: &Repeats) -> Self {
         let u = setup.uncertainty();
         let mut all = Self::default();
         // First position, Σ u² and estimates of each group of positions that share them.
@@ -76,12 +76,6 @@ impl Estimates {
         all.returns = if rests_on_axes { Basis::Axes } else { all.add(u.repeatability_degrees_of_freedom) };
         all.platform = all.add(u.common_platform_degrees_of_freedom);
         all.base = all.add(u.common_base_degrees_of_freedom);
-        all
-    }
-
-    /// Returns the estimates behind stand and site and those from the scatter of a calibration's readings.
-    pub(crate) fn new(setup: &Setup, repeats: &Repeats) -> Self {
-        let mut all = Self::of_stand(setup);
         all.noise = all.add(repeats.noise_degrees_of_freedom);
         if repeats.visit_degrees_of_freedom.is_finite() {
             // A variance of a visit that is not the stated one is estimated from the scatter, whatever was stated of its

@@ -3,7 +3,8 @@
 use super::readings::Readings;
 use crate::attitude::{self, Deviation};
 use crate::coefficients::{
-    Coefficients, EIGHT_POSITIONS, EarthRate, Position, PositionIndex, SingularPositions, StandGeometry,
+    Coefficients, EIGHT_POSITIONS, EarthRate, Position, PositionCoefficients, PositionIndex, SingularPositions,
+    StandGeometry,
 };
 use crate::gyro::GyroNoise;
 use crate::laboratory::Meter;
@@ -264,44 +265,42 @@ impl Setup {
 
     /// Returns a copy with the frame's axis rotated clockwise by this many degrees, and without Δ, B, C.
     pub(crate) fn turned(&self, by_deg: f64) -> Self {
-        let mut turned = self.clone();
-        let (base, rate) = (attitude::base(90.0 + by_deg), self.earth_rate_east_north_up());
-        turned.coefficients.matrices = None;
-        turned.earth.frame_axis_azimuth_deg += by_deg;
-        for (turn, at) in turned.turns.iter_mut().zip(&mut turned.coefficients.positions) {
+        let base = attitude::base(90.0 + by_deg);
+        let frame_axis_azimuth_deg = self.earth.frame_axis_azimuth_deg + by_deg;
+        self.changed_to(EarthRate { frame_axis_azimuth_deg, ..self.earth }, |turn, _| {
             turn.attitude *= base;
             turn.nominal *= base;
-            at.earth_rate_deg_per_h = (turn.attitude * rate).xy();
-        }
-        turned
+        })
     }
 
     /// Returns a copy at another astronomic latitude, without Δ, B, C.
     pub(crate) fn at_latitude(&self, latitude_deg: f64) -> Self {
-        let azimuth_deg = self.earth.frame_axis_azimuth_deg;
+        let frame_axis_azimuth_deg = self.earth.frame_axis_azimuth_deg;
         let earth = EarthRate::at_astronomic_latitude(latitude_deg);
-        let mut there = Self { earth: EarthRate { frame_axis_azimuth_deg: azimuth_deg, ..earth }, ..self.clone() };
-        there.coefficients.matrices = None;
-        let rate = there.earth_rate_east_north_up();
-        for (turn, at) in there.turns.iter().zip(&mut there.coefficients.positions) {
-            at.earth_rate_deg_per_h = (turn.attitude * rate).xy();
-        }
-        there
+        self.changed_to(EarthRate { frame_axis_azimuth_deg, ..earth }, |_, _| ())
     }
 
     /// Returns a copy with a gyro that is rotated about its spin axis, anticlockwise, and without Δ, B, C.
     pub(crate) fn case_turned(&self, by_deg: f64) -> Self {
         let (sin, cos) = sin_cos_of_degrees(by_deg);
-        let turn = Matrix3::new(cos, sin, 0.0, -sin, cos, 0.0, 0.0, 0.0, 1.0);
-        let mut turned = self.clone();
-        turned.coefficients.matrices = None;
-        for (of, at) in turned.turns.iter_mut().zip(&mut turned.coefficients.positions) {
-            of.attitude = turn * of.attitude;
-            of.axes = of.axes.map(|axis| turn * axis);
-            at.earth_rate_deg_per_h = (of.attitude * self.earth_rate_east_north_up()).xy();
-            at.specific_force_g = of.attitude.column(2).xy();
+        let rotation = Matrix3::new(cos, sin, 0.0, -sin, cos, 0.0, 0.0, 0.0, 1.0);
+        self.changed_to(self.earth, |turn, at| {
+            turn.attitude = rotation * turn.attitude;
+            turn.axes = turn.axes.map(|axis| rotation * axis);
+            at.specific_force_g = turn.attitude.column(2).xy();
+        })
+    }
+
+    /// Returns a copy with another Earth rate and with every position changed, without Δ, B, C.
+    fn changed_to(&self, earth: EarthRate, change: impl Fn(&mut Turn, &mut PositionCoefficients)) -> Self {
+        let mut changed = Self { earth, ..self.clone() };
+        changed.coefficients.matrices = None;
+        let rate = changed.earth_rate_east_north_up();
+        for (turn, at) in changed.turns.iter_mut().zip(&mut changed.coefficients.positions) {
+            change(turn, at);
+            at.earth_rate_deg_per_h = (turn.attitude * rate).xy();
         }
-        turned
+        changed
     }
 
     /// Returns the direction of the frame's axis (east, north, up).

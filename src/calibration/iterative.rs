@@ -69,32 +69,21 @@ pub struct StepChange {
     pub g_drifts_deg_per_h_per_g: f64,
 }
 
-/// Solution by the iterative method.
+/// Solution by the iterative method, with the course of the iteration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IterativeSolution {
     /// Parameters K, ω_0, ω_g and ω_k at the last step.
     pub parameters: GyroParameters,
     /// ω_n at the last step, °/(h·g), 2×2, four independent numbers.
     pub omega_n_deg_per_h_per_g: Matrix2<f64>,
-    /// Course of the iteration.
-    pub iteration: Iteration,
-    /// Last change of K, K_λ − K_{λ−1}, °/(h·mA), 2×2.
-    pub last_change_k_deg_per_h_per_ma: Matrix2<f64>,
-}
-
-/// Course of the iterative method.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Iteration {
-    /// Stop rule of the iteration.
-    pub stop_rule: StopRule,
     /// Number of steps; the first approximation counts as 1.
     pub steps: u32,
     /// Changes of the parameters in each step after the first approximation.
     pub changes: Vec<StepChange>,
-    /// Number of steps predicted before the first one; `None` if there is no prediction.
-    pub predicted_steps: Option<u32>,
     /// Spectral radius ρ(T), known before the first step.
     pub spectral_radius: f64,
+    /// Last change of K, K_λ − K_{λ−1}, °/(h·mA), 2×2.
+    pub last_change_k_deg_per_h_per_ma: Matrix2<f64>,
     /// Exact remainder of K, (K_λ − K_{λ−1}) T (1 − T)⁻¹, by which the analytic solution differs from the last step,
     /// °/(h·mA), 2×2.
     pub remainder_k_deg_per_h_per_ma: Matrix2<f64>,
@@ -144,26 +133,6 @@ impl Plan {
             return (half_trace * half_trace - discriminant).sqrt();
         }
         half_trace.abs() + discriminant.sqrt()
-    }
-
-    /// Returns the expected number of steps, from ρ(T) and the first approximation alone, or `None` if ρ(T) ≥ 1.
-    ///
-    /// The first change is about (B J_1⁻¹ − K_(1)) + K_(1) T; each further change is ρ(T) times the previous one.
-    pub(crate) fn predicted_steps(&self, rule: &StopRule) -> Option<u32> {
-        let rho = self.spectral_radius();
-        if rho >= 1.0 {
-            return None;
-        }
-        let change = self.next_k(&self.omega_n(&self.first_k)) - self.first_k;
-        let moved_percent = 100.0 * (change.m11 / self.first_k.m11).abs().max((change.m22 / self.first_k.m22).abs());
-        let moved_drift = (change * self.j2_per_n2).amax();
-        let excess = (moved_percent / rule.delta1_percent).max(moved_drift / rule.delta2_deg_per_h);
-        if excess <= 1.0 || rho == 0.0 {
-            return Some(2);
-        }
-        let more = libm::ceil(libm::log(excess) / -libm::log(rho));
-        // The first change takes 2 steps. The sum saturates for a spectral radius just below 1.
-        Some(if more < f64::from(u32::MAX - 2) { 2 + more as u32 } else { u32::MAX })
     }
 
     /// Returns ω_n for a given K (paper, eq. (18)).
@@ -251,16 +220,14 @@ pub fn solve(
     let rest = (Matrix2::identity() - plan.t).try_inverse().ok_or(too_many)?;
     let remainder = change * plan.t * rest;
     let omega0 = mean_misclosure(coefficients, currents_ma, &k, &omega_n);
-    let iteration = Iteration {
-        stop_rule: *rule,
+    Ok(IterativeSolution {
+        parameters: AnalyticSolution::new(k, omega_n, omega0).parameters,
+        omega_n_deg_per_h_per_g: omega_n,
         steps,
         changes,
-        predicted_steps: plan.predicted_steps(rule),
         spectral_radius,
+        last_change_k_deg_per_h_per_ma: change,
         remainder_k_deg_per_h_per_ma: remainder,
         remainder_omega_n_deg_per_h_per_g: -remainder * plan.j2_per_n2,
-    };
-    let parameters = AnalyticSolution::new(k, omega_n, omega0).parameters;
-    let (omega_n_deg_per_h_per_g, last_change_k_deg_per_h_per_ma) = (omega_n, change);
-    Ok(IterativeSolution { parameters, omega_n_deg_per_h_per_g, iteration, last_change_k_deg_per_h_per_ma })
+    })
 }

@@ -11,7 +11,7 @@ use super::unknowns::{Unknowns, design};
 use super::{MeterUncertainty, Model, Parameter};
 use crate::coefficients::{Coefficients, PositionCoefficients};
 use crate::gyro::GyroParameters;
-use crate::statistics::least_squares::{Condition, Factorised, condition, whitening_of};
+use crate::statistics::least_squares::{Factorised, condition, whitening_of};
 use crate::text::number::exponent_as_printed;
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
@@ -207,9 +207,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
             self.offsets_determined(self.currents_ma)?;
         }
         let scaled: Vec<_> = self.currents_ma.iter().map(|current| current.component_div(&unit_ma)).collect();
-        let design = || design(positions, &scaled, self.model);
-        let model = Factorised::new(design()).filter(|model| model.condition_bound() <= LARGEST_CONDITION);
-        model.map_or_else(|| self.checked(design()), Ok)
+        self.determined(&design(positions, &scaled, self.model), LARGEST_CONDITION)
     }
 
     /// Returns the unweighted solution with measured currents.
@@ -226,14 +224,19 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         Ok(Solution { unknowns, changing: vec![0.0; self.offsets.columns()] })
     }
 
-    /// Returns the model if its exact condition number is small enough; called if the bound of the condition number is
-    /// not.
-    fn checked(&self, design: DMatrix<f64>) -> Result<Factorised, NoLeastSquares> {
-        let found = condition(&design, LARGEST_CONDITION).ok_or(NoLeastSquares::NotUsable)?;
-        if found.number <= LARGEST_CONDITION {
-            return Factorised::new(design).ok_or(NoLeastSquares::NotUsable);
+    /// Returns the equations, factorised, if their condition number is small enough. It is computed only if its bound, which
+    /// costs less, is too large.
+    fn determined(&self, design: &DMatrix<f64>, largest: f64) -> Result<Factorised, NoLeastSquares> {
+        let model = Factorised::new(design.clone());
+        if let Some(model) = model.filter(|model| model.condition_bound() <= largest) {
+            return Ok(model);
         }
-        Err(NoLeastSquares::inseparable(&found, &self.names()))
+        let found = condition(design, largest).ok_or(NoLeastSquares::NotUsable)?;
+        if found.undetermined.is_empty() {
+            return Factorised::new(design.clone()).ok_or(NoLeastSquares::NotUsable);
+        }
+        let groups = mixed(&found.undetermined, &self.names());
+        Err(NoLeastSquares::Inseparable { groups, condition: found.number })
     }
 
     /// Checks that no offset is mixed with another unknown. How well each is known, its uncertainty tells.
@@ -253,14 +256,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         for mut column in design.column_iter_mut() {
             column.try_normalize_mut(0.0);
         }
-        if Factorised::new(design.clone()).is_some_and(|model| model.condition_bound() <= SINGULAR) {
-            return Ok(());
-        }
-        let found = condition(&design, SINGULAR).ok_or(NoLeastSquares::NotUsable)?;
-        if found.undetermined.is_empty() {
-            return Ok(());
-        }
-        Err(NoLeastSquares::inseparable(&found, &self.names()))
+        self.determined(&design, SINGULAR).map(drop)
     }
 
     fn names(&self) -> Vec<Parameter> {
@@ -383,13 +379,6 @@ pub enum NoLeastSquares {
     /// A current or an uncertainty that is not finite, or a meter without any uncertainty.
     #[error("every current must be finite and every uncertainty positive")]
     NotUsable,
-}
-
-impl NoLeastSquares {
-    /// Creates the refusal of equations with this condition; `names` are the parameters of their columns.
-    fn inseparable(found: &Condition, names: &[Parameter]) -> Self {
-        Self::Inseparable { groups: mixed(&found.undetermined, names), condition: found.number }
-    }
 }
 
 /// Condition number from which only this limit is printed.

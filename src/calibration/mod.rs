@@ -6,7 +6,7 @@
 //! * `analytic`: the paper's analytic method, eq. (13)-(16) and (8).
 //! * [`iterative`]: the paper's iterative method, eq. (17)-(19).
 //! * `least_squares`: weighted least squares on all readings of any positions.
-//! * `procedure`: all methods side by side, with `options`; `result`: their results with uncertainties and residuals.
+//! * `procedure`: all methods side by side, with their options; `result`: their results with uncertainties and residuals.
 //! * `data`: mean currents with their errors, and fits to them; `chi_square`: the test of a fit.
 //! * `recorded`: rounding of the readings, and repeated readings without scatter.
 //! * `repeats`: numbers of visits and readings, and the errors assumed for each; `scatter`: their agreement with what was
@@ -47,6 +47,7 @@ pub(crate) mod analytic;
 pub(crate) mod causes;
 pub(crate) mod chi_square;
 pub(crate) mod data;
+#[macro_use]
 pub(crate) mod document;
 pub(crate) mod drift;
 pub(crate) mod estimates;
@@ -56,7 +57,6 @@ pub mod iterative;
 pub(crate) mod least_squares;
 pub(crate) mod noise;
 pub(crate) mod offsets;
-pub(crate) mod options;
 pub(crate) mod parameter;
 pub(crate) mod prediction;
 pub(crate) mod procedure;
@@ -79,14 +79,12 @@ pub use document::CalibrationDocument;
 pub use estimates::Basis;
 pub use finding::{Finding, Kind, Scope};
 pub use inputs::{InputUncertainty, MeterUncertainty, NoSetup, Setup};
-pub use iterative::Iteration;
 pub use least_squares::NoLeastSquares;
 pub use noise::{DriftNoise, NoiseSource};
-pub use options::Options;
 pub use parameter::Parameter;
-pub use procedure::calibrate;
+pub use procedure::{Options, calibrate};
 pub use readings::{NoReadings, PositionReadings, Reading, Readings, Visit};
-pub use result::{Calibration, Method, MethodRefusal, MethodResult, NotValid, Residual};
+pub use result::{Calibration, Method, MethodRefusal, MethodResult, NotValid};
 pub use scatter::{Agreement, RowScatter, Scatter};
 pub use stated::NotStated;
 pub use unknowns::Model;

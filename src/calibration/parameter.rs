@@ -1,14 +1,26 @@
 //! The unknowns of the drift model, eq. (2).
 
 use crate::gyro::{GyroParameters, Tolerance};
-use crate::wording::Words;
+use crate::wording::texts::units;
 use crate::wording::words::{listed, symbol};
+use crate::wording::{Text, Words};
 use nalgebra::{Matrix2, Vector2};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// Returns the symbols of parameters with commas between them.
 pub(crate) fn symbols(parameters: impl IntoIterator<Item = Parameter>) -> Words {
     listed(parameters.into_iter().map(|parameter| symbol(parameter.symbol())))
+}
+
+/// Returns the unit of a parameter on pages.
+pub(crate) fn unit(parameter: Parameter) -> Text {
+    match parameter {
+        Parameter::Kx | Parameter::Kxy | Parameter::Kyx | Parameter::Ky => units::DEG_PER_H_PER_MA,
+        Parameter::Omega0x | Parameter::Omega0y | Parameter::TurnOn(_) => units::DEG_PER_H,
+        Parameter::OmegaG | Parameter::OmegaK | Parameter::G(..) => units::DEG_PER_H_PER_G,
+        Parameter::Drift(_) => units::DEG_PER_H2,
+        Parameter::Anisoelasticity => units::DEG_PER_H_PER_G2,
+    }
 }
 
 /// Unknown of the drift model (paper, eq. (2)).

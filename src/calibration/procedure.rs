@@ -3,19 +3,42 @@
 use super::analytic::{self, AnalyticMap, AnalyticSolution};
 use super::chi_square::chi_square;
 use super::data::{Data, Observation};
+use super::document::result::{
+    ChiSquareDocument, NoiseDocument, ResidualDocument, ResultDocument, UncertaintyDocument, rows,
+};
 use super::drift::drift_can_be_fitted;
 use super::finding::{self, by_type::by_size, visits};
-use super::iterative::{self, IterativeSolution, NoIterativeSolution, StopRule};
+use super::iterative::{self, NoIterativeSolution, StopRule};
 use super::least_squares::Fit;
 use super::propagation::{Propagation, covariance, standard_deviations};
-use super::result::{Cycle, Drift, GMatrix, ModelTest};
+use super::result::{Cycle, ModelTest};
 use super::unknowns::Unknowns;
 use super::{
-    Calibration, ChiSquare, Iteration, Method, MethodRefusal, MethodResult, Model, NoAnalyticSolution, NoLeastSquares,
-    Options, Parameter, Readings, Residual, Setup,
+    Calibration, ChiSquare, Method, MethodRefusal, MethodResult, Model, NoAnalyticSolution, NoLeastSquares, Parameter,
+    Readings, Setup,
 };
+use crate::coefficients::PositionIndex;
 use crate::gyro::{GyroParameters, GyroType};
-use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2};
+use nalgebra::{DMatrix, Matrix2, Vector2};
+
+/// Options of a calibration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Requested methods, in the order of the results.
+    pub methods: Vec<Method>,
+    /// Stop rule of the iterative method.
+    pub stop_rule: StopRule,
+    /// Model of the g-sensitive drift that least squares fits; the paper's methods have the paper's.
+    pub model: Model,
+    /// `true` if least squares also fits a linear drift of ω_0 in time.
+    pub drift: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { methods: Method::ALL.to_vec(), stop_rule: StopRule::default(), model: Model::Paper, drift: false }
+    }
+}
 
 /// Calibrates the gyro whose currents are `readings` with the requested methods.
 ///
@@ -63,11 +86,7 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
             Method::Analytic | Method::Iterative if !closed => Err(MethodRefusal::NotThisModel),
             Method::Analytic => of_the_paper.analytic(of_closed.as_ref()).map_err(MethodRefusal::from),
             Method::Iterative => of_the_paper.iterative(of_closed.as_ref(), &options.stop_rule),
-            Method::LeastSquares => {
-                let model_test =
-                    paper.as_ref().and_then(|paper| ModelTest::new(&paper.chi_square, &evaluation.chi_square));
-                Ok(MethodResult { model_test, ..evaluation.least_squares() })
-            }
+            Method::LeastSquares => Ok(evaluation.least_squares(paper.as_ref().map(|paper| &paper.chi_square))),
         };
         match result {
             Ok(result) => calibration.results.push(result),
@@ -162,44 +181,23 @@ impl<'a> Evaluation<'a> {
         })
     }
 
-    fn least_squares(&self) -> MethodResult {
+    /// Returns the result of least squares; `paper` is chi-square with the paper's model, if another one is fitted.
+    fn least_squares(&self, paper: Option<&ChiSquare>) -> MethodResult {
         let Propagation { data, fit, .. } = self.propagation;
-        let (unknowns, model) = (&fit.unknowns, fit.of);
-        let parameters = unknowns.parameters;
-        let anisoelasticity = unknowns.anisoelasticity_deg_per_h_per_g2;
+        let (unknowns, model) = (fit.unknowns, fit.of);
         let all = covariance(&self.spread);
+        let u = |place: usize| all[(place, place)].sqrt();
+        let of_g = if model == Model::General { [0.0; 2] } else { [6, 7].map(u) };
+        let omega_n = [unknowns.parameters.omega_n_deg_per_h_per_g(), Matrix2::new(of_g[0], of_g[1], of_g[1], of_g[0])];
         let covariance = all.view((0, 0), (model.columns(), model.columns())).into_owned();
-        let u = |p| model.column(p).map_or(0.0, |column| covariance[(column, column)].sqrt());
-        let [u_g, u_k] = [Parameter::OmegaG, Parameter::OmegaK].map(u);
-        let g_matrix = (model == Model::General).then(|| GMatrix {
-            deg_per_h_per_g: unknowns.g_matrix_deg_per_h_per_g(),
-            standard_uncertainty_deg_per_h_per_g: Matrix2x3::from_fn(|row, column| {
-                let place = 6 + 3 * row + column;
-                covariance[(place, place)].sqrt()
-            }),
-        });
-        let drift = fit.drift(&data.offsets).map(|deg_per_h_per_h| {
-            let place = all.nrows() - 2;
-            let u = [0, 1].map(|axis| all[(place + axis, place + axis)].sqrt());
-            Drift { deg_per_h_per_h, standard_uncertainty_deg_per_h_per_h: u.into() }
-        });
-        MethodResult {
-            method: Method::LeastSquares,
-            model,
-            parameters,
-            omega_n_deg_per_h_per_g: parameters.omega_n_deg_per_h_per_g(),
-            anisoelasticity_deg_per_h_per_g2: (model == Model::Anisoelastic).then_some(anisoelasticity),
-            g_matrix,
-            model_test: None,
-            drift,
-            cycles: self.cycles(&parameters),
-            iteration: None,
-            residuals: self.residuals(unknowns, &self.propagation.of_residuals(&self.spread)),
-            covariance,
-            omega_n_uncertainty_deg_per_h_per_g: Matrix2::new(u_g, u_k, u_k, u_g),
-            from_least_squares: None,
-            chi_square: self.chi_square,
-        }
+        let residuals = self.propagation.of_residuals(&self.spread);
+        let mut result = self.result(Method::LeastSquares, (model, unknowns), omega_n, covariance, &residuals);
+        let document = &mut result.document;
+        document.model_test = paper.and_then(|paper| ModelTest::new(paper, &self.chi_square));
+        document.drift_deg_per_h_per_h = fit.drift(&data.offsets).map(Into::into);
+        document.standard_uncertainty.drift_deg_per_h_per_h =
+            document.drift_deg_per_h_per_h.map(|_| [2, 1].map(|from_end| u(all.nrows() - from_end)));
+        result
     }
 
     /// Returns ω_0 of each turn-on, whose mean is that of `parameters`.
@@ -219,60 +217,91 @@ impl<'a> Evaluation<'a> {
         let Propagation { setup, data, .. } = self.propagation;
         let found = analytic::solve(setup.coefficients(), &data.currents_ma)?;
         let closed = closed.ok_or(NoAnalyticSolution::SingularCurrents)?;
-        Ok(self.of_the_paper(Method::Analytic, found, None, closed))
+        Ok(self.of_the_paper(Method::Analytic, found, closed))
     }
 
+    /// Returns the result of the iterative method. The remainder of the iteration is stated separately.
     fn iterative(&self, closed: Option<&Closed>, rule: &StopRule) -> Result<MethodResult, MethodRefusal> {
         let Propagation { setup, data, .. } = self.propagation;
-        let IterativeSolution { parameters, omega_n_deg_per_h_per_g, iteration, .. } =
-            iterative::solve(setup.coefficients(), &data.currents_ma, rule)?;
+        let solution = iterative::solve(setup.coefficients(), &data.currents_ma, rule)?;
         let closed = closed.ok_or(NoIterativeSolution::SingularCurrents)?;
+        let (parameters, omega_n_deg_per_h_per_g) = (solution.parameters, solution.omega_n_deg_per_h_per_g);
         let found = AnalyticSolution { parameters, omega_n_deg_per_h_per_g };
-        Ok(self.of_the_paper(Method::Iterative, found, Some(iteration), closed))
+        let result = self.of_the_paper(Method::Iterative, found, closed);
+        let document = ResultDocument {
+            iterations: Some(solution.steps),
+            stop_rule: Some(*rule),
+            changes: Some(solution.changes),
+            spectral_radius: Some(solution.spectral_radius),
+            remainder_k_deg_per_h_per_ma: Some(rows(&solution.remainder_k_deg_per_h_per_ma)),
+            remainder_omega_n_deg_per_h_per_g: Some(rows(&solution.remainder_omega_n_deg_per_h_per_g)),
+            ..result.document
+        };
+        Ok(MethodResult { document, ..result })
     }
 
-    /// Returns the result of one of the paper's methods. The remainder of the iteration is stated separately.
-    fn of_the_paper(
+    /// Returns the result of one of the paper's methods.
+    fn of_the_paper(&self, method: Method, found: AnalyticSolution, closed: &Closed) -> MethodResult {
+        let unknowns = Unknowns::of(found.parameters);
+        let omega_n = [found.omega_n_deg_per_h_per_g, closed.omega_n_deg_per_h_per_g];
+        let of = (Model::Paper, unknowns);
+        let mut result = self.result(method, of, omega_n, closed.covariance.clone(), &closed.residuals_deg_per_h);
+        let (found, answer) = (found.parameters.to_vector(), self.propagation.fit.unknowns.parameters.to_vector());
+        let difference = |place| in_units(found[place] - answer[place], closed.from_least_squares[place]);
+        result.document.from_least_squares = Some(std::array::from_fn(difference));
+        result
+    }
+
+    /// Returns the result of a method, with ω_n and its standard uncertainties, the covariance of the parameters, and the standard
+    /// uncertainties of the residuals, °/h.
+    fn result(
         &self,
         method: Method,
-        AnalyticSolution { parameters, omega_n_deg_per_h_per_g }: AnalyticSolution,
-        iteration: Option<Iteration>,
-        closed: &Closed,
+        (model, unknowns): (Model, Unknowns),
+        [omega_n, u_omega_n]: [Matrix2<f64>; 2],
+        covariance: DMatrix<f64>,
+        u_of_residuals: &[f64],
     ) -> MethodResult {
-        let (found, answer) = (parameters.to_vector(), self.propagation.fit.unknowns.parameters.to_vector());
-        let difference = |place| in_units(found[place] - answer[place], closed.from_least_squares[place]);
-        MethodResult {
-            method,
-            model: Model::Paper,
-            parameters,
-            omega_n_deg_per_h_per_g,
-            anisoelasticity_deg_per_h_per_g2: None,
-            g_matrix: None,
-            model_test: None,
-            drift: None,
-            cycles: self.cycles(&parameters),
-            iteration,
-            residuals: self.residuals(&Unknowns::of(parameters), &closed.residuals_deg_per_h),
-            covariance: closed.covariance.clone(),
-            omega_n_uncertainty_deg_per_h_per_g: closed.omega_n_deg_per_h_per_g,
-            from_least_squares: Some(std::array::from_fn(difference)),
-            chi_square: self.chi_square,
-        }
-    }
-
-    /// Returns the residuals with their standard uncertainties `u`, °/h.
-    fn residuals(&self, unknowns: &Unknowns, u: &[f64]) -> Vec<Residual> {
         let Propagation { data, fit, .. } = self.propagation;
-        let each = fit.positions.iter().zip(&data.currents_ma).zip(u.chunks_exact(2));
-        each.map(|((at, current), u)| {
-            let residual = unknowns.misclosure(at, current);
-            Residual {
-                index: at.index,
-                residual_deg_per_h: residual,
-                standard_uncertainty_deg_per_h: Vector2::new(u[0], u[1]),
-                normalised: Vector2::new(in_units(residual.x, u[0]), in_units(residual.y, u[1])),
-            }
-        })
-        .collect()
+        let parameters = unknowns.parameters;
+        let is_general = model == Model::General;
+        let value = |parameter| model.column(parameter).map(|_| unknowns.value(parameter));
+        let variance = |parameter| model.column(parameter).map(|column| covariance[(column, column)]);
+        let u = |parameter| variance(parameter).map(f64::sqrt);
+        let [u_kx, u_kxy, u_kyx, u_ky, u_x, u_y, ..] = Parameter::EIGHT.map(|parameter| u(parameter).unwrap_or(0.0));
+        let standard_uncertainty = UncertaintyDocument {
+            k_deg_per_h_per_ma: [[u_kx, u_kxy], [u_kyx, u_ky]],
+            omega0_deg_per_h: [u_x, u_y],
+            omega_n_deg_per_h_per_g: (!is_general).then(|| rows(&u_omega_n)),
+            omega_g_deg_per_h_per_g: u(Parameter::OmegaG),
+            omega_k_deg_per_h_per_g: u(Parameter::OmegaK),
+            g_matrix_deg_per_h_per_g: is_general
+                .then(|| [0, 1].map(|row| [0, 1, 2].map(|column| u(Parameter::G(row, column)).unwrap_or(0.0)))),
+            drift_deg_per_h_per_h: None,
+            anisoelasticity_deg_per_h_per_g2: u(Parameter::Anisoelasticity),
+        };
+        let residuals = fit.positions.iter().zip(&data.currents_ma).zip(u_of_residuals.chunks_exact(2));
+        let residuals = residuals.filter(|_| self.chi_square.judges()).map(|((at, current), u)| {
+            let (PositionIndex { i, j }, value) = (at.index, unknowns.misclosure(at, current));
+            ResidualDocument { i, j, x: value.x, y: value.y, u_x: Some(u[0]), u_y: Some(u[1]) }
+        });
+        let document = ResultDocument {
+            method: method.key().to_owned(),
+            model: model.key().to_owned(),
+            k_deg_per_h_per_ma: rows(&parameters.k_deg_per_h_per_ma),
+            omega0_deg_per_h: parameters.omega0_deg_per_h.into(),
+            omega_n_deg_per_h_per_g: (!is_general).then(|| rows(&omega_n)),
+            omega_g_deg_per_h_per_g: value(Parameter::OmegaG),
+            omega_k_deg_per_h_per_g: value(Parameter::OmegaK),
+            g_matrix_deg_per_h_per_g: is_general.then(|| rows(&unknowns.g_matrix_deg_per_h_per_g())),
+            cycles: self.cycles(&parameters),
+            noise: Some(NoiseDocument::new(&data.repeats)),
+            anisoelasticity_deg_per_h_per_g2: value(Parameter::Anisoelasticity),
+            standard_uncertainty,
+            chi_square: ChiSquareDocument::new(&self.chi_square),
+            residuals_deg_per_h: residuals.collect(),
+            ..ResultDocument::default()
+        };
+        MethodResult { method, model, parameters, unknowns, covariance, chi_square: self.chi_square, document }
     }
 }

@@ -289,12 +289,8 @@ impl Readings {
     /// Returns the readings with the number of earlier visits as the time, one hour for each, if they have no times and the
     /// order of their rows tells the visits; otherwise `None`.
     pub(crate) fn timed_by_order(&self) -> Option<Self> {
-        let mut timed = self.clone();
-        for visit in timed.positions.iter_mut().flat_map(|at| &mut at.visits) {
-            let before = visit.before.filter(|_| visit.time_s.is_none())?;
-            visit.time_s = Some(before as f64 * SECONDS_PER_HOUR);
-        }
-        Some(timed)
+        let by_order = self.visits().all(|visit| visit.time_s.is_none() && visit.before.is_some());
+        by_order.then(|| self.timed_by(|visit| visit.before.unwrap_or(0) as f64 * SECONDS_PER_HOUR))
     }
 
     pub(crate) fn visits(&self) -> impl Iterator<Item = &Visit> {

@@ -24,20 +24,18 @@ pub(crate) struct Recorded {
     pub(crate) identical_visits: bool,
 }
 
-/// Limits of the readings that a result must state.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Digits {
-    /// Last digit to which the currents are recorded, mA, if its rounding is larger than the floor of the meter and has
-    /// taken its place.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) last_digit_ma: Option<f64>,
-    /// `true` if the rows of every visit are identical and count as one.
-    #[serde(skip_serializing_if = "std::ops::Not::not", default)]
-    pub(crate) identical_rows: bool,
-    /// `true` if the visits to every position are identical and count as one.
-    #[serde(skip_serializing_if = "std::ops::Not::not", default)]
-    pub(crate) identical_visits: bool,
+result! {
+    /// Limits of the readings that a result must state.
+    #[derive(Copy, Default)]
+    pub(crate) struct Digits {
+        /// Last digit to which the currents are recorded, mA, if its rounding is larger than the floor of the meter and has
+        /// taken its place.
+        pub(crate) last_digit_ma: Option<f64> = default,
+        /// `true` if the rows of every visit are identical and count as one.
+        pub(crate) identical_rows: bool = default,
+        /// `true` if the visits to every position are identical and count as one.
+        pub(crate) identical_visits: bool = default,
+    }
 }
 
 impl Recorded {

@@ -52,7 +52,7 @@ pub(crate) fn scatter(calibration: &Calibration) -> Vec<(Weight, Statement)> {
     let mut doc = vec![(Remark, Statement::of(calibration.digits.iter().flat_map(of_digits)))];
     if let Some(rows) = &calibration.row_scatter {
         let s = Words::Quantity(Number::scientific(rows.standard_deviation_ma, 2), units::MILLIAMPERES);
-        doc.extend(match &rows.against_stated {
+        doc.extend(match &rows.against_stated() {
             Some(stated) => agreement(stated, texts::ROW_SCATTER, texts::ROWS_LESS_THAN_STATED),
             None => {
                 let freedom = (texts::FREEDOM, rows.degrees_of_freedom.into(), false);
@@ -62,7 +62,7 @@ pub(crate) fn scatter(calibration: &Calibration) -> Vec<(Weight, Statement)> {
     }
     if let Some(visits) = &calibration.scatter {
         // Of several turn-ons the visits are those that were meant to be.
-        let has_turn_ons = calibration.adopted().is_some_and(|answer| answer.cycles.len() > 1);
+        let has_turn_ons = calibration.adopted().is_some_and(|answer| answer.document.cycles.len() > 1);
         let less = if has_turn_ons { texts::NOISE_LESS_THAN_STATED } else { texts::LESS_THAN_STATED };
         doc.extend(agreement(visits, texts::SCATTER, less));
         let is_more = visits.agreement() == Agreement::More && calibration.visit_noise.source == NoiseSource::Estimated;

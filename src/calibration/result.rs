@@ -1,18 +1,19 @@
 //! Results of a calibration.
 
 use super::chi_square::ALARM;
+use super::document::ResultDocument;
 use super::finding::{Finding, Kind};
 use super::iterative::NoIterativeSolution;
 use super::recorded::Digits;
+use super::unknowns::Unknowns;
 use super::{
-    ChiSquare, DriftNoise, Iteration, Model, NoAnalyticSolution, NoLeastSquares, NoiseSource, NotStated, Parameter,
-    RowScatter, Scatter,
+    ChiSquare, DriftNoise, Model, NoAnalyticSolution, NoLeastSquares, NoiseSource, NotStated, Parameter, RowScatter,
+    Scatter,
 };
-use crate::coefficients::PositionIndex;
 use crate::gyro::GyroParameters;
 use crate::statistics::student::f_larger;
 use crate::text::{word_of_a_key, words};
-use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2};
+use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
 words! {
@@ -100,12 +101,7 @@ impl NotValid {
 
 impl Calibration {
     /// Returns the adopted result if it is valid: least squares if requested, otherwise the last method. A result that is not
-    /// that of the gyro is never returned; [`Calibration::valid`] gives the reason.
-    pub fn answer(&self) -> Option<&MethodResult> {
-        self.valid().ok()
-    }
-
-    /// Returns the adopted result.
+    /// that of the gyro is never returned.
     ///
     /// # Errors
     /// Returns [`NotValid`] if no method gave a result, if the readings do not fit the stand, or if an error explains the
@@ -161,7 +157,7 @@ impl Calibration {
     /// Returns the standard uncertainty of ω_0 from the scatter of the turn-ons, °/h, if it is most of that of ω_0x or ω_0y.
     pub(crate) fn mostly_from_turn_ons(&self) -> Option<f64> {
         let answer = self.adopted()?;
-        let u = self.turn_on_noise.deg_per_h / (answer.cycles.len().max(1) as f64).sqrt();
+        let u = self.turn_on_noise.deg_per_h / (answer.document.cycles.len().max(1) as f64).sqrt();
         let most = |parameter| answer.standard_uncertainty(parameter).is_some_and(|whole| 2.0 * u * u > whole * whole);
         (most(Parameter::Omega0x) || most(Parameter::Omega0y)).then_some(u)
     }
@@ -198,35 +194,17 @@ pub enum MethodRefusal {
 /// ω_0 of one turn-on of the gyro.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "struct CycleDocument")]
-pub struct Cycle {
+pub(crate) struct Cycle {
     /// Number of the turn-on.
     pub cycle: u32,
     /// ω_0 about x and y, °/h.
     pub omega0_deg_per_h: [f64; 2],
 }
 
-/// Linear drift of ω_0 in time.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Drift {
-    /// Drift about x and y, °/h per hour.
-    pub deg_per_h_per_h: Vector2<f64>,
-    /// Standard uncertainties of the drift, °/h per hour.
-    pub standard_uncertainty_deg_per_h_per_h: Vector2<f64>,
-}
-
-/// Matrix G of the general model: g-sensitive drift for (n_x, n_y, n_z).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GMatrix {
-    /// G, °/(h·g), 2×3.
-    pub deg_per_h_per_g: Matrix2x3<f64>,
-    /// Standard uncertainties of its elements, °/(h·g), 2×3.
-    pub standard_uncertainty_deg_per_h_per_g: Matrix2x3<f64>,
-}
-
 /// F test of whether the two parameters of the paper's g-sensitive drift are enough.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ModelTest {
+pub(crate) struct ModelTest {
     /// Ratio of mean squares: of what the further parameters explain to what they leave.
     pub f: f64,
     /// Number of further parameters, and degrees of freedom of the rest.
@@ -272,33 +250,15 @@ pub struct MethodResult {
     pub model: Model,
     /// Parameters K, ω_0, ω_g, ω_k.
     pub parameters: GyroParameters,
-    /// ω_n, °/(h·g), 2×2: four independent numbers for the paper's methods, [[ω_g, −ω_k], [ω_k, ω_g]] for least
-    /// squares.
-    pub omega_n_deg_per_h_per_g: Matrix2<f64>,
-    /// Anisoelastic coefficient, °/(h·g²); `None` if it was not fitted.
-    pub anisoelasticity_deg_per_h_per_g2: Option<f64>,
-    /// Matrix of g-sensitive drift; `None` but for the general model.
-    pub g_matrix: Option<GMatrix>,
-    /// Test whether the paper's model is enough; `None` if it was fitted, or the test is not possible.
-    pub model_test: Option<ModelTest>,
-    /// Drift in time; `None` if it was not fitted.
-    pub drift: Option<Drift>,
-    /// ω_0 of each turn-on; empty if there is one.
-    pub cycles: Vec<Cycle>,
-    /// Course of the iteration; `None` for other methods.
-    pub iteration: Option<Iteration>,
+    /// These parameters and those beyond them.
+    pub(crate) unknowns: Unknowns,
     /// Covariance of the parameters from all inputs, 8×8 in the order of [`Parameter::EIGHT`]; 9×9 with the anisoelastic
     /// coefficient last, or 12×12 with G by rows instead of ω_g and ω_k.
     pub covariance: DMatrix<f64>,
-    /// Standard uncertainties of the elements of ω_n, °/(h·g), 2×2.
-    pub omega_n_uncertainty_deg_per_h_per_g: Matrix2<f64>,
-    /// Difference of each parameter from least squares, in units of its own standard uncertainty (both methods are
-    /// subject to the same errors), in the order of [`Parameter::EIGHT`]; `None` for least squares itself.
-    pub from_least_squares: Option<[f64; 8]>,
     /// Chi-square test of the fit.
     pub chi_square: ChiSquare,
-    /// Residuals of each position, in the order of the coefficients.
-    pub residuals: Vec<Residual>,
+    /// Everything that is stated of the result.
+    pub(crate) document: ResultDocument,
 }
 
 impl MethodResult {
@@ -317,26 +277,6 @@ impl MethodResult {
 
     /// Returns the value of a parameter in its unit, or `None` if it was not fitted.
     pub fn value(&self, parameter: Parameter) -> Option<f64> {
-        match parameter {
-            Parameter::Anisoelasticity => self.anisoelasticity_deg_per_h_per_g2,
-            Parameter::G(row, column) => {
-                self.g_matrix.map(|g| g.deg_per_h_per_g[(usize::from(row), usize::from(column))])
-            }
-            Parameter::OmegaG | Parameter::OmegaK if self.model == Model::General => None,
-            other => self.parameters.to_vector().get(other.place()).copied(),
-        }
+        self.model.column(parameter).map(|_| self.unknowns.value(parameter))
     }
-}
-
-/// Residuals of the two equations of a position: ω_3 − K J − ω_0 − ω_n n.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Residual {
-    /// Index (i, j) of the position.
-    pub index: PositionIndex,
-    /// Residuals along x and y, °/h.
-    pub residual_deg_per_h: Vector2<f64>,
-    /// Standard uncertainties of the residuals, °/h, if only the stated uncertainties act.
-    pub standard_uncertainty_deg_per_h: Vector2<f64>,
-    /// Residuals divided by their standard uncertainties; 0 if a residual cannot differ from 0.
-    pub normalised: Vector2<f64>,
 }

@@ -49,16 +49,32 @@ pub enum Agreement {
     Less,
 }
 
-/// Noise of a reading, from repeated rows.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RowScatter {
-    /// Standard deviation of one reading, mA.
-    pub standard_deviation_ma: f64,
-    /// Degrees of freedom of the standard deviation.
-    pub degrees_of_freedom: usize,
-    /// Comparison with the noise that the laboratory states. If it states none, this is `None` and the standard
-    /// deviation is used as the noise.
-    pub against_stated: Option<Scatter>,
+result! {
+    /// Noise of a reading, from repeated rows, compared with the noise that the laboratory states. If it states none, the
+    /// standard deviation is used as the noise.
+    #[derive(Copy)]
+    #[serde(expecting = "struct RowScatterDocument")]
+    pub struct RowScatter {
+        /// Standard deviation of one reading, mA.
+        pub standard_deviation_ma: f64,
+        /// Degrees of freedom: two for each row after a visit's first.
+        pub degrees_of_freedom: usize,
+        /// Sum of squares in units of the stated variance; absent if no noise is stated.
+        pub chi_square: Option<f64> = default,
+        /// Probability of more scatter if the stated noise is correct; close to 1 if there is less than stated.
+        pub probability: Option<f64> = default,
+        /// Factor by which the variance of a reading was enlarged.
+        pub variance_factor: Option<f64> = default,
+    }
+}
+
+impl RowScatter {
+    /// Returns the comparison with the stated noise, if there is one.
+    pub(crate) fn against_stated(&self) -> Option<Scatter> {
+        let Self { degrees_of_freedom, .. } = *self;
+        let (chi_square, probability) = self.chi_square.zip(self.probability)?;
+        Some(Scatter { chi_square, degrees_of_freedom, probability, variance_factor: self.variance_factor? })
+    }
 }
 
 impl Scatter {
@@ -111,7 +127,9 @@ impl Repeats {
             self.noise_ma = standard_deviation_ma;
             self.noise_degrees_of_freedom = degrees_of_freedom as f64;
         }
-        Some(RowScatter { standard_deviation_ma, degrees_of_freedom, against_stated })
+        let [chi_square, probability, variance_factor] = against_stated
+            .map_or([None; 3], |found| [found.chi_square, found.probability, found.variance_factor].map(Some));
+        Some(RowScatter { standard_deviation_ma, degrees_of_freedom, chi_square, probability, variance_factor })
     }
 
     fn observe_visits(

@@ -23,11 +23,6 @@ impl VectorChange {
     pub(crate) fn turned(&self, axis: &Vector3<f64>) -> Self {
         Self { earth_rate_deg_per_h: self.earth_rate_deg_per_h.cross(axis), vertical: self.vertical.cross(axis) }
     }
-
-    /// Returns the change for `size` units.
-    pub(crate) fn times(&self, size: f64) -> Self {
-        Self { earth_rate_deg_per_h: self.earth_rate_deg_per_h * size, vertical: self.vertical * size }
-    }
 }
 
 impl Setup {

@@ -5,7 +5,6 @@ use crate::calibration::{Calibration, CalibrationDocument, Method, Options as Ca
 use crate::gyro::{GyroType, Tolerance};
 use crate::interface::calibrated::{WholeDocument, distributions};
 use crate::report::{picture, uncertainty as report};
-use crate::uncertainty::dominant::Dominant;
 use crate::uncertainty::monte_carlo::{Trials, refused_model};
 use crate::uncertainty::{Budget, MonteCarlo};
 use crate::wording::Language;
@@ -53,8 +52,8 @@ fn trials(text: &str) -> Result<u64, String> {
 
 /// The requested budget and Monte Carlo result.
 pub(super) struct Found {
-    /// The budget, and the sentence on what would reduce the uncertainty most.
-    pub budget: Option<(Budget, Option<String>)>,
+    /// The budget, and the tolerances of the gyro type.
+    pub budget: Option<(Budget, Option<Tolerance>)>,
     /// Picture of the budget, to be written.
     pub budget_svg: Option<String>,
     pub monte_carlo: Option<MonteCarlo>,
@@ -69,7 +68,7 @@ impl Found {
 
     /// Returns the result of a calibration with these, as JSON.
     pub(super) fn with<'a>(&'a self, calibration: &'a CalibrationDocument) -> WholeDocument<'a, MonteCarlo> {
-        let budget = self.budget.as_ref().map(|(budget, words)| budget.to_json(words.as_deref()));
+        let budget = self.budget.as_ref().map(|(budget, tolerance)| budget.to_json(tolerance.as_ref()));
         WholeDocument { calibration, budget, monte_carlo: self.monte_carlo.as_ref() }
     }
 }
@@ -96,8 +95,8 @@ impl UncertaintyOptions {
         let draw = |_| picture::budget::budget(&budget).ok_or_else(no_picture);
         let budget_svg = self.budget_svg.as_ref().map(draw).transpose()?;
         let trials = self.monte_carlo.then(|| self.trials(setup, readings, (&budget, options))).transpose()?;
-        let sentence = Dominant::of(&budget, tolerance).map(|remedy| remedy.sentence());
-        Ok(Found { budget: self.budget.then_some((budget, sentence)), budget_svg, monte_carlo: trials })
+        let budget = self.budget.then(|| (budget, tolerance.cloned()));
+        Ok(Found { budget, budget_svg, monte_carlo: trials })
     }
 
     /// Runs the trials, and announces a run that takes long.

@@ -57,7 +57,10 @@ impl<'a> Calibrated<'a> {
         if !document.is_valid() {
             return Err("no DCC was written, because the result is not that of this gyro; omit --dcc to see why");
         }
-        let answer = done.calibration.adopted().filter(|answer| answer.model == Model::Paper && answer.drift.is_none());
+        let answer = done
+            .calibration
+            .adopted()
+            .filter(|answer| answer.model == Model::Paper && answer.document.drift_deg_per_h_per_h.is_none());
         let (Some(answer), Some(found), Some(subject)) = (answer, document.found(), &document.subject) else {
             return Err("no DCC was written: it states the parameters of the paper's model; omit --model, or --dcc");
         };

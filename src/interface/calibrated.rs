@@ -16,9 +16,8 @@ use crate::laboratory::Laboratory;
 use crate::passport::{Content, RegisterUsed};
 use crate::text::printable;
 use crate::uncertainty::Budget;
-use crate::uncertainty::dominant::Dominant;
 #[cfg(feature = "monte-carlo")]
-use crate::uncertainty::{self, Engine, MonteCarlo, ReadingShape, Trials};
+use crate::uncertainty::{self, Engine, MonteCarlo, Trials};
 use crate::wording::{Language, plain};
 use jiff::Timestamp;
 use serde::Serialize;
@@ -52,8 +51,7 @@ pub fn calibrate(
 fn budget(done: &Done, order: &Order) -> Option<serde_json::Value> {
     let answer = done.calibration.adopted().filter(|_| order.budget)?;
     let budget = Budget::new(&done.setup, &done.readings, answer.method, &order.options).ok()?;
-    let remedy = Dominant::of(&budget, order.gyro.as_ref().map(|gyro| &gyro.tolerance));
-    Some(budget.to_json(remedy.map(|remedy| remedy.sentence()).as_deref()))
+    Some(budget.to_json(order.gyro.as_ref().map(|gyro| &gyro.tolerance)))
 }
 
 /// Calibration result with the requested budget and Monte Carlo.
@@ -177,7 +175,7 @@ pub(crate) fn distributions(
     if let Some(why) = uncertainty::monte_carlo::refused_model(options) {
         return Err(Failed::refused(why));
     }
-    let engine = Engine::new(setup, readings, budget.method, ReadingShape::Normal).map_err(Failed::refused)?;
+    let engine = Engine::new(setup, readings, budget.method).map_err(Failed::refused)?;
     let found = uncertainty::monte_carlo(&engine, budget, run);
     if found.trials == 0 {
         return Err(Failed::refused("interrupted before the first trial was completed"));

@@ -277,7 +277,7 @@ pub(crate) fn why_no_change(why: NoChange) -> Text {
 /// `None` if there are none.
 pub(crate) fn not_linear(found: &MonteCarlo) -> Option<Words> {
     let lines = Parameter::in_paper_order(&found.parameters, |line| line.parameter);
-    let invalid: Vec<_> = lines.into_iter().filter(|line| line.first_order.valid == Some(false)).collect();
+    let invalid: Vec<_> = lines.into_iter().filter(|line| line.first_order_valid == Some(false)).collect();
     (!invalid.is_empty()).then(|| texts::not_linear(symbols(invalid.into_iter().map(|line| line.parameter))))
 }
 

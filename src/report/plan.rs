@@ -3,17 +3,17 @@
 use super::calibration::with_key;
 use super::doc::{Block, On, Rows, Words, code, given, heading, in_unit, joined, line, listed, marked, say, symbol};
 use super::page::Number;
-use super::picture::accuracy::unit;
 use super::style::Outcome;
-use super::uncertainty::unit_of;
 use crate::calibration::Parameter;
 use crate::calibration::parameter::symbols;
+use crate::calibration::parameter::unit;
 use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::gyro::GyroType;
 use crate::plan::criterion::Criterion;
 use crate::plan::sensitivity::Effect;
 use crate::plan::{Evaluation, Plan, Visited};
 use crate::text::number::decimal;
+use crate::uncertainty::dominant::unit_of;
 use crate::wording::Text;
 use crate::wording::texts::{compass, plan as texts, units};
 

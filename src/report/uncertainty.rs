@@ -1,6 +1,6 @@
 //! Uncertainty budget and Monte Carlo with the test of linear propagation, both on request.
 
-use crate::calibration::causes::Cause;
+use crate::calibration::parameter::unit;
 use crate::calibration::verdict::{ParameterVerdict, Verdict};
 use crate::calibration::{CalibrationDocument, Parameter};
 use crate::gyro::GyroType;
@@ -8,12 +8,11 @@ use crate::report::calibration::parameters;
 use crate::report::doc::{self, Block, On, Rows, Words, drawn, heading, in_unit, marked, say, symbol, told};
 use crate::report::page::Language;
 use crate::report::page::number::Number;
-use crate::report::picture::accuracy::unit;
 use crate::report::picture::drawing::legend_with;
 use crate::report::picture::shares as strips;
 use crate::report::picture::tolerances::unit_at_type;
 use crate::report::style::Outcome;
-use crate::uncertainty::dominant::{Dominant, Effect, Part, percent};
+use crate::uncertainty::dominant::{Dominant, of_input};
 use crate::uncertainty::monte_carlo::Distribution;
 use crate::uncertainty::{Budget, Contribution, MonteCarlo, ParameterBudget};
 use crate::wording::texts::{calibration as texts, units, words};
@@ -65,7 +64,7 @@ pub(crate) fn budget(budget: &Budget, gyro: Option<&GyroType>, document: &Calibr
         document.scatter.map(|_| texts::BUDGET_MEANS.into()),
         (!small.is_empty()).then(|| texts::budget_not_shown(names)),
     ];
-    let mut doc = vec![say(remedy.iter().flat_map(|remedy| sentences(remedy, worst)))];
+    let mut doc = vec![say(remedy.iter().flat_map(|remedy| remedy.said(worst)))];
     doc.extend(shares(budget, verdict).map(|block| block.only(On::Page)));
     let u_of_gravity = document.gravity_u_m_per_s2.unwrap_or(0.0);
     doc.push(
@@ -73,26 +72,6 @@ pub(crate) fn budget(budget: &Budget, gyro: Option<&GyroType>, document: &Calibr
     );
     doc.push(say(notes.into_iter().flatten().collect::<Vec<Words>>()));
     doc
-}
-
-/// The dominant contribution to the budget and the effect of reducing it.
-fn sentences(remedy: &Dominant, worst: fn(Words, Words) -> Words) -> [Words; 3] {
-    let (line, first) = (remedy.worst, remedy.first);
-    let share = match remedy.part() {
-        Part::NearlyAll => texts::budget_nearly_all,
-        Part::Most => texts::budget_most,
-        Part::Largest => texts::budget_largest,
-    };
-    let amount = |u: f64| {
-        let (u, unit) = percent(line, u).map_or_else(|| (u, unit(line.parameter)), |percent| (percent, units::PERCENT));
-        Words::Quantity(Number::scientific(u, 2), unit)
-    };
-    let effect = match remedy.effect {
-        Effect::HalvesAt(limit) => texts::budget_halves(told(of_input(first.cause, limit))),
-        Effect::Leaves(rest) => texts::budget_leaves(told(amount(rest))),
-    };
-    let share = share(told(Number::fixed(100.0 * first.share, 0)), first.cause.kind_words());
-    [worst(symbol(line.parameter.symbol()), told(amount(line.standard_uncertainty))), share, effect]
 }
 
 /// Which kinds of input each variance comes from; where a type is given, at its g, to which the decision refers.
@@ -212,22 +191,6 @@ fn kinds(budget: &Budget) -> Vec<&Contribution> {
     kinds
 }
 
-/// Returns the uncertainty of an input with its unit.
-fn of_input(cause: Cause, u: f64) -> Words {
-    let number = Number::scientific(u, 2);
-    if cause.unit() == "1" { number.into() } else { Words::Quantity(number, unit_of(cause)) }
-}
-
-/// Returns the unit of the uncertainty of an input.
-pub(crate) fn unit_of(cause: Cause) -> crate::wording::Text {
-    match cause.unit() {
-        "%" => units::PERCENT,
-        "mA" => units::MILLIAMPERES,
-        "deg/h" => units::DEG_PER_H,
-        _ => units::ARCSEC,
-    }
-}
-
 /// The coverage intervals, and for every parameter whether the linear approximation is valid.
 pub(crate) fn monte_carlo(found: &MonteCarlo) -> Vec<Block> {
     let line = |parameter: Parameter| found.parameters.iter().find(|line| line.parameter == parameter);
@@ -241,9 +204,9 @@ pub(crate) fn monte_carlo(found: &MonteCarlo) -> Vec<Block> {
         (texts::UPPER.into(), each(&|line| measured(line.symmetric[1], line))),
     ];
     // Too few trials decide nothing.
-    let decided = found.parameters.iter().filter(|line| line.first_order.valid.is_some()).count();
+    let decided = found.parameters.iter().filter(|line| line.first_order_valid.is_some()).count();
     if decided > 0 {
-        let valid = each(&|line| match line.first_order.valid {
+        let valid = each(&|line| match line.first_order_valid {
             Some(valid) => {
                 let word = if valid { words::YES } else { words::NO };
                 marked(Some(valid), Words::First(Box::new(word.into())))

@@ -4,13 +4,18 @@
 //! and G.3.3 (coverage factor); [JCGM 102](crate::bibliography::Bibliography::Jcgm102), 6.2.1 (covariance of several
 //! results).
 
+use super::dominant::Dominant;
 use crate::calibration::causes;
 use crate::calibration::document::finite;
 use crate::calibration::estimates::Estimates;
 use crate::calibration::procedure::{Linearised, linearise};
 use crate::calibration::propagation::{covariance, product};
 use crate::calibration::{Basis, Cause, Input, Method, MethodRefusal, Model, Options, Parameter, Readings, Setup};
+use crate::gyro::Tolerance;
 use crate::statistics::student::student_factor;
+use crate::wording::texts::calibration as texts;
+use crate::wording::words::joined;
+use crate::wording::{Language, plain};
 use nalgebra::DMatrix;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -108,7 +113,11 @@ impl Budget {
 
     /// Returns the budget as JSON, `{method, sentence, parameters, covariance, inputs}`: the key `budget` of `calibrate`. The
     /// parameters have their `contributions`; `changes` of an input are those of the parameters, for one standard uncertainty.
-    pub(crate) fn to_json(&self, sentence: Option<&str>) -> Value {
+    /// The sentence is on the uncertainty that is largest relative to its `tolerance`, or to its value.
+    pub(crate) fn to_json(&self, tolerance: Option<&Tolerance>) -> Value {
+        let worst = if tolerance.is_some() { texts::budget_worst } else { texts::budget_worst_of_size };
+        let sentence = Dominant::of(self, tolerance)
+            .map(|remedy| plain(&joined(remedy.said(worst), " ").plain(Language::English)));
         let contribution = |part: &Contribution| {
             json!({
                 "input": part.cause.kind(), "inputs": part.inputs, "source": part.cause.source(),

@@ -2,9 +2,12 @@
 
 use super::budget::{Budget, Contribution, ParameterBudget};
 use crate::calibration::Cause;
+use crate::calibration::parameter::unit;
 use crate::gyro::Tolerance;
-use crate::text::number::two_digits;
-use crate::units::quantity;
+use crate::wording::number::Number;
+use crate::wording::texts::{calibration as texts, units};
+use crate::wording::words::{symbol, told};
+use crate::wording::{Text, Words};
 
 /// Smallest share of a variance that counts as "nearly all" of it.
 const NEARLY_ALL: f64 = 0.9;
@@ -38,17 +41,6 @@ pub(crate) enum Effect {
     Leaves(f64),
 }
 
-/// Share of the largest contribution in a variance.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Part {
-    /// Share of 90 % or more.
-    NearlyAll,
-    /// Share of one half or more.
-    Most,
-    /// Smaller share, but the largest of all.
-    Largest,
-}
-
 impl<'a> Dominant<'a> {
     /// Returns the dominant contribution of a budget, or `None` if nothing is uncertain.
     pub(crate) fn of(budget: &'a Budget, tolerance: Option<&Tolerance>) -> Option<Self> {
@@ -70,69 +62,43 @@ impl<'a> Dominant<'a> {
         Some(Self { worst, first, effect })
     }
 
-    /// Returns the share of the largest contribution in the variance.
-    pub(crate) fn part(&self) -> Part {
-        match self.first.share {
-            share if share >= NEARLY_ALL => Part::NearlyAll,
-            share if share >= 0.5 => Part::Most,
-            _ => Part::Largest,
-        }
-    }
-
-    /// Returns the result as one sentence without a full stop.
-    pub(crate) fn sentence(&self) -> String {
-        let (worst, kind, percent) = (self.worst, self.first.cause.kind(), 100.0 * self.first.share);
-        let from = match self.part() {
-            Part::NearlyAll => format!("nearly all of the variance comes from one source ({kind})"),
-            Part::Most => format!("{percent:.0} % of the variance comes from one source ({kind})"),
-            Part::Largest => format!("the source with the largest share of the variance, {percent:.0} %, is: {kind}"),
+    /// Returns the dominant contribution and the effect of reducing it, a sentence each; `worst` says how the parameter was
+    /// chosen.
+    pub(crate) fn said(&self, worst: fn(Words, Words) -> Words) -> [Words; 3] {
+        let (line, first) = (self.worst, self.first);
+        let share = match first.share {
+            share if share >= NEARLY_ALL => texts::budget_nearly_all,
+            share if share >= 0.5 => texts::budget_most,
+            _ => texts::budget_largest,
         };
-        let known = amount(worst, worst.standard_uncertainty);
+        let amount = |u: f64| {
+            let percent = (line.parameter.is_scale_factor() && line.value != 0.0).then(|| 100.0 * u / line.value.abs());
+            let (u, unit) = percent.map_or_else(|| (u, unit(line.parameter)), |percent| (percent, units::PERCENT));
+            told(Words::Quantity(Number::scientific(u, 2), unit))
+        };
         let effect = match self.effect {
-            Effect::Leaves(rest) => format!("; without it u would be {}", amount(worst, rest)),
-            Effect::HalvesAt(limit) => format!("; to halve u, {}", what_to_do(self.first.cause, limit)),
+            Effect::HalvesAt(limit) => texts::budget_halves(told(of_input(first.cause, limit))),
+            Effect::Leaves(rest) => texts::budget_leaves(amount(rest)),
         };
-        format!("u({}) is {known}; {from}{effect}", worst.parameter.symbol())
+        let share = share(told(Number::fixed(100.0 * first.share, 0)), first.cause.kind_words());
+        [worst(symbol(line.parameter.symbol()), amount(line.standard_uncertainty)), share, effect]
     }
 }
 
-/// Returns an uncertainty of a scale factor in percent of it, or `None` for other parameters and for a factor of 0.
-pub(crate) fn percent(line: &ParameterBudget, u: f64) -> Option<f64> {
-    (line.parameter.is_scale_factor() && line.value != 0.0).then(|| 100.0 * u / line.value.abs())
+/// Returns the uncertainty of an input with its unit.
+pub(crate) fn of_input(cause: Cause, u: f64) -> Words {
+    let number = Number::scientific(u, 2);
+    if cause.unit() == "1" { number.into() } else { Words::Quantity(number, unit_of(cause)) }
 }
 
-/// Returns an uncertainty of a parameter as text: in percent for a scale factor, otherwise in the unit of the
-/// parameter.
-fn amount(line: &ParameterBudget, u: f64) -> String {
-    match percent(line, u) {
-        Some(percent) => format!("{} %", two_digits(percent)),
-        None => quantity(&two_digits(u), line.parameter.unit()),
-    }
-}
-
-/// Returns the measure that reduces the uncertainty of an input to `limit`, in its unit.
-fn what_to_do(cause: Cause, limit: f64) -> String {
-    let to = quantity(&two_digits(limit), cause.unit());
-    match cause {
-        Cause::Seat(axis) => {
-            format!("seat the gyro with an uncertainty of {to} about {}", ["x", "y", "the spin axis"][axis])
-        }
-        Cause::Angle(..) => format!("certify the angles with an uncertainty of {to}"),
-        Cause::Return(..) => format!("improve the repeatability of the stand to {to}"),
-        Cause::Platform(_) | Cause::Base(_) => format!("certify the {} with an uncertainty of {to}", cause.kind()),
-        Cause::Level(_) => format!("level the base with an uncertainty of {to}"),
-        Cause::Azimuth => format!("align the base with an uncertainty of its azimuth of {to}"),
-        Cause::Mark => format!("determine the azimuth of the mark with an uncertainty of {to}"),
-        Cause::Latitude | Cause::Deflection => format!("determine the {} with an uncertainty of {to}", cause.kind()),
-        Cause::Reading(..) => format!("measure the currents with an uncertainty of {to}"),
-        Cause::Floor(..) => format!("measure the currents with an uncertainty of {to} at zero"),
-        Cause::Noise(..) => format!("reduce the noise of the mean reading to {to}"),
-        Cause::Visits(..) => format!("reduce the gyro's noise in the mean of a position to {to}, by more visits"),
-        Cause::TurnOn(_) => format!("reduce the scatter of the mean of the turn-ons to {to}, by more turn-ons"),
-        Cause::Scale(_) => format!("reduce the scatter of K between turn-ons to {to}, by more turn-ons"),
-        Cause::Differences(_) => "visit each position more often".to_owned(),
-        Cause::Gain => format!("calibrate the gain of the meter with an uncertainty of {to}"),
-        Cause::Offset => format!("calibrate the offset of the meter with an uncertainty of {to}"),
+/// Returns the unit of the uncertainty of an input.
+pub(crate) fn unit_of(cause: Cause) -> Text {
+    match cause.unit() {
+        "%" => units::PERCENT,
+        "mA" => units::MILLIAMPERES,
+        "deg/h" => units::DEG_PER_H,
+        "deg/(h mA)" => units::DEG_PER_H_PER_MA,
+        _ => units::ARCSEC,
     }
 }
 
@@ -140,16 +106,4 @@ fn what_to_do(cause: Cause, limit: f64) -> String {
 fn rounded_down(value: f64) -> f64 {
     let decade = libm::pow(10.0, libm::log10(value).floor() - 1.0);
     (value / decade + 1e-9).floor() * decade
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn digits() {
-        assert_eq!(two_digits(rounded_down(14.97)), "14");
-        assert_eq!(two_digits(rounded_down(0.0499)), "0.049");
-        assert_eq!(two_digits(rounded_down(10.0)), "10");
-    }
 }

@@ -3,7 +3,6 @@
 //! * `budget`: first-order contributions of every input, effective degrees of freedom, covariance.
 //! * `dominant`: the dominant contribution of a budget, and what would halve an uncertainty.
 //! * `engine`: what the trials of a Monte Carlo draw and compute.
-//! * `entries`: covariance of the numbers of a passport.
 //! * `monte_carlo`: distributions by Monte Carlo, and whether first order is valid.
 
 pub(crate) mod budget;
@@ -11,14 +10,10 @@ pub(crate) mod dominant;
 #[cfg(feature = "monte-carlo")]
 pub(crate) mod engine;
 #[cfg(feature = "monte-carlo")]
-pub(crate) mod entries;
-#[cfg(feature = "monte-carlo")]
 pub(crate) mod monte_carlo;
 
 pub use budget::{Budget, Contribution, ParameterBudget};
 #[cfg(feature = "monte-carlo")]
-pub use engine::{Engine, ReadingShape};
+pub use engine::Engine;
 #[cfg(feature = "monte-carlo")]
-pub use entries::{Entry, EntryUncertainty};
-#[cfg(feature = "monte-carlo")]
-pub use monte_carlo::{Distribution, FirstOrder, MonteCarlo, Trials, monte_carlo};
+pub use monte_carlo::{Distribution, MonteCarlo, Trials, monte_carlo};

@@ -11,8 +11,8 @@ use crate::calibration::{Method, Model, Options, Parameter};
 use crate::parallel;
 use crate::statistics::student::student_factor;
 use crate::text::number::exponent_as_printed;
-use dtg_passport_trials::accumulator::{Accumulator, BlockSummary, Histograms, Scale};
-use dtg_passport_trials::bins::{quantile, shortest};
+use dtg_passport_trials::accumulator::{Accumulator, BlockSummary, Scale};
+use dtg_passport_trials::bins::{BINS, quantile, shortest};
 use dtg_passport_trials::wide_random::WideRandom;
 use nalgebra::DMatrix;
 use serde::{Serialize, Serializer};
@@ -55,13 +55,6 @@ pub struct Trials<'a> {
     pub cancel: Option<&'a AtomicBool>,
     /// Function called after every wave with the number of trials done, and with the total as far as it is known.
     pub progress: Option<&'a (dyn Fn(u64, u64) + Sync)>,
-}
-
-impl std::fmt::Debug for Trials<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        let Self { trials, seed, threads, .. } = self;
-        write!(f, "Trials {{ trials: {trials:?}, seed: {seed}, threads: {threads} }}")
-    }
 }
 
 impl Trials<'_> {
@@ -118,27 +111,15 @@ pub struct Distribution {
     /// ends of the symmetric interval.
     #[serde(skip)]
     pub numerical: [f64; 4],
-    /// Comparison with first order.
-    #[serde(flatten)]
-    pub first_order: FirstOrder,
-}
-
-/// Comparison of first order with Monte Carlo (JCGM 101, clause 8).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct FirstOrder {
-    /// Standard uncertainty by first order.
-    #[serde(skip)]
-    pub standard_uncertainty: f64,
-    /// First-order interval, y − U and y + U.
+    /// First-order interval, y − U and y + U, with which the symmetric one is compared (JCGM 101, clause 8).
     #[serde(rename = "first_order_interval")]
-    pub interval: [f64; 2],
+    pub first_order: [f64; 2],
     /// Distances between the lower and between the upper ends of the two intervals.
     pub differences: [f64; 2],
     /// Largest valid distance: half a unit of the second significant digit of the standard uncertainty.
     pub tolerance: f64,
     /// `true` if both distances are within the tolerance; `None` if there are too few trials to decide.
-    #[serde(rename = "first_order_valid")]
-    pub valid: Option<bool>,
+    pub first_order_valid: Option<bool>,
 }
 
 /// Writes a parameter as its key and its unit.
@@ -152,7 +133,8 @@ fn by_rows<S: Serializer>(matrix: &DMatrix<f64>, serializer: S) -> Result<S::Ok,
 
 /// Runs the trials of `engine`, and compares them with the first-order `budget`.
 pub fn monte_carlo(engine: &Engine, budget: &Budget, run: &Trials) -> MonteCarlo {
-    let scale = pilot(engine, run.seed);
+    // The scale of every parameter, from the first block.
+    let scale = Scale::of_pilot(engine.computation.samples(&mut WideRandom::new(run.seed), false));
     let mut series = Series::new(scale, run.seed);
     let asked = run.trials.map(|trials| trials.div_ceil(BLOCK).max(1));
     let mut due = asked.unwrap_or(FIRST_BLOCKS);
@@ -176,11 +158,6 @@ pub fn monte_carlo(engine: &Engine, budget: &Budget, run: &Trials) -> MonteCarlo
     series.result(budget, run.seed, stable)
 }
 
-/// Computes the scale of every parameter from the first block.
-fn pilot(engine: &Engine, seed: u64) -> Scale {
-    Scale::of_pilot(engine.computation.samples(&mut WideRandom::new(seed), false))
-}
-
 /// Accumulated results of all blocks, of a fixed size.
 struct Series {
     scale: Scale,
@@ -190,7 +167,8 @@ struct Series {
     failed: u64,
     sums: [f64; PARAMETERS],
     products: [f64; PAIRS],
-    histograms: Histograms,
+    /// Counts of the bins of each parameter.
+    histograms: Vec<[u64; BINS]>,
     /// Mean of the blocks' values and the sum of squares about it, for the mean, the standard deviation and the two
     /// quantiles of each parameter.
     of_blocks: [[(f64, f64); 4]; 8],
@@ -206,7 +184,7 @@ impl Series {
             failed: 0,
             sums: [0.0; PARAMETERS],
             products: [0.0; PAIRS],
-            histograms: Histograms::default(),
+            histograms: vec![[0; BINS]; PARAMETERS],
             of_blocks: [[(0.0, 0.0); 4]; 8],
         }
     }
@@ -291,11 +269,14 @@ impl Series {
         let distribution = |(place, line): (usize, &ParameterBudget)| {
             let (centre, unit) = (self.scale.centre[place], self.scale.unit[place]);
             let value = |scaled: f64| centre + unit * scaled;
-            let counts = self.histograms.of(place);
+            let counts = &self.histograms[place];
             let symmetric = [0.5 - COVERAGE / 2.0, 0.5 + COVERAGE / 2.0].map(|share| value(quantile(counts, share)));
             let standard_uncertainty = self.standard_deviation(place);
             let numerical = self.numerical(place);
             let errors = [numerical[2], numerical[3]].map(|twice| twice / 2.0);
+            let (half, tolerance) = (line.expanded_uncertainty(), tolerance(line.standard_uncertainty));
+            let first_order = [line.value - half, line.value + half];
+            let differences = [0, 1].map(|end: usize| (first_order[end] - symmetric[end]).abs());
             Distribution {
                 parameter: line.parameter,
                 mean: value(self.sums[place] / self.count.max(1) as f64),
@@ -304,7 +285,10 @@ impl Series {
                 symmetric,
                 shortest: shortest(counts, COVERAGE).map(value),
                 numerical,
-                first_order: FirstOrder::new(line, symmetric, errors, self.blocks),
+                first_order,
+                differences,
+                tolerance,
+                first_order_valid: valid(differences, tolerance, errors, self.blocks),
             }
         };
         MonteCarlo {
@@ -316,19 +300,6 @@ impl Series {
             parameters: budget.parameters.iter().take(8).enumerate().map(distribution).collect(),
             covariance: DMatrix::from_fn(8, 8, |row, column| self.covariance(row, column)),
         }
-    }
-}
-
-impl FirstOrder {
-    /// Compares first order with Monte Carlo; `errors` are the standard deviations of the ends of the symmetric interval,
-    /// from so many blocks.
-    fn new(line: &ParameterBudget, symmetric: [f64; 2], errors: [f64; 2], blocks: u64) -> Self {
-        let half = line.expanded_uncertainty();
-        let interval = [line.value - half, line.value + half];
-        let differences = [0, 1].map(|end: usize| (interval[end] - symmetric[end]).abs());
-        let tolerance = tolerance(line.standard_uncertainty);
-        let valid = valid(differences, tolerance, errors, blocks);
-        Self { standard_uncertainty: line.standard_uncertainty, interval, differences, tolerance, valid }
     }
 }
 

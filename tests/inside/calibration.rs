@@ -156,17 +156,15 @@ fn other_positions_and_anisoelasticity() {
 #[test]
 fn successive_approximation_knows_what_it_lacks() {
     let mut stream = dtg_passport::statistics::random::Stream::new(5);
-    let (mut refused, mut predicted_well, mut solved) = (0, 0, 0);
+    let mut refused = 0;
     for _ in 0..400 {
         let setup = setup(&drawn_stand(&mut stream, 25.0), LATITUDE_DEG);
         let currents = currents(&setup, &gvk_6());
         let rule = StopRule::default();
         match iterative::solve(setup.coefficients(), &currents, &rule) {
             Ok(found) => {
-                let (k, found) = (found.parameters.k_deg_per_h_per_ma, found.iteration);
-                let k = k + found.remainder_k_deg_per_h_per_ma;
+                let k = found.parameters.k_deg_per_h_per_ma + found.remainder_k_deg_per_h_per_ma;
                 assert!((k - gvk_6().k_deg_per_h_per_ma).amax() < 1e-6, "{k}");
-                solved += 1;
                 // Each step after the first approximation, and the last one alone meets the rule.
                 let met = found.changes.iter().map(|change| {
                     change.main_scale_factors_percent <= rule.delta1_percent
@@ -175,8 +173,6 @@ fn successive_approximation_knows_what_it_lacks() {
                 let met: Vec<bool> = met.collect();
                 assert_eq!(met.len() + 1, found.steps as usize);
                 assert_eq!(met.iter().position(|met| *met), Some(met.len() - 1));
-                predicted_well +=
-                    i32::from(found.predicted_steps.unwrap().abs_diff(found.steps) <= found.steps / 3 + 1);
             }
             Err(error) => {
                 assert!(error.to_string().contains("least squares"), "{error}");
@@ -185,7 +181,6 @@ fn successive_approximation_knows_what_it_lacks() {
         }
     }
     assert!(refused > 5 && refused < 60, "{refused}");
-    assert!(predicted_well * 10 > solved * 8, "{predicted_well} of {solved}");
 }
 
 /// Expected: reproduction.md: standard deviations of the analytic method at 5° and at 15° are 0.01474 and 0.01527 % of K_x;

@@ -6,9 +6,9 @@ use crate::coefficients::{EarthRate, eight_positions};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::statistics::distributions::{normal_below, normal_quantile};
-use crate::uncertainty::{Engine, ReadingShape};
+use crate::uncertainty::Engine;
 use dtg_passport_trials::PARAMETERS;
-use dtg_passport_trials::accumulator::{Accumulator, Histograms, Scale};
+use dtg_passport_trials::accumulator::{Accumulator, Scale};
 use dtg_passport_trials::bins::{BINS, bin, quantile, shortest};
 use dtg_passport_trials::elementary::{SMALL_RAD, ln, octant_sin_cos, small_cos_less_one, small_sin};
 use dtg_passport_trials::student::chi_square;
@@ -158,11 +158,11 @@ fn moments_and_quantiles_of_a_normal_sample() {
         });
         tally.add(&[column; PARAMETERS]);
     }
-    let mut all = Histograms::default();
+    let mut all = vec![[0; BINS]; PARAMETERS];
     let summary = tally.end_of_block(&mut all);
     assert_eq!((summary.count, summary.failed), ((chunks * WIDTH) as u64, 0));
     for place in 0..PARAMETERS {
-        for found in [summary.quantiles[place][1], quantile(all.of(place), 0.975)] {
+        for found in [summary.quantiles[place][1], quantile(&all[place], 0.975)] {
             assert!((found - 1.959_964).abs() < 2e-4, "{found}");
         }
         assert!(summary.sums[place].abs() < 1e-6);
@@ -177,7 +177,7 @@ fn a_trial_that_fails_is_told() {
     column[3] = f64::NAN;
     column[4] = f64::INFINITY;
     tally.add(&[column; PARAMETERS]);
-    let summary = tally.end_of_block(&mut Histograms::default());
+    let summary = tally.end_of_block(&mut vec![[0; BINS]; PARAMETERS]);
     assert_eq!((summary.count, summary.failed), (WIDTH as u64 - 2, 2));
     assert!((summary.sums[0] - 15.0).abs() < 1e-12);
     // The rest is all in one bin: so are its lowest and its highest value.
@@ -199,7 +199,7 @@ fn engine(method: Method, known: f64) -> Engine {
     let gyro = GyroType::gvk_6().nominal.to_model();
     let each = setup.coefficients().positions.iter().map(|at| (at.index, gyro.currents_ma(at).unwrap()));
     let readings = Readings::new(setup.coefficients(), &each.collect::<Vec<_>>()).unwrap();
-    Engine::new(&setup, &readings, method, ReadingShape::Normal).unwrap()
+    Engine::new(&setup, &readings, method).unwrap()
 }
 
 /// The widest instructions of this machine and scalar ones give the same bits.

@@ -173,7 +173,7 @@ fn an_earlier_result_is_judged_by_its_own_degrees_of_freedom() {
         "residuals_deg_per_h": []}}]}}"#
     );
     let earlier = CalibrationDocument::from_json("earlier.json", result.as_bytes()).unwrap();
-    let verdict = against_type(&earlier.answer().unwrap(), &GyroType::gvk_6());
+    let verdict = against_type(&earlier.valid().unwrap(), &GyroType::gvk_6());
     for row in verdict.parameters {
         let k = match row.parameter.key() {
             "k_xy" => 4.53,

@@ -407,7 +407,7 @@ fn what_the_budget_comes_to_is_said_in_every_language() {
         assert!(said.contains(beginning) && said.contains(effect), "{name}: {said}");
         let said = said.replace(',', if lang == "ru" { "." } else { "," });
         let sentence = result["budget"]["sentence"].as_str().unwrap();
-        let numbers = sentence.split([' ', '″']).filter(|word| word.parse::<f64>().is_ok());
+        let numbers = sentence.split([' ', '″', '(']).filter(|word| word.parse::<f64>().is_ok());
         let numbers: Vec<&str> = numbers.collect();
         assert_eq!(numbers.len(), 3, "{sentence}");
         for number in numbers {

@@ -1,18 +1,20 @@
 //! The JSON of one method, and what belongs to it.
 
-use crate::calibration::iterative::{LARGEST_NUMBER_OF_STEPS, StepChange, StopRule};
+use crate::calibration::chi_square::ChiSquare;
+use crate::calibration::iterative::{StepChange, StopRule};
 use crate::calibration::noise::{DriftNoise, NoiseSource};
-use crate::calibration::parameter::Parameter;
-use crate::calibration::result::{Calibration, Cycle, MethodResult, ModelTest};
-use crate::calibration::scatter::RowScatter;
+use crate::calibration::repeats::Repeats;
+use crate::calibration::result::{Cycle, ModelTest};
 use crate::calibration::unknowns::Model;
 use crate::calibration::verdict::Found;
 use crate::gyro::GyroParameters;
 use nalgebra::SMatrix;
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 result! {
     /// JSON result of one method.
+    #[derive(Default)]
     pub(crate) struct ResultDocument {
         pub(crate) method: String,
         /// Model of the g-sensitive drift: paper or general.
@@ -41,8 +43,6 @@ result! {
         /// Anisoelastic coefficient, °/(h·g²); absent if it was not fitted.
         pub(crate) anisoelasticity_deg_per_h_per_g2: Option<f64> = default,
         pub(crate) iterations: Option<u32> = default,
-        /// Number of steps predicted before the first one; absent if it exceeds the maximum number of steps.
-        pub(crate) iterations_predicted: Option<u32> = default,
         /// Stop rule of the iteration, Δ₁ and Δ₂.
         pub(crate) stop_rule: Option<StopRule> = default,
         /// Changes of the parameters in each step after the first approximation.
@@ -60,6 +60,9 @@ result! {
         pub(crate) chi_square: ChiSquareDocument,
         /// Residuals of each position, °/h; absent without degrees of freedom.
         pub(crate) residuals_deg_per_h: Vec<ResidualDocument> = default,
+        /// Key of results of earlier versions.
+        #[serde(skip_serializing, default)]
+        pub(crate) iterations_predicted: IgnoredAny,
     }
 }
 
@@ -96,9 +99,9 @@ impl NoiseDocument {
         ]
     }
 
-    fn new(calibration: &Calibration) -> Self {
+    pub(crate) fn new(repeats: &Repeats) -> Self {
         let known = |noise: &DriftNoise| (noise.source != NoiseSource::NotStated).then_some(noise.deg_per_h);
-        let (visit, turn_on) = (&calibration.visit_noise, &calibration.turn_on_noise);
+        let (visit, turn_on) = (&repeats.visit, &repeats.turn_on);
         Self {
             visit_deg_per_h: known(visit),
             visit_source: visit.source.key().to_owned(),
@@ -113,6 +116,7 @@ impl NoiseDocument {
 result! {
     /// Standard uncertainties of the values of one method, each under the key and in the unit of its value, and absent where
     /// the value is.
+    #[derive(Default)]
     pub(crate) struct UncertaintyDocument {
         pub(crate) k_deg_per_h_per_ma: [[f64; 2]; 2],
         pub(crate) omega0_deg_per_h: [f64; 2],
@@ -127,6 +131,7 @@ result! {
 
 result! {
     /// Chi-square test of a fit.
+    #[derive(Default)]
     pub(crate) struct ChiSquareDocument {
         pub(crate) value: f64,
         /// Number of readings minus number of parameters.
@@ -136,22 +141,6 @@ result! {
         pub(crate) probability: Option<f64> = default,
         /// Degrees of freedom of the uncertainties from which chi-square is computed; absent if infinite.
         pub(crate) uncertainty_degrees_of_freedom: Option<f64> = default,
-    }
-}
-
-result! {
-    /// Scatter of the rows of each visit, compared with the stated noise.
-    pub(crate) struct RowScatterDocument {
-        /// Standard deviation of one reading, mA.
-        pub(crate) standard_deviation_ma: f64,
-        /// Degrees of freedom: two for each row after a visit's first.
-        pub(crate) degrees_of_freedom: usize,
-        /// Sum of squares in units of the stated variance; absent if no noise is stated.
-        pub(crate) chi_square: Option<f64> = default,
-        /// Probability of more scatter if the stated noise is correct; close to 1 if there is less than stated.
-        pub(crate) probability: Option<f64> = default,
-        /// Factor by which the variance of a reading was enlarged.
-        pub(crate) variance_factor: Option<f64> = default,
     }
 }
 
@@ -168,59 +157,26 @@ result! {
     }
 }
 
+impl ChiSquareDocument {
+    pub(crate) fn new(found: &ChiSquare) -> Self {
+        Self {
+            value: found.value,
+            degrees_of_freedom: found.degrees_of_freedom,
+            probability: found.judges().then_some(found.probability),
+            uncertainty_degrees_of_freedom: finite(found.of_uncertainties),
+        }
+    }
+}
+
 /// Share of a standard uncertainty below which a remaining error is rounding, not a result.
 const NEGLIGIBLE: f64 = 1e-3;
 
-fn rows<const C: usize>(matrix: &SMatrix<f64, 2, C>) -> [[f64; C]; 2] {
+/// Returns a matrix as a list of rows.
+pub(crate) fn rows<const C: usize>(matrix: &SMatrix<f64, 2, C>) -> [[f64; C]; 2] {
     [0, 1].map(|row| std::array::from_fn(|column| matrix[(row, column)]))
 }
 
 impl ResultDocument {
-    pub(super) fn new(result: &MethodResult, calibration: &Calibration) -> Self {
-        let parameters = &result.parameters;
-        let of_the_paper = result.model != Model::General;
-        let iteration = result.iteration.as_ref();
-        let chi_square = &result.chi_square;
-        let residuals = result.residuals.iter().filter(|_| chi_square.judges()).map(|residual| {
-            let (index, value) = (residual.index, residual.residual_deg_per_h);
-            let u = residual.standard_uncertainty_deg_per_h;
-            ResidualDocument { i: index.i, j: index.j, x: value.x, y: value.y, u_x: Some(u.x), u_y: Some(u.y) }
-        });
-        Self {
-            method: result.method.key().to_owned(),
-            model: result.model.key().to_owned(),
-            k_deg_per_h_per_ma: rows(&parameters.k_deg_per_h_per_ma),
-            omega0_deg_per_h: parameters.omega0_deg_per_h.into(),
-            omega_n_deg_per_h_per_g: of_the_paper.then(|| rows(&result.omega_n_deg_per_h_per_g)),
-            omega_g_deg_per_h_per_g: result.value(Parameter::OmegaG),
-            omega_k_deg_per_h_per_g: result.value(Parameter::OmegaK),
-            g_matrix_deg_per_h_per_g: result.g_matrix.map(|g| rows(&g.deg_per_h_per_g)),
-            model_test: result.model_test,
-            drift_deg_per_h_per_h: result.drift.map(|drift| drift.deg_per_h_per_h.into()),
-            cycles: result.cycles.clone(),
-            noise: Some(NoiseDocument::new(calibration)),
-            anisoelasticity_deg_per_h_per_g2: result.anisoelasticity_deg_per_h_per_g2,
-            iterations: iteration.map(|iteration| iteration.steps),
-            iterations_predicted: iteration
-                .and_then(|iteration| iteration.predicted_steps)
-                .filter(|steps| *steps <= LARGEST_NUMBER_OF_STEPS),
-            stop_rule: iteration.map(|iteration| iteration.stop_rule),
-            changes: iteration.map(|iteration| iteration.changes.clone()),
-            spectral_radius: iteration.map(|iteration| iteration.spectral_radius),
-            remainder_k_deg_per_h_per_ma: iteration.map(|it| rows(&it.remainder_k_deg_per_h_per_ma)),
-            remainder_omega_n_deg_per_h_per_g: iteration.map(|it| rows(&it.remainder_omega_n_deg_per_h_per_g)),
-            standard_uncertainty: UncertaintyDocument::new(result),
-            from_least_squares: result.from_least_squares,
-            chi_square: ChiSquareDocument {
-                value: chi_square.value,
-                degrees_of_freedom: chi_square.degrees_of_freedom,
-                probability: chi_square.judges().then_some(chi_square.probability),
-                uncertainty_degrees_of_freedom: finite(chi_square.of_uncertainties),
-            },
-            residuals_deg_per_h: residuals.collect(),
-        }
-    }
-
     /// Returns the largest remaining error of the iterative method in K, °/(h·mA), and in ω_n, °/(h·g), each `None` if it is
     /// negligible; or `None` for other methods.
     pub(crate) fn remaining_errors(&self) -> Option<[Option<f64>; 2]> {
@@ -254,34 +210,4 @@ impl ResultDocument {
 /// Returns a number if JSON can have it.
 pub(crate) fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
-}
-
-impl RowScatterDocument {
-    pub(super) fn new(rows: &RowScatter) -> Self {
-        let stated = rows.against_stated;
-        Self {
-            standard_deviation_ma: rows.standard_deviation_ma,
-            degrees_of_freedom: rows.degrees_of_freedom,
-            chi_square: stated.map(|stated| stated.chi_square),
-            probability: stated.map(|stated| stated.probability),
-            variance_factor: stated.map(|stated| stated.variance_factor),
-        }
-    }
-}
-
-impl UncertaintyDocument {
-    fn new(result: &MethodResult) -> Self {
-        let u = |parameter| result.standard_uncertainty(parameter).unwrap_or(0.0);
-        Self {
-            k_deg_per_h_per_ma: [[u(Parameter::Kx), u(Parameter::Kxy)], [u(Parameter::Kyx), u(Parameter::Ky)]],
-            omega0_deg_per_h: [u(Parameter::Omega0x), u(Parameter::Omega0y)],
-            omega_n_deg_per_h_per_g: (result.model != Model::General)
-                .then(|| rows(&result.omega_n_uncertainty_deg_per_h_per_g)),
-            omega_g_deg_per_h_per_g: result.standard_uncertainty(Parameter::OmegaG),
-            omega_k_deg_per_h_per_g: result.standard_uncertainty(Parameter::OmegaK),
-            g_matrix_deg_per_h_per_g: result.g_matrix.map(|g| rows(&g.standard_uncertainty_deg_per_h_per_g)),
-            drift_deg_per_h_per_h: result.drift.map(|drift| drift.standard_uncertainty_deg_per_h_per_h.into()),
-            anisoelasticity_deg_per_h_per_g2: result.standard_uncertainty(Parameter::Anisoelasticity),
-        }
-    }
 }

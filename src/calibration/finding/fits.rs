@@ -330,16 +330,3 @@ pub(super) fn fitted(setup: &Setup, data: &Data, model: Model) -> Option<(ChiSqu
     let found = chi_square::chi_square(&Propagation::new(setup, data, &fit));
     found.value.is_finite().then_some((found, fit.unknowns.parameters))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_that_are_the_same_are_left_out() {
-        let words = |i: [u32; 2], j: [u32; 4]| numbering(&i, &j);
-        assert_eq!(words([1, 2], [2, 3, 4, 1]), "j = 1, 2, 3, 4 → 2, 3, 4, 1");
-        assert_eq!(words([2, 1], [1, 2, 3, 4]), "i = 1, 2 → 2, 1");
-        assert_eq!(words([2, 1], [2, 3, 4, 1]), "i = 1, 2 → 2, 1; j = 1, 2, 3, 4 → 2, 3, 4, 1");
-    }
-}

@@ -101,34 +101,27 @@ pub enum Kind {
     Chance,
 }
 
-/// Part of the readings on which a cause acts. An absent key is no restriction.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Scope {
-    /// Turn-on.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub cycle: Option<u32>,
-    /// Frame index.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub i: Option<u32>,
-    /// Platform index.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub j: Option<u32>,
-    /// Number of the visit within its turn-on and position.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub visit: Option<u32>,
-    /// Number of the row within the visit.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub row: Option<usize>,
-    /// Channel of the currents, x or y.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub channel: Option<char>,
-    /// Two positions (i, j).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub between: Option<[[u32; 2]; 2]>,
-    /// Numbers of the readings and those of the passport.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub numbers: Option<String>,
+result! {
+    /// Part of the readings on which a cause acts. An absent key is no restriction.
+    #[derive(Default)]
+    pub struct Scope {
+        /// Turn-on.
+        pub cycle: Option<u32> = default,
+        /// Frame index.
+        pub i: Option<u32> = default,
+        /// Platform index.
+        pub j: Option<u32> = default,
+        /// Number of the visit within its turn-on and position.
+        pub visit: Option<u32> = default,
+        /// Number of the row within the visit.
+        pub row: Option<usize> = default,
+        /// Channel of the currents, x or y.
+        pub channel: Option<char> = default,
+        /// Two positions (i, j).
+        pub between: Option<[[u32; 2]; 2]> = default,
+        /// Numbers of the readings and those of the passport.
+        pub numbers: Option<String> = default,
+    }
 }
 
 impl Scope {
@@ -142,33 +135,32 @@ impl Scope {
     }
 }
 
-/// A cause that explains readings.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "struct CauseDocument")]
-pub struct Finding {
-    /// What it is.
-    pub kind: Kind,
-    /// Where it acts.
-    pub scope: Scope,
-    /// Its size in `unit`; absent if it has none.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub size: Option<f64>,
-    /// Unit of the size; 1 for a factor.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub unit: Option<String>,
-    /// Probability that chance makes any test alarm as much.
-    pub probability: f64,
-    /// The finding and what to do, in English.
-    pub words: String,
-    /// Two values along x and y, in the unit that the sentences of its kind have.
-    #[serde(skip)]
-    pub(crate) pair: [f64; 2],
-    /// `true` if another cause of the list may be meant instead: the readings do not tell which.
-    #[serde(skip)]
-    pub(crate) one_of_several: bool,
-    /// Parameters with the cause.
-    #[serde(skip)]
-    pub(crate) parameters: Option<GyroParameters>,
+result! {
+    /// A cause that explains readings.
+    #[serde(expecting = "struct CauseDocument")]
+    pub struct Finding {
+        /// What it is.
+        pub kind: Kind,
+        /// Where it acts.
+        pub scope: Scope,
+        /// Its size in `unit`; absent if it has none.
+        pub size: Option<f64> = default,
+        /// Unit of the size; 1 for a factor.
+        pub unit: Option<String> = default,
+        /// Probability that chance makes any test alarm as much.
+        pub probability: f64,
+        /// The finding and what to do, in English.
+        pub words: String,
+        /// Two values along x and y, in the unit that the sentences of its kind have.
+        #[serde(skip)]
+        pub(crate) pair: [f64; 2],
+        /// `true` if another cause of the list may be meant instead: the readings do not tell which.
+        #[serde(skip)]
+        pub(crate) one_of_several: bool,
+        /// Parameters with the cause.
+        #[serde(skip)]
+        pub(crate) parameters: Option<GyroParameters>,
+    }
 }
 
 impl Finding {

@@ -20,8 +20,7 @@ pub(super) fn causes(setup: &Setup, readings: &Readings, of: &Observation, optio
             Finding::new(Kind::RowsCorrelated, Scope::default(), Some((correlation, "1")), probability)
         },
     ));
-    let noise =
-        of.seen.rows.and_then(|rows| Some((rows.standard_deviation_ma, jointly(rows.against_stated?.probability))));
+    let noise = of.seen.rows.and_then(|rows| Some((rows.standard_deviation_ma, jointly(rows.probability?))));
     found.extend(noise.filter(|(_, probability)| *probability < LEVEL).map(|(noise_ma, probability)| {
         Finding::new(Kind::Meter, Scope::default(), Some((noise_ma, "mA")), probability)
     }));

@@ -1,13 +1,13 @@
 //! The gyro over several calibrations: every parameter from the earliest to the latest, within the tolerance of the type.
 
 use super::Report;
+use crate::calibration::parameter::unit;
 use crate::calibration::verdict::{COVERAGE_FACTOR, Verdict};
 use crate::calibration::{CalibrationDocument, Parameter};
 use crate::gyro::GyroType;
 use crate::report::doc::{Block, On, Rows, Words, drawn, heading, in_unit, symbol};
 use crate::report::page::number::Number;
 use crate::report::page::parts::starts;
-use crate::report::picture::accuracy::unit;
 use crate::report::picture::tolerances::{BESIDE_VALUES, key, unit_at_type};
 use crate::wording::texts::calibration as texts;
 

@@ -3,7 +3,7 @@
 use super::Report;
 use crate::calibration::analytic::NoAnalyticSolution;
 use crate::calibration::document::ResultDocument;
-use crate::calibration::iterative::{LARGEST_NUMBER_OF_STEPS, NoIterativeSolution};
+use crate::calibration::iterative::NoIterativeSolution;
 use crate::calibration::result::MethodRefusal;
 use crate::calibration::{Method, Parameter};
 use crate::report::doc::{Block, Rows, Words, drawn, fields, heading, say, symbol};
@@ -132,12 +132,9 @@ fn iteration(result: &ResultDocument) -> Vec<Block> {
             Some(most) => Words::Quantity(Number::scientific(most, 2), unit),
         })
     };
-    let over = || texts::steps_over(LARGEST_NUMBER_OF_STEPS);
-    let predicted = result.iterations_predicted.map_or_else(over, |steps| (steps as usize).into());
     let course = fields(vec![
         (texts::SPECTRAL_RADIUS, Number::scientific(radius, 2).into(), false),
         (texts::STEPS, (steps as usize).into(), false),
-        (texts::STEPS_PREDICTED, predicted, false),
         (texts::REMAINDER_K, remaining(0, units::DEG_PER_H_PER_MA), false),
         (texts::REMAINDER_OMEGA, remaining(1, units::DEG_PER_H_PER_G), false),
     ]);

@@ -4,6 +4,7 @@
 use super::{Report, history, with_u};
 use crate::calibration::document::ResultDocument;
 use crate::calibration::parameter::symbols;
+use crate::calibration::parameter::unit;
 use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::calibration::{NotStated, Parameter};
 use crate::report::doc::{
@@ -11,7 +12,6 @@ use crate::report::doc::{
 };
 use crate::report::page::language::Text;
 use crate::report::page::number::Number;
-use crate::report::picture::accuracy::unit;
 use crate::report::picture::tolerances::{BESIDE_DECISIONS, decision, key, printed, unit_at_type, unit_of};
 use crate::report::style::Outcome;
 use crate::wording::number::Probability;

@@ -2,6 +2,7 @@
 
 use super::numbers::numbers_of;
 use crate::calibration::parameter::Parameter;
+use crate::calibration::parameter::unit;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
 use crate::passport::accuracy::Accuracy;
@@ -10,7 +11,7 @@ use crate::report::doc::{
     Block, Field, On, Rows, Words, drawn, field, given, heading, in_unit, listed, record, say, symbol, wide,
 };
 use crate::report::page::number::Number;
-use crate::report::picture::accuracy::{Shares, unit};
+use crate::report::picture::accuracy::Shares;
 use crate::site::{LATITUDE_MARGIN_ARCSEC, UNKNOWN_DEFLECTION_U_ARCSEC};
 use crate::wording::texts::{absences, passport as texts, units};
 

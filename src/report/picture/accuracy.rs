@@ -5,8 +5,8 @@ use super::drawing::{Scale, legend, line, rectangle, strip, strip_axis};
 use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::calibration::{Found, Parameter, against_type};
 use crate::passport::Accuracy;
-use crate::report::page::language::{Languages, Text};
-use crate::wording::texts::{pictures as texts, units};
+use crate::report::page::language::Languages;
+use crate::wording::texts::pictures as texts;
 use maud::{Markup, html};
 
 const WIDTH: f64 = 300.0;
@@ -80,16 +80,5 @@ impl Shares {
             (limit, texts::ACCURACY_LIMIT),
         ];
         legend(languages, &entries)
-    }
-}
-
-/// Returns the unit of a parameter on pages.
-pub(crate) fn unit(parameter: Parameter) -> Text {
-    match parameter {
-        Parameter::Kx | Parameter::Kxy | Parameter::Kyx | Parameter::Ky => units::DEG_PER_H_PER_MA,
-        Parameter::Omega0x | Parameter::Omega0y | Parameter::TurnOn(_) => units::DEG_PER_H,
-        Parameter::OmegaG | Parameter::OmegaK | Parameter::G(..) => units::DEG_PER_H_PER_G,
-        Parameter::Drift(_) => units::DEG_PER_H2,
-        Parameter::Anisoelasticity => units::DEG_PER_H_PER_G2,
     }
 }

@@ -1,9 +1,9 @@
 //! Uncertainty budget as a picture file: one panel for each parameter, its largest contributions as bars.
 
-use super::accuracy::unit;
 use super::drawing::{Anchor, Point, Scale, label, number, plain_symbol, rectangle, symbol, symbols};
 use super::file::file;
 use crate::calibration::Parameter;
+use crate::calibration::parameter::unit;
 use crate::report::page::spacing::BLANK;
 use crate::report::page::{Language, Number};
 use crate::uncertainty::{Budget, ParameterBudget};

@@ -1,8 +1,8 @@
 //! Parameters of a gyro within the tolerance of its type, as strips in their table: deviation, expanded uncertainty, and
 //! the decision.
 
-use super::accuracy::unit;
 use super::drawing::{Point, Scale, arrow, coordinate, legend, line, polygon, rectangle, strip, strip_axis, whisker};
+use crate::calibration::parameter::unit;
 use crate::calibration::{Decision, Parameter, ParameterVerdict, Verdict};
 use crate::report::page::Number;
 use crate::report::page::language::{Languages, Text};

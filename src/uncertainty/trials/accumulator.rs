@@ -51,25 +51,6 @@ pub struct BlockSummary {
     pub quantiles: [[f64; 2]; PARAMETERS],
 }
 
-/// Counts of all blocks.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Histograms {
-    counts: Vec<u64>,
-}
-
-impl Default for Histograms {
-    fn default() -> Self {
-        Self { counts: vec![0; PARAMETERS * BINS] }
-    }
-}
-
-impl Histograms {
-    /// Returns the counts of the bins of a parameter.
-    pub fn of(&self, place: usize) -> &[u64] {
-        &self.counts[place * BINS..(place + 1) * BINS]
-    }
-}
-
 /// Accumulator for the trials of one thread.
 #[derive(Debug, Clone)]
 pub struct Accumulator {
@@ -157,13 +138,13 @@ impl Accumulator {
         }
     }
 
-    /// Returns the summary of the block, adds its counts to those of `all` blocks, and starts the next one.
-    pub fn end_of_block(&mut self, all: &mut Histograms) -> BlockSummary {
+    /// Returns the summary of the block, adds the counts of each parameter to those of `all` blocks, and starts the next one.
+    pub fn end_of_block(&mut self, all: &mut [[u64; BINS]]) -> BlockSummary {
         let quantiles = std::array::from_fn(|place| {
             let counts = &self.block[place * BINS..(place + 1) * BINS];
             [0.025, 0.975].map(|share| quantile(counts, share))
         });
-        for (all, count) in all.counts.iter_mut().zip(&mut self.block) {
+        for (all, count) in all.as_flattened_mut().iter_mut().zip(&mut self.block) {
             *all += u64::from(*count);
             *count = 0;
         }

@@ -105,7 +105,7 @@ fn drift_along_the_spin_axis_names_the_general_model() {
         let options = Options { model: Model::General, ..least_squares_only() };
         let general = calibrate(&setup, &readings(&setup, &currents), &options).unwrap();
         // Four degrees of freedom are left, and the F test alone finds it only in some.
-        assert!(general.adopted().unwrap().model_test.unwrap().is_significant());
+        assert!(general.adopted().unwrap().document.model_test.unwrap().is_significant());
         outcome(&solve_quiet(&setup, &currents), |found| found.kind == Kind::GeneralModel)
     });
     println!("spin axis: right {right}, among several {among}, nothing {nothing}, wrong {wrong}");

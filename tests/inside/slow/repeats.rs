@@ -11,7 +11,7 @@ use dtg_passport::calibration::{
 use dtg_passport::interface::calibrated::Done;
 use dtg_passport::report::calibration as report;
 use dtg_passport::statistics::random::Stream;
-use dtg_passport::uncertainty::engine::{Engine, ReadingShape};
+use dtg_passport::uncertainty::engine::Engine;
 use dtg_passport::uncertainty::{Budget, monte_carlo};
 use dtg_passport::units::radians_from_arcseconds;
 use dtg_passport::wording::Language;
@@ -99,7 +99,7 @@ fn rows_in_place_make_neither_the_specification_nor_the_return_smaller() {
         assert_eq!(ten.scatter, None);
         let scatter = ten.row_scatter.unwrap();
         assert!((scatter.standard_deviation_ma / 1e-7 - 1.0).abs() < 0.25, "{scatter:?}");
-        assert!(scatter.degrees_of_freedom == 144 && scatter.against_stated.is_none(), "{scatter:?}");
+        assert!(scatter.degrees_of_freedom == 144 && scatter.chi_square.is_none(), "{scatter:?}");
         alarms += u32::from(!ten.consistent);
     }
     assert!(alarms <= 1, "{alarms}");
@@ -201,7 +201,7 @@ fn scatter_is_judged_in_both_tails() {
             of_visit + Vector2::from_fn(|_, _| row_ma * stream.normal())
         });
         let found = solved(&setup, &read);
-        let (visits, rows) = (found.scatter.unwrap(), found.row_scatter.unwrap().against_stated.unwrap());
+        let (visits, rows) = (found.scatter.unwrap(), found.row_scatter.unwrap().against_stated().unwrap());
         (visits.agreement(), rows.agreement(), rows.variance_factor, text_of(&setup, &read, found))
     };
     let (visits, rows, factor, text) = with(0.0, 1e-6);
@@ -254,7 +254,7 @@ fn monte_carlo_draws_the_same_structure() {
     let rows = rows(&setup, 2, 2, |_, _, _| Vector2::from_fn(|_, _| 4e-5 * stream.normal()));
     let readings = Readings::of_rows(setup.coefficients(), &rows).unwrap();
     for method in [Method::Analytic, Method::LeastSquares] {
-        let engine = Engine::new(&setup, &readings, method, ReadingShape::Normal).unwrap();
+        let engine = Engine::new(&setup, &readings, method).unwrap();
         let budget = Budget::new(&setup, &readings, method, &Options::default()).unwrap();
         let trials = monte_carlo::Trials { trials: Some(150_000), seed: 4, threads: 2, cancel: None, progress: None };
         let found = monte_carlo::monte_carlo(&engine, &budget, &trials);

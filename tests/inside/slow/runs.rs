@@ -118,14 +118,17 @@ fn exact_readings_give_exact_parameters() {
                     let (value, due) = (result.value(parameter).unwrap(), truth[parameter.place()]);
                     assert!((value / due - 1.0).abs() < 1e-10, "{model:?} {}: {value} {due}", parameter.symbol());
                 }
-                let drift = result.drift.unwrap().deg_per_h_per_h;
+                let drift = Vector2::from(result.document.drift_deg_per_h_per_h.unwrap());
                 assert!((drift - gyro.per_hour).amax() < 1e-9, "{drift}");
-                for (at, bias) in result.cycles.iter().zip(gyro.turn_ons) {
+                for (at, bias) in result.document.cycles.iter().zip(gyro.turn_ons) {
                     let due = gvk_6().omega0_deg_per_h + bias;
                     assert!((Vector2::from(at.omega0_deg_per_h) - due).amax() < 1e-9, "{at:?}");
                 }
-                match result.g_matrix {
-                    Some(found) => assert!((found.deg_per_h_per_g - gyro.g).amax() < 1e-9, "{found:?}"),
+                match result.document.g_matrix_deg_per_h_per_g {
+                    Some(found) => {
+                        let found = Matrix2x3::from_fn(|row, column| found[row][column]);
+                        assert!((found - gyro.g).amax() < 1e-9, "{found:?}");
+                    }
                     None => assert!((result.parameters.omega_k_deg_per_h_per_g / truth[7] - 1.0).abs() < 1e-10),
                 }
             }
@@ -205,11 +208,12 @@ fn differences_of_visits_lose_nothing() {
         assert!((u / due - 1.0).abs() < 1e-3, "{}: {u} {due}", parameter.symbol());
         assert!(step[place].abs() < 2e-3 * due, "{}: {} of {due}", parameter.symbol(), step[place]);
     }
-    let drift = result.drift.unwrap();
+    let drift = result.document.drift_deg_per_h_per_h.unwrap();
+    let u_of_drift = result.document.standard_uncertainty.drift_deg_per_h_per_h.unwrap();
     for axis in 0..2 {
-        let (u, due) = (drift.standard_uncertainty_deg_per_h_per_h[axis], normal[(12 + axis, 12 + axis)].sqrt());
+        let (u, due) = (u_of_drift[axis], normal[(12 + axis, 12 + axis)].sqrt());
         assert!((u / due - 1.0).abs() < 1e-3, "{u} {due}");
-        assert!((step[12 + axis] - drift.deg_per_h_per_h[axis]).abs() < 2e-3 * due, "{drift:?}");
+        assert!((step[12 + axis] - drift[axis]).abs() < 2e-3 * due, "{drift:?}");
     }
 }
 
@@ -229,8 +233,8 @@ fn uncertainties_of_the_general_model() {
     for (parameter, due) in [(Parameter::Kx, 1.19), (Parameter::Kxy, 1.19), (Parameter::Omega0x, 1.20)] {
         assert!((ratio(parameter) - due).abs() < 0.006, "{}: {}", parameter.symbol(), ratio(parameter));
     }
-    let u = general.g_matrix.unwrap().standard_uncertainty_deg_per_h_per_g;
-    assert!((u.m11 - 0.0022).abs() < 5e-5 && (u.m13 - 0.0014).abs() < 5e-5, "{u}");
+    let u = |column| general.standard_uncertainty(Parameter::G(0, column)).unwrap();
+    assert!((u(0) - 0.0022).abs() < 5e-5 && (u(2) - 0.0014).abs() < 5e-5, "{} {}", u(0), u(2));
     assert_eq!(general.chi_square.degrees_of_freedom, 4);
     assert!(general.standard_uncertainty(Parameter::OmegaG).is_none());
     // The equal-noise figures of the paper's model: K in percent, ω_0, ω_g.
@@ -483,7 +487,7 @@ fn a_drift_or_noise() {
     // One difference and the stated noise determine a drift without any fit: u = √2 ε per hour at most.
     let setup = bench(&ideal(), Some(EQUAL_NOISE_DEG_PER_H), None);
     let found = solved(&setup, &closing, &drifting(Model::Paper));
-    let u = least_squares(&found).drift.unwrap().standard_uncertainty_deg_per_h_per_h;
+    let u = Vector2::from(least_squares(&found).document.standard_uncertainty.drift_deg_per_h_per_h.unwrap());
     assert!(u.max() < 1.001 * std::f64::consts::SQRT_2 * EQUAL_NOISE_DEG_PER_H, "{u}");
     let (_, probability, explains) = drift_of(&setup, &closing, &Options::default()).unwrap();
     assert!(explains && probability < 0.005, "{probability}");
@@ -502,7 +506,7 @@ fn the_general_model_is_found_to_be_needed() {
             let readings =
                 gyro.read(&setup, &plan, || Vector2::from_fn(|_, _| EQUAL_NOISE_DEG_PER_H * stream.normal()));
             let found = solved(&setup, &readings, &options);
-            named += u32::from(least_squares(&found).model_test.unwrap().is_significant());
+            named += u32::from(least_squares(&found).document.model_test.unwrap().is_significant());
         }
         named
     };

@@ -123,12 +123,16 @@ fn uncertainties_cover_what_they_state() {
                     let error = result.value(parameter).unwrap() - nominal[parameter.place()];
                     errors[parameter.place()].add(error / result.standard_uncertainty(parameter).unwrap());
                 }
-                result.residuals.iter().for_each(|at| at.normalised.iter().for_each(|value| residuals.add(*value)));
+                for at in &result.document.residuals_deg_per_h {
+                    [(at.x, at.u_x), (at.y, at.u_y)]
+                        .into_iter()
+                        .for_each(|(value, u)| residuals.add(value / u.unwrap()));
+                }
             }
-            found.results[0].from_least_squares.unwrap().iter().for_each(|value| differences.add(*value));
+            found.results[0].document.from_least_squares.unwrap().iter().for_each(|value| differences.add(*value));
             improbable += u64::from(found.results[0].chi_square.probability < 0.05);
             scattered += u64::from(found.scatter.unwrap().probability < 0.05);
-            noisy += u64::from(found.row_scatter.unwrap().against_stated.unwrap().probability < 0.05);
+            noisy += u64::from(found.row_scatter.unwrap().probability.unwrap() < 0.05);
         }
         (errors, [improbable, scattered, noisy], residuals, differences)
     });

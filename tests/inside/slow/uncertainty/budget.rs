@@ -10,8 +10,6 @@ use dtg_passport::calibration::{InputUncertainty, Method, Options, calibrate};
 use dtg_passport::gyro::GyroType;
 use dtg_passport::report::picture;
 use dtg_passport::uncertainty::Budget;
-use dtg_passport::uncertainty::dominant::Dominant;
-use dtg_passport::uncertainty::entries::{Entry, EntryUncertainty};
 use dtg_passport::units::{radians_from_arcseconds, radians_from_degrees};
 use roxmltree::Document;
 use serde_json::{Value, json};
@@ -82,19 +80,6 @@ fn covariances_are_those_of_gtc() {
                 None => assert!(found.is_infinite()),
             }
         }
-        let entries = EntryUncertainty::new(&case.setup);
-        let covariance = entries.covariance();
-        let keys = ["delta", "b_deg_per_h", "c_deg_per_h_per_g"];
-        let of_keys = |entry: &Entry| matches!(entry, Entry::Matrix(key, ..) if keys.contains(key));
-        let places: Vec<usize> = (0..entries.entries.len()).filter(|&place| of_keys(&entries.entries[place])).collect();
-        let due = numbers(&theirs["entries"]);
-        assert_eq!(due.len(), places.len() * places.len());
-        for (row, &one) in places.iter().enumerate() {
-            for (column, &other) in places.iter().enumerate() {
-                let scale = (covariance[(one, one)] * covariance[(other, other)]).sqrt();
-                worst = worst.max((covariance[(one, other)] - due[places.len() * row + column]).abs() / scale);
-            }
-        }
     }
     println!(
         "largest difference from GTC, of the standard deviations: {worst:.1e}; of degrees of freedom: {of_freedom:.1e}"
@@ -142,12 +127,12 @@ fn the_sentence_is_computed() {
         let readings = readings(&setup, &currents(&setup, &gvk_6()));
         Budget::new(&setup, &readings, Method::LeastSquares, &Options::default()).unwrap()
     };
-    let said = Dominant::of(&seat(30.0), Some(&GyroType::gvk_6().tolerance)).unwrap().sentence();
-    let due = "u(ω_0x) is 0.0029 °/h; nearly all of the variance comes from one source (gyro seat about z); to halve u, seat the gyro with an uncertainty of 14″ about the spin axis";
+    let said = seat(30.0).to_json(Some(&GyroType::gvk_6().tolerance))["sentence"].to_string();
+    let due = "\"Largest uncertainty relative to tolerance: ω_0x, u = 0.0029 °/h. One source contributes nearly all of its variance (100 %): gyro seat about z. To halve u, reduce the uncertainty of this source to 14″ or less.\"";
     assert!(said == due || said == due.replace("0x", "0y"), "{said}");
     // Compared with their own size alone, the cross scale factors are the worst.
-    let said = Dominant::of(&seat(30.0), None).unwrap().sentence();
-    assert!(said.starts_with("u(K_xy) is 0.15 %") || said.starts_with("u(K_yx) is 0.15 %"), "{said}");
+    let said = seat(30.0).to_json(None)["sentence"].to_string();
+    assert!(said.contains(": K_xy, u = 0.15 %.") || said.contains(": K_yx, u = 0.15 %."), "{said}");
     // What it asks for does halve.
     let (before, after) = (seat(30.0), seat(14.0));
     assert!(after.parameters[1].standard_uncertainty < 0.5 * before.parameters[1].standard_uncertainty);

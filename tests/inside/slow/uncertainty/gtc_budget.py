@@ -1,8 +1,8 @@
 """A calibration in GTC: standard uncertainties, covariances, degrees of freedom by its own automatic derivatives.
 
 Reads one case (JSON) from standard input: positions, Earth rate, inputs with their uncertainties, currents. Writes the
-covariance of the parameters of the closed solution, their effective degrees of freedom, and the covariance of Delta,
-B and C. Nothing here knows how the program computes its derivatives.
+covariance of the parameters of the closed solution, and their effective degrees of freedom. Nothing here knows how the
+program computes its derivatives.
 """
 import json
 import sys
@@ -61,21 +61,20 @@ gain = 1.0 + quantity(0.0, u["gain"])
 offset = quantity(0.0, u["offset"])
 
 
-def solve(with_gyro):
+def solve():
     n, omega, j = [], [], []
     for at in case["positions"]:
         angles = [quantity(a, s, at["df"]) for a, s in zip(at["angles"], at["u"])]
         e = matrix(rz(angles[2]), matrix(ry(angles[1]), rx(angles[0])))
         attitude = matrix(e, matrix(at["nominal"], matrix(base, level)))
         attitude = matrix(platform, attitude)
-        if with_gyro:
-            back = turn(*(quantity(0.0, u["return"]) for _ in "xyz"))
-            attitude = matrix(back, matrix(seat, attitude))
-            pair = []
-            for current in at["currents"]:
-                own = 1.0 + quantity(0.0, u["reading"])
-                pair.append(current * own * gain + offset + quantity(0.0, u["floor"]))
-            j.append(pair)
+        back = turn(*(quantity(0.0, u["return"]) for _ in "xyz"))
+        attitude = matrix(back, matrix(seat, attitude))
+        pair = []
+        for current in at["currents"]:
+            own = 1.0 + quantity(0.0, u["reading"])
+            pair.append(current * own * gain + offset + quantity(0.0, u["floor"]))
+        j.append(pair)
         n.append([attitude[0][2], attitude[1][2]])
         w = matrix(attitude, earth)
         omega.append([w[0][0], w[1][0]])
@@ -104,7 +103,7 @@ def covariance(numbers):
     return [[get_covariance(a, b) for b in numbers] for a in numbers]
 
 
-n, omega, j = solve(True)
+n, omega, j = solve()
 delta, b, c, n2_inverse = passport(n, omega)
 j1, j2 = differences(j)
 k = matrix(b, inverse(minus(j1, matrix(j2, delta))))
@@ -117,13 +116,10 @@ for axis in range(2):
         terms.append(w[axis] - kj - wn[axis][0] * at[0] - wn[axis][1] * at[1])
     omega0.append(sum(terms, 0.0) / len(terms))
 parameters = flat(k) + omega0 + [(wn[0][0] + wn[1][1]) / 2, (wn[1][0] - wn[0][1]) / 2]
-n, omega, _ = solve(False)
-delta, b, c, _ = passport(n, omega)
 json.dump(
     {
         "covariance": covariance(parameters),
         "degrees_of_freedom": [d if (d := dof(p)) < 1e300 else None for p in parameters],
-        "entries": covariance(flat(delta, b, c)),
     },
     sys.stdout,
 )

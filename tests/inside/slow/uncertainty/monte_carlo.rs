@@ -6,8 +6,7 @@ use dtg_passport::attitude::{self, Deviation};
 use dtg_passport::calibration::{Cause, InputUncertainty, Method, Model, Options, analytic, least_squares};
 use dtg_passport::coefficients::{Coefficients, EIGHT_POSITIONS, Matrices, PositionCoefficients, pair_differences};
 use dtg_passport::statistics::random::Stream;
-use dtg_passport::uncertainty::engine::plan::BASE_AT_SITE;
-use dtg_passport::uncertainty::engine::{BLOCK, Engine, ReadingShape};
+use dtg_passport::uncertainty::engine::{BASE_AT_SITE, BLOCK, Engine};
 use dtg_passport::uncertainty::monte_carlo::{Trials, tolerance};
 use dtg_passport::uncertainty::{Budget, monte_carlo};
 use dtg_passport::units::{radians_from_arcseconds, radians_from_degrees};
@@ -91,7 +90,7 @@ fn deviates(engine: &Engine, seed: u64, factor: f64) -> Vec<Vec<f64>> {
 fn the_fast_path_agrees_with_the_exact_one() {
     let mut worst: f64 = 0.0;
     for case in three() {
-        let engine = Engine::new(&case.setup, &case.readings, Method::Analytic, ReadingShape::Normal).unwrap();
+        let engine = Engine::new(&case.setup, &case.readings, Method::Analytic).unwrap();
         for (seed, factor) in [(1, 1.0), (2, 3.0), (3, 300.0)] {
             // Currents far off would make a singular gyro: only angles are made large.
             let mut trials = deviates(&engine, seed, 1.0);
@@ -129,7 +128,7 @@ fn the_refit_is_that_of_least_squares() {
     let setup = with_uncertainty(&case.positions, case.latitude_deg, uncertainty);
     let readings = readings(&setup, &currents(&setup, &gvk_6()));
     let case = Case { setup, readings, positions: case.positions.clone(), ..*case };
-    let engine = Engine::new(&case.setup, &case.readings, Method::LeastSquares, ReadingShape::Normal).unwrap();
+    let engine = Engine::new(&case.setup, &case.readings, Method::LeastSquares).unwrap();
     let budget = Budget::new(&case.setup, &case.readings, Method::LeastSquares, &Options::default()).unwrap();
     let trials = deviates(&engine, 5, 1.0);
     for (trial, found) in trials.iter().zip(engine.computation.solutions_for(&trials)) {
@@ -149,7 +148,7 @@ fn fixed(trials: u64, threads: usize) -> Trials<'static> {
 fn the_same_seed_gives_the_same_bytes_on_any_number_of_threads() {
     let case = &three()[1];
     for method in [Method::Analytic, Method::LeastSquares] {
-        let engine = Engine::new(&case.setup, &case.readings, method, ReadingShape::Normal).unwrap();
+        let engine = Engine::new(&case.setup, &case.readings, method).unwrap();
         let budget = Budget::new(&case.setup, &case.readings, method, &Options::default()).unwrap();
         let one = monte_carlo(&engine, &budget, &fixed(7 * BLOCK - 5, 1));
         assert_eq!((one.trials, one.failed), (7 * BLOCK, 0));
@@ -172,7 +171,7 @@ fn first_order_and_monte_carlo_agree() {
         case.readings.means_ma().iter().map(|current| current.map(|j| j * (1.0 + 8.7e-5 * stream.normal()))).collect();
     let readings = readings(&case.setup, &noisy);
     for method in [Method::Analytic, Method::LeastSquares] {
-        let engine = Engine::new(&case.setup, &readings, method, ReadingShape::Normal).unwrap();
+        let engine = Engine::new(&case.setup, &readings, method).unwrap();
         let budget = Budget::new(&case.setup, &readings, method, &Options::default()).unwrap();
         let found = monte_carlo(&engine, &budget, &fixed(1_000_000, 2));
         let (mut of_u, mut of_ends) = (0.0_f64, 0.0_f64);
@@ -189,10 +188,10 @@ fn first_order_and_monte_carlo_agree() {
             }
             let [low, high] = trials.shortest;
             assert!(((high - low) / (2.0 * half) - 1.0).abs() < 0.01);
-            let beyond = trials.first_order.differences.iter().any(|d| *d > tolerance(u));
-            assert!(trials.first_order.valid != Some(beyond), "{:?}", trials);
+            let beyond = trials.differences.iter().any(|d| *d > tolerance(u));
+            assert!(trials.first_order_valid != Some(beyond), "{:?}", trials);
             of_u = of_u.max((trials.standard_uncertainty / u - 1.0).abs());
-            of_ends = of_ends.max(trials.first_order.differences[0].max(trials.first_order.differences[1]) / u);
+            of_ends = of_ends.max(trials.differences[0].max(trials.differences[1]) / u);
             for column in 0..8 {
                 let scale = (covariance[(row, row)] * covariance[(column, column)]).sqrt();
                 assert!((found.covariance[(row, column)] - covariance[(row, column)]).abs() < 6.0 * scale / n.sqrt());
@@ -216,7 +215,7 @@ fn few_degrees_of_freedom_are_drawn_as_such() {
     uncertainty.angles_degrees_of_freedom = vec![6.0; 8];
     let setup = with_uncertainty(&three()[1].positions, LATITUDE_DEG, uncertainty);
     let readings = readings(&setup, &currents(&setup, &gvk_6()));
-    let engine = Engine::new(&setup, &readings, Method::Analytic, ReadingShape::Normal).unwrap();
+    let engine = Engine::new(&setup, &readings, Method::Analytic).unwrap();
     let budget = Budget::new(&setup, &readings, Method::Analytic, &Options::default()).unwrap();
     let found = monte_carlo(&engine, &budget, &fixed(400_000, 2));
     for (line, trials) in budget.parameters.iter().zip(&found.parameters) {
@@ -231,14 +230,14 @@ fn trials_go_on_until_digits_are_stable() {
     // u(K_x) and so on chosen by the meter: the first digits decide how many trials that takes.
     let setup = setup(&three()[0].positions, LATITUDE_DEG);
     let readings = readings(&setup, &currents(&setup, &gvk_6()));
-    let engine = Engine::new(&setup, &readings, Method::Analytic, ReadingShape::Normal).unwrap();
+    let engine = Engine::new(&setup, &readings, Method::Analytic).unwrap();
     let budget = Budget::new(&setup, &readings, Method::Analytic, &Options::default()).unwrap();
     let found = monte_carlo(&engine, &budget, &Trials { threads: 2, ..Trials::adaptive(3) });
     println!("{} trials", found.trials);
     assert!(found.stable && found.failed == 0);
     for line in &found.parameters {
         assert!(line.numerical.iter().all(|twice| *twice <= 0.2 * tolerance(line.standard_uncertainty)));
-        assert_eq!(line.first_order.valid, Some(true), "{line:?}");
+        assert_eq!(line.first_order_valid, Some(true), "{line:?}");
     }
 }
 
@@ -247,7 +246,7 @@ fn trials_go_on_until_digits_are_stable() {
 #[test]
 fn many_trials_tell_how_far_they_are() {
     let case = &three()[0];
-    let engine = Engine::new(&case.setup, &case.readings, Method::Analytic, ReadingShape::Normal).unwrap();
+    let engine = Engine::new(&case.setup, &case.readings, Method::Analytic).unwrap();
     let budget = Budget::new(&case.setup, &case.readings, Method::Analytic, &Options::default()).unwrap();
     let (cancel, told) = (AtomicBool::new(false), Mutex::new(Vec::new()));
     let progress = |done: u64, due: u64| {
