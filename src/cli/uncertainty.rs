@@ -4,14 +4,13 @@ use super::{Failure, long_run, output};
 use crate::calibration::{Calibration, CalibrationDocument, Method, Options as CalibrationOptions, Readings, Setup};
 use crate::gyro::{GyroType, Tolerance};
 use crate::interface::calibrated::{WholeDocument, distributions};
-use crate::report::{picture, uncertainty as report};
+use crate::report::uncertainty as report;
 use crate::uncertainty::dominant::Dominant;
 use crate::uncertainty::monte_carlo::{Trials, refused_model};
 use crate::uncertainty::{Budget, MonteCarlo};
 use crate::wording::Language;
 use clap::Args;
 use indicatif::HumanDuration;
-use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -23,10 +22,7 @@ pub(super) struct UncertaintyOptions {
     /// Uncertainty budget: contribution of every input to every parameter
     #[arg(long)]
     pub budget: bool,
-    /// Write a picture of the budget
-    #[arg(long, value_name = "FILE.svg", value_parser = output::path_of(output::PICTURE), requires = "budget")]
-    pub budget_svg: Option<PathBuf>,
-    /// Replace existing results, reports and pictures
+    /// Replace existing results and reports
     #[arg(long)]
     pub force: bool,
     /// Monte Carlo method (JCGM 101): coverage intervals, and validity of the linear approximation
@@ -55,8 +51,6 @@ fn trials(text: &str) -> Result<u64, String> {
 pub(super) struct Found {
     /// The budget, and the sentence on what would reduce the uncertainty most.
     pub budget: Option<(Budget, Option<String>)>,
-    /// Picture of the budget, to be written.
-    pub budget_svg: Option<String>,
     pub monte_carlo: Option<MonteCarlo>,
 }
 
@@ -75,7 +69,7 @@ impl Found {
 }
 
 impl UncertaintyOptions {
-    /// Computes the requested budget and Monte Carlo result, and draws the picture of the budget.
+    /// Computes the requested budget and Monte Carlo result.
     pub(super) fn find(
         &self,
         setup: &Setup,
@@ -84,7 +78,7 @@ impl UncertaintyOptions {
         (options, tolerance): (&CalibrationOptions, Option<&Tolerance>),
     ) -> Result<Found, Failure> {
         if !self.budget && !self.monte_carlo {
-            return Ok(Found { budget: None, budget_svg: None, monte_carlo: None });
+            return Ok(Found { budget: None, monte_carlo: None });
         }
         let method = calibration.adopted().map_or(Method::LeastSquares, |answer| answer.method);
         if let Some(why) = self.monte_carlo.then(|| refused_model(options)).flatten() {
@@ -92,12 +86,9 @@ impl UncertaintyOptions {
             return Err(Failure::unusable(format!("{why}; {advice}")));
         }
         let budget = Budget::new(setup, readings, method, options).map_err(Failure::refused)?;
-        let no_picture = || Failure::unusable("the picture could not be drawn: no input has an uncertainty");
-        let draw = |_| picture::budget::budget(&budget).ok_or_else(no_picture);
-        let budget_svg = self.budget_svg.as_ref().map(draw).transpose()?;
         let trials = self.monte_carlo.then(|| self.trials(setup, readings, (&budget, options))).transpose()?;
         let sentence = Dominant::of(&budget, tolerance).map(|remedy| remedy.sentence());
-        Ok(Found { budget: self.budget.then_some((budget, sentence)), budget_svg, monte_carlo: trials })
+        Ok(Found { budget: self.budget.then_some((budget, sentence)), monte_carlo: trials })
     }
 
     /// Runs the trials, and announces a run that takes long.

@@ -1,9 +1,8 @@
 //! A plan: positions, order, uncertainties next to those of the paper's eight, and what it cannot see.
 
-use super::calibration::with_key;
+use super::calibration::{unit, with_key};
 use super::doc::{Block, On, Rows, Words, code, given, heading, in_unit, joined, line, listed, marked, say, symbol};
 use super::page::Number;
-use super::picture::accuracy::unit;
 use super::style::Outcome;
 use super::uncertainty::unit_of;
 use crate::calibration::Parameter;

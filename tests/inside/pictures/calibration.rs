@@ -1,28 +1,24 @@
 //! Pictures of a calibration.
 
-use crate::inside::picture::{Axis, both, end, english, number, of_class, reach, svgs, tip, whole};
+use crate::inside::picture::{Axis, end, number, of_class, reach, tip, whole};
 use dtg_passport::calibration::Parameter;
 use dtg_passport::calibration::document::{CalibrationDocument, ResultDocument};
 use dtg_passport::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use dtg_passport::gyro::GyroType;
-use dtg_passport::report::picture::tolerances::BESIDE_DECISIONS;
-use dtg_passport::report::picture::{convergence, residuals};
+use dtg_passport::report::page::Language;
+use dtg_passport::report::picture::strips::{BESIDE_DECISIONS, Residuals};
 use dtg_passport::wording::texts::units;
 use roxmltree::Document;
 
-/// A result as a file holds it, its numbers made up: two positions, and three steps that fall by 1000 and by 100.
+/// A result as a file holds it, its numbers made up: two positions.
 fn made_up_result() -> ResultDocument {
     let u = r#"{"k_deg_per_h_per_ma": [[0,0],[0,0]], "omega0_deg_per_h": [0,0], "omega_n_deg_per_h_per_g": [[0,0],[0,0]],
         "omega_g_deg_per_h_per_g": 0, "omega_k_deg_per_h_per_g": 0}"#;
     let text = format!(
         r#"{{"passport_id": "a/b/c/1", "passport_verified": true, "gravity_m_per_s2": 9.8, "results": [{{
-        "method": "iterative", "k_deg_per_h_per_ma": [[95,9.5],[9.5,95]], "omega0_deg_per_h": [20,20],
+        "method": "analytic", "k_deg_per_h_per_ma": [[95,9.5],[9.5,95]], "omega0_deg_per_h": [20,20],
         "omega_n_deg_per_h_per_g": [[10,-10],[10,10]], "omega_g_deg_per_h_per_g": 10, "omega_k_deg_per_h_per_g": 10,
-        "iterations": 4, "stop_rule": {{"delta1_percent": 0.1, "delta2_deg_per_h": 0.001}}, "changes": [
-            {{"step": 2, "main_scale_factors_percent": 10, "g_drifts_deg_per_h_per_g": 0.1}},
-            {{"step": 3, "main_scale_factors_percent": 0.01, "g_drifts_deg_per_h_per_g": 0.001}},
-            {{"step": 4, "main_scale_factors_percent": 0.00001, "g_drifts_deg_per_h_per_g": 0}}],
-        "spectral_radius": 0.001, "standard_uncertainty": {u},
+        "standard_uncertainty": {u},
         "chi_square": {{"value": 1, "degrees_of_freedom": 8, "probability": 0.9}}, "residuals_deg_per_h": [
             {{"i": 1, "j": 1, "x": 0.001, "y": -0.002, "u_x": 0.0015, "u_y": 0.001}},
             {{"i": 1, "j": 2, "x": -0.003, "y": 0, "u_x": 0.001, "u_y": 0.0005}}]}}]}}"#
@@ -33,8 +29,8 @@ fn made_up_result() -> ResultDocument {
 #[test]
 fn residuals_stand_within_limits_of_two_uncertainties() {
     let result = made_up_result();
-    let bars = residuals::Bars::of(&result);
-    let axis = whole(&[bars.axis(&english(), Some(units::DEG_PER_H))]);
+    let bars = Residuals::of(&result);
+    let axis = whole(&[bars.axis(Some(units::DEG_PER_H)).drawn(Language::English)]);
     let axis = Document::parse(&axis).unwrap();
     let axis = Axis::along_x(axis.root_element());
     for (value, u) in [(0.001, 0.0015), (-0.003, 0.001), (-0.002, 0.001), (0.0, 0.0005)] {
@@ -80,7 +76,7 @@ fn strips(parameters: Vec<ParameterVerdict>) -> (Vec<String>, String) {
     let rule = GyroType::gvk_6().decision_rule();
     let verdict = Verdict { overall: Decision::Fail, rule, gravity_m_per_s2: 9.8, parameters, withheld: false };
     let each = verdict.parameters.iter().map(|row| whole(&[BESIDE_DECISIONS.of_parameter(&verdict, row)])).collect();
-    (each, whole(&[BESIDE_DECISIONS.axis(&english())]))
+    (each, whole(&[BESIDE_DECISIONS.axis().drawn(Language::English)]))
 }
 
 /// An interval of 128 tolerances to both sides, where the axis ends at one and a half: it has no ends there.
@@ -151,38 +147,4 @@ fn parameters_stand_where_they_are_in_their_tolerance() {
     axis.says(number(guarded, "x") + number(guarded, "width"), 60.0);
     let drawn = ["limits", "whisker", "mark"].map(|class| of_class(pages[3].root(), class).len());
     assert_eq!(drawn, [0, 0, 0]);
-}
-
-#[test]
-fn convergence_is_drawn_in_decades() {
-    let text = whole(&[convergence::convergence(&both(), &made_up_result()).unwrap()]);
-    let page = Document::parse(&text).unwrap();
-    let svg = svgs(&page)[0];
-    let lines: Vec<Vec<[f64; 2]>> = of_class(svg, "series")
-        .into_iter()
-        .map(|line| {
-            let points = line.attribute("points").unwrap().split(' ');
-            points
-                .map(|at| at.split_once(',').map(|(x, y)| [x.parse().unwrap(), y.parse().unwrap()]).unwrap())
-                .collect()
-        })
-        .collect();
-    let limit = number(of_class(svg, "limit")[0], "y1");
-    // Over their limits: 100, 0.1, 0.0001 and 100, 1, nothing.
-    let decade = (lines[0][1][1] - lines[0][0][1]) / 3.0;
-    assert!(decade > 5.0);
-    assert!((limit - lines[0][0][1] - 2.0 * decade).abs() < 0.2);
-    assert!((lines[0][2][1] - lines[0][1][1] - 3.0 * decade).abs() < 0.2);
-    assert!((lines[1][0][1] - lines[0][0][1]).abs() < 0.2 && (lines[1][1][1] - limit).abs() < 0.2);
-    // What did not move at all is at the lower end of the axis.
-    let lowest = of_class(svg, "zero").into_iter().map(|line| number(line, "y2")).fold(0.0, f64::max);
-    assert_eq!(lines[1][2][1], lowest);
-    let steps = [0, 1].map(|k| lines[0][k + 1][0] - lines[0][k][0]);
-    assert!((steps[0] - steps[1]).abs() < 0.2, "a step is as wide as the next");
-}
-
-#[test]
-fn other_methods_have_no_steps_to_draw() {
-    let result = ResultDocument { changes: None, stop_rule: None, ..made_up_result() };
-    assert!(convergence::convergence(&english(), &result).is_none());
 }

@@ -8,7 +8,7 @@ use dtg_passport::passport::accuracy::Stated;
 use dtg_passport::passport::content::Content;
 use dtg_passport::passport::issue::{Issue, draft};
 use dtg_passport::report::page::{Language, Languages};
-use dtg_passport::report::picture::deviations::Bars;
+use dtg_passport::report::picture::strips::Deviations;
 use dtg_passport::report::picture::{positions, stand};
 use dtg_passport::site::Site;
 use dtg_passport::stand::{CertifiedPosition, Stand};
@@ -188,7 +188,7 @@ fn any_number_of_positions_at_any_angles() {
         let text = whole(&[positions::positions(&both(), &stand, 90.0)]);
         let page = Document::parse(&text).unwrap();
         assert_eq!(svgs(&page).len(), count as usize);
-        let text = whole(&[Bars::of(&stand).bar((1.0, None))]);
+        let text = whole(&[Deviations::of(&stand).bar((1.0, None))]);
         assert!(!text.contains("whisker"), "no uncertainty is stated");
     }
 }
@@ -218,7 +218,7 @@ fn small_deviations_are_exaggerated() {
 fn bars_are_as_long_as_deviations_are_large() {
     let (content, _) = passport(fixtures::ARC_MINUTES, fixtures::SITE);
     // The largest one, β of (1, 4), gives the scale: 90.4.
-    let bars = Bars::of(&content.positions);
+    let bars = Deviations::of(&content.positions);
     let drawn = |value: f64, u: f64| {
         let text = whole(&[bars.bar((value, Some(u)))]);
         let page = Document::parse(&text).unwrap();
