@@ -2,7 +2,8 @@
 //! placeholders. So a value that is missing or has another name does not compile, and an unused text is a warning.
 //!
 //! A text is a line `NAME: English`, and below it, two blanks deep, the Russian. `{name}` is a placeholder; both languages
-//! have the same ones. `\u{a0}` is a non-breaking space. Lines that begin with `#` are comments.
+//! have the same ones. `\u{a0}` is a non-breaking space. Lines that begin with `#` are comments; the first says what the table
+//! is for.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -10,14 +11,23 @@ use std::{env, error::Error, fs, path::Path};
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=texts");
-    let out = env::var("OUT_DIR")?;
-    for file in fs::read_dir("texts")? {
-        let path = file?.path();
+    let files = fs::read_dir("texts")?.map(|file| file.map(|file| file.path()));
+    let files: BTreeSet<_> = files.collect::<Result<_, _>>()?;
+    let (mut modules, mut tables) = (String::new(), String::new());
+    for path in files {
         let stem = path.file_stem().and_then(|stem| stem.to_str()).ok_or("the name of a table is not UTF-8")?;
-        let rust = table(&fs::read_to_string(&path)?).map_err(|why| format!("{}: {why}", path.display()))?;
-        fs::write(Path::new(&out).join(format!("{stem}.rs")), rust)?;
+        let text = fs::read_to_string(&path)?;
+        let about = text.lines().next().and_then(|line| line.strip_prefix("# ")).unwrap_or_default();
+        let rust = table(&text).map_err(|why| format!("{}: {why}", path.display()))?;
+        write!(modules, "#[doc = {about:?}]\npub(crate) mod {stem} {{\n{rust}}}\n")?;
+        write!(tables, "({stem:?}, {stem}::ALL), ")?;
     }
-    Ok(())
+    write!(
+        modules,
+        "/// Every table with its name.\n#[cfg(test)]\n\
+         pub(crate) const TABLES: &[(&str, &[(&str, crate::wording::Text)])] = &[{tables}];\n"
+    )?;
+    Ok(fs::write(Path::new(&env::var("OUT_DIR")?).join("texts.rs"), modules)?)
 }
 
 /// Returns the items of a table.

@@ -328,13 +328,12 @@ impl Bench<'_> {
     fn one(&self, path: &Path) -> Result<Code, Failure> {
         let options = self.options;
         // Nothing is written if one of the files cannot be.
-        let files = || options.report.iter().chain(&options.dcc).chain(&options.uncertainty.budget_svg);
+        let files = || options.report.iter().chain(&options.dcc);
         files::check_distinct(files())?;
         files::check_replaceable(files(), options.uncertainty.force)?;
         let found = self.calibrate(path)?;
         let (done, force) = (&found.done, options.uncertainty.force);
-        let svg = options.uncertainty.budget_svg.iter().zip(&found.uncertainty.budget_svg);
-        let mut written: Vec<_> = svg.map(|(path, svg)| (path, svg.clone().into_bytes())).collect();
+        let mut written = Vec::new();
         if let Some(path) = &options.dcc {
             written.push((path, self.dcc(done)?.into_bytes()));
         }
@@ -532,7 +531,6 @@ impl Options {
             ("--exclude", !self.exclude.is_empty()),
             ("--report", self.report.is_some()),
             ("--dcc", self.dcc.is_some()),
-            ("--budget-svg", self.uncertainty.budget_svg.is_some()),
             // Their lines have no room for it.
             ("--budget", self.uncertainty.budget && self.out.is_none() && self.format == Format::Text),
         ];

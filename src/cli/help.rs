@@ -27,7 +27,7 @@ Install:
 
 /// Sections of a verb's options below its own, by the names of their fields; a verb without the first has none of it.
 const SECTIONS: [(&str, &[&str]); 5] = [
-    ("Uncertainty", &["budget", "budget_svg", "monte_carlo", "trials", "seed"]),
+    ("Uncertainty", &["budget", "monte_carlo", "trials", "seed"]),
     ("Report and certificate", &["report", "lang", "dcc", "administrative"]),
     ("Signing", &["key", "identity"]),
     ("Verification", &["trust", "revoked", "issuer", "serial", "at", "time", "register", "no_verify"]),

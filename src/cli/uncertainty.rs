@@ -4,13 +4,12 @@ use super::{Failure, long_run, output};
 use crate::calibration::{Calibration, CalibrationDocument, Method, Options as CalibrationOptions, Readings, Setup};
 use crate::gyro::{GyroType, Tolerance};
 use crate::interface::calibrated::{WholeDocument, distributions};
-use crate::report::{picture, uncertainty as report};
+use crate::report::uncertainty as report;
 use crate::uncertainty::monte_carlo::{Trials, refused_model};
 use crate::uncertainty::{Budget, MonteCarlo};
 use crate::wording::Language;
 use clap::Args;
 use indicatif::HumanDuration;
-use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -22,10 +21,7 @@ pub(super) struct UncertaintyOptions {
     /// Uncertainty budget: contribution of every input to every parameter
     #[arg(long)]
     pub budget: bool,
-    /// Write a picture of the budget
-    #[arg(long, value_name = "FILE.svg", value_parser = output::path_of(output::PICTURE), requires = "budget")]
-    pub budget_svg: Option<PathBuf>,
-    /// Replace existing results, reports and pictures
+    /// Replace existing results and reports
     #[arg(long)]
     pub force: bool,
     /// Monte Carlo method (JCGM 101): coverage intervals, and validity of the linear approximation
@@ -54,8 +50,6 @@ fn trials(text: &str) -> Result<u64, String> {
 pub(super) struct Found {
     /// The budget, and the tolerances of the gyro type.
     pub budget: Option<(Budget, Option<Tolerance>)>,
-    /// Picture of the budget, to be written.
-    pub budget_svg: Option<String>,
     pub monte_carlo: Option<MonteCarlo>,
 }
 
@@ -74,7 +68,7 @@ impl Found {
 }
 
 impl UncertaintyOptions {
-    /// Computes the requested budget and Monte Carlo result, and draws the picture of the budget.
+    /// Computes the requested budget and Monte Carlo result.
     pub(super) fn find(
         &self,
         setup: &Setup,
@@ -83,7 +77,7 @@ impl UncertaintyOptions {
         (options, tolerance): (&CalibrationOptions, Option<&Tolerance>),
     ) -> Result<Found, Failure> {
         if !self.budget && !self.monte_carlo {
-            return Ok(Found { budget: None, budget_svg: None, monte_carlo: None });
+            return Ok(Found { budget: None, monte_carlo: None });
         }
         let method = calibration.adopted().map_or(Method::LeastSquares, |answer| answer.method);
         if let Some(why) = self.monte_carlo.then(|| refused_model(options)).flatten() {
@@ -91,12 +85,9 @@ impl UncertaintyOptions {
             return Err(Failure::unusable(format!("{why}; {advice}")));
         }
         let budget = Budget::new(setup, readings, method, options).map_err(Failure::refused)?;
-        let no_picture = || Failure::unusable("the picture could not be drawn: no input has an uncertainty");
-        let draw = |_| picture::budget::budget(&budget).ok_or_else(no_picture);
-        let budget_svg = self.budget_svg.as_ref().map(draw).transpose()?;
         let trials = self.monte_carlo.then(|| self.trials(setup, readings, (&budget, options))).transpose()?;
         let budget = self.budget.then(|| (budget, tolerance.cloned()));
-        Ok(Found { budget, budget_svg, monte_carlo: trials })
+        Ok(Found { budget, monte_carlo: trials })
     }
 
     /// Runs the trials, and announces a run that takes long.

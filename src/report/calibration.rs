@@ -1,19 +1,16 @@
 //! Report of a calibration, composed once for a terminal and for its printed page.
 //!
 //! * `result`: parameters within their tolerances, the change since an earlier result.
-//! * `headline`: the decision and its reasons in a line.
 //! * `fit`: agreement of the readings with the model, inputs that are not stated.
 //! * `methods`: the paper's methods beside least squares.
 //! * `history`: the gyro over several calibrations.
 
 mod fit;
-mod headline;
 mod history;
 mod methods;
 mod result;
 
 pub(crate) use fit::{causes, not_stated};
-pub(super) use headline::headline;
 pub(crate) use methods::parameters;
 pub(crate) use result::{band_of_u, counted, rule};
 
@@ -21,22 +18,20 @@ use super::doc::{self, Block, Words};
 use super::page::language::Text;
 use super::page::number::Number;
 use crate::calibration::document::{CalibrationDocument, NoChange, ResultDocument, Subject};
-use crate::calibration::parameter::symbols;
+use crate::calibration::parameter::{symbols, unit};
 use crate::calibration::prediction::FurtherVisit;
 use crate::calibration::readings::Exclusion;
 use crate::calibration::remarks;
 use crate::calibration::stated::TemperatureOutside;
 use crate::calibration::verdict::{COVERAGE_FACTOR, change_in_uncertainties};
-use crate::calibration::{Calibration, Method, NotStated, Parameter, Verdict};
+use crate::calibration::{Calibration, Decision, Method, NotStated, Parameter, Verdict};
 use crate::gyro::GyroType;
 use crate::interface::calibrated::Done;
 use crate::passport::{Check, Code};
-use crate::report::page::language::{Language, capital};
-use crate::report::{columns, style};
+use crate::report::page::language::Language;
+use crate::report::style::Outcome;
 use crate::uncertainty::MonteCarlo;
-use crate::wording::plain;
-use crate::wording::texts::calibration as texts;
-use std::fmt::Write;
+use crate::wording::texts::{calibration as texts, units};
 
 /// A calibration with what its report states, in a terminal and on a page.
 pub(crate) struct Report<'a> {
@@ -116,6 +111,14 @@ fn with_u(value: f64, u: f64, unit: Text) -> Words {
     vec![value, ", ".into(), doc::symbol("u"), "\u{a0}=\u{a0}".into(), u].into()
 }
 
+/// Returns the unit of a parameter that refers to the g of a gyro type; that of one at local g has no zero.
+pub(crate) fn unit_at_type(parameter: Parameter) -> Text {
+    match unit(parameter) {
+        units::DEG_PER_H_PER_G => units::DEG_PER_H_PER_G0,
+        other => other,
+    }
+}
+
 /// The name of a method from its key in results.
 fn method(key: &str) -> Text {
     let is = |method: Method| method.key() == key;
@@ -138,6 +141,44 @@ fn coverage_factor(factors: impl Iterator<Item = f64>) -> Words {
     }
 }
 
+/// Returns the outcome of a calibration with its word, and the reasons: which parameters pass, fail and are undecided by
+/// their values and by their change, or why no statement is made.
+pub(super) fn headline(document: &CalibrationDocument, gyro_type: Option<&str>) -> ((Outcome, Text), Words) {
+    let judged = gyro_type.zip(document.verdict.as_ref());
+    let (outcome, word, words): (Outcome, Text, Words) = match judged {
+        _ if !document.consistent => (Outcome::Failed, texts::INVALID, texts::DOES_NOT_FIT.into()),
+        _ if document.mistake.is_some() => (Outcome::Failed, texts::INVALID, texts::MISTAKE.into()),
+        None => (Outcome::NotAsked, texts::IS_CALIBRATED, texts::NO_TYPE_WORDS.into()),
+        Some((_, verdict)) if verdict.withheld => (Outcome::NotAsked, texts::IS_CALIBRATED, texts::NOT_VERIFIED.into()),
+        Some((name, verdict)) => {
+            // Nothing is decided on a change that is not assessed.
+            let worst = verdict.with_change(document.change.as_ref());
+            let of_change: Option<Words> = document.change.as_ref().map(|change| match change.withheld {
+                true => texts::CHANGE_NOT_ASSESSED.into(),
+                false => counted(change, |row| row.decision, texts::change_passed),
+            });
+            let of_values = counted(verdict, |row| row.decision, texts::passed);
+            let not_found = verdict.not_found();
+            let not_found = (!not_found.is_empty()).then(|| texts::not_in_the_model(symbols(not_found)));
+            let of_values = doc::joined([of_values].into_iter().chain(not_found), "; ");
+            let name = Words::Given(name.to_owned());
+            let words = [texts::of_type_name(name, of_values)].into_iter().chain(of_change);
+            (worst.into(), word(worst), doc::joined(words, ". "))
+        }
+    };
+    let withheld = judged.filter(|(_, verdict)| verdict.withheld);
+    let withheld = withheld.map(|(name, _)| texts::no_statement(Words::Given(name.to_owned())));
+    ((outcome, word), doc::joined([words].into_iter().chain(withheld), ". "))
+}
+
+fn word(decision: Decision) -> Text {
+    match decision {
+        Decision::Pass => texts::PASSES,
+        Decision::Fail => texts::FAILS,
+        Decision::Undecided => texts::IS_UNDECIDED,
+    }
+}
+
 /// Least effect of a further visit that is worth the time, percent of the standard uncertainty.
 const LEAST_EFFECT_PERCENT: f64 = 1.0;
 
@@ -153,16 +194,13 @@ pub(crate) struct Said<'a> {
 /// Returns the result: the verdict with what is doubtful, the parameters, the fit, and what to do. With details the sections
 /// of the report follow.
 pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, report: &Report, how: &Said) -> String {
-    let language = how.language;
     let gyro_type = report.gyro.map(|gyro| gyro.r#type.as_str());
     let ((outcome, word), reasons) = headline(&done.document, gyro_type);
-    let first = format!("{}  {}", style::marked(outcome, word.of(language)), plain(&reasons.plain(language)));
-    let mut out = columns::hanging(&first, 2, columns::width());
-    let say = |out: &mut String, words: &Words| columns::paragraph(out, "", &plain(&words.plain(language)));
-    for (place, warning) in doubts(done, trials).iter().enumerate() {
-        say(&mut out, warning);
+    let mut doc = vec![Block::Lines("", vec![vec![doc::marked(outcome, word), reasons]])];
+    for (place, warning) in doubts(done, trials).into_iter().enumerate() {
+        doc.push(doc::line(warning));
         if place == 0 && done.calibration.is_invalid() {
-            doc::text(&mut out, &causes(&done.calibration), language);
+            doc.extend(causes(&done.calibration));
         }
     }
     let mut inputs: Vec<Words> = done.document.subject.as_ref().and_then(conditions).into_iter().collect();
@@ -173,18 +211,18 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, report: &Report, ho
             .map(|(parameter, ratio)| texts::cost_of_missing(doc::symbol(parameter.symbol()), Number::fixed(ratio, 2)));
         Words::All([words].into_iter().chain(cost).chain([".".into()]).collect())
     }));
-    inputs.iter().for_each(|words| columns::paragraph(&mut out, "", &capital(&plain(&words.plain(language)))));
+    doc.extend(inputs.into_iter().map(|words| doc::line(Words::Capital(Box::new(words)))));
     if report.details {
         for (_, heading, blocks) in report.sections() {
-            let _ = writeln!(out, "\n{}", style::heading(heading.of(language)));
-            doc::text(&mut out, &blocks, language);
+            doc.push(doc::heading(heading));
+            doc.extend(blocks);
         }
     } else {
-        out.push('\n');
-        doc::text(&mut out, &report.brief(), language);
+        doc.push(Block::Typed("\n".to_owned()));
+        doc.extend(report.brief());
     }
-    remedies(done, report, how).iter().for_each(|words| say(&mut out, words));
-    out
+    doc.extend(remedies(done, report, how).into_iter().map(doc::line));
+    doc::typed(&doc, how.language)
 }
 
 /// Returns what to do about the uncertainty, and what was assumed or not compared.

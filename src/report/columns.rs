@@ -1,7 +1,7 @@
 //! Text in columns that fits the terminal. Where there is none, lines have at most 100 characters. In a wider one, tables
 //! use the width that they need, and sentences still have at most 100 characters.
 
-use super::page::number::{THIN_BLANK, superscripts};
+use super::page::number::THIN_BLANK;
 use super::style;
 use crate::text::excerpt::columns_of;
 pub(crate) use crate::text::number::decimals;
@@ -71,21 +71,32 @@ pub(crate) const COMMAND: &str = "dtg-passport ";
 /// Returns the text with every line broken that is wider than `columns`. A line continues below its last column, a
 /// sentence as in [`paragraph`]; either further left if a word needs the room. A command stays one line, to be copied.
 pub(crate) fn fitted(text: &str, columns: usize) -> String {
+    broken(text, 0, columns)
+}
+
+/// Returns a message as [`fitted`] does, with no line wider than a sentence; its lines continue at least `indent` characters
+/// from the left.
+pub(crate) fn hanging(text: &str, indent: usize, columns: usize) -> String {
+    broken(text, indent, columns.min(TEXT_COLUMNS))
+}
+
+fn broken(text: &str, indent: usize, columns: usize) -> String {
     let mut out = String::with_capacity(text.len());
     for line in text.lines() {
         let words = line.trim_start_matches(' ');
-        let (indent, shown) = (line.len() - words.len(), shown_columns(words));
-        let at = last_column(line, columns);
-        if indent + shown <= columns || words.starts_with(COMMAND) {
-            out.push_str(line);
+        let (margin, shown) = (line.len() - words.len(), shown_columns(words));
+        let from = line.char_indices().nth(indent).map_or(line.len(), |(at, _)| at);
+        let at = from + last_column(&line[from..], columns.saturating_sub(indent));
+        if margin + shown <= columns || words.starts_with(COMMAND) {
+            out += &with_plain_spaces(line);
             out.push('\n');
-        } else if HANG + shown <= columns && at == indent && !words.contains(' ') {
+        } else if HANG + shown <= columns && at == margin && !words.contains(' ') {
             let _ = writeln!(out, "{:HANG$}{words}", "");
         } else {
             out.push_str(&line[..at]);
             let column = shown_columns(&line[..at]);
-            let hang = if at == indent { after_ordinal(words).unwrap_or(HANG) } else { 0 };
-            wrapped(&mut out, column, (column + hang).max(HANG), &line[at..], columns);
+            let hang = if indent == 0 && at == margin { after_ordinal(words).unwrap_or(HANG) } else { 0 };
+            wrapped(&mut out, column, (column + hang).max(indent).max(HANG), &line[at..], columns);
         }
     }
     out
@@ -100,26 +111,6 @@ fn after_ordinal(words: &str) -> Option<usize> {
 /// Returns the text as [`fitted`] does, with no line wider than a sentence.
 pub(crate) fn sentences(text: &str, columns: usize) -> String {
     fitted(text, columns.min(TEXT_COLUMNS))
-}
-
-/// Returns a message with every line broken that is wider than `columns` or a sentence; lines continue below their last
-/// column, at least `indent` characters from the left. A command stays one line, to be copied.
-pub(crate) fn hanging(text: &str, indent: usize, columns: usize) -> String {
-    let columns = columns.min(TEXT_COLUMNS);
-    let mut out = String::with_capacity(text.len());
-    for line in text.lines() {
-        if line.trim_start().starts_with(COMMAND) {
-            out.push_str(line);
-            out.push('\n');
-            continue;
-        }
-        let at = line.char_indices().nth(indent).map_or(line.len(), |(at, _)| at);
-        let at = at + last_column(&line[at..], columns.saturating_sub(indent));
-        let column = shown_columns(&line[..at]);
-        out.push_str(&line[..at]);
-        wrapped(&mut out, column, column.max(indent), &line[at..], columns);
-    }
-    out
 }
 
 /// Returns the place in bytes after the last gap of two spaces or more behind which half of the `columns` remain, and
@@ -332,61 +323,10 @@ fn neutral(cell: &str) -> String {
     if cell.starts_with(';') { format!("'{neutral}") } else { neutral }
 }
 
-/// Formats a number with commas between groups of three digits.
-pub(crate) fn grouped(number: u64) -> String {
-    let digits = number.to_string();
-    let groups: Vec<&str> = digits.as_bytes().rchunks(3).rev().filter_map(|group| str::from_utf8(group).ok()).collect();
-    groups.join(",")
-}
-
-/// Returns the counts that are not zero, with their words.
-pub(crate) fn counts(counts: impl IntoIterator<Item = (usize, impl std::fmt::Display)>) -> String {
-    let counted = counts.into_iter().filter(|(count, _)| *count > 0);
-    counted.map(|(count, words)| format!("{count} {words}")).collect::<Vec<_>>().join(", ")
-}
-
-/// Formats a value with two significant digits, and with a power of ten if it would otherwise have many zeros.
-pub(crate) fn two_digits(value: f64) -> String {
-    if value == 0.0 {
-        "0".to_owned()
-    } else if (1e-3..1e5).contains(&value.abs()) {
-        format!("{value:.*}", decimals(value.abs()))
-    } else {
-        powers(&format!("{value:.1e}"))
-    }
-}
-
-/// Returns a text with powers of ten instead of exponents: `7.3×10⁻⁵` instead of `7.3e-5`. The text contains no words from
-/// elsewhere.
-pub(crate) fn powers(text: &str) -> String {
-    let (mut out, mut rest) = (String::with_capacity(text.len()), text);
-    while let Some((before, after)) = rest.split_once('e') {
-        let sign = usize::from(after.starts_with('-'));
-        let digits = after[sign..].chars().take_while(char::is_ascii_digit).count();
-        out.push_str(before);
-        if digits > 0 && before.ends_with(|c: char| c.is_ascii_digit()) {
-            let (exponent, further) = after.split_at(sign + digits);
-            let mantissa = out.rsplit(|c: char| !c.is_ascii_digit() && c != '.').next();
-            if mantissa == Some("1") {
-                out.pop();
-            } else {
-                out.push('×');
-            }
-            out += &format!("10{}", superscripts(exponent));
-            rest = further;
-        } else {
-            out.push('e');
-            rest = after;
-        }
-    }
-    out + rest
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// By hand.
     /// By hand, with 40 columns: the gap in the quotation is no column of a table, and no line ends within it.
     #[test]
     fn a_quotation_stays_whole() {
@@ -397,23 +337,6 @@ mod tests {
             fitted("First run `keygen KEY --trust FILE` here", 24),
             "First run\n  `keygen KEY --trust FILE`\n  here\n"
         );
-    }
-
-    #[test]
-    fn an_uncertainty_has_two_digits() {
-        for (u, decimals_due) in [(0.0123, 3), (0.0996, 2), (1.5, 1), (15.0, 0), (150.0, 0), (2.0e-5, 6)] {
-            assert_eq!(decimals(u), decimals_due, "{u}");
-        }
-    }
-
-    #[test]
-    fn exponents_become_powers_of_ten() {
-        assert_eq!(powers("one of 2 to 7.3e-5 mA; 1.0e12, x1e"), "one of 2 to 7.3×10⁻⁵ mA; 1.0×10¹², x1e");
-        let cases =
-            [(0.0, "0"), (0.001_34, "0.0013"), (-0.25, "-0.25"), (0.000_999_6, "1.0×10⁻³"), (4.6e-9, "4.6×10⁻⁹")];
-        for (value, due) in cases {
-            assert_eq!(two_digits(value), due, "{value}");
-        }
     }
 
     #[test]
@@ -444,14 +367,6 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_wider_than_a_terminal() {
-        let mut out = String::new();
-        paragraph(&mut out, "  ", &"word ".repeat(100));
-        assert!(out.lines().all(|line| line.chars().count() <= TEXT_COLUMNS));
-        assert!(out.starts_with("  w") && out.lines().skip(1).all(|line| line.starts_with("    w")));
-    }
-
-    #[test]
     fn a_line_continues_below_its_last_column() {
         let due = "  ok  name  some words\n            and more\nshort\n";
         assert_eq!(fitted("  ok  name  some words and more\nshort\n", 25), due);
@@ -473,16 +388,6 @@ mod tests {
     fn a_message_continues_below_its_last_column() {
         let due = "name: a ok  words and\n            more\n        short\n";
         assert_eq!(hanging("name: a ok  words and more\n        short\n", 6, 22), due);
-    }
-
-    #[test]
-    fn numbers_are_aligned_at_their_points() {
-        let rows = [["K_x", "94.99", "0.011", "pass"], ["ω_0", "-3", "0.0034", "undecided"]];
-        let mut out = String::new();
-        table(&mut out, 1, &["", "value", "u", "decision"], rows.map(|row| row.map(str::to_owned).to_vec()));
-        let lines: Vec<String> = style::plain(&out).lines().map(str::to_owned).collect();
-        assert_eq!(lines[1..], ["  K_x  94.99  0.011   pass", "  ω_0  -3     0.0034  undecided"]);
-        assert_eq!(lines[0], "       value       u  decision");
     }
 
     #[test]

@@ -92,19 +92,19 @@ fn largest(numbers: &[NumberDifference]) -> Words {
 
 /// A table of numbers that differ.
 fn numbers(numbers: &[NumberDifference]) -> Block {
-    let decimals_of_row = |at: &NumberDifference| {
-        let printed = at.standard_uncertainty.map(decimals).or_else(|| decimals_on_the_page(&at.key));
-        match (printed, at.a.zip(at.b)) {
-            (Some(decimals), _) => decimals,
-            // The difference of two numbers as people write them is exact.
-            (None, Some((a, b))) if is_short(a) && is_short(b) => decimals_of(a).max(decimals_of(b)),
-            (None, _) => at.difference().map_or(6, decimals_of_a_difference),
+    let rounded =
+        |at: &NumberDifference| at.standard_uncertainty.map(decimals).or_else(|| decimals_on_the_page(&at.key));
+    let decimals_of_row = |at: &NumberDifference| match (rounded(at), at.a.zip(at.b)) {
+        (Some(decimals), _) => decimals,
+        // The difference of two numbers as people write them is exact.
+        (None, Some((a, b))) if is_short(a) && is_short(b) => {
+            Number::exact(a).decimals().max(Number::exact(b).decimals())
         }
+        (None, _) => at.difference().map_or(6, |difference| Number::significant(difference, 3).decimals()),
     };
     let plain = |at: &NumberDifference, value: Option<f64>| {
-        let is_rounded = at.standard_uncertainty.is_some() || decimals_on_the_page(&at.key).is_some();
         // As it is in the file if it is short, as those are that people write.
-        value.map(|value| match !is_rounded && is_short(value) {
+        value.map(|value| match rounded(at).is_none() && is_short(value) {
             true => Number::exact(value),
             false => Number::fixed(value, decimals_of_row(at)),
         })
@@ -138,20 +138,6 @@ fn is_computed(key: &str) -> bool {
 fn is_short(value: f64) -> bool {
     const SHORT: usize = 12;
     number::decimal(value).len() <= SHORT
-}
-
-fn decimals_of(value: f64) -> usize {
-    number::decimal(value).split_once('.').map_or(0, |(_, decimals)| decimals.len())
-}
-
-/// Returns the number of decimals, at most 15, that show a difference with three significant digits.
-fn decimals_of_a_difference(difference: f64) -> usize {
-    let magnitude = difference.abs();
-    if !(magnitude.is_finite() && magnitude > 0.0) {
-        return 6;
-    }
-    let exponent = libm::floor(libm::log10(magnitude)) as i32;
-    usize::try_from(2 - exponent).unwrap_or(0).min(15)
 }
 
 fn shown(value: Option<&Node>) -> Words {

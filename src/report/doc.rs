@@ -13,6 +13,7 @@ pub(crate) use crate::wording::words::{
 pub(crate) use terminal::{said, sentence, text};
 
 use super::page::language::{Language, Languages, Text};
+use super::picture::strips::{Axis, Key};
 use super::style::Outcome;
 use crate::wording::texts::words;
 use maud::Markup;
@@ -45,10 +46,10 @@ pub(crate) enum Block {
     Whole(&'static str, Vec<Vec<Words>>),
     /// Lines for a terminal alone, such as a chart in block characters.
     Typed(String),
-    /// Elements of a page alone, such as a legend or a figure, in its languages.
+    /// Elements of a page alone, such as a figure, in its languages.
     Drawn(Drawn),
-    /// A block and a figure next to it, if there is one.
-    Beside(Box<Block>, Option<Drawn>),
+    /// On pages alone: what the marks of a picture mean.
+    Key(Key),
     List(Vec<Words>),
     /// On pages alone: a headline and blocks about it in a box of this class.
     Boxed(&'static str, Words, Vec<Block>),
@@ -163,7 +164,8 @@ pub(crate) struct Table {
 pub(crate) struct Column {
     pub heading: Words,
     pub cells: Vec<Cell>,
-    pub foot: Option<Drawn>,
+    /// Axis below the cells.
+    pub foot: Option<Axis>,
     pub on: On,
 }
 
@@ -196,15 +198,16 @@ impl<'a, T> Rows<'a, T> {
     }
 
     /// Adds a column of strips with their axis.
-    pub(crate) fn strips(
-        mut self,
-        heading: impl Into<Words>,
-        strip: impl Fn(&T) -> Markup,
-        axis: impl Fn(&Languages) -> Markup + 'static,
-    ) -> Self {
+    pub(crate) fn strips(mut self, heading: impl Into<Words>, strip: impl Fn(&T) -> Markup, axis: Axis) -> Self {
         let cells = self.rows.iter().map(|row| Cell::Drawn(strip(row))).collect();
-        let foot = Some(drawn(axis));
-        self.table.columns.push(Column { heading: heading.into(), cells, foot, on: On::Page });
+        self.table.columns.push(Column { heading: heading.into(), cells, foot: Some(axis), on: On::Page });
+        self
+    }
+
+    /// Begins a group with each row whose value differs from that of the row before.
+    pub(crate) fn grouped_by<K: PartialEq>(mut self, value: impl Fn(&T) -> K) -> Self {
+        let differs = |row: &usize| value(&self.rows[*row]) != value(&self.rows[row - 1]);
+        self.table.starts = (1..self.rows.len()).filter(differs).collect();
         self
     }
 

@@ -96,8 +96,11 @@ impl Gyros {
         if self.outcomes.len() < 2 {
             return String::new();
         }
-        let count = |word: &Text| self.outcomes.iter().filter(|(_, found)| found == word).count();
-        let counts = columns::counts(WORDS.map(|word| (count(&word), word.of(self.language).to_lowercase())));
+        let counted = WORDS.into_iter().filter_map(|word| {
+            let count = self.outcomes.iter().filter(|(_, found)| *found == word).count();
+            (count > 0).then(|| format!("{count} {}", word.of(self.language).to_lowercase()))
+        });
+        let counts = counted.collect::<Vec<_>>().join(", ");
         let has = |outcome: &Outcome| self.outcomes.iter().any(|(found, _)| found == outcome);
         let worst = [Outcome::Failed, Outcome::Undecided, Outcome::NotAsked].into_iter().find(has);
         let words = texts::gyros(self.outcomes.len(), counts).plain(self.language);

@@ -1,7 +1,6 @@
 //! A passport, composed once for a terminal and for its printed page.
 //!
 //! * `general`: the passport itself, the stand and its certificate.
-//! * `chart`: the deviations as a chart in block characters.
 //! * `deviations`: the certified deviations with their uncertainty, and the datum surfaces.
 //! * `site`: the site and the Earth there.
 //! * `numbers`: the numbers that a calibration uses.
@@ -9,7 +8,6 @@
 //! * `worksheet`: the steps to K by hand.
 
 pub(crate) mod accuracy;
-mod chart;
 pub(crate) mod deviations;
 pub(crate) mod general;
 pub(crate) mod numbers;

@@ -5,8 +5,7 @@ use super::doc::{Block, On, Rows, Words, code, given, heading, in_unit, joined, 
 use super::page::Number;
 use super::style::Outcome;
 use crate::calibration::Parameter;
-use crate::calibration::parameter::symbols;
-use crate::calibration::parameter::unit;
+use crate::calibration::parameter::{symbols, unit};
 use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::gyro::GyroType;
 use crate::plan::criterion::Criterion;

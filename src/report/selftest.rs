@@ -2,6 +2,8 @@
 
 use crate::report::{columns, style};
 use crate::selftest::Case;
+use crate::wording::number::{Number, localised};
+use crate::wording::{Language, plain};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -52,19 +54,16 @@ fn sources(group: &[Case]) -> String {
 }
 
 fn row(case: &Case, digits: bool) -> Vec<String> {
-    let number = |value: f64| {
-        if digits {
-            return columns::powers(&format!("{value:.14e}"));
-        }
-        if case.expected == 0.0 {
-            return columns::two_digits(value);
-        }
+    let two_digits = |value: f64| plain(&Number::scientific(value, 2).text(Language::English));
+    let number = |value: f64| match digits {
+        true => plain(&localised(&format!("{value:.14e}"), Language::English)),
+        false if case.expected == 0.0 => two_digits(value),
         // One digit more than the tolerance affects.
-        format!("{value:.*}", columns::decimals(case.tolerance))
+        false => format!("{value:.*}", columns::decimals(case.tolerance)),
     };
     // As printed in the source: its digits show its precision.
     let expected = if digits { number(case.expected) } else { format!("{}", case.expected) };
-    let last = case.digits.map_or_else(|| columns::two_digits(case.tolerance), |digits| format!("{digits:.1}"));
+    let last = case.digits.map_or_else(|| two_digits(case.tolerance), |digits| format!("{digits:.1}"));
     let verdict = style::marked(Some(case.passed()), if case.passed() { "ok" } else { "FAILED" });
     vec![case.quantity.clone(), expected, number(case.found), last, verdict]
 }

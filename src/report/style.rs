@@ -85,18 +85,4 @@ mod tests {
             assert_eq!(outgoing(&text), text);
         }
     }
-
-    /// Expected: the marks of the printed pages.
-    #[test]
-    fn every_outcome_has_a_mark_of_its_own() {
-        let marks = [
-            (Outcome::Passed, "● a"),
-            (Outcome::Failed, "✕ a"),
-            (Outcome::Undecided, "◐ a"),
-            (Outcome::NotAsked, "○ a"),
-        ];
-        for (outcome, due) in marks {
-            assert_eq!(plain(&marked(outcome, "a")), due);
-        }
-    }
 }

@@ -4,13 +4,11 @@ use crate::calibration::parameter::unit;
 use crate::calibration::verdict::{ParameterVerdict, Verdict};
 use crate::calibration::{CalibrationDocument, Parameter};
 use crate::gyro::GyroType;
-use crate::report::calibration::parameters;
-use crate::report::doc::{self, Block, On, Rows, Words, drawn, heading, in_unit, marked, say, symbol, told};
+use crate::report::calibration::{parameters, unit_at_type};
+use crate::report::doc::{self, Block, On, Rows, Words, heading, in_unit, marked, say, symbol, told};
 use crate::report::page::Language;
 use crate::report::page::number::Number;
-use crate::report::picture::drawing::legend_with;
-use crate::report::picture::shares as strips;
-use crate::report::picture::tolerances::unit_at_type;
+use crate::report::picture::strips::{self, Key};
 use crate::report::style::Outcome;
 use crate::uncertainty::dominant::{Dominant, of_input};
 use crate::uncertainty::monte_carlo::Distribution;
@@ -105,18 +103,15 @@ fn shares(budget: &Budget, verdict: Option<&Verdict>) -> [Block; 2] {
         .column(symbol("u"), |line| {
             Number::uncertainty(converted(line).map_or(line.standard_uncertainty, |row| row.standard_uncertainty))
         })
-        .strips(texts::SHARES, |line| strips::shares(&parts(line)), strips::axis);
+        .strips(texts::SHARES, |line| strips::shares(&parts(line)), strips::axis_of_shares());
     let mut names: Vec<Words> = at_type.then(|| texts::SHARE_OF_GRAVITY.into()).into_iter().collect();
     names.extend(named.iter().map(|kind| kind.cause.kind_words()));
     let letters = names.len();
     names.extend((kinds.len() > named.len()).then(|| Words::from(texts::OTHER_INPUTS)));
-    let legend = drawn(move |languages| {
-        let samples: Vec<_> =
-            (0..names.len()).map(|place| strips::sample(Some(place).filter(|place| *place < letters))).collect();
-        legend_with(samples.iter().zip(names.iter().map(|name| languages.name(name))))
-    });
+    let sample = |place| strips::sample_of_share(Some(place).filter(|place| *place < letters));
+    let key: Key = names.into_iter().enumerate().map(|(place, name)| (sample(place), name)).collect();
     let caption = if at_type { texts::SHARES_CAPTION_AT_TYPE } else { texts::SHARES_CAPTION };
-    [table.captioned(caption, caption), Block::Drawn(legend)]
+    [table.captioned(caption, caption), Block::Key(key)]
 }
 
 fn line_of(budget: &Budget, parameter: Parameter) -> Option<&ParameterBudget> {

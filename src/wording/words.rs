@@ -185,7 +185,7 @@ pub(crate) fn marked(outcome: impl Into<Outcome>, words: impl Into<Words>) -> Wo
 }
 
 /// Returns a whole number with `between` before every group of three digits.
-fn grouped(number: u64, between: &str) -> String {
+pub(crate) fn grouped(number: u64, between: &str) -> String {
     let digits = number.to_string();
     let groups = digits.as_bytes().rchunks(3).rev().map(String::from_utf8_lossy);
     groups.collect::<Vec<_>>().join(between)

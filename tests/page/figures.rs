@@ -1,7 +1,7 @@
 //! What is drawn in the report of a calibration, read off by the marks of its axes, against the result of the same run for
 //! programs.
 
-use crate::picture::{Axis, end, number, of_class, reach, svgs};
+use crate::picture::{Axis, end, number, of_class, reach};
 use crate::programs;
 use roxmltree::Document;
 use serde_json::Value;
@@ -35,14 +35,6 @@ static CALIBRATED: LazyLock<(String, Value)> = LazyLock::new(|| {
     let result = serde_json::from_str(&programs::output(calibrate)).unwrap();
     (std::fs::read_to_string(&page).unwrap(), result)
 });
-
-/// A figure of the report.
-fn figure(name: &str) -> &'static str {
-    let page = &CALIBRATED.0;
-    let from = page.find(&format!("<figure id=\"figure-{name}\"")).unwrap_or_else(|| panic!("no figure {name}"));
-    let end = "</figure>";
-    &page[from..from + page[from..].find(end).unwrap() + end.len()]
-}
 
 /// The tables of a class, with the strips in their cells.
 fn table(class: &str) -> Vec<&'static str> {
@@ -174,25 +166,4 @@ fn shares_of_a_variance_are_as_long_as_in_the_result() {
         axis.says(number(rest, "x") + number(rest, "width"), 100.0);
     }
     assert!(parts_drawn > 16 && with_gravity == 2, "{parts_drawn}, {with_gravity}");
-}
-
-#[test]
-fn steps_are_where_their_axes_say() {
-    let page = Document::parse(figure("convergence")).unwrap();
-    let svg = svgs(&page)[0];
-    let (x, y) = (Axis::along_x(svg), Axis::of_decades(svg));
-    let result = &CALIBRATED.1["results"][2];
-    let steps = result["changes"].as_array().unwrap();
-    let keys = [("main_scale_factors_percent", "delta1_percent"), ("g_drifts_deg_per_h_per_g", "delta2_deg_per_h")];
-    let drawn = of_class(svg, "series");
-    assert_eq!((drawn.len(), steps.len()), (2, 2));
-    for (line, (key, limit)) in drawn.into_iter().zip(keys) {
-        let points: Vec<&str> = line.attribute("points").unwrap().split(' ').collect();
-        assert_eq!(points.len(), steps.len());
-        for (point, step) in points.into_iter().zip(steps) {
-            let (at_x, at_y) = point.split_once(',').unwrap();
-            x.says(at_x.parse().unwrap(), get(step, "step"));
-            y.says(at_y.parse().unwrap(), libm::log10(get(step, key) / get(&result["stop_rule"], limit)));
-        }
-    }
 }

@@ -6,13 +6,12 @@ use crate::calibration::chi_square::FEW_DEGREES;
 use crate::calibration::document::{ResidualDocument, ResultDocument};
 use crate::calibration::remarks::{Weight, scatter};
 use crate::calibration::{Calibration, Finding, NotStated};
-use crate::report::doc::{Block, On, Rows, Words, drawn, fields, in_unit, joined, probability, say, symbol};
+use crate::report::doc::{Block, On, Rows, Words, fields, in_unit, joined, probability, say, symbol};
 use crate::report::page::language::Text;
 use crate::report::page::number::Number;
-use crate::report::page::parts::starts;
-use crate::report::picture::residuals::{AXES, Bars, key};
+use crate::report::picture::strips::{AXES, Residuals};
 use crate::wording::texts::causes as names;
-use crate::wording::texts::{calibration as texts, finding as words, units};
+use crate::wording::texts::{calibration as texts, finding as words, pictures, units};
 
 pub(super) fn section(of: &Report) -> Vec<Block> {
     let Some(result) = of.adopted() else { return Vec::new() };
@@ -28,7 +27,8 @@ pub(super) fn section(of: &Report) -> Vec<Block> {
     doc.extend((!calibration.is_invalid()).then(|| causes(calibration)).into_iter().flatten());
     doc.push(say(super::methods::agreement(of)));
     if of.details || !calibration.consistent {
-        doc.extend([residuals(result), Block::Drawn(drawn(key))]);
+        let key = Residuals::key(pictures::RESIDUAL, pictures::RESIDUAL_LIMITS);
+        doc.extend([residuals(result), Block::Key(key)]);
     }
     doc
 }
@@ -98,22 +98,17 @@ fn residuals(result: &ResultDocument) -> Block {
     let has_limits = |of: fn(&ResidualDocument) -> (f64, Option<f64>)| residuals.iter().any(|at| of(at).1.is_some());
     let mut rows = Rows::of(residuals, "numbers residuals").named(symbol("i"), |at| at.i).named(symbol("j"), |at| at.j);
     for (axis, of) in AXES {
-        let bars = Bars::of(result);
+        let bars = Residuals::of(result);
         let (own, u) = (|| symbol(axis), || symbol(&format!("u_{axis}")));
         let limits = has_limits(of).then(|| Words::All(vec![own(), ", ±2".into(), u()]));
         rows = rows
             .column(in_unit(own(), units::DEG_PER_H), |at| Number::measured(of(at).0, of(at).1.unwrap_or(0.0)))
             .column(in_unit(u(), units::DEG_PER_H), |at| of(at).1.map(Number::uncertainty))
-            .strips(
-                limits.unwrap_or_else(own),
-                |at| bars.bar(of(at)),
-                move |languages| bars.axis(languages, Some(units::DEG_PER_H)),
-            )
+            .strips(limits.unwrap_or_else(own), |at| bars.bar(of(at)), bars.axis(Some(units::DEG_PER_H)))
             .column(Words::All(vec![own(), "/".into(), u()]), |at| of(at).1.map(|u| Number::fixed(of(at).0 / u, 1)))
             .on(On::Terminal);
     }
-    rows.table.starts = starts(residuals.iter().map(|at| at.i));
-    rows.captioned(texts::RESIDUALS_CAPTION, texts::RESIDUALS_CAPTION)
+    rows.grouped_by(|at| at.i).captioned(texts::RESIDUALS_CAPTION, texts::RESIDUALS_CAPTION)
 }
 
 /// The name of an input without a stated uncertainty.

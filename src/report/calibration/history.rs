@@ -1,14 +1,13 @@
 //! The gyro over several calibrations: every parameter from the earliest to the latest, within the tolerance of the type.
 
-use super::Report;
+use super::{Report, unit_at_type};
 use crate::calibration::parameter::unit;
 use crate::calibration::verdict::{COVERAGE_FACTOR, Verdict};
 use crate::calibration::{CalibrationDocument, Parameter};
 use crate::gyro::GyroType;
-use crate::report::doc::{Block, On, Rows, Words, drawn, heading, in_unit, symbol};
+use crate::report::doc::{Block, On, Rows, Words, heading, in_unit, symbol};
 use crate::report::page::number::Number;
-use crate::report::page::parts::starts;
-use crate::report::picture::tolerances::{BESIDE_VALUES, key, unit_at_type};
+use crate::report::picture::strips::{BESIDE_VALUES, Tolerances};
 use crate::wording::texts::calibration as texts;
 
 /// A parameter of one calibration of the gyro, at the g of the report.
@@ -44,7 +43,7 @@ pub(super) fn table(of: &Report) -> Vec<Block> {
         let row = past.verdict.as_ref().and_then(|verdict| Some((verdict, verdict.parameter(past.parameter)?)));
         row.map(|(verdict, row)| BESIDE_VALUES.of_parameter(verdict, row)).unwrap_or_default()
     };
-    let mut rows = Rows::of(&each, "numbers result past")
+    let rows = Rows::of(&each, "numbers result past")
         .named(texts::PARAMETER, |past| {
             // The name is shown once for its calibrations; screen readers say it in each row.
             let name = in_unit(symbol(past.parameter.symbol()), unit_of(past.parameter));
@@ -56,17 +55,14 @@ pub(super) fn table(of: &Report) -> Vec<Block> {
         })
         .column(texts::FOUND, |past| Number::measured(past.value, past.u))
         .column(texts::PLUS_MINUS, |past| Number::uncertainty(past.u))
-        .strips(texts::IN_TOLERANCE, strip, |languages| BESIDE_VALUES.axis(languages))
-        .only_if(of.gyro.is_some());
-    rows.table.starts = starts(each.iter().map(|past| past.parameter));
+        .strips(texts::IN_TOLERANCE, strip, BESIDE_VALUES.axis())
+        .only_if(of.gyro.is_some())
+        .grouped_by(|past| past.parameter);
     let u = if of.gyro.is_some() { 0.0 } else { of.document.gravity_u_m_per_s2.unwrap_or(0.0) };
     let marks = if of.gyro.is_some() { Words::from(texts::HISTORY_MARKS) } else { "".into() };
     let caption = texts::history_caption(marks, refers, Number::measured(gravity, u));
-    let verdicts: Vec<Verdict> = all.iter().filter_map(|(document, _)| document.judged(of.gyro?)).collect();
-    let legend = drawn(move |languages| {
-        let all: Vec<&Verdict> = verdicts.iter().collect();
-        if all.is_empty() { Default::default() } else { key(languages, &all) }
-    });
     let table = rows.captioned(texts::HISTORY, caption);
-    [heading(texts::HISTORY), table, Block::Drawn(legend)].map(|block| block.only(On::Page)).into()
+    let verdicts: Vec<Verdict> = all.iter().filter_map(|(document, _)| document.judged(of.gyro?)).collect();
+    let key = of.gyro.map(|_| Block::Key(Tolerances::key(verdicts.iter())));
+    [heading(texts::HISTORY), table].into_iter().chain(key).map(|block| block.only(On::Page)).collect()
 }

@@ -6,10 +6,8 @@ use crate::calibration::document::ResultDocument;
 use crate::calibration::iterative::NoIterativeSolution;
 use crate::calibration::result::MethodRefusal;
 use crate::calibration::{Method, Parameter};
-use crate::report::doc::{Block, Rows, Words, drawn, fields, heading, say, symbol};
+use crate::report::doc::{Block, Rows, Words, fields, heading, say, symbol};
 use crate::report::page::number::Number;
-use crate::report::picture::convergence::convergence;
-use crate::wording::Language;
 use crate::wording::texts::{calibration as texts, passport, units};
 
 pub(super) fn section(of: &Report) -> Vec<Block> {
@@ -138,12 +136,5 @@ fn iteration(result: &ResultDocument) -> Vec<Block> {
         (texts::REMAINDER_K, remaining(0, units::DEG_PER_H_PER_MA), false),
         (texts::REMAINDER_OMEGA, remaining(1, units::DEG_PER_H_PER_G), false),
     ]);
-    let picture = convergence(&Language::English.into(), result).map(|_| {
-        let result = result.clone();
-        drawn(move |languages| {
-            let drawing = convergence(languages, &result).unwrap_or_default();
-            languages.figure("convergence", &drawing, texts::CONVERGENCE_CAPTION)
-        })
-    });
-    vec![heading(texts::ITERATIVE), Block::Beside(Box::new(course), picture)]
+    vec![heading(texts::ITERATIVE), course]
 }

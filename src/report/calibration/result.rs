@@ -1,18 +1,16 @@
 //! The result: every parameter with its expanded uncertainty, within the tolerance of the type if one was specified, its
 //! change since an earlier result, and the terms of a larger model.
 
-use super::{Report, history, with_u};
+use super::{Report, history, unit_at_type, with_u};
 use crate::calibration::document::ResultDocument;
 use crate::calibration::parameter::symbols;
 use crate::calibration::parameter::unit;
 use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::calibration::{NotStated, Parameter};
-use crate::report::doc::{
-    Block, On, Rows, Words, drawn, fields, heading, in_unit, listed, marked, probability, say, symbol,
-};
+use crate::report::doc::{Block, On, Rows, Words, fields, heading, in_unit, listed, marked, probability, say, symbol};
 use crate::report::page::language::Text;
 use crate::report::page::number::Number;
-use crate::report::picture::tolerances::{BESIDE_DECISIONS, decision, key, printed, unit_at_type, unit_of};
+use crate::report::picture::strips::{BESIDE_DECISIONS, Tolerances, decision};
 use crate::report::style::Outcome;
 use crate::wording::number::Probability;
 use crate::wording::texts::{calibration as texts, units};
@@ -23,7 +21,7 @@ pub(super) fn section(of: &Report) -> Vec<Block> {
         Some((name, verdict)) => {
             doc.push(heading(texts::conformity(name)));
             doc.push(compared(verdict, texts::verdict_caption, [texts::NOMINAL, texts::DEVIATION], Extent::Values));
-            doc.push(legend(verdict, true));
+            doc.push(Block::Key(Tolerances::key([verdict].into_iter())));
             doc.push(say((!verdict.withheld).then(|| rule(verdict))).only(On::Terminal));
             doc.push(simple(verdict, Some(texts::RISK_NOTE), of.details));
             doc.extend(from_gravity(of, verdict));
@@ -36,7 +34,6 @@ pub(super) fn section(of: &Report) -> Vec<Block> {
     if let Some(change) = &of.document.change {
         doc.push(heading(texts::CHANGE));
         doc.push(compared(change, texts::change_caption, [texts::EARLIER, texts::CHANGED_BY], Extent::Change));
-        doc.push(legend(change, false));
         doc.push(simple(change, None, of.details));
         doc.push(previous(of));
     }
@@ -80,12 +77,9 @@ enum Extent {
     Brief,
 }
 
-/// The key of the strips; with two languages the two tables are seldom on one sheet, so a second one is repeated there.
-fn legend(verdict: &Verdict, always: bool) -> Block {
-    let verdict = verdict.clone();
-    Block::Drawn(drawn(
-        move |languages| if always || !languages.single() { key(languages, &[&verdict]) } else { Default::default() },
-    ))
+/// The unit of a line of a verdict: percent for scale factors, the parameter's own otherwise.
+fn unit_of(row: &ParameterVerdict) -> Text {
+    if row.unit == "%" { units::PERCENT } else { unit_at_type(row.parameter) }
 }
 
 /// Which calibration is the previous one, whether it is known to be that of this gyro, and the limits of the comparison.
@@ -196,14 +190,10 @@ fn compared(
         .only_if(extent == Extent::Values)
         .column(reference, |row| Number::measured(row.reference_value, u(row)))
         .only_if(extent != Extent::Brief)
-        .column(deviation, |row| printed(row).0)
-        .column(texts::PLUS_MINUS, |row| printed(row).1)
+        .column(deviation, |row| Number::measured(row.deviation, row.expanded_uncertainty))
+        .column(texts::PLUS_MINUS, |row| Number::uncertainty(row.expanded_uncertainty))
         .column(texts::TOLERANCE, |row| Words::Quantity(Number::exact(row.tolerance), unit_of(row)))
-        .strips(
-            texts::IN_TOLERANCE,
-            |row| BESIDE_DECISIONS.of_parameter(verdict, row),
-            |languages| BESIDE_DECISIONS.axis(languages),
-        )
+        .strips(texts::IN_TOLERANCE, |row| BESIDE_DECISIONS.of_parameter(verdict, row), BESIDE_DECISIONS.axis())
         .column(by, |row| {
             // In the first language: the key below the table has the mark in all of them.
             Words::First(Box::new(marked(outcome(row), decision(verdict.decision(row)))))

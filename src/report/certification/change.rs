@@ -6,13 +6,10 @@ use crate::certification::comparison::Comparison;
 use crate::certification::found::together;
 use crate::certification::kind::{AXES, OUTLIER};
 use crate::passport::difference::NumberDifference;
-use crate::report::doc::{
-    Block, Rows, Words, drawn, fields, heading, in_unit, listed, marked, probability, say, symbol,
-};
+use crate::report::doc::{Block, Rows, Words, fields, heading, in_unit, listed, marked, probability, say, symbol};
 use crate::report::page::language::Text;
 use crate::report::page::number::Number;
-use crate::report::page::parts::starts;
-use crate::report::picture::residuals::{Bars, key_of};
+use crate::report::picture::strips::Residuals;
 use crate::report::style::Outcome;
 use crate::wording::number::Probability;
 use crate::wording::texts::{calibration, certification as texts, checks, pictures, units};
@@ -72,9 +69,9 @@ pub(crate) fn deviations(number: &str, changes: &[NumberDifference]) -> [Block; 
         value.map(|value| Number::measured(value, at.standard_uncertainty.unwrap_or(0.0)))
     };
     let change = |at: &NumberDifference| Some((at.difference()?, at.standard_uncertainty));
-    let bars = Bars::over(changes.iter().filter_map(change));
+    let bars = Residuals::over(changes.iter().filter_map(change));
     let bar = |at: &NumberDifference| change(at).map_or_else(|| html! { "–" }, |change| bars.bar(change));
-    let mut rows = Rows::of(changes, "numbers residuals changes")
+    let rows = Rows::of(changes, "numbers residuals changes")
         .named(texts::POSITION, |at| format!("({})", of_key(&at.key).0.replace(',', ", ")))
         .named(texts::ANGLE, |at| symbol(of_key(&at.key).1))
         .column(texts::in_arcsec(texts::OLD), |at| printed(at, at.a))
@@ -82,10 +79,10 @@ pub(crate) fn deviations(number: &str, changes: &[NumberDifference]) -> [Block; 
         .column(texts::in_arcsec(calibration::CHANGED_BY), |at| printed(at, at.difference()))
         .column(in_unit(symbol("u"), units::ARCSEC), |at| at.standard_uncertainty.map(Number::uncertainty))
         .column(texts::DIFFERENCE_IN_U, |at| at.ratio().map(|ratio| Number::fixed(ratio, 1)))
-        .strips(texts::within(calibration::CHANGED_BY), bar, move |languages| bars.axis(languages, None));
-    rows.table.starts = starts(changes.iter().map(|at| of_key(&at.key).0));
-    let key = drawn(|languages| key_of(languages, pictures::CHANGE_BAR, pictures::CHANGE_LIMITS));
-    [rows.captioned(texts::CHANGE, texts::change_caption(number)), Block::Drawn(key)]
+        .strips(texts::within(calibration::CHANGED_BY), bar, bars.axis(None))
+        .grouped_by(|at| of_key(&at.key).0.to_owned());
+    let key = Residuals::key(pictures::CHANGE_BAR, pictures::CHANGE_LIMITS);
+    [rows.captioned(texts::CHANGE, texts::change_caption(number)), Block::Key(key)]
 }
 
 /// Returns the indices and the letter of a deviation from its key, `positions[1,2].alpha_arcsec`.

@@ -40,13 +40,12 @@ pub(crate) fn text(out: &mut String, blocks: &[Block], language: Language) {
             Block::Table(of) => table(out, of, language),
             Block::Within(_, all) => text(out, all, language),
             Block::Typed(lines) => out.push_str(lines),
-            Block::Beside(block, _) => text(out, std::slice::from_ref(block), language),
             Block::List(all) => {
                 let each = all.iter().map(|words| said(words, language)).collect::<Vec<_>>();
                 columns::paragraph(out, "  ", &(each.join("; ") + "."));
             }
             Block::Boxed(..) | Block::Band(_) | Block::Note(..) | Block::Each(_) => {}
-            Block::On(On::Page, _) | Block::Drawn(_) => {}
+            Block::On(On::Page, _) | Block::Drawn(_) | Block::Key(_) => {}
             Block::On(_, block) => text(out, std::slice::from_ref(block), language),
         }
     }
@@ -78,31 +77,5 @@ fn table(out: &mut String, table: &Table, language: Language) {
         .map(|row| shown.iter().map(|column| cell(&column.cells[row])).collect());
     let rows: Vec<Vec<String>> = rows.collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    if table.class != KEYS || !below_keys(out, &names, &rows) {
-        columns::table(out, table.names.max(1), &names, rows);
-    }
-}
-
-/// Class of a table whose rows are named by keys of a file.
-const KEYS: &str = "keys";
-
-/// Writes each key on a line of its own, and its numbers below, if only so a row has room.
-fn below_keys(out: &mut String, names: &[&str], rows: &[Vec<String>]) -> bool {
-    let lines = |names: &[&str], from: usize| {
-        let mut lines = String::new();
-        columns::table(&mut lines, 1, names, rows.iter().map(|row| row[from..].to_vec()));
-        lines
-    };
-    let (wide, narrow) = (lines(names, 0), lines(&names[1..], 1));
-    let due = 1 + rows.len();
-    let is_below = wide.lines().count() != due && narrow.lines().count() == due;
-    if is_below {
-        for (line, key) in narrow.lines().zip(std::iter::once("").chain(rows.iter().map(|row| row[0].as_str()))) {
-            if !key.is_empty() {
-                let _ = writeln!(out, "  {key}");
-            }
-            let _ = writeln!(out, "  {line}");
-        }
-    }
-    is_below
+    columns::table(out, table.names.max(1), &names, rows);
 }

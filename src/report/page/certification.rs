@@ -2,10 +2,10 @@
 //! 17025:2017](crate::bibliography::Bibliography::Iso17025), 7.5.1): readings, exclusions, tests, components and budget of
 //! the uncertainty, the change since the previous certificate, and signature lines.
 
-use super::language::{Language, Languages, Text};
+use super::language::{Languages, Text};
 use super::number::Number;
-use super::parts::{Section, data_address, file_name, given, signatures};
-use super::shell::{Margins, document};
+use super::parts::{file_name, signatures};
+use super::shell::{Annex, Page, Section, first};
 use crate::certification::finding::Finding;
 use crate::certification::remark::Remark;
 use crate::certification::{Certification, Comparison};
@@ -14,10 +14,7 @@ use crate::report::certification::{change, evidence, outcome_of, outcome_of_cert
 use crate::report::doc::{self, Block, Words, heading, joined, marked, note, outcome_box, say, stated, symbol, told};
 use crate::report::passport::{deviations, general};
 use crate::report::style::Outcome;
-use crate::wording::texts::{
-    calibration as calibration_texts, certification as texts, passport as passport_texts, units,
-};
-use maud::{Markup, html};
+use crate::wording::texts::{certification as texts, passport as passport_texts, units};
 
 /// Id of the section of the uncertainty.
 const UNCERTAINTY: &str = "uncertainty";
@@ -38,50 +35,53 @@ pub(crate) struct CertificationPage<'a> {
 impl CertificationPage<'_> {
     /// Returns the record as one self-contained HTML document.
     pub(crate) fn html(&self, languages: &Languages) -> String {
-        let number = &self.certification.stand.certificate.number;
-        let margins = Margins {
-            top_left: texts::margin(number).plain(languages.first()),
-            top_right: if self.dry_run { languages.plain(texts::DRAFT) } else { self.running_head(languages.first()) },
-            bottom_left: texts::margin_sha256(self.sha256()).plain(languages.first()),
+        let stand = &self.certification.stand;
+        let number = &stand.certificate.number;
+        let (outcome, headline, reasons) = self.verdict();
+        // A headline of a stand that has changed stands at the head of every sheet.
+        let warning = match outcome {
+            _ if self.dry_run => texts::DRAFT.into(),
+            Outcome::Failed => first(headline.clone()),
+            _ => "".into(),
         };
-        let title = format!("{} {number}", languages.plain(texts::TITLE));
-        document(languages, &title, &margins, &self.body(languages))
+        let draft =
+            self.dry_run.then(|| Block::Boxed("verdict refused", texts::DRAFT.into(), vec![say([texts::DRAFT_WORDS])]));
+        let sections = self.sections();
+        // The limits stand in the section of the uncertainty.
+        let uncertainty = 1 + sections.iter().position(|(id, ..)| *id == UNCERTAINTY).unwrap_or_default();
+        let head = draft.into_iter().chain([outcome_box(outcome, headline, reasons), self.band(uncertainty)]);
+        let who = [texts::MEASURED_BY, texts::CHECKED_BY, passport_texts::AUTHORISED_BY];
+        let [model, serial] = [stand.stand.model.as_str(), stand.stand.serial.as_str()].map(doc::given);
+        let page = Page {
+            margins: [first(texts::margin(number)), warning, first(texts::margin_sha256(self.sha256()))],
+            name: doc::given(number),
+            title: (
+                texts::TITLE,
+                vec![model, " №\u{a0}".into(), serial, ", ".into(), doc::given(number)].into(),
+                texts::SUBTITLE.into(),
+            ),
+            head: head.collect(),
+            front: None,
+            sections,
+            signatures: if self.dry_run { Vec::new() } else { signatures(who).into() },
+            annex: Annex {
+                heading: texts::ANNEX,
+                note: texts::ANNEX_NOTE.into(),
+                save: texts::SAVE,
+                name: file_name(self.readings.0),
+                media: "text/csv",
+                tag: "",
+                bytes: self.readings.1.into(),
+                end: told(texts::end(number)),
+                is_printed: true,
+            },
+        };
+        page.html(languages)
     }
 
     /// Returns the SHA-256 of the file of readings.
     fn sha256(&self) -> String {
         crate::document::sha256_hex(self.readings.1)
-    }
-
-    fn body(&self, languages: &Languages) -> Markup {
-        let stand = &self.certification.stand;
-        let who = [texts::MEASURED_BY, texts::CHECKED_BY, passport_texts::AUTHORISED_BY];
-        let address = data_address("text/csv", self.readings.1);
-        let sections = self.sections();
-        // The limits stand in the section of the uncertainty.
-        let uncertainty = 1 + sections.iter().position(|(id, ..)| *id == UNCERTAINTY).unwrap_or_default();
-        let (outcome, headline, reasons) = self.verdict();
-        let draft =
-            self.dry_run.then(|| Block::Boxed("verdict refused", texts::DRAFT.into(), vec![say([texts::DRAFT_WORDS])]));
-        let head = draft.into_iter().chain([outcome_box(outcome, headline, reasons), self.band(uncertainty)]);
-        let text = String::from_utf8_lossy(self.readings.1).replace("\r\n", "\n");
-        let note = (texts::ANNEX, texts::ANNEX_NOTE.into());
-        html! {
-            header.title {
-                p.kind { (languages.label(texts::TITLE)) }
-                h1 { (given(stand.stand.model.as_str())) " №\u{a0}" (given(stand.stand.serial.as_str())) ", " (given(&stand.certificate.number)) }
-                p.subject { (languages.label(texts::SUBTITLE)) }
-            }
-            main {
-                (languages.blocks(&head.collect::<Vec<_>>()))
-                (languages.contents(texts::SAVE, (&address, file_name(self.readings.0)), &sections, texts::ANNEX))
-                (languages.numbered(&sections))
-                @if !self.dry_run {
-                    (languages.section("signatures", calibration_texts::SIGNATURES, &languages.blocks(&signatures(who))))
-                }
-                (languages.annex(note, ("", &text), &told(texts::end(&stand.certificate.number)), true))
-            }
-        }
     }
 
     fn sections(&self) -> Vec<Section> {
@@ -122,14 +122,6 @@ impl CertificationPage<'_> {
         };
         let findings = found.findings.iter().map(Finding::words).collect();
         (outcome, verdict, vec![Block::List(findings), say(remedy), warnings])
-    }
-
-    /// Returns the headline of a stand that has changed, for the head of every sheet; otherwise nothing.
-    fn running_head(&self, language: Language) -> String {
-        match self.verdict() {
-            (Outcome::Failed, headline, _) => headline.plain(language),
-            _ => String::new(),
-        }
     }
 
     /// The band below the title: measurement, expiry date, and the uncertainties that all positions have in common.

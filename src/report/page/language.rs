@@ -1,10 +1,9 @@
-//! Languages of a page, and texts in each of them as elements of the page.
-
-use super::symbols::italic;
-use maud::{Markup, html};
+//! Languages of a page.
 
 pub use crate::wording::Language;
-pub(crate) use crate::wording::{Text, capital};
+pub(crate) use crate::wording::Text;
+
+use crate::wording::Words;
 
 /// The languages of one page, in order. The first one sets the format of numbers and dates.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -48,10 +47,10 @@ impl Languages {
 
     /// Returns the distinct wordings, each with the first language that uses it. So a unit that is written alike in two
     /// languages appears once.
-    pub(crate) fn sayings(&self, say: impl Fn(Language) -> String) -> Vec<(Language, String)> {
+    pub(crate) fn sayings(&self, words: &Words) -> Vec<(Language, String)> {
         let mut sayings: Vec<(Language, String)> = Vec::new();
         for language in self.iter() {
-            let words = say(language);
+            let words = words.plain(language);
             if sayings.iter().all(|(_, said)| *said != words) {
                 sayings.push((language, words));
             }
@@ -64,80 +63,11 @@ impl Languages {
         text.of(self.first)
     }
 
-    /// Returns plain text for places without markup, such as the words of a picture: `north / север`.
-    pub(crate) fn plain(&self, text: Text) -> String {
-        let sayings = self.sayings(|language| text.words(language));
-        sayings.into_iter().map(|(_, words)| words).collect::<Vec<_>>().join(" / ")
-    }
-
-    /// Writes the text within a line, one language after the other.
-    pub(crate) fn inline(&self, text: Text) -> Markup {
-        self.inline_with(|language| text.words(language))
-    }
-
-    /// Writes words as `inline` does; `say` makes them for each language.
-    pub(crate) fn inline_with(&self, say: impl Fn(Language) -> String) -> Markup {
-        self.spans(say, [" / ", ""], None)
-    }
-
-    /// Writes a unit within a line, the second language in brackets: a solidus would be part of the unit.
-    pub(crate) fn in_brackets(&self, unit: Text) -> Markup {
-        self.spans(|language| unit.words(language), [" (", ")"], None)
-    }
-
-    /// Writes the name of a row or column, or a heading: the second language smaller, below the first.
-    pub(crate) fn label(&self, text: Text) -> Markup {
-        self.label_with(|language| text.words(language))
-    }
-
-    /// Writes a name as `label` does; `say` makes it for each language.
-    pub(crate) fn label_with(&self, say: impl Fn(Language) -> String) -> Markup {
-        self.spans(say, [" ", ""], Some("second"))
-    }
-
-    /// Writes the wordings within a line, the languages after the first between these strings and in this class.
-    fn spans(&self, say: impl Fn(Language) -> String, [before, after]: [&str; 2], class: Option<&str>) -> Markup {
-        let sayings = self.sayings(say);
-        if let [(_, words)] = sayings.as_slice() {
-            return italic(words);
+    /// Returns plain text for places without markup, such as the margins of a sheet: `north / север`.
+    pub(crate) fn plain(&self, words: &Words) -> String {
+        match words {
+            Words::First(words) => words.plain(self.first),
+            words => self.sayings(words).into_iter().map(|(_, words)| words).collect::<Vec<_>>().join(" / "),
         }
-        html! {
-            @for (index, (language, words)) in sayings.iter().enumerate() {
-                @let other = index > 0;
-                @if other { (before) }
-                span class=[class.filter(|_| other)] lang=[self.marked(*language)] { (italic(words)) }
-                @if other { (after) }
-            }
-        }
-    }
-
-    /// Writes a paragraph in each language, side by side if there is room.
-    pub(crate) fn paragraph(&self, text: Text) -> Markup {
-        self.paragraph_with(|language| italic(&text.words(language)))
-    }
-
-    /// Writes a paragraph as `paragraph` does; `say` makes it for each language.
-    pub(crate) fn paragraph_with(&self, say: impl Fn(Language) -> Markup) -> Markup {
-        html! {
-            @if self.single() {
-                p { (say(self.first)) }
-            } @else {
-                div.beside { @for language in self.iter() { p lang=(language.tag()) { (say(language)) } } }
-            }
-        }
-    }
-
-    /// Writes a paragraph in each language, one below the other; `say` makes it for each language.
-    pub(crate) fn lines_with(&self, say: impl Fn(Language) -> Markup) -> Markup {
-        html! {
-            @for (index, language) in self.iter().enumerate() {
-                p lang=(language.tag()) class=[(index > 0).then_some("second")] { (say(language)) }
-            }
-        }
-    }
-
-    /// Returns the language tag of a part, or `None` if it is the language of the page.
-    fn marked(&self, language: Language) -> Option<&'static str> {
-        (language != self.first).then(|| language.tag())
     }
 }

@@ -3,20 +3,17 @@
 //! * [`calibration`]: the report of a calibration.
 //! * `certification`: the record of a certification.
 //! * `instructions`: the first steps of a laboratory.
-//! * [`language`]: the languages of a page, and texts as its elements.
-//! * [`texts`]: the table of texts.
-//! * [`number`]: numbers as elements, and columns of them.
-//! * [`parts`]: tables, figures, forms.
-//! * [`code`]: QR codes.
+//! * [`language`]: the languages of a page.
+//! * [`number`]: numbers as elements.
+//! * [`parts`]: quantities, figures, forms, QR codes.
 //! * [`spacing`]: words that no line breaks.
 //! * `symbols`: symbols of quantities within texts.
-//! * [`shell`]: the enclosing HTML document, its style and its running heads.
+//! * [`shell`]: what every page has: the enclosing HTML document, style, running heads, contents, sections, annex.
 //! * [`passport`]: the printed passport.
 
 pub(crate) mod calibration;
 #[cfg(feature = "factory")]
 pub(crate) mod certification;
-pub(crate) mod code;
 #[cfg(feature = "cli")]
 pub(crate) mod instructions;
 pub(crate) mod language;

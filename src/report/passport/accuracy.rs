@@ -8,10 +8,10 @@ use crate::passport::Content;
 use crate::passport::accuracy::Accuracy;
 use crate::passport::annotations::{Absence, absent};
 use crate::report::doc::{
-    Block, Field, On, Rows, Words, drawn, field, given, heading, in_unit, listed, record, say, symbol, wide,
+    Block, Field, On, Rows, Words, field, given, heading, in_unit, listed, record, say, symbol, wide,
 };
 use crate::report::page::number::Number;
-use crate::report::picture::accuracy::Shares;
+use crate::report::picture::strips::Accuracies;
 use crate::site::{LATITUDE_MARGIN_ARCSEC, UNKNOWN_DEFLECTION_U_ARCSEC};
 use crate::wording::texts::{absences, passport as texts, units};
 
@@ -75,7 +75,7 @@ pub(crate) fn meter(laboratory: &Laboratory) -> Words {
 
 fn uncertainties(accuracy: &Accuracy, gravity_m_per_s2: f64) -> Vec<Block> {
     let (nominal, us) = (numbers_of(&accuracy.gyro.nominal), numbers_of(&accuracy.standard_uncertainty));
-    let (tolerance, shares) = (&accuracy.gyro.tolerance, Shares::of(accuracy, gravity_m_per_s2));
+    let (tolerance, shares) = (&accuracy.gyro.tolerance, Accuracies::of(accuracy, gravity_m_per_s2));
     let rows: Vec<(usize, Parameter)> = Parameter::AS_IN_THE_PAPER.into_iter().enumerate().collect();
     let percent = |(place, parameter): &(usize, Parameter)| {
         let percent = 100.0 * us[*place] / nominal[*place].abs();
@@ -92,9 +92,9 @@ fn uncertainties(accuracy: &Accuracy, gravity_m_per_s2: f64) -> Vec<Block> {
             let unit = if is_in_percent { units::PERCENT } else { unit(*parameter) };
             Words::Quantity(Number::exact(tolerance.of(*parameter)), unit)
         })
-        .strips(texts::SHARES, |(place, _)| shares.strip(*place), move |languages| shares.axis(languages));
+        .strips(texts::SHARES, |(place, _)| shares.strip(*place), shares.axis());
     let caption = texts::ACCURACY_CAPTION;
-    vec![table.captioned(caption, caption), Block::Drawn(drawn(Shares::key))]
+    vec![table.captioned(caption, caption), Block::Key(Accuracies::key())]
 }
 
 /// What the local g adds to a comparison of the drifts with their tolerances, at the g of the type.

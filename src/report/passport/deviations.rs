@@ -1,17 +1,15 @@
 //! The certified deviations, their expanded uncertainty with its parts, and the datum surfaces.
 
-use super::chart::chart;
 use crate::attitude::ANGLE_SYMBOLS;
 use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::passport::Content;
 use crate::report::doc::{
-    Block, Drawn, Rows, Words, drawn, field, given, heading, in_unit, listed, record, say, symbol, wide,
+    Block, Rows, Words, drawn, field, given, heading, in_unit, listed, record, say, symbol, told, wide,
 };
 use crate::report::page::language::{Language, Text};
 use crate::report::page::number::{LARGEST_IN_ARCSEC, Number};
-use crate::report::page::parts::starts;
-use crate::report::picture::deviations::Bars;
 use crate::report::picture::positions as pictures;
+use crate::report::picture::strips::Deviations;
 use crate::stand::{ActsOn, Certificate, CertifiedPosition, Datum, Excluded, TypeB};
 use crate::wording::texts::{passport as texts, units};
 
@@ -66,7 +64,7 @@ fn range(values: impl Iterator<Item = f64>) -> Words {
 /// The deviations with their bars; the uncertainties of `positions` are those that `letter` names: U, of which they are
 /// the half, or the own parts u.
 pub(crate) fn table(positions: &[CertifiedPosition], letter: &'static str) -> Vec<Block> {
-    let (bars, is_expanded) = (Bars::of(positions), letter == "U");
+    let (bars, is_expanded) = (Deviations::of(positions), letter == "U");
     let factor = if is_expanded { COVERAGE_FACTOR } else { 1.0 };
     // One angle with degrees and minutes, and all are marked in their cells.
     let large =
@@ -94,16 +92,15 @@ pub(crate) fn table(positions: &[CertifiedPosition], letter: &'static str) -> Ve
             .strips(
                 in_unit(vec![symbol(name), whiskers].into(), bars.unit()),
                 |at| bars.bar((at.angles_arcsec()[axis], at.u_arcsec()[axis])),
-                move |languages| bars.axis(languages),
+                bars.axis(),
             );
     }
-    let mut rows = rows
+    let rows = rows
         .column(symbol("ν"), |at| at.degrees_of_freedom.map(Number::exact))
-        .only_if(positions.iter().any(|at| at.degrees_of_freedom.is_some()));
-    rows.table.starts = starts(positions.iter().map(|at| at.i));
+        .only_if(positions.iter().any(|at| at.degrees_of_freedom.is_some()))
+        .grouped_by(|at| at.i);
     let caption = texts::DEVIATIONS_CAPTION;
-    let key = Block::Drawn(drawn(move |languages| bars.key(languages, is_expanded)));
-    [vec![rows.captioned(caption, caption), key], chart(positions)].concat()
+    vec![rows.captioned(caption, caption), Block::Key(bars.key(is_expanded))]
 }
 
 /// What the deviations and the own parts of their uncertainties are, and, if they are `rounded` from signed numbers, how.
@@ -186,12 +183,10 @@ fn with_freedom(u: Words, freedom: Option<f64>) -> Words {
 /// The stand in its positions.
 fn figure(content: &Content) -> Block {
     let (positions, azimuth_deg) = (content.positions.clone(), content.site.frame_axis_azimuth_deg());
-    let draw: Drawn = drawn(move |languages| {
-        let factor = Number::exact(pictures::exaggeration(&positions));
-        let picture = pictures::positions(languages, &positions, azimuth_deg);
-        languages.figure_with("positions", &picture, |language| texts::figure_positions(&factor).plain(language))
-    });
-    Block::Drawn(draw)
+    Block::Drawn(drawn(move |languages| {
+        let caption = told(texts::figure_positions(Number::exact(pictures::exaggeration(&positions))));
+        languages.figure("positions", &pictures::positions(languages, &positions, azimuth_deg), &caption)
+    }))
 }
 
 pub(crate) fn datum(datum: Option<&Datum>) -> Block {

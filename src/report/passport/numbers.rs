@@ -9,7 +9,7 @@ use crate::report::calibration::parameters;
 use crate::report::doc::{Block, On, Rows, Words, drawn, heading, in_unit, say, symbol};
 use crate::report::page::language::{Languages, Text};
 use crate::report::page::number::Number;
-use crate::report::page::parts::{self, starts};
+use crate::report::page::parts::symbol as written;
 use crate::wording::texts::{passport as texts, units};
 use maud::{Markup, html};
 
@@ -74,8 +74,7 @@ fn vectors(content: &Content) -> Block {
         rows = rows.column(ma("J_x"), |at| of(at, |at| at.jx_ma)).column(ma("J_y"), |at| of(at, |at| at.jy_ma));
         caption = texts::VECTORS_CAPTION;
     }
-    rows.table.starts = starts(content.vectors.iter().map(|at| at.i));
-    rows.captioned(caption, caption)
+    rows.grouped_by(|at| at.i).captioned(caption, caption)
 }
 
 fn self_check(check: &SelfCheck) -> Vec<Block> {
@@ -85,24 +84,21 @@ fn self_check(check: &SelfCheck) -> Vec<Block> {
 
 /// Writes the paper's equations, which differ between languages in one word only.
 fn formulas(languages: &Languages) -> Markup {
-    let symbol = |letter, index| parts::symbol(letter, index);
-    let (k, b, delta) = (symbol("K", ""), symbol("B", ""), symbol("Δ", ""));
-    let j = |index| symbol("J", index);
-    let (j1, j2) = (j("1"), j("2"));
-    let wn = symbol("ω", "n");
-    let inverse = html! { sup { "−1" } };
-    html! {
-        ul.formulas {
-            li { (j1) "\u{a0}=\u{a0}(" (j("11")) " − " (j("13")) ", " (j("12")) " − " (j("14")) ")" span.equation { "(11)" } }
-            li { (j2) "\u{a0}=\u{a0}(" (j("21")) " − " (j("23")) ", " (j("22")) " − " (j("24")) ")" span.equation { "(11)" } }
-            li { (k) "\u{a0}=\u{a0}" (b) " (" (j1) " − " (j2) " " (delta) ")" (inverse) span.equation { "(13)" } }
-            li { (wn) "\u{a0}=\u{a0}" (symbol("C", "")) " − " (k) " " (j2) " " (symbol("n", "2")) (inverse) span.equation { "(15)" } }
-            li { (symbol("ω", "g")) "\u{a0}=\u{a0}½ (" (symbol("ω", "n11")) " + " (symbol("ω", "n22")) "), "
-                (symbol("ω", "k")) "\u{a0}=\u{a0}½ (" (symbol("ω", "n21")) " − " (symbol("ω", "n12")) ")" span.equation { "(16)" } }
-            li { (symbol("ω", "0")) "\u{a0}=\u{a0}" (languages.inline(texts::MEAN)) " " (symbol("ω", "3ij")) " − " (k) " "
-                (j("ij")) " − " (wn) " " (symbol("n", "ij")) span.equation { "(8)" } }
-        }
-    }
+    let [k, b, delta, c, wn] = ["K", "B", "Δ", "C", "ω_n"].map(written);
+    let [j1, j2, j11, j12, j13, j14] = ["J_1", "J_2", "J_11", "J_12", "J_13", "J_14"].map(written);
+    let [j21, j22, j23, j24, j] = ["J_21", "J_22", "J_23", "J_24", "J_ij"].map(written);
+    let [wg, wk, w0, w, n2, n] = ["ω_g", "ω_k", "ω_0", "ω_3ij", "n_2", "n_ij"].map(written);
+    let [w11, w12, w21, w22] = ["ω_n11", "ω_n12", "ω_n21", "ω_n22"].map(written);
+    let (inverse, mean) = (html! { sup { "−1" } }, languages.cell(&texts::MEAN.into()));
+    let formulas = [
+        (11, html! { (j1) "\u{a0}=\u{a0}(" (j11) " − " (j13) ", " (j12) " − " (j14) ")" }),
+        (11, html! { (j2) "\u{a0}=\u{a0}(" (j21) " − " (j23) ", " (j22) " − " (j24) ")" }),
+        (13, html! { (k) "\u{a0}=\u{a0}" (b) " (" (j1) " − " (j2) " " (delta) ")" (inverse) }),
+        (15, html! { (wn) "\u{a0}=\u{a0}" (c) " − " (k) " " (j2) " " (n2) (inverse) }),
+        (16, html! { (wg) "\u{a0}=\u{a0}½ (" (w11) " + " (w22) "), " (wk) "\u{a0}=\u{a0}½ (" (w21) " − " (w12) ")" }),
+        (8, html! { (w0) "\u{a0}=\u{a0}" (mean) " " (w) " − " (k) " " (j) " − " (wn) " " (n) }),
+    ];
+    html! { ul.formulas { @for (number, formula) in formulas { li { (formula) span.equation { "(" (number) ")" } } } } }
 }
 
 /// Returns the numbers of the eight parameters: K_x, K_y, K_xy, K_yx, ω_0x, ω_0y, ω_g, ω_k.

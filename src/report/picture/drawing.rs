@@ -4,7 +4,7 @@
 //! readable if a narrow screen puts the panels below each other. Nothing has a fixed colour: the classes are defined in
 //! `style.css`.
 
-use crate::report::page::language::{Language, Languages, Text};
+use crate::report::page::language::{Language, Languages};
 use crate::report::page::number::{Number, localised};
 use crate::report::page::symbols::{Piece, index_letters, pieces};
 use maud::{Markup, html};
@@ -15,58 +15,29 @@ pub(crate) type Point = [f64; 2];
 /// Largest magnification of a panel.
 const LARGEST: f64 = 1.15;
 
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Panel<'a> {
-    /// Name of the panel, unique on a page; the ids within begin with it.
-    pub name: &'a str,
-    /// Languages of the words.
-    pub languages: &'a Languages,
-    /// Width and height; a unit is about a CSS pixel.
-    pub size: Point,
-}
-
-impl Panel<'_> {
-    /// Returns an id for `part`, unique even on a page that is repeated for each language.
-    pub(crate) fn id(&self, part: &str) -> String {
-        let tags: Vec<&str> = self.languages.iter().map(Language::tag).collect();
-        format!("{}-{part}-{}", self.name, tags.join("-"))
-    }
-
-    /// Returns the drawing as an image with a description: a title, and the numbers in words.
-    pub(crate) fn svg(
-        &self,
-        title: impl Fn(Language) -> String,
-        description: impl Fn(Language) -> String,
-        drawing: &[Markup],
-    ) -> Markup {
-        let [width, height] = self.size.map(coordinate);
-        // All words of one language before the next: the title, then the description.
-        let words: Vec<_> = self.languages.iter().flat_map(|at| [("title", at), ("desc", at)]).collect();
-        let id = |part: &str, language: Language| format!("{}-{}", self.id(part), language.tag());
-        let labels: Vec<String> = words.iter().map(|(part, language)| id(part, *language)).collect();
-        html! {
-            svg.picture viewBox={ "0 0 " (width) " " (height) } style={ "max-width:" (rem(LARGEST * self.size[0])) }
-                role="img" aria-labelledby=(labels.join(" ")) {
-                @for language in self.languages.iter() {
-                    title id=(id("title", language)) lang=(language.tag()) { (title(language)) }
-                    desc id=(id("desc", language)) lang=(language.tag()) { (description(language)) }
-                }
-                @for part in drawing { (part) }
+/// Returns a drawing as an image with a description: a title, and the numbers in words. Its `name` is unique on a page, and
+/// the ids within are even on a page that is repeated for each language. A unit of its width and height is about a CSS pixel.
+pub(crate) fn panel(
+    (name, languages): (&str, &Languages),
+    size: Point,
+    title: impl Fn(Language) -> String,
+    description: impl Fn(Language) -> String,
+    drawing: &[Markup],
+) -> Markup {
+    let [width, height] = size.map(coordinate);
+    let tags: Vec<&str> = languages.iter().map(Language::tag).collect();
+    let id = |part: &str, language: Language| format!("{name}-{part}-{}-{}", tags.join("-"), language.tag());
+    // All words of one language before the next: the title, then the description.
+    let labels = languages.iter().flat_map(|at| [id("title", at), id("desc", at)]);
+    html! {
+        svg.picture viewBox={ "0 0 " (width) " " (height) } style={ "max-width:" (rem(LARGEST * size[0])) }
+            role="img" aria-labelledby=(labels.collect::<Vec<_>>().join(" ")) {
+            @for language in languages.iter() {
+                title id=(id("title", language)) lang=(language.tag()) { (title(language)) }
+                desc id=(id("desc", language)) lang=(language.tag()) { (description(language)) }
             }
+            @for part in drawing { (part) }
         }
-    }
-
-    /// Returns the drawing as a picture by itself, `pixels` wide, with its legend below.
-    pub(crate) fn alone(
-        &self,
-        pixels: u32,
-        title: Text,
-        description: impl Fn(Language) -> String,
-        drawing: &[Markup],
-        legend: &Markup,
-    ) -> Markup {
-        let svg = self.svg(|language| title.of(language).to_owned(), description, drawing);
-        panels(1, pixels, &[svg], legend)
     }
 }
 
@@ -88,48 +59,12 @@ pub(crate) fn strip([width, height]: Point, drawing: &Markup) -> Markup {
     }
 }
 
-/// Draws the axis below the strips of a column: round values with their numbers.
-pub(crate) fn strip_axis(languages: &Languages, scale: &Scale, width: f64) -> Markup {
-    const HALF_LETTER: f64 = 4.1;
-    let drawing = html! {
-        @for (value, text) in Ticks::along(scale, languages.first()).marks(languages.first()) {
-            @let x = scale.place(value);
-            @let half = HALF_LETTER * text.chars().count() as f64;
-            // A long number at the end would be cut off.
-            @if x > half && x < width - half {
-                (line([x, 0.0], [x, 4.0], "grid"))
-                (words([x, 14.0], Anchor::Middle, "small", &text))
-            }
-        }
-    };
-    strip([width, 17.0], &drawing)
-}
-
 /// Draws an interval with marks at its ends, `half` high, where it is `capped`.
 pub(crate) fn whisker(ends: [f64; 2], capped: [bool; 2], y: f64, half: f64) -> Markup {
     let [x1, x2, above, below] = [ends[0], ends[1], y - half, y + half].map(coordinate);
     let cap = |x: &str, is: bool| if is { format!("M{x},{above}V{below}") } else { String::new() };
     let caps = [cap(&x1, capped[0]), cap(&x2, capped[1])].concat();
     html! { path.whisker d={ "M" (x1) "," (coordinate(y)) "H" (x2) (caps) } {} }
-}
-
-/// Draws a legend: a sample of each mark, and its meaning.
-pub(crate) fn legend(languages: &Languages, entries: &[(Markup, Text)]) -> Markup {
-    legend_with(entries.iter().map(|(sample, words)| (sample, languages.label(*words))))
-}
-
-/// Draws a legend as `legend` does, with any words.
-pub(crate) fn legend_with<'a>(entries: impl Iterator<Item = (&'a Markup, Markup)>) -> Markup {
-    html! {
-        ul.legend {
-            @for (sample, words) in entries {
-                li {
-                    @if !sample.0.is_empty() { svg.sample viewBox="0 0 28 14" preserveAspectRatio="xMaxYMid slice" aria-hidden="true" { (sample) } }
-                    span { (words) }
-                }
-            }
-        }
-    }
 }
 
 /// Returns a length relative to the font size of the page, which is smaller in print.
@@ -190,6 +125,16 @@ pub(crate) fn label([x, y]: Point, anchor: Anchor, class: &str, words: &Markup) 
 
 pub(crate) fn words(at: Point, anchor: Anchor, class: &str, words: &str) -> Markup {
     label(at, anchor, class, &html! { (words) })
+}
+
+/// Returns the largest possible width of words in class `small`, with some reserve.
+pub(crate) fn width(words: &str) -> f64 {
+    let letter = |c: char| match c {
+        ',' | '.' | ' ' => 3.2,
+        '…' => 10.8,
+        _ => 6.0,
+    };
+    words.chars().map(letter).sum()
 }
 
 /// Draws a number of a document; programs can find it by its value.

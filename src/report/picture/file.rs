@@ -1,7 +1,6 @@
 //! Picture files: SVG with its own style, which other pictures get from their page.
 
-use super::drawing::{Anchor, Panel, Point, coordinate, label, symbols};
-use super::label::width;
+use super::drawing::{Anchor, Point, coordinate, label, panel, symbols, width};
 use crate::report::page::Language;
 use maud::{Markup, PreEscaped, html};
 
@@ -10,9 +9,9 @@ const STYLE: &str = include_str!("file.css");
 
 /// Returns the file of a picture with a single panel, in English.
 pub(crate) fn file(name: &str, size: Point, title: &str, description: &str, drawing: &[Markup]) -> String {
-    let panel = Panel { name, languages: &Language::English.into(), size };
     let [width, height] = size.map(coordinate);
-    let picture = panel.svg(|_| title.to_owned(), |_| description.to_owned(), drawing);
+    let english = Language::English.into();
+    let picture = panel((name, &english), size, |_| title.to_owned(), |_| description.to_owned(), drawing);
     let file = html! {
         svg xmlns="http://www.w3.org/2000/svg" width=(width) height=(height) viewBox={ "0 0 " (width) " " (height) } {
             style { (PreEscaped(STYLE)) }

@@ -68,29 +68,9 @@ fn time_scale(history: &History, now: Timestamp) -> Scale {
         .chain(ends)
         .chain([year_of_time(now)])
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (f64::min(low, at), f64::max(high, at)));
-    // A day of one year alone would have no length.
-    let margin = f64::max(0.03 * (high - low), 0.05);
-    Scale { values: [low - margin, high + margin], places: ACROSS }
-}
-
-/// Months between two marks of the time line, the fewest first.
-const MONTHS: [i16; 8] = [1, 2, 3, 6, 12, 24, 60, 120];
-/// The most marks that have room.
-const MOST_MARKS: usize = 8;
-
-/// Returns the marks of the time line: decimal years of the beginnings of months or years, and their names.
-fn marks(time: &Scale) -> Vec<(f64, String)> {
-    let every = |months: i16| -> Vec<(f64, String)> {
-        let [first, last] = time.values.map(|year| (12.0 * year) as i16 / months);
-        let names = (first..=last).filter_map(|at| {
-            let (year, month) = (at * months / 12, at * months % 12 + 1);
-            let date = Date::new(year, i8::try_from(month).ok()?, 1).ok()?;
-            let name = if months < 12 { date.strftime("%Y-%m").to_string() } else { year.to_string() };
-            Some((year_of(date), name))
-        });
-        names.filter(|(year, _)| *year >= time.values[0] && *year <= time.values[1]).collect()
-    };
-    MONTHS.into_iter().map(every).find(|marks| marks.len() <= MOST_MARKS).unwrap_or_default()
+    // Whole years, which have the numbers.
+    let (low, high) = (low.floor(), high.ceil());
+    Scale { values: [low, high.max(low + 1.0)], places: ACROSS }
 }
 
 fn time_line(history: &History, (now, as_of): (Timestamp, &str), time: &Scale, bottom: f64) -> Markup {
@@ -104,10 +84,10 @@ fn time_line(history: &History, (now, as_of): (Timestamp, &str), time: &Scale, b
             (mark([14.0, 7.0], 1, "mark"), "measured for a certificate"),
             (line([14.0, 0.0], [14.0, 14.0], "zero"), as_of),
         ]))
-        @for (year, name) in marks(time) {
+        @for year in Ticks::between(time.values[0], time.values[1], 8).values.into_iter().filter(|year| year.fract() == 0.0) {
             @let x = time.place(year);
             (line([x, TOP - 10.0], [x, bottom], "grid"))
-            (words([x, bottom + 14.0], Anchor::Middle, "small", &name))
+            (words([x, bottom + 14.0], Anchor::Middle, "small", &year.to_string()))
         }
         (words([ACROSS[0] - 8.0, row(0) + 4.0], Anchor::End, "small", "certificates"))
         @for at in &history.certificates {
@@ -252,22 +232,4 @@ fn in_words(history: &History) -> String {
         .chain([crate::report::history::in_english(&history.drift, ANGLE_SYMBOLS)])
         .collect();
     all.join("; ") + "."
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// By hand: seven weeks have two beginnings of months, nine years five even ones.
-    #[test]
-    fn time_is_marked_by_months_or_years() {
-        let names = |values: [f64; 2]| -> Vec<String> {
-            marks(&Scale { values, places: ACROSS }).into_iter().map(|(_, name)| name).collect()
-        };
-        assert_eq!(names([2026.80, 2026.94]), ["2026-11", "2026-12"]);
-        assert_eq!(names([2017.5, 2026.9]), ["2018", "2020", "2022", "2024", "2026"]);
-        let (first, _) = marks(&Scale { values: [2024.05, 2024.3], places: ACROSS })[0].clone();
-        // 31 days of a leap year of 366.
-        assert!((first - (2024.0 + 31.0 / 366.0)).abs() < 1e-12, "{first}");
-    }
 }

@@ -5,13 +5,13 @@
 //! axes of the case or the base by their components east, north and up. Source:
 //! [the paper](crate::bibliography::Bibliography::Tang17), fig. 2 and 3.
 
-use super::drawing::{Anchor, Panel, Point, arrow, label, legend, line, panels, polygon, power_of_ten, words};
-use super::label::Area;
+use super::drawing::{Anchor, Point, arrow, label, line, panel, panels, polygon, power_of_ten, words};
 use crate::attitude::{self, Deviation};
 use crate::report::page::Number;
 use crate::report::page::language::{Language, Languages, Text};
 use crate::stand::CertifiedPosition;
 use crate::units::{ARCSECONDS_PER_DEGREE, degrees_from_radians, sin_cos_of_degrees};
+use crate::wording::Words;
 use crate::wording::texts::compass;
 use crate::wording::texts::pictures as texts;
 use maud::{Markup, html};
@@ -62,19 +62,18 @@ pub(crate) fn positions(languages: &Languages, positions: &[CertifiedPosition], 
     let bases = std::iter::once((&behind.0, &before.0)).chain(std::iter::repeat((&behind.1, &before.1)));
     let drawings = positions.iter().zip(bases).map(|(at, around)| position(languages, at, &base, factor, around));
     let drawings: Vec<Markup> = drawings.collect();
-    panels(COLUMNS, PANEL_PIXELS, &drawings, &key(languages))
+    panels(COLUMNS, PANEL_PIXELS, &drawings, &languages.key(&key()))
 }
 
-fn key(languages: &Languages) -> Markup {
+fn key() -> [(Markup, Words); 4] {
     let stroke = |class: &str| arrow([2.0, 7.0], [26.0, 7.0], class);
     let swatch = |class: &str| polygon(&[[4.0, 2.0], [24.0, 2.0], [24.0, 12.0], [4.0, 12.0]], class);
-    let entries = [
-        (stroke("axis"), texts::CASE_AXES),
-        (line([2.0, 7.0], [26.0, 7.0], "ideal"), texts::CASE_AXES_IDEAL),
-        (swatch("frame s2"), texts::FRAME),
-        (swatch("platform s1"), texts::PLATFORM),
-    ];
-    legend(languages, &entries)
+    [
+        (stroke("axis"), texts::CASE_AXES.into()),
+        (line([2.0, 7.0], [26.0, 7.0], "ideal"), texts::CASE_AXES_IDEAL.into()),
+        (swatch("frame s2"), texts::FRAME.into()),
+        (swatch("platform s1"), texts::PLATFORM.into()),
+    ]
 }
 
 /// Returns the factor by which the deviations are exaggerated: the round one that shows the largest closest to 10°.
@@ -173,7 +172,6 @@ fn position(
     around: (&Markup, &Markup),
 ) -> Markup {
     let name = format!("at-{}-{}", at.i, at.j);
-    let panel = Panel { name: &name, languages, size: SIZE };
     let position = at.to_model();
     let designed = attitude::nominal(at.theta_deg, at.phi_deg) * base_axes;
     let turned = |deviation: &Deviation| attitude::actual(at.theta_deg, at.phi_deg, deviation) * base_axes;
@@ -183,7 +181,9 @@ fn position(
     let frame = attitude::nominal(at.theta_deg, 0.0) * base_axes;
     let view = View::new(CENTRE, UNIT, base_axes);
     let drawing = [heading(at, languages), stand(&view, &frame, &real, around), axes(&view, &designed, &real)];
-    panel.svg(
+    panel(
+        (&name, languages),
+        SIZE,
         |language| texts::position_title(position.index).plain(language),
         |language| in_words(language, at, &true_axes),
         &drawing,
@@ -262,6 +262,9 @@ pub(super) fn stand(
     }
 }
 
+/// A box on the drawing: its corner at the upper left, and the one at the lower right.
+type Area = [Point; 2];
+
 /// Draws the case axes: nominal (thin) and actual, z from the end of the gyro. Their letters avoid each other.
 fn axes(view: &View, designed: &Matrix3<f64>, real: &Matrix3<f64>) -> Markup {
     let one = |direction: &Vector3<f64>, designed: &Vector3<f64>, from: f64| {
@@ -273,7 +276,7 @@ fn axes(view: &View, designed: &Matrix3<f64>, real: &Matrix3<f64>) -> Markup {
     let (directions, [x0, y0, z0]) = (rows(real), rows(designed));
     let [x, y, z] = &directions;
     // The heading of the drawing, which print sets larger.
-    let mut taken = vec![Area { low: [0.0, 0.0], high: [SIZE[0], 28.0] }];
+    let mut taken = vec![[[0.0, 0.0], [SIZE[0], 28.0]]];
     let letters = ["x", "y", "z"].into_iter().zip(&directions).map(|(name, direction)| {
         let [x, y] = letter(view, direction, &taken);
         taken.push(about_letter([x, y]));
@@ -300,14 +303,20 @@ fn letter(view: &View, direction: &Vector3<f64>, taken: &[Area]) -> Point {
         [x + gap * (dx * cos - dy * sin), y + gap * (dx * sin + dy * cos)]
     };
     let places = GAPS.iter().flat_map(|gap| TURNS_DEG.map(|turn_deg| at(*gap, turn_deg)));
-    let covered = |place: &Point| taken.iter().map(|other| about_letter(*place).overlap(other)).sum::<f64>();
+    let covered = |place: &Point| taken.iter().map(|other| overlap(about_letter(*place), *other)).sum::<f64>();
     // The first place with the smallest overlap, usually none.
     places.min_by(|one, other| covered(one).total_cmp(&covered(other))).unwrap_or([x, y])
 }
 
 /// Returns the area that the letter of an axis covers.
 fn about_letter([x, y]: Point) -> Area {
-    Area { low: [x - 7.0, y - 16.0], high: [x + 7.0, y + 9.0] }
+    [[x - 7.0, y - 16.0], [x + 7.0, y + 9.0]]
+}
+
+/// Returns the area in which two boxes overlap.
+fn overlap([low, high]: Area, [other_low, other_high]: Area) -> f64 {
+    let along = |axis: usize| (high[axis].min(other_high[axis]) - low[axis].max(other_low[axis])).max(0.0);
+    along(0) * along(1)
 }
 
 /// Returns the axes of the case or of the base, each east, north, up: the rows of the matrix.

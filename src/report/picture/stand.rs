@@ -1,8 +1,7 @@
 //! The stand in one large drawing with its parts, axes and angles named; the small pictures of the positions leave the
 //! names out. The frame's axis points to its azimuth at the site.
 
-use super::drawing::{Anchor, Panel, Point, arrow, coordinate, label, line, list, symbols, words};
-use super::label::width;
+use super::drawing::{Anchor, Point, arrow, coordinate, label, line, list, panel, panels, symbols, width, words};
 use super::positions::{AXIS, AXIS_HEIGHT, GYRO, GYRO_HEIGHT, View, base_before, base_behind, rows, stand as parts};
 use crate::attitude;
 use crate::report::page::Number;
@@ -74,9 +73,10 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
         compass_rose(languages, &base),
         leaders(&named),
     ];
-    let panel = Panel { name: "stand", languages, size: SIZE };
     let description = |language| texts::stand_description(&azimuth).plain(language);
-    panel.alone(PANEL_PIXELS, texts::STAND_TITLE, description, &drawing, &html! {})
+    let title = |language| texts::STAND_TITLE.of(language).to_owned();
+    let svg = panel(("stand", languages), SIZE, title, description, &drawing);
+    panels(1, PANEL_PIXELS, &[svg], &html! {})
 }
 
 /// Returns a point of the plate near its rightmost corner, beside the posts.

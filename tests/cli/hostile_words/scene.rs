@@ -207,7 +207,7 @@ pub const LINES: &[&str] = &[
     "show @passport.yaml --no-verify --format text",
     "show @passport.yaml --no-verify --format json",
     "render @passport.yaml -o > --trust @allowed_signers --issuer =factory --serial =0017 --time =2026-11-04 --register @passports --lang =en,ru",
-    "calibrate @passport.yaml @currents.csv --trust @allowed_signers --time =2026-11-04 --method =analytic,iterative,least-squares --gyro @gyro.yaml --laboratory @laboratory.yaml --previous @result.json --delta1-percent =0.1 --delta2-deg-per-h =0.001 --budget --budget-svg > --report > --lang =en,ru --format text",
+    "calibrate @passport.yaml @currents.csv --trust @allowed_signers --time =2026-11-04 --method =analytic,iterative,least-squares --gyro @gyro.yaml --laboratory @laboratory.yaml --previous @result.json --delta1-percent =0.1 --delta2-deg-per-h =0.001 --budget --report > --lang =en,ru --format text",
     "calibrate @passport.yaml @currents.csv --no-verify --gyro @gyro.yaml --laboratory @laboratory.yaml --previous @result.json --report > --format json",
     "register @passports --trust @allowed_signers --issuer =factory --serial =0017 --time =2026-11-04 --within =9 --by =site --format text",
     "register @passports --trust @allowed_signers --revoked @key.pub --time =2026-11-04 --format json",

@@ -1,10 +1,11 @@
 //! Pictures of a calibration.
 
-use crate::inside::picture::{Axis, english, number, of_class, reach, tip, whole};
+use crate::inside::picture::{Axis, number, of_class, reach, tip, whole};
 use dtg_passport::calibration::Parameter;
 use dtg_passport::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use dtg_passport::gyro::GyroType;
-use dtg_passport::report::picture::tolerances::BESIDE_DECISIONS;
+use dtg_passport::report::page::Language;
+use dtg_passport::report::picture::strips::BESIDE_DECISIONS;
 use roxmltree::Document;
 
 fn row(
@@ -39,7 +40,7 @@ fn strips(parameters: Vec<ParameterVerdict>) -> (Vec<String>, String) {
     let rule = GyroType::gvk_6().decision_rule();
     let verdict = Verdict { overall: Decision::Fail, rule, gravity_m_per_s2: 9.8, parameters, withheld: false };
     let each = verdict.parameters.iter().map(|row| whole(&[BESIDE_DECISIONS.of_parameter(&verdict, row)])).collect();
-    (each, whole(&[BESIDE_DECISIONS.axis(&english())]))
+    (each, whole(&[BESIDE_DECISIONS.axis().drawn(Language::English)]))
 }
 
 /// An interval of 128 tolerances to both sides, where the axis ends at one and a half: it has no ends there.

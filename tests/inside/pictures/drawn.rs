@@ -5,9 +5,9 @@ use crate::inside::fixtures;
 use crate::inside::picture::{Axis, end, english, number, of_class, reach, svgs, whole, words};
 use dtg_passport::passport::content::Content;
 use dtg_passport::passport::content_from_anyone;
-use dtg_passport::report::picture::accuracy::Shares;
-use dtg_passport::report::picture::deviations::Bars;
+use dtg_passport::report::page::Language;
 use dtg_passport::report::picture::positions;
+use dtg_passport::report::picture::strips::{Accuracies, Deviations};
 use roxmltree::Document;
 
 /// Passports with deviations of minutes and of degrees, and the project's own.
@@ -21,8 +21,8 @@ fn passports() -> Vec<Content> {
 #[test]
 fn deviations_are_where_their_axes_say() {
     for content in passports() {
-        let bars = Bars::of(&content.positions);
-        let axis_text = whole(&[bars.axis(&english())]);
+        let bars = Deviations::of(&content.positions);
+        let axis_text = whole(&[bars.axis().drawn(Language::English)]);
         let axis_page = Document::parse(&axis_text).unwrap();
         let axis = Axis::along_x(axis_page.root_element());
         let unit_arcsec = if bars.unit().en == "°" { 3600.0 } else { 1.0 };
@@ -61,8 +61,8 @@ fn positions_are_named_as_in_the_file() {
 fn accuracy_is_where_its_axis_says() {
     let (content, _) = passport(fixtures::ARC_MINUTES, fixtures::SITE);
     let (stated, gravity) = (content.accuracy.as_ref().unwrap(), content.earth.gravity_m_per_s2);
-    let shares = Shares::of(stated, gravity);
-    let axis_text = whole(&[shares.axis(&english())]);
+    let shares = Accuracies::of(stated, gravity);
+    let axis_text = whole(&[shares.axis().drawn(Language::English)]);
     let axis_page = Document::parse(&axis_text).unwrap();
     let axis = Axis::along_x(axis_page.root_element());
     let u = &stated.standard_uncertainty;

@@ -22,16 +22,6 @@ impl Axis {
         Self::of(svg, ["y1", "y2"], said, level)
     }
 
-    /// Reads an axis along y whose numbers are powers of ten; the values are the exponents.
-    pub fn of_decades(svg: Node) -> Self {
-        let exponent = |text: Node| match words(text).as_str() {
-            "1" => Some(0.0),
-            "10" => Some(1.0),
-            other => power(other).map(f64::from),
-        };
-        Self::of(svg, ["y1", "y2"], exponent, level)
-    }
-
     /// Reads an axis along y whose marks are at the logarithms of their numbers.
     pub fn of_logarithms(svg: Node) -> Self {
         Self::of(svg, ["y1", "y2"], |text| said(text).map(libm::log10), level)

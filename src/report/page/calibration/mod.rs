@@ -3,15 +3,15 @@
 //! The numbers are those of [`CalibrationDocument`], which `calibrate --format json` writes; the annex is that file.
 //!
 //! * `subject`: gyro, stand, passport and its verification, currents, laboratory.
-//! * `closing`: signatures, and the annex.
+//! * `json`: the result as it is printed.
 
-mod closing;
+mod json;
 mod subject;
 
 use super::language::Languages;
-use super::parts::{Section, data_address};
+use super::parts::signatures;
 use super::passport::PassportPage;
-use super::shell::{Margins, document};
+use super::shell::{Annex, Page, Section, first};
 use crate::calibration::Calibration;
 use crate::calibration::document::CalibrationDocument;
 use crate::calibration::parameter::symbols;
@@ -28,7 +28,6 @@ use crate::uncertainty::{Budget, MonteCarlo};
 use crate::wording::Words;
 use crate::wording::texts::calibration as texts;
 use jiff::Timestamp;
-use maud::{Markup, html};
 
 /// Digits of the SHA-256 of the currents in the name of a report.
 const NAMED_DIGITS: usize = 8;
@@ -96,28 +95,44 @@ pub struct CalibrationPage<'a> {
 impl CalibrationPage<'_> {
     /// Returns the report as one self-contained HTML document.
     pub fn html(&self, languages: &Languages) -> String {
-        let name = self.name().plain(languages.first());
-        let margins = Margins {
-            top_left: texts::margin(&name).plain(languages.first()),
-            top_right: match (self.verified(), self.fits(), &self.document.mistake) {
-                (false, ..) => languages.plain(texts::NOT_VERIFIED),
-                (true, false, _) => languages.plain(texts::DOES_NOT_FIT),
-                (true, true, Some(_)) => languages.plain(texts::MISTAKE),
-                (true, true, None) => self.reservation(languages),
-            },
-            bottom_left: texts::margin_sha256(&self.currents.1).plain(languages.first()),
+        let warning = match (self.verified(), self.fits(), &self.document.mistake) {
+            (false, ..) => texts::NOT_VERIFIED.into(),
+            (true, false, _) => texts::DOES_NOT_FIT.into(),
+            (true, true, Some(_)) => texts::MISTAKE.into(),
+            (true, true, None) => self.reservation(),
         };
-        let title = format!("{}: {name}", languages.plain(texts::TITLE));
-        document(languages, &title, &margins, &self.body(languages))
+        let signatures =
+            [vec![say([texts::ONLY_THIS_ONE])], signatures([texts::CALIBRATED_BY, texts::APPROVED_BY]).into()];
+        let page = Page {
+            margins: [first(texts::margin(self.name())), warning, first(texts::margin_sha256(&self.currents.1))],
+            name: self.name(),
+            title: (texts::TITLE, self.gyro_name(), texts::SUBTITLE.into()),
+            head: [self.headlines(), vec![self.verdict(), subject::band(self)]].concat(),
+            front: None,
+            sections: self.sections(),
+            signatures: signatures.concat(),
+            annex: Annex {
+                heading: texts::ANNEX,
+                note: texts::ANNEX_NOTE.into(),
+                save: texts::SAVE,
+                name: "calibration.json",
+                media: "application/json",
+                tag: "en",
+                bytes: json::lines(self.document).into_bytes().into(),
+                end: told(texts::end(self.name())),
+                is_printed: self.details,
+            },
+        };
+        page.html(languages)
     }
 
     /// Returns the headline of parameters that fail, or of a temperature outside the certified range, for the head of every
     /// sheet.
-    fn reservation(&self, languages: &Languages) -> String {
+    fn reservation(&self) -> Words {
         match self.judged().filter(|(_, verdict)| verdict.overall == Decision::Fail) {
-            Some((gyro, _)) => texts::conforms_not(&gyro.r#type).plain(languages.first()),
-            None if subject::outside(self).is_some() => languages.plain(texts::TEMPERATURE_IS_OUTSIDE),
-            None => String::new(),
+            Some((gyro, _)) => first(texts::conforms_not(&gyro.r#type)),
+            None if subject::outside(self).is_some() => texts::TEMPERATURE_IS_OUTSIDE.into(),
+            None => "".into(),
         }
     }
 
@@ -183,25 +198,6 @@ impl CalibrationPage<'_> {
 
     fn fits(&self) -> bool {
         self.calibration.consistent
-    }
-
-    fn body(&self, languages: &Languages) -> Markup {
-        let address = data_address("application/json", closing::json(self).as_bytes());
-        let sections = self.sections();
-        let head = [self.headlines(), vec![self.verdict(), subject::band(self)]].concat();
-        html! {
-            header.title {
-                p.kind { (languages.label(texts::TITLE)) }
-                h1 { (languages.name(&self.gyro_name())) }
-                p.subject { (languages.label(texts::SUBTITLE)) }
-            }
-            main {
-                (languages.blocks(&head))
-                (languages.contents(texts::SAVE, (&address, "calibration.json"), &sections, texts::ANNEX))
-                (languages.numbered(&sections))
-                (closing::sections(self, languages))
-            }
-        }
     }
 
     /// The warnings at the head of the report, the most serious first.

@@ -4,7 +4,7 @@
 use super::PassportPage;
 use crate::passport::{Check, CheckName, Code};
 use crate::report::doc::{Block, Rows, Words, listed, marked, note, outcome_box, told};
-use crate::report::page::language::{Languages, Text};
+use crate::report::page::language::Text;
 use crate::report::verdict::{said, word};
 use crate::wording::texts::checks as texts;
 
@@ -29,12 +29,12 @@ fn headline(page: &PassportPage) -> Words {
     }
 }
 
-/// Returns the warning for the head of every sheet, empty for a valid passport; in two languages it has no room for reasons.
-pub(super) fn warning(page: &PassportPage, languages: &Languages) -> String {
-    match (page.verification.valid(), languages.single()) {
-        (true, _) => String::new(),
-        (false, true) => headline(page).plain(languages.first()),
-        (false, false) => languages.plain(texts::NOT_TO_BE_USED),
+/// The warning for the head of every sheet, empty for a valid passport; in two languages it has no room for reasons.
+pub(super) fn warning(page: &PassportPage, is_single: bool) -> Words {
+    match (page.verification.valid(), is_single) {
+        (true, _) => "".into(),
+        (false, true) => headline(page),
+        (false, false) => texts::NOT_TO_BE_USED.into(),
     }
 }
 

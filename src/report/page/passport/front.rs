@@ -1,51 +1,42 @@
 //! First page: what the passport is for, until when it is in force, where, on whose word, and how to check it.
 
 use super::PassportPage;
-use super::checks::{refusal, table, withdrawal_not_checked};
-use crate::report::doc::{self, Block, Words, given, marked, note, told};
-use crate::report::page::code;
-use crate::report::page::language::{Languages, Text};
+use super::checks::{table, withdrawal_not_checked};
+use crate::report::doc::{self, Block, Words, drawn, given, marked, note, say, told};
+use crate::report::page::language::Text;
 use crate::report::page::number::{LATITUDES, LONGITUDES, Number};
 use crate::report::page::parts::{self, signature};
 use crate::report::passport::{deviations, general};
 use crate::report::picture::stand::stand as picture;
+use crate::stand::Identity;
 use crate::wording::texts::{checks, passport as texts, record, units};
-use maud::{Markup, html};
 
-/// Writes the head of the page: kind of the document, the stand, and the id.
-pub(super) fn title(page: &PassportPage, languages: &Languages) -> Markup {
-    let stand = &page.content.stand;
-    let name = stand.name.as_deref().map_or_else(|| languages.inline(record::TEST_STAND), parts::given);
-    html! {
-        header.title {
-            p.kind { (languages.label(texts::TITLE)) }
-            h1 { (name) " " (parts::given(stand.model.as_str())) " №\u{a0}" (parts::given(stand.serial.as_str())) }
-            p.subject { (parts::given(&page.content.passport.id)) }
-        }
-    }
+/// The name of the stand with its model and serial number.
+pub(super) fn name_of_the_stand(stand: &Identity) -> Words {
+    let name = stand.name.as_ref().map_or_else(|| Words::Inline(Box::new(record::TEST_STAND.into())), given);
+    let [model, serial] = [stand.model.as_str(), stand.serial.as_str()].map(given);
+    vec![name, " ".into(), model, " №\u{a0}".into(), serial].into()
 }
 
-/// Writes the first page; `contents` stands below the answers, which come first on a telephone too.
-pub(super) fn section(page: &PassportPage, languages: &Languages, contents: &Markup) -> Markup {
-    let heading = "verification-heading";
-    html! {
-        section id="verification" aria-labelledby=(heading) {
-            h2.unseen id=(heading) { (languages.label(texts::FRONT)) }
-            (languages.blocks(&refusal(page).into_iter().chain([answers(page)]).collect::<Vec<_>>()))
-            (contents)
-            div.front {
-                (languages.figure("stand", &picture(languages, page.content.site.frame_axis_azimuth_deg()), texts::FIGURE_STAND))
-                (proof(page, languages))
-                div.note { (languages.paragraph(texts::PAPER_IS_NOT_SIGNED)) }
-            }
-            (languages.blocks(&[table(page)]))
-            (languages.blocks(&general::of_the_passport(&page.content.passport, Some(&page.key))))
-        }
-    }
+/// The stand, the code of the file with the fields for signature and stamp, the checks, and the passport itself.
+pub(super) fn below_the_answers(page: &PassportPage) -> Vec<Block> {
+    let azimuth_deg = page.content.site.frame_axis_azimuth_deg();
+    let stand = drawn(move |languages| {
+        languages.figure("stand", &picture(languages, azimuth_deg), &texts::FIGURE_STAND.into())
+    });
+    let sha256 = page.sha256.clone();
+    let code = drawn(move |languages| parts::code(&sha256, languages.spoken(texts::CODE)).unwrap_or_default());
+    let front = vec![
+        Block::Drawn(stand),
+        Block::Within("proof", vec![Block::Drawn(code), signature(record::ISSUED_BY)]),
+        Block::Within("note", vec![say([texts::PAPER_IS_NOT_SIGNED])]),
+    ];
+    let checked = [Block::Within("front", front), table(page)];
+    checked.into_iter().chain(general::of_the_passport(&page.content.passport, Some(&page.key))).collect()
 }
 
 /// The four answers on the front of a passport: its validity, its site, its certificate, and how to check the file.
-fn answers(page: &PassportPage) -> Block {
+pub(super) fn answers(page: &PassportPage) -> Block {
     let content = &page.content;
     let (site, certificate) = (&content.site, &content.certificate);
     let valid = page.verification.valid();
@@ -95,14 +86,4 @@ fn answers(page: &PassportPage) -> Block {
         (texts::WORD, given(&certificate.number), vec![note(given(&certificate.laboratory)), note(u)]),
         (texts::CHECKING, "SHA-256".into(), vec![sha256, note(texts::CHECKING_HOW)]),
     ])
-}
-
-/// Writes the SHA-256 as a QR code, next to the fields for signature and stamp.
-fn proof(page: &PassportPage, languages: &Languages) -> Markup {
-    html! {
-        div.proof {
-            @if let Some(picture) = code::picture(&page.sha256, languages.spoken(texts::CODE)) { (picture) }
-            (languages.blocks(&[signature(record::ISSUED_BY)]))
-        }
-    }
 }

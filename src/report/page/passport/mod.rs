@@ -13,15 +13,13 @@ mod front;
 mod record;
 
 use super::language::{Language, Languages};
-use super::parts::{Section, data_address};
-use super::shell::{Margins, document};
+use super::shell::{Annex, Page, Section, first};
 use crate::document::sha256_hex;
 use crate::passport::{Content, Question, Trust, Verification, verify};
-use crate::report::doc::told;
+use crate::report::doc::{given, told};
 use crate::report::passport;
 use crate::trust::PublicKey;
 use crate::wording::texts::{passport as texts, record as record_texts};
-use maud::{Markup, html};
 
 /// The printed form of a verified passport.
 #[derive(Debug, Clone)]
@@ -82,49 +80,42 @@ impl<'a> PassportPage<'a> {
 
     /// Returns the page as one self-contained HTML document.
     pub fn html(&self, languages: &Languages) -> String {
-        let header = &self.content.passport;
-        let margins = Margins {
-            top_left: self.margin(languages),
-            top_right: checks::warning(self, languages),
-            bottom_left: texts::margin_sha256(&self.sha256).plain(languages.first()),
+        let (stand, header) = (&self.content.stand, &self.content.passport);
+        let name = format!("{}/{}", stand.model, stand.serial);
+        let mut sections: Vec<Section> = passport::sections(&self.content).into();
+        if self.prints_forms || (languages.single() && languages.first() == Language::Russian) {
+            sections.push(("record", record_texts::RECORD, record::section(stand, &header.id)));
+        }
+        let file_name = self.file_name();
+        let page = Page {
+            margins: [
+                first(texts::margin_passport(name, &self.content.site.id, header.revision)),
+                checks::warning(self, languages.single()),
+                first(texts::margin_sha256(&self.sha256)),
+            ],
+            name: given(&header.id),
+            title: (texts::TITLE, front::name_of_the_stand(stand), given(&header.id)),
+            head: checks::refusal(self).into_iter().chain([front::answers(self)]).collect(),
+            front: Some((texts::FRONT, front::below_the_answers(self))),
+            sections,
+            signatures: Vec::new(),
+            annex: Annex {
+                heading: texts::ANNEX,
+                note: told(texts::annex_note(file_name.as_str())),
+                save: texts::SAVE,
+                name: &file_name,
+                media: "application/yaml",
+                tag: "en",
+                bytes: self.text.as_bytes().into(),
+                end: told(texts::end(&header.id)),
+                is_printed: self.prints_annex,
+            },
         };
-        let title = format!("{} {}", languages.spoken(texts::TITLE), header.id);
-        document(languages, &title, &margins, &self.body(languages))
+        page.html(languages)
     }
 
     /// Returns the name of the signed file, made from the site's id and the revision; a saved copy has it too.
     fn file_name(&self) -> String {
         format!("{}-{}.yaml", self.content.site.id, self.content.passport.revision)
-    }
-
-    fn margin(&self, languages: &Languages) -> String {
-        let (stand, site) = (&self.content.stand, &self.content.site.id);
-        let stand = format!("{}/{}", stand.model, stand.serial);
-        let revision = &self.content.passport.revision;
-        texts::margin_passport(stand, site, revision).plain(languages.first())
-    }
-
-    fn body(&self, languages: &Languages) -> Markup {
-        let address = data_address("application/yaml", self.text.as_bytes());
-        let mut sections: Vec<Section> = passport::sections(&self.content).into();
-        if self.prints_forms || (languages.single() && languages.first() == Language::Russian) {
-            let forms = record::section(&self.content.stand, &self.content.passport.id);
-            sections.push(("record", record_texts::RECORD, forms));
-        }
-        let contents = languages.contents(texts::SAVE, (&address, &self.file_name()), &sections, texts::ANNEX);
-        html! {
-            (front::title(self, languages))
-            main {
-                (front::section(self, languages, &contents))
-                (languages.numbered(&sections))
-                (self.annex(languages))
-            }
-        }
-    }
-
-    /// Writes the signed file verbatim, to read, to copy and to save.
-    fn annex(&self, languages: &Languages) -> Markup {
-        let note = (texts::ANNEX, told(texts::annex_note(self.file_name())));
-        languages.annex(note, ("en", self.text), &told(texts::end(&self.content.passport.id)), self.prints_annex)
     }
 }

@@ -8,10 +8,8 @@ use dtg_passport::calibration::causes::Cause;
 use dtg_passport::calibration::parameter::Parameter;
 use dtg_passport::calibration::{InputUncertainty, Method, Options, calibrate};
 use dtg_passport::gyro::GyroType;
-use dtg_passport::report::picture;
 use dtg_passport::uncertainty::Budget;
 use dtg_passport::units::{radians_from_arcseconds, radians_from_degrees};
-use roxmltree::Document;
 use serde_json::{Value, json};
 use std::io::Write;
 use std::process::Stdio;
@@ -139,49 +137,6 @@ fn the_sentence_is_computed() {
     let seats: Vec<_> = before.inputs.iter().filter(|input| matches!(input.cause, Cause::Seat(_))).collect();
     assert_eq!(seats.len(), 1);
     assert_eq!(before.parameters[0].parameter, Parameter::Kx);
-}
-
-/// Order of the paper's table.
-const IN_THE_PAPER: [Parameter; 8] = [
-    Parameter::Kx,
-    Parameter::Ky,
-    Parameter::Kxy,
-    Parameter::Kyx,
-    Parameter::Omega0x,
-    Parameter::Omega0y,
-    Parameter::OmegaG,
-    Parameter::OmegaK,
-];
-
-/// The frame is as long as u: bars are as long in it as their contributions are in u, and together as the frame.
-#[test]
-fn bars_are_as_long_as_contributions() {
-    for case in three() {
-        let budget = Budget::new(&case.setup, &case.readings, Method::LeastSquares, &Options::default()).unwrap();
-        let svg = picture::budget::budget(&budget).unwrap();
-        let page = Document::parse(&svg).unwrap();
-        let panels = page.descendants().filter(|node| node.has_tag_name("g"));
-        for (panel, parameter) in panels.zip(IN_THE_PAPER) {
-            let line = budget.parameters.iter().find(|line| line.parameter == parameter).unwrap();
-            let lengths = |class: &str| -> Vec<f64> {
-                let of_class = panel.descendants().filter(|node| node.attribute("class") == Some(class));
-                of_class.map(|node| node.attribute("width").unwrap().parse().unwrap()).collect()
-            };
-            let (frame, bars) = (lengths("frame-line")[0], lengths("bar"));
-            assert_eq!(bars.len(), 7);
-            // Half the last place of a length, and of another one.
-            let rounding = 0.11 / frame;
-            let share = |part: f64| part / line.standard_uncertainty;
-            for (bar, part) in bars.iter().take(6).zip(&line.contributions) {
-                assert!((bar / frame - share(part.contribution)).abs() < rounding, "{}", line.parameter.symbol());
-            }
-            let rest: f64 = line.contributions[6..].iter().map(|part| share(part.contribution).powi(2)).sum();
-            assert!((bars[6] / frame - rest.sqrt()).abs() < rounding);
-            let printed: Vec<f64> =
-                panel.descendants().filter_map(|node| node.attribute("data-value")?.parse().ok()).collect();
-            assert_eq!(printed[..6], line.contributions[..6].iter().map(|part| part.contribution).collect::<Vec<_>>());
-        }
-    }
 }
 
 /// Expected: suncal's Monte Carlo, within five standard errors of a standard deviation, u/√(2n); and its first order,

@@ -1,32 +1,17 @@
-//! Signature lines of the calibration report, and its annex: the result as JSON.
+//! The result of a calibration as JSON that is read on paper.
 
-use super::CalibrationPage;
-use crate::report::doc::{say, told};
-use crate::report::page::language::Languages;
-use crate::report::page::parts::signatures;
-use crate::wording::texts::calibration as texts;
-use maud::{Markup, html};
+use crate::calibration::document::CalibrationDocument;
 use serde::Serialize;
 use serde_json::Serializer;
 use serde_json::ser::Formatter;
 use std::io::{self, Write};
 
-pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let signed = [vec![say([texts::ONLY_THIS_ONE])], signatures([texts::CALIBRATED_BY, texts::APPROVED_BY]).into()];
-    let note = (texts::ANNEX, texts::ANNEX_NOTE.into());
-    html! {
-        (languages.section("signatures", texts::SIGNATURES, &languages.blocks(&signed.concat())))
-        // In print with details only; the screen has it in any case.
-        (languages.annex(note, ("en", &json(page)), &told(texts::end(page.name())), page.details))
-    }
-}
-
 /// Returns the result as JSON, a key on each line.
-pub(super) fn json(page: &CalibrationPage) -> String {
+pub(super) fn lines(document: &CalibrationDocument) -> String {
     // Every number of a result is finite, and its keys are strings. So this JSON can always be written.
     let mut json = Vec::new();
     let mut writer = Serializer::with_formatter(&mut json, Lines { open: Vec::new(), in_list: false });
-    match page.document.serialize(&mut writer) {
+    match document.serialize(&mut writer) {
         // A space before an object that begins a line; a string contains no line feed.
         Ok(()) => String::from_utf8(json).unwrap_or_default().replace(", \n", ",\n") + "\n",
         Err(_) => String::new(),
