@@ -85,37 +85,27 @@ pub(crate) struct Azimuth {
     pub u_arcsec: Option<f64>,
 }
 
-/// Quantities that convert a geodetic azimuth to an astronomic one.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct LaplaceCorrection {
-    /// Component η of the deflection of the vertical, arcsec, positive if the astronomic zenith is east of the geodetic
-    /// zenith.
-    pub eta_arcsec: f64,
-    /// Standard uncertainty of η, arcsec; `None` if it is not stated.
-    pub eta_u_arcsec: Option<f64>,
-    /// Astronomic latitude of the pillar, degrees.
-    pub latitude_deg: f64,
-}
-
 /// Returns the astronomic azimuth from `pillar` to `mark`, geodetic azimuth + η tan Φ, rounded to 1e-10°
 /// ([Heiskanen and Moritz](crate::bibliography::Bibliography::HeiskanenMoritz67), section 5-4).
 ///
+/// η, the component of the deflection of the vertical that is positive if the astronomic zenith is east of the geodetic
+/// zenith, and its standard uncertainty are in arcsec, and Φ, the astronomic latitude of the pillar, in degrees.
 /// `position_u_m` is the standard uncertainty of each coordinate of both points, m; both points contribute across the
 /// line of sight. Without it, or without the uncertainty of η, the azimuth has no stated uncertainty.
 pub(crate) fn astronomic_azimuth(
-    pillar: Place,
-    mark: Place,
-    laplace: LaplaceCorrection,
+    [pillar, mark]: [Place; 2],
+    (eta_arcsec, eta_u_arcsec): (f64, Option<f64>),
+    latitude_deg: f64,
     position_u_m: Option<f64>,
 ) -> Azimuth {
     // The type of the tuple selects the values: distance, azimuth at 1, azimuth at 2, arc length.
     let (metres, geodetic_deg, _, _): (f64, f64, f64, f64) =
         Geodesic::wgs84().inverse(pillar.latitude_deg, pillar.longitude_deg, mark.latitude_deg, mark.longitude_deg);
-    let (sin, cos) = sin_cos_of_degrees(laplace.latitude_deg);
+    let (sin, cos) = sin_cos_of_degrees(latitude_deg);
     let tan = sin / cos;
-    let astronomic = geodetic_deg + laplace.eta_arcsec * tan / ARCSECONDS_PER_DEGREE;
+    let astronomic = geodetic_deg + eta_arcsec * tan / ARCSECONDS_PER_DEGREE;
     let azimuth_deg = rounded(astronomic, 1e10).rem_euclid(360.0);
-    let u_arcsec = position_u_m.zip(laplace.eta_u_arcsec).map(|(u_m, eta_u)| {
+    let u_arcsec = position_u_m.zip(eta_u_arcsec).map(|(u_m, eta_u)| {
         let sight = arcseconds_from_radians(u_m * std::f64::consts::SQRT_2 / metres);
         libm::hypot(sight, eta_u * tan)
     });
@@ -284,16 +274,15 @@ mod tests {
     /// ends over 2 km is 0.02·√2/2000 rad = 2.917″.
     #[test]
     fn azimuth_of_a_mark() {
-        let laplace = |eta, latitude_deg| LaplaceCorrection { eta_arcsec: eta, eta_u_arcsec: Some(0.0), latitude_deg };
         let pillar = Place { latitude_deg: 0.0, longitude_deg: 0.0 };
         let east = Place { latitude_deg: 0.0, longitude_deg: 1.0 };
-        assert_eq!(astronomic_azimuth(pillar, east, laplace(10.0, 0.0), None).azimuth_deg, 90.0);
+        assert_eq!(astronomic_azimuth([pillar, east], (10.0, None), 0.0, None).azimuth_deg, 90.0);
         let pillar = Place { latitude_deg: 45.0, longitude_deg: 0.0 };
         let north = place_at(pillar, 0.0, 2000.0);
-        let found = astronomic_azimuth(pillar, north, laplace(10.0, 45.0), Some(0.02));
+        let found = astronomic_azimuth([pillar, north], (10.0, Some(0.0)), 45.0, Some(0.02));
         assert!((found.azimuth_deg - 10.0 / 3600.0).abs() < 1e-9, "{found:?}");
         assert!((found.u_arcsec.unwrap() - 2.917).abs() < 1e-3, "{found:?}");
-        let west_of_north = astronomic_azimuth(pillar, north, laplace(-10.0, 45.0), Some(0.02));
+        let west_of_north = astronomic_azimuth([pillar, north], (-10.0, Some(0.0)), 45.0, Some(0.02));
         assert!((west_of_north.azimuth_deg - (360.0 - 10.0 / 3600.0)).abs() < 1e-9);
     }
 }

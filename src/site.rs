@@ -4,7 +4,7 @@ mod consistency;
 
 use crate::attitude::PAPER_FRAME_AXIS_AZIMUTH_DEG;
 use crate::coefficients::EarthRate;
-use crate::earth::{self, LaplaceCorrection, Place};
+use crate::earth::{self, Place};
 use crate::text::advice::without_full_turns;
 use crate::text::{Advice, Cause, Document, Identifier, Path, Problems, number, record};
 use crate::units::radians_from_arcseconds;
@@ -319,12 +319,10 @@ impl Site {
 
     fn azimuth(&self, astronomic_latitude_deg: f64) -> Option<earth::Azimuth> {
         let mark = self.azimuth_mark.as_ref()?;
-        let (eta_arcsec, eta_u_arcsec) = match &self.deflection_arcsec {
-            Some(deflection) => (deflection.eta, deflection.u),
-            None => (0.0, Some(UNKNOWN_DEFLECTION_U_ARCSEC)),
-        };
-        let laplace = LaplaceCorrection { eta_arcsec, eta_u_arcsec, latitude_deg: astronomic_latitude_deg };
-        Some(earth::astronomic_azimuth(mark.pillar(), mark.mark(), laplace, mark.position_u_m))
+        let unknown = (0.0, Some(UNKNOWN_DEFLECTION_U_ARCSEC));
+        let eta = self.deflection_arcsec.as_ref().map_or(unknown, |deflection| (deflection.eta, deflection.u));
+        let points = [mark.pillar(), mark.mark()];
+        Some(earth::astronomic_azimuth(points, eta, astronomic_latitude_deg, mark.position_u_m))
     }
 
     /// Returns the standard uncertainty of the gravity in [`Site::earth`], m/s²: that of the measured value, or that of

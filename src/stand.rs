@@ -1,7 +1,5 @@
 //! Test stands and their calibration certificates: the file `stand.yaml` (`dtg-stand/1`).
 
-#[cfg(feature = "factory")]
-pub(crate) mod number;
 pub(crate) mod remarks;
 pub(crate) mod type_b;
 
@@ -126,6 +124,7 @@ record! {
 
 record! {
     /// Certified position: nominal angles and deviations from them.
+    #[derive(Default)]
     pub struct CertifiedPosition {
         /// Frame index, from 1.
         pub i: u32,
@@ -157,9 +156,7 @@ impl Certificate {
     pub(crate) fn measured(&self) -> Date {
         self.performed.unwrap_or(self.issued)
     }
-}
 
-impl Certificate {
     /// Returns a position with the standard uncertainties of its certified values in place of their own parts: combined
     /// with the common parts ([GUM](crate::bibliography::Bibliography::Gum), 5.1.2), `None` where a part is not stated.
     pub(crate) fn combined(&self, at: &CertifiedPosition) -> CertifiedPosition {
@@ -175,9 +172,7 @@ impl Certificate {
             ..at.clone()
         }
     }
-}
 
-impl Certificate {
     /// Returns the accredited capability and the smallest expanded uncertainty that is stated, arcsec (k = 2), if the latter is
     /// smaller, which ILAC-P14 (5.4) does not permit. Of an angle it contains the common parts.
     pub(crate) fn below_capability_arcsec(&self, positions: &[CertifiedPosition]) -> Option<[f64; 2]> {
@@ -244,6 +239,49 @@ impl Stand {
         stand.positions.sort_by_key(CertifiedPosition::index);
         Ok(stand)
     }
+
+    /// Checks that the certificate does not use the number of an existing one, `there`, for other angles.
+    ///
+    /// # Errors
+    /// Returns [`NumberInUse`] if it does.
+    pub(crate) fn check_number(&self, there: &Self) -> Result<(), NumberInUse> {
+        let number = &self.certificate.number;
+        if *number != there.certificate.number {
+            return Ok(());
+        }
+        let kept = |at: &CertifiedPosition, among: &[CertifiedPosition]| {
+            among.iter().any(|other| other.index() == at.index() && other.angles_arcsec() == at.angles_arcsec())
+        };
+        let new = self.positions.iter().find(|at| !kept(at, &there.positions));
+        match new.or_else(|| there.positions.iter().find(|at| !kept(at, &self.positions))) {
+            Some(at) => Err(NumberInUse { number: number.clone(), index: at.index() }),
+            None => Ok(()),
+        }
+    }
+
+    /// Checks the number as [`Self::check_number`] does, against that of a stand file from which nothing need have been issued:
+    /// from the same readings it may be certified anew, because other exclusions give other angles.
+    ///
+    /// # Errors
+    /// Returns [`NumberInUse`] if other readings gave other angles.
+    pub(crate) fn check_number_of_file(&self, there: &Self) -> Result<(), NumberInUse> {
+        let evidence = |stand: &Self| stand.certificate.evidence.clone();
+        let same_readings = evidence(there).is_some() && evidence(there) == evidence(self);
+        if same_readings { Ok(()) } else { self.check_number(there) }
+    }
+}
+
+/// Certificate number that is already used for other angles.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "certificate {number} already states other angles for this stand, first for position {index}; give the new \
+     certificate its own number and dates"
+)]
+pub struct NumberInUse {
+    /// Number of the certificate.
+    pub number: String,
+    /// First position with other angles.
+    pub index: PositionIndex,
 }
 
 /// Returns the refusal of a stand file in one sentence if only the angles are missing: it is then a header.
@@ -339,19 +377,19 @@ fn check_certificate(certificate: &Certificate, problems: &mut Problems) {
     ] {
         problems.within(&at.key(key), value, 0.0, f64::MAX);
     }
-    if certificate.references.as_ref().is_some_and(Vec::is_empty) {
-        problems.at(
-            &at.key("references"),
-            "an empty list",
-            "at least one certificate",
-            "omit the key if there is none",
-        );
-    }
+    check_not_empty(certificate.references.as_ref(), &at.key("references"), "at least one certificate", problems);
     for (index, reference) in certificate.references.iter().flatten().enumerate() {
         problems.sha256(&at.key("references").item(index).key("sha256"), &reference.sha256);
     }
     let degrees_of_freedom = certificate.repeatability_degrees_of_freedom;
     check_degrees_of_freedom(degrees_of_freedom, &at.key("repeatability_degrees_of_freedom"), problems);
+}
+
+/// Refuses an optional list that is there and empty.
+pub(crate) fn check_not_empty<T>(list: Option<&Vec<T>>, at: &Path, expected: &str, problems: &mut Problems) {
+    if list.is_some_and(Vec::is_empty) {
+        problems.at(at, "an empty list", expected, "omit the key if there is none");
+    }
 }
 
 fn check_degrees_of_freedom(value: Option<f64>, at: &Path, problems: &mut Problems) {

@@ -5,6 +5,7 @@
 //! second run with the same input completes a run that was killed in between, and changes nothing otherwise.
 
 use super::Outcome;
+use crate::certification::finding::Role;
 use crate::certification::found::Found;
 use crate::certification::remark::Remark;
 use crate::certification::{AngleReadings, Certification, Comparison, Header, certify, compare, predicted};
@@ -271,7 +272,7 @@ impl Recertification<'_> {
         let mut certification =
             certify(header, &readings).map_err(|why| because(&why, why.finding().into_iter().collect()))?;
         if let (None, Some(until)) = (header.certificate.valid_until, old.certificate.valid_until) {
-            certification.add(Remark::NoExpiry(until));
+            certification.add(Remark::no_expiry(until));
         }
         if certification.stand.check_number(old).is_err() || old.certificate.number == self.number {
             let number = self.number;
@@ -281,7 +282,7 @@ impl Recertification<'_> {
             )));
         }
         let comparison = compare(old, header, &readings, Some(&certification)).map_err(|why| of_readings(&why))?;
-        if let Some(misplaced) = comparison.findings.iter().find(|found| found.is_misplaced()) {
+        if let Some(misplaced) = comparison.findings.iter().find(|found| found.role == Role::Misplaced) {
             return Err(because(misplaced, comparison.causes().collect()));
         }
         if comparison.positions.iter().all(|at| !at.repeats) {
@@ -290,7 +291,7 @@ impl Recertification<'_> {
                        new stand file";
             return Err(because(&why, comparison.causes().collect()));
         }
-        match comparison.findings.iter().find(|finding| finding.is_of_the_certificate()) {
+        match comparison.findings.iter().find(|finding| finding.role == Role::OfCertificate) {
             Some(finding) => {
                 let advice = "To correct the certificate without new readings, use `certify` and `reissue --stand`";
                 Err(because(&format!("{finding}. {advice}"), comparison.causes().collect()))

@@ -6,24 +6,121 @@
 //! with the worst, and are excluded from the common rotation. One bad position therefore does not make the others look
 //! bad.
 
-use super::compared::{CommonTurn, ComparedPosition, NotCompared, Test, Untested};
 use super::components::Variance;
-use super::differences::{Between, Differences, certified_u_arcsec, square};
-use super::finding::{Finding, TOO_CLOSE, findings};
+use super::differences::{Differences, certified_u_arcsec, square};
+use super::finding::{Finding, Role, findings};
 use super::found::{Found, Scope};
 use super::kind::{Kind, OUTLIER};
+use super::remark::Remark;
 use super::transformation::{self, CLEARLY, Transformation};
-use super::{AngleReadings, Certification, Header, NominalPosition};
+use super::{AngleReadings, Between, Certification, Header, NominalPosition};
 use crate::calibration::recorded::rounding_of;
 use crate::coefficients::PositionIndex;
 use crate::stand::Stand;
-use crate::statistics::student::{detectable, f_beyond};
+use crate::statistics::student::{detectable, f_beyond, f_larger};
+use crate::wording::number::{Number, Probability};
 use crate::wording::texts::remarks as texts;
+use crate::wording::words::code;
 use nalgebra::Vector3;
 use serde::Serialize;
 
 /// Factor by which a transformation must reduce the sum of the squared differences if then all positions repeat.
 const MOSTLY: f64 = 4.0;
+
+/// Probability by chance below which a check agrees better with the certificate than a new measurement can.
+const TOO_CLOSE: f64 = 1e-6;
+
+/// Ratio of the scatter of a check to the certified one above which nothing is decided.
+const MUCH_MORE: f64 = 2.0;
+
+/// Reason why readings were not compared with a certificate.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NotCompared {
+    /// Certificate of another stand.
+    #[error("the certificate is for {certificate}, but the readings are from {readings}")]
+    OtherStand {
+        /// Model and serial number in the certificate.
+        certificate: String,
+        /// Model and serial number in the header.
+        readings: String,
+    },
+    /// Positions that are missing from the certificate or from the readings.
+    #[error("certificate and readings differ in their positions or nominal angles: {0}")]
+    OtherPositions(PositionIndex),
+    /// Missing repeatability: the certificate states none, and a single run does not show it.
+    #[error("the certificate states no repeatability, and one run does not show it; measure two runs or more")]
+    NoRepeatability,
+    /// Too few positions to distinguish a common rotation from changes of single positions.
+    #[error("too few positions to distinguish a common rotation from changes of single positions")]
+    TooFewPositions,
+}
+
+/// Result of a test with F, which is chi-square over its degrees of freedom if the uncertainties are known exactly.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Test {
+    /// Chi-square: the sum of squared differences in units of their standard uncertainties.
+    pub chi_square: f64,
+    /// Degrees of freedom of chi-square.
+    pub degrees_of_freedom: usize,
+    /// Probability of a larger value for an unchanged stand, by the F distribution, because the uncertainties have
+    /// finite degrees of freedom themselves.
+    pub probability: f64,
+    /// Degrees of freedom of the uncertainties.
+    #[serde(skip)]
+    pub(crate) of_u: f64,
+}
+
+impl Test {
+    pub(super) fn new(chi_square: f64, degrees_of_freedom: usize, of_u: f64) -> Self {
+        let probability = f_larger(chi_square / degrees_of_freedom as f64, degrees_of_freedom, of_u);
+        Self { chi_square, degrees_of_freedom, probability, of_u }
+    }
+
+    /// Returns the statistic to which the probability belongs.
+    pub(crate) fn f(&self) -> f64 {
+        self.chi_square / self.degrees_of_freedom as f64
+    }
+}
+
+/// Result of a comparison for one position.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ComparedPosition {
+    /// Index (i, j) of the position.
+    #[serde(flatten)]
+    pub index: PositionIndex,
+    /// Rotation since the certificate about x, y, z of the case, relative to the other positions, arcsec.
+    pub turn_arcsec: [f64; 3],
+    /// Standard uncertainties of `turn_arcsec`, arcsec.
+    pub u_arcsec: [f64; 3],
+    /// Test of all three components at once, relative to the rotation common to the other positions.
+    pub test: Test,
+    /// `true` if the position repeats.
+    pub repeats: bool,
+}
+
+/// Rotation common to all positions.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct CommonTurn {
+    /// Rotation of the platform about x, y, z of the case, arcsec.
+    pub platform_arcsec: [f64; 3],
+    /// Rotation of the base about east, north, up, arcsec; what cannot be distinguished from the platform is in
+    /// `platform_arcsec`.
+    pub base_arcsec: [f64; 3],
+    /// Test of the common rotation against the variation between runs; `None` if that is unknown.
+    pub test: Option<Test>,
+    /// Largest standard uncertainty of `platform_arcsec` in that test, arcsec; 0 without it.
+    #[serde(skip)]
+    pub(crate) u_platform_arcsec: f64,
+}
+
+impl CommonTurn {
+    /// Returns the smallest rotation of the platform about an axis of the case that the test finds with a probability of 95 %.
+    pub(crate) fn detectable_arcsec(&self) -> Option<f64> {
+        let test = self.test?;
+        Some(self.u_platform_arcsec * detectable(OUTLIER, test.degrees_of_freedom, test.of_u)?)
+    }
+}
 
 /// Comparison of a check run with a certificate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -50,22 +147,21 @@ pub struct Comparison {
 impl Comparison {
     /// Returns what has changed, or is wrong with the whole of the readings, as findings.
     pub(crate) fn causes(&self) -> impl Iterator<Item = Found> {
-        self.findings.iter().filter_map(|finding| finding.cause(self.all, &self.common))
+        self.findings.iter().filter_map(|finding| finding.cause.clone())
     }
 
     /// Returns `true` if the readings of the check do not show whether the stand has changed: because of outliers among
     /// them, because they scatter much more than the certificate states, or because they are those of the certificate.
     pub(crate) fn is_undecided(&self) -> bool {
-        let is_any = |of: fn(&Finding) -> bool| self.findings.iter().any(of);
-        let unusable =
-            is_any(Finding::is_outlier) || is_any(Finding::is_of_the_certificate) || is_any(Finding::is_large_scatter);
-        !self.same_stand && unusable && !is_any(Finding::is_change)
+        let unusable = [Role::Outlier, Role::OfCertificate, Role::LargeScatter];
+        let is_unusable = self.findings.iter().any(|found| unusable.contains(&found.role));
+        !self.same_stand && is_unusable && !self.findings.iter().any(Finding::is_change)
     }
 
     /// Returns `true` if all that was found is that the angles stand in other places or in another unit.
     pub(crate) fn is_misread(&self) -> bool {
         let mut changes = self.findings.iter().filter(|found| found.is_change()).peekable();
-        changes.peek().is_some() && changes.all(Finding::is_misplaced)
+        changes.peek().is_some() && changes.all(|found| found.role == Role::Misplaced)
     }
 }
 
@@ -109,68 +205,90 @@ pub fn compare(
     let between = Between::new(&certificate.certificate, runs, again);
     let common = differences.common(&repeating, certificate, between.as_ref().ok());
     let common = common.ok_or(NotCompared::TooFewPositions)?;
-    let untested = between.err().or(common.test.is_none().then_some(Untested::CommonParts));
+    let untested = between.err().map(|remark| *remark).or_else(|| common.test.is_none().then(no_common_parts));
     let moved = common.test.is_some_and(|test| test.probability < OUTLIER);
     let same_stand = repeating.len() == places.len() && all.probability >= OUTLIER && !moved;
-    let mut findings = findings(all, &positions, &common, again, moved, untested, misplaced);
-    if let Some(other) = findings.iter_mut().find(|found| **found == Finding::AnotherStand) {
-        let setting = differences.setting(&header.positions).map(Finding::Setting);
-        let worn = || differences.resemblance(certificate, &readings.means_arcsec()).map(Finding::Worn);
-        *other = setting.or_else(worn).unwrap_or(Finding::AnotherStand);
-    }
+    let every = || {
+        let setting = differences.setting(&header.positions).map(|found| Finding::of(Role::Change, found));
+        let worn = |correlation| {
+            let words = texts::worn(Number::fixed(correlation, 2));
+            let worn = Found::new(Kind::StandChanged, Scope::default(), all.probability, words);
+            Finding::of(Role::Change, worn.advised(texts::DO_RECERTIFY))
+        };
+        let worn = || differences.resemblance(certificate, &readings.means_arcsec()).map(worn);
+        let another = || Finding::of_stand(Role::Change, all.probability, texts::ANOTHER_STAND);
+        setting.or_else(worn).unwrap_or_else(another)
+    };
+    let mut findings = findings(all, &positions, &common, again, moved, misplaced, every);
+    findings.extend(untested.map(|remark| Finding::new(Role::Limit, remark)));
     if let Some((of_check, probability)) = more {
-        let [of_check_arcsec, certified_arcsec] = [of_check, scatter].map(|variance| variance.value.sqrt());
-        findings.push(Finding::ScattersMore { of_check_arcsec, certified_arcsec, probability });
+        let [found, certified] = [of_check, scatter].map(|variance| variance.value.sqrt());
+        let role = if found > MUCH_MORE * certified { Role::LargeScatter } else { Role::Limit };
+        let [found, certified] = [found, certified].map(|value| Number::significant(value, 2));
+        let words = texts::scatters_more(found, certified, Probability(probability));
+        findings.push(Finding::new(role, Remark::advising(words, texts::DO_TELL_WHICH)));
     }
-    if certificate.positions.iter().any(|at| certified_u_arcsec(at).is_none()) {
-        findings.push(Finding::TreatedAsExact);
+    let is_stated = certificate.positions.iter().all(|at| certified_u_arcsec(at).is_some());
+    if !is_stated {
+        let [alpha, beta, gamma] = ["u_alpha_arcsec", "u_beta_arcsec", "u_gamma_arcsec"].map(code);
+        let remark = Remark::advising(texts::TREATED_AS_EXACT, texts::do_state_u(alpha, beta, gamma));
+        findings.push(Finding::new(Role::Limit, remark));
     }
     let evidence = certificate.certificate.evidence.as_ref();
     if evidence.is_some_and(|evidence| readings.sha256.as_ref() == Some(&evidence.readings_sha256)) {
-        findings.push(Finding::SameReadings);
+        findings.push(Finding::new(Role::OfCertificate, texts::SAME_READINGS));
     } else if let Some(certified) = evidence
         && let Some(test) = differences.of_repeatability(scatter, [certified.runs as usize, readings.runs.len()])
         && 1.0 - test.probability < TOO_CLOSE
     {
-        findings.push(Finding::TooClose);
+        let found = Found::new(Kind::Computed, Scope::default(), TOO_CLOSE, texts::TOO_CLOSE);
+        findings.push(Finding::of(Role::OfCertificate, found.advised(texts::DO_CHECK_AND_MEASURE)));
     }
-    let same_stand =
-        same_stand && !findings.iter().any(|found| found.is_of_the_certificate() || found.is_large_scatter());
-    if same_stand
-        && !findings.contains(&Finding::TreatedAsExact)
-        && let Some(position_arcsec) = detectable_position_arcsec(&positions)
-    {
-        findings.push(Finding::Detects { position_arcsec, platform_arcsec: common.detectable_arcsec() });
+    let is_unusable = |found: &Finding| matches!(found.role, Role::OfCertificate | Role::LargeScatter);
+    let same_stand = same_stand && !findings.iter().any(is_unusable);
+    if let Some(position_arcsec) = detectable_arcsec(&positions).filter(|_| same_stand && is_stated) {
+        let position = Number::significant(position_arcsec, 2);
+        let words = match common.detectable_arcsec() {
+            Some(turn) => texts::detects(position, Number::significant(turn, 2)),
+            None => texts::detects_of_position(position),
+        };
+        findings.push(Finding::new(Role::Limit, words));
     }
     let words = findings.iter().map(ToString::to_string).collect();
     let certificate = certificate.certificate.number.clone();
     Ok(Comparison { certificate, runs, all, positions, common, same_stand, findings, words })
 }
 
+/// Returns the remark that the rotation of the whole was not tested, because the certificate lacks the common parts.
+fn no_common_parts() -> Remark {
+    let advice = texts::do_common_parts(code("common_platform_arcsec"), code("common_base_arcsec"));
+    Remark::advising(texts::NOT_TESTED_COMMON_PARTS, advice)
+}
+
 /// Returns the rotation about any axis of the case that is found with a probability of 95 % in each of the `positions`, or
 /// `None` if the uncertainties have too few degrees of freedom.
-fn detectable_position_arcsec(positions: &[ComparedPosition]) -> Option<f64> {
+pub(crate) fn detectable_arcsec(positions: &[ComparedPosition]) -> Option<f64> {
     let largest_u = positions.iter().flat_map(|at| at.u_arcsec).fold(0.0, f64::max);
     // All have the same degrees of freedom.
     let test = positions.first()?.test;
     Some(largest_u * detectable(OUTLIER / positions.len() as f64, test.degrees_of_freedom, test.of_u)?)
 }
 
-/// Returns the findings on readings of which the angles stand in other places or in another unit.
+/// Returns what is found of readings whose angles stand in other places or in another unit.
 fn misplaced(
     certificate: &Stand,
     readings: &AngleReadings,
     scatter: Variance,
     differences: &Differences,
     repeating: &[usize],
-) -> Result<Vec<Finding>, NotCompared> {
+) -> Result<Vec<Found>, NotCompared> {
     let certified: Vec<_> = certificate.positions.iter().map(|at| Vector3::from(at.angles_arcsec())).collect();
     let exchanged = exchanged(certificate, &certified, readings, scatter, repeating)?;
     let places: Vec<usize> = (0..certified.len()).collect();
     let agree = |differences: &Differences| differences.rest(&places).is_some_and(|test| test.probability >= OUTLIER);
     let changed = places.len() - repeating.len();
     if !exchanged.is_empty() || changed == 1 || changed == 0 && agree(differences) {
-        return Ok(exchanged.into_iter().map(exchange).map(Finding::Misplaced).collect());
+        return Ok(exchanged.into_iter().map(exchange).collect());
     }
     let means = readings.means_arcsec();
     let Some(rest) = differences.without_common() else { return Ok(Vec::new()) };
@@ -180,7 +298,7 @@ fn misplaced(
         let repeat = || agree(&corrected) && corrected.repeating(&places).len() == places.len();
         nearest.explains(CLEARLY, 0.0) || (nearest.explains(MOSTLY, 0.0) || nearest.is_known_factor()) && repeat()
     };
-    Ok(nearest.filter(explains).map(|nearest| Finding::Misplaced(nearest.found())).into_iter().collect())
+    Ok(nearest.filter(explains).map(|nearest| nearest.found()).into_iter().collect())
 }
 
 /// Returns the finding that two positions are exchanged.

@@ -66,9 +66,9 @@ pub(crate) struct Components {
     pub own_arcsec2: [Variance; 3],
     /// Variance of one visit, pooled over the axes, arcsec²; its root is the repeatability in a certificate.
     pub pooled_arcsec2: Variance,
-    /// Mean squares of the residuals of each axis, arcsec², for tests. They separate the axes less well than
+    /// Mean squares of the residuals of each axis, arcsec². They separate the axes less well than
     /// [`Components::own_arcsec2`], but scatter less themselves.
-    pub axis_squares_arcsec2: [Variance; 3],
+    axis_squares_arcsec2: [f64; 3],
     /// Rotation of the platform common to a run.
     pub platform: Common,
     /// Rotation of the base common to a run; `None` if no axis of it can be distinguished from the platform.
@@ -220,8 +220,8 @@ pub(crate) fn estimate(
     let squares = mean_squares(&residuals);
     let axis = |row: usize| row % 3;
     let own = grouped(&squares, &keeps, 3, axis, &|_| 1.0).ok_or(NotCertified::TooFewPositions)?;
-    let own_arcsec2 = [0, 1, 2].map(|a| own[a].own.over(changes));
-    let axis_squares_arcsec2 = [0, 1, 2].map(|a| own[a].mean_square.over(changes));
+    let own_arcsec2 = [0, 1, 2].map(|a| own[a].0.over(changes));
+    let axis_squares_arcsec2 = [0, 1, 2].map(|a| own[a].1);
     let pooled_arcsec2 = pooled(&axis_squares_arcsec2, &own_arcsec2);
     if own_arcsec2.iter().any(|variance| variance.value.is_nan() || variance.value < LEAST_SCATTER_ARCSEC2) {
         return Err(NotCertified::NoScatter);
@@ -261,12 +261,9 @@ impl Components {
         for (axis, [squares, freedom]) in rest.iter().enumerate() {
             let (own, square) = (&mut self.own_arcsec2[axis], &mut self.axis_squares_arcsec2[axis]);
             let kept = (axis..self.keeps.nrows()).step_by(3).map(|row| self.keeps[(row, row)]).sum::<f64>() * changes;
-            let ratio = squares / freedom / square.value;
+            let ratio = squares / freedom / *square;
+            *square *= ratio;
             // Correlated residuals have fewer degrees of freedom; assume the same ratio as before.
-            *square = Variance {
-                value: square.value * ratio,
-                degrees_of_freedom: square.degrees_of_freedom * freedom / kept,
-            };
             *own = Variance { value: own.value * ratio, degrees_of_freedom: own.degrees_of_freedom * freedom / kept };
         }
         self.residuals = residuals;
@@ -301,7 +298,7 @@ impl Components {
         let group = |place: usize| worse.iter().position(|places| places.contains(&place)).unwrap_or(worse.len());
         let scale = |row: usize| self.own_arcsec2[row % 3].value;
         let groups = grouped(&squares, &self.keeps, worse.len() + 1, |row| group(row / 3), &scale)?;
-        Some((0..rows / 3).map(|place| groups[group(place)].own.over(changes)).collect())
+        Some((0..rows / 3).map(|place| groups[group(place)].0.over(changes)).collect())
     }
 }
 
@@ -310,12 +307,6 @@ fn mean_squares(residuals: &[DVector<f64>]) -> DVector<f64> {
     let changes = residuals.len() as f64 - 1.0;
     let rows = residuals.first().map_or(0, DVector::len);
     DVector::from_fn(rows, |row, _| residuals.iter().map(|run| run[row] * run[row]).sum::<f64>() / changes)
-}
-
-/// Group of rows; its degrees of freedom are those that one more run adds.
-struct Group {
-    own: Variance,
-    mean_square: Variance,
 }
 
 impl Variance {
@@ -338,21 +329,21 @@ impl Variance {
     }
 }
 
-/// Returns the variances of groups of rows relative to `scale`, or `None` if a group has no degrees of freedom.
+/// Returns the variances of groups of rows relative to `scale`, with the degrees of freedom that one more run adds, and their
+/// mean squares; `None` if a group has no degrees of freedom.
 ///
 /// A residual mixes the scatter of all rows, Σ M², so the mean squares of the groups are a linear system in the
 /// variances. Where its solution is not positive (with very few degrees of freedom), the mean square of the group is
-/// used instead. The degrees of freedom of a mean square of correlated residuals are (tr M)²/tr M² (Satterthwaite);
-/// those of the solution are no fewer than tr M.
+/// used instead. The degrees of freedom of the solution are no fewer than tr M.
 fn grouped(
     squares: &DVector<f64>,
     keeps: &DMatrix<f64>,
     groups: usize,
     group: impl Fn(usize) -> usize,
     scale: &dyn Fn(usize) -> f64,
-) -> Option<Vec<Group>> {
+) -> Option<Vec<(Variance, f64)>> {
     let rows = squares.len();
-    let (mut mixing, mut within) = (DMatrix::zeros(groups, groups), DVector::<f64>::zeros(groups));
+    let mut mixing = DMatrix::zeros(groups, groups);
     let (mut sums, mut freedom) = (DVector::zeros(groups), DVector::<f64>::zeros(groups));
     for row in 0..rows {
         sums[group(row)] += squares[row] / scale(row);
@@ -360,7 +351,6 @@ fn grouped(
         for other in 0..rows {
             let share = keeps[(row, other)] * keeps[(row, other)];
             mixing[(group(row), group(other))] += share * scale(other) / scale(row);
-            within[group(row)] += if group(row) == group(other) { share } else { 0.0 };
         }
     }
     if freedom.iter().any(|&share| share < 1e-6) {
@@ -371,19 +361,15 @@ fn grouped(
         let mean_square = sums[at] / freedom[at];
         let solved = solved.as_ref().map_or(0.0, |solved| solved[at]);
         let value = if solved > 0.0 { solved } else { mean_square };
-        let effective = freedom[at] * freedom[at] / within[at];
-        Group {
-            own: Variance { value, degrees_of_freedom: freedom[at] },
-            mean_square: Variance { value: mean_square, degrees_of_freedom: effective },
-        }
+        (Variance { value, degrees_of_freedom: freedom[at] }, mean_square)
     };
     Some((0..groups).map(of_group).collect())
 }
 
 /// Returns the mean of the mean squares of the axes, weighted by the degrees of freedom of their `own` variances, with
 /// degrees of freedom by Satterthwaite's formula.
-fn pooled(axis_squares: &[Variance; 3], own: &[Variance; 3]) -> Variance {
-    let variances = [0, 1, 2].map(|axis| Variance { value: axis_squares[axis].value, ..own[axis] });
+fn pooled(axis_squares: &[f64; 3], own: &[Variance; 3]) -> Variance {
+    let variances = [0, 1, 2].map(|axis| Variance { value: axis_squares[axis], ..own[axis] });
     let total: f64 = variances.iter().map(|v| v.degrees_of_freedom).sum();
     let sum: f64 = variances.iter().map(|v| v.degrees_of_freedom * v.value).sum();
     let squares: f64 = variances.iter().map(|v| v.degrees_of_freedom * v.value * v.value).sum();

@@ -1,11 +1,11 @@
 //! Differences between a check and the certificate as rotations of the case, and the tests of them.
 
-use super::compared::Untested;
-use super::compared::{CommonTurn, NotCompared, Test};
+use super::comparison::{CommonTurn, NotCompared, Test};
 use super::components::{RunModel, Variance, case_turn, turns_at};
 use super::found::{Found, Scope, arcsec};
 use super::kind::{Kind, OUTLIER, Setting};
-use super::{AngleReadings, Certification, NominalPosition};
+use super::remark::Remark;
+use super::{AngleReadings, Between, Certification, NominalPosition};
 use crate::calibration::inputs::Turn;
 use crate::stand::{ActsOn, Certificate, CertifiedPosition, Stand};
 use crate::statistics::least_squares::Factorised;
@@ -306,26 +306,20 @@ pub(super) fn square(value: f64) -> f64 {
     value * value
 }
 
-/// Variances between whole runs, per axis, and the number of runs that the check averages.
-pub(super) struct Between {
-    runs: f64,
-    platform_arcsec2: f64,
-    base_arcsec2: f64,
-    /// Degrees of freedom: three axes in each run but one, of check and certificate together if they are pooled, else of
-    /// whichever has fewer.
-    degrees_of_freedom: f64,
-}
-
 /// Probability below which the variances of check and certificate are not pooled.
 const PARTED: f64 = 0.05;
 
 impl Between {
-    /// Returns the variation of the check itself if it has several runs, pooled with that of the certificate's readings where
+    /// Returns the variation of the check itself, as `again` has it, if it has several runs, pooled with that of the certificate's readings where
     /// they do not differ (F test); of a check of one run the latter alone.
     ///
     /// # Errors
-    /// Returns the reason if neither shows it.
-    pub(super) fn new(certificate: &Certificate, runs: usize, again: Option<&Certification>) -> Result<Self, Untested> {
+    /// Returns a remark that the rotation of the whole was not tested, with the reason, if neither shows it.
+    pub(super) fn new(
+        certificate: &Certificate,
+        runs: usize,
+        again: Option<&Certification>,
+    ) -> Result<Self, Box<Remark>> {
         let evidence = certificate.evidence.as_ref().map(|evidence| f64::from(evidence.runs));
         let of_certificate = evidence.map_or(f64::INFINITY, |runs| 3.0 * (runs - 1.0));
         let stated =
@@ -336,18 +330,14 @@ impl Between {
                 of_mean.max(0.0) * evidence
             })
         };
+        let unknown = || Box::new(Remark::advising(texts::NOT_TESTED_RUNS, texts::DO_TWO_RUNS));
         if runs == 1 {
-            let [platform_arcsec2, base_arcsec2] = stated(evidence.ok_or(Untested::NumberOfRuns)?);
+            let [platform_arcsec2, base_arcsec2] = stated(evidence.ok_or_else(unknown)?);
             return Ok(Self { runs: 1.0, platform_arcsec2, base_arcsec2, degrees_of_freedom: of_certificate });
         }
-        let of_check = again.ok_or(Untested::Variation)?.between;
-        let own = 3.0 * of_check.changes;
-        let mut found = Self {
-            runs: runs as f64,
-            platform_arcsec2: of_check.platform_arcsec2,
-            base_arcsec2: of_check.base_arcsec2,
-            degrees_of_freedom: own.min(of_certificate),
-        };
+        let mut found = again.ok_or_else(|| Box::new(texts::NOT_TESTED_VARIATION.into()))?.between;
+        let own = found.degrees_of_freedom;
+        found.degrees_of_freedom = own.min(of_certificate);
         let Some(stated) = evidence.filter(|runs| *runs > 1.0).map(stated) else { return Ok(found) };
         let both = [found.platform_arcsec2, found.base_arcsec2].into_iter().zip(stated);
         // An estimate of 0 is no smaller than another.

@@ -86,7 +86,7 @@ impl Certification {
             "Means of {runs} runs. u_*: {scatter}, divided by the square root of the number \
              of runs{type_b}."
         )];
-        said.extend(self.remarks.iter().map(|remark| format!("Warning: {remark}.")));
+        said.extend(self.warnings.iter().map(|warning| format!("Warning: {warning}.")));
         said
     }
 }

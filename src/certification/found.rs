@@ -4,8 +4,9 @@
 
 use super::AngleReadings;
 use super::header::NominalPosition;
-use super::hypothesis::{Accepted, Cause, Explanation};
+use super::hypothesis::{Accepted, At, Cause, Change, Explanation};
 use super::kind::{AXES, Kind, OUTLIER, Part, Setting};
+use super::layer::Runs;
 use crate::attitude::{ANGLE_SYMBOLS, ANGLES};
 use crate::coefficients::PositionIndex;
 use crate::statistics::student::student_factor;
@@ -23,30 +24,18 @@ use serde_json::{Value, json};
 pub(crate) struct Scope {
     #[serde(flatten)]
     pub position: Option<PositionIndex>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub run: Option<u32>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub runs: Vec<u32>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub angle: Option<&'static str>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub angles: Vec<&'static str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub axis: Option<&'static str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub part: Option<&'static str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub after_run: Option<u32>,
     /// Indices (i, j) of two positions.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub between: Option<[[u32; 2]; 2]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub setting: Option<&'static str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub theta_deg: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub phi_deg: Option<f64>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub certificates: Vec<String>,
 }
 
@@ -101,8 +90,12 @@ impl Found {
             "kind": self.kind.code(), "scope": self.scope, "size": self.size, "unit": self.unit,
             "probability": self.probability, "words": plain(&self.words.plain(Language::English)),
         });
-        if let (None, Some(entries)) = (self.unit, json.as_object_mut()) {
-            entries.remove("unit");
+        let is_stated = |value: &Value| !value.is_null() && value.as_array().is_none_or(|list| !list.is_empty());
+        if let Some(entries) = json.as_object_mut() {
+            entries.retain(|key, value| key != "unit" || is_stated(value));
+        }
+        if let Some(scope) = json["scope"].as_object_mut() {
+            scope.retain(|_, value| is_stated(value));
         }
         json
     }
@@ -131,100 +124,109 @@ impl Naming<'_> {
         self.explanation.accepted.iter().map(|at| self.found(at)).collect()
     }
 
-    fn found(&self, at: &Accepted) -> Found {
+    fn found(&self, accepted: &Accepted) -> Found {
+        let Accepted { cause, sizes_arcsec, probability } = accepted;
         let runs = &self.readings.runs;
         let index = |place: usize| self.positions[place].index();
-        let turns = self.turns_arcsec(at);
+        let turns = self.turns_arcsec(accepted);
         let ([x, y, z], length) = (together(turns), Vector3::from(turns).norm());
-        let (p, of_visits) = (Probability(at.probability), self.explanation.components.pooled_arcsec2.value.sqrt());
-        let new = |scope: Scope, words: Words| Found {
+        let (p, of_visits) = (Probability(*probability), self.explanation.components.pooled_arcsec2.value.sqrt());
+        let new = |words: Words| Found {
             turns_arcsec: turns,
-            ..Found::new(at.cause.kind(), scope, at.probability, words).sized(length)
+            ..Found::new(cause.kind, self.scope(*cause), *probability, words).sized(length)
         };
-        let of_part = |part: Part| Scope { part: Some(part.key()), ..Scope::default() };
-        let of_position = |place: usize| Scope { position: Some(index(place)), ..Scope::default() };
-        // Of two runs, either may be wrong.
-        let in_run = |run: usize, scope: Scope| match runs[..] {
-            [one, other] => Scope { runs: vec![one, other], ..scope },
-            _ => Scope { run: Some(runs[run]), ..scope },
-        };
-        let line = |place, run| -> Words {
-            match self.readings.line(place, run) {
+        // The run, or the first one after a step, and the one before.
+        let at = if let Change::Shift(Runs::One(run) | Runs::From(run)) = cause.change { run } else { 0 };
+        let [last, run] = [at.saturating_sub(1), at].map(|at| runs[at]);
+        let line = |place| -> Words {
+            match self.readings.line(place, at) {
                 Some(line) if runs.len() > 2 => vec![" ".into(), texts::line(line)].into(),
                 _ => "".into(),
             }
         };
-        match at.cause {
-            Cause::Angle { place, run, angle } => {
-                let size = at.sizes_arcsec[0];
-                let scope = in_run(run, Scope { angle: Some(ANGLES[angle]), ..of_position(place) });
-                let name = symbol(ANGLE_SYMBOLS[angle]);
-                let words = texts::angle(name, index(place), runs[run], line(place, run), arcsec(size), p);
-                self.repeated(new(scope, words).sized(size), place, run)
+        match (cause.at, cause.change) {
+            (At::Angle(place, angle), _) => {
+                let (name, size) = (symbol(ANGLE_SYMBOLS[angle]), sizes_arcsec[0]);
+                let words = texts::angle(name, index(place), run, line(place), arcsec(size), p);
+                self.repeated(new(words).sized(size), place, run)
             }
-            Cause::Reading { place, run } => {
-                let words = texts::reading(index(place), runs[run], line(place, run), x, y, z, p);
-                self.repeated(new(in_run(run, of_position(place)), words), place, run)
+            (At::Position(place), Change::Shift(Runs::One(_))) => {
+                self.repeated(new(texts::reading(index(place), run, line(place), x, y, z, p)), place, run)
             }
-            Cause::Bump { run, before, after, part } => {
-                let between = [index(before), index(after)].map(|at| [at.i, at.j]);
-                let scope = Scope { run: Some(runs[run]), between: Some(between), ..of_part(part) };
-                new(scope, texts::bump(runs[run], index(after), x, y, z, part.axes(), index(before), p))
-                    .advised(without_run(runs[run]))
+            (At::Position(place), Change::Shift(_)) => {
+                new(texts::position_moved(index(place), last, run, x, y, z, p)).advised(later_runs(run))
             }
-            Cause::Run { run, part } => {
-                let mean = arcsec(length / runs.len() as f64);
-                let scope = Scope { run: Some(runs[run]), ..of_part(part) };
-                new(scope, texts::run_turned(runs[run], x, y, z, part.axes(), p, mean)).advised(without_run(runs[run]))
-            }
-            Cause::Move { after, part } => {
-                let (last, next) = (runs[after - 1], runs[after]);
-                let scope = Scope { after_run: Some(last), ..of_part(part) };
-                new(scope, texts::stand_moved(last, next, x, y, z, part.axes(), p)).advised(later_runs(next))
-            }
-            Cause::Drift { part } => {
-                new(of_part(part), texts::stand_drift(x, y, z, part.axes(), p)).advised(remarks::DO_FIND_AND_MEASURE)
-            }
-            Cause::MovedPosition { place, after } => {
-                let (last, next) = (runs[after - 1], runs[after]);
-                let scope = Scope { after_run: Some(last), ..of_position(place) };
-                new(scope, texts::position_moved(index(place), last, next, x, y, z, p)).advised(later_runs(next))
-            }
-            Cause::Position(place) => {
+            (At::Position(place), Change::Scatter) => {
                 let s = self.scatter_arcsec(&[place]);
-                let words = texts::position_scatter(index(place), arcsec(s), arcsec(of_visits), p);
-                new(of_position(place), words).sized(s)
+                new(texts::position_scatter(index(place), arcsec(s), arcsec(of_visits), p)).sized(s)
             }
-            Cause::Positions(setting, angle_deg) => {
+            (At::Positions(setting, angle_deg), _) => {
                 let places = (0..self.positions.len()).filter(|at| setting.of(&self.positions[*at]) == angle_deg);
                 let s = self.scatter_arcsec(&places.collect::<Vec<_>>());
                 let angle = Number::exact(angle_deg);
                 let words = texts::setting_scatter(symbol(setting.symbol()), angle, arcsec(s), arcsec(of_visits), p);
-                new(Scope::of_setting(setting, angle_deg), words).sized(s).advised(remarks::DO_FIND)
+                new(words).sized(s).advised(remarks::DO_FIND)
             }
-            Cause::Shared(setting) => {
-                let s = at.sizes_arcsec[0];
-                let scope = Scope { setting: Some(setting.key()), ..Scope::default() };
-                new(scope, texts::shared_setting(symbol(setting.symbol()), arcsec(s), p))
-                    .sized(s)
-                    .advised(remarks::DO_MEASURE)
+            (At::Setting(setting), _) => {
+                let s = sizes_arcsec[0];
+                let words = texts::shared_setting(symbol(setting.symbol()), arcsec(s), p);
+                new(words).sized(s).advised(remarks::DO_MEASURE)
             }
-            Cause::Axis(axis) => {
+            (At::Visits(part, between), _) => {
+                let [before, after] = between.map(index);
+                new(texts::bump(run, after, x, y, z, part.axes(), before, p)).advised(without_run(run))
+            }
+            (At::Part(part), Change::Shift(Runs::One(_))) => {
+                let mean = arcsec(length / runs.len() as f64);
+                new(texts::run_turned(run, x, y, z, part.axes(), p, mean)).advised(without_run(run))
+            }
+            (At::Part(part), Change::Shift(Runs::From(_))) => {
+                new(texts::stand_moved(last, run, x, y, z, part.axes(), p)).advised(later_runs(run))
+            }
+            (At::Part(part), _) => {
+                new(texts::stand_drift(x, y, z, part.axes(), p)).advised(remarks::DO_FIND_AND_MEASURE)
+            }
+            (At::Axis(axis), _) => {
                 let s = self.explanation.components.own_arcsec2[axis].value.sqrt();
-                let scope = Scope { axis: Some(AXES[axis]), ..Scope::default() };
-                new(scope, texts::axis_scatter(symbol(AXES[axis]), arcsec(s), arcsec(of_visits), p)).sized(s)
+                new(texts::axis_scatter(symbol(AXES[axis]), arcsec(s), arcsec(of_visits), p)).sized(s)
             }
-            Cause::RunAxis(axis) => self.run_axis(axis, p, &new),
-            Cause::Copied(one, other) => {
-                let scope = Scope { runs: vec![runs[one], runs[other]], ..Scope::default() };
-                Found { size: None, unit: None, ..new(scope, texts::runs_copied(runs[one], runs[other], p)) }
+            (At::RunAxis(axis), _) => self.run_axis(axis, p, &new),
+            (At::Runs(one, other), _) => {
+                Found { size: None, unit: None, ..new(texts::runs_copied(runs[one], runs[other], p)) }
             }
         }
     }
 
+    /// Returns what a cause concerns.
+    fn scope(&self, cause: Cause) -> Scope {
+        let runs = &self.readings.runs;
+        let index = |place: usize| self.positions[place].index();
+        let (all, of_part) = (Scope::default(), |part: Part| Scope { part: Some(part.key()), ..Scope::default() });
+        let scope = match cause.at {
+            At::Position(place) => Scope { position: Some(index(place)), ..all },
+            At::Angle(place, angle) => Scope { position: Some(index(place)), angle: Some(ANGLES[angle]), ..all },
+            At::Positions(setting, angle_deg) => Scope::of_setting(setting, angle_deg),
+            At::Setting(setting) => Scope { setting: Some(setting.key()), ..all },
+            At::Visits(part, places) => {
+                Scope { between: Some(places.map(index).map(|at| [at.i, at.j])), ..of_part(part) }
+            }
+            At::Part(part) => of_part(part),
+            At::Axis(axis) => Scope { axis: Some(AXES[axis]), ..all },
+            At::RunAxis(axis) => Scope { axis: Some(axis_of_part(axis).en), ..of_part(Part::ALL[axis / 3]) },
+            At::Runs(one, other) => Scope { runs: vec![runs[one], runs[other]], ..all },
+        };
+        match (cause.change, &runs[..]) {
+            // Of two runs, either may be wrong.
+            (Change::Shift(Runs::One(_)), [_, _]) => Scope { runs: runs.clone(), ..scope },
+            (Change::Shift(Runs::One(run)), _) => Scope { run: Some(runs[run]), ..scope },
+            (Change::Shift(Runs::From(after)), _) => Scope { after_run: Some(runs[after - 1]), ..scope },
+            _ => scope,
+        }
+    }
+
     /// Returns a finding on one reading, with what to do.
-    fn repeated(&self, found: Found, place: usize, run: usize) -> Found {
-        let (PositionIndex { i, j }, run) = (self.positions[place].index(), self.readings.runs[run]);
+    fn repeated(&self, found: Found, place: usize, run: u32) -> Found {
+        let PositionIndex { i, j } = self.positions[place].index();
         match self.readings.runs[..] {
             [one, other] => {
                 let words = vec![found.words.clone(), " ".into(), texts::two_runs(one, other)].into();
@@ -236,11 +238,10 @@ impl Naming<'_> {
 
     /// Returns the rotation of a cause about three axes, arcsec.
     fn turns_arcsec(&self, at: &Accepted) -> [f64; 3] {
-        let turns = match at.cause {
-            Cause::Bump { part: Part::Base, .. }
-            | Cause::Run { part: Part::Base, .. }
-            | Cause::Move { part: Part::Base, .. }
-            | Cause::Drift { part: Part::Base } => &self.explanation.components.model.base_axes * &at.sizes_arcsec,
+        let turns = match at.cause.at {
+            At::Visits(Part::Base, _) | At::Part(Part::Base) => {
+                &self.explanation.components.model.base_axes * &at.sizes_arcsec
+            }
             _ => at.sizes_arcsec.clone(),
         };
         std::array::from_fn(|axis| turns.get(axis).copied().unwrap_or(0.0))
@@ -254,31 +255,35 @@ impl Naming<'_> {
         (each * axes).sqrt()
     }
 
-    fn run_axis(&self, axis: usize, p: Probability, new: &dyn Fn(Scope, Words) -> Found) -> Found {
+    fn run_axis(&self, axis: usize, p: Probability, new: &dyn Fn(Words) -> Found) -> Found {
         let runs = self.readings.runs.len() as f64;
         let variation = self.explanation.components.variation(&self.explanation.of_runs, axis);
         let freedom = self.explanation.of_runs[axis][1];
         // The variance of a single axis has few degrees of freedom, and those of the common parts are not in the file.
         let widened = student_factor(0.05, freedom) / student_factor(0.05, f64::INFINITY);
         let missing = ((variation.own_arcsec2 * widened * widened - variation.between_arcsec2).max(0.0) / runs).sqrt();
-        let part = Part::ALL[axis / 3];
-        let [x, y, z] = AXES.map(|name| Text { en: name, ru: name });
-        let name = [x, y, z, compass::EAST, compass::NORTH, compass::UP][axis];
+        let name = axis_of_part(axis);
         let (own, others) = (variation.own_arcsec2.sqrt(), variation.others_arcsec2.sqrt());
         let [s, rest, type_b] = [own, others, missing].map(arcsec);
         let freedom = Number::at_most(freedom, 1);
-        let words = match part {
-            Part::Base => texts::run_axis_scatter_of_base(s, name, rest, p, type_b, freedom),
-            Part::Platform => texts::run_axis_scatter_of_platform(s, symbol(name.en), rest, p, type_b, freedom),
+        let (words, advice) = match Part::ALL[axis / 3] {
+            Part::Base => (
+                texts::run_axis_scatter_of_base(s, name, rest, p, type_b.clone(), freedom),
+                remarks::do_state_type_b_base(code("type_b"), type_b),
+            ),
+            Part::Platform => (
+                texts::run_axis_scatter_of_platform(s, symbol(name.en), rest, p, type_b.clone(), freedom),
+                remarks::do_state_type_b_platform(code("type_b"), type_b),
+            ),
         };
-        let state = match part {
-            Part::Base => remarks::do_state_type_b_base,
-            Part::Platform => remarks::do_state_type_b_platform,
-        };
-        new(Scope { part: Some(part.key()), axis: Some(name.en), ..Scope::default() }, words)
-            .sized(own)
-            .advised(state(code("type_b"), arcsec(missing)))
+        new(words).sized(own).advised(advice)
     }
+}
+
+/// Returns the name of an axis: 0, 1, 2 for x, y, z of the platform, 3, 4, 5 for east, north, up of the base.
+fn axis_of_part(axis: usize) -> Text {
+    let [x, y, z] = AXES.map(|name| Text { en: name, ru: name });
+    [x, y, z, compass::EAST, compass::NORTH, compass::UP][axis]
 }
 
 fn without_run(run: u32) -> Words {

@@ -35,10 +35,7 @@ impl NominalPosition {
             alpha_arcsec,
             beta_arcsec,
             gamma_arcsec,
-            u_alpha_arcsec: None,
-            u_beta_arcsec: None,
-            u_gamma_arcsec: None,
-            degrees_of_freedom: None,
+            ..CertifiedPosition::default()
         }
     }
 }

@@ -12,7 +12,8 @@ use super::{AngleReadings, Header};
 use crate::calibration::inputs::Turn;
 use crate::calibration::recorded::rounding_of;
 use crate::statistics::student::f_beyond;
-use nalgebra::{DMatrix, DVector, Matrix3, Matrix3xX, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Matrix3xX};
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// Largest number of hypotheses of a layer that are accepted; with more, the readings do not show what is wrong.
@@ -27,94 +28,57 @@ const MOST_PAIRED: usize = 100;
 /// Ratio of variances that runs which are no copies of each other may have beyond chance.
 const TOO_WELL: f64 = 0.1;
 
-/// What is wrong; places are counted from 0, in the order of header and runs.
+/// What is wrong: which rows change, and how.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Cause {
-    Angle {
-        place: usize,
-        run: usize,
-        angle: usize,
-    },
-    Reading {
-        place: usize,
-        run: usize,
-    },
-    Bump {
-        run: usize,
-        before: usize,
-        after: usize,
-        part: Part,
-    },
-    Run {
-        run: usize,
-        part: Part,
-    },
-    Move {
-        after: usize,
-        part: Part,
-    },
-    Drift {
-        part: Part,
-    },
-    MovedPosition {
-        place: usize,
-        after: usize,
-    },
+pub(crate) struct Cause {
+    pub(crate) kind: Kind,
+    pub(crate) at: At,
+    pub(crate) change: Change,
+}
+
+/// What a cause concerns; places are counted from 0, in the order of header and runs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum At {
     Position(usize),
+    /// Angle of a position.
+    Angle(usize, usize),
+    /// Positions with one value of a setting, degrees.
     Positions(Setting, f64),
-    Shared(Setting),
+    /// All positions that share a value of a setting.
+    Setting(Setting),
+    /// Rotation of a part between two visits of a run, the places of which are given.
+    Visits(Part, [usize; 2]),
+    /// Rotation of a part in whole runs.
+    Part(Part),
     Axis(usize),
     /// 0, 1, 2 for x, y, z of the platform, 3, 4, 5 for east, north, up of the base.
     RunAxis(usize),
-    Copied(usize, usize),
+    Runs(usize, usize),
 }
 
-impl Cause {
-    pub(crate) fn kind(self) -> Kind {
-        match self {
-            Self::Angle { .. } => Kind::Angle,
-            Self::Reading { .. } => Kind::Reading,
-            Self::Bump { .. } => Kind::Bump,
-            Self::Run { .. } => Kind::RunTurned,
-            Self::Move { .. } => Kind::StandMoved,
-            Self::Drift { .. } => Kind::StandDrift,
-            Self::MovedPosition { .. } => Kind::PositionMoved,
-            Self::Position(_) => Kind::PositionScatter,
-            Self::Positions(..) => Kind::SettingScatter,
-            Self::Shared(_) => Kind::SharedSetting,
-            Self::Axis(_) => Kind::AxisScatter,
-            Self::RunAxis(_) => Kind::RunAxisScatter,
-            Self::Copied(..) => Kind::RunsCopied,
-        }
-    }
-
-    /// Returns the share of its kind in the level of all hypotheses together, with this number of runs.
-    fn share(self, runs: usize) -> f64 {
-        match self.kind() {
-            Kind::Angle | Kind::RunTurned | Kind::SettingScatter if runs == 3 => 1.0,
-            Kind::Angle => 0.7,
-            Kind::SettingScatter | Kind::RunTurned => 0.4,
-            Kind::Reading => 0.3,
-            Kind::Bump | Kind::PositionScatter | Kind::StandMoved => 0.2,
-            _ => 0.1,
-        }
-    }
-}
-
-#[derive(Debug, Clone)]
-enum Change {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Change {
     /// Shift along one contrast.
     Shift(Runs),
     /// Scatter of the combinations of the rows in every run.
     Scatter,
 }
 
+/// Returns the share of a kind in the level of all hypotheses together, with this number of runs.
+fn share(kind: Kind, runs: usize) -> f64 {
+    match kind {
+        Kind::Angle | Kind::RunTurned | Kind::SettingScatter if runs == 3 => 1.0,
+        Kind::Angle => 0.7,
+        Kind::SettingScatter | Kind::RunTurned => 0.4,
+        Kind::Reading => 0.3,
+        Kind::Bump | Kind::PositionScatter | Kind::StandMoved => 0.2,
+        _ => 0.1,
+    }
+}
+
 #[derive(Debug, Clone)]
 struct Hypothesis {
     cause: Cause,
-    /// 0 for the readings within the runs, 1 for the rotations of the runs.
-    layer: usize,
-    change: Change,
     rows: Rc<Rows>,
 }
 
@@ -142,6 +106,8 @@ pub(crate) struct Accepted {
 pub(crate) struct Explanation {
     /// Accepted hypotheses, the most likely first.
     pub(crate) accepted: Vec<Accepted>,
+    /// Largest part of the accepted shifts in each row of the means, arcsec.
+    pub(crate) biases_arcsec: DVector<f64>,
     /// Components without the accepted shifts of readings.
     pub(crate) components: Components,
     /// Sums of squares of the rotations of the runs without what is accepted of them, by axis, arcsec², and their degrees of
@@ -190,92 +156,79 @@ impl Measurement<'_> {
     /// Returns everything that may be wrong.
     fn hypotheses(&self) -> Vec<Hypothesis> {
         let (keeps, runs) = (&self.components.keeps, self.readings.runs.len());
-        let positions = keeps.nrows() / 3;
+        let turns = &self.components.model.turns;
         let mut all = Vec::new();
         let of_readings = |pattern: DMatrix<f64>| {
             let basis = Combinations::of(&(keeps * &pattern)).filter(|found| found.shared.ncols() > 0)?;
             Some(Rc::new(Rows { pattern, basis }))
         };
-        let mut add = |cause, layer, change, rows: Option<&Rc<Rows>>| {
-            all.extend(rows.map(|rows| Hypothesis { cause, layer, change, rows: Rc::clone(rows) }));
+        let every_row = DMatrix::identity(keeps.nrows(), keeps.nrows());
+        let of_places = |places: &[usize]| {
+            let rows: Vec<usize> = places.iter().flat_map(|place| 3 * place..3 * place + 3).collect();
+            of_readings(every_row.select_columns(&rows))
+        };
+        let mut add = |kind, at, change, rows: &Option<Rc<Rows>>| {
+            let cause = Cause { kind, at, change };
+            all.extend(rows.iter().map(|rows| Hypothesis { cause, rows: Rc::clone(rows) }));
         };
         // A step needs two runs on each side; with one it is that run's.
-        let steps = 2..(runs - 1).max(2);
+        let steps = (2..(runs - 1).max(2)).map(|after| Change::Shift(Runs::From(after)));
         let is_read = |place, run: &usize| !self.readings.missing.contains(&(place, *run));
-        for place in 0..positions {
-            let whole = of_readings(self.in_places(&[place], 3, |_| Matrix3xX::identity(3)));
-            let axes = self.components.model.turns[place].axes;
-            let each = axes.map(|axis| of_readings(self.in_places(&[place], 1, |_| Matrix3xX::from_columns(&[axis]))));
+        for (place, turn) in turns.iter().enumerate() {
+            let (at, whole) = (At::Position(place), of_places(&[place]));
+            let along = |axis| self.in_places(&[place], 1, |_| Matrix3xX::from_columns(&[axis]));
+            let axes = turn.axes.map(|axis| of_readings(along(axis)));
             // Of two runs each differs as much from the other.
             for run in (0..if runs == 2 { 1 } else { runs }).filter(|run| is_read(place, run)) {
-                let shift = || Change::Shift(Runs::One(run));
-                (0..3).for_each(|angle| add(Cause::Angle { place, run, angle }, 0, shift(), each[angle].as_ref()));
-                add(Cause::Reading { place, run }, 0, shift(), whole.as_ref());
+                let shift = Change::Shift(Runs::One(run));
+                (0..3).for_each(|angle| add(Kind::Angle, At::Angle(place, angle), shift, &axes[angle]));
+                add(Kind::Reading, at, shift, &whole);
             }
-            for after in steps.clone() {
-                add(Cause::MovedPosition { place, after }, 0, Change::Shift(Runs::From(after)), whole.as_ref());
-            }
+            steps.clone().for_each(|step| add(Kind::PositionMoved, at, step, &whole));
             if runs > 2 {
-                add(Cause::Position(place), 0, Change::Scatter, whole.as_ref());
+                add(Kind::PositionScatter, at, Change::Scatter, &whole);
             }
         }
         for setting in Setting::ALL {
             let values = setting.values(&self.header.positions);
             let groups: Vec<Vec<usize>> = values.iter().map(|value| self.places(setting, *value)).collect();
+            let axis = |place: usize| Matrix3xX::from_columns(&[setting.axis(&turns[place])]);
             let several = groups.iter().filter(|places| places.len() > 1);
-            let shared: Vec<_> = several
-                .map(|places| {
-                    self.in_places(places, 1, |place| {
-                        Matrix3xX::from_columns(&[setting.axis(&self.components.model.turns[place])])
-                    })
-                })
-                .collect();
-            let shared: Vec<_> = shared.iter().map(|pattern| pattern.column(0)).collect();
+            let shared: Vec<_> = several.map(|places| self.in_places(places, 1, axis).column(0).into_owned()).collect();
             if !shared.is_empty() {
-                add(Cause::Shared(setting), 0, Change::Scatter, of_readings(DMatrix::from_columns(&shared)).as_ref());
+                let rows = of_readings(DMatrix::from_columns(&shared));
+                add(Kind::SharedSetting, At::Setting(setting), Change::Scatter, &rows);
             }
             for (value, places) in values.iter().zip(&groups).filter(|(_, places)| groups.len() > 1 && places.len() > 1)
             {
-                let identity = |place: usize| {
-                    let at = places.iter().position(|at| *at == place).unwrap_or_default();
-                    Matrix3xX::from_fn(3 * places.len(), |row, column| f64::from(u8::from(column == 3 * at + row)))
-                };
-                let rows = of_readings(self.in_places(places, 3 * places.len(), identity));
-                add(Cause::Positions(setting, *value), 0, Change::Scatter, rows.as_ref());
+                let at = At::Positions(setting, *value);
+                add(Kind::SettingScatter, at, Change::Scatter, &of_places(places));
             }
         }
         if runs < 3 {
             return all;
         }
         for (part, axes) in self.parts() {
-            let mut known: Vec<(Vec<usize>, Option<Rc<Rows>>)> = Vec::new();
+            let mut known: BTreeMap<Vec<usize>, Option<Rc<Rows>>> = BTreeMap::new();
             for run in 0..runs {
                 let order = self.order(run);
                 for first in 2..=order.len().saturating_sub(2) {
                     let mut places = order[first..].to_vec();
                     places.sort_unstable();
-                    let rows = match known.iter().find(|(of, _)| *of == places) {
-                        Some((_, rows)) => rows.clone(),
-                        None => {
-                            let rows = of_readings(self.rotation(part, &places));
-                            known.push((places, rows.clone()));
-                            rows
-                        }
-                    };
-                    let cause = Cause::Bump { run, before: order[first - 1], after: order[first], part };
-                    add(cause, 0, Change::Shift(Runs::One(run)), rows.as_ref());
+                    let of_visits = |places: &Vec<usize>| of_readings(self.rotation(part, places));
+                    let rows = known.entry(places).or_insert_with_key(of_visits);
+                    let at = At::Visits(part, [order[first - 1], order[first]]);
+                    add(Kind::Bump, at, Change::Shift(Runs::One(run)), rows);
                 }
             }
-            let pattern = DMatrix::from_fn(3 + self.components.base_axes, axes.len(), |row, at| {
-                f64::from(u8::from(row == axes.start + at))
-            });
+            let size = 3 + self.components.base_axes;
+            let pattern = DMatrix::identity(size, size).columns_range(axes).into_owned();
             let rows = Combinations::of(&pattern).map(|basis| Rc::new(Rows { pattern, basis }));
-            (0..runs).for_each(|run| add(Cause::Run { run, part }, 1, Change::Shift(Runs::One(run)), rows.as_ref()));
-            for after in steps.clone() {
-                add(Cause::Move { after, part }, 1, Change::Shift(Runs::From(after)), rows.as_ref());
-            }
+            let at = At::Part(part);
+            (0..runs).for_each(|run| add(Kind::RunTurned, at, Change::Shift(Runs::One(run)), &rows));
+            steps.clone().for_each(|step| add(Kind::StandMoved, at, step, &rows));
             if runs > 3 {
-                add(Cause::Drift { part }, 1, Change::Shift(Runs::Line), rows.as_ref());
+                add(Kind::StandDrift, at, Change::Shift(Runs::Line), &rows);
             }
         }
         all
@@ -306,18 +259,13 @@ impl Measurement<'_> {
         let (mut values, mut keeps) = (DMatrix::from_columns(&components.residuals), components.keeps.clone());
         let mut group: Vec<usize> = (0..keeps.nrows()).map(|row| row % 3).collect();
         let mut is_reduced = false;
-        for at in accepted {
-            let places = match at.cause {
-                Cause::Position(place) => vec![place],
-                Cause::Positions(setting, value) => self.places(setting, value),
-                Cause::Shared(_) => {
-                    let shared = &at.rows.basis.shared;
-                    values -= shared * shared.tr_mul(&values);
-                    keeps -= shared * shared.transpose();
-                    is_reduced = true;
-                    continue;
-                }
-                _ => continue,
+        for at in accepted.iter().filter(|at| at.is_scatter()) {
+            let Some(places) = self.scattering(at.cause) else {
+                let shared = &at.rows.basis.shared;
+                values -= shared * shared.tr_mul(&values);
+                keeps -= shared * shared.transpose();
+                is_reduced = true;
+                continue;
             };
             let next = group.iter().max().map_or(0, |last| last + 1);
             places.iter().flat_map(|place| 3 * place..3 * place + 3).for_each(|row| group[row] = next + row % 3);
@@ -329,7 +277,7 @@ impl Measurement<'_> {
 
     /// Returns a layer with what is accepted; the missing readings, which are predictions, are shifts of their own.
     fn fitted(&self, layer: usize, accepted: &[&Hypothesis]) -> Option<Fitted> {
-        let within: Vec<&Hypothesis> = accepted.iter().filter(|at| at.layer == 0).copied().collect();
+        let within: Vec<&Hypothesis> = accepted.iter().filter(|at| at.layer() == 0).copied().collect();
         let readings = self.readings_layer(&within);
         let missing = missing_columns(self.components, &self.readings.missing);
         let mut columns: Vec<Column> = missing.map(|column| readings.kept(column)).collect();
@@ -344,7 +292,7 @@ impl Measurement<'_> {
         if let (Some(fit), true) = (readings.fit(&columns.iter().collect::<Vec<_>>()), columns.len() > first) {
             let mut next = first;
             for at in within {
-                let Change::Shift(runs) = at.change else { continue };
+                let Change::Shift(runs) = at.cause.change else { continue };
                 let count = at.rows.basis.shared.ncols();
                 let turn = at.turn(&fit.sizes.rows(next, count).into_owned());
                 values -= readings.shift(runs, &(&self.components.model.solve * &at.rows.pattern * turn));
@@ -352,44 +300,31 @@ impl Measurement<'_> {
             }
         }
         let runs = Layer::new(values, DMatrix::identity(size, size), (0..size).collect(), &self.readings.runs);
-        Fitted::of(runs, accepted.iter().filter(|at| at.layer == 1).flat_map(|at| at.columns()).collect())
+        Fitted::of(runs, accepted.iter().filter(|at| at.layer() == 1).flat_map(|at| at.columns()).collect())
+    }
+
+    /// Returns the places of positions that scatter more than the others, or `None` if a cause concerns no whole positions.
+    fn scattering(&self, cause: Cause) -> Option<Vec<usize>> {
+        match (cause.change, cause.at) {
+            (Change::Scatter, At::Position(place)) => Some(vec![place]),
+            (Change::Scatter, At::Positions(setting, value)) => Some(self.places(setting, value)),
+            _ => None,
+        }
     }
 
     /// Returns the groups of positions that scatter more than the others.
     pub(super) fn worse(&self, explanation: &Explanation) -> Vec<Vec<usize>> {
-        let worse = explanation.accepted.iter().filter_map(|at| match at.cause {
-            Cause::Position(place) => Some(vec![place]),
-            Cause::Positions(setting, value) => Some(self.places(setting, value)),
-            _ => None,
-        });
-        worse.collect()
+        explanation.accepted.iter().filter_map(|at| self.scattering(at.cause)).collect()
     }
 
-    /// Returns the largest part of a suspect shift in each row of the means, arcsec.
-    pub(super) fn biases_arcsec(&self, explanation: &Explanation) -> DVector<f64> {
-        let runs = self.readings.runs.len() as f64;
+    /// Returns the largest part of the shifts of readings in each row of the means, arcsec.
+    fn biases_arcsec(&self, accepted: &[&Hypothesis], found: &[Accepted]) -> DVector<f64> {
+        let runs = self.readings.runs.len();
         let mut biases = DVector::zeros(self.components.keeps.nrows());
-        for at in &explanation.accepted {
-            let turn = |place: usize, angle: usize| self.components.model.turns[place].axes[angle] * at.sizes_arcsec[0];
-            let shift = |size: f64, shift: DMatrix<f64>| shift.column(0) * size;
-            let of_place =
-                |place: usize, of: Vector3<f64>| self.in_places(&[place], 1, |_| Matrix3xX::from_columns(&[of]));
-            biases += match at.cause {
-                Cause::Angle { place, angle, .. } => shift(1.0 / runs, of_place(place, turn(place, angle))),
-                Cause::Reading { place, .. } => {
-                    shift(1.0 / runs, of_place(place, at.sizes_arcsec.fixed_rows::<3>(0).into()))
-                }
-                Cause::MovedPosition { place, after } => {
-                    let share = after.max(self.readings.runs.len() - after) as f64 / runs;
-                    shift(share, of_place(place, at.sizes_arcsec.fixed_rows::<3>(0).into()))
-                }
-                Cause::Bump { run, after, part, .. } => {
-                    let order = self.order(run);
-                    let first = order.iter().position(|place| *place == after).unwrap_or_default();
-                    self.rotation(part, &order[first..]) * &at.sizes_arcsec / runs
-                }
-                _ => continue,
-            };
+        for (at, found) in accepted.iter().zip(found).filter(|(at, _)| at.layer() == 0) {
+            let Change::Shift(shifted) = at.cause.change else { continue };
+            let count = if let Runs::From(after) = shifted { after.max(runs - after) } else { 1 };
+            biases += &at.rows.pattern * &found.sizes_arcsec * (count as f64 / runs as f64);
         }
         biases
     }
@@ -399,27 +334,22 @@ impl Measurement<'_> {
         let all = self.hypotheses();
         let is_coarse = self.readings.is_coarse(self.components.pooled_arcsec2.value.sqrt());
         let least_arcsec = STEPS_OF_ROUNDING * self.readings.step_arcsec;
-        let count = |at: &Hypothesis| all.iter().filter(|other| other.cause.kind() == at.cause.kind()).count() as f64;
-        let counts: Vec<(Kind, f64)> = all.iter().fold(Vec::new(), |mut counts, at| {
-            if counts.iter().all(|(kind, _)| *kind != at.cause.kind()) {
-                counts.push((at.cause.kind(), count(at)));
-            }
-            counts
-        });
-        let alike = |at: &Hypothesis| counts.iter().find(|(kind, _)| *kind == at.cause.kind()).map_or(1.0, |(_, n)| *n);
+        let mut counts = [0.0; Kind::ALL.len()];
+        all.iter().for_each(|at| counts[at.cause.kind as usize] += 1.0);
+        let alike = |at: &Hypothesis| counts[at.cause.kind as usize];
         let test = |fitted: &Fitted, at: &Hypothesis| {
             let found = fitted.test(at)?;
             // What is within the rounding is none.
             let span =
                 self.readings.runs.last().zip(self.readings.runs.first()).map_or(1, |(last, first)| last - first);
-            let is_rounding = match at.change {
+            let is_rounding = match at.cause.change {
                 Change::Shift(Runs::Line) => found.sizes_arcsec.amax() * f64::from(span) <= least_arcsec,
                 Change::Shift(_) => found.sizes_arcsec.amax() <= least_arcsec,
                 Change::Scatter => is_coarse,
             };
-            let probability = (alike(at) / at.cause.share(self.readings.runs.len()) * found.probability).min(1.0);
+            let probability = (alike(at) / share(at.cause.kind, self.readings.runs.len()) * found.probability).min(1.0);
             // Three angles make a reading: neither is likelier for their number.
-            let among = if at.cause.kind() == Kind::Angle { alike(at) / 3.0 } else { alike(at) };
+            let among = if at.cause.kind == Kind::Angle { alike(at) / 3.0 } else { alike(at) };
             let gain = found.gain - 2.0 * libm::log(among);
             (!is_rounding).then_some(Gain { probability, gain, ..found })
         };
@@ -433,8 +363,9 @@ impl Measurement<'_> {
                     let least = if path.is_empty() && !from_scatter { LEAST_GAIN } else { 0.0 };
                     let known: Vec<&Hypothesis> = accepted.iter().chain(&path).copied().collect();
                     let Some(fitted) = self.fitted(layer, &known) else { break };
-                    let others =
-                        all.iter().filter(|at| at.layer == layer && known.iter().all(|other| other.cause != at.cause));
+                    let others = all
+                        .iter()
+                        .filter(|at| at.layer() == layer && known.iter().all(|other| other.cause != at.cause));
                     let others = others.filter(|at| !path.is_empty() || at.is_scatter() == from_scatter);
                     let tests = others.filter_map(|at| Some((at, test(&fitted, at)?)));
                     let best = tests.max_by(|(_, a), (_, b)| a.gain.total_cmp(&b.gain));
@@ -460,11 +391,13 @@ impl Measurement<'_> {
         }
         let shifts: Vec<&Hypothesis> = accepted.iter().filter(|at| !at.is_scatter()).copied().collect();
         let (readings, runs) = (self.fitted(0, &shifts)?, self.fitted(1, &accepted)?);
+        let biases_arcsec = self.biases_arcsec(&accepted, &found);
         if !is_coarse {
             let within = self.fitted(0, &accepted)?;
-            found.extend(
-                (0..3).map(|axis| self.found(Cause::Axis(axis), 3.0 * beyond_others(&within.fit.rest[..3], axis))),
-            );
+            found.extend((0..3).map(|axis| {
+                let by_chance = 3.0 * beyond_others(&within.fit.rest[..3], axis);
+                self.found(Kind::AxisScatter, At::Axis(axis), by_chance)
+            }));
         }
         let mut components = self.components.clone();
         components
@@ -473,7 +406,7 @@ impl Measurement<'_> {
         found.extend(self.copied(&readings.residual));
         found.retain(|at| at.probability < STRAGGLER);
         found.sort_by(|a, b| a.probability.total_cmp(&b.probability));
-        Some(Explanation { accepted: found, components, of_runs: runs.fit.rest })
+        Some(Explanation { accepted: found, biases_arcsec, components, of_runs: runs.fit.rest })
     }
 
     /// Returns the hypotheses of a `path` without those that the others explain as well.
@@ -504,8 +437,9 @@ impl Measurement<'_> {
     }
 
     /// Returns a cause without a shift that chance explains with this probability, all of its kind together.
-    fn found(&self, cause: Cause, by_chance: f64) -> Accepted {
-        let probability = (by_chance / cause.share(self.readings.runs.len())).min(1.0);
+    fn found(&self, kind: Kind, at: At, by_chance: f64) -> Accepted {
+        let probability = (by_chance / share(kind, self.readings.runs.len())).min(1.0);
+        let cause = Cause { kind, at, change: Change::Scatter };
         Accepted { cause, sizes_arcsec: DVector::zeros(0), probability }
     }
 
@@ -518,7 +452,8 @@ impl Measurement<'_> {
             // Runs of coarse readings may agree about two axes; a variation within the rounding is none.
             let is_seen = variation.own_arcsec2.sqrt() > rounding_of(self.readings.step_arcsec);
             let freedom = of_runs[axis][1];
-            is_seen.then(|| self.found(Cause::RunAxis(axis), count * f_beyond(variation.ratio, freedom, 2.0 * freedom)))
+            let by_chance = count * f_beyond(variation.ratio, freedom, 2.0 * freedom);
+            is_seen.then(|| self.found(Kind::RunAxisScatter, At::RunAxis(axis), by_chance))
         });
         unequal.collect()
     }
@@ -540,7 +475,7 @@ impl Measurement<'_> {
             // Positions that scatter differently agree by chance within a few times of it.
             let ratio = TOO_WELL * rest / of_rest * freedom / apart.max(f64::MIN_POSITIVE);
             let chance = f_beyond(ratio, of_rest, freedom);
-            self.found(Cause::Copied(one, other), (runs * (runs - 1)) as f64 / 2.0 * chance)
+            self.found(Kind::RunsCopied, At::Runs(one, other), (runs * (runs - 1)) as f64 / 2.0 * chance)
         });
         pairs.filter(|at| at.probability < OUTLIER).collect()
     }
@@ -571,7 +506,7 @@ impl Fitted {
 
     /// Returns what a hypothesis explains, given what is accepted.
     fn test(&self, at: &Hypothesis) -> Option<Gain> {
-        let is_of_runs = at.layer == 1;
+        let is_of_runs = at.layer() == 1;
         if at.is_scatter() {
             let larger = self.layer.without(&self.residual, &self.fit, &at.rows.basis.shared);
             return gain(&self.fit, &larger, None, is_of_runs).map(|(gain, excess)| {
@@ -645,11 +580,16 @@ fn beyond_others(groups: &[[f64; 2]], own: usize) -> f64 {
 
 impl Hypothesis {
     fn is_scatter(&self) -> bool {
-        matches!(self.change, Change::Scatter)
+        self.cause.change == Change::Scatter
+    }
+
+    /// Returns 0 for the readings within the runs, 1 for the rotations of the runs.
+    fn layer(&self) -> usize {
+        usize::from(matches!(self.cause.at, At::Part(_)))
     }
 
     fn columns(&self) -> Vec<Column> {
-        let Change::Shift(runs) = self.change else { return Vec::new() };
+        let Change::Shift(runs) = self.cause.change else { return Vec::new() };
         self.rows.basis.shared.column_iter().map(|kept| Column { runs, kept: kept.into_owned() }).collect()
     }
 

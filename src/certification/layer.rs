@@ -11,7 +11,7 @@ const LEAST_KEPT: f64 = 1e-6;
 
 /// Contrast between the runs, by their places.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Runs {
+pub(crate) enum Runs {
     One(usize),
     From(usize),
     Line,
@@ -99,17 +99,25 @@ impl Layer {
 
     /// Returns the inner product of two contrasts, less their means.
     fn product(&self, one: Runs, other: Runs) -> f64 {
-        let count = self.times.len();
-        let each = |from: usize| (count - from) as f64;
         match (one, other) {
-            (Runs::One(one), Runs::One(other)) => f64::from(u8::from(one == other)) - 1.0 / count as f64,
-            (Runs::From(one), Runs::From(other)) => each(one.max(other)) - each(one) * each(other) / count as f64,
-            (Runs::Line, Runs::Line) => self.times_squared,
-            (Runs::One(one), Runs::From(from)) | (Runs::From(from), Runs::One(one)) => {
-                f64::from(u8::from(one >= from)) - each(from) / count as f64
-            }
-            (Runs::One(one), Runs::Line) | (Runs::Line, Runs::One(one)) => self.times[one],
+            (Runs::One(run), contrast) | (contrast, Runs::One(run)) => self.contrast(contrast, run),
             (Runs::From(from), Runs::Line) | (Runs::Line, Runs::From(from)) => self.later_times[from],
+            (Runs::Line, Runs::Line) => self.times_squared,
+            (Runs::From(one), Runs::From(other)) => {
+                let count = self.times.len();
+                let each = |from: usize| (count - from) as f64;
+                each(one.max(other)) - each(one) * each(other) / count as f64
+            }
+        }
+    }
+
+    /// Returns a contrast, less its mean, in a run.
+    fn contrast(&self, contrast: Runs, run: usize) -> f64 {
+        let share = |runs: usize| runs as f64 / self.times.len() as f64;
+        match contrast {
+            Runs::One(one) => f64::from(u8::from(run == one)) - share(1),
+            Runs::From(first) => f64::from(u8::from(run >= first)) - share(self.times.len() - first),
+            Runs::Line => self.times[run],
         }
     }
 
@@ -181,12 +189,7 @@ impl Layer {
 
     /// Returns a pattern of the rows along a contrast, less its mean over the runs.
     pub(super) fn shift(&self, runs: Runs, pattern: &DVector<f64>) -> DMatrix<f64> {
-        let contrast = |run: usize| match runs {
-            Runs::One(one) => f64::from(u8::from(run == one)),
-            Runs::From(first) => f64::from(u8::from(run >= first)),
-            Runs::Line => self.times[run],
-        };
-        let each = DVector::from_fn(self.times.len(), |run, _| contrast(run));
-        pattern * each.add_scalar(-each.mean()).transpose()
+        let each = DVector::from_fn(self.times.len(), |run, _| self.contrast(runs, run));
+        pattern * each.transpose()
     }
 }

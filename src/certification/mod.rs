@@ -7,7 +7,7 @@
 //! * `hypothesis`: the list of what may be wrong, and the search for what explains the measurement.
 //! * `kind`: kinds of findings and the probabilities at which they are reported; `found`: findings, their words, their JSON.
 //! * `remark`: remarks for the signatory.
-//! * `comparison`: the comparison of a later check run with the certificate; `compared`: its tests of positions and of all.
+//! * `comparison`: the comparison of a later check run with the certificate: of positions, of all, and of the whole.
 //! * `differences`: check minus certificate as rotations, and the tests of them.
 //! * `finding`: reasons for the result of that comparison, and its limits.
 //! * `transformation`: other units, columns, rows or signs of a file or a run.
@@ -15,7 +15,6 @@
 //!
 //! The model and the meaning of each number are described in docs/certification.md.
 
-pub(crate) mod compared;
 pub(crate) mod comparison;
 pub(crate) mod components;
 pub(crate) mod differences;
@@ -30,12 +29,11 @@ pub(crate) mod readings;
 pub(crate) mod remark;
 mod transformation;
 
-pub use compared::{CommonTurn, ComparedPosition, NotCompared, Test};
-pub use comparison::{Comparison, compare};
+pub use comparison::{CommonTurn, ComparedPosition, Comparison, NotCompared, Test, compare};
 use components::{Common, Components, Variance};
 use found::{Found, Naming, Scope};
 pub use header::{Header, NominalPosition};
-use hypothesis::{Cause, Explanation, Measurement, predictions};
+use hypothesis::{Accepted, At, Explanation, Measurement, predictions};
 use kind::Kind;
 use layer::Fit;
 pub use readings::{AngleReadings, NotBalanced};
@@ -43,7 +41,7 @@ use remark::Remark;
 
 use crate::attitude::ANGLES;
 use crate::calibration::inputs::Turn;
-use crate::stand::{self, ActsOn, Certificate, CertifiedPosition, Evidence, Stand};
+use crate::stand::{ActsOn, Certificate, CertifiedPosition, Evidence, Stand};
 use components::{case_turn, turns_at};
 use nalgebra::{DVector, Vector3};
 
@@ -56,10 +54,6 @@ pub(crate) const ENOUGH_RUNS: usize = 4;
 /// of eight positions). Where only the deviations of the stand, a few arcminutes, tell platform and base apart, it is 1/1000 or
 /// less, and the means are worse than without the whole run.
 const LEAST_WEIGHT: f64 = 0.1;
-
-/// Standard deviation of a visit, arcsec, below which the readings may be in arcminutes: two-axis stands repeat to about an
-/// arcsecond, and an autocollimator itself to a few hundredths.
-const LEAST_SCATTER_ARCSEC: f64 = 0.1;
 
 /// Reason why a stand was not certified.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -131,21 +125,22 @@ pub struct Certification {
     /// What explains the readings better than chance, the most likely first.
     pub(crate) findings: Vec<Found>,
     /// Variances of platform and base between the runs without what is named of them.
-    pub(crate) between: RunVariance,
+    pub(crate) between: Between,
     /// Remarks for the signatory of the certificate.
     pub(crate) remarks: Vec<Remark>,
     /// The remarks in words, a sentence each.
     pub warnings: Vec<String>,
 }
 
-/// Variances between the rotations of the runs without those that are named, per axis.
+/// Variances between whole runs, per axis, and the number of runs that were averaged.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct RunVariance {
-    /// Degrees of freedom per axis.
-    pub changes: f64,
+pub(crate) struct Between {
+    pub runs: f64,
     pub platform_arcsec2: f64,
     /// Variance of the base, arcsec²; 0 if its rotations cannot be distinguished from those of the platform.
     pub base_arcsec2: f64,
+    /// Degrees of freedom of all three axes.
+    pub degrees_of_freedom: f64,
 }
 
 /// Certifies the stand of `header` from `readings`, whose positions are in the order of the header.
@@ -173,7 +168,7 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     let findings = Naming { positions: &header.positions, readings, explanation: &explanation }.all();
     let worse = measurement.worse(&explanation);
     let scatter = components.scatter_of_positions(&worse).filter(|_| !worse.is_empty());
-    let biases = measurement.biases_arcsec(&explanation);
+    let biases = &explanation.biases_arcsec;
     let mut stand = Stand {
         stand: header.stand.clone(),
         certificate: header.certificate.clone(),
@@ -215,11 +210,7 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
         return Err(NotCertified::BelowCapability(below));
     }
     let between = between(&components, &explanation);
-    let mut remarks: Vec<Remark> = findings.iter().cloned().map(Box::new).map(Remark::Found).collect();
-    remarks.extend(remarks_on(&components, readings, &stand.positions));
-    remarks.extend(remark_on_rounding(readings));
-    remarks.extend(stand.certificate.performed.is_none().then_some(Remark::NotDated));
-    remarks.extend(stand::remarks::of(&stand.certificate, &stand.positions).into_iter().map(Remark::Odd));
+    let remarks = remark::remarks(&findings, &components, readings, &stand);
     let warnings = remarks.iter().map(ToString::to_string).collect();
     let (runs, repeated_rows) = (runs.to_vec(), readings.repeated_rows);
     Ok(Certification { stand, runs, repeated_rows, components, findings, between, remarks, warnings })
@@ -227,14 +218,16 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
 
 /// Returns the variances between the runs. A run that stands out would inflate the variance by which its own effect on the mean
 /// is tested; it is left out, and with it whatever else is named.
-fn between(components: &Components, explanation: &Explanation) -> RunVariance {
-    let is_of_runs = |cause: Cause| matches!(cause, Cause::Run { .. } | Cause::Move { .. } | Cause::Drift { .. });
-    let accused = explanation.accepted.iter().any(|at| is_of_runs(at.cause) && at.probability < kind::OUTLIER);
+fn between(components: &Components, explanation: &Explanation) -> Between {
+    let runs = components.run_turns.len() as f64;
+    let is_of_runs = |at: &Accepted| matches!(at.cause.at, At::Part(_));
+    let accused = explanation.accepted.iter().any(|at| is_of_runs(at) && at.probability < kind::OUTLIER);
     if !accused {
-        return RunVariance {
-            changes: components.run_turns.len() as f64 - 1.0,
+        return Between {
+            runs,
             platform_arcsec2: components.platform.between_runs_arcsec2,
             base_arcsec2: components.base.map_or(0.0, |base| base.between_runs_arcsec2),
+            degrees_of_freedom: 3.0 * (runs - 1.0),
         };
     }
     let mean = |axes: &[[f64; 2]]| {
@@ -243,7 +236,8 @@ fn between(components: &Components, explanation: &Explanation) -> RunVariance {
     };
     let (platform, base) = explanation.of_runs.split_at(3);
     let fewest = explanation.of_runs.iter().map(|of| of[1]).fold(f64::INFINITY, f64::min);
-    RunVariance { changes: fewest, platform_arcsec2: mean(platform), base_arcsec2: mean(base) }
+    let degrees_of_freedom = 3.0 * fewest;
+    Between { runs, platform_arcsec2: mean(platform), base_arcsec2: mean(base), degrees_of_freedom }
 }
 
 /// Replaces the angles of excluded readings by their predictions from all other readings (Yates' missing-plot
@@ -271,11 +265,10 @@ pub(crate) fn predicted(
     // The axes of a position depend on its mean, so the second pass removes what is left of the second order.
     for _ in 0..2 {
         let (turns, fit) = fit(&completed)?;
-        let shift = |(number, (place, _)): (usize, &(usize, usize))| {
-            turns[*place].angles_of_rotation() * fit.sizes.fixed_rows::<3>(3 * number).into_owned()
-        };
-        let shifts: Vec<Vector3<f64>> = readings.missing.iter().enumerate().map(shift).collect();
-        completed = completed.shifted(&shifts);
+        for (number, (place, run)) in readings.missing.iter().enumerate() {
+            let shift = turns[*place].angles_of_rotation() * fit.sizes.fixed_rows::<3>(3 * number);
+            completed.each_arcsec[*place][*run] -= shift;
+        }
     }
     let (_, fit) = fit(&completed)?;
     Ok((completed, Some(fit)))
@@ -411,35 +404,4 @@ fn rounded(u: f64) -> f64 {
 /// Returns degrees of freedom rounded to a tenth, at least 0.1; finer digits have no practical effect.
 fn freedom(value: f64) -> f64 {
     (value * 10.0).round().max(1.0) / 10.0
-}
-
-/// Returns the remark on angles whose readings stay on one step, or `None` if there are none.
-fn remark_on_rounding(readings: &AngleReadings) -> Option<Remark> {
-    let places = 0..readings.each_arcsec.len();
-    let u_arcsec: Vec<f64> =
-        places.flat_map(|place| [0, 1, 2].map(|angle| readings.rounding_arcsec(place, angle))).collect();
-    let angles = u_arcsec.iter().filter(|u| **u > 0.0).count();
-    let rounding = Remark::Rounding { angles, of: u_arcsec.len(), step_arcsec: readings.step_arcsec };
-    (angles > 0).then_some(rounding)
-}
-
-fn remarks_on(components: &Components, readings: &AngleReadings, positions: &[CertifiedPosition]) -> Vec<Remark> {
-    let mut remarks = Vec::new();
-    let runs = readings.runs.len();
-    if runs < ENOUGH_RUNS {
-        remarks.push(Remark::FewRuns { runs, degrees_of_freedom: 3 * (runs - 1) });
-    }
-    if components.base_axes < 3 {
-        remarks.push(Remark::BaseAxes(components.base_axes));
-    }
-    let angles = positions.iter().flat_map(CertifiedPosition::angles_arcsec);
-    let largest_arcsec = angles.fold(0.0, |a, b| f64::max(a, b.abs()));
-    let scatter_arcsec = components.pooled_arcsec2.value.sqrt();
-    if largest_arcsec < 0.5 {
-        remarks.push(Remark::SmallAngles(largest_arcsec));
-    } else if scatter_arcsec < LEAST_SCATTER_ARCSEC && readings.step_arcsec < LEAST_SCATTER_ARCSEC {
-        // Readings in coarser steps do not show their scatter.
-        remarks.push(Remark::LittleScatter(scatter_arcsec));
-    }
-    remarks
 }

@@ -24,7 +24,7 @@ pub(crate) const COLUMNS: [&str; 6] = ["i", "j", "run", "alpha_arcsec", "beta_ar
 pub(crate) const LARGEST_SCATTER_ARCSEC: f64 = 600.0;
 
 /// Readings of every position in every run.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct AngleReadings {
     /// Numbers of the runs, ascending.
     pub(crate) runs: Vec<u32>,
@@ -65,11 +65,8 @@ impl AngleReadings {
     pub fn new(runs: Vec<u32>, each_arcsec: Vec<Vec<Vector3<f64>>>) -> Result<Self, NotBalanced> {
         let balanced = !runs.is_empty() && !each_arcsec.is_empty();
         if balanced && each_arcsec.iter().all(|position| position.len() == runs.len()) {
-            let (excluded, missing) = (Vec::new(), Vec::new());
-            let lines = Vec::new();
             let step_arcsec = step_of_meter(each_arcsec.iter().flatten().flat_map(|angles| angles.iter().copied()));
-            let (repeated_rows, sha256, remark) = (0, None, None);
-            Ok(Self { runs, each_arcsec, lines, step_arcsec, repeated_rows, sha256, remark, excluded, missing })
+            Ok(Self { runs, each_arcsec, step_arcsec, ..Self::default() })
         } else {
             Err(NotBalanced)
         }
@@ -158,19 +155,9 @@ impl AngleReadings {
             lines,
             step_arcsec: step_of_meter(rows.iter().flat_map(|(_, angles, _)| angles.iter().copied())),
             repeated_rows: rows.len() - averages.len(),
-            sha256: None,
-            remark: None,
-            excluded: Vec::new(),
             missing,
+            ..Self::default()
         }
-    }
-
-    /// Subtracts `shifts_arcsec` (α, β, γ) from the predictions, in the order of `missing`.
-    pub(crate) fn shifted(mut self, shifts_arcsec: &[Vector3<f64>]) -> Self {
-        for ((place, run), shift) in self.missing.iter().zip(shifts_arcsec) {
-            self.each_arcsec[*place][*run] -= shift;
-        }
-        self
     }
 
     /// Returns the line of the file with the reading of a position (by its place in the order requested) in a run (by

@@ -3,6 +3,7 @@
 #![allow(unreachable_pub)]
 
 use crate::report::Language;
+use crate::stand::check_not_empty;
 use crate::text::{Document, Field, Path, Problems, Unreadable, record, word_of_a_key, words, yaml};
 use jiff::civil::Date;
 
@@ -112,10 +113,7 @@ impl Administrative {
             let country = contact.as_ref().and_then(|contact| contact.country.as_deref());
             check_country(country, &at.key(key), problems);
         }
-        if self.responsible.as_ref().is_some_and(Vec::is_empty) {
-            let advice = "omit the key if there is none";
-            problems.at(&at.key("responsible"), "an empty list", "at least one name", advice);
-        }
+        check_not_empty(self.responsible.as_ref(), &at.key("responsible"), "at least one name", problems);
         // The schema of the DCC has no empty texts. A country without a code is already reported.
         let mut check_text = |at: &Path, text: &str| {
             if text.trim().is_empty() && at.last_key() != "country" {

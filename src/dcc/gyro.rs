@@ -28,7 +28,7 @@ const RULE_ID: &str = "decision_rule";
 /// Calibration of a gyro with a verified passport, fit for a certificate.
 pub(crate) struct Calibrated<'a> {
     content: &'a Content,
-    passport_sha256: String,
+    passport_sha256: &'a str,
     laboratory: Option<&'a Laboratory>,
     done: &'a Done,
     /// Gyro, day and conditions of the calibration.
@@ -48,7 +48,7 @@ impl<'a> Calibrated<'a> {
     /// Returns the reason if the result is not that of the gyro, or has other parameters than a certificate states.
     pub(crate) fn new(
         content: &'a Content,
-        passport_sha256: &str,
+        passport_sha256: &'a str,
         laboratory: Option<&'a Laboratory>,
         gyro_type: Option<&'a GyroType>,
         done: &'a Done,
@@ -65,7 +65,6 @@ impl<'a> Calibrated<'a> {
             return Err("no DCC was written: it states the parameters of the paper's model; omit --model, or --dcc");
         };
         let judged = gyro_type.zip(document.verdict.as_ref());
-        let passport_sha256 = passport_sha256.to_owned();
         Ok(Self { content, passport_sha256, laboratory, done, subject, method: answer.method, found, judged })
     }
 }
@@ -92,9 +91,10 @@ pub(crate) fn of_gyro(
         item: item(calibrated),
         accreditation: None,
         statements: statements(calibrated),
+        result: result(calibrated, &facts),
+        document: None,
     };
-    let xml = parts::certificate(&facts, subject, result(calibrated, &facts), None);
-    Ok(Dcc { number: facts.number, xml })
+    Ok(parts::certificate(&facts, subject))
 }
 
 fn item(calibrated: &Calibrated) -> Element {
@@ -124,34 +124,18 @@ fn statements(calibrated: &Calibrated) -> Vec<Element> {
         let visit = format!("{i}, {j}, {visit}, {}: {why}", cycle.unwrap_or(1));
         parts::statement(texts::EXCLUDED, Some(&visit))
     });
-    let suspects = calibrated.done.calibration.suspects().map(|suspect| {
-        let declaration = in_words("dcc:declaration", suspect.said());
-        parts::statement(words::SUSPECT, None).and(declaration)
-    });
+    let suspects = calibrated.done.calibration.suspects().map(|suspect| parts::said(words::SUSPECT, suspect.said()));
     let dependent = calibrated.judged.map_or_else(Vec::new, |(_, verdict)| verdict.dependent());
     let dependent = (!dependent.is_empty()).then(|| {
         let names = dependent.iter().map(|one| one.symbol()).collect::<Vec<_>>().join(", ");
-        let declaration = in_words("dcc:declaration", texts::dependent(names));
-        parts::statement(words::CONFORMITY_OPEN, None).and(declaration)
+        parts::said(words::CONFORMITY_OPEN, texts::dependent(names))
     });
-    let missing = calibrated.done.missing.iter().map(|what| {
-        let what = in_words("dcc:declaration", not_stated(*what));
-        parts::statement(words::NOT_STATED, None).and(what)
-    });
+    let missing = calibrated.done.missing.iter().map(|what| parts::said(words::NOT_STATED, not_stated(*what)));
     let certificate = &calibrated.content.certificate;
-    let outside = TemperatureOutside::of(certificate, calibrated.subject, calibrated.laboratory).map(|outside| {
-        let declaration = in_words("dcc:declaration", temperature_outside(&outside));
-        parts::statement(texts::TEMPERATURE_IS_OUTSIDE, None).and(declaration)
-    });
-    conformity
-        .into_iter()
-        .chain([currents])
-        .chain(excluded)
-        .chain(suspects)
-        .chain(dependent)
-        .chain(outside)
-        .chain(missing)
-        .collect()
+    let outside = TemperatureOutside::of(certificate, calibrated.subject, calibrated.laboratory);
+    let outside = outside.map(|outside| parts::said(texts::TEMPERATURE_IS_OUTSIDE, temperature_outside(&outside)));
+    let of_readings = conformity.into_iter().chain([currents]).chain(excluded).chain(suspects);
+    of_readings.chain(dependent).chain(outside).chain(missing).collect()
 }
 
 fn passes(row: &ParameterVerdict) -> bool {
@@ -179,7 +163,7 @@ fn result(calibrated: &Calibrated, facts: &Facts) -> Element {
     let results = parts::results(texts::PARAMETERS, words::PARAMETERS_NOTE, quantities(calibrated));
     let gravity_u_m_per_s2 = calibrated.content.site.gravity_u_m_per_s2();
     let gravity = real(calibrated.found.gravity_m_per_s2, units::M_PER_S2, gravity_u_m_per_s2);
-    let conditions = [parts::temperature(facts.temperature_c), parts::condition(words::GRAVITY, gravity)];
+    let conditions = parts::temperature(facts).into_iter().chain([parts::condition(words::GRAVITY, gravity)]);
     Element::new("dcc:measurementResult")
         .and(in_words("dcc:name", texts::TITLE))
         .and(in_words("dcc:description", words::NOT_SIGNED))
@@ -195,7 +179,7 @@ fn equipment(calibrated: &Calibrated) -> Element {
     let Content { stand, passport, .. } = calibrated.content;
     Element::new("dcc:measuringEquipment")
         .and(in_words("dcc:name", words::STAND))
-        .and(parts::hashed("dcc:certificate", words::PASSPORT, &passport.id, &calibrated.passport_sha256))
+        .and(parts::hashed("dcc:certificate", words::PASSPORT, &passport.id, calibrated.passport_sha256))
         .and(parts::manufacturer(stand.manufacturer.as_deref()))
         .and(Element::text("dcc:model", &stand.model))
         .and(Element::new("dcc:identifications").and(parts::serial(stand.serial.as_str())))

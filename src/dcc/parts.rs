@@ -1,11 +1,13 @@
 //! Elements that every DCC has: texts, quantities, and the administrative data.
 
-use super::administrative::Contact;
+use super::Dcc;
+use super::administrative::{Contact, Location};
 use super::facts::{Facts, stated};
 use super::xml::Element;
 use crate::report::page::language::Text;
 use crate::wording::Words;
 use crate::wording::texts::dcc as words;
+use std::fmt::Display;
 
 const SCHEMA_VERSION: &str = "3.3.0";
 
@@ -81,6 +83,11 @@ pub(super) fn statement(name: Text, declaration: Option<&str>) -> Element {
         .and(stated(declaration).map(|text| plain("dcc:declaration", text)))
 }
 
+/// Returns a statement with words of the program.
+pub(super) fn said(name: Text, declaration: impl Into<Words>) -> Element {
+    statement(name, None).and(in_words("dcc:declaration", declaration))
+}
+
 pub(super) fn serial(value: &str) -> Element {
     identification(value, words::SERIAL).with("refType", "basic_serialNumber")
 }
@@ -125,8 +132,8 @@ pub(super) fn method(name: Element, description: Element, link: Option<&str>) ->
 }
 
 pub(super) fn stated_method(facts: &Facts) -> Option<Element> {
-    let name = || in_words("dcc:name", words::METHOD);
-    facts.method.as_deref().map(|text| method(name(), plain("dcc:description", text), None))
+    let of = |text: &String| method(in_words("dcc:name", words::METHOD), plain("dcc:description", text), None);
+    facts.file.method.as_ref().map(of)
 }
 
 pub(super) fn results(name: Text, note: Text, quantities: Vec<Element>) -> Element {
@@ -139,8 +146,9 @@ pub(super) fn results(name: Text, note: Text, quantities: Vec<Element>) -> Eleme
     Element::new("dcc:results").and(result)
 }
 
-pub(super) fn temperature(temperature_c: f64) -> Element {
-    condition(words::TEMPERATURE, real(temperature_c, units::CELSIUS, None)).with("refType", "basic_temperature")
+pub(super) fn temperature(facts: &Facts) -> Option<Element> {
+    let of = |celsius| condition(words::TEMPERATURE, real(celsius, units::CELSIUS, None));
+    facts.file.temperature_c.map(|celsius| of(celsius).with("refType", "basic_temperature"))
 }
 
 pub(super) fn condition(name: Text, value: Element) -> Element {
@@ -148,42 +156,46 @@ pub(super) fn condition(name: Text, value: Element) -> Element {
     Element::new("dcc:influenceCondition").and(in_words("dcc:name", name)).and(Element::new("dcc:data").and(value))
 }
 
-/// Parts of the administrative data that differ between a stand and a gyro.
-pub(super) struct Subject {
+/// Parts that differ between a stand and a gyro.
+pub(super) struct Subject<'a> {
     /// Identification of the certificate besides its number.
     pub identification: Option<Element>,
     pub previous_report: Option<Element>,
     pub item: Element,
-    pub accreditation: Option<String>,
+    pub accreditation: Option<&'a str>,
     /// Statements on the whole certificate.
     pub statements: Vec<Element>,
+    pub result: Element,
+    pub document: Option<Element>,
 }
 
-pub(super) fn certificate(facts: &Facts, subject: Subject, result: Element, document: Option<Element>) -> String {
-    Element::new("dcc:digitalCalibrationCertificate")
+/// Returns the whole DCC.
+pub(super) fn certificate(facts: &Facts, subject: Subject) -> Dcc {
+    let number = facts.file.number.clone().unwrap_or_default();
+    let statements = (!subject.statements.is_empty()).then(|| Element::new("dcc:statements").and(subject.statements));
+    let laboratory = Element::new("dcc:calibrationLaboratory")
+        .and(text("dcc:calibrationLaboratoryCode", stated(subject.accreditation)))
+        .and(contact("dcc:contact", facts.file.laboratory.as_ref(), facts.address));
+    let administrative_data = Element::new("dcc:administrativeData")
+        .and(software("dcc:dccSoftware"))
+        .and(vocabularies())
+        .and(core_data(facts, subject.identification, subject.previous_report))
+        .and(Element::new("dcc:items").and(subject.item))
+        .and(laboratory)
+        .and(persons(facts))
+        .and(contact("dcc:customer", facts.file.customer.as_ref(), None))
+        .and(statements);
+    let xml = Element::new("dcc:digitalCalibrationCertificate")
         .with("xmlns:dcc", "https://ptb.de/dcc")
         .with("xmlns:si", "https://ptb.de/si")
         .with("xmlns:xsi", "http://www.w3.org/2001/XMLSchema-instance")
         .with("xsi:schemaLocation", format!("https://ptb.de/dcc https://ptb.de/dcc/v{SCHEMA_VERSION}/dcc.xsd"))
         .with("schemaVersion", SCHEMA_VERSION)
-        .and(administrative_data(facts, subject))
-        .and(Element::new("dcc:measurementResults").and(result))
-        .and(document)
-        .document(&facts.languages)
-}
-
-fn administrative_data(facts: &Facts, subject: Subject) -> Element {
-    let core = core_data(facts, subject.identification, subject.previous_report);
-    let statements = (!subject.statements.is_empty()).then(|| Element::new("dcc:statements").and(subject.statements));
-    Element::new("dcc:administrativeData")
-        .and(software("dcc:dccSoftware"))
-        .and(vocabularies())
-        .and(core)
-        .and(Element::new("dcc:items").and(subject.item))
-        .and(laboratory(facts, subject.accreditation.as_deref()))
-        .and(persons(facts))
-        .and(contact("dcc:customer", &facts.customer, None))
-        .and(statements)
+        .and(administrative_data)
+        .and(Element::new("dcc:measurementResults").and(subject.result))
+        .and(subject.document)
+        .document(&facts.languages);
+    Dcc { number, xml }
 }
 
 fn vocabularies() -> Element {
@@ -199,31 +211,31 @@ fn vocabularies() -> Element {
 }
 
 fn core_data(facts: &Facts, identification: Option<Element>, previous_report: Option<Element>) -> Element {
-    let [begin, end] = facts.performed;
+    let ([begin, end], file) = (facts.performed, &facts.file);
     let used = facts.languages.iter().map(|language| Element::text("dcc:usedLangCodeISO639_1", language.tag()));
     Element::new("dcc:coreData")
-        .and(Element::text("dcc:countryCodeISO3166_1", &facts.country))
+        .and(text("dcc:countryCodeISO3166_1", file.country.as_deref()))
         .and(used)
         .and(Element::text("dcc:mandatoryLangCodeISO639_1", facts.mandatory.tag()))
-        .and(Element::text("dcc:uniqueIdentifier", &facts.number))
+        .and(text("dcc:uniqueIdentifier", file.number.as_deref()))
         .and(identification.map(|one| Element::new("dcc:identifications").and(one)))
-        .and(facts.received.map(|day| Element::text("dcc:receiptDate", day)))
+        .and(text("dcc:receiptDate", facts.received))
         .and(Element::text("dcc:beginPerformanceDate", begin))
         .and(Element::text("dcc:endPerformanceDate", end))
-        .and(Element::text("dcc:performanceLocation", facts.location.word()))
-        .and(facts.issued.map(|day| Element::text("dcc:issueDate", day)))
+        .and(text("dcc:performanceLocation", file.location.map(Location::word)))
+        .and(text("dcc:issueDate", file.issued))
         .and(previous_report)
 }
 
-fn laboratory(facts: &Facts, accreditation: Option<&str>) -> Element {
-    Element::new("dcc:calibrationLaboratory")
-        .and(stated(accreditation).map(|code| Element::text("dcc:calibrationLaboratoryCode", code)))
-        .and(contact("dcc:contact", &facts.laboratory, facts.address.as_deref()))
+/// Returns an element with a text, or none without one.
+fn text(name: &'static str, text: Option<impl Display>) -> Option<Element> {
+    text.map(|text| Element::text(name, text))
 }
 
 /// Returns name and address; `further` is an address in free text.
-fn contact(name: &'static str, contact: &Contact, further: Option<&str>) -> Element {
-    let text = |element, text: &Option<String>| stated(text.as_deref()).map(|text| Element::text(element, text));
+fn contact(name: &'static str, contact: Option<&Contact>, further: Option<&str>) -> Option<Element> {
+    let contact = contact?;
+    let text = |element, of: &Option<String>| text(element, stated(of.as_deref()));
     let location = Element::new("dcc:location")
         .and(text("dcc:street", &contact.street))
         .and(text("dcc:streetNo", &contact.street_no))
@@ -233,17 +245,18 @@ fn contact(name: &'static str, contact: &Contact, further: Option<&str>) -> Elem
         .and(text("dcc:state", &contact.state))
         .and(text("dcc:countryCode", &contact.country))
         .and(further.map(|further| plain("dcc:further", further)));
-    Element::new(name)
+    let element = Element::new(name)
         .and(contact.name.as_deref().map(|name| plain("dcc:name", name)))
         .and(text("dcc:eMail", &contact.email))
         .and(text("dcc:phone", &contact.phone))
-        .and(location)
+        .and(location);
+    Some(element)
 }
 
 fn persons(facts: &Facts) -> Element {
     let person =
         |name: &str| Element::new("dcc:respPerson").and(Element::new("dcc:person").and(plain("dcc:name", name)));
     let signer = facts.main_signer.iter().map(|name| person(name).and(Element::text("dcc:mainSigner", "true")));
-    let others = facts.responsible.iter().map(|name| person(name));
+    let others = facts.file.responsible.iter().flatten().map(|name| person(name));
     Element::new("dcc:respPersons").and(signer.chain(others))
 }

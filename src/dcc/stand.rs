@@ -10,6 +10,7 @@ use crate::report::Languages;
 use crate::report::page::language::Text;
 use crate::stand::{CertifiedPosition, Datum};
 use crate::text::Problems;
+use crate::wording::Words;
 use crate::wording::texts::calibration as texts;
 use crate::wording::texts::dcc as words;
 use base64ct::{Base64, Encoding};
@@ -21,17 +22,10 @@ pub(crate) fn of_stand(
     administrative: Option<&Administrative>,
     lang: Option<&Languages>,
 ) -> Result<Dcc, Problems> {
-    let facts = Facts::collect(&known(content), administrative, lang)?;
+    let known = known(content);
+    let facts = Facts::collect(&known, administrative, lang)?;
     let id = &content.passport.id;
     let predecessor = content.passport.reissued_from.as_ref();
-    let subject = Subject {
-        identification: Some(parts::identification(id, words::PASSPORT_ID)),
-        previous_report: predecessor
-            .map(|from| parts::hashed("dcc:previousReport", words::PREDECESSOR, &from.id, &from.sha256)),
-        item: item(content),
-        accreditation: content.certificate.accreditation.clone(),
-        statements: statements(content, &facts),
-    };
     let sha256 = sha256_hex(bytes);
     let file_name = format!("{}-{}.yaml", content.site.id, content.passport.revision);
     let document = Element::new("dcc:document")
@@ -40,8 +34,17 @@ pub(crate) fn of_stand(
         .and(Element::text("dcc:fileName", file_name))
         .and(Element::text("dcc:mimeType", "application/yaml"))
         .and(Element::text("dcc:dataBase64", Base64::encode_string(bytes)));
-    let xml = parts::certificate(&facts, subject, result(content, &facts), Some(document));
-    Ok(Dcc { number: facts.number, xml })
+    let subject = Subject {
+        identification: Some(parts::identification(id, words::PASSPORT_ID)),
+        previous_report: predecessor
+            .map(|from| parts::hashed("dcc:previousReport", words::PREDECESSOR, &from.id, &from.sha256)),
+        item: item(content),
+        accreditation: content.certificate.accreditation.as_deref(),
+        statements: statements(content, &facts),
+        result: result(content, &facts),
+        document: Some(document),
+    };
+    Ok(parts::certificate(&facts, subject))
 }
 
 fn known(content: &Content) -> Known<'_> {
@@ -83,7 +86,7 @@ fn statements(content: &Content, facts: &Facts) -> Vec<Element> {
         Element::new("dcc:statement")
             .with("refType", "basic_metrologicallyTraceable")
             .and(in_words("dcc:name", words::TRACEABILITY))
-            .and(facts.traceable.map(|traceable| Element::text("dcc:traceable", traceable)))
+            .and(facts.file.traceable.map(|traceable| Element::text("dcc:traceable", traceable)))
             .and(plain("dcc:declaration", text))
     });
     let valid_until = certificate.valid_until.map(|day| {
@@ -117,9 +120,12 @@ fn result(content: &Content, facts: &Facts) -> Element {
     let quantities = quantities(&content.positions);
     let references = content.certificate.references.iter().flatten().map(|reference| {
         let number = parts::identification(&reference.number, words::REFERENCE);
+        let issued = words::reference_issued(Words::Given(reference.laboratory.clone()), reference.issued);
+        let certificate = parts::hashed("dcc:certificate", words::REFERENCE, &reference.number, &reference.sha256)
+            .and(in_words("dcc:description", issued));
         Element::new("dcc:measuringEquipment")
             .and(in_words("dcc:name", words::INSTRUMENT))
-            .and(parts::hashed("dcc:certificate", words::REFERENCE, &reference.number, &reference.sha256))
+            .and(certificate)
             .and(Element::new("dcc:identifications").and(number))
     });
     let references: Vec<Element> = references.collect();
@@ -129,7 +135,7 @@ fn result(content: &Content, facts: &Facts) -> Element {
         .and(Element::new("dcc:usedMethods").and(parts::stated_method(facts)))
         .and(parts::software("dcc:usedSoftware"))
         .and(equipment)
-        .and(Element::new("dcc:influenceConditions").and(parts::temperature(facts.temperature_c)))
+        .and(Element::new("dcc:influenceConditions").and(parts::temperature(facts)))
         .and(parts::results(words::POSITIONS, words::POSITIONS_NOTE, quantities))
 }
 

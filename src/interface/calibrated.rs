@@ -18,7 +18,7 @@ use crate::text::printable;
 use crate::uncertainty::Budget;
 #[cfg(feature = "monte-carlo")]
 use crate::uncertainty::{self, Engine, MonteCarlo, Trials};
-use crate::wording::{Language, plain};
+use crate::wording::{Language, Words, plain};
 use jiff::Timestamp;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -334,10 +334,8 @@ impl<'a> Prepared<'a> {
         document.remarks = calibration::remarks::remarks(&calibration, &readings);
         let of_laboratory = laboratory.into_iter().flat_map(Laboratory::remarks);
         let of_files = of_laboratory.chain(gyro_type.into_iter().flat_map(GyroType::remarks));
-        let of_conditions = warning
-            .map(|warning| warning.to_string())
-            .into_iter()
-            .chain(of_files.map(|words| plain(&words.plain(Language::English))));
+        let english = |words: Words| plain(&words.plain(Language::English));
+        let of_conditions = warning.map(|warning| warning.to_string()).into_iter().chain(of_files.map(english));
         let of_others = of_conditions.chain(early).chain(another_type(previous, gyro_type)).chain(unknown_gyro.clone());
         document.remarks.extend(readings.remarks.iter().cloned().chain(of_others));
         if let Some(gyro_type) = gyro_type {
@@ -359,9 +357,7 @@ impl<'a> Prepared<'a> {
         let unexplained = last.and_then(|earlier| document.unexplained_in_words(earlier));
         let of_verdict = document.verdict.as_ref().filter(|verdict| !verdict.withheld);
         let common_factor = of_verdict.and_then(Verdict::common_factor_in_words);
-        let of_change =
-            unexplained.into_iter().chain(common_factor).map(|words| plain(&words.plain(Language::English)));
-        document.remarks.extend(of_change);
+        document.remarks.extend(unexplained.into_iter().chain(common_factor).map(english));
         let limits = last.map_or_else(Vec::new, |earlier| document.limits_in_words(earlier));
         document.remarks.extend(limits);
         let earlier = last.map(|earlier| (earlier.clone(), document.no_change(earlier)));

@@ -5,7 +5,7 @@
 //! of the gyro, and the repeatability of positioning. The information is M = Σ F_p' C_p⁻¹ F_p with the two rows
 //! F_p = (J, 1, n) of each position, and the covariance of the parameters M⁻¹; the scatter of turn-ons adds to ω_0.
 
-use super::criterion::{Criterion, Symmetric, add, cholesky, inverse_of_lower};
+use super::criterion::{Criterion, Matrix8, cholesky, inverse_of_lower};
 use super::{NoPlan, Question, Visited};
 use crate::attitude::{Deviation, PAPER_FRAME_AXIS_AZIMUTH_DEG};
 use crate::calibration::sensitivity::Sensitivity;
@@ -15,8 +15,8 @@ use crate::coefficients::{Coefficients, EIGHT_POSITIONS, Position, PositionIndex
 use crate::gyro::GyroType;
 use crate::passport::accuracy::at_gravity;
 use crate::site::Site;
-use crate::stand::{CertifiedPosition, Stand};
-use nalgebra::{Matrix2, Vector2};
+use crate::stand::CertifiedPosition;
+use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
 
 /// Nominal angles of the candidates without a stand: every θ with every φ, multiples of this step, degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,7 +59,7 @@ impl Angles {
 struct Candidate {
     position: Position,
     /// F: two rows, eight parameters in units of their tolerances.
-    rows: [[f64; 8]; 2],
+    rows: SMatrix<f64, 2, 8>,
     /// A: covariance that no visit reduces, (°/h)².
     fixed: Matrix2<f64>,
     /// B: covariance of one visit, (°/h)².
@@ -73,22 +73,14 @@ impl Candidate {
             return Matrix2::zeros();
         }
         let covariance = self.fixed + self.of_visit / f64::from(visits);
-        // Positive definite, because the floor of the meter is positive.
-        covariance.try_inverse().unwrap_or_default()
+        // Positive definite, because the floor of the meter is positive. Symmetric to the last digit.
+        let inverse = covariance.try_inverse().unwrap_or_default();
+        Matrix2::new(inverse.m11, inverse.m12, inverse.m12, inverse.m22)
     }
 
     /// Returns F' C⁻¹ F.
-    fn information(&self, visits: u32) -> Symmetric {
-        let weight = self.weight(visits);
-        let [x, y] = &self.rows;
-        let mut information = [[0.0; 8]; 8];
-        for (row, values) in information.iter_mut().enumerate() {
-            let weighted = [weight.m11 * x[row] + weight.m12 * y[row], weight.m12 * x[row] + weight.m22 * y[row]];
-            for (column, value) in values.iter_mut().enumerate().take(row + 1) {
-                *value = weighted[0] * x[column] + weighted[1] * y[column];
-            }
-        }
-        information
+    fn information(&self, visits: u32) -> Matrix8 {
+        self.rows.transpose() * self.weight(visits) * self.rows
     }
 }
 
@@ -117,41 +109,33 @@ pub(crate) struct Candidates {
 impl Candidates {
     /// Prepares the candidates of a question, with the frame's axis at an azimuth.
     pub(crate) fn new(question: &Question, azimuth_deg: f64) -> Result<Self, NoPlan> {
-        let all = Self::without(&[], question, azimuth_deg)?;
+        let prepared = |question: &Question, azimuth_deg: f64, left_out: &[PositionIndex]| {
+            Self::of(question, azimuth_deg, question.angles.positions(), |index| !left_out.contains(&index))
+        };
+        let all = prepared(question, azimuth_deg, &[])?;
         let beyond = all.beyond(question.laboratory.meter.range_ma);
-        let prepared = match beyond.len() {
+        let in_range = match beyond.len() {
             0 => all,
             every if every == all.len() => return Err(NoPlan::Range(question.laboratory.meter.range_ma)),
-            some => Self { beyond_range: some, ..Self::without(&beyond, question, azimuth_deg)? },
+            some => Self { beyond_range: some, ..prepared(question, azimuth_deg, &beyond)? },
         };
-        prepared.determine().map_err(|why| {
+        in_range.determine().map_err(|why| {
             let earth = question.site.earth();
             let (latitude_deg, horizontal_deg_per_h) = (earth.latitude_deg, earth.horizontal_deg_per_h);
-            let others = [0.0, PAPER_FRAME_AXIS_AZIMUTH_DEG]
-                .map(|azimuth_deg| Self::nominal(question, &Angles::QUADRANTS.positions(), azimuth_deg));
+            let nominal = Question { stand: None, angles: Angles::QUADRANTS, ..question.clone() };
+            let others = [0.0, PAPER_FRAME_AXIS_AZIMUTH_DEG].map(|azimuth_deg| prepared(&nominal, azimuth_deg, &[]));
             match others.iter().flatten().any(|others| others.determine().is_ok()) {
                 true => NoPlan::Undetermined(why),
                 false => NoPlan::NearThePole { latitude_deg, horizontal_deg_per_h },
             }
         })?;
-        Ok(prepared)
+        Ok(in_range)
     }
 
     /// Checks that all candidates together determine the parameters.
     fn determine(&self) -> Result<(), NoLeastSquares> {
         let meter = self.setup.uncertainty().meter;
         least_squares::solve(self.setup.coefficients(), &self.currents_ma, &meter, Model::Paper).map(|_| ())
-    }
-
-    /// Prepares the candidates of a question except some positions.
-    fn without(left_out: &[PositionIndex], question: &Question, azimuth_deg: f64) -> Result<Self, NoPlan> {
-        let is_left = |index: PositionIndex| !left_out.contains(&index);
-        let Some(stand) = question.stand else {
-            let positions: Vec<_> = question.angles.positions().into_iter().filter(|at| is_left(at.index)).collect();
-            return Self::nominal(question, &positions, azimuth_deg);
-        };
-        let positions: Vec<_> = stand.positions.iter().filter(|at| is_left(at.index())).cloned().collect();
-        Self::certified(question, stand, &positions, azimuth_deg)
     }
 
     /// Returns the positions in which the gyro needs more than `range_ma`, which the meter cannot read.
@@ -162,39 +146,36 @@ impl Candidates {
 
     /// Prepares the paper's eight positions; returns `None` if the stand lacks one, or the meter cannot read one.
     pub(crate) fn paper(question: &Question, azimuth_deg: f64) -> Result<Option<Self>, NoPlan> {
-        let in_range = |eight: Self| eight.beyond(question.laboratory.meter.range_ma).is_empty().then_some(eight);
-        let Some(stand) = question.stand else {
-            return Self::nominal(question, &eight_positions(Deviation::default), azimuth_deg).map(in_range);
-        };
-        let find = |index: PositionIndex| stand.positions.iter().find(|at| at.index() == index).cloned();
-        let eight: Option<Vec<_>> = EIGHT_POSITIONS.iter().map(|(index, _, _)| find(*index)).collect();
-        let eight = eight.map(|eight| Self::certified(question, stand, &eight, azimuth_deg)).transpose()?;
-        Ok(eight.and_then(in_range))
+        let is_of_paper = |index| EIGHT_POSITIONS.iter().any(|(of_paper, ..)| *of_paper == index);
+        if question.stand.is_some_and(|stand| stand.positions.iter().filter(|at| is_of_paper(at.index())).count() < 8) {
+            return Ok(None);
+        }
+        let eight = Self::of(question, azimuth_deg, eight_positions(Deviation::default).to_vec(), is_of_paper)?;
+        Ok(eight.beyond(question.laboratory.meter.range_ma).is_empty().then_some(eight))
     }
 
-    fn certified(
+    /// Prepares those positions of the stand of a question, or without one those of the `nominal` ones, that are `chosen`.
+    fn of(
         question: &Question,
-        stand: &Stand,
-        positions: &[CertifiedPosition],
         azimuth_deg: f64,
+        mut nominal: Vec<Position>,
+        chosen: impl Fn(PositionIndex) -> bool,
     ) -> Result<Self, NoPlan> {
         let site = Site { frame_axis_azimuth_deg: Some(azimuth_deg), ..question.site.clone() };
-        let (setup, missing) = Setup::stated(&stand.certificate, positions, &site, question.laboratory)?;
-        let models: Vec<_> = positions.iter().map(CertifiedPosition::to_model).collect();
+        let (setup, missing, positions) = match question.stand {
+            Some(stand) => {
+                let positions: Vec<_> = stand.positions.iter().filter(|at| chosen(at.index())).cloned().collect();
+                let (setup, missing) = Setup::stated(&stand.certificate, &positions, &site, question.laboratory)?;
+                (setup, missing, positions.iter().map(CertifiedPosition::to_model).collect())
+            }
+            None => {
+                nominal.retain(|at| chosen(at.index));
+                let uncertainty = InputUncertainty::of_meter((&question.laboratory.meter).into());
+                (Setup::new(&nominal, site.earth().rate(&site), uncertainty)?, Vec::new(), nominal)
+            }
+        };
         let of_positions =
             |input: &NotStated| matches!(input, NotStated::Angles | NotStated::SomeAngles | NotStated::Return);
-        let not_stated = missing.into_iter().filter(of_positions).collect();
-        Ok(Self { certified: true, not_stated, ..Self::of(question, setup, &models, azimuth_deg)? })
-    }
-
-    fn nominal(question: &Question, positions: &[Position], azimuth_deg: f64) -> Result<Self, NoPlan> {
-        let site = Site { frame_axis_azimuth_deg: Some(azimuth_deg), ..question.site.clone() };
-        let uncertainty = InputUncertainty::of_meter((&question.laboratory.meter).into());
-        let setup = Setup::new(positions, site.earth().rate(&site), uncertainty)?;
-        Self::of(question, setup, positions, azimuth_deg)
-    }
-
-    fn of(question: &Question, setup: Setup, positions: &[Position], azimuth_deg: f64) -> Result<Self, NoPlan> {
         let tolerance = tolerances(question.gyro)?;
         let setup = setup.of_gyro(question.gyro.noise.as_ref());
         let gyro = at_gravity(question.gyro, question.site.earth().gravity_m_per_s2);
@@ -206,9 +187,9 @@ impl Candidates {
             .enumerate()
             .map(|(place, position)| candidate(&setup, &unknowns, (place, position), currents_ma[place], &tolerance))
             .collect();
-        let finite = candidates.iter().all(|at| {
-            at.rows.as_flattened().iter().chain(&at.fixed).chain(&at.of_visit).all(|value| value.is_finite())
-        });
+        let finite = candidates
+            .iter()
+            .all(|at| at.rows.iter().chain(&at.fixed).chain(&at.of_visit).all(|value| value.is_finite()));
         if !finite {
             return Err(NoPlan::SingularGyro);
         }
@@ -220,8 +201,8 @@ impl Candidates {
             unknowns,
             currents_ma,
             candidates,
-            certified: false,
-            not_stated: Vec::new(),
+            certified: question.stand.is_some(),
+            not_stated: missing.into_iter().filter(of_positions).collect(),
             beyond_range: 0,
         })
     }
@@ -231,17 +212,13 @@ impl Candidates {
     }
 
     /// Returns the information of `visits` visits of the candidate at `place`, in units of the tolerances.
-    pub(crate) fn information(&self, place: usize, visits: u32) -> Symmetric {
+    pub(crate) fn information(&self, place: usize, visits: u32) -> Matrix8 {
         self.candidates[place].information(visits)
     }
 
     /// Returns the information of all visits, in units of the tolerances.
-    pub(crate) fn information_of(&self, visits: &[u32]) -> Symmetric {
-        let mut sum = [[0.0; 8]; 8];
-        for (place, visits) in visits.iter().enumerate().filter(|(_, visits)| **visits > 0) {
-            add(&mut sum, &self.information(place, *visits), 1.0);
-        }
-        sum
+    pub(crate) fn information_of(&self, visits: &[u32]) -> Matrix8 {
+        visits.iter().enumerate().map(|(place, visits)| self.information(place, *visits)).sum()
     }
 
     /// Returns `true` if each of the paper's eight positions is visited.
@@ -273,11 +250,10 @@ fn candidate(
     let noise = of_currents(Vector2::repeat(u.meter.noise_ma * u.meter.noise_ma));
     let n = &setup.coefficients().positions[place].specific_force_g;
     let (jx, jy) = (current_ma.x, current_ma.y);
-    let mut rows = [[jx, jy, 0.0, 0.0, 1.0, 0.0, n.x, -n.y], [0.0, 0.0, jx, jy, 0.0, 1.0, n.y, n.x]];
-    rows.iter_mut().for_each(|row| row.iter_mut().zip(tolerance).for_each(|(value, unit)| *value *= unit));
+    let of_axes = [[jx, jy, 0.0, 0.0, 1.0, 0.0, n.x, -n.y], [0.0, 0.0, jx, jy, 0.0, 1.0, n.y, n.x]];
     Candidate {
         position: *position,
-        rows,
+        rows: SMatrix::from_fn(|axis, parameter| of_axes[axis][parameter] * tolerance[parameter]),
         fixed: specification + sensitivity.of_certified_angles(place),
         of_visit: noise + sensitivity.of_return(place) + Matrix2::identity() * (visit * visit),
     }
@@ -303,19 +279,15 @@ pub(crate) struct Design<'a> {
     pub(super) candidates: &'a Candidates,
     pub(super) visits: Vec<u32>,
     /// Covariance of the fit without the scatter of turn-ons, in units of the tolerances.
-    covariance: [[f64; 8]; 8],
+    covariance: Matrix8,
 }
 
 impl<'a> Design<'a> {
     /// Creates the design of `visits` visits of each candidate; returns `None` if they do not determine the parameters.
     pub(crate) fn new(candidates: &'a Candidates, visits: &[u32]) -> Option<Self> {
         let inverse = inverse_of_lower(&cholesky(&candidates.information_of(visits))?);
-        let mut covariance = [[0.0; 8]; 8];
-        for (row, values) in covariance.iter_mut().enumerate() {
-            for (column, value) in values.iter_mut().enumerate() {
-                *value = inverse.iter().map(|line| line[row] * line[column]).sum();
-            }
-        }
+        let product = |row, column| inverse.column(row).iter().zip(&inverse.column(column)).map(|(a, b)| a * b).sum();
+        let covariance = Matrix8::from_fn(product);
         Some(Self { candidates, visits: visits.to_vec(), covariance })
     }
 
@@ -326,24 +298,14 @@ impl<'a> Design<'a> {
 
     /// Returns G = M⁻¹ F' C⁻¹ of the candidate at `place`: the change of each parameter, in units of its tolerance, for a
     /// misclosure of 1 °/h in the mean of its visits about x and about y.
-    pub(crate) fn response(&self, place: usize) -> [[f64; 8]; 2] {
+    pub(crate) fn response(&self, place: usize) -> SMatrix<f64, 8, 2> {
         let candidate = &self.candidates.candidates[place];
-        let weight = candidate.weight(self.visits[place]);
-        let [x, y] = &candidate.rows;
-        [(weight.m11, weight.m12), (weight.m12, weight.m22)].map(|(of_x, of_y)| {
-            let mut response = [0.0; 8];
-            for (value, line) in response.iter_mut().zip(&self.covariance) {
-                *value = (0..8).map(|inner| line[inner] * (of_x * x[inner] + of_y * y[inner])).sum();
-            }
-            response
-        })
+        self.covariance * (candidate.rows.transpose() * candidate.weight(self.visits[place]))
     }
 
     /// Returns the misclosure that a change of the parameters (in units of the tolerances) makes at `place`, °/h.
-    pub(crate) fn misclosure(&self, place: usize, change: &[f64; 8]) -> Vector2<f64> {
-        let of = |row: &[f64; 8]| row.iter().zip(change).map(|(a, b)| a * b).sum();
-        let [x, y] = &self.candidates.candidates[place].rows;
-        Vector2::new(of(x), of(y))
+    pub(crate) fn misclosure(&self, place: usize, change: &SVector<f64, 8>) -> Vector2<f64> {
+        self.candidates.candidates[place].rows * change
     }
 
     /// Returns r' C⁻¹ r for the residual r at `place`, °/h.
@@ -371,7 +333,7 @@ impl<'a> Design<'a> {
         Parameter::EIGHT.map(|parameter| {
             let place = parameter.place();
             let is_omega0 = matches!(parameter, Parameter::Omega0x | Parameter::Omega0y);
-            let variance = self.covariance[place][place] + if is_omega0 { *turn_on } else { 0.0 };
+            let variance = self.covariance[(place, place)] + if is_omega0 { *turn_on } else { 0.0 };
             tolerance[place] * variance.sqrt()
         })
     }

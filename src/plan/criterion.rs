@@ -3,9 +3,9 @@
 //! All quantities are in units of the tolerances, so that parameters of different kinds can be added.
 
 use crate::text::{word_of_a_key, words};
+use nalgebra::SMatrix;
 
-/// Symmetric matrix, 8×8, of which the lower triangle counts.
-pub(crate) type Symmetric = [[f64; 8]; 8];
+pub(crate) type Matrix8 = SMatrix<f64, 8, 8>;
 
 /// Smallest pivot, as a share of its diagonal element, with which a matrix counts as regular.
 const SMALLEST_PIVOT: f64 = 1e-11;
@@ -32,7 +32,7 @@ word_of_a_key!(Criterion, key, "");
 impl Criterion {
     /// Returns the value for the information matrix `information` in units of the tolerances; `turn_on` is the variance
     /// that the scatter of turn-ons adds to ω_0x and ω_0y. Returns infinity if a parameter is not determined.
-    pub(crate) fn value(self, information: &Symmetric, turn_on: f64) -> f64 {
+    pub(crate) fn value(self, information: &Matrix8, turn_on: f64) -> f64 {
         let Some(lower) = cholesky(information) else { return f64::INFINITY };
         match self {
             Self::A => variances(&lower, turn_on).iter().sum(),
@@ -40,9 +40,9 @@ impl Criterion {
             Self::D => {
                 // det(M⁻¹ + v (e_4 e_4' + e_5 e_5')) = det M⁻¹ · det(1 + v M₂), with M₂ the block of ω_0.
                 let [x, y] = OMEGA0;
-                let block = |row: usize, column: usize| turn_on * information[row][column];
+                let block = |row: usize, column: usize| turn_on * information[(row, column)];
                 let added = (1.0 + block(x, x)) * (1.0 + block(y, y)) - block(y, x) * block(y, x);
-                libm::log(added) - 2.0 * (0..8).map(|place| libm::log(lower[place][place])).sum::<f64>()
+                libm::log(added) - 2.0 * (0..8).map(|place| libm::log(lower[(place, place)])).sum::<f64>()
             }
         }
     }
@@ -58,56 +58,40 @@ impl Criterion {
 }
 
 /// Returns the variances of the eight parameters, in units of the tolerances, from the Cholesky factor.
-fn variances(lower: &Symmetric, turn_on: f64) -> [f64; 8] {
+fn variances(lower: &Matrix8, turn_on: f64) -> [f64; 8] {
     let inverse = inverse_of_lower(lower);
-    let mut variances = [0.0; 8];
-    for (row, values) in inverse.iter().enumerate() {
-        for (variance, value) in variances.iter_mut().zip(values).take(row + 1) {
-            *variance += value * value;
-        }
-    }
+    let mut variances = std::array::from_fn(|place| inverse.column(place).iter().map(|value| value * value).sum());
     OMEGA0.into_iter().for_each(|place| variances[place] += turn_on);
     variances
 }
 
-/// Returns L with L L' = M, or `None` if M is not positive definite.
-pub(crate) fn cholesky(matrix: &Symmetric) -> Option<Symmetric> {
-    let mut lower = [[0.0; 8]; 8];
+/// Returns L with L L' = M, or `None` if M is not positive definite. Only the lower triangle of M counts.
+pub(crate) fn cholesky(matrix: &Matrix8) -> Option<Matrix8> {
+    let mut lower = Matrix8::zeros();
     for column in 0..8 {
-        let squares: f64 = lower[column][..column].iter().map(|value| value * value).sum();
-        let pivot = matrix[column][column] - squares;
-        let is_regular = pivot > SMALLEST_PIVOT * matrix[column][column];
-        if !is_regular {
-            return None;
-        }
-        let root = pivot.sqrt();
-        lower[column][column] = root;
-        for row in column + 1..8 {
-            let of_rows = lower[row][..column].iter().zip(&lower[column][..column]);
-            let product: f64 = of_rows.map(|(one, other)| one * other).sum();
-            lower[row][column] = (matrix[row][column] - product) / root;
+        for row in column..8 {
+            let product: f64 = (0..column).map(|inner| lower[(row, inner)] * lower[(column, inner)]).sum();
+            let left = matrix[(row, column)] - product;
+            if row > column {
+                lower[(row, column)] = left / lower[(column, column)];
+            } else if left > SMALLEST_PIVOT * matrix[(column, column)] {
+                lower[(column, column)] = left.sqrt();
+            } else {
+                return None;
+            }
         }
     }
     Some(lower)
 }
 
-pub(crate) fn inverse_of_lower(lower: &Symmetric) -> Symmetric {
-    let mut inverse = [[0.0; 8]; 8];
+pub(crate) fn inverse_of_lower(lower: &Matrix8) -> Matrix8 {
+    let mut inverse = Matrix8::zeros();
     for column in 0..8 {
-        inverse[column][column] = 1.0 / lower[column][column];
+        inverse[(column, column)] = 1.0 / lower[(column, column)];
         for row in column + 1..8 {
-            let product: f64 = (column..row).map(|inner| lower[row][inner] * inverse[inner][column]).sum();
-            inverse[row][column] = -product / lower[row][row];
+            let product: f64 = (column..row).map(|inner| lower[(row, inner)] * inverse[(inner, column)]).sum();
+            inverse[(row, column)] = -product / lower[(row, row)];
         }
     }
     inverse
-}
-
-/// Adds `share` times `other`, lower triangle only.
-pub(crate) fn add(matrix: &mut Symmetric, other: &Symmetric, share: f64) {
-    for (row, (values, others)) in matrix.iter_mut().zip(other).enumerate() {
-        for (value, other) in values.iter_mut().zip(others).take(row + 1) {
-            *value += share * other;
-        }
-    }
 }

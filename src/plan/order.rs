@@ -57,7 +57,7 @@ impl Problem {
             let mut changes = [0.0; 16];
             let response = design.response(*place);
             let share = 1.0 / f64::from(*visits);
-            changes.iter_mut().zip(response.as_flattened()).for_each(|(change, value)| *change = value * share);
+            changes.iter_mut().zip(&response).for_each(|(change, value)| *change = value * share);
             changes
         };
         let per_visit = visited.iter().map(of_visit).collect();

@@ -5,8 +5,9 @@
 //! procedure).
 
 use super::candidates::Candidates;
-use super::criterion::{Criterion, Symmetric, add};
+use super::criterion::{Criterion, Matrix8};
 use crate::statistics::random::Stream;
+use nalgebra::SVector;
 
 /// Largest number of choices that are all compared; 16 candidates and eight readings give 490,314.
 const MOST_CHOICES: u64 = 500_000;
@@ -65,19 +66,13 @@ fn are_few(candidates: usize, readings: u32) -> bool {
 }
 
 pub(crate) fn exhaustive(candidates: &Candidates, readings: u32, criterion: Criterion) -> Option<Found> {
-    let information = (0..candidates.len())
-        .map(|place| (0..=readings).map(|visits| candidates.information(place, visits)).collect())
-        .collect();
-    let visits = vec![0; candidates.len()];
-    let mut all = All { candidates, information, criterion, visits, best: None };
-    all.descend(0, readings, &[[0.0; 8]; 8]);
+    let mut all = All { candidates, criterion, visits: vec![0; candidates.len()], best: None };
+    all.descend(0, readings, &Matrix8::zeros());
     all.best
 }
 
 struct All<'a> {
     candidates: &'a Candidates,
-    /// Information of each candidate for each number of visits.
-    information: Vec<Vec<Symmetric>>,
     criterion: Criterion,
     visits: Vec<u32>,
     best: Option<Found>,
@@ -85,14 +80,11 @@ struct All<'a> {
 
 impl All<'_> {
     /// Distributes `left` visits over the candidates from `place` on, with `sum` from those before.
-    fn descend(&mut self, place: usize, left: u32, sum: &Symmetric) {
+    fn descend(&mut self, place: usize, left: u32, sum: &Matrix8) {
         let is_last = place + 1 == self.visits.len();
         let fewest = if is_last { left } else { 0 };
         for visits in fewest..=left {
-            let mut sum = *sum;
-            if visits > 0 {
-                add(&mut sum, &self.information[place][visits as usize], 1.0);
-            }
+            let sum = sum + self.candidates.information(place, visits);
             self.visits[place] = visits;
             if visits == left {
                 self.compare(&sum);
@@ -103,7 +95,7 @@ impl All<'_> {
         self.visits[place] = 0;
     }
 
-    fn compare(&mut self, sum: &Symmetric) {
+    fn compare(&mut self, sum: &Matrix8) {
         let value = self.criterion.value(sum, self.candidates.turn_on);
         let may_be_better =
             value.is_finite() && self.best.as_ref().is_none_or(|best| value <= best.value + SAME * best.value.abs());
@@ -140,31 +132,25 @@ struct Exchange<'a> {
     criterion: Criterion,
     visits: Vec<u32>,
     /// Information of all visits, with the ridge.
-    sum: Symmetric,
+    sum: Matrix8,
     /// Information that one more visit of each candidate adds.
-    gain: Vec<Symmetric>,
+    gain: Vec<Matrix8>,
     value: f64,
 }
 
 impl<'a> Exchange<'a> {
     fn new(candidates: &'a Candidates, visits: Vec<u32>, criterion: Criterion) -> Self {
-        let mut sum = [[0.0; 8]; 8];
-        for place in 0..visits.len() {
-            let once = candidates.information(place, 1);
-            for (parameter, row) in sum.iter_mut().enumerate() {
-                row[parameter] = f64::max(row[parameter], RIDGE * once[parameter][parameter]);
-            }
-        }
-        for (place, visits) in visits.iter().enumerate() {
-            add(&mut sum, &candidates.information(place, *visits), 1.0);
-        }
+        let once = |place| candidates.information(place, 1).diagonal() * RIDGE;
+        let ridge = (0..visits.len()).map(once).fold(SVector::<f64, 8>::zeros(), |most, once| most.sup(&once));
+        let each = visits.iter().enumerate().map(|(place, visits)| candidates.information(place, *visits));
+        let sum = each.fold(Matrix8::from_diagonal(&ridge), |sum, one| sum + one);
         let gain = visits.iter().enumerate().map(|(place, visits)| gain(candidates, place, *visits)).collect();
         let mut exchange = Self { candidates, criterion, visits, sum, gain, value: f64::INFINITY };
         exchange.value = exchange.value_of(&exchange.sum);
         exchange
     }
 
-    fn value_of(&self, sum: &Symmetric) -> f64 {
+    fn value_of(&self, sum: &Matrix8) -> f64 {
         self.criterion.value(sum, self.candidates.turn_on)
     }
 
@@ -185,21 +171,16 @@ impl<'a> Exchange<'a> {
 
     /// Moves one visit of `place` to where it lowers the value most. Returns `false` if it stays.
     fn moves_from(&mut self, place: usize) -> bool {
-        let lost = gain(self.candidates, place, self.visits[place] - 1);
-        let mut rest = self.sum;
-        add(&mut rest, &lost, -1.0);
+        let rest = self.sum - gain(self.candidates, place, self.visits[place] - 1);
         let mut best = (self.value - SAME * self.value.abs(), None);
         for (to, gain) in self.gain.iter().enumerate().filter(|(to, _)| *to != place) {
-            let mut sum = rest;
-            add(&mut sum, gain, 1.0);
-            let value = self.value_of(&sum);
+            let value = self.value_of(&(rest + gain));
             if value < best.0 {
                 best = (value, Some(to));
             }
         }
         let (value, Some(to)) = best else { return false };
-        add(&mut rest, &self.gain[to], 1.0);
-        (self.sum, self.value) = (rest, value);
+        (self.sum, self.value) = (rest + self.gain[to], value);
         self.visits[place] -= 1;
         self.visits[to] += 1;
         for changed in [place, to] {
@@ -216,8 +197,6 @@ impl<'a> Exchange<'a> {
 }
 
 /// Returns the information that one more visit of a candidate adds.
-fn gain(candidates: &Candidates, place: usize, visits: u32) -> Symmetric {
-    let mut gain = candidates.information(place, visits + 1);
-    add(&mut gain, &candidates.information(place, visits), -1.0);
-    gain
+fn gain(candidates: &Candidates, place: usize, visits: u32) -> Matrix8 {
+    candidates.information(place, visits + 1) - candidates.information(place, visits)
 }

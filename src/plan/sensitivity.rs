@@ -8,6 +8,7 @@ use crate::calibration::Cause;
 use crate::calibration::sensitivity::Sensitivity;
 use crate::gyro::{GyroParameters, Parameters};
 use crate::units::radians_from_arcseconds;
+use nalgebra::SVector;
 use serde::{Serialize, Serializer};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,12 +80,10 @@ pub(crate) fn effects(design: &Design) -> Vec<Effect> {
 fn effect(design: &Design, sensitivity: &Sensitivity, error: CommonError) -> Effect {
     let currents_ma = &design.candidates.currents_ma;
     let misclosure = |place: usize| sensitivity.to(place, &currents_ma[place], error.cause) * error.in_model_unit();
-    let mut over_tolerance = [0.0; 8];
+    let mut over_tolerance = SVector::<f64, 8>::zeros();
     for (place, _) in design.visited() {
-        let (of_axes, misclosure) = (design.response(place), misclosure(place));
-        for (response, misclosure) in of_axes.iter().zip(misclosure.iter()) {
-            over_tolerance.iter_mut().zip(response).for_each(|(sum, value)| *sum += value * misclosure);
-        }
+        let (response, misclosure) = (design.response(place), misclosure(place));
+        (0..2).for_each(|axis| over_tolerance += response.column(axis) * misclosure[axis]);
     }
     let (mut largest_residual, mut square) = (0.0_f64, 0.0);
     for (place, _) in design.visited() {
@@ -92,12 +91,10 @@ fn effect(design: &Design, sensitivity: &Sensitivity, error: CommonError) -> Eff
         largest_residual = largest_residual.max(residual.amax());
         square += design.weighted_square(place, &residual);
     }
-    let mut change = over_tolerance;
-    change.iter_mut().zip(&design.candidates.tolerance).for_each(|(value, unit)| *value *= unit);
     Effect {
         error,
-        change,
-        largest_over_tolerance: over_tolerance.iter().fold(0.0, |most, value| most.max(value.abs())),
+        change: over_tolerance.component_mul(&SVector::from(design.candidates.tolerance)).into(),
+        largest_over_tolerance: over_tolerance.amax(),
         largest_residual_deg_per_h: largest_residual,
         residuals_over_noise: square.sqrt(),
     }

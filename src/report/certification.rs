@@ -129,7 +129,7 @@ pub(crate) fn comparison(found: &Comparison, is_final: bool) -> Vec<Block> {
     };
     let check = texts::check_against(given(&found.certificate), found.runs);
     let mut doc = vec![doc::line(vec![marked(outcome, answer), "  ".into(), check])];
-    doc.extend(found.findings.iter().map(|finding| say([finding.advised()])));
+    doc.extend(found.findings.iter().map(|finding| say([finding.remark.advised()])));
     doc.push(say((is_final && outcome == Outcome::Failed).then_some(texts::DO_NOT_USE)));
     doc.extend(change::rotations(found));
     doc

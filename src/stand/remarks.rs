@@ -1,10 +1,13 @@
 //! Remarks on unusual values in a certificate, which are possible and therefore not refused, but usually errors.
 
 use super::{Certificate, CertifiedPosition};
-use crate::attitude::ANGLES;
-use crate::coefficients::PositionIndex;
+use crate::attitude::{ANGLE_SYMBOLS, ANGLES};
 use crate::text::Printable;
 use crate::text::scalar::latin;
+use crate::wording::Words;
+use crate::wording::number::Number;
+use crate::wording::texts::remarks as texts;
+use crate::wording::words::symbol;
 use jiff::Span;
 use jiff::civil::Date;
 
@@ -23,35 +26,13 @@ const MOST_YEARS: i64 = 10;
 /// Size below which an angle is never unusual, arcsec.
 const SMALL_ARCSEC: f64 = 60.0;
 
-/// Unusual value in a certificate. Displayed, it is a sentence without a full stop.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub(crate) enum Odd {
-    /// Angle (0, 1, 2 for α, β, γ) that is far larger than `usual_arcsec`, the larger angles of the other positions.
-    #[error(
-        "{}_arcsec of position {index} is {arcsec}, more than {FAR_OUT} times the {usual_arcsec} of the other positions; \
-         check the digits, the unit and the position",
-        ANGLES[*.angle]
-    )]
-    FarAngle { angle: usize, index: PositionIndex, arcsec: f64, usual_arcsec: f64 },
-    /// Temperature that no laboratory has; `key` states it.
-    #[error(
-        "{key} is {celsius} °C, outside the usual room temperature of {} to {} °C{}",
-        ROOM_C.start(), ROOM_C.end(), in_kelvin(*.celsius)
-    )]
-    Temperature { key: &'static str, celsius: f64 },
-    /// Temperature of the measurement outside the certified range.
-    #[error(
-        "temperature_c is {celsius} °C, but temperature_range_c is {} to {} °C; the deviations were measured \
-         outside the certified range",
-        .range[0], .range[1]
-    )]
-    OutsideRange { celsius: f64, range: [f64; 2] },
-    /// Measurement more than a year before the certificate was issued.
-    #[error("performed is {performed}, more than a year before issued, {issued}; check the years")]
-    OldMeasurement { performed: Date, issued: Date },
-    /// Certificate that is valid for more than ten years.
-    #[error("valid_until is {valid_until}, more than {MOST_YEARS} years after issued, {issued}; check the years")]
-    LongValidity { valid_until: Date, issued: Date },
+/// Unusual value in a certificate.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Odd {
+    /// Sentence without a full stop, with the keys of the file.
+    pub sentence: String,
+    /// What pages and other languages say in its place.
+    pub words: Words,
 }
 
 impl Certificate {
@@ -86,11 +67,20 @@ pub(crate) fn of(certificate: &Certificate, positions: &[CertifiedPosition]) -> 
             continue;
         };
         let odd = |at: &&CertifiedPosition| arcsec(at).abs() > f64::max(SMALL_ARCSEC, FAR_OUT * usual);
-        let far = |at: &CertifiedPosition| Odd::FarAngle {
-            angle,
-            index: at.index(),
-            arcsec: arcsec(at),
-            usual_arcsec: usual,
+        let far = |at: &CertifiedPosition| Odd {
+            sentence: format!(
+                "{}_arcsec of position {} is {}, more than {FAR_OUT} times the {usual} of the other positions; check the \
+                 digits, the unit and the position",
+                ANGLES[angle],
+                at.index(),
+                arcsec(at)
+            ),
+            words: texts::far_angle(
+                symbol(ANGLE_SYMBOLS[angle]),
+                at.index(),
+                Number::fixed(arcsec(at), 0),
+                Number::fixed(usual, 0),
+            ),
         };
         found.extend(positions.iter().filter(odd).map(far));
     }
@@ -102,8 +92,17 @@ fn dates(certificate: &Certificate) -> impl Iterator<Item = Odd> {
     let years_later = |date: Date, years: i64| date.saturating_add(Span::new().years(years));
     let old = certificate.performed.filter(|performed| issued > years_later(*performed, 1));
     let long = certificate.valid_until.filter(|until| *until > years_later(issued, MOST_YEARS));
-    let old = old.map(|performed| Odd::OldMeasurement { performed, issued });
-    old.into_iter().chain(long.map(|valid_until| Odd::LongValidity { valid_until, issued }))
+    let old = old.map(|performed| Odd {
+        sentence: format!("performed is {performed}, more than a year before issued, {issued}; check the years"),
+        words: texts::old_measurement(performed, issued),
+    });
+    let long = long.map(|until| Odd {
+        sentence: format!(
+            "valid_until is {until}, more than {MOST_YEARS} years after issued, {issued}; check the years"
+        ),
+        words: texts::long_validity(issued, until),
+    });
+    old.into_iter().chain(long)
 }
 
 fn temperatures(certificate: &Certificate) -> Vec<Odd> {
@@ -111,10 +110,25 @@ fn temperatures(certificate: &Certificate) -> Vec<Odd> {
     let measured = certificate.temperature_c.map(|celsius| ("temperature_c", celsius));
     let ends = range.into_iter().flatten().map(|celsius| ("temperature_range_c", celsius));
     let unusual = measured.into_iter().chain(ends).filter(|(_, celsius)| !ROOM_C.contains(celsius));
-    let mut found: Vec<Odd> = unusual.map(|(key, celsius)| Odd::Temperature { key, celsius }).collect();
+    let odd = |(key, celsius)| Odd {
+        sentence: format!(
+            "{key} is {celsius} °C, outside the usual room temperature of {} to {} °C{}",
+            ROOM_C.start(),
+            ROOM_C.end(),
+            in_kelvin(celsius)
+        ),
+        words: texts::temperature(Number::exact(celsius)),
+    };
+    let mut found: Vec<Odd> = unusual.map(odd).collect();
     let outside =
         certificate.temperature_c.zip(range).filter(|(celsius, [low, high])| !(low..=high).contains(&celsius));
-    found.extend(outside.map(|(celsius, range)| Odd::OutsideRange { celsius, range }));
+    found.extend(outside.map(|(celsius, [low, high])| Odd {
+        sentence: format!(
+            "temperature_c is {celsius} °C, but temperature_range_c is {low} to {high} °C; the deviations were measured \
+             outside the certified range"
+        ),
+        words: texts::outside_range(Number::exact(celsius), Number::exact(low), Number::exact(high)),
+    }));
     found
 }
 
@@ -127,7 +141,7 @@ mod tests {
     fn said_of(from: &str, to: &str) -> Vec<String> {
         assert!(STAND.contains(from));
         let stand = Stand::from_yaml("stand.yaml", STAND.replace(from, to).as_bytes()).unwrap();
-        super::of(&stand.certificate, &stand.positions).iter().map(ToString::to_string).collect()
+        super::of(&stand.certificate, &stand.positions).into_iter().map(|odd| odd.sentence).collect()
     }
 
     #[test]

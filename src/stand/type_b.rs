@@ -112,9 +112,7 @@ pub(super) const ROUNDING: f64 = 5e-4;
 pub(super) fn check(certificate: &Certificate, positions: &[CertifiedPosition], problems: &mut Problems) {
     let at = Path::Root.key("certificate");
     let of_type_b = at.key("type_b");
-    if certificate.type_b.as_ref().is_some_and(Vec::is_empty) {
-        problems.at(&of_type_b, "an empty list", "at least one contribution", "omit the key if there is none");
-    }
+    super::check_not_empty(certificate.type_b.as_ref(), &of_type_b, "at least one contribution", problems);
     for (index, line) in certificate.type_b.iter().flatten().enumerate() {
         let at = of_type_b.item(index);
         problems.within(&at.key("u_arcsec"), Some(line.u_arcsec), 0.0, f64::MAX);
@@ -128,9 +126,7 @@ pub(super) fn check(certificate: &Certificate, positions: &[CertifiedPosition], 
             problems.at(&at.key("runs"), format!("{}", evidence.runs), "2 or more", advice);
         }
         let excluded = at.key("excluded");
-        if evidence.excluded.as_ref().is_some_and(Vec::is_empty) {
-            problems.at(&excluded, "an empty list", "at least one exclusion", "omit the key if there is none");
-        }
+        super::check_not_empty(evidence.excluded.as_ref(), &excluded, "at least one exclusion", problems);
         for (index, line) in evidence.excluded.iter().flatten().enumerate() {
             line.check(&excluded.item(index), problems);
         }

@@ -109,7 +109,7 @@ const CHILDREN: [(&str, &str); 49] = [
     ("identifications", "identification+"),
     ("identification", "issuer value name"),
     ("previousReport", "referral referralID procedure value"),
-    ("certificate", "referral referralID procedure value"),
+    ("certificate", "referral referralID procedure value description?"),
     ("items", "item"),
     ("item", "name manufacturer? model? identifications"),
     ("manufacturer", "name"),
@@ -265,7 +265,7 @@ certificate:
   address: "<?xml?> 中文"
   authorized_by: "D"
   accreditation: "<E>"
-  references: [{number: "<C>&1", laboratory: "F", issued: "2025-06-30", sha256: "0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a"}]
+  references: [{number: "<C>&1", laboratory: "<F>", issued: "2025-06-30", sha256: "0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a0a"}]
   cmc_arcsec: 0.6
 positions:
   - {i: 3, j: 7, theta_deg: -12.5, phi_deg: 1.0e-05, alpha_arcsec: 0.1, beta_arcsec: -0.0, gamma_arcsec: 1.0e+05, u_alpha_arcsec: 0.30000000000000004}
@@ -327,6 +327,7 @@ temperature_c: -1.5
         "<?xml?> 中文",
         "<E>",
         "<C>&1",
+        "Кем и\u{a0}когда выдан: <F>, 30.06.2025.",
         "0.6",
         "<script>alert(1)</script>",
         "'\"",

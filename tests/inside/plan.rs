@@ -297,7 +297,7 @@ fn the_order_is_the_best_of_all() {
             for (visit, place) in places.iter().enumerate() {
                 let time = visit as f64 / 7.0 - 0.5;
                 let visited = design.visited().nth(*place).unwrap().0;
-                sum.iter_mut().zip(design.response(visited).as_flattened()).for_each(|(b, g)| *b += time * g);
+                sum.iter_mut().zip(&design.response(visited)).for_each(|(b, g)| *b += time * g);
             }
             sum
         };
@@ -436,9 +436,8 @@ fn every_input_acts_on_what_it_acts_on() {
     // ln det of the covariance with it, by the definition: from NumPy's point of view det(M⁻¹ + D).
     let candidates = candidates(&noisy, EAST);
     let information = candidates.information_of(&once(PAPER));
-    let matrix = nalgebra::Matrix::<f64, nalgebra::U8, nalgebra::U8, _>::from_fn(|row, column| {
-        information[row.max(column)][row.min(column)]
-    });
+    let matrix =
+        nalgebra::Matrix::<f64, nalgebra::U8, nalgebra::U8, _>::from_fn(|row, column| information[(row, column)]);
     let mut covariance: nalgebra::SMatrix<f64, 8, 8> = matrix.try_inverse().unwrap();
     (covariance[(4, 4)], covariance[(5, 5)]) = (covariance[(4, 4)] + 0.09, covariance[(5, 5)] + 0.09);
     let expected = libm::log(covariance.determinant());

@@ -67,11 +67,9 @@ impl<'a> Runs<'a> {
     }
 
     /// Returns an error at the first row of a run: what was found, what is expected, and advice.
-    fn at_run(&self, run: usize, words: [&str; 3], kind: Kind, scope: Scope, p: f64) -> Option<Wrong> {
+    fn at_run(&self, run: usize, [found, expected, advice]: [&str; 3], finding: Found) -> Option<Wrong> {
         let (.., row) = self.rows.iter().find(|((_, of), ..)| *of == self.numbers[run])?;
-        let [found, expected, advice] = words;
-        let problem = self.table.problem(&row[2], 2, found.to_owned(), expected, advice);
-        Some((problem, Found::new(kind, scope, p, format!("The file contains {found}."))))
+        Some((self.table.problem(&row[2], 2, found.to_owned(), expected, advice), finding))
     }
 
     /// Returns an error for each run in which an angle is the same in all positions, or a copy of another one, if chance does
@@ -100,19 +98,19 @@ impl<'a> Runs<'a> {
                 let p = coincidences::by_chance(6.0 * self.each.len() as f64 * libm::pow(by_chance, alike), 1);
                 let scope = Scope { run: (!is_all).then_some(self.numbers[run]), ..Scope::default() };
                 let place = if is_all { "every run".to_owned() } else { format!("run {}", self.numbers[run]) };
-                let error = if is_copy {
-                    let [one, other] = [one, other].map(|angle| ANGLES[angle]);
-                    let found = format!("{other} equal to {one} in every position of {place}");
+                let [one, other] = [one, other].map(|angle| ANGLES[angle]);
+                let (kind, scope, found, advised) = if is_copy {
                     let scope = Scope { angles: vec![one, other], ..scope };
+                    let found = format!("{other} equal to {one} in every position of {place}");
                     let advice = "measure both angles, or write each into its column";
-                    let words = [&found, "angles measured independently", advice];
-                    self.at_run(run, words, Kind::ChannelCopied, scope, p)
+                    (Kind::ChannelCopied, scope, found, ["angles measured independently", advice])
                 } else {
-                    let found = format!("{} the same in every position of {place}", ANGLES[one]);
-                    let scope = Scope { angle: Some(ANGLES[one]), ..scope };
+                    let scope = Scope { angle: Some(one), ..scope };
+                    let found = format!("{one} the same in every position of {place}");
                     let advice = "fill in the readings, or delete the run";
-                    self.at_run(run, [&found, "measured angles", advice], Kind::ChannelConstant, scope, p)
+                    (Kind::ChannelConstant, scope, found, ["measured angles", advice])
                 };
+                let error = self.at_run(run, [&found, advised[0], advised[1]], in_file(kind, scope, p, &found));
                 wrong.extend(error.filter(|_| p < coincidences::COPIED));
                 if is_all {
                     break;
@@ -141,10 +139,9 @@ impl<'a> Runs<'a> {
             let (.., row) = self.rows.iter().find(|(place, ..)| *place == (index, run))?;
             let found = format!("the angles of run {earlier} again in run {run} of position {index}");
             let advice = "measure the copied readings, or, if all were measured, record more digits";
-            let words = format!("The file contains {found}.");
-            let problem = self.table.problem(&row[3], 3, found, "independent readings", advice);
             let scope = Scope { position: Some(index), runs: vec![earlier, run], ..Scope::default() };
-            Some((problem, Found::new(Kind::RunsCopied, scope, coincidences::COPIED, words)))
+            let finding = in_file(Kind::RunsCopied, scope, coincidences::COPIED, &found);
+            Some((self.table.problem(&row[3], 3, found, "independent readings", advice), finding))
         };
         copies.into_iter().filter_map(wrong).take(MOST_PROBLEMS).collect()
     }
@@ -184,7 +181,8 @@ impl<'a> Runs<'a> {
             let found = format!("run {} with the same angles as run {}", runs[1], runs[0]);
             let advice = "delete the copy, or, if both were measured, record more digits than the readings vary by";
             let scope = Scope { runs: runs.to_vec(), ..Scope::default() };
-            self.at_run(run, [&found, "independent readings", advice], Kind::RunsCopied, scope, p)
+            let finding = in_file(Kind::RunsCopied, scope, p, &found);
+            self.at_run(run, [&found, "independent readings", advice], finding)
         };
         copies.into_iter().filter_map(wrong).collect()
     }
@@ -237,23 +235,18 @@ impl<'a> Runs<'a> {
             };
             let found = change.of(other, &self.shared(run, &self.each[reference]).1, scope);
             let advice = within_a_sentence(&found.advice.as_ref().map_or_else(String::new, in_english));
-            let advice = match open {
-                true => format!(
-                    "the runs disagree, and either may be wrong: compare them with a certificate (--against), or measure a third run; {advice}"
-                ),
-                false => advice,
+            let disagree = if open {
+                "the runs disagree, and either may be wrong: compare them with a certificate (--against), or measure a third run; "
+            } else {
+                ""
             };
             let what = in_english(&found.words);
-            let (.., row) = self.rows.iter().find(|((_, of), ..)| *of == number)?;
-            let problem = self.table.problem(
-                &row[2],
-                2,
-                format!("run {number}, in which {what}"),
+            let words = [
+                &format!("run {number}, in which {what}"),
                 "the angles of the other runs",
-                advice,
-            );
-            let found = Found { words: format!("In run {number} {what}.").into(), ..found };
-            Some((problem, found))
+                &(disagree.to_owned() + &advice),
+            ];
+            self.at_run(run, words, Found { words: format!("In run {number} {what}.").into(), ..found })
         };
         wrong.into_iter().filter_map(error).collect()
     }
@@ -296,6 +289,11 @@ impl<'a> Runs<'a> {
         };
         Transformation::nearest(&read, &due, rows, &flat)
     }
+}
+
+/// Returns the finding that a file contains something.
+fn in_file(kind: Kind, scope: Scope, probability: f64, what: &str) -> Found {
+    Found::new(kind, scope, probability, format!("The file contains {what}."))
 }
 
 /// Returns the standard deviation of values.

@@ -1,8 +1,7 @@
 //! Change of a stand since its last certificate.
 
 use super::outcome_of;
-use crate::certification::compared::{ComparedPosition, Test};
-use crate::certification::comparison::Comparison;
+use crate::certification::comparison::{ComparedPosition, Comparison, Test};
 use crate::certification::found::together;
 use crate::certification::kind::{AXES, OUTLIER};
 use crate::passport::difference::NumberDifference;

@@ -6,8 +6,6 @@ use super::language::{Languages, Text};
 use super::number::Number;
 use super::parts::{file_name, signatures};
 use super::shell::{Annex, Page, Section, first};
-use crate::certification::finding::Finding;
-use crate::certification::remark::Remark;
 use crate::certification::{Certification, Comparison};
 use crate::passport::difference::NumberDifference;
 use crate::report::certification::{change, evidence, outcome_of, outcome_of_certification};
@@ -120,7 +118,7 @@ impl CertificationPage<'_> {
                 (texts::undecided(&found.certificate), Some(texts::UNDECIDED_WORDS))
             }
         };
-        let findings = found.findings.iter().map(Finding::words).collect();
+        let findings = found.findings.iter().map(|finding| finding.remark.words.clone()).collect();
         (outcome, verdict, vec![Block::List(findings), say(remedy), warnings])
     }
 
@@ -171,7 +169,7 @@ impl CertificationPage<'_> {
     }
 
     fn tests(&self) -> Vec<Block> {
-        let remarks: Vec<Words> = self.certification.remarks.iter().map(Remark::words).collect();
+        let remarks: Vec<Words> = self.certification.remarks.iter().map(|remark| remark.words.clone()).collect();
         let warnings = if remarks.is_empty() { None } else { Some([heading(texts::WARNINGS), Block::List(remarks)]) };
         evidence::tests(self.certification).into_iter().chain(warnings.into_iter().flatten()).collect()
     }

@@ -1,8 +1,7 @@
 //! Check runs against a certificate: the same stand passes, a moved position and a turned stand are told from it.
 
 use crate::inside::simulated_stands::{HEADER, Truth, certified, header, normal};
-use dtg_passport::certification::comparison::{Comparison, compare};
-use dtg_passport::certification::finding::Finding;
+use dtg_passport::certification::comparison::{Comparison, compare, detectable_arcsec};
 use dtg_passport::certification::{AngleReadings, Header, certify};
 use dtg_passport::coefficients::EIGHT_POSITIONS;
 use dtg_passport::stand::{Evidence, Stand};
@@ -116,10 +115,8 @@ fn a_larger_scatter_is_told_from_a_change() {
 
 /// The rotations that a check of an unchanged stand says it would find, arcsec: of a position and of the platform.
 fn detected(comparison: &Comparison) -> Option<[f64; 2]> {
-    comparison.findings.iter().find_map(|found| match found {
-        Finding::Detects { position_arcsec, platform_arcsec } => Some([*position_arcsec, (*platform_arcsec)?]),
-        _ => None,
-    })
+    let said = comparison.findings.iter().any(|found| found.to_string().contains(" would be detected"));
+    said.then_some([detectable_arcsec(&comparison.positions)?, comparison.common.detectable_arcsec()?])
 }
 
 /// A check of an unchanged stand says what it would have found: a stand that has changed by so much is named in 95 % of the
