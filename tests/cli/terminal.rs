@@ -39,7 +39,8 @@ fn no_color_is_obeyed() {
 #[test]
 fn no_line_is_wider_than_100_columns() {
     let folder = tempfile::tempdir().unwrap();
-    let certify = format!("certify docs/angles.csv --stand docs/header.yaml -o {}", folder.path().join("a").display());
+    let certify =
+        format!("certify docs/angles.csv --stand docs/header.yaml -o {}", folder.path().join("a.yaml").display());
     let check = "certify docs/check.csv --against passports/SPS-2/0017/stand.yaml";
     let calibrate = format!("calibrate {} {CALIBRATE} {TRUST} --budget", SHOW[1]);
     for command_line in [&SHOW.join(" "), &certify, check, &calibrate] {
