@@ -53,11 +53,28 @@ pub(crate) fn free_folder() -> PathBuf {
 /// # Errors
 /// Returns the error of the first step that fails; a closed output is one too.
 pub(crate) fn run(folder: &Path, now: Timestamp, tell: &mut dyn FnMut(&str) -> bool) -> Result<bool> {
+    if folder.exists() && !std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none()) {
+        let words = "already exists and is not an empty folder; specify another one with --out";
+        return Err(format!("{}: {words}", shown(folder)).into());
+    }
     let stand = Stand::from_yaml("stand.yaml", STAND.as_bytes())?;
+    let moscow = Site::from_yaml("moscow-bmstu.yaml", MOSCOW.as_bytes())?;
+    let beijing = Site::from_yaml("beijing-nim.yaml", BEIJING.as_bytes())?;
     // If the clock of the machine is behind the certificate, use the day of the certificate.
     let now = now.max(day(stand.certificate.issued).0);
-    let mut stage = Stage { folder, now, tell, as_expected: true };
-    stage.play(&stand)?;
+    let key = SigningKey::generate()?;
+    let signers = allowed_signers_line(IDENTITY, &key.public_key())? + "\n";
+    let trust = Trust::of(AllowedSigners::parse("allowed_signers", signers.as_bytes())?);
+    let mut stage = Stage { folder, now, key, trust, tell, as_expected: true };
+    stage.key(&signers)?;
+    let here = stage.issue(&stand, &moscow)?;
+    stage.laboratory(&here, &moscow, &beijing)?;
+    let there = stage.moved(&here, &beijing)?;
+    stage.calibrated(&there)?;
+    stage.altered(&there)?;
+    stage.heading(&format!("The files are in {}. To verify them yourself, run:", shown(folder)))?;
+    let (signers, passport) = (stage.path("allowed_signers"), shown(&there.path));
+    stage.line(&format!("  dtg-passport verify {passport} --trust {} --serial 0203", shown(&signers)))?;
     Ok(stage.as_expected)
 }
 
@@ -78,36 +95,30 @@ fn simulated_currents(setup: &Setup) -> String {
 struct Stage<'a> {
     folder: &'a Path,
     now: Timestamp,
+    key: SigningKey,
+    trust: Trust,
     tell: &'a mut dyn FnMut(&str) -> bool,
     as_expected: bool,
 }
 
 impl Stage<'_> {
-    fn play(&mut self, stand: &Stand) -> Result<()> {
-        let empty = |folder: &Path| std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none());
-        if self.folder.exists() && !empty(self.folder) {
-            let words = "already exists and is not an empty folder; specify another one with --out";
-            return Err(format!("{}: {words}", shown(self.folder)).into());
-        }
-        let moscow = Site::from_yaml("moscow-bmstu.yaml", MOSCOW.as_bytes())?;
-        let beijing = Site::from_yaml("beijing-nim.yaml", BEIJING.as_bytes())?;
-        let (key, trust) = self.key()?;
-        let here = self.issue(stand, &moscow, &key, &trust)?;
-        self.laboratory(&here, &moscow, &beijing, &trust)?;
-        let there = self.moved(&here, &beijing, &key, &trust)?;
-        self.calibrated(&there, &trust)?;
-        self.altered(&there, &trust)?;
-        self.heading(&format!("The files are in {}. To verify them yourself, run:", shown(self.folder)))?;
-        let (signers, passport) = (self.path("allowed_signers"), shown(&there.path));
-        self.line(&format!("  dtg-passport verify {passport} --trust {} --serial 0203", shown(&signers)))
-    }
-
     fn path(&self, name: &str) -> PathBuf {
         self.folder.join(name)
     }
 
+    /// Writes a file that everyone may read, and returns its path.
+    fn write(&self, name: &str, text: &str) -> Result<PathBuf> {
+        let path = self.path(name);
+        files::write_new(&path, text.as_bytes(), Access::Shared)?;
+        Ok(path)
+    }
+
     fn line(&mut self, words: &str) -> Result<()> {
         if (self.tell)(words) { Ok(()) } else { Err("standard output cannot be written".into()) }
+    }
+
+    fn file(&mut self, path: &Path) -> Result<()> {
+        self.line(&format!("   {}", shown(path)))
     }
 
     fn heading(&mut self, words: &str) -> Result<()> {
@@ -115,115 +126,111 @@ impl Stage<'_> {
         self.line(words)
     }
 
-    fn key(&mut self) -> Result<(SigningKey, Trust)> {
-        let key = SigningKey::generate()?;
-        let signers = allowed_signers_line(IDENTITY, &key.public_key())? + "\n";
-        files::write_new(&self.path("factory.key"), key.to_openssh(IDENTITY, None)?.as_bytes(), Access::Private)?;
-        files::write_new(&self.path("allowed_signers"), signers.as_bytes(), Access::Shared)?;
-        self.line("THE FACTORY")?;
-        self.line("1. The factory creates a signing key and sends its public half to every laboratory, once:")?;
-        self.line(&format!("   {}", shown(&self.path("allowed_signers"))))?;
-        Ok((key, Trust::of(AllowedSigners::parse("allowed_signers", signers.as_bytes())?)))
+    fn passports(&self) -> Folder {
+        Folder::new(self.path("passports"))
     }
 
-    fn issue(&mut self, stand: &Stand, moscow: &Site, key: &SigningKey, trust: &Trust) -> Result<Issued> {
-        files::write_new(&self.path("stand.yaml"), STAND.as_bytes(), Access::Shared)?;
-        files::write_new(&self.path("sites/moscow-bmstu.yaml"), MOSCOW.as_bytes(), Access::Shared)?;
-        files::write_new(&self.path("sites/beijing-nim.yaml"), BEIJING.as_bytes(), Access::Shared)?;
+    /// Reads a passport, and verifies it for a question.
+    fn verified(&self, issued: &Issued, question: &Question) -> Result<(Vec<u8>, Verification)> {
+        let bytes = files::read(&issued.path, LARGEST_DOCUMENT_BYTES)?;
+        let answer = verify(&issued.id, &bytes, &self.trust, question);
+        Ok((bytes, answer))
+    }
+
+    fn key(&mut self, signers: &str) -> Result<()> {
+        let private = self.key.to_openssh(IDENTITY, None)?;
+        files::write_new(&self.path("factory.key"), private.as_bytes(), Access::Private)?;
+        let path = self.write("allowed_signers", signers)?;
+        self.line("THE FACTORY")?;
+        self.line("1. The factory creates a signing key and sends its public half to every laboratory, once:")?;
+        self.file(&path)
+    }
+
+    fn issue(&mut self, stand: &Stand, moscow: &Site) -> Result<Issued> {
+        self.write("stand.yaml", STAND)?;
+        self.write("sites/moscow-bmstu.yaml", MOSCOW)?;
+        self.write("sites/beijing-nim.yaml", BEIJING)?;
         let angles = stand.positions.iter().flat_map(CertifiedPosition::angles_arcsec);
         let largest = angles.fold(0.0, |largest: f64, angle| largest.max(angle.abs())) / 3600.0;
         self.line(&format!(
             "2. It measures the deviations of the eight positions of a low-cost stand: up to {largest:.1}°."
         ))?;
         self.line("3. It computes the calibration data for the site and signs them:")?;
-        let order = Issue::first(IDENTITY, self.now);
-        let issued = self.passports().issue(
-            &PreparedStand::new(stand.clone()),
-            moscow,
-            &order,
-            &Authority::new(IDENTITY, key, trust, &|| self.now),
-        )?;
-        self.line(&format!("   {}", shown(&issued.path)))?;
+        let (now, order) = (self.now, Issue::first(IDENTITY, self.now));
+        let clock = || now;
+        let authority = Authority::new(IDENTITY, &self.key, &self.trust, &clock);
+        let issued = self.passports().issue(&PreparedStand::new(stand.clone()), moscow, &order, &authority)?;
+        self.file(&issued.path)?;
         if let Some(growth) = issued.remarks.noise {
             let worst = growth.worst();
             self.line(&format!(
-                "   The noise of a calibration on this stand is {worst:.2} times that on an ideal \
-                 stand."
+                "   The noise of a calibration on this stand is {worst:.2} times that on an ideal stand."
             ))?;
         }
         Ok(issued)
     }
 
-    fn passports(&self) -> Folder {
-        Folder::new(self.path("passports"))
-    }
-
-    fn laboratory(&mut self, here: &Issued, moscow: &Site, beijing: &Site, trust: &Trust) -> Result<()> {
-        self.heading("THE LABORATORY")?;
-        self.line("4. The laboratory in Moscow checks that the passport is valid for stand 0203, here and now:")?;
-        let bytes = files::read(&here.path, LARGEST_DOCUMENT_BYTES)?;
+    fn laboratory(&mut self, here: &Issued, moscow: &Site, beijing: &Site) -> Result<()> {
+        let now = self.now;
         let ask = |site: &Site| Question {
             serial: Some("0203".to_owned()),
             place: site.longitude_deg.map(|longitude_deg| Place { latitude_deg: site.geodetic_deg(), longitude_deg }),
-            ..Question::at(self.now)
+            ..Question::at(now)
         };
-        let (in_moscow, in_beijing) = (ask(moscow), ask(beijing));
-        let answer = verify(&here.id, &bytes, trust, &in_moscow);
+        self.heading("THE LABORATORY")?;
+        self.line("4. The laboratory in Moscow checks that the passport is valid for stand 0203, here and now:")?;
+        let (_, answer) = self.verified(here, &ask(moscow))?;
         self.answer(&answer, None)?;
         self.line("5. The laboratory in Beijing makes the same check of the same passport:")?;
-        let answer = verify(&here.id, &bytes, trust, &in_beijing);
+        let (_, answer) = self.verified(here, &ask(beijing))?;
         self.answer(&answer, Some(CheckName::Place))
     }
 
-    fn moved(&mut self, here: &Issued, beijing: &Site, key: &SigningKey, trust: &Trust) -> Result<Issued> {
+    fn moved(&mut self, here: &Issued, beijing: &Site) -> Result<Issued> {
         self.heading("THE STAND MOVES")?;
         self.line("6. The factory re-issues the passport for Beijing, from its predecessor alone:")?;
-        let bytes = files::read(&here.path, LARGEST_DOCUMENT_BYTES)?;
-        let old = verify(&here.id, &bytes, trust, &Question::at(self.now));
+        let (now, question) = (self.now, Question::at(self.now));
+        let (bytes, old) = self.verified(here, &question)?;
         let order = Order {
             stand: None,
             site: Some(beijing.clone()),
             moved: true,
             reason: "delivered to Beijing".to_owned(),
             issuer: IDENTITY.to_owned(),
-            issued_at: self.now,
+            issued_at: now,
             valid_until: None,
             allow_uncalibratable: false,
             same_content: false,
         };
-        let issued = self
-            .passports()
-            .reissue(&successor(&bytes, &old, &order)?, &Authority::new(IDENTITY, key, trust, &|| self.now))?;
-        self.line(&format!("   {}", shown(&issued.path)))?;
-        let bytes = files::read(&issued.path, LARGEST_DOCUMENT_BYTES)?;
-        let question = Question::at(self.now);
-        let answer = verify(&issued.id, &bytes, trust, &question);
+        let clock = || now;
+        let authority = Authority::new(IDENTITY, &self.key, &self.trust, &clock);
+        let issued = self.passports().reissue(&successor(&bytes, &old, &order)?, &authority)?;
+        self.file(&issued.path)?;
+        let (bytes, answer) = self.verified(&issued, &question)?;
         self.answer(&answer, None)?;
-        let page = PassportPage::verified(&issued.id, &bytes, trust, &question).map_err(|_| REFUSED)?;
-        let path = self.path("passport.html");
+        let page = PassportPage::of(&bytes, &question, answer).map_err(|_| REFUSED)?;
         let languages = Languages::new(Language::English, [Language::Russian]);
-        files::write_new(&path, page.html(&languages).as_bytes(), Access::Shared)?;
+        let path = self.write("passport.html", &page.html(&languages))?;
         self.line(&format!("   Printed passport in English and Russian: {}", shown(&path)))?;
         Ok(issued)
     }
 
     /// Writes the simulated currents of a gyro of the paper's type as a CSV file, and calibrates that gyro.
-    fn calibrated(&mut self, there: &Issued, trust: &Trust) -> Result<()> {
+    fn calibrated(&mut self, there: &Issued) -> Result<()> {
         self.heading("A GYRO")?;
         self.line(
             "7. A gyro is mounted on the stand in Beijing, and its currents are read in the eight positions (simulated here):",
         )?;
-        let bytes = files::read(&there.path, LARGEST_DOCUMENT_BYTES)?;
-        let answer = verify(&there.id, &bytes, trust, &Question::at(self.now));
+        let (_, answer) = self.verified(there, &Question::at(self.now))?;
         let Some(passport) = answer.passport() else { return Err(REFUSED.into()) };
         let content = passport.content();
         let laboratory = Laboratory::paper();
         let (setup, _) = Setup::stated(&content.certificate, &content.positions, &content.site, &laboratory)?;
-        let path = self.path("currents.csv");
-        files::write_new(&path, simulated_currents(&setup).as_bytes(), Access::Shared)?;
-        self.line(&format!("   {}", shown(&path)))?;
-        let csv = files::read(&path, LARGEST_DOCUMENT_BYTES)?;
-        let readings = Readings::from_csv("currents.csv", &csv, setup.coefficients(), laboratory.meter.range_ma)?;
+        let csv = simulated_currents(&setup);
+        let path = self.write("currents.csv", &csv)?;
+        self.file(&path)?;
+        let range_ma = laboratory.meter.range_ma;
+        let readings = Readings::from_csv("currents.csv", csv.as_bytes(), setup.coefficients(), range_ma)?;
         let calibration = calibration::calibrate(&setup, &readings, &Options::default())?;
         let found = calibration.valid()?;
         self.line(
@@ -240,19 +247,16 @@ impl Stage<'_> {
             self.line(&format!("   {}", quantity(&values.join(", "), parameters[0].unit())))?;
         }
         let probability = found.chi_square.probability;
-        self.line(&format!(
-            "   The sixteen readings fit; the probability of a larger chi-square is {probability:.2}."
-        ))?;
-        Ok(())
+        self.line(&format!("   The sixteen readings fit; the probability of a larger chi-square is {probability:.2}."))
     }
 
-    fn altered(&mut self, there: &Issued, trust: &Trust) -> Result<()> {
+    fn altered(&mut self, there: &Issued) -> Result<()> {
         self.heading("A FORGER")?;
         self.line("9. A forger changes one digit of the passport:")?;
         let text = String::from_utf8_lossy(&files::read(&there.path, LARGEST_DOCUMENT_BYTES)?).into_owned();
         let forged = text.replacen("alpha_arcsec: 4310.0", "alpha_arcsec: 4311.0", 1);
-        files::write_new(&self.path("forged.yaml"), forged.as_bytes(), Access::Shared)?;
-        let answer = verify("forged.yaml", forged.as_bytes(), trust, &Question::at(self.now));
+        self.write("forged.yaml", &forged)?;
+        let answer = verify("forged.yaml", forged.as_bytes(), &self.trust, &Question::at(self.now));
         self.answer(&answer, Some(CheckName::Signature))
     }
 
@@ -260,15 +264,11 @@ impl Stage<'_> {
     fn answer(&mut self, answer: &Verification, expected: Option<CheckName>) -> Result<()> {
         let failed = answer.failed();
         self.as_expected &= failed.map(|check| check.name) == expected;
-        match failed {
-            None => self.line(&format!(
-                "   {}: {}",
-                said(&verdict::answer(true, answer.checks()), Language::English),
-                said(&counts_with_names(answer.checks()), Language::English)
-            )),
-            Some(check) => {
-                self.line(&format!("   {}: {}: {}", marked(Some(false), "REFUSED"), check.name.as_str(), check.detail))
-            }
-        }
+        let [mark, words] = match failed {
+            None => [verdict::answer(true, answer.checks()), counts_with_names(answer.checks())]
+                .map(|words| said(&words, Language::English)),
+            Some(check) => [marked(Some(false), "REFUSED"), format!("{}: {}", check.name.as_str(), check.detail)],
+        };
+        self.line(&format!("   {mark}: {words}"))
     }
 }

@@ -8,6 +8,7 @@
 //! * `kind`: kinds of findings and the probabilities at which they are reported; `found`: findings, their words, their JSON.
 //! * `remark`: remarks for the signatory.
 //! * `comparison`: the comparison of a later check run with the certificate: of positions, of all, and of the whole.
+//! * `measured`: what one file of readings shows of a stand.
 //! * `differences`: check minus certificate as rotations, and the tests of them.
 //! * `finding`: reasons for the result of that comparison, and its limits.
 //! * `transformation`: other units, columns, rows or signs of a file or a run.
@@ -25,6 +26,8 @@ pub(crate) mod header;
 pub(crate) mod hypothesis;
 pub(crate) mod kind;
 mod layer;
+#[cfg(feature = "cli")]
+pub(crate) mod measured;
 pub(crate) mod readings;
 pub(crate) mod remark;
 mod transformation;

@@ -1,7 +1,8 @@
 //! The arguments: completed from the environment and the workspace, and parsed. What cannot be parsed is reported here.
 
 use super::failure::Failure;
-use super::{Cli, Format, UNUSABLE, defaults, help, lang, output};
+use super::options::{Format, set_languages};
+use super::{Cli, UNUSABLE, defaults, help, output};
 use crate::text::{printable, shown};
 use crate::workspace::WORKSPACE_FILE;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -11,42 +12,27 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// The arguments as parsed, and the format in which a failure is also reported.
-pub(super) struct Parsed {
-    pub cli: Cli,
-    pub format: Format,
-    /// Options that the environment or the workspace added, in words.
-    pub added: Vec<String>,
-}
-
-/// Parses the arguments, or prints the reason why they cannot be parsed.
+/// Returns the parsed arguments, and in words the options that the environment or the workspace added; or prints the reason
+/// why they cannot be parsed.
 ///
 /// clap repeats arguments verbatim in its messages. So the message printed is clap's message about a printable copy of
 /// the arguments.
-pub(super) fn parse(mut arguments: Vec<OsString>) -> Result<Parsed, ExitCode> {
-    let added = match defaults::add(&mut arguments) {
-        Ok(added) => added,
-        Err(failure) => return Err(failure.report(format_of(&arguments))),
-    };
+pub(super) fn parse(mut arguments: Vec<OsString>) -> Result<(Cli, Vec<String>), ExitCode> {
+    output::set_format(format_of(&arguments));
+    let added = defaults::add(&mut arguments).map_err(|failure| failure.report())?;
     let parsed = |arguments: &[OsString]| {
         let matches = help::command().try_get_matches_from(arguments)?;
-        lang::set(&matches);
+        set_languages(&matches);
         Cli::from_arg_matches(&matches)
     };
-    let format = format_of(&arguments);
-    let error: clap::Error = match parsed(&arguments) {
-        Ok(cli) => match named_twice(&arguments) {
-            None => return Ok(Parsed { cli, format, added }),
-            Some(path) => {
-                let words = format!(
-                    "{}: is specified twice, so that with --force the new file could replace one that is read; give the \
-                     new file another name",
-                    shown(&path)
-                );
-                return Err(Failure::usage(words).report(format));
-            }
-        },
-        Err(error) => error,
+    let error = match (parsed(&arguments), named_twice(&arguments)) {
+        (Ok(cli), None) => return Ok((cli, added)),
+        (Ok(_), Some(path)) => {
+            let words = "is specified twice, so that with --force the new file could replace one that is read; give the new \
+                         file another name";
+            return Err(Failure::usage(format!("{}: {words}", shown(&path))).report());
+        }
+        (Err(error), _) => error,
     };
     let printed: Vec<OsString> =
         arguments.iter().map(|argument| printable(argument.to_string_lossy()).into()).collect();
@@ -60,10 +46,10 @@ pub(super) fn parse(mut arguments: Vec<OsString>) -> Result<Parsed, ExitCode> {
         return Err(written.map_or_else(|failure| ExitCode::from(failure.code), |()| ExitCode::SUCCESS));
     }
     let advice = refused.as_ref().map(advice).unwrap_or_default();
-    Failure::usage(words(refused.as_ref().unwrap_or(&error)) + &advice).print(format);
+    Failure::usage(words(refused.as_ref().unwrap_or(&error)) + &advice).print();
     match refused {
         Some(refused) => {
-            output::usage(&help::fitted(&clearer(&refused.render().ansi().to_string())));
+            output::usage(&help::fitted(&refused.render().ansi().to_string()));
             if !advice.is_empty() {
                 output::complain(advice.trim_start());
             }
@@ -89,7 +75,7 @@ fn named_twice(arguments: &[OsString]) -> Option<PathBuf> {
 
 /// Returns clap's message without its mark and its last line feed.
 fn words(error: &clap::Error) -> String {
-    let words = clearer(&error.render().to_string());
+    let words = error.render().to_string();
     let words = words.trim_end();
     words.strip_prefix("error: ").unwrap_or(words).split('\n').map(printable).collect::<Vec<_>>().join("\n")
 }
@@ -134,25 +120,6 @@ fn advice(error: &clap::Error) -> String {
     };
     let missing = MISSING.iter().filter(|(option, _)| is_missing(option));
     missing.map(|(option, words)| format!("\n{}", here(option, words))).collect()
-}
-
-/// Returns clap's words with its descriptions of numbers replaced by those that users know.
-fn clearer(words: &str) -> String {
-    let range = |line: &str| {
-        let (before, range) = line.trim_end().split_once(" is not in ")?;
-        let (first, last) = range.split_once("..=").or(range.split_once(".."))?;
-        let (option, _) = before.rsplit_once(": ")?;
-        let numbers = match last == u64::MAX.to_string() {
-            true => format!("of {first} or more"),
-            false => format!("from {first} to {last}"),
-        };
-        Some(format!("{option}: expected a whole number {numbers}\n"))
-    };
-    let words: String =
-        words.split_inclusive('\n').map(|line| range(line).unwrap_or_else(|| line.to_owned())).collect();
-    words
-        .replace(": invalid digit found in string", ": expected a whole number")
-        .replace(": invalid float literal", ": expected a number with a decimal point")
 }
 
 /// Returns the format that the arguments ask for, parsed or not: that of failures too.

@@ -1,15 +1,15 @@
 //! Common part of `issue` and `reissue`: running a batch and reporting its progress.
 
 use super::key_options::{IssuerOptions, Keys};
-use super::lang::{self, Lang};
-use super::{Code, Failure, REFUSED, UNUSABLE, interrupt, long_run, output};
+use super::options::{Format, Tabular, Threads, language};
+use super::{Code, Failure, REFUSED, UNUSABLE, long_run, output};
 use crate::batch::shard::Shard;
 use crate::batch::{Batch, Event, Listener, Outcome};
 use crate::files::{self, Durability};
 use crate::folder::Folder;
 use crate::parallel;
 use crate::passport::{NAMESPACE, Trust};
-use crate::report::issued::{Form, Report, Reports, Told, failure};
+use crate::report::issued::{Report, Reports, Told, failure};
 use crate::text::{LARGEST_DOCUMENT_BYTES, shown};
 use crate::trust::{AllowedSigners, NotAuthorised, PublicKey};
 use clap::Args;
@@ -32,14 +32,10 @@ pub(super) struct BatchOptions {
     /// Do not sync to disk: faster, but a power failure may lose files
     #[arg(long)]
     no_sync: bool,
-    /// Number of threads [default: one for each processor]
-    #[arg(short = 'j', long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
     #[command(flatten)]
-    _lang: Lang,
-    /// Output format
-    #[arg(long, value_enum, default_value = "text")]
-    format: Form,
+    threads: Threads,
+    #[command(flatten)]
+    _printed: Tabular,
 }
 
 impl BatchOptions {
@@ -51,7 +47,7 @@ impl BatchOptions {
         let Ok(bytes) = files::read(&path, LARGEST_DOCUMENT_BYTES) else { return };
         let Ok(signers) = AllowedSigners::parse("allowed_signers", &bytes) else { return };
         if !matches!(
-            signers.authorise(public, &self.issuer.identity, NAMESPACE, issued_at),
+            signers.authorise(public, self.issuer.identity(), NAMESPACE, issued_at),
             Err(NotAuthorised::UnknownKey)
         ) {
             self.warn_unless_authorised(&signers, public, issued_at, &shown(&path).to_string());
@@ -66,8 +62,8 @@ impl BatchOptions {
         issued_at: Timestamp,
         source: &str,
     ) {
-        if let Err(miss) = signers.authorise(public, &self.issuer.identity, NAMESPACE, issued_at) {
-            let (who, refuse) = (&self.issuer.identity, "laboratories with that list will refuse the new passports");
+        if let Err(miss) = signers.authorise(public, self.issuer.identity(), NAMESPACE, issued_at) {
+            let (who, refuse) = (self.issuer.identity(), "laboratories with that list will refuse the new passports");
             output::warn(&match miss {
                 NotAuthorised::UnknownKey => format!(
                     "--identity {who}: the list of trusted keys ({source}) does not contain the signing key; {refuse}; use a \
@@ -90,15 +86,15 @@ impl BatchOptions {
 
     /// Runs a batch and reports each outcome as it occurs.
     pub(super) fn run(&self, keys: &Keys, trust: &Trust, work: impl FnOnce(&Batch, Listener)) -> Result<Code, Failure> {
-        let cancel = interrupt::cancelled_by_ctrl_c()?;
+        let cancel = long_run::cancelled_by_ctrl_c()?;
         let batch = Batch {
             durability: self.durability(),
             authority: keys.authority(trust),
             shard: self.shard.unwrap_or(Shard::WHOLE),
-            threads: self.threads.map_or_else(parallel::processors, usize::from),
+            threads: self.threads.or(parallel::processors()),
             cancel: Some(&cancel),
         };
-        let mut reporter = Reporter::new(self.format, Arc::clone(&cancel))?;
+        let mut reporter = Reporter::new(Arc::clone(&cancel))?;
         work(&batch, &mut |event| reporter.hear(event));
         let code = reporter.end()?;
         keys.say_without_register();
@@ -116,23 +112,20 @@ struct Reporter {
     code: Code,
     cancel: Arc<AtomicBool>,
     unwritten: Option<Failure>,
-    out: fn(&str) -> Result<(), Failure>,
 }
 
 impl Reporter {
-    fn new(form: Form, cancel: Arc<AtomicBool>) -> Result<Self, Failure> {
+    fn new(cancel: Arc<AtomicBool>) -> Result<Self, Failure> {
         let bar = long_run::bar(0, "passports")?;
         bar.set_draw_target(ProgressDrawTarget::hidden());
-        let out = if form == Form::Text { output::text } else { output::result };
         Ok(Self {
-            reports: Reports::new(form, lang::of_text()),
-            told: Told::new(lang::of_text()),
+            reports: Reports::new(output::format(), language()),
+            told: Told::new(language()),
             held: Vec::new(),
             bar,
             code: 0,
             cancel,
             unwritten: None,
-            out,
         })
     }
 
@@ -181,7 +174,8 @@ impl Reporter {
         if text.is_empty() || self.unwritten.is_some() {
             return;
         }
-        if let Err(failure) = self.bar.suspend(|| (self.out)(text)) {
+        let out = if output::format() == Format::Text { output::text } else { output::result };
+        if let Err(failure) = self.bar.suspend(|| out(text)) {
             self.unwritten = Some(failure);
             self.cancel.store(true, Ordering::Relaxed);
         }

@@ -1,19 +1,17 @@
 //! Verb `calibrate`: the gyro's parameters from a passport and currents, or those of several gyros.
 
-use super::inputs::{self, AdministrativeFile, Each};
-use super::lang::{self, Lang};
+use super::inputs::{self, AdministrativeFile, Answer, Lines};
+use super::options::{self, Force, Instruments, Printed, Report, folder, language, languages};
 use super::show::{Read, Whom};
 use super::trust_options::{Enquiry, date};
-use super::{Code, Failure, Format, REFUSED, defaults, exclusion, output, uncertainty};
+use super::{Code, Failure, code, defaults, output, uncertainty};
 use crate::batch::once::Once;
 use crate::batch::{Purpose, paths};
 use crate::calibration::document::{Subject, another_type};
 use crate::calibration::iterative::StopRule;
 use crate::calibration::readings::Exclusion;
 use crate::calibration::stated::TemperatureOutside;
-use crate::calibration::{
-    CalibrationDocument, Decision, Method, Model, Options as CalibrationOptions, Readings, Verdict,
-};
+use crate::calibration::{CalibrationDocument, Method, Model, Options as CalibrationOptions, Readings};
 use crate::coefficients::PositionIndex;
 use crate::dcc::{self, Calibrated};
 use crate::document::sha256_hex;
@@ -30,8 +28,8 @@ use crate::report::{issued, style};
 use crate::text::{Kind, Printable, name_of, printable, shown};
 use crate::wording::plain;
 use crate::workspace::{NoPassport, Results, serial_of};
+use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
-use clap::{Args, ValueEnum};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use serde::Serialize;
@@ -49,6 +47,7 @@ use std::path::{Path, PathBuf};
 /// file of currents is then the serial number of its gyro, the last result of this gyro is compared, and the new result and
 /// its report are written into the folder of results.
 #[derive(Args)]
+#[command(mut_arg("gyro", |gyro| gyro.help("Gyro type (dtg-gyro/1) for the decision on conformity")))]
 pub(super) struct Options {
     /// Passport file, in a workspace also its identifier; then the currents of a gyro: CSV with the header i,j,jx_ma,jy_ma
     /// and optionally cycle, visit, time_s; without visit, successive rows of a position belong to one visit
@@ -64,28 +63,24 @@ pub(super) struct Options {
         long,
         visible_alias = "output",
         value_name = "DIR",
-        value_parser = output::folder("; for one report use --report FILE.html, for one result --format json"),
+        value_parser = folder("; for one report use --report FILE.html, for one result --format json"),
         conflicts_with_all = ["report", "dcc"]
     )]
     out: Option<PathBuf>,
     /// Calibration methods; least squares gives the adopted result
     #[arg(long, value_enum, value_delimiter = ',', default_value = "analytic,iterative,least-squares")]
     method: Vec<Method>,
-    /// Gyro type (dtg-gyro/1) for the decision on conformity
-    #[arg(long, value_name = "FILE")]
-    gyro: Option<PathBuf>,
-    /// Laboratory (dtg-laboratory/1) [default: the paper's meter, 0.015 %]
-    #[arg(long, value_name = "FILE")]
-    laboratory: Option<PathBuf>,
+    #[command(flatten)]
+    instruments: Instruments,
     /// Previous result of this gyro (from --format json or --out), to report the change. May be repeated: the latest
     /// one is compared, and --report shows all
     #[arg(long, value_name = "RESULT.json")]
     previous: Vec<PathBuf>,
     /// Stop limit of the iteration for the main scale factors, percent
-    #[arg(long, value_name = "P", default_value_t = 0.1, value_parser = limit, allow_hyphen_values = true)]
+    #[arg(long, value_name = "P", default_value_t = 0.1, value_parser = inputs::number("a number", 0.0..=f64::INFINITY), allow_hyphen_values = true)]
     delta1_percent: f64,
     /// Stop limit of the iteration for ω_g and ω_k, °/(h·g)
-    #[arg(long, value_name = "D", default_value_t = 0.001, value_parser = limit, allow_hyphen_values = true)]
+    #[arg(long, value_name = "D", default_value_t = 0.001, value_parser = inputs::number("a number", 0.0..=f64::INFINITY), allow_hyphen_values = true)]
     delta2_deg_per_h: f64,
     /// Visit to leave out, as i,j,visit or i,j,visit,cycle; visits count within a turn-on and position. May be repeated
     #[arg(long, value_name = "I,J,VISIT[,CYCLE]", value_parser = excluded, requires = "why")]
@@ -103,11 +98,11 @@ pub(super) struct Options {
     #[arg(long, value_name = "YYYY-MM-DD", value_parser = date)]
     date: Option<Date>,
     /// Temperature during the readings, °C
-    #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = temperature)]
+    #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = inputs::number("degrees Celsius", TEMPERATURES_C[0]..=TEMPERATURES_C[1]))]
     temperature_c: Option<f64>,
     /// Model of the g-sensitive drift: the paper's, or the full 2×3 matrix, with a test of whether it is needed
-    #[arg(long, value_enum, default_value = "paper")]
-    model: ModelName,
+    #[arg(long, value_parser = ["paper", "general"], default_value = "paper")]
+    model: String,
     /// Fit one linear drift of ω_0 in time; needs the column time_s
     #[arg(long)]
     drift: bool,
@@ -116,24 +111,21 @@ pub(super) struct Options {
     anisoelasticity: bool,
     #[command(flatten)]
     uncertainty: uncertainty::UncertaintyOptions,
-    /// Write a report for paper, screen and phone, with fields for handwritten signatures; FILE.pdf is printed by an
-    /// installed Chromium, Chrome or Edge
-    #[arg(long, value_name = "FILE.html", value_parser = output::path_of(output::PAGE))]
-    report: Option<PathBuf>,
+    #[command(flatten)]
+    force: Force,
+    #[command(flatten)]
+    report: Report,
     /// Write a Digital Calibration Certificate of the gyro; needs --gyro-serial, --administrative and a verified passport
-    #[arg(long, value_name = "FILE.xml", conflicts_with_all = ["no_verify", "anisoelasticity", "drift"])]
+    #[arg(long, help_heading = "Report and certificate", value_name = "FILE.xml", conflicts_with_all = ["no_verify", "anisoelasticity", "drift"])]
     dcc: Option<PathBuf>,
     /// Administrative data of --dcc (dtg-dcc/1); `new dcc` writes a template
-    #[arg(long, value_name = "FILE", requires = "dcc")]
+    #[arg(long, help_heading = "Report and certificate", value_name = "FILE", requires = "dcc")]
     administrative: Option<PathBuf>,
     /// Print all that the report has: risks, residuals, the paper's methods and what the residuals do not show
     #[arg(long)]
     details: bool,
     #[command(flatten)]
-    lang: Lang,
-    /// Output format
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    _printed: Printed,
 }
 
 /// Parses a visit to leave out.
@@ -144,24 +136,6 @@ fn excluded(text: &str) -> Result<(PositionIndex, u32, Option<u32>), String> {
         Some(&[i, j, visit, cycle]) => Ok((PositionIndex { i, j }, visit, Some(cycle))),
         _ => Err("expected three or four whole numbers: i,j,visit or i,j,visit,cycle".to_owned()),
     }
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum ModelName {
-    Paper,
-    General,
-}
-
-/// Parses a temperature; the limits are those of a laboratory file.
-fn temperature(text: &str) -> Result<f64, String> {
-    let [low, high] = TEMPERATURES_C;
-    let celsius = text.parse().ok().filter(|celsius| (low..=high).contains(celsius));
-    celsius.ok_or_else(|| format!("expected degrees Celsius from {low} to {high}, with a decimal point, such as 21.5"))
-}
-
-/// Parses a stop limit: the largest change in the last step of the iteration.
-fn limit(text: &str) -> Result<f64, String> {
-    inputs::number(text, 0.0..f64::INFINITY, "a number ≥ 0".to_owned())
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
@@ -179,8 +153,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         options,
         passport: Read::of(&passport, enquiry.as_ref())?,
         enquiry,
-        laboratory: inputs::laboratory(options.laboratory.as_deref())?,
-        gyro_type: inputs::gyro(options.gyro.as_deref())?,
+        laboratory: options.instruments.laboratory()?,
+        gyro_type: options.instruments.gyro()?,
         previous: previous(options)?,
         results: results.filter(|_| options.out.is_none()),
         lacks_pdf: Cell::new(false),
@@ -246,10 +220,7 @@ impl Found {
     }
 
     fn code(&self) -> Code {
-        let document = &self.done.document;
-        let failed = |verdict: &Verdict| verdict.overall == Decision::Fail;
-        let refused = !document.is_valid() || document.verdict.iter().chain(&document.change).any(failed);
-        if refused { REFUSED } else { 0 }
+        code(false, self.done.is_refused())
     }
 }
 
@@ -295,7 +266,7 @@ impl Bench<'_> {
 
     /// Returns the laboratory if it is stated.
     fn laboratory(&self) -> Option<&Laboratory> {
-        self.options.laboratory.is_some().then_some(&self.laboratory)
+        self.options.instruments.laboratory.is_some().then_some(&self.laboratory)
     }
 
     fn calibrate(&self, path: &Path) -> Result<Found, Failure> {
@@ -328,16 +299,17 @@ impl Bench<'_> {
     fn one(&self, path: &Path) -> Result<Code, Failure> {
         let options = self.options;
         // Nothing is written if one of the files cannot be.
-        let files = || options.report.iter().chain(&options.dcc);
+        let files = || options.report.path.iter().chain(&options.dcc);
         files::check_distinct(files())?;
-        files::check_replaceable(files(), options.uncertainty.force)?;
+        let force = options.force.replace;
+        files::check_replaceable(files(), force)?;
         let found = self.calibrate(path)?;
-        let (done, force) = (&found.done, options.uncertainty.force);
+        let done = &found.done;
         let mut written = Vec::new();
         if let Some(path) = &options.dcc {
             written.push((path, self.dcc(done)?.into_bytes()));
         }
-        if let Some(path) = &options.report {
+        if let Some(path) = &options.report.path {
             written.push((path, output::page(path, self.page(&found)?, force)?));
         }
         written.iter().try_for_each(|(path, bytes)| output::saved_too(path, bytes, force))?;
@@ -346,20 +318,16 @@ impl Bench<'_> {
             output::say_after("the DCC is not signed; the passport of the stand is, and its SHA-256 is in the DCC");
         }
         let trials = found.uncertainty.monte_carlo.as_ref();
-        match options.format {
-            Format::Json | Format::Ndjson => {
-                report::doubts(done, trials)
-                    .iter()
-                    .for_each(|doubt| output::complain(&plain(&doubt.plain(lang::of_text()))));
-                options.format.json(&found.whole())?;
-            }
-            Format::Text => {
-                let of = report::Report::of(done, self.gyro_type.as_ref(), &found.previous, options.details);
-                let (language, checks) = (lang::of_text(), self.checks());
-                let how = report::Said { language, meter_assumed: options.laboratory.is_none(), checks };
-                let text = report::text(done, trials, &of, &how);
-                output::text(&(text + &found.uncertainty.text(self.gyro_type.as_ref(), &done.document, language)))?;
-            }
+        if output::is_json() {
+            let doubts = report::doubts(done, trials);
+            doubts.iter().for_each(|doubt| output::complain(&plain(&doubt.plain(language()))));
+            output::value(&found.whole())?;
+        } else {
+            let of = report::Report::of(done, self.gyro_type.as_ref(), &found.previous, options.details);
+            let (language, checks) = (language(), self.checks());
+            let how = report::Said { language, meter_assumed: self.laboratory().is_none(), checks };
+            let text = report::text(done, trials, &of, &how);
+            output::text(&(text + &found.uncertainty.text(self.gyro_type.as_ref(), &done.document, language)))?;
         }
         Ok(found.code())
     }
@@ -373,14 +341,23 @@ impl Bench<'_> {
         }
         let mut written = HashMap::new();
         let mut calibrated = Once::new();
-        let (mut all, mut failed) = (Gyros::new(lang::of_text()), Vec::new());
+        let mut all = Gyros::new(language());
         let calibrate = |path: &Path| {
             let found = self.calibrate(path)?;
             calibrated
                 .check(found.done.readings.means_ma(), &found.currents.0, ["currents", "gyro"])
                 .map_err(Failure::refused)?;
             if let Some(folder) = &options.out {
-                self.write(folder, path, &found, &mut written)?;
+                let stem = folder.join(path.file_stem().unwrap_or_default());
+                if let Some(other) = written.insert(stem.clone(), found.currents.0.clone()) {
+                    let (json, other) = (with_end(&stem, ".json"), Printable(other));
+                    let words = format!(
+                        "nothing was written: {} is the result of {other}; specify each file of currents once, or rename one",
+                        shown(&json)
+                    );
+                    return Err(Failed::new(interface::EXISTS, words, Vec::new()).into());
+                }
+                files::together::write_replaceable_together(&self.result(&found, &stem)?, options.force.replace)?;
             }
             if let Some(serial) = found.done.document.gyro_serial().filter(|_| found.place.is_some()) {
                 // Otherwise the second of one gyro would be compared with the first.
@@ -392,17 +369,12 @@ impl Bench<'_> {
                 self.keep(&found)?;
             }
             let trials = found.uncertainty.monte_carlo.as_ref();
-            let text = gyros::line(&found.currents.0, &found.done, trials, self.gyro_name(), lang::of_text());
+            let text = gyros::line(&found.currents.0, &found.done, trials, self.gyro_name(), language());
             let result = serde_json::to_value(found.whole()).map_err(Failure::unusable)?;
             all.add(&found.done, self.gyro_name(), self.checks());
-            Ok(((Line { file: found.currents.0.clone(), result }, text), found.code()))
+            Ok(Answer { value: Line { file: found.currents.0.clone(), result }, text, code: found.code() })
         };
-        let code = inputs::each(currents, Purpose::Tables, calibrate, |done| {
-            if let Each::Refused { refusal, .. } = &done {
-                failed.push(issued::outcome(refusal));
-            }
-            inputs::print(&done, options.format)
-        })?;
+        let (code, failed) = inputs::each(currents, Purpose::Tables, Lines::or(Lines::Text), calibrate)?;
         let folder = options.out.as_ref().or(self.results.as_ref());
         if let Some(folder) = folder.filter(|_| !written.is_empty()) {
             let (count, folder) = (written.len(), shown(folder));
@@ -411,65 +383,38 @@ impl Bench<'_> {
                 "wrote the result (.json) and the report (.html) of {count} gyro{plural} to {folder}"
             ));
         }
-        failed.into_iter().for_each(|word| all.add_failed(word));
-        match (options.format, all.summary()) {
-            (Format::Text, _) => output::text(&all.text(options.laboratory.is_none(), self.gyro_name()))?,
-            (_, words) if words.is_empty() => (),
-            (_, words) => output::say_verdict(&style::plain(&words)),
+        failed.iter().for_each(|failed| all.add_failed(issued::outcome(failed)));
+        match (output::is_json(), all.summary()) {
+            (false, _) => output::text(&all.text(self.laboratory().is_none(), self.gyro_name()))?,
+            (true, words) if words.is_empty() => (),
+            (true, words) => output::say_verdict(&style::plain(&words)),
         }
         Ok(code)
     }
 
-    /// Writes the result and the report of one of several gyros, whose names must differ.
-    fn write(
-        &self,
-        folder: &Path,
-        path: &Path,
-        found: &Found,
-        written: &mut HashMap<PathBuf, String>,
-    ) -> Result<(), Failure> {
-        let named = |extension: &str| {
-            let mut name = path.file_stem().unwrap_or_default().to_owned();
-            name.push(extension);
-            folder.join(name)
-        };
-        let json = named(".json");
-        if let Some(other) = written.get(&json) {
-            let words = format!(
-                "nothing was written: {} is the result of {}; specify each file of currents once, or rename one",
-                shown(&json),
-                Printable(other)
-            );
-            return Err(Failed::new(interface::EXISTS, words, Vec::new()).into());
-        }
-        let page = (named(".html"), self.page(found)?);
-        let text = printable::json(&found.whole()).map_err(Failure::unusable)? + "\n";
-        let pages = [(json.clone(), text), page];
-        files::together::write_replaceable_together(&pages, self.options.uncertainty.force)?;
-        written.insert(json, found.currents.0.clone());
-        Ok(())
+    /// Returns the result and the report, with the paths of their files.
+    fn result(&self, found: &Found, stem: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
+        let json = printable::json(&found.whole()).map_err(Failure::unusable)? + "\n";
+        Ok(vec![
+            (with_end(stem, ".json"), json.into_bytes()),
+            (with_end(stem, ".html"), self.page(found)?.into_bytes()),
+        ])
     }
 
     /// Writes the result and the report into the folder of results, as PDF too where a browser prints it, and returns their
     /// paths.
     fn keep(&self, found: &Found) -> Result<Vec<PathBuf>, Failure> {
         let Some(place) = &found.place else { return Ok(Vec::new()) };
-        let named = |extension: &str| {
-            let mut path = place.clone().into_os_string();
-            path.push(extension);
-            PathBuf::from(path)
-        };
-        let html = self.page(found)?;
-        let pdf = (!self.lacks_pdf.get()).then(|| output::page(&named(".pdf"), html.clone(), false));
-        let json = printable::json(&found.whole()).map_err(Failure::unusable)? + "\n";
-        let mut files = vec![(named(".json"), json.into_bytes()), (named(".html"), html.into_bytes())];
-        match pdf {
-            Some(Ok(pdf)) => files.push((named(".pdf"), pdf)),
-            Some(Err(error)) => {
-                self.lacks_pdf.set(true);
-                output::say_after(&format!("no PDF was written: {error}"));
+        let mut files = self.result(found, place)?;
+        if !self.lacks_pdf.get() {
+            let path = with_end(place, ".pdf");
+            match output::page(&path, self.page(found)?, false) {
+                Ok(pdf) => files.push((path, pdf)),
+                Err(error) => {
+                    self.lacks_pdf.set(true);
+                    output::say_after(&format!("no PDF was written: {error}"));
+                }
             }
-            None => {}
         }
         files::together::write_replaceable_together(&files, false)?;
         Ok(files.into_iter().map(|(path, _)| path).collect())
@@ -496,14 +441,14 @@ impl Bench<'_> {
             monte_carlo: found.uncertainty.monte_carlo.as_ref(),
             details: self.options.details,
         };
-        Ok(page.html(&self.options.lang.languages()))
+        Ok(page.html(&languages()))
     }
 
     fn dcc(&self, done: &Done) -> Result<String, Failure> {
         let sha256 = sha256_hex(&self.passport.bytes);
         let calibrated =
             Calibrated::new(&self.passport.content, &sha256, self.laboratory(), self.gyro_type.as_ref(), done);
-        let (calibrated, languages) = (calibrated.map_err(Failure::refused)?, self.options.lang.languages());
+        let (calibrated, languages) = (calibrated.map_err(Failure::refused)?, languages());
         let dcc = dcc::of_gyro(&calibrated, self.administrative.content.as_ref(), Some(&languages));
         Ok(dcc.map_err(|problems| self.administrative.refuse(problems))?.xml)
     }
@@ -529,10 +474,10 @@ impl Options {
             ("--gyro-serial", self.gyro_serial.is_some()),
             ("--previous", !self.previous.is_empty()),
             ("--exclude", !self.exclude.is_empty()),
-            ("--report", self.report.is_some()),
+            ("--report", self.report.path.is_some()),
             ("--dcc", self.dcc.is_some()),
             // Their lines have no room for it.
-            ("--budget", self.uncertainty.budget && self.out.is_none() && self.format == Format::Text),
+            ("--budget", self.uncertainty.budget && self.out.is_none() && !output::is_json()),
         ];
         let Some((option, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };
         if self.out.is_some() {
@@ -554,14 +499,21 @@ impl Options {
         CalibrationOptions {
             methods: self.method.clone(),
             stop_rule: StopRule { delta1_percent: self.delta1_percent, delta2_deg_per_h: self.delta2_deg_per_h },
-            model: match self.model {
+            model: match self.model.as_str() {
                 _ if self.anisoelasticity => Model::Anisoelastic,
-                ModelName::Paper => Model::Paper,
-                ModelName::General => Model::General,
+                "general" => Model::General,
+                _ => Model::Paper,
             },
             drift: self.drift,
         }
     }
+}
+
+/// Returns a path with something after its name, which may contain a point.
+fn with_end(stem: &Path, end: &str) -> PathBuf {
+    let mut path = stem.as_os_str().to_owned();
+    path.push(end);
+    path.into()
 }
 
 /// Returns the passport in the form that the report takes.
@@ -586,7 +538,7 @@ fn previous(options: &Options) -> Result<Vec<CalibrationDocument>, Failure> {
 }
 
 fn exclude(options: &Options, name: &str, readings: &mut Readings) -> Result<(), Failure> {
-    let reasons = exclusion::reasons(options.exclude.len(), &options.why)?;
+    let reasons = options::reasons(options.exclude.len(), &options.why)?;
     for (&(PositionIndex { i, j }, visit, cycle), why) in options.exclude.iter().zip(reasons) {
         let excluded = readings.exclude(Exclusion { i, j, visit, cycle, why });
         excluded.map_err(|words| Failure::unusable(format!("{}: {words}", printable(name))))?;

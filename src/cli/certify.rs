@@ -1,16 +1,16 @@
 //! Verb `certify`: stand files from repeated readings of the angles, or a later check run against one.
 
 use super::diff::past;
-use super::exclusion::ExclusionOptions;
-use super::lang::{self, Lang};
+use super::inputs::{self, Answer, Lines};
+use super::options::{ExclusionOptions, Force, Out, Printed, Report, STAND, file_or_folder, languages};
 use super::trust_options::OptionalTrust;
-use super::{Code, Failure, Format, REFUSED, defaults, inputs, output};
+use super::{Code, Failure, REFUSED, defaults, output};
 use crate::batch::certificates::Certificates;
 use crate::batch::once::Once;
 use crate::batch::{Purpose, paths};
 use crate::certification::found::Found;
-use crate::certification::{AngleReadings, Certification, Header, NotCertified, certify, compare, predicted};
-use crate::document::sha256_hex;
+use crate::certification::measured::Measured;
+use crate::certification::{AngleReadings, Certification, Header, NotCertified, certify};
 use crate::files;
 use crate::folder::Folder;
 use crate::folder::archive::Superseded;
@@ -18,7 +18,7 @@ use crate::interface::Failed;
 use crate::passport::content::claims_to_be_a_passport;
 use crate::passport::difference::of_deviations;
 use crate::report::certification as report;
-use crate::report::doc::{self, Block};
+use crate::report::doc::Block;
 use crate::report::page::certification::CertificationPage;
 use crate::stand::Stand;
 use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, Printable, name_of, shown};
@@ -42,26 +42,23 @@ pub(super) struct Options {
     /// folder of these files
     #[arg(long, alias = "header", value_name = "HEADER.yaml", required_unless_present = "against")]
     stand: Option<PathBuf>,
-    /// Write the certified stand file of one stand
+    /// Stand file to write; or folder for those of several stands, <model>/<serial>/stand.yaml
     #[arg(
         short,
         long,
-        value_name = "stand.yaml",
-        required_unless_present_any = ["against", "out"],
-        conflicts_with = "out"
+        visible_alias = "output",
+        value_name = "stand.yaml|DIR",
+        value_parser = file_or_folder(STAND),
+        required_unless_present = "against"
     )]
-    output: Option<PathBuf>,
-    /// Folder for the stand files of several stands: <model>/<serial>/stand.yaml
-    #[arg(long, value_name = "DIR", value_parser = output::folder("; for one stand use -o stand.yaml"), conflicts_with_all = ["against", "report", "exclude"])]
-    out: Option<PathBuf>,
+    out: Option<Out>,
     /// Table of certificates: --stand is then one header for all stands, which may lack serial, number and issued. CSV with the
     /// columns serial, number, issued and any of performed, received, valid_until, customer, temperature_c; the readings of a
     /// row are SERIAL.csv
     #[arg(long, value_name = "TABLE.csv", requires_all = ["out", "stand"])]
     certificates: Option<PathBuf>,
-    /// Replace an existing stand file
-    #[arg(long)]
-    force: bool,
+    #[command(flatten)]
+    force: Force,
     /// Certified stand or passport to compare the readings with; one run is sufficient. A passport requires --trust. In a
     /// workspace also MODEL/SERIAL, or the identifier of a passport
     #[arg(long, value_name = "FILE", value_parser = defaults::certified())]
@@ -70,25 +67,30 @@ pub(super) struct Options {
     trust: OptionalTrust,
     #[command(flatten)]
     exclusions: ExclusionOptions,
-    /// Write a printable record of the certification: readings, tests, uncertainty, signature lines. It needs two runs or more,
-    /// or, with --against, the readings of that certificate; FILE.pdf is printed by an installed Chromium, Chrome or Edge
-    #[arg(long, value_name = "FILE.html", value_parser = output::path_of(output::PAGE))]
-    report: Option<PathBuf>,
     #[command(flatten)]
-    lang: Lang,
-    /// Output format
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    report: Report,
+    #[command(flatten)]
+    _printed: Printed,
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
+    let of_one = options.against.is_some() || options.report.path.is_some() || options.exclusions.is_any();
     match (&options.out, paths::one_file(&options.readings)) {
-        (Some(folder), _) => several(options, folder),
-        (None, Some(readings)) => one(options, readings),
-        (None, None) if options.against.is_some() => {
-            Err(Failure::usage("--against is for one file of readings; check each stand by itself"))
-        }
-        (None, None) => Err(Failure::usage("several READINGS.csv need --out DIR, the folder for their stand files")),
+        (Some(Out::Folder(folder)), _) if of_one => Err(Failure::usage(format!(
+            "{}: --against, --report and --exclude are for one stand, whose file is specified with -o stand.yaml",
+            shown(folder)
+        ))),
+        (Some(Out::Folder(folder)), _) => several(options, folder),
+        (Some(Out::File(path)), _) if options.certificates.is_some() => Err(Failure::usage(format!(
+            "{}: is one stand file, but --certificates is for several; specify a folder with -o DIR",
+            shown(path)
+        ))),
+        (out, Some(readings)) => one(options, readings, out.as_ref().and_then(Out::file)),
+        (None, None) => Err(Failure::usage("--against is for one file of readings; check each stand by itself")),
+        (Some(Out::File(path)), None) => Err(Failure::usage(format!(
+            "{}: is one stand file, but several files of readings are given; specify a folder with -o DIR",
+            shown(path)
+        ))),
     }
 }
 
@@ -145,12 +147,12 @@ fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
         let stand = &certified.stand.stand;
         let path = folder.stand_file(stand);
         folder.check_place(&path).map_err(Failure::refused)?;
-        write(&path, &certified, &[], options.force)?;
-        let text = doc::typed(&report::line(&certified, &name_of(&path)), lang::of_text());
+        write(&path, &certified, &[], options.force.replace)?;
+        let text = output::typed(&report::line(&certified, &name_of(&path)));
         let result = report::to_json(Some(&certified), None, None);
-        Ok(((Line { file: name, stand_file: name_of(&path), result }, text), 0))
+        Ok(Answer { value: Line { file: name, stand_file: name_of(&path), result }, text, code: 0 })
     };
-    let mut code = inputs::each(&options.readings, Purpose::Tables, work, |done| inputs::print(&done, options.format))?;
+    let (mut code, _) = inputs::each(&options.readings, Purpose::Tables, Lines::or(Lines::Text), work)?;
     let serials = table.iter().flat_map(Certificates::serials);
     for serial in serials.filter(|serial| !used.contains(*serial)) {
         output::complain(&format!("serial {}: the table has a row, but no readings are given", Printable(serial)));
@@ -199,82 +201,53 @@ fn write(path: &Path, certified: &Certification, known: &[&Stand], force: bool) 
     output::file(path, &text, force)
 }
 
-fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
-    files::check_distinct(options.output.iter().chain(&options.report))?;
+fn one(options: &Options, readings: &Path, out: Option<&PathBuf>) -> Result<Code, Failure> {
     let against = options.against.as_deref().map(|path| certified(path, &options.trust)).transpose()?;
-    let bytes = inputs::bytes(readings, Kind::Angles.words())?;
-    let evidence = against.as_ref().and_then(|stand| stand.certificate.evidence.as_ref());
-    // The record of a certificate that is there, from its own readings.
-    let own = evidence.filter(|evidence| evidence.readings_sha256 == sha256_hex(&bytes));
-    let own = own.filter(|_| options.report.is_some() && options.stand.is_none());
-    let header = match (&options.stand, &against) {
-        (Some(path), _) => inputs::document(path, inputs::HEADER, Header::from_yaml)?,
-        (None, Some(stand)) if own.is_some() => {
-            Header { certificate: stand.certificate.clone(), ..Header::from(stand) }
-        }
-        (None, Some(stand)) => Header::from(stand),
-        (None, None) => return Err(Failure::unusable("missing --stand or --against")),
-    };
-    let name = name_of(readings);
-    let excluded = match own {
-        Some(evidence) => evidence.excluded.clone().unwrap_or_default(),
-        None => options.exclusions.excluded()?,
-    };
-    let earlier = against.as_ref().filter(|_| own.is_none());
-    let readings = AngleReadings::from_csv_without(&name, &bytes, &header.positions, &excluded, earlier)?;
-    if let Some(remark) = &readings.remark {
-        output::say(remark);
-    }
-    let (readings, _) = predicted(&header, &readings).map_err(Failure::refused)?;
-    let certified = certify(&header, &readings);
-    if let (Some(_), Some(stand), Ok(again)) = (own, &against, &certified)
-        && again.stand != *stand
-    {
-        let number = Printable(&stand.certificate.number);
-        let words =
-            format!("certificate {number} states other numbers than follow from its readings; it was changed by hand");
-        return Err(Failure::refused(words));
-    }
-    let comparison = earlier.map(|stand| compare(stand, &header, &readings, certified.as_ref().ok()));
-    let comparison = comparison.transpose().map_err(Failure::refused)?;
+    let (name, bytes) = (name_of(readings), inputs::bytes(readings, Kind::Angles.words())?);
+    let header = options.stand.as_deref().map(|path| inputs::document(path, inputs::HEADER, Header::from_yaml));
+    let excluded = options.exclusions.excluded()?;
+    let again = options.report.path.is_some();
+    let measured = Measured::new(header.transpose()?, against.as_ref(), (&name, &bytes), excluded, again)?;
+    let Measured { certified, comparison, is_own, remark } = measured;
+    remark.iter().for_each(|remark| output::say(remark));
     // A check of one run needs no certificate of its own. If an output file was requested, the program says why there
     // is none.
     let (certified, refused) = match certified {
         Ok(certified) => (Some(certified), None),
-        Err(refused) if options.output.is_none() && options.report.is_none() => (None, Some(refused)),
+        Err(refused) if out.is_none() && options.report.path.is_none() => (None, Some(refused)),
         Err(why) => return Err(refused(&name, &why)),
     };
-    let page = certified.as_ref().zip(options.report.as_ref()).map(|(certified, path)| {
-        let change = comparison.as_ref().zip(earlier);
+    let page = certified.as_ref().zip(options.report.path.as_ref()).map(|(certified, path)| {
+        let change = comparison.as_ref().zip(against.as_ref());
         let change = change.map(|(comparison, old)| (comparison, of_deviations(old, &certified.stand)));
         let page = CertificationPage { certification: certified, readings: (&name, &bytes), change, dry_run: false };
-        Ok::<_, Failure>((path, output::page(path, page.html(&options.lang.languages()), options.force)?))
+        Ok::<_, Failure>((path, output::page(path, page.html(&languages()), options.force.replace)?))
     });
     // Nothing is written if the record cannot be.
     let page = page.transpose()?;
-    files::check_replaceable(page.as_ref().map(|(path, _)| *path), options.force)?;
-    if let (Some(path), Some(certified)) = (&options.output, &certified) {
+    files::check_replaceable(page.as_ref().map(|(path, _)| *path), options.force.replace)?;
+    if let (Some(path), Some(certified)) = (out, &certified) {
         if options.stand.is_none() {
             against.iter().try_for_each(|stand| certified.stand.check_number(stand)).map_err(Failure::refused)?;
             let words = "-o requires --stand HEADER.yaml, because a new certificate has its own number and dates";
             return Err(Failure::unusable(words));
         }
         certified.stand.certificate.odd_number().iter().for_each(|words| output::warn(words));
-        write(path, certified, &against.iter().collect::<Vec<_>>(), options.force)?;
+        write(path, certified, &against.iter().collect::<Vec<_>>(), options.force.replace)?;
         output::say_after(&format!("wrote {}", shown(path)));
     }
     if let Some((path, page)) = &page {
-        output::saved_too(path, page, options.force)?;
+        output::saved_too(path, page, options.force.replace)?;
     }
     let document = || {
-        let shown = certified.as_ref().filter(|_| options.output.is_some() || own.is_some()).map(report::certification);
+        let shown = certified.as_ref().filter(|_| out.is_some() || is_own).map(report::certification);
         let compared = comparison.as_ref().map(|found| report::comparison(found, true));
         // Whether the stand has changed comes first: it decides whether the new certificate is of any use.
         let between = (compared.is_some() && shown.is_some()).then(|| vec![Block::Typed("\n".to_owned())]);
         [compared, between, shown].into_iter().flatten().flatten().collect()
     };
     let as_json = || report::to_json(certified.as_ref(), refused.as_ref(), comparison.as_ref());
-    options.format.show(as_json, document)?;
+    output::show(as_json, document)?;
     Ok(if comparison.is_some_and(|comparison| !comparison.same_stand) { REFUSED } else { 0 })
 }
 

@@ -1,8 +1,8 @@
 //! Verb `diff`: two passports, number by number.
 
-use super::lang::Lang;
+use super::options::Printed;
 use super::trust_options::{Enquiry, TrustAmong};
-use super::{Code, Failure, Format, defaults, inputs, output};
+use super::{Code, Failure, defaults, inputs, output};
 use crate::document::sha256_hex;
 use crate::passport::difference::Differences;
 use crate::report::difference::{self, Side};
@@ -22,10 +22,7 @@ pub(super) struct Options {
     #[command(flatten)]
     trust: TrustAmong,
     #[command(flatten)]
-    _lang: Lang,
-    /// Output format
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    _printed: Printed,
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
@@ -33,7 +30,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let a = past(&options.a, &enquiry)?;
     let b = past(&options.b, &enquiry)?;
     let found = Differences::of(&a.content, &b.content);
-    options.format.show(|| difference::to_json(&a, &b, &found), || difference::document(&a, &b, &found))?;
+    output::show(|| difference::to_json(&a, &b, &found), || difference::document(&a, &b, &found))?;
     Ok(0)
 }
 

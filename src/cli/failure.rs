@@ -1,11 +1,11 @@
 //! Failure of a verb: the message and an exit code for people, and the same as JSON for programs.
 
-use super::{Code, Format, REFUSED, UNUSABLE, lang, open_workspace, output};
+use super::{Code, REFUSED, UNUSABLE, defaults, output};
 use crate::files::FileError;
 use crate::folder::Folder;
 use crate::interface::{self, Failed, Place};
 use crate::passport::{Check, Question, Verification};
-use crate::report::{doc, issued, style, verdict};
+use crate::report::{issued, style, verdict};
 use crate::text::{Unreadable, name_of, shown};
 use std::path::Path;
 use std::process::ExitCode;
@@ -71,16 +71,16 @@ impl Failure {
     }
 
     /// Reports the failure, which ends the program, and returns the exit code.
-    pub(super) fn report(&self, format: Format) -> ExitCode {
-        self.print(format);
+    pub(super) fn report(&self) -> ExitCode {
+        self.print();
         self.complain(&self.failed.message);
         ExitCode::from(self.code)
     }
 
     /// Writes the failure as JSON instead of a result. An error is ignored, because the message and the exit code remain.
-    pub(super) fn print(&self, format: Format) {
-        if format != Format::Text {
-            let _ = format.json(&self.failed.document());
+    pub(super) fn print(&self) {
+        if output::is_json() {
+            let _ = output::value(&self.failed.document());
         }
     }
 
@@ -100,7 +100,7 @@ impl Failure {
         let is_id = Folder::new("").path_of_id(&error.path().to_string_lossy()).is_some();
         let advice = match expected {
             _ if !error.is_unlike_any() => None,
-            _ if is_id && open_workspace::workspace().is_none() => Some(IN_A_WORKSPACE.to_owned()),
+            _ if is_id && defaults::workspace().is_none() => Some(IN_A_WORKSPACE.to_owned()),
             expected => expected.map(|expected| format!("expected {expected}")),
         };
         let failure = Self::from(Failed::from(error));
@@ -121,8 +121,7 @@ impl Failure {
         let kind = failed.first().map_or(interface::REFUSED, |check| check.code.as_str());
         let place = |check: &&Check| Place::file(name.to_owned(), format!("{}: {}", check.name.as_str(), check.detail));
         let problems = failed.iter().map(place).collect();
-        let words =
-            style::plain(&doc::typed(&verdict::document(&verdict, verification, question), lang::of_text())) + words;
+        let words = style::plain(&output::typed(&verdict::document(&verdict, verification, question))) + words;
         Self { failed: Failed::new(kind, words.trim_end().to_owned(), problems), code: REFUSED, is_verdict: true }
     }
 }

@@ -4,7 +4,7 @@ use super::Cli;
 use crate::report::columns::{self, COMMAND};
 use crate::report::style;
 use crate::text::kind::FORMATS;
-use clap::{Arg, Command, CommandFactory};
+use clap::{Command, CommandFactory};
 use std::sync::LazyLock;
 
 const EXIT_CODES: &str = "\
@@ -25,53 +25,14 @@ Install:
 
 ";
 
-/// Sections of a verb's options below its own, by the names of their fields; a verb without the first has none of it.
-const SECTIONS: [(&str, &[&str]); 5] = [
-    ("Uncertainty", &["budget", "monte_carlo", "trials", "seed"]),
-    ("Report and certificate", &["report", "lang", "dcc", "administrative"]),
-    ("Signing", &["key", "identity"]),
-    ("Verification", &["trust", "revoked", "issuer", "serial", "at", "time", "register", "no_verify"]),
-    ("General options", &["workspace", "quiet", "verbose"]),
-];
-
-/// Returns a command with its options below the headings of their sections.
-fn with_sections(command: Command) -> Command {
-    let names: Vec<_> =
-        command.get_arguments().filter(|arg| !arg.is_positional()).map(|arg| arg.get_id().clone()).collect();
-    let is_of = |options: &[&str], arg: &Arg| {
-        names.iter().any(|name| name == options[0]) && options.contains(&arg.get_id().as_str())
-    };
-    command.mut_args(|arg| match SECTIONS.iter().find(|(_, options)| is_of(options, &arg)) {
-        Some((heading, _)) => arg.help_heading(*heading),
-        None => arg,
-    })
-}
-
-/// Help of options that a verb uses for something else than others do, or not at all.
-const OTHER_HELP: [(&str, &str, &str); 7] = [
-    ("export", "lang", "Languages of the DCC: en, ru, or en,ru for both [default: the language in FILE, or en]"),
-    ("register", "issuer", "Only passports of this issuer"),
-    ("register", "serial", "Only passports of stands with this serial number"),
-    ("register", "at", "Only passports for this place: latitude and longitude in degrees, north and east positive"),
-    ("history", "issuer", "Has no effect on a history"),
-    ("history", "serial", "Has no effect on a history"),
-    ("history", "at", "Has no effect on a history"),
-];
-
-/// Returns a verb with the help of its options that differs from that of other verbs.
-fn with_other_help(name: &str, verb: Command) -> Command {
-    let other = OTHER_HELP.into_iter().filter(|(of, ..)| *of == name);
-    other.fold(verb, |verb, (_, option, help)| verb.mut_arg(option, |arg| arg.help(help)))
-}
-
-/// Returns the command line with the sections of its options and the examples of its verbs.
+/// Returns the command line with the examples of its verbs.
 pub(super) fn command() -> Command {
-    let command = with_sections(Cli::command()).version(env!("CARGO_PKG_VERSION")).long_version(long_version());
+    let command = Cli::command().version(env!("CARGO_PKG_VERSION")).long_version(long_version());
     let verbs: Vec<String> = command.get_subcommands().map(|verb| verb.get_name().to_owned()).collect();
     verbs.iter().fold(command.after_long_help(EXIT_CODES), |command, name| {
         command.mut_subcommand(name, |verb| {
             let parts: Vec<String> = verb.get_subcommands().map(|part| part.get_name().to_owned()).collect();
-            let verb = parts.iter().fold(with_other_help(name, with_sections(verb)), |verb, part| {
+            let verb = parts.iter().fold(verb, |verb, part| {
                 verb.mut_subcommand(part, |command| command.after_long_help(after_help(&format!("{name} {part}"))))
             });
             verb.after_long_help(after_help(name))
@@ -184,21 +145,6 @@ mod tests {
         let commands = COMPLETIONS.lines().filter(|line| line.contains(COMMAND));
         assert!(commands.clone().count() == 3, "{COMPLETIONS}");
         assert!(commands.into_iter().all(|line| help.contains(&format!("\n{line}\n"))), "{help}");
-    }
-
-    #[test]
-    fn every_option_of_a_section_stands_there_in_calibrate_or_issue() {
-        let verbs = [
-            command(),
-            command().find_subcommand("calibrate").unwrap().clone(),
-            command().find_subcommand("issue").unwrap().clone(),
-        ];
-        for (heading, options) in SECTIONS {
-            for name in options {
-                let mut all = verbs.iter().flat_map(Command::get_arguments);
-                assert!(all.any(|arg| arg.get_id() == *name && arg.get_help_heading() == Some(heading)), "{name}");
-            }
-        }
     }
 
     /// Adds what is printed for `--help` and `-h` of a command and of those below it.

@@ -1,9 +1,9 @@
 //! Verb `history`: one stand over the years.
 
-use super::lang::Lang;
+use super::options::{Picture, Printed};
 use super::register::refuse_file;
 use super::trust_options::TrustOptions;
-use super::{Code, Failure, Format, code, defaults, output};
+use super::{Code, Failure, code, defaults, output};
 use crate::folder::overview::{self, Query};
 use crate::parallel;
 use crate::passport::Question;
@@ -17,6 +17,10 @@ use std::path::PathBuf;
 
 /// Show one stand over the years: certificates, passports, sites, withdrawals, and whether it drifts
 #[derive(Args)]
+#[command(mut_args(|arg| match arg.get_id().as_str() {
+    "issuer" | "serial" | "at" => arg.help("Has no effect on a history"),
+    _ => arg,
+}))]
 pub(super) struct Options {
     /// Stand; or the number of a certificate, whose files and passports are then found in the workspace or the folder of passports
     #[arg(value_name = "MODEL/SERIAL|NUMBER", value_parser = NonEmptyStringValueParser::new())]
@@ -26,17 +30,10 @@ pub(super) struct Options {
     passports: PathBuf,
     #[command(flatten)]
     trust: TrustOptions,
-    /// Write a picture of the timeline and of the drift
-    #[arg(short, long, value_name = "FILE.svg", value_parser = output::path_of(output::PICTURE))]
-    output: Option<PathBuf>,
-    /// Replace an existing picture
-    #[arg(long)]
-    force: bool,
     #[command(flatten)]
-    _lang: Lang,
-    /// Output format
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    picture: Picture,
+    #[command(flatten)]
+    _printed: Printed,
 }
 
 /// Returns `true` for model and serial number, which may also be the number of a certificate.
@@ -64,10 +61,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         Some((Err(known), _)) => return of_certificate(options, query, &known),
         None => return of_certificate(options, query, &[]),
     };
-    if let Some(path) = &options.output {
-        output::saved_too(path, picture::history(&history, question.time), options.force)?;
-    }
-    options.format.show(|| report::to_json(&history), || report::document(&history))?;
+    options.picture.save(|| Ok(picture::history(&history, question.time)))?;
+    output::show(|| report::to_json(&history), || report::document(&history))?;
     Ok(code(is_incomplete, false))
 }
 
@@ -75,10 +70,10 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
 fn of_certificate(options: &Options, query: Query, known: &[String]) -> Result<Code, Failure> {
     let root = defaults::workspace().map_or(&options.passports, |workspace| &workspace.root);
     if let Some(found) = Trace::of(&options.stand, root, &options.passports, query)? {
-        if options.output.is_some() {
+        if options.picture.out.is_some() {
             return Err(Failure::usage("-o draws the years of a stand; give MODEL/SERIAL"));
         }
-        options.format.show(|| &found, || found.document())?;
+        output::show(|| &found, || found.document())?;
         return Ok(0);
     }
     let (folder, stand) = (shown(&options.passports), Printable(&options.stand));

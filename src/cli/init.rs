@@ -1,6 +1,7 @@
 //! Verb `init`: a new workspace.
 
-use super::{Code, Failure, Format, key_options, output};
+use super::options::{Force, Formatted};
+use super::{Code, Failure, key_options, output};
 use crate::text::{name_of, shown};
 use crate::workspace::{Kind, NotMade, make};
 use clap::Args;
@@ -19,12 +20,10 @@ pub(super) struct Options {
     /// Make the workspace of a laboratory, which receives passports and calibrates gyros
     #[arg(long, conflicts_with = "identity")]
     laboratory: bool,
-    /// Replace existing files of a workspace
-    #[arg(long)]
-    force: bool,
-    /// Output format
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    force: Force,
+    #[command(flatten)]
+    _format: Formatted,
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
@@ -32,12 +31,12 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         true => Kind::Laboratory(&[]),
         false => Kind::Factory(options.identity.as_deref()),
     };
-    let made = make(&options.folder, &kind, options.force).map_err(|error| match error {
+    let made = make(&options.folder, &kind, options.force.replace).map_err(|error| match error {
         NotMade::File(error) => Failure::from(error),
         error => Failure::usage(error),
     })?;
     let names = || made.iter().map(|path| name_of(path)).collect::<Vec<_>>();
-    options.format.write(
+    output::write(
         || json!({ "workspace": name_of(&options.folder), "made": names() }),
         || made.iter().map(|path| format!("{}\n", shown(path))).collect(),
     )?;

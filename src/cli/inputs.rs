@@ -1,13 +1,14 @@
 //! Input files of the verbs: documents read, and several inputs of which one that fails does not stop the others.
 
-use super::{Code, Failure, Format, lang, output};
+use super::options::language;
+use super::{Code, Failure, output};
 use crate::batch::catalogue::Listed as _;
 use crate::batch::deliveries::Deliveries;
 use crate::batch::{Purpose, paths};
 use crate::dcc::Administrative;
 use crate::files::{self, FileError};
 use crate::gyro::GyroType;
-use crate::interface::{Failed, MISSING_DATA, REFUSED};
+use crate::interface::{Document, Failed, MISSING_DATA, REFUSED};
 use crate::laboratory::Laboratory;
 use crate::report::doc::said;
 use crate::report::issued;
@@ -15,8 +16,8 @@ use crate::site::Site;
 use crate::stand::Stand;
 use crate::text::problem::MISSING;
 use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, Printable, Problems, Unreadable, name_of, shown};
-use serde::{Serialize, Serializer};
-use std::ops::RangeBounds;
+use serde::Serialize;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 pub(super) const HEADER: &str = "a header (dtg-stand/1)";
@@ -59,7 +60,7 @@ pub(super) fn site(path: &Path) -> Result<Site, Failure> {
 
 pub(super) fn gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
     let gyro_type = path.map(|path| document(path, Kind::Gyro.words(), GyroType::from_yaml)).transpose()?;
-    gyro_type.iter().flat_map(GyroType::remarks).for_each(|words| output::warn(&said(&words, lang::of_text())));
+    gyro_type.iter().flat_map(GyroType::remarks).for_each(|words| output::warn(&said(&words, language())));
     Ok(gyro_type)
 }
 
@@ -67,16 +68,37 @@ pub(super) fn gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
 pub(super) fn laboratory(path: Option<&Path>) -> Result<Laboratory, Failure> {
     let Some(path) = path else { return Ok(Laboratory::paper()) };
     let laboratory = document(path, Kind::Laboratory.words(), Laboratory::from_yaml)?;
-    laboratory.remarks().iter().for_each(|words| output::warn(&said(words, lang::of_text())));
+    laboratory.remarks().iter().for_each(|words| output::warn(&said(words, language())));
     Ok(laboratory)
 }
 
-/// Parses a number within limits; `expected` describes it.
-pub(super) fn number(text: &str, limits: impl RangeBounds<f64>, expected: String) -> Result<f64, String> {
-    text.parse()
-        .ok()
-        .filter(|value| limits.contains(value))
-        .ok_or_else(|| format!("expected {expected}, with a decimal point"))
+/// Returns a parser of a number within limits; `what` is its quantity with the unit.
+pub(super) fn number(
+    what: &'static str,
+    limits: RangeInclusive<f64>,
+) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync + 'static {
+    move |text| {
+        let (first, last) = (limits.start(), limits.end());
+        text.parse().ok().filter(|value: &f64| value.is_finite() && limits.contains(value)).ok_or_else(|| {
+            match last.is_finite() {
+                true => format!("expected {what} from {first} to {last}, with a decimal point"),
+                false => format!("expected {what} ≥ {first}, with a decimal point"),
+            }
+        })
+    }
+}
+
+/// Returns a parser of a whole number within limits; a limit that is the largest number is none.
+pub(super) fn whole<T: TryFrom<u64>>(
+    limits: RangeInclusive<u64>,
+) -> impl Fn(&str) -> Result<T, String> + Clone + Send + Sync + 'static {
+    move |text| {
+        let value = text.parse().ok().filter(|value| limits.contains(value)).and_then(|value| T::try_from(value).ok());
+        value.ok_or_else(|| match (limits.start(), *limits.end()) {
+            (first, u64::MAX) => format!("expected a whole number of {first} or more"),
+            (first, last) => format!("expected a whole number from {first} to {last}"),
+        })
+    }
 }
 
 /// Administrative file that was read, or none.
@@ -111,69 +133,79 @@ impl AdministrativeFile {
     }
 }
 
-/// Result of a verb for one of several inputs.
+/// Answer on one of several inputs, for programs and for people, and its exit code.
+pub(super) struct Answer<T> {
+    pub value: T,
+    pub text: String,
+    pub code: Code,
+}
+
+/// What is printed for each input: its JSON on one line, its text, or nothing where files are the result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Lines {
+    Json,
+    Text,
+    None,
+}
+
+impl Lines {
+    /// Returns JSON if it is the format of the results, and otherwise `text`.
+    pub(super) fn or(text: Self) -> Self {
+        if output::is_json() { Self::Json } else { text }
+    }
+}
+
+/// Input without a result, for programs.
 #[derive(Serialize)]
-#[serde(untagged)]
-pub(super) enum Each<T> {
-    Done(T),
-    Refused {
-        file: String,
-        #[serde(flatten, serialize_with = "as_document")]
-        refusal: Failed,
-    },
+struct Refused<'a> {
+    file: &'a str,
+    #[serde(flatten)]
+    refusal: Document<'a>,
 }
 
-fn as_document<S: Serializer>(refusal: &Failed, to: S) -> Result<S::Ok, S::Error> {
-    refusal.document().serialize(to)
-}
-
-/// Calls `work` for every input, reports those that fail, and returns the highest exit code.
+/// Calls `work` for every input, and reports its answer or its failure. An error of the output ends the work.
 ///
-/// `hear` gets each result or refusal in the order of the inputs; an error of it ends the work.
-pub(super) fn each<T>(
+/// Returns the highest exit code, and the failures.
+pub(super) fn each<T: Serialize>(
     arguments: &[PathBuf],
     purpose: Purpose,
-    mut work: impl FnMut(&Path) -> Result<(T, Code), Failure>,
-    mut hear: impl FnMut(Each<T>) -> Result<(), Failure>,
-) -> Result<Code, Failure> {
-    let mut code = 0;
+    lines: Lines,
+    mut work: impl FnMut(&Path) -> Result<Answer<T>, Failure>,
+) -> Result<(Code, Vec<Failed>), Failure> {
+    let (mut code, mut failures) = (0, Vec::new());
     for input in paths::files(arguments, &mut std::io::stdin().lock(), purpose) {
-        let done = match input {
+        let answer = match input {
             Ok(path) => work(&path).map_err(|failure| (name_of(&path), failure)),
             Err(failed) => Err((failed.what.clone(), Failure::input(&failed))),
         };
-        code = code.max(match &done {
-            Ok((_, code)) => *code,
+        code = code.max(match &answer {
+            Ok(answer) => answer.code,
             Err((_, failure)) => failure.code,
         });
         // The result comes before the message about it.
-        match done {
-            Ok((result, _)) => hear(Each::Done(result))?,
+        match answer {
+            Ok(answer) => match lines {
+                Lines::Json => output::json_line(&answer.value)?,
+                Lines::Text => output::text(&answer.text)?,
+                Lines::None => {}
+            },
             Err((file, failure)) => {
-                let words = words(&file, &failure);
-                let heard = hear(Each::Refused { file, refusal: failure.failed.clone() });
-                failure.complain(&words);
+                let heard = match lines {
+                    Lines::Json => output::json_line(&Refused { file: &file, refusal: failure.failed.document() }),
+                    Lines::Text => output::text(&issued::failed_line(&file, &failure.failed, language())),
+                    Lines::None => Ok(()),
+                };
+                failure.complain(&words(&file, &failure));
                 heard?;
+                failures.push(failure.failed);
             }
         }
     }
-    Ok(code)
+    Ok((code, failures))
 }
 
 /// Returns the message about the failure of an input, which states its name.
 fn words(file: &str, failure: &Failure) -> String {
     let (name, message) = (Printable(file).to_string(), &failure.failed.message);
     if message.contains(&name) { message.clone() } else { format!("{name}: {message}") }
-}
-
-/// Prints the result for one of several inputs: its JSON on one line, or its text.
-pub(super) fn print<T: Serialize>(result: &Each<(T, String)>, format: Format) -> Result<(), Failure> {
-    match (format, result) {
-        (Format::Text, Each::Done((_, text))) => output::text(text),
-        (Format::Text, Each::Refused { file, refusal }) => {
-            output::text(&issued::failed_line(file, refusal, lang::of_text()))
-        }
-        (_, Each::Done((value, _))) => output::json_line(value),
-        (_, refused @ Each::Refused { .. }) => output::json_line(refused),
-    }
 }

@@ -1,11 +1,10 @@
 //! Verb `issue`: one passport for every stand at every site.
 
 use super::batch::BatchOptions;
-use super::key_options::refuse_distrusted;
+use super::options::{Instruments, folder_of_passports};
 use super::{Code, Failure, defaults, inputs, output, trust_options};
 use crate::batch::deliveries::{Deliveries, Placed};
 use crate::batch::issue::Job;
-use crate::gyro::GyroType;
 use crate::passport::Stated;
 use crate::passport::issue::{Issue, time_of_issue};
 use clap::Args;
@@ -18,6 +17,7 @@ use std::path::{Path, PathBuf};
 /// STAND and SITE are files, quoted patterns, or folders. For a folder, STAND means every stand.yaml below it, and SITE
 /// every *.yaml in it (also .yml). A - reads a list of paths from standard input, separated by line feeds or NUL.
 #[derive(Args)]
+#[command(mut_arg("gyro", |gyro| gyro.requires("accuracy")), mut_arg("laboratory", |laboratory| laboratory.requires("accuracy")))]
 pub(super) struct Options {
     /// Stand files (dtg-stand/1); in a workspace also MODEL/SERIAL
     #[arg(required_unless_present = "deliveries", value_name = "STAND", value_parser = defaults::stand())]
@@ -35,7 +35,7 @@ pub(super) struct Options {
     #[arg(long, value_name = "TABLE.csv", conflicts_with_all = ["stands", "sites"])]
     deliveries: Option<PathBuf>,
     /// Folder of passports
-    #[arg(short, long, visible_aliases = ["passports", "output"], value_name = "DIR", value_parser = output::folder_of_passports(), default_value = "passports")]
+    #[arg(short, long, visible_aliases = ["passports", "output"], value_name = "DIR", value_parser = folder_of_passports(), default_value = "passports")]
     out: PathBuf,
     #[command(flatten)]
     batch: BatchOptions,
@@ -45,18 +45,14 @@ pub(super) struct Options {
     /// Expiry date (inclusive), not later than that of the certificate [default: that of the certificate]
     #[arg(long, value_name = "DATE", value_parser = trust_options::date)]
     valid_until: Option<Date>,
-    /// Include the expected calibration uncertainty
+    /// Include the expected calibration uncertainty, for --gyro and --laboratory
     #[arg(long)]
     accuracy: bool,
-    /// Gyro type for --accuracy (dtg-gyro/1) [default: the paper's GVK-6]
-    #[arg(long, value_name = "FILE", requires = "accuracy")]
-    gyro: Option<PathBuf>,
-    /// Laboratory for --accuracy (dtg-laboratory/1) [default: the paper's meter, 0.015 %]
-    #[arg(long, value_name = "FILE", requires = "accuracy")]
-    laboratory: Option<PathBuf>,
+    #[command(flatten)]
+    instruments: Instruments,
     /// Believe existing passports and registers, and write new ones, only if they pass verification with this
     /// allowed_signers file [default: the own key]
-    #[arg(long, value_name = "SIGNERS")]
+    #[arg(long, help_heading = "Verification", value_name = "SIGNERS")]
     trust: Option<PathBuf>,
 }
 
@@ -71,17 +67,15 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let given = options.trust.as_deref().map(|path| trust_options::load(path, &[])).transpose()?;
     match (&keys.public, &given) {
         (Some(public), None) => options.batch.warn_of_other_identity(public, issued_at),
-        (Some(public), Some(trust)) if options.batch.issuer.dry_run => {
-            refuse_distrusted(trust, public, &options.batch.issuer.identity, issued_at)?;
-        }
-        _ => {}
+        (_, Some(trust)) => keys.check_dry_run(trust, issued_at)?,
+        (None, None) => {}
     }
     let trust = given.map_or_else(|| keys.own_trust(), Ok)?;
     let order = Issue {
         valid_until: options.valid_until,
-        accuracy: options.accuracy.then(|| stated(options)).transpose()?,
+        accuracy: options.accuracy.then(|| stated(&options.instruments)).transpose()?,
         allow_uncalibratable: options.batch.allow_uncalibratable,
-        ..Issue::first(&options.batch.issuer.identity, issued_at)
+        ..Issue::first(options.batch.issuer.identity(), issued_at)
     };
     let folder = options.batch.folder(&options.out);
     let placed = options.deliveries.as_deref().map(|path| placed(&inputs::deliveries(path)?)).transpose()?;
@@ -109,8 +103,6 @@ fn placed(deliveries: &Deliveries) -> Result<Placed, Failure> {
 }
 
 /// Reads the gyro type and the laboratory for which the passports state the expected calibration uncertainty.
-fn stated(options: &Options) -> Result<Stated, Failure> {
-    let gyro = inputs::gyro(options.gyro.as_deref())?.unwrap_or_else(GyroType::gvk_6);
-    let laboratory = inputs::laboratory(options.laboratory.as_deref())?;
-    Ok(Stated { gyro, laboratory })
+fn stated(instruments: &Instruments) -> Result<Stated, Failure> {
+    Ok(Stated { gyro: instruments.gyro_or_usual()?, laboratory: instruments.laboratory()? })
 }

@@ -27,31 +27,43 @@ pub(super) fn identity(text: &str) -> Result<String, BadIdentity> {
     check_identity(text).map(|()| text.to_owned())
 }
 
-/// Options of a verb that signs.
+/// Options of a verb that may sign.
 #[derive(Args)]
-pub(super) struct IssuerOptions {
+pub(super) struct SigningOptions {
     /// Private key file, or a .pub file whose private half is in ssh-agent or a FIDO token
-    #[arg(long, value_name = "KEY", required_unless_present = "dry_run")]
+    #[arg(long, help_heading = "Signing", value_name = "KEY")]
     key: Option<PathBuf>,
     /// Issuer: the principal of the key in allowed_signers
-    #[arg(long, value_name = "WHO", value_parser = identity)]
-    pub identity: String,
+    #[arg(long, help_heading = "Signing", value_name = "WHO", value_parser = identity)]
+    pub identity: Option<String>,
     /// Key that signs the registers, of a second person [default: that of --key]
     #[arg(long, value_name = "KEY")]
     register_key: Option<PathBuf>,
-    /// Leave the registers to a second person, who lists the passports with `register DIR --renew --adopt`; until then they
-    /// do not count
-    #[arg(long, conflicts_with = "register_key")]
-    without_register: bool,
     /// Compute and check everything, and list what would be done, but write nothing. No key is required; if one is
     /// given, it is checked as far as possible without its passphrase
     #[arg(short = 'n', long)]
     pub dry_run: bool,
 }
 
+/// Options of a verb that signs.
+#[derive(Args)]
+#[command(
+    mut_arg("key", |key| key.required_unless_present("dry_run")),
+    mut_arg("identity", |identity| identity.required(true))
+)]
+pub(super) struct IssuerOptions {
+    #[command(flatten)]
+    signing: SigningOptions,
+    /// Leave the registers to a second person, who lists the passports with `register DIR --renew --adopt`; until then they
+    /// do not count
+    #[arg(long, conflicts_with = "register_key")]
+    without_register: bool,
+}
+
 /// Keys of an issuer, and the time of the clock.
 pub(super) struct Keys<'a> {
-    options: &'a IssuerOptions,
+    options: &'a SigningOptions,
+    without_register: bool,
     signer: Option<Box<dyn Signer + Sync>>,
     register_signer: Option<Box<dyn Signer + Sync>>,
     /// Public half of the key, if there is one and it is known before it signs.
@@ -61,15 +73,33 @@ pub(super) struct Keys<'a> {
 }
 
 impl IssuerOptions {
-    /// Creates the options of a renewal, in which either key signs the registers.
-    pub(super) fn of_registers(key: Option<&Path>, register_key: Option<&Path>, identity: &str, dry_run: bool) -> Self {
-        let [key, register_key] = [key, register_key].map(|path| path.map(Path::to_owned));
-        Self { key, identity: identity.to_owned(), register_key, without_register: false, dry_run }
-    }
-
     /// Returns the path of the key, if one is given.
     pub(super) fn key(&self) -> Option<&Path> {
-        self.key.as_deref()
+        self.signing.key.as_deref()
+    }
+
+    pub(super) fn identity(&self) -> &str {
+        self.signing.identity()
+    }
+
+    pub(super) fn dry_run(&self) -> bool {
+        self.signing.dry_run
+    }
+
+    /// Reads the keys, as [`SigningOptions::keys`] does.
+    pub(super) fn keys(&self, passports: Option<&Path>) -> Result<Keys<'_>, Failure> {
+        Ok(Keys { without_register: self.without_register, ..self.signing.keys(passports)? })
+    }
+}
+
+impl SigningOptions {
+    fn identity(&self) -> &str {
+        self.identity.as_deref().unwrap_or_default()
+    }
+
+    /// Returns `true` if no key is given.
+    pub(super) fn lacks_key(&self) -> bool {
+        self.key.is_none() && self.register_key.is_none()
     }
 
     /// Reads the keys. In a dry run they are checked as far as this needs no passphrase. A workspace remembers the registers
@@ -85,7 +115,7 @@ impl IssuerOptions {
         }
         let is_its_own = |workspace: &&Workspace| passports.is_some() && workspace.passports.as_deref() == passports;
         let memory = defaults::workspace().filter(is_its_own).map(Workspace::memory);
-        Ok(Keys { options: self, signer, register_signer, public, register_public, memory })
+        Ok(Keys { options: self, without_register: false, signer, register_signer, public, register_public, memory })
     }
 }
 
@@ -105,7 +135,7 @@ impl Keys<'_> {
     pub(super) fn own_trust(&self) -> Result<Trust, Failure> {
         match &self.public {
             Some(public) => {
-                let own = signing::own_trust(&self.options.identity, public, self.register_public.as_ref());
+                let own = signing::own_trust(self.options.identity(), public, self.register_public.as_ref());
                 Ok(own.unwrap_or_else(|| Trust::of(AllowedSigners::empty())))
             }
             None if self.signer.is_none() => Ok(Trust::of(AllowedSigners::empty())),
@@ -117,18 +147,29 @@ impl Keys<'_> {
     pub(super) fn authority<'a>(&'a self, trust: &'a Trust) -> Authority<'a> {
         let of_registers = self.register_signer.as_deref().or(self.signer.as_deref());
         Authority {
-            issuer: &self.options.identity,
+            issuer: self.options.identity(),
             trust,
             signer: self.signer.as_deref(),
-            register_signer: of_registers.filter(|_| !self.options.without_register),
+            register_signer: of_registers.filter(|_| !self.without_register),
             clock: &trust_options::now,
             memory: self.memory.as_ref(),
         }
     }
 
+    /// Refuses a dry run whose passports would fail verification by `trust`, as the passports themselves will be refused.
+    pub(super) fn check_dry_run(&self, trust: &Trust, issued_at: Timestamp) -> Result<(), Failure> {
+        let identity = self.options.identity();
+        let key = self.public.as_ref().filter(|_| self.options.dry_run);
+        let Some(why) = key.and_then(|key| signing::distrust(trust, key, identity, issued_at)) else { return Ok(()) };
+        Err(Failure::refused(format!(
+            "--identity {identity}: the new passports would fail verification by --trust ({why}); check --key, --identity \
+             and --trust"
+        )))
+    }
+
     /// Says which passports do not count yet, because the registers are left to a second person.
     pub(super) fn say_without_register(&self) {
-        if self.options.without_register && !self.options.dry_run {
+        if self.without_register && !self.options.dry_run {
             output::say(
                 "the passports do not count until a second person lists them: `register DIR --renew --adopt SHA256`",
             );
@@ -145,20 +186,6 @@ pub(super) fn signer_of(key: &Path) -> Result<Box<dyn Signer + Sync>, Failure> {
 pub(super) fn key_to_sign_with(key: &Path) -> Result<PublicKey, Failure> {
     signing::forbid_core_dumps();
     signing::key_to_sign_with(key).map_err(unusable)
-}
-
-/// Refuses a dry run whose passports would fail verification by `trust`, as the passports themselves will be refused.
-pub(super) fn refuse_distrusted(
-    trust: &Trust,
-    key: &PublicKey,
-    identity: &str,
-    issued_at: Timestamp,
-) -> Result<(), Failure> {
-    let Some(why) = signing::distrust(trust, key, identity, issued_at) else { return Ok(()) };
-    Err(Failure::refused(format!(
-        "--identity {identity}: the new passports would fail verification by --trust ({why}); check --key, --identity \
-         and --trust"
-    )))
 }
 
 fn unusable(error: KeyFileError) -> Failure {

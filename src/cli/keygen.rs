@@ -1,7 +1,8 @@
 //! Verb `keygen`: a new signing key.
 
 use super::key_options::{self, PASSPHRASE_VARIABLE, passphrase, with_pub};
-use super::{Code, Failure, Format, defaults, output};
+use super::options::Formatted;
+use super::{Code, Failure, defaults, output};
 use crate::files::{self, Access};
 use crate::signing::{self, allowed_signers_line, forbid_core_dumps};
 use crate::text::{name_of, shown};
@@ -30,9 +31,8 @@ pub(super) struct Options {
     /// Leave the key unencrypted
     #[arg(long)]
     no_passphrase: bool,
-    /// Output format
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    _format: Formatted,
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
@@ -78,12 +78,12 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if let Some(remark) = signing::protection_remark(&options.key) {
         output::warn(&remark);
     }
-    match options.format {
-        Format::Text if appended_to.is_none() => output::result(&format!("{line}\n"))?,
-        Format::Text => {}
+    match output::is_json() {
+        false if appended_to.is_none() => output::result(&format!("{line}\n"))?,
+        false => {}
         // A failure is then reported instead; its message comes after that with the line.
         _ if failed.is_some() => output::say(&line),
-        format => format.json(&json!({
+        true => output::value(&json!({
             "key": name_of(&options.key),
             "public_key": name_of(&public_path),
             "fingerprint": key.public_key().fingerprint(),

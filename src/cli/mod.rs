@@ -6,29 +6,25 @@
 
 mod arguments;
 mod batch;
+mod built_in;
 mod calibrate;
 mod certify;
-mod completions;
 mod defaults;
 mod deliver;
 mod demo;
 mod diff;
-mod exclusion;
 mod export;
 mod failure;
 mod help;
 mod history;
 mod init;
 mod inputs;
-mod interrupt;
 mod issue;
 mod key_options;
 mod keygen;
-mod lang;
 mod long_run;
-mod man;
 mod new;
-mod open_workspace;
+mod options;
 mod output;
 mod plan;
 mod receive;
@@ -37,8 +33,6 @@ mod register;
 mod reissue;
 mod render;
 mod revoke;
-mod schema;
-mod selftest;
 mod show;
 mod simulate;
 mod status;
@@ -47,10 +41,8 @@ mod uncertainty;
 mod verify;
 
 use crate::text::printable;
-use arguments::Parsed;
 use clap::{Parser, Subcommand};
 use failure::Failure;
-use output::Format;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -62,27 +54,27 @@ struct Cli {
     #[command(subcommand)]
     verb: Verb,
     /// Folder of the workspace; its dtg-passport.toml supplies missing options [env: DTG_PASSPORT_WORKSPACE]
-    #[arg(long, global = true, value_name = "DIR")]
+    #[arg(long, global = true, help_heading = "General options", value_name = "DIR")]
     // It is read before the other arguments are parsed.
     #[allow(dead_code)]
     workspace: Option<PathBuf>,
     /// Suppress remarks; results, failures and warnings are still printed
-    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    #[arg(short, long, global = true, help_heading = "General options", conflicts_with = "verbose")]
     quiet: bool,
     /// Also print where options come from, and the duration
-    #[arg(short, long, global = true)]
+    #[arg(short, long, global = true, help_heading = "General options")]
     verbose: bool,
 }
 
-/// Declares the verbs, each with the module that has its `Options` and its `run`.
+/// Declares the verbs, each with its options and the function that runs it.
 macro_rules! verbs {
-    ($($verb:ident = $module:ident,)*) => {
+    ($($verb:ident($options:path, $run:path),)*) => {
         #[derive(Subcommand)]
-        enum Verb { $($verb(Box<$module::Options>),)* }
+        enum Verb { $($verb(Box<$options>),)* }
 
         impl Verb {
             fn run(&self) -> Result<Code, Failure> {
-                match self { $(Self::$verb(options) => $module::run(options),)* }
+                match self { $(Self::$verb(options) => $run(options),)* }
             }
         }
     };
@@ -90,32 +82,32 @@ macro_rules! verbs {
 
 // Those of a factory's day, then those of a laboratory's, then the rest.
 verbs! {
-    Certify = certify,
-    Issue = issue,
-    Deliver = deliver,
-    Reissue = reissue,
-    Recertify = recertify,
-    Register = register,
-    Revoke = revoke,
-    Receive = receive,
-    Verify = verify,
-    Calibrate = calibrate,
-    Status = status,
-    Show = show,
-    Render = render,
-    Export = export,
-    Diff = diff,
-    History = history,
-    Plan = plan,
-    Init = init,
-    New = new,
-    Keygen = keygen,
-    Demo = demo,
-    Simulate = simulate,
-    Selftest = selftest,
-    Schema = schema,
-    Completions = completions,
-    Man = man,
+    Certify(certify::Options, certify::run),
+    Issue(issue::Options, issue::run),
+    Deliver(deliver::Options, deliver::run),
+    Reissue(reissue::Options, reissue::run),
+    Recertify(recertify::Options, recertify::run),
+    Register(register::Options, register::run),
+    Revoke(revoke::Options, revoke::run),
+    Receive(receive::Options, receive::run),
+    Verify(verify::Options, verify::run),
+    Calibrate(calibrate::Options, calibrate::run),
+    Status(status::Options, status::run),
+    Show(show::Options, show::run),
+    Render(render::Options, render::run),
+    Export(export::Options, export::run),
+    Diff(diff::Options, diff::run),
+    History(history::Options, history::run),
+    Plan(plan::Options, plan::run),
+    Init(init::Options, init::run),
+    New(new::Options, new::run),
+    Keygen(keygen::Options, keygen::run),
+    Demo(demo::Options, demo::run),
+    Simulate(simulate::Options, simulate::run),
+    Selftest(built_in::Selftest, built_in::selftest),
+    Schema(built_in::Schema, built_in::schema),
+    Completions(built_in::Completions, built_in::completions),
+    Man(built_in::Man, built_in::man),
 }
 
 /// Exit code of a verb that ran to its end: 0, or the highest code that it reported.
@@ -144,7 +136,7 @@ pub fn main() -> ExitCode {
     // The message of a broken invariant may quote untrusted text.
     std::panic::set_hook(Box::new(|panic| output::complain(&format!("internal error: {}", printable(panic)))));
     let start = Instant::now();
-    let Parsed { cli, format, added } = match arguments::parse(std::env::args_os().collect()) {
+    let (cli, added) = match arguments::parse(std::env::args_os().collect()) {
         Ok(parsed) => parsed,
         Err(code) => return code,
     };
@@ -160,6 +152,6 @@ pub fn main() -> ExitCode {
     }
     match result {
         Ok(code) => ExitCode::from(code),
-        Err(failure) => failure.report(format),
+        Err(failure) => failure.report(),
     }
 }

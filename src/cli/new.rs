@@ -1,6 +1,7 @@
 //! Verb `new`: templates of the hand-written files.
 
-use super::{Code, Failure, Format, inputs, output};
+use super::options::{Force, Formatted};
+use super::{Code, Failure, inputs, output};
 use crate::earth::Place;
 use crate::interface::enquiry::place_of;
 use crate::plan::document::Planned;
@@ -21,27 +22,23 @@ pub(super) struct Options {
     /// Write the template to this file [default: standard output]
     #[arg(value_name = "FILE")]
     file: Option<PathBuf>,
-    /// Number of positions of a stand, header, readings or currents: the paper's 8, 4 of those 8, or the 8 and 16 more [default: 8]
-    #[arg(long, value_name = "N", value_parser = ["4", "8", "24"])]
-    positions: Option<String>,
     /// Take the positions of a stand, header, readings or currents, and their order, from this plan (`plan --format json`)
-    #[arg(long, value_name = "PLAN.json", conflicts_with = "positions")]
+    /// [default: the paper's eight]
+    #[arg(long, value_name = "PLAN.json")]
     from_plan: Option<PathBuf>,
     /// Number of runs of readings [default: 5]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100))]
+    #[arg(long, value_name = "N", value_parser = inputs::whole::<u32>(1..=100))]
     runs: Option<u32>,
     /// Place of a site: latitude and longitude in degrees, north and east positive
     #[arg(long, value_name = "LAT,LON", value_parser = place_of, allow_hyphen_values = true)]
     at: Option<Place>,
     /// Height of a site above the ellipsoid, metres
-    #[arg(long, value_name = "H", value_parser = height, allow_hyphen_values = true)]
+    #[arg(long, value_name = "H", value_parser = inputs::number("a height in metres", -500.0..=9000.0), allow_hyphen_values = true)]
     height_m: Option<f64>,
-    /// Replace an existing file
-    #[arg(long)]
-    force: bool,
-    /// Output format: of what was written, or of the template itself without FILE
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    force: Force,
+    #[command(flatten)]
+    _format: Formatted,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -64,21 +61,11 @@ enum Kind {
     Dcc,
 }
 
-fn height(text: &str) -> Result<f64, String> {
-    inputs::number(text, -500.0..=9000.0, "a height from -500 to 9000 metres".to_owned())
-}
-
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     options.check()?;
-    let positions = match (&options.from_plan, options.positions.as_deref()) {
-        (Some(path), _) => {
-            let expected = "the JSON of a plan, from `plan --format json`";
-            Positions::Planned(inputs::document(path, expected, Planned::from_json)?)
-        }
-        (None, Some("4")) => Positions::Four,
-        (None, Some("24")) => Positions::TwentyFour,
-        (None, _) => Positions::Eight,
-    };
+    let expected = "the JSON of a plan, from `plan --format json`";
+    let plan = options.from_plan.as_ref().map(|path| inputs::document(path, expected, Planned::from_json));
+    let positions = Positions(plan.transpose()?);
     let text = match options.kind {
         Kind::Stand => template::stand(&positions),
         Kind::Header => template::header(&positions),
@@ -90,14 +77,14 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         Kind::Site => template::site(&site_id(options.file.as_deref())?, options.at, options.height_m),
     };
     if let Some(path) = &options.file {
-        output::file(path, &text, options.force)?;
+        output::file(path, &text, options.force.replace)?;
         output::say(&format!("wrote {}; replace the values that its comments describe", shown(path)));
     }
-    match (options.format, &options.file) {
-        (Format::Text, Some(_)) => {}
-        (Format::Text, None) => output::own(&text)?,
-        (format, Some(file)) => format.json(&json!({ "file": name_of(file) }))?,
-        (format, None) => format.json(&json!({ "file": null, "template": text }))?,
+    match (output::is_json(), &options.file) {
+        (false, Some(_)) => {}
+        (false, None) => output::own(&text)?,
+        (true, Some(file)) => output::value(&json!({ "file": name_of(file) }))?,
+        (true, None) => output::value(&json!({ "file": null, "template": text }))?,
     }
     Ok(0)
 }
@@ -107,10 +94,8 @@ impl Options {
     fn check(&self) -> Result<(), Failure> {
         let has_positions = matches!(self.kind, Kind::Stand | Kind::Header | Kind::Readings | Kind::Currents);
         let is_site = self.kind == Kind::Site;
-        let of_positions = "a stand, header, readings or currents";
         let given = [
-            ("--from-plan", of_positions, self.from_plan.is_some() && !has_positions),
-            ("--positions", of_positions, self.positions.is_some() && !has_positions),
+            ("--from-plan", "a stand, header, readings or currents", self.from_plan.is_some() && !has_positions),
             ("--runs", "readings", self.runs.is_some() && self.kind != Kind::Readings),
             ("--at", "a site", self.at.is_some() && !is_site),
             ("--height-m", "a site", self.height_m.is_some() && !is_site),

@@ -1,105 +1,72 @@
 //! Output: results to standard output, messages to standard error. A closed pipe is not an error.
 
-use super::{Failure, interrupt, lang};
+use super::options::{Format, language};
+use super::{Failure, long_run};
 use crate::files::{self, FileError};
 use crate::pdf;
 use crate::report::doc::{self, Block};
 use crate::report::{columns, style};
 use crate::text::{excerpt, printable, shown};
-use clap::ValueEnum;
-use clap::builder::{PathBufValueParser, TypedValueParser};
 use serde::Serialize;
 use serde_json::Value;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use terminal_size::{Height, Width, terminal_size_of};
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum Format {
-    /// Text for a terminal
-    Text,
-    /// JSON for programs
-    Json,
-    /// JSON on one line; of several results one line each
-    Ndjson,
+/// Format of the results of this process, and of its failures.
+static FORMAT: OnceLock<Format> = OnceLock::new();
+
+/// Takes the format from the arguments, once, before anything is written.
+pub(super) fn set_format(format: Format) {
+    let _ = FORMAT.set(format);
 }
 
-impl Format {
-    /// Writes JSON, or a line for each element of a list.
-    pub(super) fn json(self, value: &impl Serialize) -> Result<(), Failure> {
-        if self != Self::Ndjson {
-            return json(value);
-        }
-        match serde_json::to_value(value).map_err(Failure::unusable)? {
-            Value::Array(each) => each.iter().try_for_each(json_line),
-            one => json_line(&one),
-        }
-    }
+pub(super) fn format() -> Format {
+    FORMAT.get().copied().unwrap_or(Format::Text)
+}
 
-    pub(super) fn write<T: Serialize>(
-        self,
-        as_json: impl FnOnce() -> T,
-        as_text: impl FnOnce() -> String,
-    ) -> Result<(), Failure> {
-        match self {
-            Self::Text => text(&as_text()),
-            _ => self.json(&as_json()),
-        }
-    }
+/// Returns `true` if results are JSON.
+pub(super) fn is_json() -> bool {
+    matches!(format(), Format::Json | Format::Ndjson)
+}
 
-    /// Writes a document for people, or its JSON.
-    pub(super) fn show<T: Serialize>(
-        self,
-        as_json: impl FnOnce() -> T,
-        composed: impl FnOnce() -> Vec<Block>,
-    ) -> Result<(), Failure> {
-        self.write(as_json, || doc::typed(&composed(), lang::of_text()))
+/// Writes JSON, or a line for each element of a list.
+pub(super) fn value(value: &impl Serialize) -> Result<(), Failure> {
+    if format() != Format::Ndjson {
+        return json(value);
     }
+    match serde_json::to_value(value).map_err(Failure::unusable)? {
+        Value::Array(each) => each.iter().try_for_each(json_line),
+        one => json_line(&one),
+    }
+}
+
+/// Writes a result as text, or as JSON.
+pub(super) fn write<T: Serialize>(
+    as_json: impl FnOnce() -> T,
+    as_text: impl FnOnce() -> String,
+) -> Result<(), Failure> {
+    if is_json() { value(&as_json()) } else { text(&as_text()) }
+}
+
+/// Writes a document for people, or its JSON.
+pub(super) fn show<T: Serialize>(
+    as_json: impl FnOnce() -> T,
+    composed: impl FnOnce() -> Vec<Block>,
+) -> Result<(), Failure> {
+    write(as_json, || typed(&composed()))
+}
+
+/// Returns a document for people as text.
+pub(super) fn typed(blocks: &[Block]) -> String {
+    doc::typed(blocks, language())
 }
 
 /// Writes a document for people.
 pub(super) fn document(blocks: &[Block]) -> Result<(), Failure> {
-    text(&doc::typed(blocks, lang::of_text()))
-}
-
-/// Names of formats that are not written: a viewer would not open such a file.
-const OTHER_FORMATS: [&str; 10] = ["pdf", "png", "jpg", "jpeg", "gif", "eps", "doc", "docx", "svg", "html"];
-
-/// Formats of pages, and of pictures.
-pub(super) const PAGE: &[&str] = &["html", "pdf"];
-pub(super) const PICTURE: &[&str] = &["svg"];
-
-/// Parser of the path of a page or a picture to write; the name of another format is refused.
-pub(super) fn path_of(formats: &'static [&'static str]) -> impl TypedValueParser<Value = PathBuf> {
-    PathBufValueParser::new().try_map(move |path| {
-        let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-        match extension.filter(|named| !formats.contains(&named.as_str()) && OTHER_FORMATS.contains(&named.as_str())) {
-            None => Ok(path),
-            Some(_) => {
-                let example = path.with_extension(formats[0]);
-                Err(format!("expected a name ending in .{}, such as {}", formats.join(" or ."), shown(&example)))
-            }
-        }
-    })
-}
-
-/// Extensions of files that this program reads or writes: no folder is to be made with such a name.
-const FILES: [&str; 7] = ["json", "html", "pdf", "csv", "yaml", "xml", "svg"];
-
-/// Parser of the path of a folder to write to; the name of a file is refused, with `advice` on how to write one file.
-pub(super) fn folder(advice: &'static str) -> impl TypedValueParser<Value = PathBuf> {
-    PathBufValueParser::new().try_map(move |path| {
-        let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-        let is_file = extension.is_some_and(|named| FILES.contains(&named.as_str())) && !path.is_dir();
-        if is_file { Err(format!("expected the name of a folder, not of a file{advice}")) } else { Ok(path) }
-    })
-}
-
-/// Parser of the path of a folder of passports.
-pub(super) fn folder_of_passports() -> impl TypedValueParser<Value = PathBuf> {
-    folder("; the passports in it are <model>/<serial>/<site>-<revision>.yaml")
+    text(&typed(blocks))
 }
 
 /// Returns the columns of a terminal or, where there is none, those that the user sets in `COLUMNS`.
@@ -162,7 +129,7 @@ pub(super) fn page(path: &Path, html: String, force: bool) -> Result<Vec<u8>, Fi
     // Before a browser starts, which takes seconds.
     files::check_replaceable([path], force)?;
     // Ctrl-C then ends the browser, but not this program, which has to remove the browser's folder.
-    let _ = interrupt::cancelled_by_ctrl_c();
+    let _ = long_run::cancelled_by_ctrl_c();
     pdf::print(&html, path, std::env::var(pdf::BROWSER_VARIABLE).ok().as_deref())
 }
 

@@ -1,9 +1,8 @@
 //! Verb `receive`: what a factory hands over, verified and laid into a workspace.
 
-use super::lang::Lang;
-use super::output::Format;
+use super::options::{Printed, languages};
 use super::trust_options::now;
-use super::{Code, Failure, open_workspace};
+use super::{Code, Failure, defaults, output};
 use crate::delivery::{LARGEST_ARCHIVE_BYTES, NotReceived, Order, receive};
 use crate::files;
 use crate::passport::Question;
@@ -32,10 +31,7 @@ pub(super) struct Options {
     #[arg(long)]
     new_key: bool,
     #[command(flatten)]
-    lang: Lang,
-    /// Output format
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    _printed: Printed,
 }
 
 /// Parses a fingerprint; base64 of 32 bytes has 43 characters.
@@ -63,7 +59,7 @@ fn ask(principal: &str) -> Option<String> {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let folder = options.folder.as_ref().or(open_workspace::folder());
+    let folder = options.folder.as_ref().or(defaults::folder());
     let folder = folder.ok_or_else(|| {
         Failure::usage(
             "missing DIR, the folder of the workspace; give it, or --workspace, or set DTG_PASSPORT_WORKSPACE",
@@ -76,7 +72,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         given: &options.fingerprint,
         ask: &ask,
         may_replace: options.new_key,
-        languages: &options.lang.languages(),
+        languages: &languages(),
         now,
     };
     let received = receive(&bytes, &order).map_err(|refused| match refused {
@@ -85,6 +81,6 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         }
         refused => Failure::refused(format!("{name}: {refused}; nothing was written")),
     })?;
-    options.format.show(|| &received, || received.document())?;
+    output::show(|| &received, || received.document())?;
     Ok(0)
 }

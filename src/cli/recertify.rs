@@ -1,10 +1,9 @@
 //! Verb `recertify`: a new certificate from new readings, and successors of the passports in force, in one step.
 
-use super::exclusion::ExclusionOptions;
-use super::key_options::{IssuerOptions, refuse_distrusted};
-use super::lang::{self, Lang};
+use super::key_options::IssuerOptions;
+use super::options::{ExclusionOptions, Force, Printed, Report, folder_of_passports, language, languages};
 use super::trust_options::{self, TrustOptions};
-use super::{Code, Failure, Format, REFUSED, defaults, inputs, interrupt, output};
+use super::{Code, Failure, REFUSED, defaults, inputs, long_run, output};
 use crate::batch::Outcome;
 use crate::batch::recertification::{AtSite, NotRecertified, Recertification, check};
 use crate::certification::{Certification, Comparison, Header};
@@ -66,7 +65,7 @@ pub(super) struct Options {
     #[arg(long, value_name = "TIME", value_parser = trust_options::time)]
     issued_at: Option<Timestamp>,
     /// Folder of passports [default: the parent of <model>/<serial> in the path of the passport]
-    #[arg(short, long, visible_aliases = ["passports", "output"], value_name = "DIR", value_parser = output::folder_of_passports())]
+    #[arg(short, long, visible_aliases = ["passports", "output"], value_name = "DIR", value_parser = folder_of_passports())]
     out: Option<PathBuf>,
     /// Recertify a stand that has changed since its certificate; without it, the sites whose results are in question are
     /// listed, and nothing is written
@@ -74,23 +73,17 @@ pub(super) struct Options {
     accept_change: bool,
     #[command(flatten)]
     exclusions: ExclusionOptions,
-    /// Write a printable record of the certification, with a table and a picture of the changes; FILE.pdf is printed
-    /// by an installed Chromium, Chrome or Edge
-    #[arg(long, value_name = "FILE.html", value_parser = output::path_of(output::PAGE))]
-    report: Option<PathBuf>,
     #[command(flatten)]
-    lang: Lang,
-    /// Replace an existing record
-    #[arg(long)]
-    force: bool,
-    /// Output format
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    report: Report,
+    #[command(flatten)]
+    force: Force,
+    #[command(flatten)]
+    _printed: Printed,
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
-    let cancel = interrupt::cancelled_by_ctrl_c()?;
+    let cancel = long_run::cancelled_by_ctrl_c()?;
     // Before the readings are read: exchanged arguments are then recognised by the file that is there.
     let expected = "a passport, which `issue` makes and signs";
     let name = name_of(&options.passport);
@@ -102,22 +95,20 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (name, bytes) = (name_of(&options.readings), inputs::bytes(&options.readings, Kind::Angles.words())?);
     let sites = options.sites.iter().map(|path| at_site(path)).collect::<Result<Vec<_>, _>>()?;
     // Nothing is written if the record cannot be.
-    files::check_replaceable(&options.report, options.force)?;
+    files::check_replaceable(&options.report.path, options.force.replace)?;
     let excluded = options.exclusions.excluded()?;
     let issued_at = time_of_issue(options.issued_at, trust_options::now()).map_err(Failure::refused)?;
     // Before a passphrase is asked for.
     check(&options.number, options.issued, options.performed, options.valid_until).map_err(failure)?;
     let keys = options.issuer.keys(options.out.as_deref())?;
-    if let Some(public) = keys.public.as_ref().filter(|_| options.issuer.dry_run) {
-        refuse_distrusted(&trust, public, &options.issuer.identity, issued_at)?;
-    }
-    let dry_run = options.issuer.dry_run;
+    keys.check_dry_run(&trust, issued_at)?;
+    let dry_run = options.issuer.dry_run();
     let record = RefCell::new(None);
     let print = |certification: &Certification, comparison: &Comparison, changes: &[NumberDifference]| {
-        let Some(path) = &options.report else { return Ok(()) };
+        let Some(path) = &options.report.path else { return Ok(()) };
         let change = Some((comparison, changes.to_vec()));
         let page = CertificationPage { certification, readings: (&name, &bytes), change, dry_run };
-        record.replace(Some((path, output::page(path, page.html(&options.lang.languages()), options.force)?)));
+        record.replace(Some((path, output::page(path, page.html(&languages()), options.force.replace)?)));
         Ok(())
     };
     let order = Recertification {
@@ -142,10 +133,10 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     };
     let found = order.run().map_err(failure)?;
     if let Some((path, page)) = record.take() {
-        output::saved_too(path, page, options.force)?;
+        output::saved_too(path, page, options.force.replace)?;
     }
-    options.format.show(|| report::to_json(&found, dry_run), || report::document(&found, dry_run))?;
-    let mut told = Told::new(lang::of_text());
+    output::show(|| report::to_json(&found, dry_run), || report::document(&found, dry_run))?;
+    let mut told = Told::new(language());
     let issued = found.passports.iter().filter(|_| !found.refused);
     issued.filter_map(Outcome::remarks).for_each(|(id, remarks)| told.add_all(id, remarks));
     told.lines(output::is_quiet()).iter().for_each(|line| output::complain(line));

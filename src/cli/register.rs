@@ -1,18 +1,17 @@
 //! Verb `register`: the passports in a folder by their registers, and the renewal of registers.
 
-use super::key_options::IssuerOptions;
-use super::lang::Lang;
+use super::key_options::SigningOptions;
+use super::options::{Format, Tabular};
 use super::trust_options::{TrustOptions, date};
-use super::{Code, Failure, Format, code, defaults, output};
+use super::{Code, Failure, code, defaults, inputs, output};
 use crate::folder::overview::{Overview, Query};
 use crate::folder::renewal::{NotRenewed, Renewal};
 use crate::parallel;
 use crate::register::{Row, State};
-use crate::report::issued::Form;
 use crate::report::register as report;
 use crate::text::{Printable, misspelt, shown};
 use crate::workspace::Workspace;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use jiff::civil::Date;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -20,6 +19,11 @@ use std::path::{Path, PathBuf};
 /// List every passport under a folder by the register of its stand: current, superseded, moved, withdrawn, expired; or
 /// renew the registers
 #[derive(Args)]
+#[command(
+    mut_arg("issuer", |arg| arg.help("Only passports of this issuer")),
+    mut_arg("serial", |arg| arg.help("Only passports of stands with this serial number")),
+    mut_arg("at", |arg| arg.help("Only passports for this place: latitude and longitude in degrees, north and east positive"))
+)]
 pub(super) struct Options {
     /// Folder of passports
     #[arg(value_name = "DIR", required_unless_present = "passports")]
@@ -30,7 +34,7 @@ pub(super) struct Options {
     #[command(flatten)]
     trust: TrustOptions,
     /// Only current passports that expire within DAYS days
-    #[arg(long, value_name = "DAYS")]
+    #[arg(long, value_name = "DAYS", value_parser = inputs::whole::<u32>(0..=36_500))]
     within: Option<u32>,
     /// Only passports in these states
     #[arg(long, value_delimiter = ',', value_name = "STATE", value_parser = STATES)]
@@ -41,25 +45,20 @@ pub(super) struct Options {
     /// Only current passports whose expiry date is before this UTC date
     #[arg(long, value_name = "DATE", value_parser = date)]
     expiring_before: Option<Date>,
-    /// Sort order
-    #[arg(long, value_enum, value_name = "WHAT", default_value = "stand")]
-    by: By,
     /// Sign every register again, and make first ones where passports have none; read with --dry-run what is concluded
     #[arg(long)]
     renew: bool,
     #[command(flatten)]
     renewal: RenewalOptions,
     #[command(flatten)]
-    _lang: Lang,
-    /// Output format
-    #[arg(long, value_enum, default_value = "text")]
-    format: Form,
+    _printed: Tabular,
 }
 
 /// States of passports, `expired` among them.
 const STATES: [&str; 5] = ["current", "superseded", "moved", "withdrawn", "expired"];
 
 #[derive(Args)]
+#[command(mut_arg("dry_run", |dry_run| dry_run.requires("renew")))]
 struct RenewalOptions {
     /// With --renew: date until which the new registers count as fresh (inclusive), or `never` [default: as before]
     #[arg(long, value_name = "DATE|never", value_parser = fresh_until, requires = "renew")]
@@ -81,24 +80,7 @@ struct RenewalOptions {
     #[arg(long, value_name = "ID", requires = "renew")]
     not_withdrawn: Vec<String>,
     #[command(flatten)]
-    keys: OptionalIssuer,
-}
-
-/// Options of an issuer, which only a renewal needs.
-#[derive(Args)]
-struct OptionalIssuer {
-    /// With --renew: private key file, or a .pub file whose private half is in ssh-agent or a FIDO token
-    #[arg(long, value_name = "KEY")]
-    key: Option<PathBuf>,
-    /// With --renew: key that signs the registers, of a second person [default: that of --key]
-    #[arg(long, value_name = "KEY")]
-    register_key: Option<PathBuf>,
-    /// With --renew: issuer, the principal of the key in allowed_signers
-    #[arg(long, value_name = "WHO", value_parser = super::key_options::identity)]
-    identity: Option<String>,
-    /// With --renew: compute and show everything, but write nothing
-    #[arg(short = 'n', long, requires = "renew")]
-    dry_run: bool,
+    keys: SigningOptions,
 }
 
 /// Last day of freshness, or none.
@@ -107,13 +89,6 @@ struct Fresh(Option<Date>);
 
 fn fresh_until(text: &str) -> Result<Fresh, String> {
     if text == "never" { Ok(Fresh(None)) } else { date(text).map(|last| Fresh(Some(last))) }
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum By {
-    Stand,
-    Site,
-    Issuer,
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
@@ -146,16 +121,11 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     for stand in &mut overview.stands {
         stand.rows.retain(|row| options.selects(row, question.time));
     }
-    match options.by {
-        By::Stand => {}
-        By::Site => overview.stands.iter_mut().for_each(|stand| stand.rows.sort_by(|a, b| a.site.cmp(&b.site))),
-        By::Issuer => overview.stands.sort_by(|a, b| a.issuer.cmp(&b.issuer)),
-    }
-    match options.format {
-        Form::Text => output::document(&report::document(&overview, listed))?,
-        Form::Json => output::json(&overview)?,
-        Form::Ndjson => overview.stands.iter().try_for_each(output::json_line)?,
-        Form::Csv => output::result(&report::csv(&overview))?,
+    match output::format() {
+        Format::Text => output::document(&report::document(&overview, listed))?,
+        Format::Json => output::json(&overview)?,
+        Format::Ndjson => overview.stands.iter().try_for_each(output::json_line)?,
+        Format::Csv => output::result(&report::csv(&overview))?,
     }
     Ok(code)
 }
@@ -164,9 +134,10 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
 fn renew(options: &Options, folder: &Path) -> Result<Code, Failure> {
     let RenewalOptions { fresh_until, adopt, other, withdrawn, reason, not_withdrawn, keys } = &options.renewal;
     let (trust, _) = options.trust.load()?;
-    let identity = keys.identity.as_deref().ok_or_else(|| Failure::usage("--renew needs --identity WHO"))?;
-    let issuer = IssuerOptions::of_registers(keys.key.as_deref(), keys.register_key.as_deref(), identity, keys.dry_run);
-    if !keys.dry_run && keys.key.is_none() && keys.register_key.is_none() {
+    if keys.identity.is_none() {
+        return Err(Failure::usage("--renew needs --identity WHO"));
+    }
+    if !keys.dry_run && keys.lacks_key() {
         return Err(Failure::usage("--renew needs --key KEY, or --register-key KEY, or --dry-run"));
     }
     let reasons: Vec<&String> = match reason.as_slice() {
@@ -182,14 +153,10 @@ fn renew(options: &Options, folder: &Path) -> Result<Code, Failure> {
         not_withdrawn: not_withdrawn.clone(),
         workspace: defaults::workspace().map(|workspace| workspace.root.clone()),
     };
-    let keys = issuer.keys(Some(folder))?;
+    let dry_run = keys.dry_run;
+    let keys = keys.keys(Some(folder))?;
     let renewed = renewal.run(folder, &keys.authority(&trust)).map_err(not_renewed)?;
-    let dry_run = options.renewal.keys.dry_run;
-    match options.format {
-        Form::Json => Format::Json.json(&report::renewed_json(&renewed))?,
-        Form::Ndjson => Format::Ndjson.json(&report::renewed_json(&renewed))?,
-        _ => output::document(&[report::renewed(&renewed, dry_run)])?,
-    }
+    output::show(|| report::renewed_json(&renewed), || vec![report::renewed(&renewed, dry_run)])?;
     Ok(0)
 }
 

@@ -1,8 +1,9 @@
 //! Verb `reissue`: successors of existing passports.
 
 use super::batch::BatchOptions;
+use super::options::folder_of_passports;
 use super::trust_options::{self, TrustOptions};
-use super::{Code, Failure, defaults, inputs, output};
+use super::{Code, Failure, defaults, inputs};
 use crate::batch::successors::Change;
 use crate::passport::issue::time_of_issue;
 use crate::passport::reissue::Order;
@@ -43,7 +44,7 @@ pub(super) struct Options {
     #[arg(long, value_name = "TEXT")]
     reason: String,
     /// Folder of passports [default: the parent of <model>/<serial> in the path of each predecessor]
-    #[arg(short, long, visible_aliases = ["passports", "output"], value_name = "DIR", value_parser = output::folder_of_passports())]
+    #[arg(short, long, visible_aliases = ["passports", "output"], value_name = "DIR", value_parser = folder_of_passports())]
     out: Option<PathBuf>,
     #[command(flatten)]
     batch: BatchOptions,
@@ -70,7 +71,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         site: options.site.as_deref().map(inputs::site).transpose()?,
         moved: options.moved,
         reason: options.reason.clone(),
-        issuer: options.batch.issuer.identity.clone(),
+        issuer: options.batch.issuer.identity().to_owned(),
         issued_at: time_of_issue(options.issued_at, trust_options::now()).map_err(Failure::refused)?,
         valid_until: options.valid_until,
         allow_uncalibratable: options.batch.allow_uncalibratable,

@@ -1,10 +1,10 @@
 //! Verb `revoke`: withdrawal of passports in the registers of their stands.
 
 use super::key_options::IssuerOptions;
-use super::lang::Lang;
+use super::options::Printed;
 use super::register::not_renewed;
 use super::trust_options::TrustOptions;
-use super::{Code, Failure, Format, output};
+use super::{Code, Failure, output};
 use crate::folder::renewal::Withdrawal;
 use crate::report::register as report;
 use clap::Args;
@@ -27,10 +27,7 @@ pub(super) struct Options {
     #[command(flatten)]
     trust: TrustOptions,
     #[command(flatten)]
-    _lang: Lang,
-    /// Output format
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    _printed: Printed,
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
@@ -41,8 +38,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if withdrawn.is_empty() {
         output::say("already withdrawn; nothing was written");
     }
-    let dry_run = options.issuer.dry_run;
-    options.format.show(|| report::withdrawn_json(&withdrawn), || vec![report::withdrawn(&withdrawn, dry_run)])?;
+    let dry_run = options.issuer.dry_run();
+    output::show(|| report::withdrawn_json(&withdrawn), || vec![report::withdrawn(&withdrawn, dry_run)])?;
     withdrawn.iter().flat_map(|one| &one.alarms).for_each(|alarm| output::complain(&format!("ALARM: {alarm}")));
     Ok(0)
 }

@@ -1,16 +1,15 @@
 //! Verb `show`: passports as tables, or in full as JSON.
 
-use super::inputs::{self, Each};
-use super::lang::{self, Lang};
+use super::inputs::{self, Answer, Lines};
+use super::options::Printed;
 use super::trust_options::{Enquiry, OptionalTrust};
-use super::{Code, Failure, Format, defaults, output};
+use super::{Code, Failure, defaults, output};
 use crate::batch::{Purpose, paths};
 use crate::document::sha256_hex;
 use crate::passport::{Content, Verification, content_from_anyone};
-use crate::report::{doc, exported, passport};
+use crate::report::{exported, passport};
 use crate::text::{Kind, name_of};
 use clap::{ArgGroup, Args};
-use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 /// Show passports as tables, or in full as JSON for tools without YAML
@@ -28,10 +27,7 @@ pub(super) struct Options {
     #[arg(long, conflicts_with = "format")]
     worksheet: bool,
     #[command(flatten)]
-    _lang: Lang,
-    /// Output format
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    _printed: Printed,
 }
 
 /// Trust in the passports that are used, or the loud statement that they are not verified.
@@ -41,7 +37,7 @@ pub(super) struct Whom {
     #[command(flatten)]
     trust: OptionalTrust,
     /// Do not verify the passport; the output carries a warning
-    #[arg(long, conflicts_with_all = ["issuer", "serial", "at", "time", "register"])]
+    #[arg(long, help_heading = "Verification", conflicts_with_all = ["issuer", "serial", "at", "time", "register"])]
     no_verify: bool,
 }
 
@@ -83,32 +79,26 @@ impl Read {
             None => Err(Failure::verdict("", &name, &verification, &enquiry.question)),
         }
     }
-
-    /// Returns the passport and the result of its verification, for programs.
-    fn for_programs(&self) -> impl Serialize + use<> {
-        exported::shown(&self.content, sha256_hex(&self.bytes), self.verification.as_ref())
-    }
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let enquiry = options.whom.load()?;
-    let read = |path: &Path| Read::of(path, enquiry.as_ref());
     let document = if options.worksheet { passport::worksheet } else { passport::document };
-    let document = |read: &Read| document(&read.content, read.verification.as_ref());
+    let show = |path: &Path| {
+        let Read { content, bytes, verification } = Read::of(path, enquiry.as_ref())?;
+        let verification = verification.as_ref();
+        let value = exported::shown(&content, sha256_hex(&bytes), verification);
+        Ok::<_, Failure>((value, document(&content, verification)))
+    };
     if let Some(path) = paths::one_file(&options.passports) {
-        let read = read(path)?;
-        return options.format.show(|| read.for_programs(), || document(&read)).map(|()| 0);
+        let (value, document) = show(path)?;
+        return output::show(|| value, || document).map(|()| 0);
     }
     let mut before = "";
-    let show = |path: &Path| read(path).map(|read| (read, 0));
-    inputs::each(&options.passports, Purpose::Passports, show, |shown| {
-        let shown = match shown {
-            Each::Done(read) => {
-                Each::Done((read.for_programs(), format!("{before}{}", doc::typed(&document(&read), lang::of_text()))))
-            }
-            Each::Refused { file, refusal } => Each::Refused { file, refusal },
-        };
-        before = "\n";
-        inputs::print(&shown, options.format)
-    })
+    let (code, _) = inputs::each(&options.passports, Purpose::Passports, Lines::or(Lines::Text), |path| {
+        let between = std::mem::replace(&mut before, "\n");
+        let (value, document) = show(path)?;
+        Ok(Answer { value, text: format!("{between}{}", output::typed(&document)), code: 0 })
+    })?;
+    Ok(code)
 }

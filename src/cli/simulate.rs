@@ -1,6 +1,7 @@
 //! Verb `simulate`: the paper's table and its Fig. 4.
 
-use super::{Code, Failure, Format, defaults, inputs, long_run, output};
+use super::options::{Formatted, Picture, Threads};
+use super::{Code, Failure, defaults, inputs, long_run, output};
 use crate::calibration::Method;
 use crate::coefficients::EarthRate;
 use crate::gyro::GyroType;
@@ -30,14 +31,12 @@ enum What {
 #[derive(Args)]
 struct RunArguments {
     /// Seed of the random numbers; results do not depend on the number of threads
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, value_parser = inputs::whole::<u64>(0..=u64::MAX))]
     seed: u64,
-    /// Number of threads [default: one for each processor]
-    #[arg(short = 'j', long, value_name = "T", value_parser = clap::value_parser!(u32).range(1..))]
-    threads: Option<u32>,
-    /// Output format
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    threads: Threads,
+    #[command(flatten)]
+    _format: Formatted,
 }
 
 /// Reproduce the paper's table: errors of the parameters with random stands and currents
@@ -56,10 +55,10 @@ struct AccuracyArguments {
     #[arg(long)]
     within_tolerance: bool,
     /// Half-width of the uniform distribution of the deviations, degrees
-    #[arg(long, value_name = "D", default_value_t = 15.0, value_parser = limit)]
+    #[arg(long, value_name = "D", default_value_t = 15.0, value_parser = inputs::number("a number", 0.0..=LARGEST_DEVIATION_DEG))]
     limit_deg: f64,
     /// Half-width of the uniform distribution of the current errors, percent
-    #[arg(long, value_name = "P", default_value_t = 0.015, value_parser = percent)]
+    #[arg(long, value_name = "P", default_value_t = 0.015, value_parser = inputs::number("a number", 0.0..=10.0))]
     current_percent: f64,
     /// Readings that share an error: none (independent), those of x and those of y (channel), or all (common)
     #[arg(long, value_enum, value_name = "WHICH", default_value = "independent")]
@@ -68,7 +67,7 @@ struct AccuracyArguments {
     #[arg(long, value_enum, value_delimiter = ',', default_value = "analytic,least-squares")]
     method: Vec<Method>,
     /// Number of random stands
-    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = inputs::whole::<u64>(1..=u64::MAX))]
     trials: u64,
     #[command(flatten)]
     run: RunArguments,
@@ -78,31 +77,19 @@ struct AccuracyArguments {
 #[derive(Args)]
 struct ConvergenceArguments {
     /// Limits of the deviations, degrees
-    #[arg(long, value_name = "D,...", value_delimiter = ',', value_parser = limit, default_value = PAPER_LIMITS.as_str())]
+    #[arg(long, value_name = "D,...", value_delimiter = ',', value_parser = inputs::number("a number", 0.0..=LARGEST_DEVIATION_DEG), default_value = PAPER_LIMITS.as_str())]
     limits_deg: Vec<f64>,
     /// Number of random stands at each limit
-    #[arg(long, value_name = "N", default_value_t = 1_000, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 1_000, value_parser = inputs::whole::<u64>(1..=u64::MAX))]
     trials: u64,
     #[command(flatten)]
     run: RunArguments,
-    /// Write a figure
-    #[arg(short, long, value_name = "FILE.svg", value_parser = output::path_of(output::PICTURE))]
-    output: Option<PathBuf>,
-    /// Replace an existing figure
-    #[arg(long)]
-    force: bool,
+    #[command(flatten)]
+    picture: Picture,
 }
 
 /// [`LIMITS_DEG`], as an option has them.
 static PAPER_LIMITS: LazyLock<String> = LazyLock::new(|| LIMITS_DEG.map(|limit| limit.to_string()).join(","));
-
-fn limit(text: &str) -> Result<f64, String> {
-    inputs::number(text, 0.0..=LARGEST_DEVIATION_DEG, format!("a number from 0 to {LARGEST_DEVIATION_DEG}"))
-}
-
-fn percent(text: &str) -> Result<f64, String> {
-    inputs::number(text, 0.0..=10.0, "a number from 0 to 10".to_owned())
-}
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     match &options.what {
@@ -133,7 +120,7 @@ fn run_accuracy(arguments: &AccuracyArguments) -> Result<Code, Failure> {
         methods: arguments.method.clone(),
     };
     let found = watched(&arguments.run, arguments.trials, 1, |run| accuracy(&options, run))?;
-    arguments.run.format.write(|| &found, || table::accuracy(&found, &options))?;
+    output::write(|| &found, || table::accuracy(&found, &options))?;
     Ok(0)
 }
 
@@ -141,12 +128,9 @@ fn run_convergence(arguments: &ConvergenceArguments) -> Result<Code, Failure> {
     let limits_deg = arguments.limits_deg.as_slice();
     let rows = (limits_deg.len() * Deviations::ALL.len()) as u64;
     let found = watched(&arguments.run, arguments.trials, rows, |run| convergence(limits_deg, run))?;
-    if let Some(path) = &arguments.output {
-        let svg = picture::convergence(&found);
-        let svg = svg.ok_or_else(|| Failure::unusable("the picture could not be drawn: no rows"))?;
-        output::saved_too(path, &svg, arguments.force)?;
-    }
-    arguments.run.format.write(|| &found, || table::convergence(&found))?;
+    let no_rows = || Failure::unusable("the picture could not be drawn: no rows");
+    arguments.picture.save(|| picture::convergence(&found).ok_or_else(no_rows))?;
+    output::write(|| &found, || table::convergence(&found))?;
     Ok(0)
 }
 
@@ -160,7 +144,11 @@ fn watched<T>(
     long_run::trials(trials.saturating_mul(rows), |cancel, bar| {
         let progress = |done: u64| bar.set_position(done);
         let usual = Run::new(trials, arguments.seed);
-        let threads = arguments.threads.map_or(usual.threads, |threads| threads as usize);
-        Ok(simulate(&Run { cancel: Some(cancel), progress: Some(&progress), threads, ..usual }))
+        Ok(simulate(&Run {
+            cancel: Some(cancel),
+            progress: Some(&progress),
+            threads: arguments.threads.or(usual.threads),
+            ..usual
+        }))
     })
 }

@@ -1,8 +1,8 @@
 //! Verb `status`: the contents of a workspace.
 
-use super::lang::{self, Lang};
-use super::trust_options::{self, OptionalLists, time};
-use super::{Code, Failure, code, defaults, output};
+use super::options::{Lang, language};
+use super::trust_options::{self, Lists, time};
+use super::{Code, Failure, code, defaults, inputs, output};
 use crate::workspace::{SOON_DAYS, due, status};
 use clap::{Args, ValueEnum};
 use jiff::Timestamp;
@@ -11,12 +11,12 @@ use jiff::Timestamp;
 #[derive(Args)]
 pub(super) struct Options {
     #[command(flatten)]
-    lists: OptionalLists,
+    lists: Lists,
     /// Verify as of this time: RFC 3339, or a UTC date (00:00) [default: now]
     #[arg(long, value_name = "TIME", value_parser = time)]
     time: Option<Timestamp>,
     /// List what expires or stops being fresh within DAYS days, by date, with certificate and customer
-    #[arg(long, value_name = "DAYS", value_parser = clap::value_parser!(i32).range(0..=36_500))]
+    #[arg(long, value_name = "DAYS", value_parser = inputs::whole::<i32>(0..=36_500))]
     days: Option<i32>,
     #[command(flatten)]
     _lang: Lang,
@@ -56,8 +56,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
             output::document(&[status.document(), due.unwrap_or_default()].concat())?;
         }
         // Its cells are escaped; a byte order mark must not be.
-        Form::Csv => output::own(&due::csv(&status.due, lang::of_text()))?,
-        Form::Ics => output::own(&due::ics(&status.due, time, lang::of_text()))?,
+        Form::Csv => output::own(&due::csv(&status.due, language()))?,
+        Form::Ics => output::own(&due::ics(&status.due, time, language()))?,
     }
     Ok(code(status.incomplete, status.needs_attention()))
 }

@@ -20,27 +20,43 @@ use std::path::{Path, PathBuf};
 #[derive(Args)]
 pub(super) struct Asked {
     /// Require this issuer
-    #[arg(long, value_name = "WHO", value_parser = NonEmptyStringValueParser::new())]
+    #[arg(long, help_heading = "Verification", value_name = "WHO", value_parser = NonEmptyStringValueParser::new())]
     issuer: Option<String>,
     /// Require this serial number; read it from the stand
-    #[arg(long, value_name = "S", value_parser = NonEmptyStringValueParser::new())]
+    #[arg(long, help_heading = "Verification", value_name = "S", value_parser = NonEmptyStringValueParser::new())]
     serial: Option<String>,
     /// Place of the stand: latitude and longitude in degrees, north and east positive, or 55°45′56″N,37°41′08″E
-    #[arg(long, value_name = "LAT,LON", value_parser = enquiry::place_of, allow_hyphen_values = true)]
+    #[arg(long, help_heading = "Verification", value_name = "LAT,LON", value_parser = enquiry::place_of, allow_hyphen_values = true)]
     at: Option<Place>,
     /// Verify as of this time: RFC 3339, or a UTC date (00:00) [default: now]
-    #[arg(long, value_name = "TIME", value_parser = time)]
+    #[arg(long, help_heading = "Verification", value_name = "TIME", value_parser = time)]
     time: Option<Timestamp>,
 }
 
+/// Lists of trusted and of revoked keys.
 #[derive(Args)]
-pub(super) struct TrustOptions {
+pub(super) struct Lists {
     /// Trusted signing keys: an OpenSSH allowed_signers file
-    #[arg(long, value_name = "SIGNERS")]
-    trust: PathBuf,
+    #[arg(long, help_heading = "Verification", value_name = "SIGNERS")]
+    trust: Option<PathBuf>,
     /// Revoked keys: an OpenSSH KRL, or a list of public keys (repeatable)
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, help_heading = "Verification", value_name = "FILE", requires = "trust")]
     revoked: Vec<PathBuf>,
+}
+
+impl Lists {
+    /// Reads the lists, or returns `None` if no `--trust` is given.
+    pub(super) fn load(&self) -> Result<Option<Trust>, Failure> {
+        self.trust.as_deref().map(|path| load(path, &self.revoked)).transpose()
+    }
+}
+
+/// Options of trust of a verb that cannot do without it.
+#[derive(Args)]
+#[command(mut_arg("trust", |trust| trust.required(true)))]
+pub(super) struct TrustOptions {
+    #[command(flatten)]
+    lists: Lists,
     #[command(flatten)]
     asked: Asked,
 }
@@ -49,7 +65,7 @@ pub(super) struct TrustOptions {
 #[derive(Args)]
 pub(super) struct Among {
     /// Register of the stand, or the folder of passports that has it as MODEL/SERIAL/register.yaml
-    #[arg(long, visible_alias = "passports", value_name = "FILE|DIR")]
+    #[arg(long, help_heading = "Verification", visible_alias = "passports", value_name = "FILE|DIR")]
     register: Option<PathBuf>,
 }
 
@@ -62,29 +78,11 @@ pub(super) struct TrustAmong {
     among: Among,
 }
 
-/// Lists of keys of a verb that also works without them.
-#[derive(Args)]
-pub(super) struct OptionalLists {
-    /// Trusted signing keys: an OpenSSH allowed_signers file
-    #[arg(long, value_name = "SIGNERS")]
-    trust: Option<PathBuf>,
-    /// Revoked keys: an OpenSSH KRL, or a list of public keys (repeatable)
-    #[arg(long, value_name = "FILE", requires = "trust")]
-    revoked: Vec<PathBuf>,
-}
-
-impl OptionalLists {
-    /// Reads the lists, or returns `None` if no `--trust` is given.
-    pub(super) fn load(&self) -> Result<Option<Trust>, Failure> {
-        self.trust.as_deref().map(|path| load(path, &self.revoked)).transpose()
-    }
-}
-
 /// Options of trust of a verb that also works without a passport.
 #[derive(Args)]
 pub(super) struct OptionalTrust {
     #[command(flatten)]
-    lists: OptionalLists,
+    lists: Lists,
     #[command(flatten)]
     asked: Asked,
     #[command(flatten)]
@@ -110,7 +108,8 @@ impl TrustAmong {
 impl TrustOptions {
     pub(super) fn load(&self) -> Result<(Trust, Question), Failure> {
         let question = self.asked.question();
-        Ok((load(&self.trust, &self.revoked)?, question))
+        let trust = self.lists.load()?.ok_or_else(|| Failure::usage("missing --trust SIGNERS"))?;
+        Ok((trust, question))
     }
 }
 

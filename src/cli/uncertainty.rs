@@ -1,6 +1,7 @@
 //! Options of `calibrate` for the uncertainty budget and the Monte Carlo method.
 
-use super::{Failure, long_run, output};
+use super::options::Threads;
+use super::{Failure, inputs, long_run, output};
 use crate::calibration::{Calibration, CalibrationDocument, Method, Options as CalibrationOptions, Readings, Setup};
 use crate::gyro::{GyroType, Tolerance};
 use crate::interface::calibrated::{WholeDocument, distributions};
@@ -19,23 +20,19 @@ const LONG: Duration = Duration::from_secs(10);
 #[derive(Args)]
 pub(super) struct UncertaintyOptions {
     /// Uncertainty budget: contribution of every input to every parameter
-    #[arg(long)]
+    #[arg(long, help_heading = "Uncertainty")]
     pub budget: bool,
-    /// Replace existing results and reports
-    #[arg(long)]
-    pub force: bool,
     /// Monte Carlo method (JCGM 101): coverage intervals, and validity of the linear approximation
-    #[arg(long)]
+    #[arg(long, help_heading = "Uncertainty")]
     monte_carlo: bool,
     /// Number of trials, rounded up to a multiple of 16384 [default: until every digit is stable, at most 200 million]
-    #[arg(long, value_name = "N", requires = "monte_carlo", value_parser = trials)]
+    #[arg(long, help_heading = "Uncertainty", value_name = "N", requires = "monte_carlo", value_parser = trials)]
     trials: Option<u64>,
     /// Seed of the random numbers; results do not depend on the number of threads
-    #[arg(long, value_name = "S", default_value_t = 1, requires = "monte_carlo")]
+    #[arg(long, help_heading = "Uncertainty", value_name = "S", default_value_t = 1, requires = "monte_carlo", value_parser = inputs::whole::<u64>(0..=u64::MAX))]
     seed: u64,
-    /// Number of threads of --monte-carlo [default: one for each processor]
-    #[arg(short = 'j', long, value_name = "T", value_parser = clap::value_parser!(u32).range(1..=1024))]
-    threads: Option<u32>,
+    #[command(flatten)]
+    threads: Threads,
 }
 
 /// Parses a number of trials, also in the form 1e9.
@@ -108,7 +105,7 @@ impl UncertaintyOptions {
                 }
             };
             let usual = Trials::adaptive(self.seed);
-            let threads = self.threads.map_or(usual.threads, |threads| threads as usize);
+            let threads = self.threads.or(usual.threads);
             let (cancel, progress) = (Some(cancel), Some(&progress as &_));
             let run = Trials { trials: self.trials, cancel, progress, threads, ..usual };
             distributions(setup, readings, of, &run)

@@ -7,8 +7,8 @@ use crate::calibration::prediction::{FurtherVisit, best_further_visit, cost_of_m
 use crate::calibration::stated::{TemperatureOutside, temperature_c};
 use crate::calibration::verdict::without_nominal;
 use crate::calibration::{
-    self, Calibration, CalibrationDocument, Kind, Method, Model, NoLeastSquares, NotStated, Options, Parameter,
-    Readings, Setup, Verdict,
+    self, Calibration, CalibrationDocument, Decision, Kind, Method, Model, NoLeastSquares, NotStated, Options,
+    Parameter, Readings, Setup, Verdict,
 };
 use crate::document::sha256_hex;
 use crate::gyro::GyroType;
@@ -220,6 +220,15 @@ pub(crate) struct Done {
     pub unchecked_range_c: Option<[f64; 2]>,
     /// `true` if local g is normal gravity at 0 m, because the height of the site is unknown.
     pub without_height: bool,
+}
+
+impl Done {
+    /// Returns `true` if the result is not valid, or if a parameter or its change fails by the decision rule.
+    #[cfg(feature = "cli")]
+    pub(crate) fn is_refused(&self) -> bool {
+        let failed = |verdict: &Verdict| verdict.overall == Decision::Fail;
+        !self.document.is_valid() || self.document.verdict.iter().chain(&self.document.change).any(failed)
+    }
 }
 
 impl<'a> Prepared<'a> {

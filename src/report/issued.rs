@@ -220,7 +220,7 @@ pub(crate) enum Form {
     Text,
     /// JSON for programs.
     Json,
-    /// JSON, a line for each element of the list.
+    /// JSON on one line; of several results one line each.
     Ndjson,
     /// CSV for spreadsheets.
     Csv,

@@ -15,8 +15,8 @@ use std::fmt::Write;
 /// error is within the paper's bound.
 pub(crate) fn accuracy(found: &Accuracy, options: &AccuracyOptions) -> String {
     let stands = match found.limit_deg {
-        Some(limit) => format!("all deviations uniform within ±{limit}°"),
-        None => "the specified stand".to_owned(),
+        Some(limit) => format!("Each deviation is drawn uniformly within ±{limit}°."),
+        None => "The deviations are those of the specified stand.".to_owned(),
     };
     let (trials, seed, latitude) = (grouped(found.trials, ","), found.seed, found.latitude_deg);
     let mut out = String::new();
@@ -24,23 +24,23 @@ pub(crate) fn accuracy(found: &Accuracy, options: &AccuracyOptions) -> String {
     if !bounded.is_empty() {
         let (within, all) = (bounded.iter().filter(|within| **within).count(), bounded.len());
         let words = match all - within {
-            0 => format!("WITHIN  all {all} worst errors are within the paper's bounds"),
-            beyond => format!("BEYOND  the paper's bounds are exceeded by {beyond} of {all} worst errors"),
+            0 => format!("WITHIN  All {all} worst errors are within the paper's bounds."),
+            beyond => format!("BEYOND  {beyond} of {all} worst errors exceed the paper's bounds."),
         };
         let _ = writeln!(out, "{}", style::marked(Some(within == all), &words));
     }
     let errors = match options.current_error {
-        CurrentError::Independent => "independent",
-        CurrentError::Channel => "common to each axis",
-        CurrentError::Common => "common to all readings",
+        CurrentError::Independent => "Each current has an error of its own",
+        CurrentError::Channel => "The currents of each axis have a common error",
+        CurrentError::Common => "All currents have a common error",
     };
     let gyro = if options.within_tolerance {
-        "drawn within its tolerance (errors are relative to the nominal values)"
+        "The gyro is drawn within its tolerance, and errors are relative to the nominal values."
     } else {
-        "nominal"
+        "The gyro has the nominal parameters."
     };
     let words = format!(
-        "{trials} trials, seed {seed}, {stands}, currents within ±{} % ({errors}), gyro {gyro}, latitude {latitude:.4}°",
+        "{trials} trials, seed {seed}, latitude {latitude:.4}°. {stands} {errors}, drawn uniformly within ±{} %. {gyro}",
         options.current_percent
     );
     columns::paragraph(&mut out, "", &words);
@@ -49,7 +49,7 @@ pub(crate) fn accuracy(found: &Accuracy, options: &AccuracyOptions) -> String {
         columns::paragraph(
             &mut out,
             "",
-            "The paper's bounds are reached with --within-tolerance --current-error common.",
+            "To reproduce the paper's bounds, use --within-tolerance --current-error common.",
         );
     }
     let rows = found.rows.iter().map(|row| {
@@ -83,7 +83,8 @@ pub(crate) fn accuracy(found: &Accuracy, options: &AccuracyOptions) -> String {
 pub(crate) fn convergence(found: &Convergence) -> String {
     let (trials, seed) = (grouped(found.trials, ","), found.seed);
     let mut out = format!(
-        "Steps of the iterative method, {trials} stands at each limit, seed {seed}, latitude {PAPER_LATITUDE_DEG:.4}°\n"
+        "Number of steps of the iterative method: {trials} stands at each limit, seed {seed}, latitude \
+         {PAPER_LATITUDE_DEG:.4}°\n"
     );
     let rows = found.rows.iter().map(|row| {
         let or_dash = |value: Option<String>| value.unwrap_or_else(|| "-".to_owned());
@@ -98,8 +99,9 @@ pub(crate) fn convergence(found: &Convergence) -> String {
         ]
     });
     columns::table(&mut out, 1, &["limit, °", "angles", "mean", "95th perc.", "maximum", "not converged, %", ""], rows);
-    out.push_str("  mean, 95th percentile, maximum: of the stands that converged\n");
-    out.push_str("  ±: standard uncertainty; < and >: limit at 95 %, where all stands converged or none did\n");
+    out.push_str("  Mean, 95th percentile and maximum are those of the stands that converged.\n");
+    out.push_str("  The number after ± is the standard uncertainty. Where all stands converged or none did,\n");
+    out.push_str("  < and > precede the 95 % limit of the share.\n");
     out
 }
 

@@ -27,10 +27,10 @@ pub(crate) fn cases() -> [Case; 2] {
         [] => f64::NAN,
         some => largest(some.iter().map(|pair| pair[which])),
     };
-    let of = format!("worst of {} stands", errors.len());
+    let of = format!("of {} stands", errors.len());
     [
-        case(&format!("error of a coefficient, {of}"), COEFFICIENT_LIMIT, worst(0)),
-        case(&format!("error of a parameter, {of}"), PARAMETER_LIMIT, worst(1)),
+        case(&format!("largest error of a coefficient {of}"), COEFFICIENT_LIMIT, worst(0)),
+        case(&format!("largest error of a parameter {of}"), PARAMETER_LIMIT, worst(1)),
     ]
 }
 

@@ -1,21 +1,12 @@
-//! Positions of a template: the paper's, a subset or more of them, or those of a plan.
+//! Positions of a template: the paper's, or those of a plan.
 
 use crate::certification::NominalPosition;
-use crate::coefficients::PositionIndex;
+use crate::coefficients::{EIGHT_POSITIONS, PositionIndex};
 use crate::plan::document::Planned;
 
+/// Positions of a plan, or without one the paper's eight.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Positions {
-    /// The four of the paper's eight positions with which the errors of the parameters, in units of the tolerances of
-    /// the paper's gyro, have the smallest sum of variances.
-    Four,
-    /// The paper's eight positions.
-    Eight,
-    /// The paper's eight positions, and the frame at 45°, 180°, 225° and 270°.
-    TwentyFour,
-    /// Those of a plan.
-    Planned(Planned),
-}
+pub(crate) struct Positions(pub Option<Planned>);
 
 /// Angles of the frame, degrees, of i = 1, 2, …; the first two are the paper's.
 const FRAME_DEG: [f64; 6] = [0.0, 90.0, 180.0, 270.0, 45.0, 225.0];
@@ -26,51 +17,31 @@ const PLATFORM_DEG: [f64; 4] = [0.0, 90.0, 180.0, 270.0];
 impl Positions {
     /// Returns the positions, each once.
     pub(super) fn nominal(&self) -> Vec<NominalPosition> {
-        let grid = |frames: u32| (1..=frames).flat_map(|i| (1..=4).map(move |j| (i, j)));
-        let places: Vec<(u32, u32)> = match self {
-            Self::Four => vec![(1, 1), (1, 2), (2, 1), (2, 4)],
-            Self::Eight => grid(2).collect(),
-            Self::TwentyFour => grid(6).collect(),
-            Self::Planned(plan) => return planned(plan),
-        };
-        let nominal = |(i, j): (u32, u32)| {
-            let (theta_deg, phi_deg) = (FRAME_DEG[i as usize - 1], PLATFORM_DEG[j as usize - 1]);
-            NominalPosition { i, j, theta_deg, phi_deg }
-        };
-        places.into_iter().map(nominal).collect()
+        let of_the_paper = |(PositionIndex { i, j }, theta_deg, phi_deg)| NominalPosition { i, j, theta_deg, phi_deg };
+        self.0.as_ref().map_or_else(|| EIGHT_POSITIONS.map(of_the_paper).to_vec(), planned)
     }
 
     /// Returns the positions in the order of the visits of one run: as often as a plan visits them, otherwise once.
     pub(super) fn visits(&self) -> Vec<NominalPosition> {
         let all = self.nominal();
-        let Self::Planned(plan) = self else { return all };
+        let Some(plan) = &self.0 else { return all };
         let of = |angles: &[f64; 2]| all.iter().find(|at| [at.theta_deg, at.phi_deg] == *angles).cloned();
         plan.order.iter().filter_map(of).collect()
     }
 
     /// Returns the azimuth of the frame's axis, degrees clockwise from north, or `None` without a plan.
     pub(super) fn frame_axis_azimuth_deg(&self) -> Option<f64> {
-        match self {
-            Self::Planned(plan) => Some(plan.frame_axis_azimuth_deg),
-            _ => None,
-        }
+        self.0.as_ref().map(|plan| plan.frame_axis_azimuth_deg)
     }
 
     /// Returns the remark above the positions of a file.
     pub(super) fn remark(&self) -> String {
-        let fixed = match self {
-            Self::Four => {
-                "# Four positions: without all of the paper's eight there are no matrices, and only least squares \
-                 applies.\n"
-            }
-            Self::Eight => "# The paper's eight positions.\n",
-            Self::TwentyFour => "# The paper's eight positions (i 1 and 2), and sixteen more.\n",
-            Self::Planned(Planned { frame_axis_azimuth_deg: azimuth, .. }) => {
-                let plan = format!("# Positions of the plan, which is for a frame's axis at azimuth {azimuth} degrees");
-                return plan + ": state it in the site.\n";
-            }
-        };
-        fixed.to_owned()
+        match self.frame_axis_azimuth_deg() {
+            None => "# The paper's eight positions.\n".to_owned(),
+            Some(azimuth) => format!(
+                "# Positions of the plan, which is for a frame's axis at azimuth {azimuth} degrees: state it in the site.\n"
+            ),
+        }
     }
 
     /// Returns the rows of `positions` in a file; `rest` is what follows the nominal angles.

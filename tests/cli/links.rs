@@ -108,21 +108,21 @@ fn a_link_where_one_file_will_be_written_is_called_a_link() {
     let place = Place::new();
     place.write("mine", "mine");
     for target in ["nowhere", "mine"] {
-        symlink(place.path(target), place.path("link")).unwrap();
-        for verb in [
-            format!("render {PASSPORT} {TRUST} -o link"),
-            format!("render {PASSPORT} {TRUST} -o link --force"),
-            "certify docs/angles.csv --stand headers/angles.yaml -o link --force".to_owned(),
-            "certify docs/angles.csv --stand headers/angles.yaml -o stand.yaml --report link".to_owned(),
-            "new stand link".to_owned(),
-            "keygen link --identity me --no-passphrase".to_owned(),
+        for (name, verb) in [
+            ("link.html", format!("render {PASSPORT} {TRUST} -o link.html")),
+            ("link.html", format!("render {PASSPORT} {TRUST} -o link.html --force")),
+            ("link.yaml", "certify docs/angles.csv --stand headers/angles.yaml -o link.yaml --force".to_owned()),
+            ("link", "certify docs/angles.csv --stand headers/angles.yaml -o stand.yaml --report link".to_owned()),
+            ("link", "new stand link".to_owned()),
+            ("link", "keygen link --identity me --no-passphrase".to_owned()),
         ] {
-            place.refused(&verb, "link: is a link");
-            let link = fs::read_link(place.path("link")).unwrap();
+            symlink(place.path(target), place.path(name)).unwrap();
+            place.refused(&verb, &format!("{name}: is a link"));
+            let link = fs::read_link(place.path(name)).unwrap();
             assert_eq!(link, place.path(target), "{verb}");
             assert!(!place.path("stand.yaml").exists() && !place.path("nowhere").exists(), "{verb}");
+            fs::remove_file(place.path(name)).unwrap();
         }
-        fs::remove_file(place.path("link")).unwrap();
     }
     assert_eq!(fs::read_to_string(place.path("mine")).unwrap(), "mine");
     // Of a list of keys only a link that leads nowhere is refused: one that leads to the shared list is usual.

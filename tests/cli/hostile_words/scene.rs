@@ -190,7 +190,7 @@ pub const LINES: &[&str] = &[
     "demo --out >",
     "keygen > --identity =factory --no-passphrase",
     "keygen > --identity =factory --no-passphrase --allowed-signers @allowed_signers",
-    "certify @readings.csv --stand @header.yaml -o >",
+    "certify @readings.csv --stand @header.yaml -o >.yaml",
     "certify @readings.csv --against @stand.yaml --format text",
     "certify @readings.csv --against @stand.yaml --format json",
     "issue @stand.yaml --site @here.yaml --key @key --identity =factory --issued-at =2026-11-03 --valid-until =2027-11-03 --out > --accuracy --gyro @gyro.yaml --laboratory @laboratory.yaml --trust @allowed_signers --shard =1/1 --threads =1 --format text",
@@ -206,10 +206,10 @@ pub const LINES: &[&str] = &[
     "show @passport.yaml --trust @allowed_signers --revoked @key.pub --issuer =factory --serial =0017 --at =55.7658,37.6856 --time =2026-11-04 --format text",
     "show @passport.yaml --no-verify --format text",
     "show @passport.yaml --no-verify --format json",
-    "render @passport.yaml -o > --trust @allowed_signers --issuer =factory --serial =0017 --time =2026-11-04 --register @passports --lang =en,ru",
+    "render @passport.yaml -o >.html --trust @allowed_signers --issuer =factory --serial =0017 --time =2026-11-04 --register @passports --lang =en,ru",
     "calibrate @passport.yaml @currents.csv --trust @allowed_signers --time =2026-11-04 --method =analytic,iterative,least-squares --gyro @gyro.yaml --laboratory @laboratory.yaml --previous @result.json --delta1-percent =0.1 --delta2-deg-per-h =0.001 --budget --report > --lang =en,ru --format text",
     "calibrate @passport.yaml @currents.csv --no-verify --gyro @gyro.yaml --laboratory @laboratory.yaml --previous @result.json --report > --format json",
-    "register @passports --trust @allowed_signers --issuer =factory --serial =0017 --time =2026-11-04 --within =9 --by =site --format text",
+    "register @passports --trust @allowed_signers --issuer =factory --serial =0017 --time =2026-11-04 --within =9 --format text",
     "register @passports --trust @allowed_signers --revoked @key.pub --time =2026-11-04 --format json",
     "register @passports --trust @allowed_signers --time =2026-11-04 --format csv",
     "register @passports --renew --fresh-until =2098-12-31 --with @register.yaml --not-withdrawn =SPS-2/0017/here/1 --key @key --identity =factory --trust @allowed_signers --dry-run --format json",
@@ -238,7 +238,7 @@ pub fn words(line: &str) -> Vec<(char, &str)> {
 pub fn line_with(words: &[(char, &str)], place: Option<usize>, hostile: &OsStr, run: usize) -> Vec<OsString> {
     let each = words.iter().enumerate().map(|(index, (kind, word))| match kind {
         _ if Some(index) == place => hostile.to_owned(),
-        '>' => format!("new-{run}-{index}").into(),
+        '>' => format!("new-{run}-{index}{word}").into(),
         _ => (*word).into(),
     });
     each.collect()
