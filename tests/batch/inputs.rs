@@ -114,6 +114,19 @@ fn a_passport_in_the_wrong_place_for_its_id_is_not_taken_for_the_right_one() {
 }
 
 #[test]
+fn a_name_in_another_unicode_form_is_refused_with_its_place() {
+    let workshop = Workshop::new(1, 1);
+    let text = site("koeln", 1).replace("id: \"koeln\"\n", "id: \"koeln\"\nname: \"Ko\u{308}ln\"\n");
+    workshop.write("sites/koeln.yaml", &text);
+    // The file's own name may be in any form.
+    workshop.write("sites/Mu\u{308}nchen.yaml", &site("muenchen", 2));
+    let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 2);
+    assert!(said.words.contains("sites/koeln.yaml:3:7: name: found character U+0308"), "{}", said.words);
+    let issued = ["SPS-2/0000/muenchen/1", "SPS-2/0000/site-00000/1"].map(str::to_owned);
+    assert_eq!(said.ids("issued"), issued.into());
+}
+
+#[test]
 fn patterns_folders_and_lists_name_the_same() {
     let workshop = Workshop::new(3, 4);
     let ids = |arguments: &str, list: &[u8]| {

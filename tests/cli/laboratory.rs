@@ -149,6 +149,24 @@ fn thirty_gyros_are_calibrated_in_one_command() {
     }
 }
 
+#[test]
+fn status_says_what_is_in_force_and_until_when() {
+    let place = Place::new();
+    place.good("register factory/passports --renew --fresh-until 2027-11-20 --workspace factory");
+    place.good("deliver SPS-2/0017/moscow-bmstu -o d.zip --workspace factory");
+    let fingerprint = place.fingerprint("factory/factory.key.pub");
+    place.good(&format!("receive d.zip lab --fingerprint {fingerprint}"));
+    let said = place.good("status --workspace lab");
+    for words in
+        ["NO ALARMS", "1 in force", "register 2", "fresh until 2027-11-20", "SPS-2/0017/moscow-bmstu/1  valid until"]
+    {
+        assert!(said.contains(words), "lacks {words}\n{said}");
+    }
+    for words in ["torino", "Stands", "Sites"] {
+        assert!(!said.contains(words), "{words} is not the laboratory's\n{said}");
+    }
+}
+
 /// A real browser prints the report next to the result. Expected: poppler reads the serial number in it.
 #[cfg(unix)]
 #[test]
