@@ -40,7 +40,8 @@ fn nothing_may_stand_after_the_armor_or_beside_it() {
     }
     let other = SignedText::split("x", good.as_bytes(), &Form { namespace: "dtg-register", ..FORM }).unwrap_err();
     let expected = "dtg-register".to_owned();
-    assert_eq!(other.signature, Some(SignatureError::WrongNamespace { found: NAMESPACE.to_owned(), expected }));
+    let due = SignatureError::WrongNamespace { found: NAMESPACE.to_owned(), expected };
+    assert_eq!(other.signature.as_deref(), Some(&due));
 }
 
 /// Expected: by hand, the first line of a passport that is not in its form, the column of what is left to read.
