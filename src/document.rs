@@ -120,7 +120,7 @@ pub struct Malformed {
     /// Description and location of the fault.
     pub fault: Unreadable,
     /// Error of the signature if that is the fault, otherwise `None`.
-    pub signature: Option<SignatureError>,
+    pub signature: Option<Box<SignatureError>>,
 }
 
 /// Form of the signature in a document.
@@ -189,7 +189,7 @@ impl<'a> SignedText<'a> {
         let armor = armor.ok_or_else(|| refuse((not_indented.to_owned(), BLOCK.to_owned(), CHANGED), None))?;
         let signature = Signature::from_armor(&armor);
         let signature = signature.and_then(|signature| signature.check_namespace(namespace).map(|()| signature));
-        let signature = signature.map_err(|error| refuse(refusal_of(&error), Some(error.clone())))?;
+        let signature = signature.map_err(|error| refuse(refusal_of(&error), Some(Box::new(error))))?;
         Ok(Self { payload, signature })
     }
 

@@ -315,7 +315,7 @@ impl Run {
         match &split {
             Ok(_) => self.note(CheckName::Grammar, Code::Ok, good),
             Err(malformed) => {
-                let code = match malformed.signature {
+                let code = match malformed.signature.as_deref() {
                     Some(SignatureError::WrongNamespace { .. }) => Code::WrongNamespace,
                     Some(SignatureError::KeyType(_)) => Code::UnsupportedKey,
                     _ => Code::Malformed,
