@@ -16,16 +16,17 @@ pub(super) const PREFIX: &str = ".dtg-passport-";
 /// Suffix of the names of temporary files.
 pub(super) const SUFFIX: &str = ".tmp";
 
-/// Removes the temporary files that belong to no active run from a folder, and returns their number.
+/// Removes the temporary files that belong to no active run from a folder.
 ///
 /// Files that cannot be examined or removed stay; they cause no errors.
-pub(crate) fn remove(folder: &Path) -> usize {
-    let Ok(entries) = fs::read_dir(folder) else { return 0 };
+pub(crate) fn remove(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
     let ours = entries.flatten().filter(|entry| {
         // A link or a folder with such a name was not created by this program.
         !is_lasting(&entry.file_name()) && entry.file_type().is_ok_and(|kind| kind.is_file())
     });
-    ours.filter(|entry| remove_unless_in_use(&entry.path()).is_ok()).count()
+    // What cannot be removed stays.
+    ours.for_each(|entry| drop(remove_unless_in_use(&entry.path())));
 }
 
 /// Returns `true` if a file is not named as the temporary files of a run are.
@@ -41,28 +42,5 @@ fn remove_unless_in_use(path: &Path) -> io::Result<()> {
         Err(TryLockError::WouldBlock) => Err(io::ErrorKind::ResourceBusy.into()),
         // The lock is kept until the name is removed, so that the run that created the file notices the loss.
         Ok(()) | Err(TryLockError::Error(_)) => fs::remove_file(path),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_locked_stays_and_what_is_not_ours_too() {
-        let folder = tempfile::tempdir().unwrap();
-        let make = |name: &str| File::create_new(folder.path().join(name)).unwrap();
-        make(".dtg-passport-left.tmp");
-        make("here-1.yaml");
-        make(".another-program.tmp");
-        fs::create_dir(folder.path().join(".dtg-passport-folder.tmp")).unwrap();
-        let in_use = make(".dtg-passport-used.tmp");
-        in_use.lock().unwrap();
-        assert_eq!(remove(folder.path()), 1);
-        assert!(!folder.path().join(".dtg-passport-left.tmp").exists());
-        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 4);
-        drop(in_use);
-        assert_eq!(remove(folder.path()), 1);
-        assert_eq!(remove(&folder.path().join("no such folder")), 0);
     }
 }
