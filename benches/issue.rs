@@ -103,7 +103,11 @@ impl Job {
     fn floor(&self, threads: usize, sign: impl Fn(&[u8]) -> ed25519_dalek::Signature + Sync) -> Time {
         let pairs = self.stands.iter().flat_map(|stand| self.sites.iter().map(move |site| (stand, site)));
         let paths_in = |folder: Folder| -> Vec<PathBuf> {
-            pairs.clone().map(|(stand, site)| folder.path_of(&stand.stand, &site.id, 1)).collect()
+            let path = |(stand, site): (&Stand, &Site)| {
+                let names = format!("{}/{}/{}-1.yaml", stand.stand.model, stand.stand.serial, site.id);
+                folder.root().join(names)
+            };
+            pairs.clone().map(path).collect()
         };
         let files: Vec<_> = paths_in(self.folder()).iter().map(|path| fs::read(path).expect("a passport")).collect();
         self.runs.set(self.runs.get() + 1);

@@ -46,18 +46,3 @@ pub(crate) fn map_with<T: Sync, R: Send, S>(
     });
     results.into_iter().flatten().collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn results_come_in_order_whatever_the_number_of_threads() {
-        let items: Vec<usize> = (0..1000).collect();
-        let squares: Vec<usize> = items.iter().map(|item| item * item).collect();
-        for threads in [0, 1, 2, 16] {
-            assert_eq!(map(&items, threads, |item| item * item), squares);
-        }
-        assert!(map(&[], 4, |item: &usize| *item).is_empty());
-    }
-}

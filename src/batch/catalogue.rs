@@ -1,28 +1,22 @@
-//! Stand and site files by their ids; all are read and checked before anything is signed, but only a limited number is
-//! kept in memory.
+//! Stand and site files by their ids; all are read and checked before anything is signed.
 
-use super::{Event, Failure, Listener, parallel};
+use super::{Event, Failure, Listener, Purpose, parallel, paths};
 use crate::files;
-use crate::passport::issue::PreparedStand;
 use crate::site::Site;
 use crate::stand::Stand;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, first_few, name_of, shown};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
-use std::ops::Range;
+use std::io::BufRead;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
-
-/// Number of files that are kept in memory once read; further files are read again when needed.
-const KEPT: usize = 1024;
-
-/// Number of files that are read at a time.
-const READ_AT_ONCE: usize = 256;
 
 /// Kind of document in a catalogue.
-pub(crate) trait Listed: Clone + Send + Sync {
+pub(crate) trait Listed: Sized + Send {
     /// Name of the kind in messages.
     const NAME: &str;
+
+    /// Kind of files that a folder is searched for.
+    const PURPOSE: Purpose;
 
     /// Reads a file; `name` is its name in messages.
     fn parse(name: &str, bytes: &[u8]) -> Result<Self, Unreadable>;
@@ -33,15 +27,16 @@ pub(crate) trait Listed: Clone + Send + Sync {
     fn remark(&self, path: &Path) -> Option<String>;
 }
 
-impl Listed for PreparedStand {
+impl Listed for Stand {
     const NAME: &str = "stand";
+    const PURPOSE: Purpose = Purpose::Stands;
 
     fn parse(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        Stand::from_yaml(name, bytes).map(Self::new)
+        Self::from_yaml(name, bytes)
     }
 
     fn id(&self) -> String {
-        self.stand().stand.id()
+        self.stand.id()
     }
 
     fn remark(&self, path: &Path) -> Option<String> {
@@ -53,6 +48,7 @@ impl Listed for PreparedStand {
 
 impl Listed for Site {
     const NAME: &str = "site";
+    const PURPOSE: Purpose = Purpose::Sites;
 
     fn parse(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
         Self::from_yaml(name, bytes)
@@ -72,85 +68,40 @@ impl Listed for Site {
 /// Files of a batch by their ids. Two files with one id and different content are both skipped, because the program
 /// cannot tell which is right.
 pub(crate) struct Catalogue<T> {
-    files: Vec<File<T>>,
-    by_id: BTreeMap<String, usize>,
-    last: Mutex<Option<(usize, Arc<T>)>>,
-}
-
-struct File<T> {
-    path: PathBuf,
-    kept: Option<Arc<T>>,
+    /// Documents in the order in which they were given.
+    pub documents: Vec<T>,
+    places: BTreeMap<String, usize>,
 }
 
 impl<T: Listed> Catalogue<T> {
-    /// Reads all files, and passes remarks on them to `tell`; also returns the failures.
+    /// Reads the files that the arguments name, and passes remarks on them to `tell`; also returns the failures.
     pub(crate) fn read(
-        paths: impl Iterator<Item = Result<PathBuf, Failure>>,
+        arguments: &[PathBuf],
+        list: &mut dyn BufRead,
         threads: usize,
         tell: Listener,
     ) -> (Self, Vec<Failure>) {
+        let paths: Vec<_> = paths::files(arguments, list, T::PURPOSE).collect();
+        let read = parallel::map(&paths, threads, |path| read(path.as_ref().map_err(Failure::clone)?));
         let mut draft = Draft { listed: Vec::new(), names: BTreeMap::new(), failures: Vec::new() };
-        let mut paths = paths.fuse();
-        loop {
-            let some: Vec<_> = paths.by_ref().take(READ_AT_ONCE).collect();
-            if some.is_empty() {
-                break;
-            }
-            let read = parallel::map(&some, threads, |path| read(path.as_ref().map_err(Failure::clone)?));
-            for (path, read) in some.into_iter().zip(read) {
-                match (path, read) {
-                    (Ok(path), Ok((value, hash))) => draft.add(path, value, hash, tell),
-                    (Ok(_), Err(failure)) => draft.failures.push(failure),
-                    // An unreadable folder or pattern may contain any number of files.
-                    (Err(failure), _) => draft.failures.push(Failure { passports: Some(0), ..failure }),
-                }
+        for (path, read) in paths.into_iter().zip(read) {
+            match (path, read) {
+                (Ok(path), Ok((value, hash))) => draft.add(path, value, hash, tell),
+                (Ok(_), Err(failure)) => draft.failures.push(failure),
+                // An unreadable folder or pattern may contain any number of files.
+                (Err(failure), _) => draft.failures.push(Failure { passports: Some(0), ..failure }),
             }
         }
         draft.finished()
     }
 
     pub(crate) fn ids(&self) -> impl Iterator<Item = &str> {
-        self.by_id.keys().map(String::as_str)
+        self.places.keys().map(String::as_str)
     }
 
-    pub(crate) fn len(&self) -> usize {
-        self.files.len()
-    }
-
-    /// Loads the files at `places`, in the order in which they were given, with their present content.
-    ///
-    /// # Errors
-    /// Returns a [`Failure`] for a file that cannot be read any more, because it was changed or removed.
-    pub(crate) fn load(&self, places: Range<usize>, threads: usize) -> Vec<Result<Arc<T>, Failure>> {
-        parallel::map(&self.files[places], threads, File::load)
-    }
-
-    /// Returns `true` if a file with this id was given.
-    pub(crate) fn has(&self, id: &str) -> bool {
-        self.by_id.contains_key(id)
-    }
-
-    /// Returns the document with this id as [`Self::load`] does, or `None` if it was not given.
-    pub(crate) fn get(&self, id: &str) -> Result<Option<Arc<T>>, Failure> {
-        let Some(&place) = self.by_id.get(id) else { return Ok(None) };
-        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
-        match &*last {
-            Some((known, value)) if *known == place => Ok(Some(Arc::clone(value))),
-            _ => {
-                let value = self.files[place].load()?;
-                *last = Some((place, Arc::clone(&value)));
-                Ok(Some(value))
-            }
-        }
-    }
-}
-
-impl<T: Listed> File<T> {
-    fn load(&self) -> Result<Arc<T>, Failure> {
-        match &self.kept {
-            Some(value) => Ok(Arc::clone(value)),
-            None => read(&self.path).map(|(value, _)| Arc::new(value)),
-        }
+    /// Returns the document with this id, or `None` if it was not given.
+    pub(crate) fn get(&self, id: &str) -> Option<&T> {
+        self.places.get(id).map(|&place| &self.documents[place])
     }
 }
 
@@ -172,7 +123,8 @@ struct Draft<T> {
 }
 
 struct Seen<T> {
-    file: File<T>,
+    path: PathBuf,
+    document: T,
     id: String,
     hash: [u8; 32],
     others: Vec<PathBuf>,
@@ -198,8 +150,7 @@ impl<T: Listed> Draft<T> {
                 for name in names(&id) {
                     self.names.entry(name.to_ascii_lowercase()).or_insert((name.to_owned(), self.listed.len()));
                 }
-                let kept = (self.listed.len() < KEPT).then(|| Arc::new(value));
-                self.listed.push(Seen { file: File { path, kept }, id, hash, others: Vec::new() });
+                self.listed.push(Seen { path, document: value, id, hash, others: Vec::new() });
             }
         }
     }
@@ -209,7 +160,7 @@ impl<T: Listed> Draft<T> {
         let known = |name: &str| self.names.get(&name.to_ascii_lowercase()).cloned();
         let (name, (other, first)) =
             names(id).find_map(|name| Some((name, known(name).filter(|(other, _)| other != name)?)))?;
-        let (path, first, what) = (shown(path), shown(&self.listed[first].file.path), T::NAME);
+        let (path, first, what) = (shown(path), shown(&self.listed[first].path), T::NAME);
         Some(format!(
             "{path}: {what} {id}: found {name}, but {other} in {first}; use the same spelling, or rename one, because \
              Windows and macOS do not distinguish them"
@@ -217,16 +168,16 @@ impl<T: Listed> Draft<T> {
     }
 
     fn finished(mut self) -> (Catalogue<T>, Vec<Failure>) {
-        let mut catalogue = Catalogue { files: Vec::new(), by_id: BTreeMap::new(), last: Mutex::new(None) };
-        for seen in self.listed {
-            if seen.others.is_empty() {
-                catalogue.by_id.insert(seen.id, catalogue.files.len());
-                catalogue.files.push(seen.file);
+        let mut catalogue = Catalogue { documents: Vec::new(), places: BTreeMap::new() };
+        for Seen { path, document, id, others, .. } in self.listed {
+            if others.is_empty() {
+                catalogue.places.insert(id, catalogue.documents.len());
+                catalogue.documents.push(document);
             } else {
-                let others: Vec<_> = seen.others.iter().map(|path| shown(path).to_string()).collect();
-                let (id, others, path) = (seen.id, first_few(&others), shown(&seen.file.path));
-                let why = format!("{path}: has the id {id}, like {others}, but different content; keep one file");
-                self.failures.push(Failure::refused(&seen.file.path, why));
+                let others: Vec<_> = others.iter().map(|path| shown(path).to_string()).collect();
+                let (file, others) = (shown(&path), first_few(&others));
+                let why = format!("{file}: has the id {id}, like {others}, but different content; keep one file");
+                self.failures.push(Failure::refused(&path, why));
             }
         }
         (catalogue, self.failures)

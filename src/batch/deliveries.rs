@@ -1,12 +1,12 @@
 //! Table of deliveries: which stand goes where. One row is one passport, and one archive.
 
 use super::Failure;
-use crate::files;
+use super::catalogue::{self, Listed};
 use crate::interface::enquiry::date;
 use crate::site::Site;
 use crate::stand::Stand;
 use crate::text::table::Table;
-use crate::text::{LARGEST_DOCUMENT_BYTES, Location, Problem, Unreadable, name_of, rule};
+use crate::text::{Location, Problem, Unreadable, rule};
 use jiff::civil::Date;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -88,10 +88,8 @@ impl Deliveries {
         site: impl Fn(&str) -> PathBuf,
     ) -> Result<Placed, Vec<Failure>> {
         let mut failures = Vec::new();
-        let id_of_stand = |name: &str, bytes: &[u8]| Stand::from_yaml(name, bytes).map(|stand| stand.stand.id());
-        let id_of_site = |name: &str, bytes: &[u8]| Site::from_yaml(name, bytes).map(|site| site.id.to_string());
-        let stands = found(self.rows().map(|row| row.0), stand, id_of_stand, &mut failures);
-        let sites = found(self.rows().map(|row| row.1), site, id_of_site, &mut failures);
+        let stands = found::<Stand>(self.rows().map(|row| row.0), stand, &mut failures);
+        let sites = found::<Site>(self.rows().map(|row| row.1), site, &mut failures);
         let mut rows = BTreeMap::new();
         for ((stand, site), terms) in &self.0 {
             let Some(((stand, path), (site, _))) = stands.get(stand).zip(sites.get(site)) else { continue };
@@ -112,18 +110,14 @@ impl Deliveries {
 type Found = BTreeMap<String, (String, PathBuf)>;
 
 /// Reads the files of names, each once, and notes those that cannot be read.
-fn found<'a>(
+fn found<'a, T: Listed>(
     names: impl Iterator<Item = &'a str>,
     path_of: impl Fn(&str) -> PathBuf,
-    id_of: impl Fn(&str, &[u8]) -> Result<String, Unreadable>,
     failures: &mut Vec<Failure>,
 ) -> Found {
     let read = |name: &str| {
         let path = path_of(name);
-        let bytes = files::read(&path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
-        let id = id_of(&name_of(&path), &bytes);
-        let id = id.map_err(|error| Failure::unreadable(&path, error.in_text(&bytes)))?;
-        Ok((name.to_owned(), (id, path)))
+        catalogue::read::<T>(&path).map(|(document, _)| (name.to_owned(), (document.id(), path)))
     };
     let names: BTreeSet<&str> = names.collect();
     names.into_iter().filter_map(|name| read(name).map_err(|failure| failures.push(failure)).ok()).collect()

@@ -1,23 +1,23 @@
 //! Batch that issues revision 1 of every stand at every site, with one new register for each stand.
 
-use super::catalogue::{Catalogue, Listed};
+use super::catalogue::Catalogue;
 use super::deliveries::Terms;
-use super::{Batch, Event, Failure, Listener, Outcome, Purpose, fail, parallel, paths, sweep};
-use crate::files::folder_of;
-use crate::files::walk::Visited;
+use super::{Batch, Event, Failure, Listener, Outcome, Settled, fail, parallel};
 use crate::folder::{Folder, StandFolder};
 use crate::passport::content::passport_id;
 use crate::passport::issue::{Issue, PreparedStand};
 use crate::site::Site;
+use crate::stand::Stand;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::BufRead;
-use std::ops::Range;
 use std::path::PathBuf;
-use std::sync::Arc;
 
-/// Numbers of stands and sites that are in memory at a time, beyond those that a catalogue keeps.
-const STANDS_AT_ONCE: usize = 16;
-const SITES_AT_ONCE: usize = 1024;
+/// Number of passports that are issued side by side, if they are of several stands: their outcomes are kept until the
+/// registers of the stands are written.
+const AT_ONCE: usize = 1024;
+
+/// Number of sites, and of stands with existing passports, with which the coordinates of a site are compared.
+const COMPARED: usize = 8;
 
 /// Input and destination of a batch.
 #[derive(Debug, Clone, Copy)]
@@ -33,21 +33,6 @@ pub(crate) struct Job<'a> {
     pub rows: Option<&'a BTreeMap<(String, String), Terms>>,
 }
 
-impl Job<'_> {
-    /// Returns what is agreed for a stand at a site, or `None` if no passport is to be issued for it.
-    fn terms(&self, stand: &PreparedStand, site: &Site) -> Option<Terms> {
-        let id = || (stand.stand().stand.id(), site.id.to_string());
-        self.rows.map_or_else(|| Some(Terms::default()), |rows| rows.get(&id()).cloned())
-    }
-}
-
-/// Stand whose passports are being issued. Their outcomes are reported once its register lists them.
-struct Work<'a> {
-    folder: StandFolder<'a>,
-    stand: Arc<PreparedStand>,
-    outcomes: Vec<Option<Outcome>>,
-}
-
 impl Batch<'_> {
     /// Issues a passport of every stand for every site.
     ///
@@ -55,161 +40,106 @@ impl Batch<'_> {
     /// costs only its own passports. A stand whose passports state other angles under the
     /// number of its certificate is refused; one with passports from another certificate is remarked upon.
     pub(crate) fn issue(&self, job: &Job, list: &mut dyn BufRead, tell: Listener) {
-        let (stands, bad_stands) = Catalogue::read(paths::files(job.stands, list, Purpose::Stands), self.threads, tell);
-        let (sites, bad_sites) = Catalogue::read(paths::files(job.sites, list, Purpose::Sites), self.threads, tell);
+        let (stands, bad_stands) = Catalogue::<Stand>::read(job.stands, list, self.threads, tell);
+        let (sites, bad_sites) = Catalogue::<Site>::read(job.sites, list, self.threads, tell);
         let bad_files = bad_sites.iter().filter(|failure| failure.passports.is_none()).count();
-        let all_sites = (sites.len() + bad_files) as u64;
-        fail(bad_stands, all_sites, tell);
-        fail(bad_sites, stands.len() as u64, tell);
-        let all = job.rows.map_or(stands.len() * sites.len(), BTreeMap::len);
-        tell(Event::Planned(self.shard.share(all as u64)));
+        fail(bad_stands, (sites.documents.len() + bad_files) as u64, tell);
+        fail(bad_sites, stands.documents.len() as u64, tell);
         let names = sites.ids().map(|id| format!("{id}-{}.yaml", job.order.revision)).collect();
-        let run = Run { batch: self, job, swept: Visited::default(), names };
-        if !self.is_dry() {
-            sweep(&run.swept, job.folder.root());
-        }
-        run.all(&stands, &sites, tell);
+        let mut stands = stands.documents;
+        stands.retain(|stand| self.shard.has(&stand.stand.id()));
+        let run = Run { batch: self, job, sites: sites.documents, names };
+        tell(Event::Planned(stands.iter().map(|stand| run.orders(stand, &run.sites).count() as u64).sum()));
+        // A dry run writes no register, so the outcomes of a stand at many sites need not be kept.
+        let sites_at_once = if self.is_dry() { AT_ONCE.min(run.sites.len()) } else { run.sites.len() }.max(1);
+        let parts = stands.iter().enumerate().flat_map(|(place, stand)| {
+            let parts = run.sites.chunks(sites_at_once).enumerate();
+            parts.map(move |(part, sites)| Part { place, stand, sites, is_first: part == 0 })
+        });
+        let parts: Vec<Part> = parts.collect();
+        self.each_stand(&parts, (AT_ONCE / sites_at_once).max(1), |part, threads| run.part(part, threads), tell);
     }
+}
+
+/// Stand, the sites for which it gets passports, and its place among the stands.
+struct Part<'a> {
+    place: usize,
+    stand: &'a Stand,
+    sites: &'a [Site],
+    is_first: bool,
 }
 
 struct Run<'a> {
     batch: &'a Batch<'a>,
     job: &'a Job<'a>,
-    /// Folders from which the leftovers of killed runs were removed.
-    swept: Visited,
+    sites: Vec<Site>,
     /// Names of all files that this run writes into the folder of each stand.
     names: BTreeSet<String>,
 }
 
-impl<'a> Run<'a> {
-    fn all(&self, stands: &Catalogue<PreparedStand>, sites: &Catalogue<Site>, tell: Listener) {
-        // The outcomes of stands are kept until their registers are written.
-        let at_once = if sites.len() > SITES_AT_ONCE { 1 } else { STANDS_AT_ONCE };
-        for some_stands in ranges(stands.len(), at_once) {
-            let mut stands = self.load(stands, some_stands, sites.len(), tell);
-            stands.retain(|stand| self.batch.shard.has(&stand.stand().stand.id()));
-            let mut works = self.open(stands, sites.len(), tell);
-            for some_sites in ranges(sites.len(), SITES_AT_ONCE) {
-                let sites = self.load(sites, some_sites, works.len(), tell);
-                self.remark_on_misplaced(&works, &sites, tell);
-                let pairs: Vec<(usize, &Site)> =
-                    (0..works.len()).flat_map(|work| sites.iter().map(move |site| (work, &**site))).collect();
-                let is_wanted = |(work, site): &(usize, &Site)| self.job.terms(&works[*work].stand, site).is_some();
-                let pairs: Vec<_> = pairs.into_iter().filter(is_wanted).collect();
-                for chunk in pairs.chunks(self.batch.chunk()) {
-                    if self.batch.cancelled() {
-                        break;
-                    }
-                    let done = parallel::map(chunk, self.batch.threads, |(work, site)| self.one(&works[*work], site));
-                    for ((work, _), outcome) in chunk.iter().zip(done) {
-                        match self.batch.is_dry() {
-                            true => tell(Event::Done(Some(outcome))),
-                            false => works[*work].outcomes.push(Some(outcome)),
-                        }
-                    }
-                }
-            }
-            self.finish(works, tell);
-            if self.batch.cancelled() {
-                return;
-            }
-        }
+impl Run<'_> {
+    /// Returns the sites at which a passport of a stand is to be issued, each with what is agreed for it.
+    fn orders<'s>(&self, stand: &Stand, sites: &'s [Site]) -> impl Iterator<Item = (&'s Site, Terms)> {
+        let id = stand.stand.id();
+        sites.iter().filter_map(move |site| match self.job.rows {
+            Some(rows) => Some((site, rows.get(&(id.clone(), site.id.to_string()))?.clone())),
+            None => Some((site, Terms::default())),
+        })
     }
 
-    /// Examines the folders of stands; those that contradict their certificates, or whose register is not accepted, are
-    /// refused. Reports the other certificates from which stands have passports.
-    fn open(&self, stands: Vec<Arc<PreparedStand>>, each_costs: usize, tell: Listener) -> Vec<Work<'a>> {
-        let opened = parallel::map(&stands, self.batch.threads, |stand| {
-            let (folder, authority) = (self.job.folder, &self.batch.authority);
-            let id = stand.stand().stand.id();
-            let folder = StandFolder::open(folder, &id, authority, |name| self.names.contains(name))?;
-            folder.against_certificate(stand).map(|remarks| (folder, remarks))
+    /// Issues the passports of one stand and writes its register. A stand that contradicts its certificate, or whose
+    /// register is not accepted, is refused.
+    fn part(&self, part: &Part, threads: usize) -> Vec<Event> {
+        let id = part.stand.stand.id();
+        let stand = PreparedStand::new(part.stand.clone());
+        let opened = StandFolder::open(self.job.folder, &id, &self.batch.authority, |name| self.names.contains(name));
+        let (folder, others) =
+            match opened.and_then(|folder| folder.against_certificate(&stand).map(|others| (folder, others))) {
+                Ok(opened) => opened,
+                Err(_) if !part.is_first => return Vec::new(),
+                Err(why) => {
+                    let passports = self.orders(part.stand, &self.sites).count() as u64;
+                    let failure = Failure { passports: Some(passports), ..Failure::folder(id, &why) };
+                    return vec![Event::Done(Outcome::Failed(failure))];
+                }
+            };
+        let remark = |words| Event::Remark { file: id.clone(), words, is_warning: false };
+        let mut events: Vec<Event> = others.into_iter().map(remark).collect();
+        if part.place < COMPARED && part.is_first {
+            events.extend(self.misplaced(&folder));
+        }
+        let orders: Vec<(&Site, Terms)> = self.orders(part.stand, part.sites).collect();
+        let settled = parallel::map(&orders, threads, |(site, terms)| {
+            (!self.batch.cancelled()).then(|| Settled::from(self.one(&folder, &stand, site, terms)))
         });
-        let mut works = Vec::new();
-        for (stand, opened) in stands.into_iter().zip(opened) {
-            let id = stand.stand().stand.id();
-            match opened {
-                Ok((folder, remarks)) => {
-                    let remark = |words| Event::Remark { file: id.clone(), words, is_warning: false };
-                    remarks.into_iter().for_each(|words| tell(remark(words)));
-                    works.push(Work { folder, stand, outcomes: Vec::new() });
-                }
-                Err(why) => self.lost(Failure::folder(id, &why), each_costs, tell),
-            }
-        }
-        works
+        events.extend(self.batch.finish(&folder, settled.into_iter().flatten().collect()));
+        events
     }
 
-    /// Writes the registers, and reports the outcomes.
-    fn finish(&self, works: Vec<Work>, tell: Listener) {
-        let (folders, mut outcomes): (Vec<_>, Vec<_>) =
-            works.into_iter().map(|work| (work.folder, work.outcomes)).unzip();
-        let written: Vec<&Outcome> = outcomes.iter().flatten().flatten().collect();
-        let synced = self.batch.sync(written);
-        let listed = parallel::map(&folders, self.batch.threads, |folder| self.batch.list(folder, &synced));
-        for (outcomes, listed) in outcomes.iter_mut().zip(listed) {
-            if let Err(failure) = listed {
-                outcomes.iter_mut().flatten().for_each(|outcome| outcome.not_listed(&failure));
-            }
-        }
-        outcomes.into_iter().flatten().for_each(|outcome| tell(Event::Done(outcome)));
-    }
-
-    /// Reports sites whose coordinates seem to be exchanged: compared with the others, with those of existing passports of the
-    /// stands, and with the towns that their names mention.
-    fn remark_on_misplaced(&self, works: &[Work], sites: &[Arc<Site>], tell: Listener) {
-        const MOST: usize = 8;
-        let issued = works.iter().take(MOST).flat_map(|work| work.folder.sites(MOST));
-        let given = sites.iter().take(MOST).map(|site| Site::clone(site));
-        let known = issued.chain(given).filter_map(|site| Some((site.id.clone(), site.place()?)));
-        let known: BTreeMap<_, _> = known.collect();
-        for site in sites {
+    /// Returns warnings of sites whose coordinates seem to be exchanged: compared with the others, with those of existing
+    /// passports of a stand, and with the towns that their names mention.
+    fn misplaced(&self, folder: &StandFolder) -> Vec<Event> {
+        let known = folder.sites(COMPARED).into_iter().chain(self.sites.iter().take(COMPARED).cloned());
+        let known: BTreeMap<_, _> = known.filter_map(|site| Some((site.id.clone(), site.place()?))).collect();
+        let warning = |site: &Site| {
             let others = known.iter().filter(|(id, _)| **id != site.id);
             let others: Vec<_> = others.map(|(id, place)| (format!("the site {id}"), *place)).collect();
-            if let Some(words) = site.misplaced(&others) {
-                tell(Event::Remark { file: site.id.to_string(), words, is_warning: true });
-            }
-        }
-    }
-
-    /// Reports a failure that costs passports already counted as planned.
-    fn lost(&self, failure: Failure, each_costs: usize, tell: Listener) {
-        fail(vec![failure], each_costs as u64, tell);
-        tell(Event::Lost(self.batch.shard.share(each_costs as u64)));
-    }
-
-    /// Loads the documents at `places`, and reports files that have become unusable since they were first read.
-    fn load<T: Listed>(
-        &self,
-        catalogue: &Catalogue<T>,
-        places: Range<usize>,
-        each_costs: usize,
-        tell: Listener,
-    ) -> Vec<Arc<T>> {
-        let mut good = Vec::new();
-        for loaded in catalogue.load(places, self.batch.threads) {
-            match loaded {
-                Ok(value) => good.push(value),
-                Err(failure) => self.lost(failure, each_costs, tell),
-            }
-        }
-        good
+            let words = site.misplaced(&others)?;
+            Some(Event::Remark { file: site.id.to_string(), words, is_warning: true })
+        };
+        self.sites.iter().filter_map(warning).collect()
     }
 
     /// Issues a single passport; every passport of a batch is made here.
-    fn one(&self, Work { folder, stand, .. }: &Work, site: &Site) -> Outcome {
-        let Terms { valid_until, customer } = self.job.terms(stand, site).unwrap_or_default();
-        let of_row = valid_until.map(|day| Issue { valid_until: Some(day), ..self.job.order.clone() });
+    fn one(&self, folder: &StandFolder, stand: &PreparedStand, site: &Site, terms: &Terms) -> Outcome {
+        let of_row = terms.valid_until.map(|day| Issue { valid_until: Some(day), ..self.job.order.clone() });
         let order = of_row.as_ref().unwrap_or(self.job.order);
-        let of_customer = customer.map(|customer| {
+        let of_customer = terms.customer.clone().map(|customer| {
             let mut stand = stand.stand().clone();
             stand.stand.customer = Some(customer);
             PreparedStand::new(stand)
         });
         let stand = of_customer.as_ref().unwrap_or(stand);
-        if !self.batch.is_dry() {
-            sweep(&self.swept, folder_of(&folder.path_of(site.id.as_str(), order.revision)));
-        }
         let settled = match self.batch.is_dry() {
             false => folder.issue(stand, site, order).map(Outcome::There),
             true => folder.next_first(stand, site, order).map(Outcome::from),
@@ -217,9 +147,4 @@ impl<'a> Run<'a> {
         let id = || passport_id(&stand.stand().stand, &site.id, order.revision);
         settled.unwrap_or_else(|why| Outcome::Failed(Failure::folder(id(), &why)))
     }
-}
-
-/// Returns `0..length` in pieces of at most `size`.
-fn ranges(length: usize, size: usize) -> impl Iterator<Item = Range<usize>> {
-    (0..length).step_by(size).map(move |start| start..length.min(start + size))
 }

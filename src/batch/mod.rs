@@ -1,9 +1,9 @@
 //! Many passports at once: stands × sites, or the re-issue of a folder of passports.
 //!
-//! The work is done in chunks. All CPUs work on a chunk, and its results are reported in order before the next one
-//! begins. Memory therefore does not grow with the number of passports. Every reported passport is in the folder under
-//! its name, and safe from a power failure as far as [`Durability`] says. A failure is one event; the rest continues.
-//! The same batch, run again, completes the job and leaves finished passports untouched.
+//! The work is done stand by stand, some stands at a time. All CPUs work on these, and their results are reported in order
+//! before the next ones begin. Memory therefore grows with the number of files, not of passports. Every reported passport is
+//! in the folder under its name, and safe from a power failure as far as [`Durability`] says. A failure is one event; the
+//! rest continues. The same batch, run again, completes the job and leaves finished passports untouched.
 //!
 //! * `paths`: arguments of the user: files, folders, patterns, lists.
 //! * `catalogue`: stand and site files by their ids.
@@ -27,21 +27,13 @@ pub(crate) mod successors;
 
 use shard::Shard;
 
-use crate::files::walk::Visited;
-use crate::files::{Durability, FileError, leftovers};
-use crate::folder::{self, Authority, FolderRefused, Issued, Next, StandFolder};
+use crate::files::{Durability, FileError};
+use crate::folder::{Authority, FolderRefused, Issued, Next, StandFolder};
 use crate::parallel;
 use crate::passport::issue::Remarks;
 use crate::text::{Unreadable, name_of};
-use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// Number of orders per thread in a chunk.
-const CHUNK_PER_THREAD: usize = 128;
-
-/// Largest number of orders in a chunk, for any number of threads, because a chunk is kept in memory.
-const LARGEST_CHUNK: usize = 4096;
 
 /// Kind of files that a folder is searched for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -66,19 +58,17 @@ pub(crate) struct Batch<'a> {
     pub shard: Shard,
     /// Number of threads; 0 and 1 have the same effect.
     pub threads: usize,
-    /// Flag that cancels the batch: once it is `true`, the batch ends after the current chunk.
+    /// Flag that cancels the batch: once it is `true`, no further passport is begun.
     pub cancel: Option<&'a AtomicBool>,
 }
 
 /// Event that a batch reports while it runs.
 #[derive(Debug)]
 pub(crate) enum Event {
-    /// Number of additional orders, which is approximate for a part of the job.
+    /// Number of additional orders.
     Planned(u64),
-    /// Order that is finished. Passports of other stands in a folder are not orders, and have no outcome.
-    Done(Option<Outcome>),
-    /// Number of orders that cannot be done, for a reason that was reported as a failure.
-    Lost(u64),
+    /// Order that is finished, or input that cannot be used.
+    Done(Outcome),
     Remark {
         file: String,
         /// Text of the remark, which may be the same for many files.
@@ -172,6 +162,18 @@ impl Failure {
     }
 }
 
+/// Outcome of an order, and the remarks for the case that a passport exists then.
+struct Settled {
+    outcome: Outcome,
+    remarks: Vec<Event>,
+}
+
+impl From<Outcome> for Settled {
+    fn from(outcome: Outcome) -> Self {
+        Self { outcome, remarks: Vec::new() }
+    }
+}
+
 pub(crate) type Listener<'a> = &'a mut dyn FnMut(Event);
 
 impl Batch<'_> {
@@ -179,30 +181,41 @@ impl Batch<'_> {
         self.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed))
     }
 
-    fn chunk(&self) -> usize {
-        (CHUNK_PER_THREAD * self.threads.max(1)).min(LARGEST_CHUNK)
-    }
-
     fn is_dry(&self) -> bool {
         self.authority.signer.is_none()
     }
 
-    /// Syncs the names of all written passports to disk, before a register lists them.
-    fn sync(&self, outcomes: Vec<&Outcome>) -> Result<(), Failure> {
-        let written = outcomes.into_iter().filter_map(|outcome| match outcome {
-            Outcome::There(issued) if issued.new => Some(issued.path.as_path()),
-            _ => None,
-        });
-        folder::sync_names(self.durability, written).map_err(Failure::file)
+    /// Does the work of stands, `at_once` of them side by side, or of few ones passport by passport with the number of threads
+    /// that `work` gets; tells the events in the order of the stands.
+    fn each_stand<T: Sync>(
+        &self,
+        stands: &[T],
+        at_once: usize,
+        work: impl Fn(&T, usize) -> Vec<Event> + Sync,
+        tell: Listener,
+    ) {
+        let threads = self.threads.max(1);
+        for some in stands.chunks(at_once).take_while(|_| !self.cancelled()) {
+            let each = threads.div_ceil(some.len());
+            let events = parallel::map(some, threads, |stand| work(stand, each));
+            events.into_iter().flatten().for_each(&mut *tell);
+        }
     }
 
-    /// Writes the register of a stand, once its passports are `synced`.
-    fn list(&self, folder: &StandFolder, synced: &Result<(), Failure>) -> Result<(), Failure> {
-        synced.clone()?;
-        if self.is_dry() {
-            return Ok(());
-        }
-        folder.list().map_err(|why| Failure::folder(folder.stand().to_owned(), &why))
+    /// Writes the register of a stand; returns the outcomes, each after its remarks.
+    fn finish(&self, folder: &StandFolder, settled: Vec<Settled>) -> Vec<Event> {
+        let listed = if self.is_dry() { Ok(()) } else { folder.list() };
+        let listed = listed.map_err(|why| Failure::folder(folder.stand().to_owned(), &why));
+        let events = settled.into_iter().flat_map(|Settled { mut outcome, mut remarks }| {
+            if let Err(failure) = &listed {
+                outcome.not_listed(failure);
+            }
+            if !matches!(outcome, Outcome::There(_) | Outcome::Planned { .. }) {
+                remarks.clear();
+            }
+            remarks.into_iter().chain([Event::Done(outcome)])
+        });
+        events.collect()
     }
 }
 
@@ -210,14 +223,6 @@ impl Batch<'_> {
 fn fail(failures: Vec<Failure>, passports: u64, tell: Listener) {
     for failure in failures {
         let passports = failure.passports.or(Some(passports));
-        tell(Event::Done(Some(Outcome::Failed(Failure { passports, ..failure }))));
+        tell(Event::Done(Outcome::Failed(Failure { passports, ..failure })));
     }
-}
-
-/// Removes the leftovers of killed runs from a folder that is not among those already `swept`.
-fn sweep(swept: &Visited, folder: &Path) {
-    let Ok(()) = swept.visit(folder, || {
-        leftovers::remove(folder);
-        Ok::<_, Infallible>(true)
-    });
 }

@@ -9,7 +9,7 @@ use crate::folder::place::numbered;
 use crate::text::node::{is_utf16, without_byte_order_mark};
 use crate::text::{Cause, Kind, Printable, Unreadable, shown, without_secrets};
 use std::ffi::OsStr;
-use std::io::{self, BufRead};
+use std::io::{self, BufRead, Read as _};
 use std::path::{Path, PathBuf};
 
 /// Number of first bytes by which a file is recognised as a passport.
@@ -18,7 +18,9 @@ const BEGINNING_BYTES: usize = 4096;
 /// Longest path in a list, in bytes; no system allows a longer one.
 const LONGEST_PATH: usize = 1 << 16;
 
-/// Paths one by one, without keeping them in memory.
+/// Most bytes of a list of paths: millions of them.
+const LARGEST_LIST: usize = 1 << 29;
+
 type Paths<'a> = Box<dyn Iterator<Item = Result<PathBuf, Failure>> + 'a>;
 
 fn failed<'a>(failure: Failure) -> Paths<'a> {
@@ -38,17 +40,9 @@ pub(crate) fn named<'a>(
         if argument.as_os_str() == "-"
             && let Some(list) = list.take()
         {
-            let mut listed = List { list: Some(list), separator: None }.peekable();
-            let refused = |found: &str, advice: &str| {
-                let words = format!("-: found {found} on standard input, expected one path per line; {advice}");
-                failed(Failure::unusable(Path::new("-"), words))
-            };
-            return match listed.peek() {
-                None => refused("no path", "check the command that writes the list"),
-                Some(Ok(first)) if is_of_a_file(first) => {
-                    refused("the content of a file", "specify the file by its path")
-                }
-                Some(_) => Box::new(listed),
+            return match listed(list) {
+                Ok(paths) => Box::new(paths.into_iter()),
+                Err(failure) => failed(failure),
             };
         }
         match pattern(argument) {
@@ -170,61 +164,30 @@ fn matches(pattern: &str) -> Paths<'static> {
     }))
 }
 
-/// List of paths on standard input, separated by line feeds or NUL, whichever comes first.
-struct List<'a> {
-    list: Option<&'a mut dyn BufRead>,
-    separator: Option<u8>,
-}
-
-impl List<'_> {
-    /// Returns the bytes before the next separator, or `None` at the end.
-    fn next_bytes(&mut self) -> io::Result<Option<Vec<u8>>> {
-        let Some(list) = &mut self.list else { return Ok(None) };
-        let mut bytes = Vec::new();
-        loop {
-            let buffer = list.fill_buf()?;
-            if buffer.is_empty() {
-                return Ok((!bytes.is_empty()).then_some(bytes));
-            }
-            let ends = |byte: &u8| self.separator.map_or(matches!(byte, b'\n' | 0), |separator| *byte == separator);
-            let end = buffer.iter().position(ends);
-            bytes.extend_from_slice(&buffer[..end.unwrap_or(buffer.len())]);
-            let read = end.map_or(buffer.len(), |end| end + 1);
-            if let Some(end) = end {
-                self.separator = Some(buffer[end]);
-            }
-            list.consume(read);
-            if bytes.len() > LONGEST_PATH {
-                return Err(io::Error::other("this is not a list of paths"));
-            }
-            // There is no path before a leading separator or between two adjacent ones.
-            if end.is_some() && !bytes.is_empty() {
-                return Ok(Some(bytes));
-            }
-        }
+/// Reads the list of paths on standard input, separated by line feeds or NUL, whichever comes first.
+fn listed(list: &mut dyn BufRead) -> Result<Vec<Result<PathBuf, Failure>>, Failure> {
+    let failed = |why: String| Failure::unusable(Path::new("-"), format!("standard input: {why}"));
+    let mut bytes = Vec::new();
+    list.take(LARGEST_LIST as u64).read_to_end(&mut bytes).map_err(|error| failed(reason(&error)))?;
+    if is_utf16(&bytes) {
+        let refused = Unreadable::whole("-", None, "UTF-16", "one path per line, in UTF-8", Cause::Utf16);
+        return Err(Failure::unreadable(Path::new("-"), refused));
     }
-}
-
-impl Iterator for List<'_> {
-    type Item = Result<PathBuf, Failure>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        let is_first = self.separator.is_none();
-        match self.next_bytes() {
-            Ok(Some(bytes)) if is_first && is_utf16(&bytes) => {
-                self.list = None;
-                let refused = Unreadable::whole("-", None, "UTF-16", "one path per line, in UTF-8", Cause::Utf16);
-                Some(Err(Failure::unreadable(Path::new("-"), refused)))
-            }
-            Ok(Some(bytes)) if is_first => Some(path_of(without_byte_order_mark(&bytes).to_owned())),
-            Ok(bytes) => bytes.map(path_of),
-            Err(error) => {
-                self.list = None;
-                let why = format!("standard input: {}", reason(&error));
-                Some(Err(Failure::unusable(Path::new("-"), why)))
-            }
-        }
+    let bytes = without_byte_order_mark(&bytes);
+    let separator = bytes.iter().find(|byte| matches!(byte, b'\n' | 0));
+    // There is no path before a leading separator or between two adjacent ones.
+    let paths = bytes.split(|byte| Some(byte) == separator).filter(|path| !path.is_empty());
+    if paths.clone().any(|path| path.len() > LONGEST_PATH) {
+        return Err(failed("this is not a list of paths".to_owned()));
     }
+    let paths: Vec<_> = paths.map(|path| path_of(path.to_owned())).collect();
+    let (found, advice) = match paths.first() {
+        None => ("no path", "check the command that writes the list"),
+        Some(Ok(first)) if is_of_a_file(first) => ("the content of a file", "specify the file by its path"),
+        Some(_) => return Ok(paths),
+    };
+    let words = format!("-: found {found} on standard input, expected one path per line; {advice}");
+    Err(Failure::unusable(Path::new("-"), words))
 }
 
 #[cfg(unix)]

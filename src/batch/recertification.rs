@@ -13,11 +13,11 @@ use crate::document::sha256_hex;
 use crate::files::{self, FileError, folder_of, leftovers};
 use crate::folder::archive::Superseded;
 use crate::folder::{Authority, Folder, FolderRefused, Next, Sealed, StandFolder};
-use crate::passport::checks::for_the_issuer;
+use crate::passport::checks::{Check, for_the_issuer};
 use crate::passport::difference::{NumberDifference, of_deviations};
 use crate::passport::issue::PreparedStand;
 use crate::passport::reissue::{Order, successor};
-use crate::passport::{Code, Content, Question, Trust, Verification, content_from_anyone, verify};
+use crate::passport::{Code, Content, Question, Trust, Verification, verify};
 use crate::register::{Entry, Row, State, VerifiedRegister};
 use crate::site::Site;
 use crate::stand::{Excluded, Stand};
@@ -26,27 +26,16 @@ use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, Unreadable, first_few, name
 use jiff::Timestamp;
 use jiff::civil::Date;
 use jiff::tz::TimeZone;
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Place at which a new passport is requested.
 #[derive(Debug, Clone)]
-pub(crate) enum AtSite {
-    /// Site as the passport in force states it.
-    Id(String),
-    /// Corrected site of this id.
-    File(Box<Site>),
-}
-
-impl AtSite {
-    fn id(&self) -> &str {
-        match self {
-            Self::Id(id) => id,
-            Self::File(site) => site.id.as_str(),
-        }
-    }
+pub(crate) struct AtSite {
+    pub id: String,
+    /// Corrected site; `None` for the site as the passport in force states it.
+    pub site: Option<Site>,
 }
 
 /// Function that makes the record of a certification from its check and the changed deviations.
@@ -152,6 +141,7 @@ fn refused(why: impl std::fmt::Display) -> NotRecertified {
 struct Old {
     path: PathBuf,
     bytes: Vec<u8>,
+    verification: Verification,
     content: Content,
     site: Option<Site>,
 }
@@ -161,7 +151,7 @@ impl Recertification<'_> {
     pub(crate) fn run(&self) -> Result<Recertified, NotRecertified> {
         check(self.number, self.issued, self.performed, self.valid_until)?;
         let bytes = files::read(self.passport, LARGEST_DOCUMENT_BYTES)?;
-        let old = content(self.passport, &bytes, self.authority.trust, &self.question)?;
+        let (_, old) = verified(self.passport, &bytes, self.authority.trust, &self.question)?;
         let old_stand = old.to_stand();
         let header = self.header(&old_stand)?;
         let (certification, comparison) = self.measured(&old_stand, &header)?;
@@ -334,16 +324,23 @@ impl Recertification<'_> {
             entry.state == State::Current && (!entry.is_expired(time) || Some(entry.valid_until) == expired)
         };
         let current: Vec<&Entry> = entries.iter().filter(counts).collect();
+        let in_force: Vec<&str> = current.iter().map(|entry| entry.site_and_revision().0).collect();
+        if let Some(asked) = self.sites.iter().find(|asked| !in_force.contains(&asked.id.as_str())) {
+            return Err(refused(format!(
+                "no passport of the stand is in force for site {}; found {}",
+                asked.id,
+                first_few(&in_force)
+            )));
+        }
         let mut chosen = Chosen::default();
         for entry in &current {
-            let site = entry.site_and_revision().0;
-            let asked = self.sites.iter().find(|asked| asked.id() == site);
+            let asked = self.sites.iter().find(|asked| asked.id == entry.site_and_revision().0);
             let path = from.path_of_entry(entry);
             let bytes = files::read(&path, LARGEST_DOCUMENT_BYTES)?;
             if sha256_hex(&bytes) != entry.sha256 {
                 return Err(refused(format!("{}: is not the listed file; restore it from the backup", shown(&path))));
             }
-            let content = content(&path, &bytes, self.authority.trust, &Question::at(time))?;
+            let (verification, content) = verified(&path, &bytes, self.authority.trust, &Question::at(time))?;
             if content.to_stand() == *new {
                 chosen.done.push(Row { file: Some(name_of(&path)), ..Row::of(entry, time) });
             } else if content.certificate.number == new.certificate.number {
@@ -353,28 +350,22 @@ impl Recertification<'_> {
                     shown(&path)
                 )));
             } else if self.sites.is_empty() || asked.is_some() {
-                let site = asked.and_then(|asked| match asked {
-                    AtSite::File(site) => Some(Site::clone(site)),
-                    AtSite::Id(_) => None,
-                });
-                chosen.predecessors.push(Old { path, bytes, content, site });
+                let site = asked.and_then(|asked| asked.site.clone());
+                chosen.predecessors.push(Old { path, bytes, verification, content, site });
             } else {
                 chosen.remaining.push(content.passport.id);
             }
         }
         if !counts(&given) && chosen.done.is_empty() {
-            let row = Row::of(given, time);
             let in_force: Vec<&str> = current.iter().map(|entry| entry.id.as_str()).collect();
             let in_force = if in_force.is_empty() { "none is".to_owned() } else { in_force.join(", ") };
             let words = format!(
-                "{}: the passport is not in force: {} {}; give one that is in force ({in_force})",
+                "{}: the passport is not in force: {}; give one that is in force ({in_force})",
                 shown(self.passport),
-                row.words(),
-                row.why()
+                given.ended()
             );
             return Err(refused(words));
         }
-        self.check_sites(&chosen, &current)?;
         Ok(chosen)
     }
 
@@ -382,29 +373,10 @@ impl Recertification<'_> {
     fn in_question(&self, from: &StandFolder, old: &Stand) -> Vec<(Row, Option<String>)> {
         let entries = from.register().map_or(&[][..], VerifiedRegister::entries);
         let of_entry = |entry: &Entry| {
-            let bytes = files::read(&from.path_of_entry(entry), LARGEST_DOCUMENT_BYTES).ok();
-            let bytes = bytes.filter(|bytes| sha256_hex(bytes) == entry.sha256);
-            let content = bytes.and_then(|bytes| content_from_anyone(&entry.id, &bytes).ok());
-            (Row::of(entry, self.question.time), content.and_then(|content| content.stand.customer))
+            let customer = from.listed_content(entry).and_then(|content| content.stand.customer);
+            (Row::of(entry, self.question.time), customer)
         };
         entries.iter().filter(|entry| entry.certificate == old.certificate.number).map(of_entry).collect()
-    }
-
-    /// Checks that every requested place is among those of the current passports.
-    fn check_sites(&self, chosen: &Chosen, current: &[&Entry]) -> Result<(), NotRecertified> {
-        let there: Vec<&str> = chosen.predecessors.iter().map(|old| old.content.site.id.as_str()).collect();
-        for asked in self.sites {
-            let site = asked.id();
-            let done = chosen.done.iter().any(|row| row.site == site);
-            if !there.contains(&site) && !done {
-                let in_force: Vec<&str> = current.iter().map(|entry| entry.site_and_revision().0).collect();
-                return Err(refused(format!(
-                    "no passport of the stand is in force for site {site}; found {}",
-                    first_few(&in_force)
-                )));
-            }
-        }
-        Ok(())
     }
 
     /// Returns the next step for the successor of one passport.
@@ -420,9 +392,7 @@ impl Recertification<'_> {
             allow_uncalibratable: old.content.self_check.is_none(),
             same_content: false,
         };
-        let verification =
-            before_expiry(&old.path, &old.bytes, self.authority.trust, &Question::at(self.question.time));
-        let next = successor(&old.bytes, &verification, &order)
+        let next = successor(&old.bytes, &old.verification, &order)
             .map_err(|why| refused(format!("{}: {why}", shown(&old.path))))?;
         to.next_successor(&next).map_err(|why| NotRecertified::Folder(old.content.passport.id.clone(), Box::new(why)))
     }
@@ -449,26 +419,25 @@ pub(crate) fn check(
     Err(NotRecertified::Order(format!("{words}; check the years")))
 }
 
-/// Returns the content of a passport that passes every check of `question`, or did before it expired.
-fn content(path: &Path, bytes: &[u8], trust: &Trust, question: &Question) -> Result<Content, NotRecertified> {
-    let verification = before_expiry(path, bytes, trust, question);
-    if let Some(passport) = verification.passport() {
-        return Ok(passport.content().clone());
-    }
-    let failed = verification.failed();
-    let why = failed
-        .map_or_else(String::new, |check| format!(" ({}: {})", check.name.as_str(), for_the_issuer(&check.detail)));
-    Err(refused(format!("{}: the passport failed verification{why}", shown(path))))
-}
-
-/// Verifies a passport, as of its last day if it has expired since: many stands return to the factory only then.
-fn before_expiry(path: &Path, bytes: &[u8], trust: &Trust, question: &Question) -> Verification {
-    let found = verify(&name_of(path), bytes, trust, question);
+/// Verifies a passport that passes every check of `question`, or did before it expired: many stands return to the factory
+/// only then.
+fn verified(
+    path: &Path,
+    bytes: &[u8],
+    trust: &Trust,
+    question: &Question,
+) -> Result<(Verification, Content), NotRecertified> {
+    let mut found = verify(&name_of(path), bytes, trust, question);
     let has_expired = found.checks().iter().any(|check| check.code == Code::Expired);
-    match found.content_from_anyone().filter(|_| has_expired).and_then(Content::last_day) {
-        Some((last, _)) => verify(&name_of(path), bytes, trust, &Question { time: day(last).1, ..question.clone() }),
-        None => found,
+    if let Some((last, _)) = found.content_from_anyone().filter(|_| has_expired).and_then(Content::last_day) {
+        found = verify(&name_of(path), bytes, trust, &Question { time: day(last).1, ..question.clone() });
     }
+    if let Some(content) = found.passport().map(|passport| passport.content().clone()) {
+        return Ok((found, content));
+    }
+    let why = |check: &Check| format!(" ({}: {})", check.name.as_str(), for_the_issuer(&check.detail));
+    let why = found.failed().map_or_else(String::new, why);
+    Err(refused(format!("{}: the passport failed verification{why}", shown(path))))
 }
 
 /// Passports of a stand that get successors or have them.
@@ -495,23 +464,11 @@ fn write(
     (stand_file, text): (&Path, &str),
     superseded: Option<&Superseded>,
 ) -> Result<(), NotRecertified> {
-    let paths = sealed.iter().map(|sealed| sealed.issued.path.as_path()).chain([stand_file]);
-    for folder in paths.map(folder_of).collect::<BTreeSet<_>>() {
-        leftovers::remove(folder);
-    }
-    let new: Vec<(PathBuf, Vec<u8>)> = sealed
-        .iter()
-        .filter_map(|sealed| Some((sealed.issued.path.clone(), sealed.text.clone()?.into_bytes())))
-        .collect();
-    if let Some(superseded) = superseded {
-        superseded.keep()?;
-    }
+    leftovers::remove(folder_of(stand_file));
+    let passport = |sealed: &Sealed| Some((sealed.issued.path.clone(), sealed.text.clone()?.into_bytes()));
+    let kept = superseded.and_then(Superseded::new_file);
+    let new: Vec<(PathBuf, Vec<u8>)> = kept.into_iter().chain(sealed.iter().filter_map(passport)).collect();
     let written = to.list_together(&new, (stand_file.to_owned(), text.as_bytes().to_vec()));
-    if written.is_err()
-        && let Some(superseded) = superseded.filter(|superseded| !superseded.kept)
-    {
-        let _ = std::fs::remove_file(&superseded.path);
-    }
     written.map_err(|refused| match refused {
         FolderRefused::File(error) => NotRecertified::File(error),
         refused => NotRecertified::Folder(to.stand().to_owned(), Box::new(refused)),

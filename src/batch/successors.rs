@@ -5,10 +5,10 @@
 //! content would not change is left as it is.
 
 use super::catalogue::{self, Catalogue};
-use super::{Batch, Event, Failure, Listener, Outcome, Purpose, fail, parallel, paths, sweep};
+use super::{Batch, Event, Failure, Listener, Outcome, Settled, fail, parallel, paths};
 use crate::document::sha256_hex;
 use crate::files;
-use crate::files::walk::{Visited, Walk};
+use crate::files::walk::Walk;
 use crate::folder::place::{self, numbered};
 use crate::folder::{Folder, Issued, StandFolder};
 use crate::passport::checks::for_the_issuer;
@@ -18,6 +18,7 @@ use crate::passport::reissue::{Order, ReissueRefused, Successor, successor};
 use crate::passport::{CheckName, Code, Content, Question, Verification, content_from_anyone, verify};
 use crate::register::{Entry, State, VerifiedRegister};
 use crate::site::Site;
+use crate::stand::Stand;
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use std::collections::BTreeMap;
 use std::io::BufRead;
@@ -37,7 +38,7 @@ pub(crate) struct Change<'a> {
     /// Question by which the predecessors are verified.
     pub question: Question,
     /// Folder of the successors; `None` for the root that the path of each predecessor shows.
-    pub folder: Option<Arc<Folder>>,
+    pub folder: Option<PathBuf>,
 }
 
 /// Number of stands that are examined at a time.
@@ -66,104 +67,66 @@ struct Candidate<'a> {
     entry: Option<&'a Entry>,
 }
 
-enum Examined {
-    Done(Option<Outcome>),
-    Next(Box<Following>),
-}
-
 /// Successor of a passport, to be issued.
 struct Following {
     /// Name of the predecessor's file.
     name: String,
     successor: Successor,
-    /// Remarks for the case that it is issued, each with whether it is a warning.
-    remarks: Vec<(String, bool)>,
+    /// Remarks for the case that it is issued.
+    remarks: Vec<Event>,
 }
-
-/// Outcomes of a job, each with the file and the remarks for the case that it is issued.
-type Outcomes = Vec<(Option<Outcome>, String, Vec<(String, bool)>)>;
 
 impl Batch<'_> {
     /// Re-issues the given files, and the passports in given folders that the change concerns.
     pub(crate) fn reissue(&self, passports: &[PathBuf], list: &mut dyn BufRead, change: Change, tell: Listener) {
         let mut none = std::io::empty();
-        let (stands, bad_stands) =
-            Catalogue::read(paths::files(change.stands, &mut none, Purpose::Stands), self.threads, tell);
-        let (sites, bad_sites) =
-            Catalogue::read(paths::files(change.sites, &mut none, Purpose::Sites), self.threads, tell);
+        let (stands, bad_stands) = Catalogue::read(change.stands, &mut none, self.threads, tell);
+        let (sites, bad_sites) = Catalogue::read(change.sites, &mut none, self.threads, tell);
         let sites_missing = !bad_sites.is_empty();
         // The stand or site of an unreadable file is unknown, and so is the number of its passports.
         fail(bad_stands, 0, tell);
         fail(bad_sites, 0, tell);
-        let mut run =
-            Run { batch: self, change, stands, sites, sites_missing, swept: Visited::default(), jobs: Vec::new() };
-        for named in paths::named(passports, list) {
+        let run = Run { batch: self, change, stands, sites, sites_missing };
+        let mut plan = Plan { run: &run, folders: BTreeMap::new(), jobs: Vec::new() };
+        for named in paths::named(passports, list).take_while(|_| !self.cancelled()) {
             match named {
-                Err(failure) => run.failed(failure, tell),
-                Ok(root) if root.is_dir() => run.folder(&root, tell),
-                Ok(path) => {
-                    tell(Event::Planned(1));
-                    match self.shard.has_file(&path) {
-                        true => run.file(path, tell),
-                        false => tell(Event::Done(None)),
-                    }
-                }
-            }
-            if self.cancelled() {
-                return;
+                Ok(root) if root.is_dir() => plan.folder(&root),
+                Ok(path) => plan.file(path, tell),
+                Err(failure) => plan.jobs.push(Err(failure)),
             }
         }
-        run.chunk(tell);
-    }
-}
-
-struct Run<'a> {
-    batch: &'a Batch<'a>,
-    change: Change<'a>,
-    stands: Catalogue<PreparedStand>,
-    sites: Catalogue<Site>,
-    /// `true` if a site file could not be read, so its site is unknown.
-    sites_missing: bool,
-    /// Folders from which the leftovers of killed runs were removed.
-    swept: Visited,
-    jobs: Vec<Job>,
-}
-
-impl Run<'_> {
-    fn failed(&mut self, failure: Failure, tell: Listener) {
-        self.chunk(tell);
-        tell(Event::Done(Some(Outcome::Failed(failure))));
-    }
-
-    fn push(&mut self, job: Job, tell: Listener) {
-        self.jobs.push(job);
-        if self.jobs.len() == STANDS_AT_ONCE {
-            self.chunk(tell);
-        }
-    }
-
-    /// Adds the stands of a folder.
-    fn folder(&mut self, root: &Path, tell: Listener) {
-        let stands = match place::stands(root) {
-            Ok(stands) if stands.is_empty() => return self.failed(paths::contains_no(root, "passport"), tell),
-            Ok(stands) => stands,
-            Err(error) => return self.failed(Failure::file(error), tell),
+        let work = |job: &Result<Job, Failure>, threads| {
+            let done = job.as_ref().map_err(Failure::clone).and_then(|job| run.job(job, threads));
+            done.unwrap_or_else(|failure| vec![Event::Done(Outcome::Failed(failure))])
         };
-        let site = self.change.order.site.as_ref().filter(|_| !self.change.order.moved);
+        self.each_stand(&plan.jobs, STANDS_AT_ONCE, work, tell);
+    }
+}
+
+/// Jobs of the given files and folders, in their order, and why there is none for one of them.
+struct Plan<'a> {
+    run: &'a Run<'a>,
+    /// Folders by their roots.
+    folders: BTreeMap<PathBuf, Arc<Folder>>,
+    jobs: Vec<Result<Job, Failure>>,
+}
+
+impl Plan<'_> {
+    /// Adds the stands of a folder.
+    fn folder(&mut self, root: &Path) {
+        let stands = match place::stands(root) {
+            Ok(stands) if stands.is_empty() => return self.jobs.push(Err(paths::contains_no(root, "passport"))),
+            Ok(stands) => stands,
+            Err(error) => return self.jobs.push(Err(Failure::file(error))),
+        };
+        let Change { order, folder, .. } = &self.run.change;
+        let site = order.site.as_ref().filter(|_| !order.moved);
         let is_corrected =
             site.is_some_and(|site| stands.iter().any(|(above, id)| states_another(&above.join(id), site)));
-        let mut folders: BTreeMap<PathBuf, Arc<Folder>> = BTreeMap::new();
-        for (above, stand) in stands {
-            if !self.batch.shard.has(&stand) {
-                continue;
-            }
-            let new = || Arc::new(Folder::new(&above).with_durability(self.batch.durability));
-            let from = Arc::clone(folders.entry(above.clone()).or_insert_with(new));
-            let to = self.change.folder.clone().unwrap_or_else(|| Arc::clone(&from));
-            self.push(Job { stand, from: Some(from), to, files: None, is_corrected }, tell);
-            if self.batch.cancelled() {
-                return;
-            }
+        for (above, stand) in stands.into_iter().filter(|(_, stand)| self.run.batch.shard.has(stand)) {
+            let from = self.folder_at(&above);
+            let to = folder.as_ref().map_or_else(|| Arc::clone(&from), |to| self.folder_at(to));
+            self.jobs.push(Ok(Job { stand, from: Some(from), to, files: None, is_corrected }));
         }
     }
 
@@ -176,72 +139,55 @@ impl Run<'_> {
         });
         let content = match content {
             Ok(content) => content,
-            Err(failure) => return self.failed(failure, tell),
+            Err(failure) => return self.jobs.push(Err(failure)),
         };
-        let root = Folder::root_of(&path, &content.stand);
-        let to = match (&self.change.folder, &root) {
-            (Some(folder), _) => Arc::clone(folder),
-            (None, Ok(root)) => self.folder_at(root),
-            (None, Err(why)) => return self.failed(Failure::unusable(&path, why.clone()), tell),
-        };
-        let from = root.ok().map(|root| if root == to.root() { Arc::clone(&to) } else { self.folder_at(root) });
         let stand = content.stand.id();
+        if !self.run.batch.shard.has(&stand) {
+            return;
+        }
+        tell(Event::Planned(1));
+        let root = Folder::root_of(&path, &content.stand);
+        let to = match self.run.change.folder.as_deref().map_or(root.clone(), Ok) {
+            Ok(to) => self.folder_at(to),
+            Err(why) => return self.jobs.push(Err(Failure::unusable(&path, why))),
+        };
+        let from = root.ok().map(|root| self.folder_at(root));
         match self.jobs.last_mut() {
-            Some(Job { stand: other, to: other_to, files: Some(files), .. })
+            Some(Ok(Job { stand: other, to: other_to, files: Some(files), .. }))
                 if *other == stand && other_to.root() == to.root() =>
             {
                 files.push(path);
             }
-            _ => self.push(Job { stand, from, to, files: Some(vec![path]), is_corrected: false }, tell),
+            _ => self.jobs.push(Ok(Job { stand, from, to, files: Some(vec![path]), is_corrected: false })),
         }
     }
 
-    fn folder_at(&self, root: &Path) -> Arc<Folder> {
-        match self.jobs.last().map(|job| &job.to) {
-            Some(to) if to.root() == root => Arc::clone(to),
-            _ => Arc::new(Folder::new(root).with_durability(self.batch.durability)),
-        }
+    fn folder_at(&mut self, root: &Path) -> Arc<Folder> {
+        let new = || Arc::new(Folder::new(root).with_durability(self.run.batch.durability));
+        Arc::clone(self.folders.entry(root.to_owned()).or_insert_with(new))
     }
+}
 
-    fn chunk(&mut self, tell: Listener) {
-        let jobs = std::mem::take(&mut self.jobs);
-        let threads = self.batch.threads.max(1);
-        // Many stands are done side by side, and few ones passport by passport.
-        let each = if jobs.len() >= threads { 1 } else { threads };
-        let done = parallel::map(&jobs, threads, |job| self.job(job, each));
-        for (job, done) in jobs.iter().zip(done) {
-            match done {
-                Ok(outcomes) => {
-                    if job.files.is_none() {
-                        tell(Event::Planned(outcomes.len() as u64));
-                    }
-                    for (outcome, name, remarks) in outcomes {
-                        if matches!(outcome, Some(Outcome::There(_) | Outcome::Planned { .. })) {
-                            let remark = |(words, is_warning)| Event::Remark { file: name.clone(), words, is_warning };
-                            remarks.into_iter().for_each(|told| tell(remark(told)));
-                        }
-                        tell(Event::Done(outcome));
-                    }
-                }
-                Err(failure) => tell(Event::Done(Some(Outcome::Failed(failure)))),
-            }
-        }
-    }
+struct Run<'a> {
+    batch: &'a Batch<'a>,
+    change: Change<'a>,
+    stands: Catalogue<Stand>,
+    sites: Catalogue<Site>,
+    /// `true` if a site file could not be read, so its site is unknown.
+    sites_missing: bool,
+}
 
+impl Run<'_> {
     /// Re-issues the passports of one stand and writes its register.
-    fn job(&self, job: &Job, threads: usize) -> Result<Outcomes, Failure> {
-        let authority = &self.batch.authority;
-        if job.files.is_none() && !self.change.stands.is_empty() && !self.stands.has(&job.stand) {
+    fn job(&self, job: &Job, threads: usize) -> Result<Vec<Event>, Failure> {
+        let given = self.stands.get(&job.stand);
+        if job.files.is_none() && !self.change.stands.is_empty() && given.is_none() {
             return Ok(Vec::new());
         }
         let open = |folder| {
-            let opened = StandFolder::open(folder, &job.stand, authority, |_| false);
+            let opened = StandFolder::open(folder, &job.stand, &self.batch.authority, |_| false);
             opened.map_err(|why| Failure::folder(job.stand.clone(), &why))
         };
-        if !self.batch.is_dry() {
-            sweep(&self.swept, job.to.root());
-            sweep(&self.swept, &job.to.root().join(&job.stand));
-        }
         let to = open(&job.to)?;
         let other = job.from.as_ref().filter(|from| from.root() != job.to.root());
         let other = other.map(|from| open(from)).transpose()?;
@@ -253,56 +199,58 @@ impl Run<'_> {
                 entries.iter().map(|entry| Candidate { path: from.path_of_entry(entry), entry: Some(entry) }).collect()
             }
         };
+        // If only one stand file is given, use it for every stand, so that it is refused as that of another stand.
+        let given = given.or(self.stands.documents.first().filter(|_| self.stands.documents.len() == 1));
+        let stand = given.map(|stand| Arc::new(PreparedStand::new(stand.clone())));
         let examined = parallel::map(&candidates, threads, |candidate| {
-            let examined = self.examine(candidate, job, from);
-            examined.unwrap_or_else(|failure| Examined::Done(Some(Outcome::Failed(failure))))
+            let examined = self.examine(candidate, job, stand.as_ref(), from);
+            examined.unwrap_or_else(|failure| Err(Outcome::Failed(failure)))
         });
         // Several predecessors may have successors at one site: these are issued one after the other.
-        let mut places: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
-        for (index, examined) in examined.iter().enumerate() {
-            if let Examined::Next(next) = examined {
-                places.entry(next.successor.site.id.as_str()).or_default().push(index);
+        let (mut settled, mut places) = (BTreeMap::new(), BTreeMap::<String, Vec<_>>::new());
+        for (index, examined) in examined.into_iter().enumerate() {
+            match examined {
+                Err(outcome) => drop(settled.insert(index, Settled::from(outcome))),
+                Ok(next) => places.entry(next.successor.site.id.to_string()).or_default().push((index, next)),
             }
         }
-        let places: Vec<Vec<usize>> = places.into_values().collect();
-        let settled = parallel::map(&places, threads, |place| {
-            place.iter().map(|&index| (index, self.follow(&examined[index], &to))).collect::<Vec<_>>()
+        let places: Vec<Vec<(usize, Following)>> = places.into_values().collect();
+        let followed = parallel::map(&places, threads, |place| {
+            place.iter().map(|(_, next)| self.follow(next, &to)).collect::<Vec<_>>()
         });
-        let mut settled: BTreeMap<usize, Option<Outcome>> = settled.into_iter().flatten().collect();
-        let mut outcomes: Outcomes = Vec::with_capacity(examined.len());
-        for (index, examined) in examined.into_iter().enumerate() {
-            outcomes.push(match examined {
-                Examined::Done(outcome) => (outcome, String::new(), Vec::new()),
-                Examined::Next(next) => (settled.remove(&index).flatten(), next.name, next.remarks),
-            });
+        for ((index, next), outcome) in places.into_iter().flatten().zip(followed.into_iter().flatten()) {
+            settled.insert(index, Settled { outcome, remarks: next.remarks });
         }
-        let synced = self.batch.sync(outcomes.iter().filter_map(|(outcome, ..)| outcome.as_ref()).collect());
-        if let Err(failure) = self.batch.list(&to, &synced) {
-            outcomes.iter_mut().flat_map(|(outcome, ..)| outcome).for_each(|outcome| outcome.not_listed(&failure));
-        }
-        Ok(outcomes)
+        let planned = job.files.is_none().then_some(Event::Planned(settled.len() as u64));
+        let done = self.batch.finish(&to, settled.into_values().collect());
+        Ok(planned.into_iter().chain(done).collect())
     }
 
     /// Issues a successor; every successor of a batch is made here.
-    fn follow(&self, examined: &Examined, to: &StandFolder) -> Option<Outcome> {
-        let Examined::Next(next) = examined else { return None };
-        let Following { name, successor, .. } = &**next;
+    fn follow(&self, next: &Following, to: &StandFolder) -> Outcome {
         let settled = match self.batch.is_dry() {
-            false => to.reissue(successor).map(Outcome::There),
-            true => to.next_successor(successor).map(Outcome::from),
+            false => to.reissue(&next.successor).map(Outcome::There),
+            true => to.next_successor(&next.successor).map(Outcome::from),
         };
-        Some(settled.unwrap_or_else(|why| Outcome::Failed(Failure::folder(name.clone(), &why))))
+        settled.unwrap_or_else(|why| Outcome::Failed(Failure::folder(next.name.clone(), &why)))
     }
 
-    fn examine(&self, candidate: &Candidate, job: &Job, from: &StandFolder) -> Result<Examined, Failure> {
+    /// Returns the successor of a passport, or the outcome of one that gets none.
+    fn examine(
+        &self,
+        candidate: &Candidate,
+        job: &Job,
+        stand: Option<&Arc<PreparedStand>>,
+        from: &StandFolder,
+    ) -> Result<Result<Following, Outcome>, Failure> {
         let path = &candidate.path;
         let name = name_of(path);
         let change = &self.change;
         let refused = |why: String| Failure::refused(path, why);
         if let Some(entry) = candidate.entry
-            && let Some(done) = self.settled_by_register(entry, path, job, from)
+            && let Some(why) = self.settled_by_register(entry, job, from)
         {
-            return Ok(Examined::Done(done));
+            return Ok(Err(Outcome::Skipped { id: entry.id.clone(), file: path.clone(), why }));
         }
         let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(|error| match candidate.entry {
             Some(_) if error.is_missing() => {
@@ -319,7 +267,7 @@ impl Run<'_> {
             Some(register) => verification.with_register(Ok((register, None)), &change.question),
             None => verification,
         };
-        let order = self.order(path, verification.content_from_anyone())?;
+        let order = self.order(path, stand, verification.content_from_anyone())?;
         let changed = order.stand.is_some() || order.site.is_some();
         let next = successor(&bytes, &verification, &order).map_err(|error| match error {
             ReissueRefused::BadReason => Failure::unusable(path, error.to_string()),
@@ -330,7 +278,7 @@ impl Run<'_> {
             let id = verification.id_from_anyone().unwrap_or_default().to_owned();
             let remarks = next.draft(next.first_revision()).map_err(|error| refused(error.to_string()))?.remarks();
             let there = Issued { id, path: path.clone(), sha256, new: false, remarks };
-            return Ok(Examined::Done(Some(Outcome::There(there))));
+            return Ok(Err(Outcome::There(there)));
         }
         let mut warnings = match candidate.entry {
             Some(_) => Vec::new(),
@@ -339,28 +287,21 @@ impl Run<'_> {
         let stays = !next.supersedes() && verification.passport().is_some() && warnings.is_empty();
         let stays = stays.then(|| STAYS_CURRENT.to_owned());
         warnings.extend(verification.content_from_anyone().and_then(|old| distant_correction(old, &next.site)));
-        let warnings = warnings.into_iter().map(|words| (words, true));
-        let remarks = warnings.chain(stays.map(|words| (words, false))).collect();
-        Ok(Examined::Next(Box::new(Following { name, successor: next, remarks })))
+        let remarks = warnings.into_iter().map(|words| (words, true)).chain(stays.map(|words| (words, false)));
+        let remark = |(words, is_warning)| Event::Remark { file: name.clone(), words, is_warning };
+        let remarks = remarks.map(remark).collect();
+        Ok(Ok(Following { name, successor: next, remarks }))
     }
 
-    /// Returns the outcome of a passport that follows from its register, or `None` if it is to be re-issued.
-    fn settled_by_register(
-        &self,
-        entry: &Entry,
-        path: &Path,
-        job: &Job,
-        from: &StandFolder,
-    ) -> Option<Option<Outcome>> {
-        let skipped = |why: String| Some(Some(Outcome::Skipped { id: entry.id.clone(), file: path.to_owned(), why }));
+    /// Returns why a passport is not re-issued by what its register says, or `None` if it is.
+    fn settled_by_register(&self, entry: &Entry, job: &Job, from: &StandFolder) -> Option<String> {
         match (entry.state, &entry.by, &entry.reason) {
-            (State::Withdrawn, _, reason) => skipped(format!("withdrawn: {}", reason.as_deref().unwrap_or_default())),
-            (State::Superseded, Some(by), _) => skipped(format!("superseded by {by}")),
-            (State::Moved, Some(by), _) => skipped(format!("moved: superseded by {by}")),
-            _ if self.is_for_another_site(entry, job, from) => {
-                skipped("for another site, which the change does not concern".to_owned())
-            }
-            _ => None,
+            (State::Withdrawn, _, reason) => Some(format!("withdrawn: {}", reason.as_deref().unwrap_or_default())),
+            (State::Superseded, Some(by), _) => Some(format!("superseded by {by}")),
+            (State::Moved, Some(by), _) => Some(format!("moved: superseded by {by}")),
+            _ => self
+                .is_for_another_site(entry, job, from)
+                .then(|| "for another site, which the change does not concern".to_owned()),
         }
     }
 
@@ -375,25 +316,20 @@ impl Run<'_> {
                 !order.moved && new.id.as_str() != site && (job.is_corrected || was_there())
             }
             // A new certificate concerns the passports for all sites.
-            None => stands.is_empty() && !sites.is_empty() && !self.sites_missing && !self.sites.has(site),
+            None => stands.is_empty() && !sites.is_empty() && !self.sites_missing && self.sites.get(site).is_none(),
         }
     }
 
     /// Returns the order for one passport, with the files for its stand and site.
-    fn order(&self, path: &Path, old: Option<&Content>) -> Result<Order, Failure> {
+    fn order(&self, path: &Path, stand: Option<&Arc<PreparedStand>>, old: Option<&Content>) -> Result<Order, Failure> {
         let mut order = self.change.order.clone();
         let Some(old) = old else { return Ok(order) };
         if !self.change.stands.is_empty() {
-            let stand = match self.stands.get(&old.stand.id())? {
-                // If only one stand file is given, use it here, so that it is refused as that of another stand.
-                None if self.stands.len() == 1 => self.stands.load(0..1, 1).remove(0).map(Some)?,
-                stand => stand,
-            };
             let missing = || Failure::refused(path, format!("no stand file is for {}", old.stand.id()));
-            order.stand = Some(stand.ok_or_else(missing)?);
+            order.stand = Some(Arc::clone(stand.ok_or_else(missing)?));
         }
-        if let Some(site) = self.sites.get(old.site.id.as_str())? {
-            order.site = Some(Site::clone(&site));
+        if let Some(site) = self.sites.get(old.site.id.as_str()) {
+            order.site = Some(site.clone());
         } else if self.sites_missing {
             let why = format!("none of the readable files of --sites is for its site, {}", old.site.id);
             return Err(Failure::refused(path, why));

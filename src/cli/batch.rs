@@ -137,14 +137,11 @@ impl Reporter {
                 }
                 self.bar.inc_length(more);
             }
-            Event::Lost(less) => self.bar.dec_length(less),
             Event::Remark { file, words, is_warning } => self.told.add(&file, words, is_warning),
             Event::Done(outcome) => {
                 // An input that cannot be used is not one of the passports.
-                let is_input = matches!(&outcome, Some(Outcome::Failed(failure)) if failure.passports.is_some());
-                if let Some(outcome) = outcome {
-                    self.outcome(&outcome);
-                }
+                let is_input = matches!(&outcome, Outcome::Failed(failure) if failure.passports.is_some());
+                self.outcome(&outcome);
                 self.bar.inc(u64::from(!is_input));
             }
         }

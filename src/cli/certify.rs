@@ -195,7 +195,7 @@ fn write(path: &Path, certified: &Certification, known: &[&Stand], force: bool) 
     files::check_replaceable([path], force)?;
     let superseded = Superseded::of(path, text.as_bytes())?;
     if let Some(superseded) = &superseded {
-        superseded.keep()?;
+        files::together::write_together(superseded.new_file().as_slice(), &[])?;
         output::say_after(&format!("kept the superseded stand file as {}", shown(&superseded.path)));
     }
     output::file(path, &text, force)

@@ -79,7 +79,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         NotReceived::NotValid(name, verification) => {
             Failure::verdict("nothing was written", &name, &verification, &Question::at(now))
         }
-        refused => Failure::refused(format!("{name}: {refused}; nothing was written")),
+        NotReceived::Refused(why) => Failure::refused(format!("{name}: {why}; nothing was written")),
     })?;
     output::show(|| &received, || received.document())?;
     Ok(0)

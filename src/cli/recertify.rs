@@ -166,7 +166,7 @@ fn stands(options: &Options) -> Option<PathBuf> {
 fn at_site(path: &Path) -> Result<AtSite, Failure> {
     let id = path.to_str().filter(|id| !path.is_file() && Identifier::new(id).is_ok());
     match id {
-        Some(id) => Ok(AtSite::Id(id.to_owned())),
-        None => inputs::site(path).map(|site| AtSite::File(Box::new(site))),
+        Some(id) => Ok(AtSite { id: id.to_owned(), site: None }),
+        None => inputs::site(path).map(|site| AtSite { id: site.id.to_string(), site: Some(site) }),
     }
 }

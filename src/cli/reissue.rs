@@ -11,7 +11,6 @@ use clap::Args;
 use jiff::Timestamp;
 use jiff::civil::Date;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 /// Verify passports and issue their successors: another site, corrected stands or sites, another key
 ///
@@ -81,7 +80,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if let Some(public) = &keys.public {
         options.batch.warn_unless_authorised(&trust.signers, public, order.issued_at, "--trust");
     }
-    let folder = options.out.as_deref().map(|out| Arc::new(options.batch.folder(out)));
+    let folder = options.out.clone();
     let site_file = |id: &str| defaults::workspace()?.site(id).filter(|path| path.exists());
     let change = Change { order, stands: &options.stands, sites: &options.sites, site_file, question, folder };
     options.batch.run(&keys, &trust, |batch, tell| {

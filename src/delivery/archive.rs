@@ -1,13 +1,24 @@
 //! ZIP archives of deliveries. One from a stranger is refused as a whole unless every byte of it is accounted for: members
 //! follow each other without a gap, both of their headers agree, and nothing but regular files of expected names is in it.
 
-use super::place::{Member, place_of};
-use crate::text::{Printable, printable};
+use crate::folder::place::numbered;
+use crate::register::FILE_NAME;
+use crate::text::{Identifier, Printable, printable};
 use std::collections::BTreeSet;
+use std::ffi::OsStr;
 use std::io::{Cursor, Read, Write};
 use zip::read::ZipReadOptions;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive, ZipWriter};
+
+/// Folder of passports in an archive, as in a workspace.
+pub(super) const PASSPORTS: &str = "passports";
+
+/// Page that says what to do first.
+pub(super) const PAGE: &str = "START-HERE.html";
+
+/// Public keys, for people: a reader takes them from the signatures.
+pub(super) const KEYS: &str = "signing_keys.pub";
 
 /// Most bytes of all members, unpacked.
 const LARGEST_BYTES: usize = 16 << 20;
@@ -165,4 +176,39 @@ pub(super) fn write(members: &[(String, Vec<u8>)]) -> Result<Vec<u8>, BadArchive
         archive.write_all(bytes).map_err(|error| BadArchive::Damaged(error.to_string()))?;
     }
     Ok(archive.finish()?.into_inner())
+}
+
+/// What a member of an archive is by its name.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Member {
+    /// Register of a stand, `<model>/<serial>`.
+    Register(String),
+    /// Passport of a stand, with its name.
+    Passport(String, String),
+    /// Folder, or file for people, of which nothing is taken.
+    Other,
+}
+
+/// Returns what has this name, or `None` if nothing in a delivery has it.
+pub(super) fn place_of(name: &str) -> Option<Member> {
+    if [PAGE, KEYS].contains(&name) {
+        return Some(Member::Other);
+    }
+    let names: Vec<&str> = name.strip_suffix('/').unwrap_or(name).split('/').collect();
+    let (first, inner) = names.split_first()?;
+    let is_good = *first == PASSPORTS && inner.iter().all(|name| Identifier::new(name).is_ok());
+    match *inner {
+        _ if !is_good => None,
+        [] | [_] | [_, _] if name.ends_with('/') => Some(Member::Other),
+        [model, serial, FILE_NAME] if !name.ends_with('/') => Some(Member::Register(format!("{model}/{serial}"))),
+        [model, serial, file] if !name.ends_with('/') && numbered(OsStr::new(file)).is_some() => {
+            Some(Member::Passport(format!("{model}/{serial}"), file.to_owned()))
+        }
+        _ => None,
+    }
+}
+
+/// Returns the name of a file of a stand in an archive.
+pub(super) fn name_of(stand: &str, file: &str) -> String {
+    format!("{PASSPORTS}/{stand}/{file}")
 }

@@ -1,12 +1,10 @@
 //! What a laboratory gets, in one file: the passports of its stands that are in force, their registers, the public keys that
 //! signed them, and a page that says what to do first. The fingerprints of the keys go by another way.
 //!
-//! * `archive`: the file, from anyone.
-//! * `place`: the names in it.
+//! * `archive`: the file, from anyone, and the names in it.
 //! * `received`: what is in it, verified and laid into a workspace.
 
 mod archive;
-mod place;
 mod received;
 
 pub(crate) use archive::LARGEST_ARCHIVE_BYTES;
@@ -23,8 +21,7 @@ use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, name_of as shown_name};
 use crate::trust::PublicKey;
 use crate::wording::Language;
 use crate::wording::texts::delivery as texts;
-use archive::BadArchive;
-use place::name_of;
+use archive::{BadArchive, name_of};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -113,8 +110,8 @@ pub(crate) fn deliver(
     let (mut files, mut keys) = (BTreeMap::new(), BTreeMap::new());
     let mut passports = Vec::new();
     for Wanted { stand, site } in wanted {
-        let found = registers.of(stand);
-        let register = &found.as_ref().as_ref().map_err(Clone::clone)?.register;
+        let found = registers.of(stand)?;
+        let register = &found.register;
         let is_wanted = |entry: &&Entry| site.as_ref().is_none_or(|site| entry.site_and_revision().0 == site);
         let entries: Vec<&Entry> = register.entries().iter().filter(is_wanted).collect();
         let mut current = entries.iter().filter(|entry| entry.state == State::Current).peekable();
@@ -149,9 +146,9 @@ pub(crate) fn deliver(
     }
     let languages = Languages::new(first, Language::ALL);
     let page = instructions(passports.iter().map(|passport| passport.id.as_str()), &languages);
-    let mut members = vec![(place::PAGE.to_owned(), page.into_bytes())];
+    let mut members = vec![(archive::PAGE.to_owned(), page.into_bytes())];
     let line = |((principal, _), key): (&(String, String), &PublicKey)| format!("{} {principal}\n", key.to_openssh());
-    members.push((place::KEYS.to_owned(), keys.iter().map(line).collect::<String>().into_bytes()));
+    members.push((archive::KEYS.to_owned(), keys.iter().map(line).collect::<String>().into_bytes()));
     members.extend(files);
     let archive = archive::write(&members)?;
     let keys = keys.into_keys().map(|(principal, fingerprint)| Signer { principal, fingerprint }).collect();

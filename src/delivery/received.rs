@@ -1,25 +1,23 @@
 //! A delivery as it is received: everything is verified before anything is believed, and written only then.
 
-use super::archive::{self, BadArchive};
-use super::place::{Member, name_of};
+use super::archive::{self, Member, name_of};
 use super::{Delivered, Signer, keys, passports};
 use crate::document::SignedText;
 use crate::files::{self, FileError, together};
 use crate::folder::registers::{self, doubt};
 use crate::folder::{Folder, FolderRefused};
-use crate::passport::{self, Malformed, Question, Trust, Verification, verify};
-use crate::register::{self, Doubt, FILE_NAME, FORM, Register, RegisterRefused, VerifiedRegister};
+use crate::passport::{self, Question, Trust, Verification, verify};
+use crate::register::{self, Doubt, FILE_NAME, FORM, Register, VerifiedRegister};
 use crate::report::doc::{Block, Words, code, given, line, listed, marked};
 use crate::report::{Languages, PassportPage};
-use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, name_of as shown_name, printable, shown};
-use crate::trust::{
-    AllowedSigners, BadIdentity, LARGEST_TRUST_FILE_BYTES, NotAuthorised, PublicKey, SignatureError, check_identity,
-};
+use crate::text::{LARGEST_DOCUMENT_BYTES, name_of as shown_name, printable, shown};
+use crate::trust::{AllowedSigners, LARGEST_TRUST_FILE_BYTES, NotAuthorised, PublicKey, check_identity};
 use crate::wording::texts::delivery as texts;
-use crate::workspace::{Kind, NoWorkspace, NotMade, WORKSPACE_FILE, Workspace, make};
+use crate::workspace::{Kind, WORKSPACE_FILE, Workspace, make};
 use jiff::Timestamp;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 /// Folder of a workspace with the printed passports.
@@ -73,64 +71,26 @@ pub(crate) struct Received {
 }
 
 /// Reason why nothing is received.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug)]
 pub(crate) enum NotReceived {
-    #[error("{0}")]
-    Archive(#[from] BadArchive),
-    #[error("it has no passport")]
-    Empty,
-    #[error("it has no register for the passports of {0}, or no passport for the register")]
-    Incomplete(String),
-    #[error("{0}")]
-    Malformed(Unreadable),
-    #[error("{0}: {1}")]
-    Damaged(String, String),
-    #[error("its issuer cannot be trusted by name: {0}")]
-    Identity(#[from] BadIdentity),
-    #[error(
-        "this workspace does not trust the key that signed for {0} yet; ask the factory for the fingerprint by another \
-         way, not by this archive, and give it with --fingerprint SHA256:…"
-    )]
-    Unconfirmed(String),
-    #[error(
-        "no key that signed it has the fingerprint {0}; if the factory told you this one, the archive is not from it"
-    )]
-    OtherFingerprint(String),
-    #[error(
-        "this workspace trusts another key of {0}; if the factory told you that it has a new one, give --new-key too"
-    )]
-    AnotherKey(String),
-    #[error(transparent)]
-    Register(#[from] RegisterRefused),
-    #[error("register {0} of {1} is older than {2}, the last one accepted; get the last delivery from the factory")]
-    Older(u64, String, u64),
-    #[error("{0}")]
-    Doubt(String),
-    #[error("{0}: is of another stand, {1}")]
-    OtherStand(String, String),
+    /// Archive, document or workspace that is refused, and why, in words.
+    Refused(String),
     /// Passport that may not be used, by this verification of the file of this name.
-    #[error("{0}: may not be used")]
     NotValid(String, Box<Verification>),
-    #[error(transparent)]
-    Folder(#[from] FolderRefused),
-    #[error(transparent)]
-    File(#[from] FileError),
-    #[error(transparent)]
-    Signers(#[from] Unreadable),
-    #[error(transparent)]
-    Workspace(#[from] NoWorkspace),
-    #[error(transparent)]
-    NotMade(#[from] NotMade),
-    #[error("{}: is the workspace of a factory; give the folder of a laboratory's", shown(.0))]
-    Factory(PathBuf),
-    #[error("the workspace states no {0} in dtg-passport.toml")]
-    NotStated(&'static str),
 }
 
-impl From<Malformed> for NotReceived {
-    fn from(malformed: Malformed) -> Self {
-        Self::Malformed(malformed.fault)
+impl<E: std::error::Error> From<E> for NotReceived {
+    fn from(error: E) -> Self {
+        refused(error)
     }
+}
+
+fn refused(why: impl Display) -> NotReceived {
+    NotReceived::Refused(why.to_string())
+}
+
+fn not_stated(key: &str) -> NotReceived {
+    refused(format!("the workspace states no {key} in dtg-passport.toml"))
 }
 
 impl Parcel {
@@ -146,10 +106,9 @@ impl Parcel {
                 Member::Other => {}
                 Member::Register(stand) => {
                     let name = name_of(&stand, FILE_NAME);
-                    let text = SignedText::split(&name, &bytes, &FORM)?;
-                    let altered = |error: SignatureError| NotReceived::Damaged(name.clone(), error.to_string());
-                    text.signed_payload(None, None).map_err(altered)?;
-                    let content = Register::from_anyone(&name, &bytes).map_err(NotReceived::Malformed)?;
+                    let text = SignedText::split(&name, &bytes, &FORM).map_err(|malformed| refused(malformed.fault))?;
+                    text.signed_payload(None, None).map_err(|error| refused(format!("{name}: {error}")))?;
+                    let content = Register::from_anyone(&name, &bytes)?;
                     let header = content.header();
                     parcel.note(&header.issuer, text.key(), register::NAMESPACE, header.issued_at);
                     parcel.stands.entry(stand).or_default().register = bytes;
@@ -160,8 +119,8 @@ impl Parcel {
                     let (content, key) = (verification.content_from_anyone(), verification.key_from_anyone());
                     let Some((content, key)) = content.zip(key) else {
                         // These checks come before that of the key, so they show no fingerprint.
-                        let why = verification.failed().map_or_else(String::new, |check| check.detail.clone());
-                        return Err(NotReceived::Damaged(name, why));
+                        let why = verification.failed().map_or("", |check| &check.detail);
+                        return Err(refused(format!("{name}: {why}")));
                     };
                     let header = &content.passport;
                     parcel.note(&header.issuer, key, passport::NAMESPACE, header.issued_at);
@@ -170,11 +129,12 @@ impl Parcel {
             }
         }
         if parcel.stands.is_empty() {
-            return Err(NotReceived::Empty);
+            return Err(refused("it has no passport"));
         }
-        let half = parcel.stands.iter().find(|(_, lot)| lot.register.is_empty() || lot.passports.is_empty());
-        match half.map(|(stand, _)| stand.clone()) {
-            Some(stand) => Err(NotReceived::Incomplete(stand)),
+        match parcel.stands.iter().find(|(_, lot)| lot.register.is_empty() || lot.passports.is_empty()) {
+            Some((stand, _)) => Err(refused(format!(
+                "it has no register for the passports of {stand}, or no passport for the register"
+            ))),
             None => Ok(parcel),
         }
     }
@@ -189,7 +149,7 @@ impl Parcel {
     /// Returns the keys that `signers` does not give to their principals, each with the line that would.
     ///
     /// # Errors
-    /// Returns [`NotReceived::Identity`] if a principal could be read as a pattern of several.
+    /// Returns [`NotReceived`] if a principal could be read as a pattern of several.
     fn new_keys(&self, signers: &AllowedSigners) -> Result<Vec<NewKey>, NotReceived> {
         let mut new = Vec::new();
         for ((principal, fingerprint), (key, times)) in &self.signers {
@@ -204,7 +164,8 @@ impl Parcel {
             if lacking.is_empty() {
                 continue;
             }
-            check_identity(principal)?;
+            check_identity(principal)
+                .map_err(|error| refused(format!("its issuer cannot be trusted by name: {error}")))?;
             let line = format!("{principal} namespaces=\"{}\" {}", lacking.join(","), key.to_openssh());
             let (principal, fingerprint) = (principal.clone(), fingerprint.clone());
             new.push(NewKey { is_another: signers.knows(&principal), principal, fingerprint, line });
@@ -220,14 +181,24 @@ impl Parcel {
     fn confirm(&self, new: &[NewKey], given: &[String], may_replace: bool) -> Result<(), NotReceived> {
         let signed: BTreeSet<&str> = self.signers.keys().map(|(_, fingerprint)| fingerprint.as_str()).collect();
         if let Some(other) = given.iter().find(|given| !signed.contains(given.as_str())) {
-            return Err(NotReceived::OtherFingerprint(printable(other)));
+            let other = printable(other);
+            return Err(refused(format!(
+                "no key that signed it has the fingerprint {other}; if the factory told you this one, the archive is not \
+                 from it"
+            )));
         }
-        for key in new {
-            if key.is_another && !may_replace {
-                return Err(NotReceived::AnotherKey(key.principal.clone()));
+        for NewKey { principal, fingerprint, is_another, .. } in new {
+            if *is_another && !may_replace {
+                return Err(refused(format!(
+                    "this workspace trusts another key of {principal}; if the factory told you that it has a new one, give \
+                     --new-key too"
+                )));
             }
-            if !given.contains(&key.fingerprint) {
-                return Err(NotReceived::Unconfirmed(key.principal.clone()));
+            if !given.contains(fingerprint) {
+                return Err(refused(format!(
+                    "this workspace does not trust the key that signed for {principal} yet; ask the factory for the \
+                     fingerprint by another way, not by this archive, and give it with --fingerprint SHA256:…"
+                )));
             }
         }
         Ok(())
@@ -244,14 +215,14 @@ impl Parcel {
         trust: &Trust,
         question: &Question,
     ) -> Result<Vec<Good<'_>>, NotReceived> {
-        let root = workspace.passports.as_deref().ok_or(NotReceived::NotStated("passports"))?;
+        let root = workspace.passports.as_deref().ok_or(not_stated("passports"))?;
         let mut passports = Vec::new();
         for (stand, lot) in &self.stands {
             let name = name_of(stand, FILE_NAME);
             let register = VerifiedRegister::verify(&name, &lot.register, trust, question.now)?;
             let header = register.header();
             if header.stand != *stand {
-                return Err(NotReceived::OtherStand(name, header.stand.clone()));
+                return Err(refused(format!("{name}: is of another stand, {}", header.stand)));
             }
             // What lies there was perhaps never asked, and so is not remembered.
             let there = registers::read(&root.join(stand).join(FILE_NAME), trust, question.now).ok();
@@ -259,9 +230,14 @@ impl Parcel {
             for last in remembered.into_iter().chain(there) {
                 match doubt(&register, &last) {
                     None => {}
-                    Some(Doubt::Older(last)) => return Err(NotReceived::Older(header.sequence, stand.clone(), last)),
-                    Some(Doubt::Contradicted(why)) => return Err(NotReceived::Doubt(why.to_string())),
-                    Some(Doubt::Unconfirmed(why)) => return Err(NotReceived::Doubt(why)),
+                    Some(Doubt::Older(last)) => {
+                        return Err(refused(format!(
+                            "register {} of {stand} is older than {last}, the last one accepted; get the last delivery from \
+                             the factory",
+                            header.sequence
+                        )));
+                    }
+                    Some(doubt) => return Err(refused(doubt)),
                 }
             }
             for (file, bytes) in &lot.passports {
@@ -273,7 +249,7 @@ impl Parcel {
                 let id = passport.content().passport.id.clone();
                 let path = Folder::new(root).path_of_id(&id).unwrap_or_default();
                 if path != root.join(stand).join(file) {
-                    return Err(NotReceived::OtherStand(name, id));
+                    return Err(refused(format!("{name}: is of another stand, {id}")));
                 }
                 passports.push(Good { id, path, bytes, verification });
             }
@@ -317,9 +293,10 @@ pub(crate) fn receive(bytes: &[u8], order: &Order) -> Result<Received, NotReceiv
         false => Workspace::of_a_new_laboratory(order.root, &stands)?,
     };
     if !workspace.is_of_a_laboratory() {
-        return Err(NotReceived::Factory(order.root.to_owned()));
+        let root = shown(order.root);
+        return Err(refused(format!("{root}: is the workspace of a factory; give the folder of a laboratory's")));
     }
-    let path = workspace.trust.clone().ok_or(NotReceived::NotStated("trust"))?;
+    let path = workspace.trust.clone().ok_or(not_stated("trust"))?;
     let (mut text, known) = match files::read(&path, LARGEST_TRUST_FILE_BYTES) {
         Err(error) if error.is_missing() => (Vec::new(), AllowedSigners::empty()),
         read => {

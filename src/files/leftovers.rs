@@ -16,16 +16,17 @@ pub(super) const PREFIX: &str = ".dtg-passport-";
 /// Suffix of the names of temporary files.
 pub(super) const SUFFIX: &str = ".tmp";
 
-/// Removes the temporary files that belong to no active run from a folder, and returns their number.
+/// Removes the temporary files that belong to no active run from a folder.
 ///
 /// Files that cannot be examined or removed stay; they cause no errors.
-pub(crate) fn remove(folder: &Path) -> usize {
-    let Ok(entries) = fs::read_dir(folder) else { return 0 };
+pub(crate) fn remove(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
     let ours = entries.flatten().filter(|entry| {
         // A link or a folder with such a name was not created by this program.
         !is_lasting(&entry.file_name()) && entry.file_type().is_ok_and(|kind| kind.is_file())
     });
-    ours.filter(|entry| remove_unless_in_use(&entry.path()).is_ok()).count()
+    // What cannot be removed stays.
+    ours.for_each(|entry| drop(remove_unless_in_use(&entry.path())));
 }
 
 /// Returns `true` if a file is not named as the temporary files of a run are.

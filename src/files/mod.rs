@@ -215,29 +215,23 @@ pub(crate) enum Durability {
 /// Number of attempts to write a file again after its temporary file was removed; even a second removal is unlikely.
 const ATTEMPTS: usize = 4;
 
-/// Writes a new file: to a temporary name in its folder, synced, renamed without replacing, and the folder synced.
-///
-/// Missing folders are created.
+/// Writes a new durable file, as [`write_new_as`] does.
 pub(crate) fn write_new(path: &Path, bytes: &[u8], access: Access) -> Result<(), FileError> {
     write_new_as(path, bytes, access, Durability::Named)
 }
 
-/// Writes a new file as [`write_new`] does, with the given `durability`.
+/// Writes a new file: to a temporary name in its folder, synced, renamed without replacing, and the folder synced, as far
+/// as `durability` demands it. Missing folders are created.
 pub(crate) fn write_new_as(path: &Path, bytes: &[u8], access: Access, durability: Durability) -> Result<(), FileError> {
     let persist = |temporary: NamedTempFile| temporary.persist_noclobber(path);
-    write(path, bytes, access, durability, persist, false)
+    write(path, bytes, access, durability, persist)
 }
 
 /// Replaces a file as a whole, or creates it: its old or its new content is there at every moment. A link is replaced, not
 /// followed.
-pub(crate) fn replace(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
-    replace_as(path, bytes, Durability::Named)
-}
-
-/// Replaces a file as [`replace`] does, with the given `durability`.
-pub(crate) fn replace_as(path: &Path, bytes: &[u8], durability: Durability) -> Result<(), FileError> {
+pub(crate) fn replace(path: &Path, bytes: &[u8], durability: Durability) -> Result<(), FileError> {
     let persist = |temporary: NamedTempFile| temporary.persist(path);
-    write(path, bytes, Access::Shared, durability, persist, true)
+    write(path, bytes, Access::Shared, durability, persist)
 }
 
 /// Checks that no file is in the way of [`write_replaceable`], so that none of several is written if one cannot be.
@@ -280,12 +274,7 @@ pub(crate) fn check_distinct<'a>(paths: impl IntoIterator<Item = &'a PathBuf>) -
 /// Passports, registers and private keys are never replaced. Nor is anything but a regular file,
 /// because renaming a new file to the name of a device or of a link would remove it.
 pub(crate) fn write_replaceable(path: &Path, bytes: &[u8], force: bool) -> Result<(), FileError> {
-    check_replaceable([path], force)?;
-    let persist = |temporary: NamedTempFile| match force {
-        true => temporary.persist(path),
-        false => temporary.persist_noclobber(path),
-    };
-    write(path, bytes, Access::Shared, Durability::Named, persist, true)
+    together::write_replaceable_together(&[(path.to_owned(), bytes)], force)
 }
 
 /// Returns `true` if a file is a passport, a register or a private key, by its content.
@@ -323,7 +312,7 @@ pub(crate) fn rewrite(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
             Err(error) => Err(PersistError { error, file: temporary }),
         }
     };
-    write(&target, bytes, Access::Shared, Durability::Named, persist, true)
+    write(&target, bytes, Access::Shared, Durability::Named, persist)
 }
 
 fn write(
@@ -332,7 +321,6 @@ fn write(
     access: Access,
     durability: Durability,
     persist: impl Fn(NamedTempFile) -> Result<File, PersistError>,
-    replaceable: bool,
 ) -> Result<(), FileError> {
     let failed = |error| FileError::Write(path.to_owned(), error);
     let folder = folder_of(path);
@@ -341,7 +329,7 @@ fn write(
         match written {
             Ok(_) => break,
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-                return Err(FileError::Exists { path: path.to_owned(), replaceable });
+                return Err(FileError::Exists { path: path.to_owned(), replaceable: false });
             }
             // Only the first of many files finds its folder missing.
             Err(error) if attempt == 0 && error.kind() == io::ErrorKind::NotFound => {

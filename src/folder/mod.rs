@@ -10,7 +10,6 @@
 //! * `refused`: reasons why a passport or a register is not written.
 
 pub(crate) mod archive;
-mod names;
 pub(crate) mod overview;
 pub(crate) mod place;
 pub(crate) mod refused;
@@ -18,15 +17,13 @@ pub(crate) mod registers;
 pub(crate) mod renewal;
 pub(crate) mod stand;
 
-use crate::files::Durability;
 pub use crate::files::FileError;
 pub use refused::FolderRefused;
 pub(crate) use registers::{Memory, Registers};
 pub(crate) use stand::{Listing, StandFolder};
 
 use crate::document::Signer;
-use crate::files::walk::Visited;
-use crate::files::{self, or_here};
+use crate::files::{self, Durability, or_here};
 use crate::passport::checks::for_the_issuer;
 use crate::passport::issue::{Draft, Issue, PreparedStand, Remarks};
 use crate::passport::reissue::{NO_CHANGES, Successor, changes};
@@ -34,23 +31,20 @@ use crate::passport::{Content, Trust};
 use crate::register::State;
 use crate::site::Site;
 use crate::stand::{Identity, Stand};
-use crate::text::{Identifier, name_of};
+use crate::text::{Identifier, name_of, shown};
 use jiff::Timestamp;
 use jiff::civil::Date;
-use names::Names;
-use std::collections::BTreeSet;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 /// Folder of passports: `<model>/<serial>/<site id>-<revision>.yaml`, with a register in the folder of each stand.
 #[derive(Debug)]
 pub struct Folder {
     root: PathBuf,
     durability: Durability,
-    /// Folders of stands that were checked.
-    checked: Visited,
-    /// Names of models and serial numbers; `files` has those of files that are not passports.
-    folders: Names,
-    files: Names,
+    /// Names in folders by their lower-case forms; each folder is listed once.
+    names: Mutex<HashMap<PathBuf, HashMap<String, String>>>,
 }
 
 /// Issuer of passports and registers: its keys, its trust, and its clock.
@@ -132,13 +126,7 @@ impl Folder {
     /// Creates the handle of the folder `root`, which need not exist yet. Every file is synced as soon as it is
     /// written.
     pub fn new(root: impl Into<PathBuf>) -> Self {
-        Self {
-            root: root.into(),
-            durability: Durability::Named,
-            checked: Visited::default(),
-            folders: Names::folders(),
-            files: Names::files(),
-        }
+        Self { root: root.into(), durability: Durability::Named, names: Mutex::default() }
     }
 
     /// Returns the handle with another `durability` of the files written to the folder.
@@ -171,19 +159,9 @@ impl Folder {
         })
     }
 
-    /// Returns the folder of a stand.
-    pub(crate) fn of_stand(&self, stand: &Identity) -> PathBuf {
-        self.root.join(stand.model.as_str()).join(stand.serial.as_str())
-    }
-
-    /// Returns the path of the passport of a stand for a site.
-    pub fn path_of(&self, stand: &Identity, site: &Identifier, revision: u32) -> PathBuf {
-        self.of_stand(stand).join(place::file_name(site.as_str(), revision))
-    }
-
     /// Returns the path of the file of a stand.
     pub(crate) fn stand_file(&self, stand: &Identity) -> PathBuf {
-        self.of_stand(stand).join("stand.yaml")
+        self.root.join(stand.model.as_str()).join(stand.serial.as_str()).join("stand.yaml")
     }
 
     /// Returns the path of the passport with this id, or `None` if the text is not an id.
@@ -226,55 +204,42 @@ impl Folder {
         folder.list().map(|()| issued)
     }
 
-    /// Checks the path from the root to the folder of a file: none of the folders is a link, and no other name next to one
-    /// of them differs from it only in case. This is done once for all files in that folder.
+    /// Checks the path from the root to a folder: none of the folders is a link, and no other name next to one of them
+    /// differs from it only in case.
     fn check_folder(&self, last: &Path) -> Result<(), FolderRefused> {
-        self.checked.visit(last, || {
-            let way: Vec<&Path> = last.ancestors().take_while(|folder| or_here(folder) != self.root()).collect();
-            way.iter().try_for_each(|folder| check_link(folder))?;
-            way.iter().rev().try_for_each(|folder| check_case(&self.folders, folder))?;
-            Ok(last.is_dir())
-        })
+        let way: Vec<&Path> = last.ancestors().take_while(|folder| or_here(folder) != self.root()).collect();
+        way.iter().try_for_each(|folder| check_link(folder))?;
+        way.iter().rev().try_for_each(|folder| self.check_case(folder))
     }
 
     /// Checks the path at which a file of another kind is to be written, as that of a passport is checked.
     pub(crate) fn check_place(&self, file: &Path) -> Result<(), FolderRefused> {
         self.check_folder(files::folder_of(file))?;
         check_link(file)?;
-        check_case(&self.files, file)
+        self.check_case(file)
+    }
+
+    /// Checks that no other name in the same folder, which some systems would not distinguish, differs from that of `path`
+    /// only in case.
+    fn check_case(&self, path: &Path) -> Result<(), FolderRefused> {
+        let folder = files::folder_of(path);
+        let Some(name) = path.file_name().and_then(|name| name.to_str()) else { return Ok(()) };
+        let mut known = self.names.lock().unwrap_or_else(PoisonError::into_inner);
+        if !known.contains_key(folder) {
+            let names = place::names(folder)?.into_iter().map(|name| (name.to_ascii_lowercase(), name));
+            known.insert(folder.to_owned(), names.collect());
+        }
+        let names = known.entry(folder.to_owned()).or_default();
+        let there = names.entry(name.to_ascii_lowercase()).or_insert_with(|| name.to_owned());
+        match *there == name {
+            true => Ok(()),
+            false => Err(FolderRefused::OtherCase { path: path.to_owned(), there: folder.join(there) }),
+        }
     }
 }
 
 fn check_link(path: &Path) -> Result<(), FolderRefused> {
     if path.is_symlink() { Err(FolderRefused::Link(path.to_owned())) } else { Ok(()) }
-}
-
-/// Checks that no other name in the same folder differs from that of `path` only in case.
-fn check_case(names: &Names, path: &Path) -> Result<(), FolderRefused> {
-    match names.add(path)? {
-        Some(there) => Err(FolderRefused::OtherCase { path: path.to_owned(), there }),
-        None => Ok(()),
-    }
-}
-
-/// Number of folders from a passport to its root: `<model>/<serial>` and the root itself.
-const FOLDERS_OF_A_PASSPORT: usize = 3;
-
-/// Syncs the names of passports that were written with [`Durability::NameLater`], and those of the folders from the
-/// root to them.
-pub(crate) fn sync_names<'a>(
-    durability: Durability,
-    passports: impl Iterator<Item = &'a Path>,
-) -> Result<(), FileError> {
-    if durability != Durability::NameLater {
-        return Ok(());
-    }
-    let above = passports.flat_map(|file| file.ancestors().skip(1).take(FOLDERS_OF_A_PASSPORT));
-    let folders: BTreeSet<&Path> = above.map(or_here).collect();
-    for folder in folders {
-        files::sync_folder(folder).map_err(|error| FileError::Write(folder.to_owned(), error))?;
-    }
-    Ok(())
 }
 
 /// Signs a passport and verifies it before it is written, as every reader will: one that fails verification is useless.
@@ -312,8 +277,17 @@ impl Existing {
         let changed = changes(&self.content, stand, site, &new.passport.issuer);
         if valid_until.is_none() && changed == NO_CHANGES {
             match (accuracy.is_some(), reissued.is_some()) {
-                (true, false) => return FolderRefused::OtherAccuracy(self.path),
-                (false, _) if there.revision > new.passport.revision => return FolderRefused::Done(self.path),
+                (true, false) => {
+                    let words = "already exists with other values of --accuracy, --gyro or --laboratory; repeat the options \
+                                 with which it was issued, or withdraw it with `revoke` and issue the new one to another \
+                                 folder with --out";
+                    return FolderRefused::there(self.path, words);
+                }
+                (false, _) if there.revision > new.passport.revision => {
+                    let words =
+                        "has this content already; it is the last revision for this site, and nothing is left to issue";
+                    return FolderRefused::there(self.path, words);
+                }
                 _ => {}
             }
         }
@@ -321,7 +295,13 @@ impl Existing {
         if changed != NO_CHANGES || words.is_empty() {
             words.push(changed);
         }
-        FolderRefused::OtherContent(self.path, words.join("; "))
+        let words = format!(
+            "already exists with different content ({}); if the changes are intended, issue them with `reissue {}` and the \
+             changed --stand, --site, --valid-until or --identity",
+            words.join("; "),
+            shown(&self.path)
+        );
+        FolderRefused::There(self.path, words)
     }
 
     /// Returns `true` if this passport and a new one are equal apart from the time of issue and the program that wrote

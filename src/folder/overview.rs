@@ -2,7 +2,7 @@
 //!
 //! Each folder is read by itself, so memory grows with the entries of accepted registers only, not with other files.
 
-use super::place::{self, file_name, is_in_place, numbered, path_of_id, stand_of};
+use super::place::{self, file_name, is_in_place, listed_content, numbered, path_of_id, stand_of};
 use super::registers::{self, Memory, doubt};
 use crate::document::sha256_hex;
 use crate::files::leftovers::is_lasting;
@@ -92,6 +92,12 @@ pub(crate) struct Alarm {
     pub detail: String,
 }
 
+impl Alarm {
+    fn new(code: AlarmCode, stand: Option<&str>, file: Option<&Path>, detail: impl Display) -> Self {
+        Self { code, stand: stand.map(str::to_owned), file: file.map(name_of), detail: detail.to_string() }
+    }
+}
+
 impl Display for Alarm {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let file = self.file.as_deref().map_or_else(String::new, |file| format!("{file}: "));
@@ -125,8 +131,7 @@ struct Found {
 
 impl Found {
     fn alarm(&mut self, code: AlarmCode, stand: Option<&str>, file: &Path, detail: impl Display) {
-        let (stand, file) = (stand.map(str::to_owned), Some(name_of(file)));
-        self.alarms.push(Alarm { code, stand, file, detail: detail.to_string() });
+        self.alarms.push(Alarm::new(code, stand, Some(file), detail));
     }
 }
 
@@ -139,10 +144,8 @@ impl Overview {
         let (folders, unreadable) = folders(root)?;
         let found = parallel::map(&folders, query.threads, |folder| query.folder(root, folder));
         let mut overview = Self::default();
-        for error in unreadable {
-            let file = Some(name_of(error.path()));
-            overview.alarms.push(Alarm { code: AlarmCode::Unreadable, stand: None, file, detail: error.to_string() });
-        }
+        let unread = |error: &FileError| Alarm::new(AlarmCode::Unreadable, None, Some(error.path()), error);
+        overview.alarms.extend(unreadable.iter().map(unread));
         let mut shared: BTreeMap<(String, u64), Vec<String>> = BTreeMap::new();
         for found in found {
             overview.alarms.extend(found.alarms);
@@ -162,7 +165,7 @@ impl Overview {
                 stands.len(),
                 first_few(&stands)
             );
-            overview.alarms.push(Alarm { code: AlarmCode::Certificates, stand: None, file: None, detail });
+            overview.alarms.push(Alarm::new(AlarmCode::Certificates, None, None, detail));
         }
         Ok(overview)
     }
@@ -215,17 +218,16 @@ impl Query<'_> {
             places.extend(register.entries().iter().map(path).zip(0..));
         }
         let mut bytes = Vec::new();
-        let mut is_told = false;
         for entry in Walk::flat(folder, is_lasting) {
             let path = match entry {
                 Ok(Listed::File(path)) if path == register_path => continue,
                 Ok(Listed::File(path)) => path,
-                Ok(Listed::Link(path)) => {
-                    self.passed_over(&path, LINK, &places, &mut found);
-                    continue;
-                }
-                Ok(Listed::Special(path)) => {
-                    self.passed_over(&path, SPECIAL, &places, &mut found);
+                Ok(Listed::Link(path) | Listed::Special(path)) => {
+                    // Not read; what is where a passport belongs is reported.
+                    if places.contains_key(&path) || path.file_name().and_then(numbered).is_some() {
+                        let why = if path.is_symlink() { LINK } else { SPECIAL };
+                        found.alarm(AlarmCode::Unreadable, None, &path, why);
+                    }
                     continue;
                 }
                 Err(error) => {
@@ -255,8 +257,8 @@ impl Query<'_> {
             } else if kind == Some(Kind::Passport) || numbered(name).is_some() {
                 let id = listed.map(|place| rows[place].id.as_str());
                 let is_good = self.unlisted(&path, &bytes, id, register.as_ref(), &mut found);
-                if is_good && !is_there && !is_told {
-                    is_told = true;
+                let is_told = || found.alarms.iter().any(|alarm| alarm.code == AlarmCode::NoRegister);
+                if is_good && !is_there && !is_told() {
                     let detail = "has passports, but no register; make it with `register DIR --renew`, or restore it from \
                                   the backup";
                     found.alarm(AlarmCode::NoRegister, stand_of(folder).as_deref(), folder, detail);
@@ -269,21 +271,13 @@ impl Query<'_> {
         found
     }
 
-    /// Reports a link or a special file, which is not read, if it is where a listed passport or the register belongs.
-    fn passed_over(&self, path: &Path, why: &str, places: &HashMap<PathBuf, usize>, found: &mut Found) {
-        if places.contains_key(path) || path.file_name().is_some_and(|name| numbered(name).is_some()) {
-            found.alarm(AlarmCode::Unreadable, None, path, why);
-        }
-    }
-
     /// Reads the register of a folder; returns `None` after an alarm if it does not count.
     fn register(&self, root: &Path, path: &Path, found: &mut Found) -> Option<VerifiedRegister> {
         let stand = stand_of(files::folder_of(path));
         let register = match registers::read(path, self.trust, self.question.now) {
             Ok(register) => register,
             Err(refused) => {
-                let detail = refused.to_string();
-                found.alarms.push(Alarm { code: AlarmCode::RegisterUnknown, stand, file: None, detail });
+                found.alarms.push(Alarm::new(AlarmCode::RegisterUnknown, stand.as_deref(), None, refused));
                 return None;
             }
         };
@@ -297,16 +291,14 @@ impl Query<'_> {
                 Err(refused) => found.alarm(AlarmCode::RegisterUnknown, Some(&of), path, refused),
                 Ok((last, remark)) => {
                     found.remarks.extend(remark);
-                    let doubt = last.and_then(|last| doubt(&register, &last));
-                    let (code, detail) = match doubt {
-                        None => return Some(register),
-                        Some(Doubt::Older(last)) => {
-                            (AlarmCode::RegisterOlder, format!("older than register {last}, the last one known"))
-                        }
-                        Some(Doubt::Contradicted(why)) => (AlarmCode::RegisterContradicted, why.to_string()),
-                        Some(Doubt::Unconfirmed(why)) => (AlarmCode::RegisterUnknown, why),
-                    };
-                    found.alarm(code, Some(&of), path, detail);
+                    if let Some(doubt) = last.and_then(|last| doubt(&register, &last)) {
+                        let code = match doubt {
+                            Doubt::Older(_) => AlarmCode::RegisterOlder,
+                            Doubt::Contradicted(_) => AlarmCode::RegisterContradicted,
+                            Doubt::Unconfirmed(_) => AlarmCode::RegisterUnknown,
+                        };
+                        found.alarm(code, Some(&of), path, doubt);
+                    }
                 }
             }
         }
@@ -405,12 +397,7 @@ impl Query<'_> {
                 numbers.len(),
                 numbers.join(", ")
             );
-            found.alarms.push(Alarm {
-                code: AlarmCode::Certificates,
-                stand: Some(header.stand.clone()),
-                file: None,
-                detail,
-            });
+            found.alarms.push(Alarm::new(AlarmCode::Certificates, stand, None, detail));
         }
         found
             .angles
@@ -433,15 +420,13 @@ impl Query<'_> {
         let serial = header.stand.rsplit('/').next();
         self.question.issuer.as_ref().is_none_or(|issuer| *issuer == header.issuer)
             && self.question.serial.as_deref().is_none_or(|asked| serial == Some(asked))
-            && (self.question.place.is_none()
-                || self.content(row).is_some_and(|content| self.question.concerns(&content)))
+            && (self.question.place.is_none() || content(row).is_some_and(|content| self.question.concerns(&content)))
     }
+}
 
-    fn content(&self, row: &Row) -> Option<Content> {
-        let path = Path::new(row.file.as_deref()?);
-        let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).ok()?;
-        crate::passport::content_from_anyone(row.file.as_deref()?, &bytes).ok()
-    }
+/// Returns the content of the file of a row; `None` if it has changed since it was compared with the register.
+fn content(row: &Row) -> Option<Content> {
+    listed_content(Path::new(row.file.as_deref()?), &row.sha256)
 }
 
 /// Returns a fingerprint of the certified angles in the text of a passport, which is in canonical form.
@@ -477,13 +462,8 @@ impl Overview {
     /// Returns the history of a stand, or `None` without a register of it.
     pub(crate) fn history(&self, stand: &str, query: Query) -> Option<History> {
         let found = self.stands.iter().find(|found| found.stand == stand)?;
-        let recorded = parallel::map(&found.rows, query.threads, |row| {
-            let bytes = row.file.as_deref().and_then(|file| files::read(Path::new(file), LARGEST_DOCUMENT_BYTES).ok());
-            // A file that has changed since it was compared with the register has no content.
-            let bytes = bytes.filter(|bytes| sha256_hex(bytes) == row.sha256);
-            let content = bytes.and_then(|bytes| crate::passport::content_from_anyone(&row.id, &bytes).ok());
-            Recorded { row: row.clone(), content }
-        });
+        let recorded = |row: &Row| Recorded { row: row.clone(), content: content(row) };
+        let recorded = parallel::map(&found.rows, query.threads, recorded);
         let concerns = |alarm: &&Alarm| alarm.stand.as_ref().is_none_or(|of| of == stand);
         let alarms = self.alarms.iter().filter(concerns).map(ToString::to_string).collect();
         Some(History::of(stand, recorded, alarms, query.question.time))

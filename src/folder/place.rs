@@ -1,12 +1,14 @@
 //! Places in a folder of passports: `<model>/<serial>/<site id>-<revision>.yaml`.
 
+use crate::document::sha256_hex;
 use crate::files::walk::{Entry, Walk};
 use crate::files::{self, FileError};
+use crate::passport::{Content, content_from_anyone};
 use crate::register::FILE_NAME;
-use crate::text::Identifier;
+use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, name_of};
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
-use std::fs::{self, DirEntry};
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -66,12 +68,21 @@ pub(crate) fn stands(root: &Path) -> Result<Vec<(PathBuf, String)>, FileError> {
     Ok(found.into_iter().collect())
 }
 
-/// Returns the entries of a folder; none if there is no such folder. A file in its place is reported when a passport in it is
-/// looked up.
-pub(super) fn entries(folder: &Path) -> Result<Vec<DirEntry>, FileError> {
-    let failed = |error| FileError::Read(folder.to_owned(), error);
+/// Returns the names in a folder that are UTF-8; none if there is no such folder. A file in its place is reported when a
+/// passport in it is looked up.
+pub(super) fn names(folder: &Path) -> Result<Vec<String>, FileError> {
+    let names = |entries: fs::ReadDir| {
+        let names = entries.map(|entry| Ok(entry?.file_name().into_string().ok()));
+        names.filter_map(Result::transpose).collect()
+    };
     match fs::read_dir(folder) {
         Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => Ok(Vec::new()),
-        entries => entries.and_then(Iterator::collect).map_err(failed),
+        entries => entries.and_then(names).map_err(|error| FileError::Read(folder.to_owned(), error)),
     }
+}
+
+/// Returns the content of the file at a path if it has this SHA-256, which a register lists.
+pub(crate) fn listed_content(path: &Path, sha256: &str) -> Option<Content> {
+    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).ok().filter(|bytes| sha256_hex(bytes) == sha256)?;
+    content_from_anyone(&name_of(path), &bytes).ok()
 }

@@ -2,7 +2,7 @@
 
 use crate::files::FileError;
 use crate::passport::issue::IssueRefused;
-use crate::register::{Contradiction, Entry, NoRegister, RegisterRefused, State};
+use crate::register::{Doubt, Entry, NoRegister, RegisterRefused};
 use crate::stand::NumberInUse;
 use crate::text::shown;
 use std::path::PathBuf;
@@ -11,43 +11,9 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FolderRefused {
-    /// Existing passport of this name with other content, and the differences in words.
-    #[error(
-        "{}: already exists with different content ({}); if the changes are intended, issue them with `reissue {}` \
-         and the changed --stand, --site, --valid-until or --identity",
-        shown(.0),
-        .1,
-        shown(.0)
-    )]
-    OtherContent(PathBuf, String),
-    /// Last revision for this site, which has the content of the one to be issued.
-    #[error("{}: has this content already; it is the last revision for this site, and nothing is left to issue", shown(.0))]
-    Done(PathBuf),
-    /// Existing passport of this name that states another expected uncertainty.
-    #[error(
-        "{}: already exists with other values of --accuracy, --gyro or --laboratory; repeat the options with which it was \
-         issued, or withdraw it with `revoke` and issue the new one to another folder with --out",
-        shown(.0)
-    )]
-    OtherAccuracy(PathBuf),
-    /// Existing successor of the predecessor for this site, with different content.
-    #[error(
-        "{}: is already a successor of this passport for this site, with different content; re-issue the passport that is current",
-        shown(.0)
-    )]
-    OtherSuccessor(PathBuf),
-    /// Passport that is listed as superseded, moved or withdrawn, and how, in words.
-    #[error("{}: listed in the register as {}", shown(.0), .1)]
-    Ended(PathBuf, String),
-    /// Existing passport with the wanted content, while the register lists another file under its identifier.
-    #[error(
-        "{}: the register lists another file with this identifier; restore that file from the backup",
-        shown(.0)
-    )]
-    OtherFile(PathBuf),
-    /// Passport that is listed in the register, but whose file is missing.
-    #[error("{}: missing, but listed in the register; restore the file from the backup, or withdraw it with `revoke`", shown(.0))]
-    Lost(PathBuf),
+    /// What is at this path, or missing there, and what to do, in words.
+    #[error("{}: {}", shown(.0), .1)]
+    There(PathBuf, String),
     /// Existing passport of a signer who is not trusted: fingerprint and reason.
     #[error(
         "{}: already exists, signed by {fingerprint}, which --trust does not accept ({why}); nothing was written; find out \
@@ -84,74 +50,18 @@ pub enum FolderRefused {
     /// Register that is not accepted.
     #[error("{0}")]
     Register(#[from] RegisterRefused),
+    /// Register that does not count beside the last one of the workspace, or that contradicts the one read before.
+    #[error("{}: {}", shown(.0), .1)]
+    Doubt(PathBuf, Doubt),
     /// Register that cannot be issued.
     #[error(transparent)]
     NoNewRegister(#[from] NoRegister),
-    /// Register whose key has expired or was revoked, its SHA-256, and why it is not accepted.
-    #[error(
-        "{why}; if this is the last register, take it over with --adopt {sha256}; otherwise restore the last one from the \
-         backup"
-    )]
-    Outdated {
-        /// SHA-256 of the register.
-        sha256: String,
-        /// Reason why it is not accepted.
-        why: String,
-    },
-    /// Register of another stand.
-    #[error("{}: is the register of {stand}; restore that of this stand from the backup", shown(path))]
-    OtherStand {
-        /// Path of the register.
-        path: PathBuf,
-        /// Stand that it states.
-        stand: String,
-    },
-    /// Register that is older than the last one of the workspace.
-    #[error("{}: older than register {last}, the last one of this workspace; restore it from the backup", shown(path))]
-    OlderRegister {
-        /// Path of the register.
-        path: PathBuf,
-        /// Sequence number of the last one.
-        last: u64,
-    },
-    /// Register that contradicts the last one of the workspace.
-    #[error("{}: {}", shown(.0), .1)]
-    Contradicted(PathBuf, Contradiction),
-    /// Register whose number is too high to be accepted without a person, in words.
-    #[error("{}: {}", shown(.0), .1)]
-    Unconfirmed(PathBuf, String),
     /// Register that another run has kept locked.
     #[error("{}: another run has kept the register locked for 30 s; wait for it, and run the command again", shown(.0))]
     Locked(PathBuf),
     /// Order without a signing key.
     #[error("no key was given to sign with")]
     NoSigner,
-    /// Existing next revision that was re-issued from another passport.
-    #[error(
-        "{}: is already the next revision for this site, re-issued from another passport; re-issue that revision",
-        shown(.0)
-    )]
-    LaterRevision(PathBuf),
-    /// Missing revision before an existing one.
-    #[error(
-        "{}: is missing, but there is a later revision, {}, which supersedes it; to issue a new one, use `reissue {}`",
-        shown(path),
-        shown(later),
-        shown(later)
-    )]
-    Gap {
-        /// Path of the missing file.
-        path: PathBuf,
-        /// Path of the last revision.
-        later: PathBuf,
-    },
-    /// Existing file of this name that is not a passport, and why it cannot be compared as one.
-    #[error(
-        "{}: already exists and cannot be compared as a passport ({}); move it to another folder",
-        shown(.0),
-        .1
-    )]
-    NotComparable(PathBuf, String),
     /// Link in the path of the passport.
     #[error("{}: is a link; specify its target with --out, because links may lead out of the folder", shown(.0))]
     Link(PathBuf),
@@ -198,14 +108,30 @@ impl FolderRefused {
         }
     }
 
+    pub(super) fn there(path: PathBuf, words: impl Into<String>) -> Self {
+        Self::There(path, words.into())
+    }
+
+    /// Returns the refusal of an existing file that is not a passport, and why it cannot be compared as one.
+    pub(super) fn not_comparable(path: PathBuf, why: &str) -> Self {
+        Self::There(
+            path,
+            format!("already exists and cannot be compared as a passport ({why}); move it to another folder"),
+        )
+    }
+
+    /// Returns the refusal of a revision that is missing before an existing one.
+    pub(super) fn gap(path: PathBuf, later: PathBuf) -> Self {
+        let later = shown(&later);
+        let words = format!(
+            "is missing, but there is a later revision, {later}, which supersedes it; to issue a new one, use `reissue {later}`"
+        );
+        Self::There(path, words)
+    }
+
     /// Returns the refusal of a passport whose entry is not current.
-    pub(crate) fn ended(path: PathBuf, entry: &Entry) -> Self {
-        let since = entry.since.map_or_else(String::new, |since| format!(" since {since}"));
-        let words = match (entry.state, &entry.by, &entry.reason) {
-            (State::Withdrawn, _, Some(reason)) => format!("withdrawn{since}: {reason}"),
-            (state, Some(by), _) => format!("{}{since} by {by}; re-issue that passport", state.key()),
-            (state, ..) => format!("{}{since}", state.key()),
-        };
-        Self::Ended(path, words)
+    pub(super) fn ended(path: PathBuf, entry: &Entry) -> Self {
+        let advice = if entry.by.is_some() { "; re-issue that passport" } else { "" };
+        Self::There(path, format!("listed in the register as {}{advice}", entry.ended()))
     }
 }

@@ -3,7 +3,7 @@
 //! A workspace remembers the last accepted register of each stand outside its folder of passports, so that an older one is
 //! recognised.
 
-use crate::files::{self, FileError};
+use crate::files::{self, Durability, FileError};
 use crate::passport::{Question, Trust, Verification};
 use crate::register::{Doubt, FILE_NAME, FORM, RegisterRefused, VerifiedRegister};
 use crate::text::{name_of, shown};
@@ -28,7 +28,25 @@ pub(crate) struct Found {
     pub remark: Option<String>,
 }
 
-type Answer = Arc<Result<Found, RegisterRefused>>;
+impl Found {
+    /// Verifies the register that was read from a path, and compares it with the last one of its stand in a memory.
+    ///
+    /// # Errors
+    /// Returns [`RegisterRefused`] if it is not accepted, or if the remembered one is damaged.
+    pub(super) fn of(
+        path: &Path,
+        bytes: &[u8],
+        trust: &Trust,
+        now: Timestamp,
+        memory: Option<&Memory>,
+    ) -> Result<Self, RegisterRefused> {
+        let register = VerifiedRegister::verify(&name_of(path), bytes, trust, now)?;
+        let last = memory.map(|memory| memory.last(&register.header().stand, trust, now)).transpose()?;
+        let (last, remark) = last.unwrap_or_default();
+        let doubt = last.and_then(|last| doubt(&register, &last));
+        Ok(Self { register, doubt, remark })
+    }
+}
 
 /// Registers under a path: a register, or a folder of passports. Each is read and verified once.
 #[derive(Debug)]
@@ -37,7 +55,7 @@ pub(crate) struct Registers {
     trust: Trust,
     now: Timestamp,
     memory: Option<Memory>,
-    known: Mutex<HashMap<String, Answer>>,
+    known: Mutex<HashMap<String, Result<Arc<Found>, RegisterRefused>>>,
 }
 
 impl Memory {
@@ -64,7 +82,7 @@ impl Memory {
         match read(&path, trust, now) {
             Ok(last) => Ok((Some(last), None)),
             Err(RegisterRefused::Missing(_)) => Ok((None, None)),
-            Err(refused @ (RegisterRefused::KeyRevoked { .. } | RegisterRefused::NotAuthorised { .. })) => {
+            Err(refused @ (RegisterRefused::KeyRevoked(_) | RegisterRefused::NotAuthorised(_))) => {
                 let remark = format!("the remembered register is set aside: {refused}");
                 Ok((None, Some(remark)))
             }
@@ -77,7 +95,7 @@ impl Memory {
         let path = self.path_of(stand);
         match files::read(&path, FORM.limits.bytes) {
             Ok(there) if there == bytes => Ok(()),
-            _ => files::replace(&path, bytes),
+            _ => files::replace(&path, bytes, Durability::Named),
         }
     }
 
@@ -97,17 +115,15 @@ pub(crate) fn read(path: &Path, trust: &Trust, now: Timestamp) -> Result<Verifie
 
 /// Reads the bytes of a register. Links are not followed, and nothing but a regular file is opened.
 pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, RegisterRefused> {
-    let refused = |why: String| RegisterRefused::Unreadable(format!("{}: {why}", shown(path)));
-    match path.symlink_metadata() {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            return Err(RegisterRefused::Missing(shown(path).to_string()));
-        }
-        Err(error) => return Err(refused(files::reason(&error))),
-        Ok(found) if found.is_symlink() => return Err(refused("is a link, which is not followed".to_owned())),
-        Ok(found) if !found.is_file() => return Err(refused("is not a file".to_owned())),
-        Ok(_) => {}
+    let refused = |why: &str| RegisterRefused::Unreadable(format!("{}: {why}", shown(path)));
+    if path.is_symlink() {
+        return Err(refused("is a link, which is not followed"));
     }
-    files::read(path, FORM.limits.bytes).map_err(|error| RegisterRefused::Unreadable(error.to_string()))
+    files::read(path, FORM.limits.bytes).map_err(|error| match error {
+        FileError::Folder(_) | FileError::Special(_) => refused("is not a file"),
+        error if error.is_missing() => RegisterRefused::Missing(shown(path).to_string()),
+        error => RegisterRefused::Unreadable(error.to_string()),
+    })
 }
 
 impl Registers {
@@ -122,38 +138,36 @@ impl Registers {
         let Some(stand) = verification.content_from_anyone().map(|content| content.stand.id()) else {
             return verification.with_register(Err(&RegisterRefused::Missing(String::new())), question);
         };
-        match &*self.of(&stand) {
-            Ok(found) => verification.with_register(Ok((&found.register, found.doubt.as_ref())), question),
-            Err(refused) => verification.with_register(Err(refused), question),
-        }
+        let found = self.of(&stand);
+        let register = found.as_ref().map(|found| (&found.register, found.doubt.as_ref()));
+        verification.with_register(register, question)
     }
 
     /// Returns the remarks on the registers that were read.
     pub(crate) fn remarks(&self) -> Vec<String> {
         let known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut remarks: Vec<String> =
-            known.values().filter_map(|found| found.as_ref().as_ref().ok()?.remark.clone()).collect();
+        let mut remarks: Vec<String> = known.values().filter_map(|found| found.as_ref().ok()?.remark.clone()).collect();
         remarks.sort();
         remarks
     }
 
     /// Returns the register of a stand, `<model>/<serial>`.
-    pub(crate) fn of(&self, stand: &str) -> Answer {
+    pub(crate) fn of(&self, stand: &str) -> Result<Arc<Found>, RegisterRefused> {
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        Arc::clone(known.entry(stand.to_owned()).or_insert_with(|| Arc::new(self.found(stand))))
+        known.entry(stand.to_owned()).or_insert_with(|| self.found(stand).map(Arc::new)).clone()
     }
 
     fn found(&self, stand: &str) -> Result<Found, RegisterRefused> {
         let (path, bytes) = self.bytes_of(stand)?;
-        let register = VerifiedRegister::verify(&name_of(&path), &bytes, &self.trust, self.now)?;
-        let Some(memory) = self.memory.as_ref().filter(|_| register.header().stand == stand) else {
-            return Ok(Found { register, doubt: None, remark: None });
-        };
-        let (last, remark) = memory.last(stand, &self.trust, self.now)?;
-        let doubt = last.and_then(|last| doubt(&register, &last));
-        let kept = if doubt.is_none() { memory.keep(stand, &bytes).err() } else { None };
-        let remark = remark.or_else(|| kept.map(|error| format!("the register is not remembered: {error}")));
-        Ok(Found { register, doubt, remark })
+        let mut found = Found::of(&path, &bytes, &self.trust, self.now, self.memory.as_ref())?;
+        if let Some(memory) = &self.memory
+            && found.doubt.is_none()
+            && found.register.header().stand == stand
+            && let Err(error) = memory.keep(stand, &bytes)
+        {
+            found.remark.get_or_insert(format!("the register is not remembered: {error}"));
+        }
+        Ok(found)
     }
 
     /// Reads the register of a stand, and returns its path and its bytes.

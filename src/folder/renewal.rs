@@ -8,10 +8,10 @@ use super::{Authority, Folder};
 use crate::document::sha256_hex;
 use crate::files::leftovers::is_lasting;
 use crate::files::walk::Walk;
-use crate::files::{self, FileError};
+use crate::files::{self, Durability, FileError};
 use crate::passport::Content;
 use crate::register::draft::Draft;
-use crate::register::{Entry, FILE_NAME, RegisterRefused, State, VerifiedRegister};
+use crate::register::{Doubt, Entry, FILE_NAME, RegisterRefused, State, VerifiedRegister};
 use crate::text::{Kind, LARGEST_DOCUMENT_BYTES, first_few, misspelt, name_of, shown};
 use jiff::civil::Date;
 use std::collections::BTreeSet;
@@ -64,6 +64,11 @@ pub(crate) enum NotRenewed {
         "--adopt {0}: found no unlisted passport and no outdated register with this SHA-256 that a trusted key signed"
     )]
     NothingToAdopt(String),
+    /// Register whose key has expired or was revoked: its SHA-256, and why it is not accepted.
+    #[error(
+        "{1}; if this is the last register, take it over with --adopt {0}; otherwise restore the last one from the backup"
+    )]
+    Outdated(String, String),
     /// Passport that no register lists.
     #[error("{0}: no register lists this passport{1}")]
     NoSuchPassport(String, String),
@@ -112,7 +117,11 @@ impl Renewal {
         for (folder, draft, conclusions) in prepared.into_iter().flatten() {
             let (stand, sequence) = (folder.stand().to_owned(), draft.sequence());
             let entries = draft.entries().to_vec();
-            folder.write(true, |new| Ok(new.take_from(draft)?), |path, text| Ok(files::replace(path, text)?))?;
+            folder.write(
+                true,
+                |new| Ok(new.take_from(draft)?),
+                |path, text| Ok(files::replace(path, text, Durability::Named)?),
+            )?;
             renewed.push(Renewed { stand, sequence, entries, conclusions });
         }
         Ok(renewed)
@@ -200,7 +209,7 @@ impl Renewal {
         let path = folder.path().join(FILE_NAME);
         let refused = match folder.read_register() {
             Ok(register) => return Ok(register),
-            Err(FolderRefused::Contradicted(..)) if self.with.is_some() => {
+            Err(FolderRefused::Doubt(_, Doubt::Contradicted(_))) if self.with.is_some() => {
                 let read = registers::read(&path, authority.trust, authority.now());
                 return Ok(read.map_err(FolderRefused::from)?);
             }
@@ -208,7 +217,7 @@ impl Renewal {
         };
         let outdated = matches!(
             refused,
-            FolderRefused::Register(RegisterRefused::KeyRevoked { .. } | RegisterRefused::NotAuthorised { .. })
+            FolderRefused::Register(RegisterRefused::KeyRevoked(_) | RegisterRefused::NotAuthorised(_))
         );
         let bytes = registers::bytes(&path).map_err(FolderRefused::from)?;
         let sha256 = sha256_hex(&bytes);
@@ -228,7 +237,7 @@ impl Renewal {
                 }
                 Ok(register)
             }
-            Ok(_) if outdated => Err(NotRenewed::Folder(FolderRefused::Outdated { sha256, why: refused.to_string() })),
+            Ok(_) if outdated => Err(NotRenewed::Outdated(sha256, refused.to_string())),
             _ => Err(refused.into()),
         }
     }
@@ -308,10 +317,11 @@ impl Withdrawal<'_> {
         }
         stands.retain(|stand| folder.root().join(stand).join(FILE_NAME).symlink_metadata().is_ok());
         let mut missing: BTreeSet<&String> = self.ids.iter().collect();
-        let mut prepared = Vec::new();
+        let (mut prepared, mut listed) = (Vec::new(), Vec::new());
         for stand in &stands {
             let this = StandFolder::open(&folder, stand, authority, |_| true)?;
             let mut draft = Draft::after(this.register(), stand, authority.issuer, authority.now());
+            listed.extend(draft.entries().iter().map(|entry| entry.id.clone()));
             let mut ids = Vec::new();
             for wanted in self.ids {
                 let pattern = glob::Pattern::new(wanted).ok().filter(|_| is_pattern(wanted));
@@ -338,7 +348,7 @@ impl Withdrawal<'_> {
             }
         }
         if let Some(id) = missing.into_iter().next() {
-            return Err(NotRenewed::NoSuchPassport(id.clone(), nearest(&folder, &stands, authority, id)));
+            return Err(NotRenewed::NoSuchPassport(id.clone(), nearest(&listed, id)));
         }
         let mut withdrawn = Vec::new();
         for (this, sequence, ids) in prepared {
@@ -346,7 +356,7 @@ impl Withdrawal<'_> {
             this.write(
                 false,
                 |draft| Ok(ids.iter().try_for_each(|id| draft.withdraw(id, self.reason))?),
-                |path, text| Ok(files::replace(path, text)?),
+                |path, text| Ok(files::replace(path, text, Durability::Named)?),
             )?;
             withdrawn.push(Withdrawn { register: this.path().join(FILE_NAME), sequence, ids, alarms });
         }
@@ -359,16 +369,12 @@ fn is_pattern(text: &str) -> bool {
 }
 
 /// Returns the nearest listed identifiers, as the end of a message; empty if none is near.
-fn nearest(folder: &Folder, stands: &BTreeSet<String>, authority: &Authority, id: &str) -> String {
-    let open = |stand: &String| StandFolder::open(folder, stand, authority, |_| true).ok();
-    let folders: Vec<StandFolder> = stands.iter().filter_map(open).collect();
-    let entries = folders.iter().filter_map(StandFolder::register).flat_map(VerifiedRegister::entries);
-    let ids: Vec<&str> = entries.map(|entry| entry.id.as_str()).collect();
-    match (crate::text::scalar::latin(id), misspelt::name(&ids, id, id.chars().count() / 3)) {
+fn nearest(ids: &[String], id: &str) -> String {
+    match (crate::text::scalar::latin(id), misspelt::name(ids, id, id.chars().count() / 3)) {
         (Some((_, odd)), _) => format!("; the {odd} only looks like a Latin letter"),
         (None, Some(nearest)) => format!("; {}", misspelt::question(nearest)),
         (None, None) if ids.is_empty() => "; specify the folder of passports with --passports".to_owned(),
-        (None, None) => format!("; found {}", first_few(&ids)),
+        (None, None) => format!("; found {}", first_few(ids)),
     }
 }
 

@@ -5,14 +5,14 @@
 
 use super::place::{self, file_name, numbered};
 use super::refused::FolderRefused;
-use super::registers::{self, doubt};
+use super::registers::{self, Found};
 use super::{Authority, Existing, Folder, Issued, Next, Sealed};
 use crate::document::sha256_hex;
-use crate::files::{self, Access, FileError};
+use crate::files::{self, Access, Durability, FileError, or_here};
 use crate::passport::checks::for_the_issuer;
 use crate::passport::issue::{Draft as Passport, Issue, PreparedStand};
 use crate::passport::reissue::Successor;
-use crate::passport::{Content, Question, content_from_anyone, verify};
+use crate::passport::{Content, Question, verify};
 use crate::register::draft::Draft;
 use crate::register::{Doubt, Entry, FILE_NAME, NoRegister, RegisterRefused, State, VerifiedRegister};
 use crate::site::Site;
@@ -31,6 +31,9 @@ const LOCK_NAME: &str = ".register.lock";
 /// Time to wait for another run that replaces the register.
 const LONGEST_WAIT: Duration = Duration::from_secs(30);
 const WAIT: Duration = Duration::from_millis(20);
+
+/// Number of folders of a passport: `<model>/<serial>` and the root.
+const FOLDERS: usize = 3;
 
 /// Number of times that an order is tried; each retry means that another run has just written a passport.
 const ATTEMPTS: usize = 8;
@@ -57,7 +60,7 @@ pub(crate) struct Listing {
 
 impl<'a> StandFolder<'a> {
     /// Lists the folder of a stand and verifies its register. `planned` tells which of the passports there this command
-    /// writes itself; others need a register.
+    /// writes itself; others need a register. If passports are to be signed, what killed runs left there is removed.
     ///
     /// # Errors
     /// Returns [`FolderRefused`] if a link or another spelling is in the way, if the register is not accepted or is not
@@ -69,6 +72,9 @@ impl<'a> StandFolder<'a> {
         planned: impl Fn(&str) -> bool,
     ) -> Result<Self, FolderRefused> {
         let (this, names) = Self::listed(folder, stand, authority)?;
+        if authority.signer.is_some() {
+            [folder.root(), &this.path].into_iter().for_each(files::leftovers::remove);
+        }
         if let Some(key) = authority.register_signer.and_then(|signer| signer.public_key()) {
             // Otherwise the passports would be written, and then not be listed.
             let name = name_of(&this.path.join(FILE_NAME));
@@ -96,8 +102,7 @@ impl<'a> StandFolder<'a> {
     ) -> Result<(Self, Vec<String>), FolderRefused> {
         let path = folder.root.join(stand);
         folder.check_folder(&path)?;
-        let mut names: Vec<String> =
-            place::entries(&path)?.iter().filter_map(|entry| entry.file_name().into_string().ok()).collect();
+        let mut names = place::names(&path)?;
         names.sort_unstable();
         let mut sites: BTreeMap<String, (String, u32)> = BTreeMap::new();
         for (site, revision) in names.iter().filter_map(|name| numbered(OsStr::new(name))) {
@@ -132,21 +137,17 @@ impl<'a> StandFolder<'a> {
     /// Reads the register, and checks that it is the last one as far as the workspace remembers.
     pub(crate) fn read_register(&self) -> Result<VerifiedRegister, FolderRefused> {
         let (path, Authority { trust, memory, .. }) = (self.path.join(FILE_NAME), *self.authority);
-        let now = self.authority.now();
         let bytes = registers::bytes(&path)?;
-        let register = VerifiedRegister::verify(&name_of(&path), &bytes, trust, now)?;
+        let Found { register, doubt, .. } = Found::of(&path, &bytes, trust, self.authority.now(), memory)?;
         if register.header().stand != self.stand {
-            return Err(FolderRefused::OtherStand { path, stand: register.header().stand.clone() });
+            let words =
+                format!("is the register of {}; restore that of this stand from the backup", register.header().stand);
+            return Err(FolderRefused::There(path, words));
+        }
+        if let Some(doubt) = doubt {
+            return Err(FolderRefused::Doubt(path, doubt));
         }
         if let Some(memory) = memory {
-            if let (Some(last), _) = memory.last(&self.stand, trust, now)? {
-                match doubt(&register, &last) {
-                    None => {}
-                    Some(Doubt::Older(last)) => return Err(FolderRefused::OlderRegister { path, last }),
-                    Some(Doubt::Contradicted(why)) => return Err(FolderRefused::Contradicted(path, *why)),
-                    Some(Doubt::Unconfirmed(why)) => return Err(FolderRefused::Unconfirmed(path, why)),
-                }
-            }
             memory.keep(&self.stand, &bytes)?;
         }
         Ok(register)
@@ -174,8 +175,8 @@ impl<'a> StandFolder<'a> {
             }
             _ => {
                 let failed = verification.failed();
-                let why = failed.map_or_else(String::new, |check| check.detail.clone());
-                Err(FolderRefused::NotComparable(path.to_owned(), why))
+                let why = failed.map_or("", |check| &check.detail);
+                Err(FolderRefused::not_comparable(path.to_owned(), why))
             }
         }
     }
@@ -199,11 +200,12 @@ impl<'a> StandFolder<'a> {
     /// Returns the sites that listed passports state, for remarks only: at most `most`.
     pub(crate) fn sites(&self, most: usize) -> Vec<Site> {
         let entries = self.register.iter().flat_map(VerifiedRegister::entries);
-        let read = |entry: &Entry| {
-            let bytes = files::read(&self.path_of_entry(entry), LARGEST_DOCUMENT_BYTES).ok()?;
-            Some(content_from_anyone(&entry.id, &bytes).ok()?.site)
-        };
-        entries.take(most).filter_map(read).collect()
+        entries.take(most).filter_map(|entry| Some(self.listed_content(entry)?.site)).collect()
+    }
+
+    /// Returns the content of the passport of an entry, if its file is the listed one.
+    pub(crate) fn listed_content(&self, entry: &Entry) -> Option<Content> {
+        place::listed_content(&self.path_of_entry(entry), &entry.sha256)
     }
 
     /// Returns the path of the passport of an entry.
@@ -240,7 +242,7 @@ impl<'a> StandFolder<'a> {
         }
         // Opening a pipe of that name could block indefinitely.
         if !found.is_file() && !found.is_dir() {
-            return Err(FolderRefused::NotComparable(path, "a pipe, a device or a socket".to_owned()));
+            return Err(FolderRefused::not_comparable(path, "a pipe, a device or a socket"));
         }
         match files::read(&path, LARGEST_DOCUMENT_BYTES) {
             Err(error) if error.is_missing() => Ok(None),
@@ -262,7 +264,10 @@ impl<'a> StandFolder<'a> {
     ) -> Result<Next, FolderRefused> {
         let entry = self.register.as_ref().and_then(|register| register.entry(&there.content.passport.id));
         let listing = match entry {
-            Some(entry) if entry.sha256 != there.sha256 => return Err(FolderRefused::OtherFile(there.path)),
+            Some(entry) if entry.sha256 != there.sha256 => {
+                let words = "the register lists another file with this identifier; restore that file from the backup";
+                return Err(FolderRefused::there(there.path, words));
+            }
             Some(entry) if entry.state == State::Current => None,
             Some(entry) => return Err(FolderRefused::ended(there.path, entry)),
             None => Some(Box::new(Listing { entry: Draft::entry_of(&there.content, &there.sha256), superseded })),
@@ -273,7 +278,11 @@ impl<'a> StandFolder<'a> {
     /// Returns an error if the register lists a passport whose file is missing.
     fn check_absent(&self, path: PathBuf, id: &str) -> Result<PathBuf, FolderRefused> {
         match self.register.as_ref().and_then(|register| register.entry(id)) {
-            Some(_) => Err(FolderRefused::Lost(path)),
+            Some(_) => {
+                let words = "missing, but listed in the register; restore the file from the backup, or withdraw it with \
+                             `revoke`";
+                Err(FolderRefused::there(path, words))
+            }
             None => Ok(path),
         }
     }
@@ -297,7 +306,7 @@ impl<'a> StandFolder<'a> {
             None => {
                 let path = self.path_of(name, revision);
                 if let Some(last) = later {
-                    return Err(FolderRefused::Gap { path, later: self.path_of(name, last) });
+                    return Err(FolderRefused::gap(path, self.path_of(name, last)));
                 }
                 let path = self.check_absent(path, &draft.content().passport.id)?;
                 Ok(Next::New { path, draft, superseded: None })
@@ -327,9 +336,7 @@ impl<'a> StandFolder<'a> {
                     return Err(FolderRefused::ended(self.path_of_entry(entry), entry));
                 }
                 return match later {
-                    Some(last) if successor.same_site => {
-                        Err(FolderRefused::Gap { path, later: self.path_of(site, last) })
-                    }
+                    Some(last) if successor.same_site => Err(FolderRefused::gap(path, self.path_of(site, last))),
                     // In one step, however high the number in the name of a file is.
                     Some(last) => {
                         revision = last;
@@ -350,12 +357,15 @@ impl<'a> StandFolder<'a> {
             let predecessor = there.content.passport.reissued_from.as_ref();
             if predecessor.is_some_and(|predecessor| predecessor.sha256 == successor.old_sha256()) {
                 let latest = later.map_or(there.path, |last| self.path_of(site, last));
-                return Err(FolderRefused::OtherSuccessor(latest));
+                let words = "is already a successor of this passport for this site, with different content; re-issue the \
+                             passport that is current";
+                return Err(FolderRefused::there(latest, words));
             }
             // At the predecessor's site only one revision can be the next one; at another site, try the next free
             // revision.
             let Some(next) = revision.checked_add(1).filter(|_| !successor.same_site) else {
-                return Err(FolderRefused::LaterRevision(there.path));
+                let words = "is already the next revision for this site, re-issued from another passport; re-issue that revision";
+                return Err(FolderRefused::there(there.path, words));
             };
             revision = next;
         }
@@ -420,7 +430,8 @@ impl<'a> StandFolder<'a> {
         settle_once()
     }
 
-    /// Writes the register with every passport that was issued or found unlisted; nothing, if there is none.
+    /// Writes the register with every passport that was issued or found unlisted, once their names are durable; nothing, if
+    /// there is none.
     ///
     /// # Errors
     /// Returns [`FolderRefused`] if the register cannot be written; the passports are then not listed.
@@ -429,11 +440,22 @@ impl<'a> StandFolder<'a> {
         if listings.is_empty() {
             return Ok(());
         }
+        self.sync_names()?;
         self.write(
             false,
             |draft| add(draft, listings),
-            |path, text| Ok(files::replace_as(path, text, self.folder.durability)?),
+            |path, text| Ok(files::replace(path, text, self.folder.durability)?),
         )
+    }
+
+    /// Syncs the names of the passports, if that was put off when they were written, and those of the folders above.
+    fn sync_names(&self) -> Result<(), FileError> {
+        if self.folder.durability != Durability::NameLater {
+            return Ok(());
+        }
+        self.path.ancestors().take(FOLDERS).map(or_here).try_for_each(|folder| {
+            files::sync_folder(folder).map_err(|error| FileError::Write(folder.to_owned(), error))
+        })
     }
 
     /// Writes the register with the passports that were sealed, together with all files: the new passports first, then the
@@ -478,7 +500,8 @@ impl<'a> StandFolder<'a> {
             },
         };
         if let (Some(before), Some(now)) = (&self.register, &current) {
-            now.agree(before).map_err(|why| FolderRefused::Contradicted(path.clone(), why))?;
+            let doubt = |why| FolderRefused::Doubt(path.clone(), Doubt::Contradicted(Box::new(why)));
+            now.agree(before).map_err(doubt)?;
         }
         if self.register.is_some() && current.is_none() {
             return Err(RegisterRefused::Missing(shown(&path).to_string()).into());

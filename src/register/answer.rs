@@ -5,14 +5,17 @@ use crate::passport::checks::{ASK_THE_ISSUER, Check, CheckName, Code};
 use crate::passport::{Content, Question, RegisterUsed, Verification};
 
 /// Reason why a verified register does not count.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Doubt {
     /// A later register is known: its sequence number.
+    #[error("older than register {0}, the last one known; restore it from the backup")]
     Older(u64),
     /// Another known register contradicts this one.
+    #[error("{0}")]
     Contradicted(Box<Contradiction>),
     /// The number is so much higher than that of the last known register that a person must confirm it; in words.
+    #[error("{0}")]
     Unconfirmed(String),
 }
 

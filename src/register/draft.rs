@@ -20,72 +20,9 @@ const SIGNATURE_BYTES: usize = 1024;
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoRegister {
-    /// The entry with this identifier exists, with another file or in an ended state.
-    #[error("{id}: listed in the register as {}, with {}", state.key(), if *same { "this file" } else { "another file" })]
-    Listed {
-        /// Identifier of the passport.
-        id: String,
-        /// State of the entry.
-        state: State,
-        /// `true` if the entry has the SHA-256 of the file.
-        same: bool,
-    },
-    /// A later revision for the site is listed.
-    #[error("{id}: cannot be listed after revision {last} for its site")]
-    Late {
-        /// Identifier of the passport.
-        id: String,
-        /// Last revision.
-        last: u32,
-    },
-    /// The passport was superseded by another one.
-    #[error("{id}: superseded by {by} already; re-issue that passport")]
-    Fork {
-        /// Identifier of the passport.
-        id: String,
-        /// Identifier of its successor.
-        by: String,
-    },
-    /// No entry has this identifier.
-    #[error("{0}: not listed in the register")]
-    NotListed(String),
-    /// The passport is already withdrawn.
-    #[error("{id}: already withdrawn at {since}: {reason}")]
-    AlreadyWithdrawn {
-        /// Identifier of the passport.
-        id: String,
-        /// Time of the withdrawal.
-        since: Timestamp,
-        /// Reason for the withdrawal.
-        reason: String,
-    },
-    /// A reason is empty, too long, or contains a character that cannot be signed.
-    #[error(
-        "the reason {0:?} is empty, longer than {LONGEST_REASON} characters, or contains a character that is not allowed in \
-         signed files; state it in plain words"
-    )]
-    BadReason(String),
-    /// Another run has replaced the register since it was read.
-    #[error("another run has replaced the register meanwhile; run the command again")]
-    Replaced,
-    /// The register would be dated before another time.
-    #[error("the register would be issued at {now}, before {of}, issued at {at}; check the clock")]
-    Before {
-        /// Time of the clock.
-        now: Timestamp,
-        /// The previous register, or a passport.
-        of: String,
-        /// Time of its issue.
-        at: Timestamp,
-    },
-    /// The register would have too many entries or bytes.
-    #[error("the register would have {entries} entries and {bytes} bytes, more than {MOST_ENTRIES} or {}", FORM.limits.bytes)]
-    TooLarge {
-        /// Number of entries.
-        entries: usize,
-        /// Number of bytes.
-        bytes: usize,
-    },
+    /// The change or the clock breaks a rule of registers, in words.
+    #[error("{0}")]
+    Rule(String),
     /// The issuer's name cannot be a principal of allowed_signers.
     #[error(transparent)]
     Identity(#[from] BadIdentity),
@@ -185,19 +122,20 @@ impl Draft {
     /// Adds a passport, unless it is listed as current already. It supersedes the current one for its site.
     ///
     /// # Errors
-    /// Returns [`NoRegister::Listed`] if its identifier is listed for another file, or in an ended state.
+    /// Returns [`NoRegister`] if its identifier is listed for another file, or in an ended state.
     pub(crate) fn add(&mut self, entry: Entry) -> Result<(), NoRegister> {
         match self.entry_mut(&entry.id) {
             Some(there) if there.sha256 == entry.sha256 && there.state == State::Current => Ok(()),
             Some(there) => {
-                let same = there.sha256 == entry.sha256;
-                Err(NoRegister::Listed { id: entry.id, state: there.state, same })
+                let file = if there.sha256 == entry.sha256 { "this file" } else { "another file" };
+                Err(listed(there, file))
             }
             None => {
                 let (site, revision) = entry.site_and_revision();
                 let last = self.last.insert(site.to_owned(), revision);
                 if let Some(last) = last.filter(|last| *last >= revision) {
-                    return Err(NoRegister::Late { id: entry.id, last });
+                    let id = &entry.id;
+                    return Err(NoRegister::Rule(format!("{id}: cannot be listed after revision {last} for its site")));
                 }
                 let before = last.map(|last| format!("{}/{site}/{last}", self.header.stand));
                 let id = entry.id.clone();
@@ -214,7 +152,7 @@ impl Draft {
     /// Ends the passport `id`, which `by` supersedes. One that is not listed, or withdrawn, stays as it is.
     ///
     /// # Errors
-    /// Returns [`NoRegister::Fork`] if another passport supersedes it.
+    /// Returns [`NoRegister`] if another passport supersedes it.
     pub(crate) fn supersede(&mut self, id: &str, by: &str, state: State) -> Result<(), NoRegister> {
         let since = Some(self.header.issued_at);
         match self.entry_mut(id) {
@@ -223,7 +161,7 @@ impl Draft {
                 Ok(())
             }
             Some(Entry { id, by: Some(other), .. }) if other != by => {
-                Err(NoRegister::Fork { id: id.clone(), by: other.clone() })
+                Err(NoRegister::Rule(format!("{id}: superseded by {other} already; re-issue that passport")))
             }
             _ => Ok(()),
         }
@@ -236,12 +174,16 @@ impl Draft {
     pub(crate) fn withdraw(&mut self, id: &str, reason: &str) -> Result<(), NoRegister> {
         let fits = (1..=LONGEST_REASON).contains(&reason.chars().count());
         if !fits || !reason.chars().all(rule::allowed_in_string) {
-            return Err(NoRegister::BadReason(reason.to_owned()));
+            return Err(NoRegister::Rule(format!(
+                "the reason {reason:?} is empty, longer than {LONGEST_REASON} characters, or contains a character that is \
+                 not allowed in signed files; state it in plain words"
+            )));
         }
         let since = self.header.issued_at;
-        let entry = self.entry_mut(id).ok_or_else(|| NoRegister::NotListed(id.to_owned()))?;
+        let not_listed = || NoRegister::Rule(format!("{id}: not listed in the register"));
+        let entry = self.entry_mut(id).ok_or_else(not_listed)?;
         if let (State::Withdrawn, Some(since), Some(reason)) = (entry.state, entry.since, &entry.reason) {
-            return Err(NoRegister::AlreadyWithdrawn { id: id.to_owned(), since, reason: reason.clone() });
+            return Err(NoRegister::Rule(format!("{id}: already withdrawn at {since}: {reason}")));
         }
         let reason = Some(reason.to_owned());
         *entry = Entry { state: State::Withdrawn, since: Some(since), by: None, reason, ..entry.clone() };
@@ -251,10 +193,11 @@ impl Draft {
     /// Takes entries, freshness and number from a draft that was made from the same register.
     ///
     /// # Errors
-    /// Returns [`NoRegister::Replaced`] if that draft follows another register, whose later entries it would lose.
+    /// Returns [`NoRegister`] if that draft follows another register, whose later entries it would lose.
     pub(crate) fn take_from(&mut self, other: Self) -> Result<(), NoRegister> {
         if self.header.previous_sha256 != other.header.previous_sha256 {
-            return Err(NoRegister::Replaced);
+            let words = "another run has replaced the register meanwhile; run the command again";
+            return Err(NoRegister::Rule(words.to_owned()));
         }
         self.header.fresh_until = other.header.fresh_until;
         self.header.sequence = self.header.sequence.max(other.header.sequence);
@@ -266,7 +209,7 @@ impl Draft {
     /// Adds the entries of another register of the same stand, and the stricter state of each.
     ///
     /// # Errors
-    /// Returns [`NoRegister::Listed`] if both list one identifier with different files.
+    /// Returns [`NoRegister`] if both list one identifier with different files.
     pub(crate) fn join(&mut self, other: &VerifiedRegister) -> Result<(), NoRegister> {
         let theirs: HashMap<&str, usize> = other.entries().iter().map(|entry| entry.id.as_str()).zip(0..).collect();
         let (mut joined, mut next) = (Vec::new(), 0);
@@ -280,7 +223,7 @@ impl Draft {
             next = place + 1;
             let other = &other.entries()[place];
             if other.sha256 != ours.sha256 {
-                return Err(NoRegister::Listed { id: ours.id, state: ours.state, same: false });
+                return Err(listed(&ours, "another file"));
             }
             joined.push(if other.state > ours.state { other.clone() } else { ours });
         }
@@ -306,22 +249,30 @@ impl Draft {
     ) -> Result<(String, VerifiedRegister), NoRegister> {
         check_identity(&self.header.issuer)?;
         let now = self.header.issued_at;
-        let before = |of: String, at: Timestamp| NoRegister::Before { now, of, at };
-        if let Some(at) = self.previous_issued_at.filter(|at| *at > now) {
-            return Err(before("the register before it".to_owned(), at));
-        }
-        if let Some(late) = self.entries.iter().find(|entry| entry.issued_at > now) {
-            return Err(before(late.id.clone(), late.issued_at));
+        let of_register = self.previous_issued_at.map(|at| ("the register before it", at));
+        let of_entries = self.entries.iter().map(|entry| (entry.id.as_str(), entry.issued_at));
+        if let Some((of, at)) = of_register.into_iter().chain(of_entries).find(|(_, at)| *at > now) {
+            return Err(NoRegister::Rule(format!(
+                "the register would be issued at {now}, before {of}, issued at {at}; check the clock"
+            )));
         }
         let entries = self.entries.len();
         let (format, register) = (FORMAT.to_owned(), OneLine(self.header));
         let payload = Register { format, register, passports: self.entries }.payload();
         let bytes = payload.len() + SIGNATURE_BYTES;
         if entries > MOST_ENTRIES || bytes > FORM.limits.bytes {
-            return Err(NoRegister::TooLarge { entries, bytes });
+            return Err(NoRegister::Rule(format!(
+                "the register would have {entries} entries and {bytes} bytes, more than {MOST_ENTRIES} or {}",
+                FORM.limits.bytes
+            )));
         }
         let text: String = document::sign::<NoRegister>(&payload, NAMESPACE, signer)?;
         let verified = VerifiedRegister::verify(name, text.as_bytes(), trust, now)?;
         Ok((text, verified))
     }
+}
+
+/// Returns the refusal of an entry that is listed already.
+fn listed(entry: &Entry, file: &str) -> NoRegister {
+    NoRegister::Rule(format!("{}: listed in the register as {}, with {file}", entry.id, entry.state.key()))
 }

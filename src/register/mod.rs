@@ -20,14 +20,14 @@ pub use answer::Doubt;
 #[cfg(feature = "factory")]
 pub use draft::NoRegister;
 #[cfg(feature = "factory")]
-pub(crate) use row::Row;
+pub(crate) use row::{Row, days_until};
 pub use succession::Contradiction;
 
-use crate::document::{self, Form, Malformed, SignedText, sha256_hex};
+use crate::document::{self, Form, SignedText, sha256_hex};
 use crate::passport::Trust;
 use crate::text::record::{LARGEST_EXACT_INTEGER, OneLine};
 use crate::text::{Identifier, Limits, Path, Printable, Problems, Unreadable, canonical, record, word_of_a_key, words};
-use crate::trust::{NotAuthorised, PublicKey, SignatureError};
+use crate::trust::{NotAuthorised, PublicKey};
 use jiff::civil::Date;
 use jiff::{SignedDuration, Timestamp};
 use std::collections::{HashMap, HashSet};
@@ -146,53 +146,22 @@ pub struct VerifiedRegister {
     places: HashMap<String, usize>,
 }
 
-/// Reason why a register is not accepted.
+/// Reason why a register is not accepted, in words that begin with the name of its file.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RegisterRefused {
     /// There is no file of this name.
     #[error("{0}: missing; get the register of the stand from the issuer, or restore it from the backup")]
     Missing(String),
-    /// The file cannot be read, for a reason that begins with its name.
+    /// The file cannot be read, was altered, breaks a rule, or is dated more than a day ahead of the clock.
     #[error("{0}")]
     Unreadable(String),
-    /// The form of the file is not correct.
-    #[error("{}", .0.fault)]
-    Malformed(Malformed),
-    /// The text in the file of this name is not the one that was signed.
-    #[error("{}: {}; restore the register, or get it from the issuer again", Printable(.0), .1)]
-    Altered(String, SignatureError),
-    /// The content breaks a rule.
-    #[error(transparent)]
-    Content(#[from] Unreadable),
     /// The key is not trusted for registers of the issuer.
-    #[error("{}: {why}", Printable(name))]
-    NotAuthorised {
-        /// File name.
-        name: String,
-        /// Reason why the key is not trusted, with its fingerprint.
-        why: String,
-    },
+    #[error("{0}")]
+    NotAuthorised(String),
     /// The signing key was revoked.
-    #[error("{}: its signing key {} was revoked: {}", Printable(name), key.fingerprint(), Printable(why))]
-    KeyRevoked {
-        /// File name.
-        name: String,
-        /// Signing key.
-        key: Box<PublicKey>,
-        /// Reason for the revocation.
-        why: String,
-    },
-    /// The register is dated more than a day ahead of the clock.
-    #[error("{}: issued at {issued_at}, ahead of the clock, {now}; check the clock", Printable(name))]
-    FromTheFuture {
-        /// File name.
-        name: String,
-        /// Time of issue that the register states.
-        issued_at: Timestamp,
-        /// Time of the clock.
-        now: Timestamp,
-    },
+    #[error("{0}")]
+    KeyRevoked(String),
 }
 
 impl Entry {
@@ -200,6 +169,17 @@ impl Entry {
     pub(crate) fn site_and_revision(&self) -> (&str, u32) {
         let (series, revision) = self.id.rsplit_once('/').unwrap_or((&self.id, ""));
         (series.rsplit_once('/').map_or("", |(_, site)| site), revision.parse().unwrap_or(0))
+    }
+
+    /// Returns how a passport that is not in force has ended, in words.
+    pub(crate) fn ended(&self) -> String {
+        let since = self.since.map_or_else(String::new, |since| format!(" since {since}"));
+        match (&self.by, &self.reason, self.valid_until) {
+            (Some(by), ..) => format!("{}{since} by {by}", self.state.key()),
+            (None, Some(reason), _) => format!("{}{since}: {reason}", self.state.key()),
+            (None, None, Some(last)) => format!("expired valid until {last} (inclusive)"),
+            (None, None, None) => self.state.key().to_owned(),
+        }
     }
 
     /// Returns `true` if the passport has expired at `time`.
@@ -359,7 +339,9 @@ impl VerifiedRegister {
         let (key, header) = (register.key(), register.header());
         Self::check_key(name, key, &header.issuer, trust, now)?;
         if header.issued_at.duration_since(now) > CLOCKS_DIFFER {
-            return Err(RegisterRefused::FromTheFuture { name: name.to_owned(), issued_at: header.issued_at, now });
+            let (name, issued_at) = (Printable(name), header.issued_at);
+            let why = format!("{name}: issued at {issued_at}, ahead of the clock, {now}; check the clock");
+            return Err(RegisterRefused::Unreadable(why));
         }
         Ok(register)
     }
@@ -373,7 +355,8 @@ impl VerifiedRegister {
         now: Timestamp,
     ) -> Result<(), RegisterRefused> {
         if let Some(why) = trust.revoked.iter().find_map(|keys| keys.revokes(key)) {
-            return Err(RegisterRefused::KeyRevoked { name: name.to_owned(), key: Box::new(key.clone()), why });
+            let (name, key, why) = (Printable(name), key.fingerprint(), Printable(why));
+            return Err(RegisterRefused::KeyRevoked(format!("{name}: its signing key {key} was revoked: {why}")));
         }
         RegisterRefused::unless_authorised(name, trust, key, issuer, now)
     }
@@ -383,10 +366,13 @@ impl VerifiedRegister {
     /// # Errors
     /// Returns [`RegisterRefused`] if the register is damaged, or if allowed_signers does not give its key to its issuer.
     pub(crate) fn take_over(name: &str, bytes: &[u8], trust: &Trust) -> Result<Self, RegisterRefused> {
-        let text = SignedText::split(name, bytes, &FORM).map_err(RegisterRefused::Malformed)?;
-        let payload = text.signed_payload(Some(&trust.signers), None);
-        let payload = payload.map_err(|error| RegisterRefused::Altered(name.to_owned(), error))?;
-        let content: Register = document::parse(name, payload, &FORM, Register::check)?;
+        let malformed = |unreadable: Unreadable| RegisterRefused::Unreadable(unreadable.to_string());
+        let text = SignedText::split(name, bytes, &FORM).map_err(|refused| malformed(refused.fault))?;
+        let payload = text.signed_payload(Some(&trust.signers), None).map_err(|error| {
+            let advice = "restore the register, or get it from the issuer again";
+            RegisterRefused::Unreadable(format!("{}: {error}; {advice}", Printable(name)))
+        })?;
+        let content: Register = document::parse(name, payload, &FORM, Register::check).map_err(malformed)?;
         let (key, header) = (text.key(), content.header());
         RegisterRefused::unless_authorised(name, trust, key, &header.issuer, header.issued_at)?;
         let places = content.passports.iter().map(|entry| entry.id.clone()).zip(0..).collect();
@@ -445,6 +431,6 @@ impl RegisterRefused {
             let line = format!("{issuer} namespaces=\"{allowed},{NAMESPACE}\" {}", key.to_openssh());
             why += &format!("; if this key may sign registers, change its line in allowed_signers to: {line}");
         }
-        Err(Self::NotAuthorised { name: name.to_owned(), why })
+        Err(Self::NotAuthorised(format!("{}: {why}", Printable(name))))
     }
 }

@@ -50,27 +50,11 @@ impl Row {
 
     /// Returns the number of days until the last day, or `None` if the passport does not expire.
     pub(crate) fn days_left(&self, time: Timestamp) -> Option<i32> {
-        let today = time.to_zoned(jiff::tz::TimeZone::UTC).date();
-        Some(today.until(self.valid_until?).map_or(i32::MAX, |span| span.get_days()))
+        self.valid_until.map(|last| days_until(time, last))
     }
+}
 
-    /// Returns the reason for the state, in words; empty for a current passport.
-    pub(crate) fn why(&self) -> String {
-        let until = self.valid_until.map_or_else(String::new, |last| format!("valid until {last} (inclusive)"));
-        let since = self.since.map_or_else(String::new, |since| format!("since {since}"));
-        match (&self.by, &self.reason) {
-            (Some(by), _) => format!("{since} by {by}"),
-            (None, Some(reason)) => format!("{since}: {reason}"),
-            (None, None) => until,
-        }
-    }
-
-    /// Returns the state in words, with the expiry of a current passport.
-    pub(crate) fn words(&self) -> &'static str {
-        match (self.state, self.expired) {
-            (State::Current, true) => "expired",
-            (State::Current, false) => "in force",
-            (state, _) => state.key(),
-        }
-    }
+/// Returns the number of days from a time to a day, both UTC; negative if it is past.
+pub(crate) fn days_until(time: Timestamp, last: Date) -> i32 {
+    time.to_zoned(jiff::tz::TimeZone::UTC).date().until(last).map_or(i32::MAX, |span| span.get_days())
 }

@@ -2,15 +2,14 @@
 
 use super::Workspace;
 use crate::document::sha256_hex;
-use crate::files;
 use crate::folder::Folder;
 use crate::folder::overview::Overview;
-use crate::passport::content_from_anyone;
-use crate::register::{Row, State};
+use crate::folder::place::listed_content;
+use crate::register::{Row, State, days_until};
 use crate::report::columns;
 use crate::report::doc::{Block, Words, given, marked};
 use crate::report::style::Outcome;
-use crate::text::{LARGEST_DOCUMENT_BYTES, printable, words};
+use crate::text::{printable, words};
 use crate::wording::texts::status as texts;
 use crate::wording::{Language, Text};
 use jiff::Timestamp;
@@ -54,28 +53,17 @@ const COLUMNS: [&str; 7] = ["date", "days_left", "what", "id", "site", "certific
 
 /// Days that are listed.
 pub(super) struct Horizon {
-    today: Date,
-    days: i32,
+    pub time: Timestamp,
+    pub days: i32,
 }
 
 impl Horizon {
-    pub(super) fn new(time: Timestamp, days: i32) -> Self {
-        Self { today: day(time), days }
-    }
-
     /// Returns what ends on a day, or `None` if that is later than the days that are listed.
     pub(super) fn ends(&self, what: What, id: &str, date: Date) -> Option<Due> {
-        let days_left = self.today.until(date).map_or(i32::MAX, |span| span.get_days());
-        let id = id.to_owned();
-        (days_left <= self.days).then_some(Due {
-            date,
-            days_left,
-            what,
-            id,
-            site: None,
-            certificate: None,
-            customer: None,
-        })
+        let days_left = days_until(self.time, date);
+        let (site, certificate, customer) = (None, None, None);
+        let due = || Due { date, days_left, what, id: id.to_owned(), site, certificate, customer };
+        (days_left <= self.days).then(due)
     }
 }
 
@@ -101,8 +89,7 @@ pub(super) fn of_passports(workspace: &Workspace, overview: &Overview, horizon: 
 fn customer(workspace: &Workspace, row: &Row) -> Option<String> {
     row.file.as_ref()?;
     let path = Folder::new(workspace.passports.as_deref()?).path_of_id(&row.id)?;
-    let bytes = files::read(&path, LARGEST_DOCUMENT_BYTES).ok().filter(|bytes| sha256_hex(bytes) == row.sha256)?;
-    content_from_anyone(&row.id, &bytes).ok()?.stand.customer
+    listed_content(&path, &row.sha256)?.stand.customer
 }
 
 impl Due {

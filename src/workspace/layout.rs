@@ -124,27 +124,6 @@ mod tests {
     }
 
     #[test]
-    fn it_is_whole_and_its_own_reader_reads_it() {
-        let folder = tempfile::tempdir().unwrap();
-        let root = folder.path().join("a/b");
-        make(&root, &Kind::Factory(Some("factory@example.org")), false).unwrap();
-        let workspace = Workspace::read(&root).unwrap();
-        assert_eq!(workspace.identity.as_deref(), Some("factory@example.org"));
-        assert_eq!(workspace.key, Some(root.join("factory.key")));
-        assert_eq!(workspace.passports, Some(root.join("passports")));
-        fs::write(root.join("README.md"), "mine").unwrap();
-        assert!(
-            make(&root, &Kind::Factory(None), false)
-                .unwrap_err()
-                .to_string()
-                .contains("dtg-passport.toml: already exists")
-        );
-        assert_eq!(fs::read_to_string(root.join("README.md")).unwrap(), "mine");
-        make(&root, &Kind::Factory(None), true).unwrap();
-        assert_eq!(Workspace::read(&root).unwrap().identity, None);
-    }
-
-    #[test]
     fn after_an_error_nothing_is_left() {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join("stands"), "a file").unwrap();

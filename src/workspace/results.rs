@@ -60,10 +60,9 @@ impl Workspace {
     pub(crate) fn passport_in_force(&self, stand: &str, enquiry: &Enquiry) -> Result<PathBuf, NoPassport> {
         let root = self.passports.as_deref().ok_or(NoPassport::NotStated("`passports`"))?;
         let registers = Registers::new(root, enquiry.trust.clone(), enquiry.question.now, Some(self.memory()));
-        let found = registers.of(stand);
-        let register = &found.as_ref().as_ref().map_err(Clone::clone)?.register;
+        let found = registers.of(stand)?;
         let mut there: Vec<(&str, PathBuf, Verification)> = Vec::new();
-        for entry in register.entries() {
+        for entry in found.register.entries() {
             let path = Folder::new(root).path_of_id(&entry.id).unwrap_or_default();
             match files::read(&path, LARGEST_DOCUMENT_BYTES) {
                 Ok(bytes) => there.push((&entry.id, path.clone(), enquiry.verification(&name_of(&path), &bytes))),

@@ -8,7 +8,7 @@ use crate::files::{self, FileError};
 use crate::folder::overview::{Overview, Query, StandRows};
 use crate::parallel;
 use crate::passport::{Question, Trust};
-use crate::register::{Row, State};
+use crate::register::{Row, State, days_until};
 use crate::report::doc::{Block, Counted, Words, code, given, joined, line, listed, marked};
 use crate::report::register::alarm;
 use crate::report::style::Outcome;
@@ -146,7 +146,7 @@ pub(crate) fn status(
     let incomplete = register.as_ref().is_some_and(Overview::is_incomplete);
     remarks.extend(register.iter().flat_map(|overview| overview.remarks.clone()));
     let keys = trust.map_or_else(Vec::new, |trust| keys(trust, time));
-    let due = due(workspace, register.as_ref(), (&stands, &keys), &Horizon::new(time, days));
+    let due = due(workspace, register.as_ref(), (&stands, &keys), &Horizon { time, days });
     Ok(Status {
         workspace: name_of(&workspace.root),
         time,
@@ -181,14 +181,13 @@ fn due(
 
 fn stands(workspace: &Workspace, time: Timestamp, remarks: &mut Vec<String>) -> Result<Vec<StandLine>, FileError> {
     let Some(folder) = &workspace.stands else { return Ok(Vec::new()) };
-    let today = time.to_zoned(jiff::tz::TimeZone::UTC).date();
     let line = |file: String, stand: Stand| StandLine {
         id: stand.stand.id(),
         file,
         customer: stand.stand.customer,
         certificate: stand.certificate.number,
         valid_until: stand.certificate.valid_until,
-        expired: stand.certificate.valid_until.is_some_and(|last| last < today),
+        expired: stand.certificate.valid_until.is_some_and(|last| days_until(time, last) < 0),
     };
     let place = |stand: &Stand| (stand.stand.id(), workspace.stand(&stand.stand.id()));
     read_each(Walk::deep(folder, is_stand), Stand::from_yaml, place, line, remarks)
@@ -249,8 +248,7 @@ fn passports(overview: &Overview, time: Timestamp, is_of_a_laboratory: bool) -> 
         let number = all().filter(|row| row.state == state && !(state == State::Current && row.expired)).count();
         counts.insert(state.key(), number);
     }
-    let today = time.to_zoned(jiff::tz::TimeZone::UTC).date();
-    let is_soon = |last: &Date| today.until(*last).is_ok_and(|span| (0..=SOON_DAYS).contains(&span.get_days()));
+    let is_soon = |last: &Date| (0..=SOON_DAYS).contains(&days_until(time, *last));
     let aging = overview.stands.iter().filter_map(|one| Some((one.stand.clone(), one.fresh_until.filter(is_soon)?)));
     let of_stand = |stand: &StandRows| {
         let fresh = stand.fresh_until.map_or_else(|| "".into(), checks::register_fresh);

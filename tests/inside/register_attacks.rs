@@ -459,7 +459,7 @@ fn an_older_register_does_not_count_where_a_later_one_is_known() {
         assert_eq!(factory.code_at("here", 1, &question, None), "ok");
         // The factory does not sign over a rollback.
         let refused = factory.issue_with("bench", now(), Some(&memory())).unwrap_err();
-        assert!(matches!(refused, FolderRefused::OlderRegister { .. }), "{refused}");
+        assert!(matches!(refused, FolderRefused::Doubt(..)), "{refused}");
         factory.note("older register", "of last month");
     });
     fs::remove_file(factory.register()).unwrap();
@@ -576,7 +576,7 @@ fn the_factory_neither_adopts_nor_withdraws_what_was_planted() {
     assert!(matches!(&refused, FolderRefused::Foreign { .. }), "{refused}");
     assert!(refused.to_string().contains(&stranger.key.public_key().fingerprint()));
     let refused = factory.reissue("here", 2, now()).unwrap_err();
-    assert!(matches!(refused, FolderRefused::Foreign { .. } | FolderRefused::Gap { .. }), "{refused}");
+    assert!(matches!(refused, FolderRefused::Foreign { .. } | FolderRefused::There(..)), "{refused}");
     assert_eq!(snapshot(&factory.root()), before);
     factory.note("planted", "passports of a stranger");
     fs::remove_file(factory.file("bench", 1)).unwrap();
