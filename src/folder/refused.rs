@@ -3,7 +3,7 @@
 use crate::files::FileError;
 use crate::passport::issue::IssueRefused;
 use crate::register::{Contradiction, Entry, NoRegister, RegisterRefused, State};
-use crate::stand::NumberInUse;
+use crate::stand::remarks::NumberInUse;
 use crate::text::shown;
 use std::path::PathBuf;
 
