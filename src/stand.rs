@@ -12,6 +12,7 @@ use crate::text::advice::{beyond_range, without_full_turns};
 use crate::text::{Advice, Cause, Document, Identifier, Path, Problems, record};
 use crate::units::{ARCSECONDS_PER_DEGREE, radians_from_arcseconds};
 use jiff::civil::Date;
+use remarks::NumberInUse;
 use std::collections::BTreeSet;
 
 /// Largest deviation that can be certified, in either direction, degrees.
@@ -269,19 +270,6 @@ impl Stand {
         let same_readings = evidence(there).is_some() && evidence(there) == evidence(self);
         if same_readings { Ok(()) } else { self.check_number(there) }
     }
-}
-
-/// Certificate number that is already used for other angles.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "certificate {number} already states other angles for this stand, first for position {index}; give the new \
-     certificate its own number and dates"
-)]
-pub struct NumberInUse {
-    /// Number of the certificate.
-    pub number: String,
-    /// First position with other angles.
-    pub index: PositionIndex,
 }
 
 /// Returns the refusal of a stand file in one sentence if only the angles are missing: it is then a header.

@@ -6,7 +6,7 @@ use super::issue::{Draft, Issue, IssueRefused, PreparedStand, Reissued};
 use super::{CheckName, Code, Content, Predecessor, Stated, Verification};
 use crate::document::sha256_hex;
 use crate::site::Site;
-use crate::stand::NumberInUse;
+use crate::stand::remarks::NumberInUse;
 use crate::stand::{Certificate, Identity, Stand};
 use crate::text::{Field, Node, number, rule};
 use jiff::Timestamp;

@@ -1,7 +1,9 @@
-//! Remarks on unusual values in a certificate, which are possible and therefore not refused, but usually errors.
+//! Remarks on unusual values in a certificate, which are possible and therefore not refused, but usually errors;
+//! and the number that is refused, because it was used for other angles.
 
 use super::{Certificate, CertifiedPosition};
 use crate::attitude::{ANGLE_SYMBOLS, ANGLES};
+use crate::coefficients::PositionIndex;
 use crate::text::Printable;
 use crate::text::scalar::latin;
 use crate::wording::Words;
@@ -33,6 +35,19 @@ pub(crate) struct Odd {
     pub sentence: String,
     /// What pages and other languages say in its place.
     pub words: Words,
+}
+
+/// Certificate number that is already used for other angles.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "certificate {number} already states other angles for this stand, first for position {index}; give the new \
+     certificate its own number and dates"
+)]
+pub struct NumberInUse {
+    /// Number of the certificate.
+    pub number: String,
+    /// First position with other angles.
+    pub index: PositionIndex,
 }
 
 impl Certificate {
