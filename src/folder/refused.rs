@@ -3,7 +3,7 @@
 use crate::files::FileError;
 use crate::passport::issue::IssueRefused;
 use crate::register::{Doubt, Entry, NoRegister, RegisterRefused};
-use crate::stand::NumberInUse;
+use crate::stand::remarks::NumberInUse;
 use crate::text::shown;
 use std::path::PathBuf;
 

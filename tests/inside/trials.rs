@@ -161,8 +161,8 @@ fn moments_and_quantiles_of_a_normal_sample() {
     let mut all = vec![[0; BINS]; PARAMETERS];
     let summary = tally.end_of_block(&mut all);
     assert_eq!((summary.count, summary.failed), ((chunks * WIDTH) as u64, 0));
-    for place in 0..PARAMETERS {
-        for found in [summary.quantiles[place][1], quantile(&all[place], 0.975)] {
+    for (place, counts) in all.iter().enumerate() {
+        for found in [summary.quantiles[place][1], quantile(counts, 0.975)] {
             assert!((found - 1.959_964).abs() < 2e-4, "{found}");
         }
         assert!(summary.sums[place].abs() < 1e-6);
