@@ -349,7 +349,7 @@ impl Bench<'_> {
                 .map_err(Failure::refused)?;
             if let Some(folder) = &options.out {
                 let stem = folder.join(path.file_stem().unwrap_or_default());
-                if let Some(other) = written.insert(stem.clone(), found.currents.0.clone()) {
+                if let Some(other) = written.get(&stem) {
                     let (json, other) = (with_end(&stem, ".json"), Printable(other));
                     let words = format!(
                         "nothing was written: {} is the result of {other}; specify each file of currents once, or rename one",
@@ -358,6 +358,7 @@ impl Bench<'_> {
                     return Err(Failed::new(interface::EXISTS, words, Vec::new()).into());
                 }
                 files::together::write_replaceable_together(&self.result(&found, &stem)?, options.force.replace)?;
+                written.insert(stem, found.currents.0.clone());
             }
             if let Some(serial) = found.done.document.gyro_serial().filter(|_| found.place.is_some()) {
                 // Otherwise the second of one gyro would be compared with the first.
