@@ -204,13 +204,13 @@ impl Run<'_> {
         let stand = given.map(|stand| Arc::new(PreparedStand::new(stand.clone())));
         let examined = parallel::map(&candidates, threads, |candidate| {
             let examined = self.examine(candidate, job, stand.as_ref(), from);
-            examined.unwrap_or_else(|failure| Err(Outcome::Failed(failure)))
+            examined.unwrap_or_else(|failure| Err(Box::new(Outcome::Failed(failure))))
         });
         // Several predecessors may have successors at one site: these are issued one after the other.
         let (mut settled, mut places) = (BTreeMap::new(), BTreeMap::<String, Vec<_>>::new());
         for (index, examined) in examined.into_iter().enumerate() {
             match examined {
-                Err(outcome) => drop(settled.insert(index, Settled::from(outcome))),
+                Err(outcome) => drop(settled.insert(index, Settled::from(*outcome))),
                 Ok(next) => places.entry(next.successor.site.id.to_string()).or_default().push((index, next)),
             }
         }
@@ -242,7 +242,7 @@ impl Run<'_> {
         job: &Job,
         stand: Option<&Arc<PreparedStand>>,
         from: &StandFolder,
-    ) -> Result<Result<Following, Outcome>, Failure> {
+    ) -> Result<Result<Following, Box<Outcome>>, Failure> {
         let path = &candidate.path;
         let name = name_of(path);
         let change = &self.change;
@@ -250,7 +250,8 @@ impl Run<'_> {
         if let Some(entry) = candidate.entry
             && let Some(why) = self.settled_by_register(entry, job, from)
         {
-            return Ok(Err(Outcome::Skipped { id: entry.id.clone(), file: path.clone(), why }));
+            let skipped = Outcome::Skipped { id: entry.id.clone(), file: path.clone(), why };
+            return Ok(Err(Box::new(skipped)));
         }
         let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(|error| match candidate.entry {
             Some(_) if error.is_missing() => {
@@ -278,7 +279,7 @@ impl Run<'_> {
             let id = verification.id_from_anyone().unwrap_or_default().to_owned();
             let remarks = next.draft(next.first_revision()).map_err(|error| refused(error.to_string()))?.remarks();
             let there = Issued { id, path: path.clone(), sha256, new: false, remarks };
-            return Ok(Err(Outcome::There(there)));
+            return Ok(Err(Box::new(Outcome::There(there))));
         }
         let mut warnings = match candidate.entry {
             Some(_) => Vec::new(),
