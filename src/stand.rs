@@ -12,6 +12,7 @@ use crate::text::advice::{beyond_range, without_full_turns};
 use crate::text::{Advice, Cause, Document, Identifier, Path, Problems, record};
 use crate::units::{ARCSECONDS_PER_DEGREE, radians_from_arcseconds};
 use jiff::civil::Date;
+#[cfg(feature = "factory")]
 use remarks::NumberInUse;
 use std::collections::BTreeSet;
 
@@ -245,6 +246,7 @@ impl Stand {
     ///
     /// # Errors
     /// Returns [`NumberInUse`] if it does.
+    #[cfg(feature = "factory")]
     pub(crate) fn check_number(&self, there: &Self) -> Result<(), NumberInUse> {
         let number = &self.certificate.number;
         if *number != there.certificate.number {
@@ -265,6 +267,7 @@ impl Stand {
     ///
     /// # Errors
     /// Returns [`NumberInUse`] if other readings gave other angles.
+    #[cfg(feature = "factory")]
     pub(crate) fn check_number_of_file(&self, there: &Self) -> Result<(), NumberInUse> {
         let evidence = |stand: &Self| stand.certificate.evidence.clone();
         let same_readings = evidence(there).is_some() && evidence(there) == evidence(self);

@@ -38,6 +38,7 @@ pub(crate) struct Odd {
 }
 
 /// Certificate number that is already used for other angles.
+#[cfg(feature = "factory")]
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
     "certificate {number} already states other angles for this stand, first for position {index}; give the new \
