@@ -94,7 +94,8 @@ fn timed(threads: u64, work: impl FnOnce() -> u64) -> Slice {
 
 /// Times the whole procedure with its histograms, covariances and test of stability.
 fn trials_of(engine: &Engine, budget: &Budget, threads: usize, trials: u64) -> Slice {
-    let run = Trials { trials: Some(trials), threads, ..Trials::adaptive(1) };
+    let mut run = Trials::adaptive(1);
+    (run.trials, run.threads) = (Some(trials), threads);
     timed(threads as u64, || black_box(monte_carlo(engine, budget, &run)).trials)
 }
 
@@ -159,7 +160,8 @@ fn main() {
     let (Ok(of_closed), Ok(of_refit)) = (budget(Method::Analytic), budget(Method::LeastSquares)) else { return };
     if let Some(trials) = std::env::args().skip_while(|word| word != "--memory").nth(1) {
         let trials = trials.parse().ok().map(|trials: f64| trials as u64);
-        let run = Trials { trials, threads: 2, ..Trials::adaptive(1) };
+        let mut run = Trials::adaptive(1);
+        (run.trials, run.threads) = (trials, 2);
         let (start, found) = (Instant::now(), monte_carlo(&closed, &of_closed, &run));
         let (seconds, mb) = (start.elapsed().as_secs_f64(), resident_mb().unwrap_or(f64::NAN));
         println!("{} trials: {seconds:.1} s, {mb:.1} MB", found.trials);

@@ -24,13 +24,11 @@ fn main() {
 fn paper_table() {
     println!("The paper's table in the paper's reading: gyro within tolerance, common gain error, 10,000 draws");
     for limit_deg in [0.5, 15.0, 45.0] {
-        let options = AccuracyOptions {
-            stands: Stands::Drawn { limit_deg },
-            within_tolerance: true,
-            current_error: CurrentError::Common,
-            methods: vec![Method::Analytic],
-            ..AccuracyOptions::default()
-        };
+        let mut options = AccuracyOptions::default();
+        options.stands = Stands::Drawn { limit_deg };
+        options.within_tolerance = true;
+        options.current_error = CurrentError::Common;
+        options.methods = vec![Method::Analytic];
         let mut range = [(f64::INFINITY, 0.0_f64); 8];
         for seed in 1..=30 {
             let found = accuracy(&options, &Run::new(10_000, seed));
@@ -54,7 +52,9 @@ fn paper_table() {
 
 fn independent_within_tolerance() {
     println!("The table with independent errors instead, 15 deg, 10,000 draws");
-    let options = AccuracyOptions { within_tolerance: true, methods: vec![Method::Analytic], ..Default::default() };
+    let mut options = AccuracyOptions::default();
+    options.within_tolerance = true;
+    options.methods = vec![Method::Analytic];
     for row in accuracy(&options, &Run::new(10_000, 1)).rows {
         println!("  {:<9} {:.4} {}", row.parameter.key(), row.worst, row.unit);
     }
@@ -64,12 +64,10 @@ fn independent_within_tolerance() {
 fn exact() {
     println!("Exact currents: largest relative error of any parameter, 100,000 stands");
     for limit_deg in [0.5, 5.0, 15.0, 30.0, 45.0] {
-        let options = AccuracyOptions {
-            stands: Stands::Drawn { limit_deg },
-            current_percent: 0.0,
-            methods: vec![Method::Analytic, Method::LeastSquares],
-            ..AccuracyOptions::default()
-        };
+        let mut options = AccuracyOptions::default();
+        options.stands = Stands::Drawn { limit_deg };
+        options.current_percent = 0.0;
+        options.methods = vec![Method::Analytic, Method::LeastSquares];
         let found = accuracy(&options, &Run::new(100_000, 1));
         let largest = |method: Method| {
             let rows = found.rows.iter().filter(|row| row.method == method.key());
@@ -122,11 +120,9 @@ fn missing_over_bound(stand: &[Position]) -> Option<f64> {
 fn independent() {
     println!("Independent errors, nominal gyro, 100,000 stands");
     for limit_deg in [0.5, 5.0, 15.0, 30.0, 45.0] {
-        let options = AccuracyOptions {
-            stands: Stands::Drawn { limit_deg },
-            methods: vec![Method::Analytic, Method::Iterative, Method::LeastSquares],
-            ..AccuracyOptions::default()
-        };
+        let mut options = AccuracyOptions::default();
+        options.stands = Stands::Drawn { limit_deg };
+        options.methods = vec![Method::Analytic, Method::Iterative, Method::LeastSquares];
         let start = Instant::now();
         let found = accuracy(&options, &Run::new(100_000, 1));
         println!("  {limit_deg} deg, {:.1} s", start.elapsed().as_secs_f64());

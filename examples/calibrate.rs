@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("usage: calibrate PASSPORT ALLOWED_SIGNERS CURRENTS".into());
     };
 
-    // A real program also asks for the serial number and the place of the stand: `Question { serial, place, .. }`.
+    // A real program also asks for the serial number and the place of the stand: `Question::serial`, `Question::place`.
     let trust = Trust::of(AllowedSigners::parse(signers, &fs::read(signers)?)?);
     let answer = verify(passport, &fs::read(passport)?, &trust, &Question::at(Timestamp::now()));
     let Some(verified) = answer.passport() else {

@@ -9,7 +9,7 @@ use crate::folder::{Authority, Folder, Issued};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::issue::{Issue, PreparedStand};
-use crate::passport::reissue::{Order, successor};
+use crate::passport::reissue::{Reissue, successor};
 use crate::passport::{CheckName, Question, Trust, Verification, verify};
 use crate::report::columns::decimals;
 use crate::report::doc::said;
@@ -191,17 +191,8 @@ impl Stage<'_> {
         self.line("6. The factory re-issues the passport for Beijing, from its predecessor alone:")?;
         let (now, question) = (self.now, Question::at(self.now));
         let (bytes, old) = self.verified(here, &question)?;
-        let order = Order {
-            stand: None,
-            site: Some(beijing.clone()),
-            moved: true,
-            reason: "delivered to Beijing".to_owned(),
-            issuer: IDENTITY.to_owned(),
-            issued_at: now,
-            valid_until: None,
-            allow_uncalibratable: false,
-            same_content: false,
-        };
+        let (site, moved) = (Some(beijing.clone()), true);
+        let order = Reissue { site, moved, ..Reissue::new(IDENTITY, now, "delivered to Beijing") };
         let clock = || now;
         let authority = Authority::new(IDENTITY, &self.key, &self.trust, &clock);
         let issued = self.passports().reissue(&successor(&bytes, &old, &order)?, &authority)?;

@@ -59,6 +59,7 @@ pub trait Signer {
     ///
     /// # Errors
     /// Returns [`SigningFailed`] with the reason if there is no signature.
+    #[doc(hidden)]
     fn sign_message(&self, message: &Message) -> Result<Signature, SigningFailed> {
         self.sign(message.namespace, message.bytes)
     }

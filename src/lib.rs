@@ -26,7 +26,8 @@
 //! // The laboratory: whom it trusts, and what it asks.
 //! let line = allowed_signers_line("factory@example.org", &key.public_key())?;
 //! let trust = Trust::of(AllowedSigners::parse("allowed_signers", line.as_bytes())?);
-//! let question = Question { serial: Some("0017".into()), ..Question::at("2026-12-01T00:00:00Z".parse()?) };
+//! let mut question = Question::at("2026-12-01T00:00:00Z".parse()?);
+//! question.serial = Some("0017".into());
 //! let passport = accept("moscow-bmstu-1.yaml", passport.as_bytes(), &trust, &question)?;
 //! let matrices = passport.coefficients().matrices.ok_or("not all of the eight positions")?;
 //! assert!((matrices.b_deg_per_h.m12 - 16.9235).abs() < 1e-4);
@@ -65,7 +66,7 @@
 //! | `plan` | the best positions to certify or to read, and their order | `factory` and `monte-carlo` |
 //! | `files`, [`signing`], [`folder`] | whole or not at all; key files and agents; a folder of passports | `factory` |
 //! | `batch` | many passports at once | `factory` |
-//! | [`interface`] | what programs in other languages call: `python`, `c` and `web` | |
+//! | `interface` | what programs in other languages call: `python`, `c` and `web` | |
 //! | [`report`] | what people read | `report` |
 //! | `dcc` | Digital Calibration Certificates of PTB, of a stand and of a gyro | `cli` |
 //! | `schema` | JSON Schemas of the formats; what makes them with `generate` | `cli` |
@@ -121,6 +122,8 @@ pub mod folder;
 pub mod gyro;
 #[cfg(feature = "factory")]
 pub(crate) mod history;
+// For the packages `python`, `c` and `web` of this workspace alone.
+#[doc(hidden)]
 pub mod interface;
 pub mod laboratory;
 pub(crate) mod parallel;

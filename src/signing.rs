@@ -232,7 +232,7 @@ pub(crate) fn protection_remark(path: &Path) -> Option<String> {
 /// Returns [`BadIdentity`] if the identity could be read as a pattern of several identities.
 pub fn allowed_signers_line(identity: &str, key: &PublicKey) -> Result<String, BadIdentity> {
     check_identity(identity)?;
-    Ok(format!("{identity} namespaces=\"{NAMESPACE},{}\" {}", register::NAMESPACE, key.to_openssh()))
+    Ok(format!("{identity} namespaces=\"{NAMESPACE},{}\" {}", register::REGISTER_NAMESPACE, key.to_openssh()))
 }
 
 /// Returns the trust of an issuer in what its own keys sign, or `None` for an identity that no list can contain.
@@ -240,7 +240,7 @@ pub fn allowed_signers_line(identity: &str, key: &PublicKey) -> Result<String, B
 pub(crate) fn own_trust(identity: &str, key: &PublicKey, register_key: Option<&PublicKey>) -> Option<Trust> {
     let mut lines = allowed_signers_line(identity, key).ok()?;
     if let Some(other) = register_key {
-        lines += &format!("\n{identity} namespaces=\"{}\" {}", register::NAMESPACE, other.to_openssh());
+        lines += &format!("\n{identity} namespaces=\"{}\" {}", register::REGISTER_NAMESPACE, other.to_openssh());
     }
     AllowedSigners::parse("own key", lines.as_bytes()).ok().map(Trust::of)
 }

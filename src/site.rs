@@ -6,7 +6,7 @@ use crate::attitude::PAPER_FRAME_AXIS_AZIMUTH_DEG;
 use crate::coefficients::EarthRate;
 use crate::earth::{self, Place};
 use crate::text::advice::without_full_turns;
-use crate::text::{Advice, Cause, Document, Identifier, Path, Problems, number, record};
+use crate::text::{Advice, Document, Identifier, Path, Problems, RefusalCause, number, record};
 use crate::units::radians_from_arcseconds;
 use crate::units::{ARCSECONDS_PER_DEGREE, sin_cos_of_degrees};
 
@@ -190,7 +190,7 @@ impl Site {
     pub(crate) fn check(&self, at: &Path, problems: &mut Problems) {
         self.check_latitude(at, problems);
         if let Some(longitude) = self.longitude_deg.filter(|longitude| !(-180.0..=180.0).contains(longitude)) {
-            let advice = beyond_180(longitude).map(|words| Advice::from((Cause::FullTurn, words)));
+            let advice = beyond_180(longitude).map(|words| Advice::from((RefusalCause::FullTurn, words)));
             let advice = advice.or_else(|| Some(decimal_degrees(longitude, 180.0)?.into())).unwrap_or_default();
             problems.at(&at.key("longitude_deg"), format!("{longitude}"), "a number from -180 to 180", advice);
         }
@@ -217,8 +217,10 @@ impl Site {
         if let Some(azimuth) = self.frame_axis_azimuth_deg.filter(|azimuth| !(0.0..360.0).contains(azimuth)) {
             let at = at.key("frame_axis_azimuth_deg");
             let meant = without_full_turns(azimuth, 360.0, 0.0).unwrap_or_default();
-            let advice =
-                (Cause::FullTurn, format!("count clockwise from north: 0 is north, 90 east; this one is {meant}"));
+            let advice = (
+                RefusalCause::FullTurn,
+                format!("count clockwise from north: 0 is north, 90 east; this one is {meant}"),
+            );
             problems.at(&at, number::decimal(azimuth), "degrees from 0 to less than 360", advice);
         }
         if let Some(uncertainty) = &self.uncertainty {

@@ -9,7 +9,7 @@ pub use type_b::{ActsOn, Evidence, TypeB};
 use crate::attitude::Deviation;
 use crate::coefficients::{EIGHT_POSITIONS, Position, PositionIndex, SingularPositions, StandGeometry};
 use crate::text::advice::{beyond_range, without_full_turns};
-use crate::text::{Advice, Cause, Document, Identifier, Path, Problems, record};
+use crate::text::{Advice, Document, Identifier, Path, Problems, RefusalCause, record};
 use crate::units::{ARCSECONDS_PER_DEGREE, radians_from_arcseconds};
 use jiff::civil::Date;
 #[cfg(feature = "factory")]
@@ -399,7 +399,7 @@ pub(crate) fn beyond_largest_deviation(value_arcsec: f64, remedy: &str) -> Optio
     let full_turn = || {
         let meant = without_full_turns(value_arcsec, TURN, -TURN / 2.0)?;
         let words = format!("subtract or add a full turn of {TURN} arcseconds, which gives {meant}");
-        (libm::remainder(value_arcsec, TURN).abs() <= largest).then(|| (Cause::FullTurn, words).into())
+        (libm::remainder(value_arcsec, TURN).abs() <= largest).then(|| (RefusalCause::FullTurn, words).into())
     };
     (value_arcsec.abs() > largest).then(|| {
         let advice = beyond_range(value_arcsec, remedy).or_else(full_turn);
@@ -419,7 +419,7 @@ fn check_position(position: &CertifiedPosition, at: &Path, problems: &mut Proble
         for (key, found, due) in [("theta_deg", position.theta_deg, *theta), ("phi_deg", position.phi_deg, *phi)] {
             if found != due {
                 let advice = match libm::remainder(found - due, 360.0) {
-                    0.0 => Advice::from((Cause::FullTurn, format!("write {due}, which is the same without a full turn"))),
+                    0.0 => Advice::from((RefusalCause::FullTurn, format!("write {due}, which is the same without a full turn"))),
                     _ => "use another (i, j) for another orientation, because the angles of the eight positions are fixed"
                         .into(),
                 };

@@ -70,8 +70,9 @@ fn a_register_is_asked() {
 fn exchanged_coordinates_are_recognised() {
     let file = read("passports/SPS-2/0017/moscow-bmstu-1.yaml");
     let detail = |latitude_deg, longitude_deg| {
-        let place = Some(Place { latitude_deg, longitude_deg });
-        let answer = verify("good", &file, &trust(), &Question { place, ..question() });
+        let mut question = question();
+        question.place = Some(Place { latitude_deg, longitude_deg });
+        let answer = verify("good", &file, &trust(), &question);
         assert_eq!(answer.code(CheckName::Place), Some(Code::WrongPlace));
         answer.checks().iter().find(|check| check.name == CheckName::Place).unwrap().detail.clone()
     };
@@ -88,7 +89,9 @@ fn exchanged_coordinates_are_recognised() {
 fn the_model_is_not_part_of_the_serial_number() {
     let file = read("passports/SPS-2/0017/moscow-bmstu-1.yaml");
     let detail = |serial: &str| {
-        let answer = verify("good", &file, &trust(), &Question { serial: Some(serial.to_owned()), ..question() });
+        let mut question = question();
+        question.serial = Some(serial.to_owned());
+        let answer = verify("good", &file, &trust(), &question);
         assert_eq!(answer.code(CheckName::Stand), Some(Code::WrongStand));
         answer.checks().iter().find(|check| check.name == CheckName::Stand).unwrap().detail.clone()
     };

@@ -7,7 +7,7 @@ import sys
 from collections import Counter
 from pathlib import Path
 
-LIMIT = 400
+LIMIT = 350
 
 pages = Path(__file__).parent.parent / "target/doc/dtg_passport"
 items = []

@@ -221,7 +221,9 @@ impl Distributions {
                 let _ = raised.set(error);
             }
         };
-        let mut run = Trials { trials, cancel: Some(&cancel), progress: Some(&tell), ..Trials::adaptive(seed) };
+        let mut run = Trials::adaptive(seed);
+        (run.trials, run.cancel) = (trials, Some(&cancel));
+        run.progress = Some(&tell);
         run.threads = threads.unwrap_or(run.threads);
         let Self(content, currents, order) = self;
         let found = py.detach(|| interface::monte_carlo(&content.get().passport, currents.given(), order, &run));

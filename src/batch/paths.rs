@@ -7,7 +7,7 @@ use crate::files::walk::{Entry, LINK, SPECIAL, Walk};
 use crate::files::{FileError, reason};
 use crate::folder::place::numbered;
 use crate::text::node::{is_utf16, without_byte_order_mark};
-use crate::text::{Cause, Kind, Printable, Unreadable, shown, without_secrets};
+use crate::text::{Kind, Printable, RefusalCause, Unreadable, shown, without_secrets};
 use std::ffi::OsStr;
 use std::io::{self, BufRead, Read as _};
 use std::path::{Path, PathBuf};
@@ -170,7 +170,7 @@ fn listed(list: &mut dyn BufRead) -> Result<Vec<Result<PathBuf, Failure>>, Failu
     let mut bytes = Vec::new();
     list.take(LARGEST_LIST as u64).read_to_end(&mut bytes).map_err(|error| failed(reason(&error)))?;
     if is_utf16(&bytes) {
-        let refused = Unreadable::whole("-", None, "UTF-16", "one path per line, in UTF-8", Cause::Utf16);
+        let refused = Unreadable::whole("-", None, "UTF-16", "one path per line, in UTF-8", RefusalCause::Utf16);
         return Err(Failure::unreadable(Path::new("-"), refused));
     }
     let bytes = without_byte_order_mark(&bytes);

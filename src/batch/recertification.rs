@@ -16,7 +16,7 @@ use crate::folder::{Authority, Folder, FolderRefused, Next, Sealed, StandFolder}
 use crate::passport::checks::{Check, for_the_issuer};
 use crate::passport::difference::{NumberDifference, of_deviations};
 use crate::passport::issue::PreparedStand;
-use crate::passport::reissue::{Order, successor};
+use crate::passport::reissue::{Reissue, successor};
 use crate::passport::{Code, Content, Question, Trust, Verification, verify};
 use crate::register::{Entry, Row, State, VerifiedRegister};
 use crate::site::Site;
@@ -381,16 +381,11 @@ impl Recertification<'_> {
 
     /// Returns the next step for the successor of one passport.
     fn next(&self, old: &Old, to: &StandFolder, stand: &Arc<PreparedStand>) -> Result<Next, NotRecertified> {
-        let order = Order {
+        let order = Reissue {
             stand: Some(Arc::clone(stand)),
             site: old.site.clone(),
-            moved: false,
-            reason: self.reason.to_owned(),
-            issuer: self.authority.issuer.to_owned(),
-            issued_at: self.issued_at,
-            valid_until: None,
             allow_uncalibratable: old.content.self_check.is_none(),
-            same_content: false,
+            ..Reissue::new(self.authority.issuer, self.issued_at, self.reason)
         };
         let next = successor(&old.bytes, &old.verification, &order)
             .map_err(|why| refused(format!("{}: {why}", shown(&old.path))))?;

@@ -14,7 +14,7 @@ use crate::folder::{Folder, Issued, StandFolder};
 use crate::passport::checks::for_the_issuer;
 use crate::passport::issue::PreparedStand;
 use crate::passport::place::distant_correction;
-use crate::passport::reissue::{Order, ReissueRefused, Successor, successor};
+use crate::passport::reissue::{Reissue, ReissueRefused, Successor, successor};
 use crate::passport::{CheckName, Code, Content, Question, Verification, content_from_anyone, verify};
 use crate::register::{Entry, State, VerifiedRegister};
 use crate::site::Site;
@@ -28,7 +28,7 @@ use std::sync::Arc;
 /// Change to the passports, and the question by which they are verified.
 pub(crate) struct Change<'a> {
     /// Order that all passports have in common; the stand is that of [`Self::stands`].
-    pub order: Order,
+    pub order: Reissue,
     /// Stand files, each for the passports of its stand; in a folder only these stands are concerned.
     pub stands: &'a [PathBuf],
     /// Site files, each for the passports of its site, which stay at it.
@@ -322,7 +322,12 @@ impl Run<'_> {
     }
 
     /// Returns the order for one passport, with the files for its stand and site.
-    fn order(&self, path: &Path, stand: Option<&Arc<PreparedStand>>, old: Option<&Content>) -> Result<Order, Failure> {
+    fn order(
+        &self,
+        path: &Path,
+        stand: Option<&Arc<PreparedStand>>,
+        old: Option<&Content>,
+    ) -> Result<Reissue, Failure> {
         let mut order = self.change.order.clone();
         let Some(old) = old else { return Ok(order) };
         if !self.change.stands.is_empty() {

@@ -60,6 +60,7 @@ pub enum NoIterativeSolution {
 /// Change in one step of the parameters that the stop rule compares.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "struct ChangeDocument")]
+#[doc(hidden)]
 pub struct StepChange {
     /// Number of the step; the first approximation is step 1.
     pub step: u32,
@@ -71,6 +72,7 @@ pub struct StepChange {
 
 /// Solution by the iterative method, with the course of the iteration.
 #[derive(Debug, Clone, PartialEq)]
+#[doc(hidden)]
 pub struct IterativeSolution {
     /// Parameters K, ω_0, ω_g and ω_k at the last step.
     pub parameters: GyroParameters,
@@ -204,6 +206,7 @@ impl StepChange {
 /// # Errors
 /// Returns [`NoIterativeSolution`] if the eight positions are incomplete, the number of currents is wrong, J_1 is
 /// singular, or the iteration does not converge.
+#[doc(hidden)]
 pub fn solve(
     coefficients: &Coefficients,
     currents_ma: &[Vector2<f64>],

@@ -23,6 +23,7 @@ use nalgebra::{DMatrix, Matrix2, Vector2};
 
 /// Options of a calibration.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
     /// Requested methods, in the order of the results.
     pub methods: Vec<Method>,

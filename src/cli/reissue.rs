@@ -6,7 +6,7 @@ use super::trust_options::{self, TrustOptions};
 use super::{Code, Failure, defaults, inputs};
 use crate::batch::successors::Change;
 use crate::passport::issue::time_of_issue;
-use crate::passport::reissue::Order;
+use crate::passport::reissue::Reissue;
 use clap::Args;
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -65,16 +65,14 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         return Err(Failure::unusable("standard input can supply only the list of passports"));
     }
     let (trust, question) = options.trust.load()?;
-    let order = Order {
-        stand: None,
+    let issued_at = time_of_issue(options.issued_at, trust_options::now()).map_err(Failure::refused)?;
+    let order = Reissue {
         site: options.site.as_deref().map(inputs::site).transpose()?,
         moved: options.moved,
-        reason: options.reason.clone(),
-        issuer: options.batch.issuer.identity().to_owned(),
-        issued_at: time_of_issue(options.issued_at, trust_options::now()).map_err(Failure::refused)?,
         valid_until: options.valid_until,
         allow_uncalibratable: options.batch.allow_uncalibratable,
         same_content: options.same_content,
+        ..Reissue::new(options.batch.issuer.identity(), issued_at, &options.reason)
     };
     let keys = options.batch.issuer.keys(options.out.as_deref())?;
     if let Some(public) = &keys.public {

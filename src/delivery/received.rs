@@ -110,7 +110,7 @@ impl Parcel {
                     text.signed_payload(None, None).map_err(|error| refused(format!("{name}: {error}")))?;
                     let content = Register::from_anyone(&name, &bytes)?;
                     let header = content.header();
-                    parcel.note(&header.issuer, text.key(), register::NAMESPACE, header.issued_at);
+                    parcel.note(&header.issuer, text.key(), register::REGISTER_NAMESPACE, header.issued_at);
                     parcel.stands.entry(stand).or_default().register = bytes;
                 }
                 Member::Passport(stand, file) => {

@@ -416,7 +416,7 @@ impl Query<'_> {
     }
 
     /// Returns `true` if issuer, stand and place of the question match a row. The place needs the file of the passport.
-    fn selects(&self, row: &Row, header: &crate::register::Header) -> bool {
+    fn selects(&self, row: &Row, header: &crate::register::RegisterHeader) -> bool {
         let serial = header.stand.rsplit('/').next();
         self.question.issuer.as_ref().is_none_or(|issuer| *issuer == header.issuer)
             && self.question.serial.as_deref().is_none_or(|asked| serial == Some(asked))

@@ -51,7 +51,7 @@ use crate::document::sha256_hex;
 #[cfg(feature = "factory")]
 use crate::files::{self, FileError};
 use crate::passport::{Check, Content, MatrixRows, RegisterUsed, Rows, Verification, content_from_anyone};
-use crate::text::{Cause, Node, Path, Problem, Problems, Unreadable, name_of, printable, record};
+use crate::text::{Node, Path, Problem, Problems, RefusalCause, Unreadable, name_of, printable, record};
 use crate::trust::LARGEST_TRUST_FILE_BYTES;
 use serde::Serialize;
 
@@ -112,7 +112,7 @@ impl Place {
             line: problem.location.map(|at| at.line),
             column: problem.location.map(|at| at.column),
             message: problem.to_string(),
-            cause: problem.cause.map(Cause::code),
+            cause: problem.cause.map(RefusalCause::code),
         };
         error.problems().iter().map(place).collect()
     }

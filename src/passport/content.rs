@@ -40,7 +40,7 @@ record! {
 
 record! {
     /// Identity, issuer and dates of the passport.
-    pub struct Header {
+    pub struct PassportHeader {
         /// Identifier: `<model>/<serial>/<site id>/<revision>`.
         pub id: String,
         /// Revision, from 1 for each site of a stand.
@@ -113,7 +113,7 @@ record! {
         /// Always "dtg-passport/1".
         pub format: String,
         /// Identity, issuer and dates of the passport.
-        pub passport: Header,
+        pub passport: PassportHeader,
         /// Identity of the stand.
         pub stand: Identity,
         /// Calibration certificate of the stand.

@@ -4,7 +4,7 @@ use super::accuracy::NoAccuracy;
 use super::annotations::{self, Absence, absent};
 use super::content::{Dated, PASSPORT_FORMAT, REFERENCE_GYRO, derive_from, passport_id};
 use super::verification::{Known, Question, Trust, Verification, verify_known};
-use super::{Content, Header, NAMESPACE, Predecessor, SelfCheck, Stated, content};
+use super::{Content, NAMESPACE, PassportHeader, Predecessor, SelfCheck, Stated, content};
 use crate::attitude::Deviation;
 use crate::calibration::prediction::{NoiseGrowth, noise_growth};
 use crate::coefficients::{Coefficients, Position, SingularPositions, StandGeometry};
@@ -38,6 +38,7 @@ pub struct Reissued {
 
 /// Issuer, dates and options of a new passport.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Issue {
     /// Issuer: a principal of allowed_signers.
     pub issuer: String,
@@ -264,7 +265,7 @@ fn content_of(stand: &Stand, geometry: &StandGeometry, site: &Site, issue: &Issu
         issue.reissued.clone().map(|reissued| (reissued.from, reissued.supersedes)).unzip();
     Ok(Content {
         format: PASSPORT_FORMAT.to_owned(),
-        passport: Header {
+        passport: PassportHeader {
             id: passport_id(&stand.stand, &site.id, issue.revision),
             revision: issue.revision,
             issued_at: issue.issued_at,

@@ -35,7 +35,7 @@ use crate::text::Limits;
 pub use accuracy::{Accuracy, NoAccuracy, Stated};
 pub use checks::{Check, CheckName, Code};
 pub use content::{
-    Content, Dated, Header, PositionCurrents, PositionVectors, Predecessor, SelfCheck, content_from_anyone,
+    Content, Dated, PassportHeader, PositionCurrents, PositionVectors, Predecessor, SelfCheck, content_from_anyone,
 };
 pub use verification::{Question, Refused, Trust, Verification, VerifiedPassport, accept, verify};
 

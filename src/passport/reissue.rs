@@ -15,7 +15,8 @@ use std::sync::Arc;
 
 /// Changes, reason and issuer of a re-issue.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Order {
+#[non_exhaustive]
+pub struct Reissue {
     /// Corrected stand, or the factory's file of the stand; that of the predecessor if `None`.
     pub stand: Option<Arc<PreparedStand>>,
     /// Other or corrected site; that of the predecessor if `None`.
@@ -34,6 +35,23 @@ pub struct Order {
     pub allow_uncalibratable: bool,
     /// Whether to issue a successor even if stand, site, issuer and expiry date are those of the predecessor.
     pub same_content: bool,
+}
+
+impl Reissue {
+    /// Creates a re-issue for the predecessor's site, with the predecessor's stand and expiry date.
+    pub fn new(issuer: &str, issued_at: Timestamp, reason: &str) -> Self {
+        Self {
+            stand: None,
+            site: None,
+            moved: false,
+            reason: reason.to_owned(),
+            issuer: issuer.to_owned(),
+            issued_at,
+            valid_until: None,
+            allow_uncalibratable: false,
+            same_content: false,
+        }
+    }
 }
 
 /// Reason why a passport was not re-issued.
@@ -122,7 +140,7 @@ pub struct Successor {
 ///
 /// # Errors
 /// Returns [`ReissueRefused`] if the predecessor cannot be used or the order contradicts it.
-pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -> Result<Successor, ReissueRefused> {
+pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Reissue) -> Result<Successor, ReissueRefused> {
     if order.reason.is_empty() || !order.reason.chars().all(rule::allowed_in_string) {
         return Err(ReissueRefused::BadReason);
     }

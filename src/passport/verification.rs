@@ -19,6 +19,7 @@ use std::fmt::{self, Debug, Display, Formatter};
 
 /// Trusted signers and revoked keys.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Trust {
     /// Keys that may sign, each with its principals, purposes and validity period.
     pub signers: AllowedSigners,
@@ -47,6 +48,7 @@ impl Trust {
 
 /// Time, issuer, stand and place to verify a passport for.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Question {
     /// Time of verification.
     pub time: Timestamp,

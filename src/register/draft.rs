@@ -1,8 +1,8 @@
 //! The next register of a stand: entries are added, states end, and nothing is taken back.
 
 use super::{
-    Entry, FORM, FORMAT, Header, LONGEST_REASON, MOST_ENTRIES, NAMESPACE, Register, RegisterRefused, State,
-    VerifiedRegister,
+    Entry, FORM, FORMAT, LONGEST_REASON, MOST_ENTRIES, REGISTER_NAMESPACE, Register, RegisterHeader, RegisterRefused,
+    State, VerifiedRegister,
 };
 use crate::document::{self, Signer, SigningFailed};
 use crate::passport::{Content, Trust};
@@ -40,7 +40,7 @@ pub enum NoRegister {
 /// Register to be issued.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Draft {
-    header: Header,
+    header: RegisterHeader,
     entries: Vec<Entry>,
     /// Place of each entry, by the identifier of its passport.
     places: HashMap<String, usize>,
@@ -54,7 +54,7 @@ impl Draft {
     /// its issue.
     pub(crate) fn after(previous: Option<&VerifiedRegister>, stand: &str, issuer: &str, now: Timestamp) -> Self {
         let before = previous.map(VerifiedRegister::header);
-        let header = Header {
+        let header = RegisterHeader {
             stand: stand.to_owned(),
             sequence: before.map_or(1, |before| before.sequence.saturating_add(1)),
             previous_sha256: previous.map(|previous| previous.sha256().to_owned()),
@@ -266,7 +266,7 @@ impl Draft {
                 FORM.limits.bytes
             )));
         }
-        let text: String = document::sign::<NoRegister>(&payload, NAMESPACE, signer)?;
+        let text: String = document::sign::<NoRegister>(&payload, REGISTER_NAMESPACE, signer)?;
         let verified = VerifiedRegister::verify(name, text.as_bytes(), trust, now)?;
         Ok((text, verified))
     }

@@ -33,7 +33,7 @@ use jiff::{SignedDuration, Timestamp};
 use std::collections::{HashMap, HashSet};
 
 /// Namespace of the signatures of registers.
-pub const NAMESPACE: &str = "dtg-register";
+pub const REGISTER_NAMESPACE: &str = "dtg-register";
 
 /// Name of a register in the folder of its stand.
 pub(crate) const FILE_NAME: &str = "register.yaml";
@@ -42,7 +42,7 @@ pub(crate) const FORMAT: &str = "dtg-register/1";
 
 /// Form of registers as signed documents. The memory that a register takes follows from its size alone.
 pub(crate) const FORM: Form = Form {
-    namespace: NAMESPACE,
+    namespace: REGISTER_NAMESPACE,
     format: FORMAT,
     limits: Limits { bytes: 16 << 20, brackets: usize::MAX },
     expected: "a register, which `issue` writes beside the passports of a stand",
@@ -80,7 +80,7 @@ word_of_a_key!(State, key, "");
 record! {
     /// Identity, sequence and time of a register.
     #[derive(Eq)]
-    pub struct Header {
+    pub struct RegisterHeader {
         /// Stand, `<model>/<serial>`.
         pub stand: String,
         /// Sequence number, from 1, increasing.
@@ -130,7 +130,7 @@ record! {
         /// Always "dtg-register/1".
         pub format: String,
         /// Identity, sequence and time of the register.
-        pub register: OneLine<Header>,
+        pub register: OneLine<RegisterHeader>,
         /// Passports, in the order of listing.
         pub passports: Vec<Entry>,
     }
@@ -195,7 +195,7 @@ fn is_past(last: Date, time: Timestamp) -> bool {
 
 impl Register {
     /// Returns identity, sequence and time of the register.
-    pub(crate) fn header(&self) -> &Header {
+    pub(crate) fn header(&self) -> &RegisterHeader {
         &self.register.0
     }
 
@@ -385,7 +385,7 @@ impl VerifiedRegister {
     }
 
     /// Returns identity, sequence and time of the register.
-    pub fn header(&self) -> &Header {
+    pub fn header(&self) -> &RegisterHeader {
         self.content.header()
     }
 
@@ -425,10 +425,10 @@ impl RegisterRefused {
         issuer: &str,
         at: Timestamp,
     ) -> Result<(), Self> {
-        let Err(miss) = trust.signers.authorise(key, issuer, NAMESPACE, at) else { return Ok(()) };
+        let Err(miss) = trust.signers.authorise(key, issuer, REGISTER_NAMESPACE, at) else { return Ok(()) };
         let mut why = miss.of_document(key, issuer, at);
         if let NotAuthorised::WrongNamespace(allowed) = miss {
-            let line = format!("{issuer} namespaces=\"{allowed},{NAMESPACE}\" {}", key.to_openssh());
+            let line = format!("{issuer} namespaces=\"{allowed},{REGISTER_NAMESPACE}\" {}", key.to_openssh());
             why += &format!("; if this key may sign registers, change its line in allowed_signers to: {line}");
         }
         Err(Self::NotAuthorised(format!("{}: {why}", Printable(name))))

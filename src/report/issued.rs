@@ -17,7 +17,7 @@ use crate::passport::annotations::Absence;
 use crate::passport::issue::Remarks;
 use crate::text::printable::{json, json_line};
 use crate::text::words;
-use crate::text::{Cause, Printable, name_of, printable};
+use crate::text::{Printable, RefusalCause, name_of, printable};
 use crate::wording::Text;
 use crate::wording::texts::{calibration, issued as texts};
 use serde::Serialize;
@@ -115,7 +115,7 @@ impl Report {
             }
             Outcome::Failed(Failure { what, why, passports, unreadable, .. }) => {
                 let cause = unreadable.iter().flat_map(|refused| refused.problems()).find_map(|problem| problem.cause);
-                let (reason, passports, cause) = (Some(why.clone()), *passports, cause.map(Cause::code));
+                let (reason, passports, cause) = (Some(why.clone()), *passports, cause.map(RefusalCause::code));
                 Self { reason, passports, cause, ..Self::new(what.clone(), State::Refused) }
             }
         }

@@ -3,7 +3,7 @@
 use super::style::Outcome;
 use super::{columns, style};
 use crate::simulation::draw::CurrentError;
-use crate::simulation::{Accuracy, AccuracyOptions, Convergence, ConvergenceRow, PAPER_LATITUDE_DEG};
+use crate::simulation::{AccuracyOptions, AccuracyTable, Convergence, ConvergenceRow, PAPER_LATITUDE_DEG};
 use crate::statistics::summary::upper_limit_without_a_case;
 use crate::units::printed;
 use crate::wording::number::Number;
@@ -13,7 +13,7 @@ use std::fmt::Write;
 
 /// Returns the paper's table: worst error and standard deviation of every parameter by every method, and whether the worst
 /// error is within the paper's bound.
-pub(crate) fn accuracy(found: &Accuracy, options: &AccuracyOptions) -> String {
+pub(crate) fn accuracy(found: &AccuracyTable, options: &AccuracyOptions) -> String {
     let stands = match found.limit_deg {
         Some(limit) => format!("Each deviation is drawn uniformly within ±{limit}°."),
         None => "The deviations are those of the specified stand.".to_owned(),

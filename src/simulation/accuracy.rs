@@ -17,6 +17,7 @@ use nalgebra::Vector2;
 use serde::Serialize;
 
 /// Latitude of the paper's laboratory, degrees.
+#[doc(hidden)]
 pub const PAPER_LATITUDE_DEG: f64 = 55.7658;
 
 /// Stands of a simulation.
@@ -34,6 +35,7 @@ pub enum Stands {
 
 /// Options of the accuracy simulation.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct AccuracyOptions {
     /// Stands of the simulation.
     pub stands: Stands,
@@ -69,7 +71,7 @@ impl Default for AccuracyOptions {
 
 /// Result of the accuracy simulation: the paper's table.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Accuracy {
+pub struct AccuracyTable {
     /// Number of trials made; fewer than requested if cancelled.
     pub trials: u64,
     /// Seed of the random numbers.
@@ -115,7 +117,7 @@ fn bound_of_the_paper(parameter: Parameter) -> f64 {
 }
 
 /// Simulates the errors of the computed parameters over stands, gyros and currents drawn at random.
-pub fn accuracy(options: &AccuracyOptions, run: &Run) -> Accuracy {
+pub fn accuracy(options: &AccuracyOptions, run: &Run) -> AccuracyTable {
     let simulation = Simulation::new(options);
     let blocks = run.blocks(|stream, trials| simulation.block(stream, trials));
     let trials = blocks.iter().map(|block| block.trials).sum();
@@ -132,7 +134,7 @@ pub fn accuracy(options: &AccuracyOptions, run: &Run) -> Accuracy {
         Stands::Given(_) => None,
     };
     let latitude_deg = options.earth.astronomic_latitude_deg();
-    Accuracy { trials, seed: run.seed, limit_deg, latitude_deg, rows }
+    AccuracyTable { trials, seed: run.seed, limit_deg, latitude_deg, rows }
 }
 
 /// Errors of one block of trials, by method and parameter.

@@ -10,6 +10,7 @@ use crate::statistics::summary::{binomial_standard_error, percentile};
 use serde::Serialize;
 
 /// Limits of the deviations in the paper's Fig. 4 and beyond, degrees.
+#[doc(hidden)]
 pub const LIMITS_DEG: [f64; 12] = [0.1, 1.0, 3.0, 5.0, 7.5, 10.0, 12.5, 15.0, 17.5, 20.0, 25.0, 30.0];
 
 /// Result of the convergence simulation: the paper's Fig. 4 as numbers.

@@ -13,6 +13,7 @@ words! {
     /// Distribution of the angles of a stand.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     #[non_exhaustive]
+    #[doc(hidden)]
     pub enum Deviations: pub(crate) key {
         /// Uniform distribution within ±D.
         Uniform = "uniform",
@@ -22,6 +23,7 @@ words! {
 }
 
 /// Draws the paper's eight positions, with α, β and γ of each within the limit D = `limit_deg`, degrees.
+#[doc(hidden)]
 pub fn stand(stream: &mut Stream, deviations: Deviations, limit_deg: f64) -> Vec<Position> {
     let limit = radians_from_degrees(limit_deg);
     let mut angle = || match deviations {
@@ -56,6 +58,7 @@ pub enum CurrentError {
 
 impl CurrentError {
     /// Applies relative errors, uniform within ±`percent`, to the currents.
+    #[doc(hidden)]
     pub fn add(self, stream: &mut Stream, percent: f64, currents_ma: &mut [Vector2<f64>]) {
         let limit = percent / 100.0;
         let mut factor = || 1.0 + stream.within(limit);

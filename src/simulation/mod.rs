@@ -6,9 +6,13 @@
 
 pub(crate) mod accuracy;
 pub(crate) mod convergence;
+#[doc(hidden)]
 pub mod draw;
 
-pub use crate::statistics::random::{Run, Stream};
-pub use accuracy::{Accuracy, AccuracyOptions, AccuracyRow, PAPER_LATITUDE_DEG, Stands, accuracy};
-
+pub use crate::statistics::random::Run;
+// For the benchmarks.
+#[doc(hidden)]
+pub use crate::statistics::random::Stream;
+pub use accuracy::{AccuracyOptions, AccuracyRow, AccuracyTable, PAPER_LATITUDE_DEG, Stands, accuracy};
 pub use convergence::{Convergence, ConvergenceRow, LIMITS_DEG, convergence};
+pub use draw::CurrentError;

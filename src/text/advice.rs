@@ -4,7 +4,7 @@
 #[cfg(feature = "yaml")]
 use super::Problems;
 use super::characters::{STRAIGHT_QUOTES, latin, typographic_quote};
-use super::{Advice, Cause, Node, Path};
+use super::{Advice, Node, Path, RefusalCause};
 
 /// Word that a template contains instead of a value that only the user knows, and that no document of theirs may contain.
 const PLACEHOLDER: &str = "CHANGE";
@@ -45,17 +45,17 @@ enum Of {
 
 /// Way to write what is not a number: the test, the cause if it is a recognised one, and the advice unless it is the usual one
 /// of the cause.
-type Way = (fn(&Written) -> bool, Option<Cause>, &'static str);
+type Way = (fn(&Written) -> bool, Option<RefusalCause>, &'static str);
 
 /// Ways in which people and programs write what is not a number; the first that fits is taken.
 const WAYS: &[Way] = &[
     (|it| is_placeholder(it.text), None, REPLACE),
     (|it| it.of == Of::Tolerance && it.text.contains(['±', '/']), None, TOLERANCE),
-    (|it| it.text.chars().any(char::is_control), Some(Cause::ControlCharacter), ""),
+    (|it| it.text.chars().any(char::is_control), Some(RefusalCause::ControlCharacter), ""),
     (|it| it.of == Of::Cell && it.text.contains(';'), None, "separate columns by commas"),
-    (|it| is_date(it.text) && !it.name.ends_with("_deg"), Some(Cause::SpreadsheetDate), ""),
-    (|it| is_overload(it.text), Some(Cause::Overload), ""),
-    (|it| is_grouped(it.text), Some(Cause::Thousands), ""),
+    (|it| is_date(it.text) && !it.name.ends_with("_deg"), Some(RefusalCause::SpreadsheetDate), ""),
+    (|it| is_overload(it.text), Some(RefusalCause::Overload), ""),
+    (|it| is_grouped(it.text), Some(RefusalCause::Thousands), ""),
     (
         |it| it.name.ends_with("_arcsec") && is_in_parts(it.text),
         None,
@@ -77,7 +77,7 @@ const WAYS: &[Way] = &[
         None,
         STRAIGHT_QUOTES,
     ),
-    (|it| it.of != Of::Cell && has_leading_zero(it.text), Some(Cause::LeadingZero), ""),
+    (|it| it.of != Of::Cell && has_leading_zero(it.text), Some(RefusalCause::LeadingZero), ""),
     (|it| is_number(unquoted(it.text)), None, "write the number without quotes"),
     (
         |it| it.text.strip_prefix('(').and_then(|text| text.strip_suffix(')')).is_some_and(is_number),
@@ -86,10 +86,10 @@ const WAYS: &[Way] = &[
     ),
     (
         |it| has_decimal_comma(it.text) && !it.text.is_ascii(),
-        Some(Cause::DecimalComma),
+        Some(RefusalCause::DecimalComma),
         "use a decimal point, and an ASCII minus",
     ),
-    (|it| has_decimal_comma(it.text), Some(Cause::DecimalComma), ""),
+    (|it| has_decimal_comma(it.text), Some(RefusalCause::DecimalComma), ""),
     (|it| is_number(&it.text.replace(['D', 'd'], "E")), None, "write the exponent with E, such as 1.0E-3"),
     (
         |it| it.name.ends_with("_deg") && is_in_minutes(it.text),
@@ -136,12 +136,12 @@ pub(crate) fn on_yaml(node: &Node, at: &Path) -> Advice {
 /// taken, it ends with the advice `not_taken`.
 pub(crate) fn on_cell(text: &str, column: &str, not_taken: &str) -> Advice {
     let advice = on(Written { text, name: column, of: Of::Cell }).unwrap_or_else(|| not_taken.into());
-    if advice.cause == Some(Cause::Overload) { overload(not_taken) } else { advice }
+    if advice.cause == Some(RefusalCause::Overload) { overload(not_taken) } else { advice }
 }
 
 /// Returns the advice on the sign of an instrument for an overload, followed by what to do about it.
 fn overload(remedy: &str) -> Advice {
-    let Advice { cause, words, meant } = Cause::Overload.into();
+    let Advice { cause, words, meant } = RefusalCause::Overload.into();
     Advice { cause, words: format!("{words}; {remedy}"), meant }
 }
 
@@ -292,8 +292,8 @@ pub(crate) fn on_name(known: &[&str], found: &str) -> Option<Advice> {
     let words = |unit: &str| unit.split('_').map(unit_in_words).collect::<Vec<_>>().join(" ");
     let convert = format!("convert the numbers from {} to {}, then name it {name}", words(&unit), words(known));
     let advice = match (is_written, known == unit) {
-        (true, true) => (Cause::HeaderUnit, format!("name it {name}, which states the unit")).into(),
-        (true, false) => (Cause::HeaderUnit, convert).into(),
+        (true, true) => (RefusalCause::HeaderUnit, format!("name it {name}, which states the unit")).into(),
+        (true, false) => (RefusalCause::HeaderUnit, convert).into(),
         (false, _) => Advice::from(convert),
     };
     Some(advice.meaning(name))

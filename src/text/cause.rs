@@ -3,10 +3,10 @@
 use super::words;
 
 words! {
-    /// Recognised cause of an error in a document; [`Cause::code`] is its word in JSON.
+    /// Recognised cause of an error in a document; [`RefusalCause::code`] is its word in JSON.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
     #[non_exhaustive]
-    pub enum Cause: pub code {
+    pub enum RefusalCause: pub code {
         /// Comma as the decimal mark.
         DecimalComma = "decimal_comma",
         /// Unit of a column or key that is not written as in the format.
@@ -40,7 +40,7 @@ words! {
     }
 }
 
-impl Cause {
+impl RefusalCause {
     /// Returns the usual advice on an error with this cause.
     fn advice(self) -> &'static str {
         match self {
@@ -73,14 +73,14 @@ impl Cause {
 /// Advice on an error, with its cause if that is recognised.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct Advice {
-    pub(crate) cause: Option<Cause>,
+    pub(crate) cause: Option<RefusalCause>,
     pub(crate) words: String,
     /// Known name that an unknown one stands for.
     pub(crate) meant: Option<String>,
 }
 
-impl From<Cause> for Advice {
-    fn from(cause: Cause) -> Self {
+impl From<RefusalCause> for Advice {
+    fn from(cause: RefusalCause) -> Self {
         (cause, cause.advice()).into()
     }
 }
@@ -98,8 +98,8 @@ impl From<String> for Advice {
 }
 
 /// Advice on an error with this cause that says more than the usual one.
-impl<W: Into<String>> From<(Cause, W)> for Advice {
-    fn from((cause, words): (Cause, W)) -> Self {
+impl<W: Into<String>> From<(RefusalCause, W)> for Advice {
+    fn from((cause, words): (RefusalCause, W)) -> Self {
         Self { cause: Some(cause), words: words.into(), meant: None }
     }
 }

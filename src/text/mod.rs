@@ -37,7 +37,7 @@ pub(crate) mod words;
 pub(crate) mod yaml;
 
 pub(crate) use cause::Advice;
-pub use cause::Cause;
+pub use cause::RefusalCause;
 pub use excerpt::Location;
 pub(crate) use field::Field;
 pub(crate) use kind::Kind;

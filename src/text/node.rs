@@ -3,7 +3,7 @@
 pub(crate) use super::characters::without_byte_order_mark;
 
 use super::kind::{Kind, mistaken};
-use super::{Advice, Cause, LARGEST_DOCUMENT_BYTES, Location, Path, Unreadable, large_file};
+use super::{Advice, LARGEST_DOCUMENT_BYTES, Location, Path, RefusalCause, Unreadable, large_file};
 use serde::de::{self, DeserializeOwned, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::{Serialize, Serializer};
 use std::cell::Cell;
@@ -111,7 +111,7 @@ fn text_of<'a>(name: &str, bytes: &'a [u8], largest_bytes: usize, signed: Option
 /// Returns the bytes as text if they are UTF-8; `signed` is as in [`text_of`].
 pub(crate) fn utf8<'a>(name: &str, bytes: &'a [u8], signed: Option<&str>) -> Result<&'a str, Unreadable> {
     if is_utf16(bytes) {
-        let advice = signed.map_or(Cause::Utf16.into(), |advice| Advice::from((Cause::Utf16, advice)));
+        let advice = signed.map_or(RefusalCause::Utf16.into(), |advice| Advice::from((RefusalCause::Utf16, advice)));
         return Err(Unreadable::whole(name, None, "UTF-16", "UTF-8", advice));
     }
     std::str::from_utf8(bytes).map_err(|error| {
@@ -151,13 +151,13 @@ pub(crate) fn from_json<T: DeserializeOwned>(
 
 /// Describes a character that a person does not see as what it is, with its cause; `None` for all others. A carriage return
 /// is checked as part of the line ending.
-pub(crate) fn odd(c: char) -> Option<(String, Cause)> {
+pub(crate) fn odd(c: char) -> Option<(String, RefusalCause)> {
     let (name, cause) = match c {
         '\n' | '\t' | '\r' | ' ' => return None,
-        _ if c.is_control() => ("control character", Cause::ControlCharacter),
-        '\u{2028}' | '\u{2029}' => ("line separator", Cause::NoBreakSpace),
-        '\u{A0}' | '\u{2007}' | '\u{202F}' => ("no-break space", Cause::NoBreakSpace),
-        _ if c.is_whitespace() => ("space", Cause::NoBreakSpace),
+        _ if c.is_control() => ("control character", RefusalCause::ControlCharacter),
+        '\u{2028}' | '\u{2029}' => ("line separator", RefusalCause::NoBreakSpace),
+        '\u{A0}' | '\u{2007}' | '\u{202F}' => ("no-break space", RefusalCause::NoBreakSpace),
+        _ if c.is_whitespace() => ("space", RefusalCause::NoBreakSpace),
         _ => return None,
     };
     Some((format!("{name} U+{:04X}", u32::from(c)), cause))
@@ -165,7 +165,7 @@ pub(crate) fn odd(c: char) -> Option<(String, Cause)> {
 
 /// Returns the place, the description and the cause of the first [`odd`] character; spaces in comments do not count, except
 /// separators, which end a line, and so a comment, in YAML 1.1 but not in YAML 1.2.
-pub(crate) fn odd_character(text: &str) -> Option<(usize, String, Cause)> {
+pub(crate) fn odd_character(text: &str) -> Option<(usize, String, RefusalCause)> {
     let (mut in_comment, mut before) = (false, '\n');
     for (at, c) in text.char_indices() {
         in_comment = c != '\n' && (in_comment || c == '#' && before.is_ascii_whitespace());

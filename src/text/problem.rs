@@ -1,6 +1,6 @@
 //! Errors in documents: location, found content, expected content and advice.
 
-use super::cause::{Advice, Cause};
+use super::cause::{Advice, RefusalCause};
 use super::characters::{is_sha256_hex, without_byte_order_mark};
 use super::excerpt::{Excerpt, Location, Step};
 #[cfg(feature = "yaml")]
@@ -83,7 +83,7 @@ pub struct Problem {
     /// Advice; empty if the remedy is obvious.
     pub advice: String,
     /// Cause, or `None` if it is not a recognised one.
-    pub cause: Option<Cause>,
+    pub cause: Option<RefusalCause>,
     /// Known name that was found with another spelling or unit.
     meant: Option<String>,
 }

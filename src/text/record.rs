@@ -4,7 +4,7 @@ use super::canonical::Scanner;
 use super::characters::{STRAIGHT_QUOTES, allowed_in_string, is_printable_ascii, latin, typographic_quote};
 use super::field::{Field, Sink, refuse};
 use super::problem::UPDATE;
-use super::{Advice, Cause, Node, Path, Problems, advice, misspelt, node, rule};
+use super::{Advice, Node, Path, Problems, RefusalCause, advice, misspelt, node, rule};
 use std::collections::HashSet;
 
 /// Type whose fields are the keys of a mapping.
@@ -184,8 +184,11 @@ fn unknown_key_advice(entries: &[(String, Node)], index: usize, key: &str, value
         && key.bytes().all(|byte| byte.is_ascii_digit())
     {
         return match (1..1000).contains(&whole.abs()) && key.len() == 3 {
-            true => (Cause::Thousands, format!("write {name}: {whole}{key}, or, with a decimal point, {whole}.{key}")),
-            false => (Cause::DecimalComma, format!("use a decimal point: {name}: {whole}.{key}")),
+            true => (
+                RefusalCause::Thousands,
+                format!("write {name}: {whole}{key}, or, with a decimal point, {whole}.{key}"),
+            ),
+            false => (RefusalCause::DecimalComma, format!("use a decimal point: {name}: {whole}.{key}")),
         }
         .into();
     }
@@ -345,7 +348,7 @@ impl Field for String {
             const ADVICE: &str = "delete it, or use a composed character (NFC); control, combining, bidirectional, invisible \
                                   and separator characters cannot be signed";
             let (found, advice): (String, Advice) = match node::odd(refused) {
-                Some((found, cause @ Cause::NoBreakSpace)) => (found, cause.into()),
+                Some((found, cause @ RefusalCause::NoBreakSpace)) => (found, cause.into()),
                 _ => (format!("character U+{:04X}", u32::from(refused)), ADVICE.into()),
             };
             problems.at(at, found, "printable text on one line", advice);

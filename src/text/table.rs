@@ -9,7 +9,7 @@
 use super::kind::mistaken;
 use super::node::{hand_written_text, odd, without_byte_order_mark};
 use super::problem::{MOST_COUNTED, MOST_PROBLEMS, counted};
-use super::{Advice, Cause, Kind, Location, Node, Problem, Unreadable};
+use super::{Advice, Kind, Location, Node, Problem, RefusalCause, Unreadable};
 use super::{advice, misspelt};
 use std::cmp::Reverse;
 use std::ops::Range;
@@ -200,7 +200,7 @@ impl<'a> Table<'a> {
         let advice = "every point is before exactly three digits, and other numbers are whole: save the table again without \
                       thousands separators, or, if the points are decimal, with all decimals in every number";
         let expected = "a number that can be read in one way";
-        Some(self.problem(first, place, described(&first.text), expected, (Cause::Thousands, advice)))
+        Some(self.problem(first, place, described(&first.text), expected, (RefusalCause::Thousands, advice)))
     }
 
     /// Returns the refusal of this table. If many cells need the same advice, only the first is shown, with the number
@@ -252,8 +252,8 @@ fn with_decimal_points(rows: &mut [Row], columns: &[&str]) -> Result<bool, Probl
             let found = format!("{:?}, with decimal commas from line {} on", cell.text, comma.location.line);
             let expected = "decimal commas or decimal points in the whole file";
             let advice = match cell.text.contains(',') {
-                true => (Cause::Thousands, "save the table again without thousands separators"),
-                false => (Cause::DecimalComma, "save the table again with decimal points"),
+                true => (RefusalCause::Thousands, "save the table again without thousands separators"),
+                false => (RefusalCause::DecimalComma, "save the table again with decimal points"),
             };
             return Err(Problem::new(Some(cell.location), column_name(columns, place), found, expected, advice));
         }
@@ -355,7 +355,7 @@ fn split_row(line: usize, further: usize) -> Problem {
     let found = format!("measured numbers without a decimal point, and {further} number{plural} in further columns");
     let advice = "use decimal points, because a decimal comma splits a number in two; write a whole number as 12.0";
     let at = Location { line, column: 1 };
-    Problem::new(Some(at), "", found, "decimal points in the measured numbers", (Cause::DecimalComma, advice))
+    Problem::new(Some(at), "", found, "decimal points in the measured numbers", (RefusalCause::DecimalComma, advice))
 }
 
 fn is_without_point(cells: &[Cell]) -> bool {
@@ -502,7 +502,7 @@ impl<'a> Header<'a> {
     }
 
     /// Describes a row of names, units or statistics instead of readings, with its cause; `None` for any other row.
-    fn not_readings(&self, cells: &[Cell]) -> Option<(&'static str, Cause)> {
+    fn not_readings(&self, cells: &[Cell]) -> Option<(&'static str, RefusalCause)> {
         let is_name = |name: &&str| cells.iter().any(|cell| cell.text.trim_start_matches('\u{FEFF}') == *name);
         let measured = self.order[self.measured.clone()].iter().filter_map(|place| cells.get(*place));
         let indices = self.order[..self.measured.start].iter().filter_map(|place| cells.get(*place));
@@ -515,11 +515,11 @@ impl<'a> Header<'a> {
             STATISTICS.split_whitespace().any(|statistic| word.starts_with(statistic))
         };
         if self.columns[..self.measured.end].iter().all(is_name) {
-            Some(("the header again", Cause::RepeatedHeader))
+            Some(("the header again", RefusalCause::RepeatedHeader))
         } else if measured.clone().any(is_unit) && measured.clone().all(|cell| is_unit(cell) || is_blank(cell)) {
-            Some(("a row of units", Cause::UnitsRow))
+            Some(("a row of units", RefusalCause::UnitsRow))
         } else if indices.clone().any(is_statistic) || !indices.clone().any(is_number) && left.any(is_statistic) {
-            Some(("a row of a statistic", Cause::SummaryRow))
+            Some(("a row of a statistic", RefusalCause::SummaryRow))
         } else {
             None
         }
@@ -538,7 +538,8 @@ impl<'a> Header<'a> {
     /// Creates the report of a row that has another number of cells than the header.
     fn wrong_number_of_cells(&self, (line, text): (usize, &str), separator: char, cells: &[Cell]) -> Problem {
         let (names, found, at) = (&self.names, cells.len(), Some(Location { line, column: 1 }));
-        if let Some((found, cause)) = text.chars().find_map(odd).filter(|(_, cause)| *cause == Cause::ControlCharacter)
+        if let Some((found, cause)) =
+            text.chars().find_map(odd).filter(|(_, cause)| *cause == RefusalCause::ControlCharacter)
         {
             return Problem::new(at, "", found, "a row of values", cause);
         }
@@ -548,7 +549,7 @@ impl<'a> Header<'a> {
         } else if !text.contains(separator) && has_other {
             "separate columns as in the header".into()
         } else if self.has_used(found) && separator == ',' && has_split_number(&cells[self.first_measured()..]) {
-            Advice::from((Cause::DecimalComma, "use decimal points; a decimal comma splits a number in two"))
+            Advice::from((RefusalCause::DecimalComma, "use decimal points; a decimal comma splits a number in two"))
         } else if found > names.len() {
             "name each column in the header, or delete what goes beyond it".into()
         } else {

@@ -3,7 +3,7 @@
 use super::LARGEST_TRUST_FILE_BYTES;
 use crate::text::node::{odd, utf8, without_byte_order_mark};
 use crate::text::problem::{MOST_COUNTED, counted};
-use crate::text::{Advice, Cause, Location, Problem, Unreadable};
+use crate::text::{Advice, Location, Problem, RefusalCause, Unreadable};
 
 /// A line that is neither empty nor a comment.
 #[derive(Debug, Clone, Copy)]
@@ -30,7 +30,8 @@ impl Line<'_> {
 
     /// Returns the problem of the first control character in this line except tab, or `None` if there is none.
     pub(super) fn control_character(&self) -> Option<Problem> {
-        let is_control = |(at, c)| odd(c).filter(|(_, cause)| *cause == Cause::ControlCharacter).map(|odd| (at, odd));
+        let is_control =
+            |(at, c)| odd(c).filter(|(_, cause)| *cause == RefusalCause::ControlCharacter).map(|odd| (at, odd));
         let (at, (found, cause)) = self.text.char_indices().find_map(is_control)?;
         Some(self.problem(at, "", found, "text", cause))
     }

@@ -4,7 +4,7 @@ use super::lines::Line;
 use super::principal::LONGEST_PATTERN;
 use super::public_key::{AnyKey, shortened};
 use super::{KeyError, KeyPoint, PublicKey};
-use crate::text::Cause;
+use crate::text::RefusalCause;
 use crate::text::problem::{MOST_COUNTED, Problem};
 use jiff::Timestamp;
 use jiff::civil::DateTime;
@@ -53,7 +53,7 @@ pub(super) fn read(line: &Line) -> Result<Result<SignerLine, String>, Vec<Proble
             "",
             found,
             "principals, options and the key, separated by one space each",
-            Cause::OptionBlank,
+            RefusalCause::OptionBlank,
         )]
     };
     if principals.ends_with(',') {

@@ -44,6 +44,7 @@ pub(crate) fn refused_model(options: &Options) -> Option<&'static str> {
 
 /// Settings of a Monte Carlo run.
 #[derive(Clone, Copy)]
+#[non_exhaustive]
 pub struct Trials<'a> {
     /// Number of trials, rounded up to whole blocks of `BLOCK`; `None` runs until the digits are stable.
     pub trials: Option<u64>,

@@ -8,7 +8,7 @@ use crate::fixtures;
 use crate::programs;
 use dtg_passport::passport::issue::{self, Issue};
 use dtg_passport::passport::{CheckName, Code, Question, Trust, verify};
-use dtg_passport::register::{NAMESPACE, State, VerifiedRegister};
+use dtg_passport::register::{REGISTER_NAMESPACE, State, VerifiedRegister};
 use dtg_passport::site::Site;
 use dtg_passport::stand::Stand;
 use dtg_passport::trust::{AllowedSigners, SigningKey};
@@ -83,7 +83,8 @@ fn the_registers_list_the_passports() {
 fn passports_signed_before_stay_valid() {
     let path = "tests/golden/passport-1-gvk-6.yaml";
     let signers = AllowedSigners::parse("allowed_signers", &read("tests/golden/allowed_signers")).unwrap();
-    let question = Question { serial: Some("0017".into()), ..Question::at("2026-12-01T00:00:00Z".parse().unwrap()) };
+    let mut question = Question::at("2026-12-01T00:00:00Z".parse().unwrap());
+    question.serial = Some("0017".into());
     let answer = verify(path, &read(path), &Trust::of(signers), &question);
     assert!(answer.valid(), "{:?}", answer.checks());
     let passport = answer.passport().unwrap();
@@ -298,7 +299,7 @@ fn the_program_issues_the_same_bytes_as_the_library() {
         let now = now.split_once('"').unwrap().1;
         let payload = format!("{before}register: {{{start}issued_at: \"{ISSUED_AT}\"{now}\n{entries}");
         let key = SigningKey::from_openssh(&String::from_utf8(read("tests/keys/examples")).unwrap(), None).unwrap();
-        let due = fixtures::signed_as(NAMESPACE, &payload, &key);
+        let due = fixtures::signed_as(REGISTER_NAMESPACE, &payload, &key);
         if std::env::var_os("UPDATE_EXAMPLES").is_some() {
             fs::write(programs::project(&format!("passports/{name}")), &due).unwrap();
         }

@@ -236,7 +236,7 @@ fn signed(bytes: &[u8]) -> bool {
 fn of_register(bytes: &[u8]) -> bool {
     let Some(payload) = payload(bytes) else { return false };
     let Bench { key, trust, question, .. } = &*BENCH;
-    let file = join(payload, &key.sign(register::NAMESPACE, payload.as_bytes()).unwrap());
+    let file = join(payload, &key.sign(register::REGISTER_NAMESPACE, payload.as_bytes()).unwrap());
     let verified = match VerifiedRegister::verify("f", file.as_bytes(), trust, question.time) {
         Ok(verified) => verified,
         Err(error) => {
@@ -300,7 +300,7 @@ fn allowed_signers(bytes: &[u8]) -> bool {
     let other = AllowedSigners::parse("other", other.as_bytes()).expect("the same lines");
     let key = BENCH.key.public_key();
     for principal in ["examples@dtg-passport.test", "a", "bc@d"] {
-        for namespace in [NAMESPACE, register::NAMESPACE] {
+        for namespace in [NAMESPACE, register::REGISTER_NAMESPACE] {
             for time in ["2026-11-20T00:00:00Z", "1999-12-31T23:59:59Z"] {
                 let verdict = |list: &AllowedSigners| list.authorise(&key, principal, namespace, time.parse().unwrap());
                 assert_eq!(verdict(&signers), verdict(&other));

@@ -2,7 +2,7 @@
 //! spreadsheet programs, meters, editors and PowerShell write.
 
 use crate::inside::reference::*;
-use crate::text::cause::Cause;
+use crate::text::cause::RefusalCause;
 use crate::text::table::Table;
 use crate::text::{Node, Path, Unreadable, advice};
 use dtg_passport::calibration::Readings;
@@ -11,7 +11,7 @@ use dtg_passport::trust::AllowedSigners;
 /// Returns the word of the cause of the first error, or an empty text, and its message.
 fn first(refused: &Unreadable) -> (&'static str, String) {
     let problem = &refused.problems()[0];
-    (problem.cause.map_or("", Cause::code), refused.to_string().lines().next().unwrap_or_default().to_owned())
+    (problem.cause.map_or("", RefusalCause::code), refused.to_string().lines().next().unwrap_or_default().to_owned())
 }
 
 /// Currents in all positions, with `header` instead of the usual one, and a row changed by `row` (its number, from 1).
@@ -241,7 +241,7 @@ fn a_misspelt_column_is_told_from_another() {
 fn a_value_of_yaml_that_is_not_a_number_has_its_cause() {
     let on = |text: &str, key: &str| {
         let advice = advice::on_yaml(&Node::Text(text.to_owned()), &Path::Root.key(key));
-        (advice.cause.map_or("", Cause::code), advice.words)
+        (advice.cause.map_or("", RefusalCause::code), advice.words)
     };
     for (written, key, cause, remedy) in [
         ("1,500", "height_m", "thousands", "without separators of thousands"),

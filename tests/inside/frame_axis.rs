@@ -163,7 +163,7 @@ mod passports {
     use dtg_passport::coefficients::PositionIndex;
     use dtg_passport::laboratory::Laboratory;
     use dtg_passport::passport::checks::Code;
-    use dtg_passport::passport::reissue::{Order, changes};
+    use dtg_passport::passport::reissue::{Reissue, changes};
     use dtg_passport::passport::{Content, Verification, reissue, verify};
     use dtg_passport::site::Site;
     use dtg_passport::stand::{CertifiedPosition, Stand};
@@ -271,23 +271,16 @@ mod passports {
         let old = fixtures::content(&stand, &fixtures::site(fixtures::SITE));
         assert!(changes(&old, &stand, &site_at(0.0), fixtures::ISSUER).contains("frame_axis_azimuth_deg nothing -> 0"));
         let text = written(&old, &key);
-        let order = Order {
-            stand: None,
+        let order = Reissue {
             site: Some(site_at(0.0)),
-            moved: false,
-            reason: "the base was turned to the north".to_owned(),
-            issuer: fixtures::ISSUER.to_owned(),
-            issued_at: fixtures::issued_plus(60),
-            valid_until: None,
-            allow_uncalibratable: false,
-            same_content: false,
+            ..Reissue::new(fixtures::ISSUER, fixtures::issued_plus(60), "the base was turned to the north")
         };
         let verification = verify("old.yaml", text.as_bytes(), &fixtures::trust(&key), &fixtures::question());
         let successor = reissue::successor(text.as_bytes(), &verification, &order).unwrap();
         let new = successor.draft(2).unwrap().content().clone();
         assert_eq!(new.matrices, fixtures::content(&stand, &site_at(0.0)).matrices);
         // From the passport alone, without files: the azimuth comes along.
-        let kept = Order { site: None, issued_at: fixtures::issued_plus(120), ..order };
+        let kept = Reissue { site: None, issued_at: fixtures::issued_plus(120), ..order };
         let text = written(&new, &key);
         let verification = verify("new.yaml", text.as_bytes(), &fixtures::trust(&key), &fixtures::question());
         let successor = reissue::successor(text.as_bytes(), &verification, &kept).unwrap();

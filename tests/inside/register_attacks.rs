@@ -8,9 +8,9 @@ use dtg_passport::folder::registers::Registers;
 use dtg_passport::folder::renewal::{Renewal, Withdrawal};
 use dtg_passport::folder::{Authority, Folder, FolderRefused, Memory};
 use dtg_passport::passport::issue::{Issue, PreparedStand};
-use dtg_passport::passport::reissue::{Order, successor};
+use dtg_passport::passport::reissue::{Reissue, successor};
 use dtg_passport::passport::{CheckName, Question, Trust, verify};
-use dtg_passport::register::{Entry, NAMESPACE, Register, State};
+use dtg_passport::register::{Entry, REGISTER_NAMESPACE, Register, State};
 use dtg_passport::site::Site;
 use dtg_passport::trust::{AllowedSigners, RevokedKeys, SigningKey};
 use jiff::Timestamp;
@@ -94,17 +94,7 @@ impl Factory {
         let authority = Authority::new(ISSUER, &self.key, &self.trust, &clock);
         let bytes = fs::read(self.file(name, revision)).unwrap();
         let old = verify("old", &bytes, &self.trust, &Question::at(time));
-        let order = Order {
-            stand: None,
-            site: None,
-            moved: false,
-            reason: "latitude of another pillar".to_owned(),
-            issuer: ISSUER.to_owned(),
-            issued_at: day(1),
-            valid_until: None,
-            allow_uncalibratable: false,
-            same_content: true,
-        };
+        let order = Reissue { same_content: true, ..Reissue::new(ISSUER, day(1), "latitude of another pillar") };
         let next = successor(&bytes, &old, &order).unwrap();
         Folder::new(self.root()).reissue(&next, &authority).map(|issued| issued.sha256)
     }
@@ -151,7 +141,7 @@ impl Factory {
     }
 
     fn signed(&self, content: &Register, key: &SigningKey) -> Vec<u8> {
-        signed_as(&content.payload(), key, NAMESPACE)
+        signed_as(&content.payload(), key, REGISTER_NAMESPACE)
     }
 
     /// Puts another file in the place of the register for one attack.
@@ -409,7 +399,7 @@ fn no_other_signature_and_no_broken_rule_is_accepted() {
     ] {
         let altered = text.replacen(from, to, 1);
         assert_ne!(altered, text, "{what}");
-        factory.with_register(&signed_as(&altered, &factory.key, NAMESPACE), || {
+        factory.with_register(&signed_as(&altered, &factory.key, REGISTER_NAMESPACE), || {
             factory.attacked("rule broken by the right key", what, UNKNOWN);
         });
     }

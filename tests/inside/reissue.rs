@@ -5,7 +5,7 @@ use dtg_passport::gyro::GyroType;
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::passport::accuracy::Stated;
 use dtg_passport::passport::issue::{self, Issue, PreparedStand};
-use dtg_passport::passport::reissue::{Order, successor};
+use dtg_passport::passport::reissue::{Reissue, successor};
 use dtg_passport::passport::{Question, Trust, verify};
 use dtg_passport::signing::allowed_signers_line;
 use dtg_passport::site::Site;
@@ -38,16 +38,10 @@ fn of_a_passport_that_may_only_be_named_nothing_but_its_id_and_hash_is_taken_ove
     };
     let (lost, new) = (SigningKey::generate().unwrap(), SigningKey::generate().unwrap());
     let old = issue::draft(&stand, &site, &issue).unwrap().sign(&lost).unwrap();
-    let order = Order {
+    let order = Reissue {
         stand: Some(Arc::new(PreparedStand::new(stand.clone()))),
         site: Some(site.clone()),
-        moved: false,
-        reason: "the key was lost".to_owned(),
-        issuer: "factory".to_owned(),
-        issued_at: time("2026-11-20T00:00:00Z"),
-        allow_uncalibratable: false,
-        same_content: false,
-        valid_until: None,
+        ..Reissue::new("factory", time("2026-11-20T00:00:00Z"), "the key was lost")
     };
     let accuracy_of_successor = |trust: &Trust| {
         let verification = verify("old.yaml", old.as_bytes(), trust, &Question::at(order.issued_at));

@@ -40,14 +40,14 @@ impl Case {
 /// Every case.
 pub fn all() -> Vec<Case> {
     let elsewhere = Place { latitude_deg: 40.2455, longitude_deg: 116.2240 };
-    let wrong = Question { serial: Some("0203".to_owned()), place: Some(elsewhere), ..fixtures::question() };
     let here = Place { latitude_deg: 55.7658, longitude_deg: 37.6856 };
-    let right = Question {
-        serial: Some("0017".to_owned()),
-        place: Some(here),
-        issuer: Some(fixtures::ISSUER.to_owned()),
-        ..fixtures::question()
+    let about = |serial: &str, place, issuer: Option<&str>| {
+        let mut question = fixtures::question();
+        (question.serial, question.place) = (Some(serial.to_owned()), Some(place));
+        question.issuer = issuer.map(str::to_owned);
+        question
     };
+    let (wrong, right) = (about("0203", elsewhere, None), about("0017", here, Some(fixtures::ISSUER)));
     vec![
         usual("usual-en", &[English]),
         usual("usual-ru", &[Russian]),
@@ -89,9 +89,13 @@ fn of(languages: &[Language]) -> Languages {
     Languages::new(languages[0], languages[1..].iter().copied())
 }
 
+fn first() -> Issue {
+    Issue::first(fixtures::ISSUER, fixtures::at(fixtures::ISSUED_AT))
+}
+
 fn case(name: &'static str, stand: &str, site: &str, languages: &[Language]) -> Case {
-    let order =
-        Issue { allow_uncalibratable: true, ..Issue::first(fixtures::ISSUER, fixtures::at(fixtures::ISSUED_AT)) };
+    let mut order = first();
+    order.allow_uncalibratable = true;
     issued(name, stand, site, &order, languages)
 }
 
@@ -104,7 +108,8 @@ fn issued(name: &'static str, stand: &str, site: &str, order: &Issue, languages:
 
 /// Twenty-four positions at a surveyed site, with the expected uncertainty.
 fn many(name: &'static str, languages: &[Language]) -> Case {
-    let order = Issue { accuracy: Some(stated()), ..Issue::first(fixtures::ISSUER, fixtures::at(fixtures::ISSUED_AT)) };
+    let mut order = first();
+    order.accuracy = Some(stated());
     issued(name, &many_positions(), fixtures::SITE, &order, languages)
 }
 
@@ -117,12 +122,9 @@ fn full(name: &'static str, languages: &[Language]) -> Case {
         reason,
         changed: "site: deflection_arcsec, azimuth_mark".to_owned(),
     };
-    let order = Issue {
-        accuracy: Some(stated()),
-        revision: 2,
-        reissued: Some(Reissued { from: predecessor, supersedes: true }),
-        ..Issue::first(fixtures::ISSUER, fixtures::at(fixtures::ISSUED_AT))
-    };
+    let mut order = first();
+    (order.accuracy, order.revision) = (Some(stated()), 2);
+    order.reissued = Some(Reissued { from: predecessor, supersedes: true });
     let stand = fixtures::ARC_MINUTES
         .replace("name: \"Two-axis", "customer: \"Gyro laboratory, Moscow\", name: \"Two-axis")
         .replace("  number:", "  received: \"2026-10-20\"\n  address: \"1, Example Street, Exampleton\"\n  authorized_by: \"A. N. Other, head of laboratory\"\n  accreditation: \"example accreditation 000\"\n  number:")

@@ -51,15 +51,8 @@ pub fn site(text: &str) -> Site {
 
 /// Creates a correct passport of `stand` at `site`, not yet signed.
 pub fn drafted(stand: &Stand, site: &Site, revision: u32) -> Draft {
-    let order = Issue {
-        accuracy: None,
-        issuer: ISSUER.to_owned(),
-        issued_at: at(ISSUED_AT),
-        valid_until: None,
-        revision,
-        reissued: None,
-        allow_uncalibratable: false,
-    };
+    let mut order = Issue::first(ISSUER, at(ISSUED_AT));
+    order.revision = revision;
     draft(stand, site, &order).unwrap()
 }
 
@@ -93,7 +86,9 @@ pub fn trust(key: &SigningKey) -> Trust {
 
 /// Creates the trust of `trust` with the revocation list `revoked`.
 pub fn trust_without(key: &SigningKey, revoked: &[u8]) -> Trust {
-    Trust { revoked: vec![RevokedKeys::parse("revoked", revoked).unwrap()], ..trust(key) }
+    let mut trust = trust(key);
+    trust.revoked.push(RevokedKeys::parse("revoked", revoked).unwrap());
+    trust
 }
 
 /// Returns the question for one hour after the issue.

@@ -4,7 +4,7 @@ use super::Reading;
 use crate::coefficients::PositionIndex;
 use crate::text::number::two_digits;
 use crate::text::table::{Row, Table};
-use crate::text::{Advice, Cause, Problem};
+use crate::text::{Advice, Problem, RefusalCause};
 use crate::units::SECONDS_PER_HOUR;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -47,7 +47,7 @@ pub(super) fn over_midnight(table: &Table, readings: &[Reading]) -> Vec<Problem>
     }
     let problem = |(before_s, time_s, row): &(f64, f64, &Row)| {
         let expected = format!("a time not before that of the row above, {before_s} s");
-        table.problem(&row[column], column, format!("{time_s} s"), &expected, Cause::Midnight)
+        table.problem(&row[column], column, format!("{time_s} s"), &expected, RefusalCause::Midnight)
     };
     falls.first().map(problem).into_iter().collect()
 }
@@ -99,7 +99,7 @@ pub(super) fn impossible_times(table: &Table, readings: &[Reading]) -> Vec<Probl
 /// Returns the advice on a time, s, that is before an earlier one; `otherwise` if neither midnight nor a clock explains it.
 fn on_fall(before_s: f64, time_s: f64, otherwise: &str) -> Advice {
     match before_s - time_s {
-        _ if is_midnight(before_s, time_s) => Cause::Midnight.into(),
+        _ if is_midnight(before_s, time_s) => RefusalCause::Midnight.into(),
         fall if (0.5 * SECONDS_PER_HOUR..=SECONDS_PER_HOUR).contains(&fall) => {
             "the clock seems to have been set back by an hour: add 3600 s to the times from there on".into()
         }

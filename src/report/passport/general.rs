@@ -2,7 +2,7 @@
 //! ([ISO/IEC 17025:2017](crate::bibliography::Bibliography::Iso17025), 7.8.2.1 and 7.8.4.1).
 
 use crate::passport::Content;
-use crate::passport::content::Header;
+use crate::passport::content::PassportHeader;
 use crate::report::doc::{Block, On, Words, blank, field, given, heading, record, say, wide};
 use crate::report::page::number::Number;
 use crate::stand::{Certificate, Identity, Reference};
@@ -17,7 +17,7 @@ pub(super) fn section(content: &Content) -> Vec<Block> {
 }
 
 /// The passport itself, the key that signed it, and the passport that it replaces.
-pub(crate) fn of_the_passport(header: &Header, key: Option<&PublicKey>) -> Vec<Block> {
+pub(crate) fn of_the_passport(header: &PassportHeader, key: Option<&PublicKey>) -> Vec<Block> {
     let mut doc = vec![record([
         field(texts::ISSUED, Some(Words::Time(header.issued_at))),
         field(texts::ISSUER, Some(given(&header.issuer))),

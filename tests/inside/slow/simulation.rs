@@ -6,7 +6,7 @@ use dtg_passport::calibration::{MeterUncertainty, Method, Model, analytic, least
 use dtg_passport::coefficients::{EIGHT_POSITIONS, EarthRate, Position, StandGeometry};
 use dtg_passport::gyro::GyroType;
 use dtg_passport::simulation::accuracy::{
-    Accuracy, AccuracyOptions, AccuracyRow, PAPER_LATITUDE_DEG, Stands, accuracy,
+    AccuracyOptions, AccuracyRow, AccuracyTable, PAPER_LATITUDE_DEG, Stands, accuracy,
 };
 use dtg_passport::simulation::convergence::{Convergence, convergence};
 use dtg_passport::simulation::draw::{self, CurrentError, Deviations};
@@ -18,7 +18,7 @@ fn drawn(limit_deg: f64, methods: &[Method]) -> AccuracyOptions {
     AccuracyOptions { stands: Stands::Drawn { limit_deg }, methods: methods.to_vec(), ..AccuracyOptions::default() }
 }
 
-fn row<'a>(table: &'a Accuracy, method: Method, parameter: &str) -> &'a AccuracyRow {
+fn row<'a>(table: &'a AccuracyTable, method: Method, parameter: &str) -> &'a AccuracyRow {
     let found = table.rows.iter().find(|row| row.method == method.key() && row.parameter.key() == parameter);
     found.expect("a row for each parameter")
 }
