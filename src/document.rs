@@ -71,6 +71,7 @@ pub trait Signer {
 
     /// Returns the curve point of the signing key, which speeds up the check of a new signature, or `None` if it is not
     /// known.
+    #[doc(hidden)]
     fn point(&self) -> Option<KeyPoint> {
         None
     }

@@ -66,7 +66,7 @@
 //! | `plan` | the best positions to certify or to read, and their order | `factory` and `monte-carlo` |
 //! | `files`, [`signing`], [`folder`] | whole or not at all; key files and agents; a folder of passports | `factory` |
 //! | `batch` | many passports at once | `factory` |
-//! | `interface` | what programs in other languages call: `python`, `c` and `web` | |
+//! | [`interface`] | what programs in other languages call: `python`, `c` and `web` | |
 //! | [`report`] | what people read | `report` |
 //! | `dcc` | Digital Calibration Certificates of PTB, of a stand and of a gyro | `cli` |
 //! | `schema` | JSON Schemas of the formats; what makes them with `generate` | `cli` |
@@ -122,8 +122,6 @@ pub mod folder;
 pub mod gyro;
 #[cfg(feature = "factory")]
 pub(crate) mod history;
-// For the packages `python`, `c` and `web` of this workspace alone.
-#[doc(hidden)]
 pub mod interface;
 pub mod laboratory;
 pub(crate) mod parallel;

@@ -206,7 +206,7 @@ fn order(method: &str, previous: &[&serde_json::Value]) -> interface::Order {
 fn calibrated(currents: &str, order: &interface::Order) -> serde_json::Value {
     let answer = verify("good", &read("passports/SPS-2/0017/moscow-bmstu-1.yaml"), &trust(), &question());
     let passport = answer.passport().unwrap();
-    let found = interface::calibrate(
+    let found = interface::calibrate_json(
         passport.content(),
         Some((question().time, None)),
         ("run.csv", currents.as_bytes()),

@@ -5,7 +5,7 @@
 
 #![allow(unsafe_op_in_unsafe_fn)]
 
-use passports::interface::{Enquiry, Failed, array, calibrate, content_json, covariance, matrix, parameters};
+use passports::interface::{Enquiry, Failed, array, calibrate_json, content_json, covariance, matrix, parameters};
 use passports::jiff::Timestamp;
 use passports::passport::{Content, RegisterUsed};
 use passports::text::LARGEST_DOCUMENT_BYTES;
@@ -302,7 +302,7 @@ pub unsafe extern "C" fn dtg_string_free(text: *mut c_char) {
 
 fn calibrated(passport: &dtg_passport, csv: &str, order: &str) -> Result<(c_int, String), Failed> {
     let verified = Some((passport.verified_as_of, passport.register.as_ref()));
-    Ok((DTG_OK, calibrate(&passport.content, verified, ("currents", csv.as_bytes()), &order.parse()?)?))
+    Ok((DTG_OK, calibrate_json(&passport.content, verified, ("currents", csv.as_bytes()), &order.parse()?)?))
 }
 
 /// Runs `work`, hands out its text, and returns its code. A panic becomes DTG_UNUSABLE.

@@ -178,7 +178,7 @@ impl Content {
             if let Some(File(name, bytes)) = laboratory {
                 order.laboratory = Some(Laboratory::from_yaml(&name, &bytes)?);
             }
-            let found = interface::calibrate(passport, verified, currents.given(), &order);
+            let found = interface::calibrate_json(passport, verified, currents.given(), &order);
             Ok((judged(found)?, order))
         });
         let ((found, not_valid), order) = done.map_err(failed)?;

@@ -53,6 +53,7 @@ pub(crate) mod drift;
 pub(crate) mod estimates;
 pub(crate) mod finding;
 pub(crate) mod inputs;
+#[doc(hidden)]
 pub mod iterative;
 pub(crate) mod least_squares;
 pub(crate) mod noise;
@@ -79,6 +80,7 @@ pub use document::CalibrationDocument;
 pub use estimates::Basis;
 pub use finding::{Finding, Kind, Scope};
 pub use inputs::{InputUncertainty, MeterUncertainty, NoSetup, Setup};
+pub use iterative::{NoIterativeSolution, StopRule};
 pub use least_squares::NoLeastSquares;
 pub use noise::{DriftNoise, NoiseSource};
 pub use parameter::Parameter;

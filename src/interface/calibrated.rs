@@ -33,7 +33,7 @@ use std::collections::BTreeMap;
 /// # Errors
 /// Returns [`Failed`] if the currents cannot be read, if a visit to leave out is not among them, if they do not determine the
 /// parameters, or if the result is not valid; it is then [`Failed::result`].
-pub fn calibrate(
+pub fn calibrate_json(
     content: &Content,
     verified: Option<(Timestamp, Option<&RegisterUsed>)>,
     currents: (&str, &[u8]),
@@ -76,10 +76,10 @@ fn checked(document: &CalibrationDocument, json: String) -> Result<String, Faile
     }
 }
 
-/// Checks the JSON of an earlier [`calibrate`].
+/// Checks the JSON of an earlier [`calibrate_json`].
 ///
 /// # Errors
-/// Returns [`Failed`] if it is not such JSON, or as [`calibrate`] does if the result is not valid.
+/// Returns [`Failed`] if it is not such JSON, or as [`calibrate_json`] does if the result is not valid.
 pub fn earlier(result: &str) -> Result<(), Failed> {
     checked(&CalibrationDocument::from_json("result", result.as_bytes())?, result.to_owned()).map(drop)
 }
@@ -121,7 +121,7 @@ fn prepared<'a>(content: &'a Content, currents: (&str, &[u8]), order: &'a Order)
 
 /// Returns the parameters of the adopted result and their standard uncertainties, in the order and units of
 /// [`Parameter::EIGHT`], and whether they may be used: the readings fit the stand, and no mistake explains the parameters
-/// better. ω_g and ω_k are NaN in the general model. `result` is the JSON of [`calibrate`].
+/// better. ω_g and ω_k are NaN in the general model. `result` is the JSON of [`calibrate_json`].
 ///
 /// # Errors
 /// Returns [`Failed`] if `result` is not such JSON.
@@ -135,7 +135,7 @@ pub fn parameters(result: &str) -> Result<([f64; 8], [f64; 8], bool), Failed> {
 /// may be used, as [`parameters`] does.
 ///
 /// # Errors
-/// Returns [`Failed`] if `result` is not the JSON of [`calibrate`], or that of an earlier version without a covariance.
+/// Returns [`Failed`] if `result` is not the JSON of [`calibrate_json`], or that of an earlier version without a covariance.
 pub fn covariance(result: &str) -> Result<([[f64; 8]; 8], bool), Failed> {
     let document = CalibrationDocument::from_json("result", result.as_bytes())?;
     let rows: Vec<_> = document.covariance.iter().map(|row| row.map(|value| value.unwrap_or(f64::NAN))).collect();
@@ -145,10 +145,10 @@ pub fn covariance(result: &str) -> Result<([[f64; 8]; 8], bool), Failed> {
 
 /// Returns the distributions of the parameters by Monte Carlo (JCGM 101), as the key `monte_carlo` of `calibrate`.
 ///
-/// The inputs are those of [`calibrate`]. A seed gives the same numbers on any number of threads.
+/// The inputs are those of [`calibrate_json`]. A seed gives the same numbers on any number of threads.
 ///
 /// # Errors
-/// Returns the errors of [`calibrate`], and [`Failed`] if the trials do not have the model of `order`, or if the run was
+/// Returns the errors of [`calibrate_json`], and [`Failed`] if the trials do not have the model of `order`, or if the run was
 /// cancelled before its first trials were complete.
 #[cfg(feature = "monte-carlo")]
 pub fn monte_carlo(content: &Content, currents: (&str, &[u8]), order: &Order, run: &Trials) -> Result<String, Failed> {

@@ -5,13 +5,13 @@
 //!
 //! * [`Enquiry`]: whom to trust and what to ask, and the verification of many passports.
 //! * [`fn@array`], [`matrix`]: the numbers of a passport.
-//! * [`Order`], [`calibrate`]: currents to the parameters of a gyro; [`parameters`], [`covariance`]: the numbers of its
+//! * [`Order`], [`calibrate_json`]: currents to the parameters of a gyro; [`parameters`], [`covariance`]: the numbers of its
 //!   result; [`earlier`]: a result that was kept; `monte_carlo` (with `monte-carlo`): their distributions.
 //! * `issue` (with `factory`), `plan` (with `monte-carlo` too): a signed passport; the best positions.
 //! * [`Failed`]: refusals as JSON.
 //!
 //! ```
-//! use dtg_passport::interface::{Enquiry, calibrate, content_json};
+//! use dtg_passport::interface::{Enquiry, calibrate_json, content_json};
 //!
 //! let signers = include_bytes!("../../docs/allowed_signers");
 //! let bytes = include_bytes!("../../passports/SPS-2/0017/moscow-bmstu-1.yaml");
@@ -24,7 +24,7 @@
 //! let currents = include_bytes!("../../docs/currents.csv");
 //! let order = r#"{"method": "least-squares"}"#.parse()?;
 //! let verified = Some((answer.time, answer.verification.register()));
-//! let found = calibrate(passport.content(), verified, ("currents.csv", currents), &order)?;
+//! let found = calibrate_json(passport.content(), verified, ("currents.csv", currents), &order)?;
 //! assert!(found.contains("chi_square"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -37,13 +37,21 @@ mod order;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod planned;
 
+pub use calibrated::calibrate_json;
+pub use order::Order;
+
+// For the packages `python`, `c` and `web` of this workspace alone.
+#[doc(hidden)]
 #[cfg(feature = "monte-carlo")]
 pub use calibrated::monte_carlo;
-pub use calibrated::{calibrate, covariance, earlier, parameters};
+#[doc(hidden)]
+pub use calibrated::{covariance, earlier, parameters};
+#[doc(hidden)]
 pub use enquiry::{Answer, Enquiry};
+#[doc(hidden)]
 #[cfg(feature = "factory")]
 pub use issued::issue;
-pub use order::Order;
+#[doc(hidden)]
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 pub use planned::plan;
 
@@ -128,11 +136,13 @@ impl Failed {
     }
 
     /// Creates the failure for an input that cannot be used.
+    #[doc(hidden)]
     pub fn unusable(why: impl std::fmt::Display) -> Self {
         Self::new(UNUSABLE, why.to_string(), Vec::new())
     }
 
     /// Creates the failure for a file that cannot be read.
+    #[doc(hidden)]
     pub fn unreadable(file: &str, why: impl std::fmt::Display) -> Self {
         let message = format!("{}: {why}", printable::Printable(file));
         Self::new(UNREADABLE, message.clone(), vec![Place::file(file.to_owned(), message)])
@@ -205,6 +215,7 @@ impl Verdict {
 }
 
 /// Returns the content of a passport as JSON: the keys of the file without `signature`, and the same binary64 values.
+#[doc(hidden)]
 pub fn content_json(content: &Content) -> String {
     json(content)
 }
@@ -213,6 +224,7 @@ pub fn content_json(content: &Content) -> String {
 ///
 /// # Errors
 /// Returns [`Failed`] if the file does not have the form of a passport.
+#[doc(hidden)]
 pub fn unverified(file: &str, bytes: &[u8]) -> Result<(Content, String), Failed> {
     Ok((content_from_anyone(file, bytes)?, sha256_hex(bytes)))
 }
@@ -221,6 +233,7 @@ pub fn unverified(file: &str, bytes: &[u8]) -> Result<(Content, String), Failed>
 const NOT_STATED: f64 = f64::NAN;
 
 /// Returns a matrix of the paper by its key, NaN if the passport has no matrices; `None` for an unknown key.
+#[doc(hidden)]
 pub fn matrix(content: &Content, key: &str) -> Option<Rows> {
     let of: fn(&MatrixRows) -> Rows = match key {
         "delta" => |of| of.delta,
@@ -239,6 +252,7 @@ pub fn matrix(content: &Content, key: &str) -> Option<Rows> {
 /// Returns an array row by row, NaN where the passport states nothing: a [`matrix`], `gravity` (m/s²), or with a row for
 /// each position `ij`, `angles` (nominal θ and φ, degrees), `n` (g), `omega` (°/h), `deviations` and `u_deviations` (″);
 /// `self_check` has rows i, j, J_x, J_y (mA), none without a self-check. `None` for an unknown name.
+#[doc(hidden)]
 pub fn array(content: &Content, name: &str) -> Option<Vec<f64>> {
     let Content { positions, vectors, self_check, .. } = content;
     let each = |of: fn(&_) -> Vec<f64>| positions.iter().flat_map(of).collect();
@@ -269,6 +283,7 @@ pub fn array(content: &Content, name: &str) -> Option<Vec<f64>> {
 /// # Errors
 /// Returns an error if the file cannot be read, is not a regular file, or is larger than any kind may be.
 #[cfg(feature = "factory")]
+#[doc(hidden)]
 pub fn read(path: &std::path::Path) -> Result<Vec<u8>, FileError> {
     files::read(path, LARGEST_TRUST_FILE_BYTES)
 }

@@ -87,6 +87,7 @@ impl Run<'_> {
     ///
     /// `work` is called with the stream of the block and the number of its trials. If the run is cancelled, the results
     /// of the finished blocks are returned: an unbroken series from the first.
+    #[doc(hidden)]
     pub fn blocks<T: Send>(&self, work: impl Fn(&mut Stream, u64) -> T + Sync) -> Vec<T> {
         let mut stream = Stream::new(self.seed);
         let mut blocks = (0..self.trials.div_ceil(BLOCK)).map(|block| {

@@ -29,6 +29,7 @@ const FLAGS_AND_COUNTER_BYTES: usize = 5;
 
 /// Bytes with the namespace that they are signed for, hashed once for signing and verification.
 #[derive(Debug, Clone)]
+#[doc(hidden)]
 pub struct Message<'a> {
     pub(crate) namespace: &'a str,
     pub(crate) bytes: &'a [u8],
@@ -231,6 +232,7 @@ fn signed_by_token(application: &str, flags_and_counter: &[u8], message: &[u8]) 
 
 /// Curve point of a public key, decoded once for many signatures.
 #[derive(Debug, Clone)]
+#[doc(hidden)]
 pub struct KeyPoint(pub(super) VerifyingKey);
 
 impl KeyPoint {

@@ -243,6 +243,7 @@ fn a_pipe_or_a_device_is_refused_at_once_wherever_a_file_is_named() {
                 "issue stands --site FILE",
                 "reissue",
                 "show FILE",
+                "render FILE",
                 "calibrate good.yaml FILE",
                 "certify FILE",
             ];

@@ -2,7 +2,7 @@
 
 use dtg_passport::calibration::{CalibrationDocument, Method, Options};
 use dtg_passport::gyro::{GyroNoise, GyroType};
-use dtg_passport::interface::{Order, calibrate, earlier};
+use dtg_passport::interface::{Order, calibrate_json, earlier};
 use dtg_passport::passport::content_from_anyone;
 
 const PASSPORT: &[u8] = include_bytes!("../../passports/SPS-2/0017/moscow-bmstu-1.yaml");
@@ -22,7 +22,7 @@ fn readings_that_do_not_fit_pass_nothing_and_say_so() {
     (wide.tolerance.omega0_deg_per_h, wide.tolerance.omega_g_deg_per_h_per_g) = (1e3, 1e3);
     wide.tolerance.omega_k_deg_per_h_per_g = 1e3;
     let order = Order { gyro: Some(wide), ..default() };
-    let failed = calibrate(&content, None, currents, &order).unwrap_err();
+    let failed = calibrate_json(&content, None, currents, &order).unwrap_err();
     assert!(failed.message.starts_with("the readings are not consistent with this stand"), "{failed}");
     let text = failed.result.clone().unwrap();
     assert_eq!((failed.to_json(), earlier(&text)), (text.clone(), Err(failed)));
@@ -35,7 +35,7 @@ fn readings_that_do_not_fit_pass_nothing_and_say_so() {
     let rows = json["verdict"]["parameters"].as_array().unwrap();
     assert_eq!((rows.len(), rows.iter().filter(|row| row.get("specific_risk").is_some()).count()), (8, 0));
     let content = content_from_anyone("p", PASSPORT).unwrap();
-    let found = calibrate(&content, None, currents, &order).unwrap();
+    let found = calibrate_json(&content, None, currents, &order).unwrap();
     let json: serde_json::Value = serde_json::from_str(&found).unwrap();
     assert_eq!((&json["consistent"], &json["verdict"]["overall"]), (&true.into(), &"pass".into()));
     assert_eq!((&json["adopted"], json.get("remarks"), earlier(&found)), (&"least-squares".into(), None, Ok(())));
@@ -54,7 +54,7 @@ fn a_noise_that_only_one_result_includes_counts_in_both() {
         let gyro = Some(GyroType { noise: noise.cloned(), ..GyroType::gvk_6() });
         let options = Options { methods: vec![Method::LeastSquares], ..Options::default() };
         let order = Order { gyro, options, previous: previous.into_iter().collect(), ..default() };
-        calibrate(&content, None, ("c", currents.as_bytes()), &order).unwrap()
+        calibrate_json(&content, None, ("c", currents.as_bytes()), &order).unwrap()
     };
     let change = |now: Option<&GyroNoise>, before: Option<&GyroNoise>| {
         let previous = calibrated(first, before, None);
@@ -84,7 +84,7 @@ fn a_tolerance_in_percent_of_nothing_is_refused() {
     let currents: (&str, &[u8]) = ("c", include_bytes!("../../docs/currents.csv"));
     let mut gyro = GyroType::gvk_6();
     gyro.nominal.k_deg_per_h_per_ma[0][1] = 0.0;
-    let refused = calibrate(&content, None, currents, &Order { gyro: Some(gyro), ..default() }).unwrap_err();
+    let refused = calibrate_json(&content, None, currents, &Order { gyro: Some(gyro), ..default() }).unwrap_err();
     assert!(refused.to_string().contains("no tolerance of K_xy"), "{refused}");
 }
 
@@ -100,7 +100,7 @@ fn what_needs_a_gyro_type_is_said_to_be_untested_without_one() {
     };
     let csv: String = include_str!("../../docs/currents.csv").lines().map(line).collect();
     let found = |order: &Order| -> serde_json::Value {
-        let found = calibrate(&content, None, ("c", csv.as_bytes()), order);
+        let found = calibrate_json(&content, None, ("c", csv.as_bytes()), order);
         serde_json::from_str(&found.unwrap_or_else(|failed| failed.result.unwrap())).unwrap()
     };
     let without = found(&default());
@@ -120,7 +120,7 @@ fn a_verdict_states_what_converting_g_contributed() {
     let currents: (&str, &[u8]) = ("c", include_bytes!("../../docs/currents.csv"));
     let conversions = |gravity_m_per_s2: Option<f64>| -> Vec<Option<f64>> {
         let gyro = Some(GyroType { gravity_m_per_s2, ..GyroType::gvk_6() });
-        let found = calibrate(&content, None, currents, &Order { gyro, ..default() }).unwrap();
+        let found = calibrate_json(&content, None, currents, &Order { gyro, ..default() }).unwrap();
         let json: serde_json::Value = serde_json::from_str(&found).unwrap();
         let rows = json["verdict"]["parameters"].as_array().unwrap();
         rows.iter().map(|row| row.get("conversion_of_g").and_then(serde_json::Value::as_f64)).collect()
@@ -144,7 +144,7 @@ fn the_adopted_method_comes_first() {
         (vec![Method::Analytic], &["analytic"]),
     ] {
         let options = Options { methods, ..Options::default() };
-        let found = calibrate(&content, None, currents, &Order { options, ..default() }).unwrap();
+        let found = calibrate_json(&content, None, currents, &Order { options, ..default() }).unwrap();
         let json: serde_json::Value = serde_json::from_str(&found).unwrap();
         let found: Vec<_> = json["results"].as_array().unwrap().iter().map(|result| &result["method"]).collect();
         assert_eq!(found, due);

@@ -3,7 +3,7 @@
 //! The module imports nothing. `dtg_passport.mjs` creates a new instance for every call, so memory is never given back,
 //! and nothing of one passport can reach the next.
 
-use dtg_passport::interface::{Answer, Enquiry, Failed, calibrate, content_json};
+use dtg_passport::interface::{Answer, Enquiry, Failed, calibrate_json, content_json};
 use dtg_passport::jiff::Timestamp;
 use dtg_passport::report::{Language, Languages, PassportPage};
 
@@ -65,7 +65,7 @@ pub extern "C" fn calibrated(inputs: &Inputs, now_s: f64) -> *const Slice {
         let order = inputs.order.text()?.parse()?;
         let Some(passport) = answer.verification.passport() else { return Ok(answer.to_json()) };
         let verified = Some((answer.time, answer.verification.register()));
-        calibrate(passport.content(), verified, ("currents", inputs.currents.bytes()), &order)
+        calibrate_json(passport.content(), verified, ("currents", inputs.currents.bytes()), &order)
     })
 }
 
