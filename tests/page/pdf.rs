@@ -17,7 +17,7 @@ type Document<'a> = (&'a str, &'a str, &'a str);
 const RENDERED: Document = (
     "render passports/SPS-2/0017/moscow-bmstu-1.yaml --lang ru,en -o",
     "ru",
-    "Паспорт поворотного стенда SPS-2/0017/moscow-bmstu/1",
+    "Паспорт поворотного стенда / Passport of a test stand: SPS-2/0017/moscow-bmstu/1",
 );
 const CALIBRATED: Document = (
     "calibrate passports/SPS-2/0017/moscow-bmstu-1.yaml docs/currents.csv --gyro docs/gvk-6.yaml --report",
@@ -27,7 +27,7 @@ const CALIBRATED: Document = (
 const CERTIFIED: Document = (
     "certify docs/angles.csv --against passports/SPS-2/0017/stand.yaml --lang ru --report",
     "ru",
-    "Протокол калибровки поворотного стенда C-2026-0142",
+    "Протокол калибровки поворотного стенда: C-2026-0142",
 );
 
 /// Returns an empty folder.
