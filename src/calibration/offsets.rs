@@ -196,8 +196,8 @@ pub(crate) struct VisitRow {
     pub(crate) visit: usize,
     /// L⁻¹ of the covariance L L' of the errors of the visit, (°/h)².
     pub(crate) whitening: Matrix2<f64>,
-    /// Covariance of the mean of the visits to the position, (°/h)².
-    pub(crate) of_mean: Matrix2<f64>,
+    /// Share of the visit in the mean of the visits to the position.
+    pub(crate) share: Matrix2<f64>,
 }
 
 impl Differences {
@@ -255,15 +255,14 @@ impl Differences {
             for visit in 0..departures.len() {
                 let whitening = whitening_of(&covariance(*place, visit))?;
                 weight += whitening.transpose() * whitening;
-                each.push(VisitRow { place: *place, visit, whitening, of_mean: Matrix2::zeros() });
+                each.push(VisitRow { place: *place, visit, whitening, share: Matrix2::zeros() });
             }
             let of_mean = weight.try_inverse()?;
             let (mut mean, mut mean_terms) = (Vector2::zeros(), vec![Matrix2::zeros(); combinations]);
             for (departure, row) in departures.iter().zip(&mut each[first..]) {
-                row.of_mean = of_mean;
-                let share = of_mean * row.whitening.transpose() * row.whitening;
-                mean -= share * (k * departure.current_ma);
-                mean_terms.iter_mut().zip(&departure.combinations).for_each(|(mean, a)| *mean += share * *a);
+                row.share = of_mean * row.whitening.transpose() * row.whitening;
+                mean -= row.share * (k * departure.current_ma);
+                mean_terms.iter_mut().zip(&departure.combinations).for_each(|(mean, a)| *mean += row.share * *a);
             }
             for (at, departure) in departures.iter().enumerate() {
                 let (row, whitening) = (2 * (first + at), each[first + at].whitening);

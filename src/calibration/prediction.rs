@@ -3,7 +3,7 @@
 
 use super::{
     Calibration, MeterUncertainty, Method, MethodResult, Options, Parameter, Reading, Readings, Setup, Visit,
-    calibrate, least_squares,
+    calibrate, least_squares, procedure::without_causes,
 };
 use crate::coefficients::{Coefficients, PositionIndex};
 use crate::gyro::GyroParameters;
@@ -94,7 +94,6 @@ pub(crate) fn best_further_visit(
             u.meter.noise_ma = rows.standard_deviation_ma;
         }
     });
-    let options = Options { methods: vec![Method::LeastSquares], ..options.clone() };
     let exact = exact_currents_ma(&setup, gyro)?;
     let current_of = |index| exact.iter().find(|(known, _)| *known == index).map(|(_, current_ma)| *current_ma);
     let mut rows = Vec::new();
@@ -112,7 +111,7 @@ pub(crate) fn best_further_visit(
     }
     let u = |rows: &[Reading]| {
         let readings = Readings::of_rows(setup.coefficients(), rows).ok()?;
-        calibrate(&setup, &readings, &options).ok()?.adopted()?.standard_uncertainty(parameter)
+        without_causes(&setup, &readings, options)?.standard_uncertainty(parameter)
     };
     let (cycle, after) = (rows.iter().map(|row| row.cycle).max(), rows.iter().filter_map(|row| row.visit).max());
     let time_s = rows.iter().filter_map(|row| row.time_s).reduce(f64::max);

@@ -101,6 +101,15 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
     Ok(calibration)
 }
 
+/// Returns the result of least squares for readings that have no cause to look for, because they are exact; `None` if they
+/// do not determine the parameters.
+pub(super) fn without_causes(setup: &Setup, readings: &Readings, options: &Options) -> Option<MethodResult> {
+    let setup = &*setup.of_readings(readings);
+    let Observation { data, fit, .. } =
+        Observation::plain(setup, readings, options.model, (options.drift, false)).ok()?;
+    Some(Evaluation::new(Propagation::new(setup, &data, &fit)).least_squares(None))
+}
+
 /// First-order response of a calibration to small changes of all its inputs.
 #[derive(Debug, Clone)]
 pub(crate) struct Linearised {

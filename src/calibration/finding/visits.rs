@@ -7,7 +7,7 @@
 use super::{Finding, Kind, LEVEL, Scope, jointly};
 use crate::calibration::chi_square::{ChiSquare, chi_square};
 use crate::calibration::data::Observation;
-use crate::calibration::offsets::{VisitRow, VisitRows};
+use crate::calibration::offsets::VisitRows;
 use crate::calibration::propagation::Propagation;
 use crate::calibration::scatter::{IMPROBABLE, VisitErrors};
 use crate::calibration::sensitivity::Sensitivity;
@@ -113,11 +113,7 @@ impl Layer {
         for visits in self.rows.each.chunk_by(|one, other| one.place == other.place) {
             let here = || visits.iter().zip(first..);
             for (column, mut filled) in columns.column_iter_mut().enumerate() {
-                let share = |(row, at): (&VisitRow, usize)| {
-                    let VisitRow { whitening, of_mean, .. } = row;
-                    of_mean * whitening.transpose() * whitening * each[at][column]
-                };
-                let mean: Vector2<f64> = here().map(share).sum();
+                let mean: Vector2<f64> = here().map(|(row, at)| row.share * each[at][column]).sum();
                 for (row, at) in here() {
                     filled.fixed_rows_mut::<2>(2 * at).copy_from(&(row.whitening * (each[at][column] - mean)));
                 }
