@@ -1,7 +1,7 @@
 //! DCC of a gyro: parameters, their standard uncertainties, and the decisions of its type.
 
 use super::facts::{Facts, Known, stated};
-use super::parts::{self, Subject, in_words, quantity, real, units};
+use super::parts::{self, PAPER, Subject, in_words, quantity, real, units};
 use super::xml::Element;
 use super::{Administrative, Dcc};
 use crate::calibration::document::Subject as GyroSubject;
@@ -19,11 +19,11 @@ use crate::text::Problems;
 use crate::wording::texts::calibration as texts;
 use crate::wording::texts::dcc as words;
 
-/// Publication of the drift model and of the equations.
-const PAPER: &str = "https://doi.org/10.18698/2308-6033-2017-10-1691";
-
 /// Identifier of the decision rule, to which every decision refers.
 const RULE_ID: &str = "decision_rule";
+
+/// Identifiers of the quantities with the parameters, in the order of [`Parameter::EIGHT`].
+const PARAMETERS: &str = "k omega_0 omega_g_k";
 
 /// Calibration of a gyro with a verified passport, fit for a certificate.
 pub(crate) struct Calibrated<'a> {
@@ -160,6 +160,7 @@ fn result(calibrated: &Calibrated, facts: &Facts) -> Element {
         Method::LeastSquares => texts::LEAST_SQUARES_NAME,
     };
     let own = parts::method(in_words("dcc:name", method), in_words("dcc:description", words::MODEL), Some(PAPER));
+    let own = own.with("refId", PARAMETERS);
     let results = parts::results(texts::PARAMETERS, words::PARAMETERS_NOTE, quantities(calibrated));
     let gravity_u_m_per_s2 = calibrated.content.site.gravity_u_m_per_s2();
     let gravity = real(calibrated.found.gravity_m_per_s2, units::M_PER_S2, gravity_u_m_per_s2);
@@ -192,27 +193,46 @@ fn quantities(calibrated: &Calibrated) -> Vec<Element> {
     let per_m_per_s2 = calibrated.found.at_gravity(1.0);
     let labels = |parameters: &[Parameter]| parameters.iter().map(|one| one.key()).collect::<Vec<_>>().join(" ");
     let (values, u) = (per_m_per_s2.parameters.to_vector(), per_m_per_s2.standard_uncertainty);
-    let group = |name: Text, parameters: &[Parameter], unit: &str| {
+    let group = |id: &str, kind: &str, name: Text, parameters: &[Parameter], unit: &str| {
         let each: Vec<f64> = parameters.iter().map(|one| values[one.place()]).collect();
         let uncertainties: Vec<_> = parameters.iter().map(|one| Some(u[one.place()])).collect();
         let list = parts::reals(Some(&labels(parameters)), &each, unit, &uncertainties);
         let decisions = calibrated.judged.map(|(_, verdict)| decisions(verdict, parameters, unit));
-        quantity(Some("basic_measuredValue"), name, list).and(decisions)
+        quantity(&format!("basic_measuredValue {kind}"), name, list).and(decisions).with("id", id)
     };
     // Unlimited degrees of freedom are not stated.
     let freedom = Parameter::EIGHT.map(|one| (one, per_m_per_s2.degrees_of_freedom[one.place()]));
     let (known, each): (Vec<_>, Vec<_>) = freedom.into_iter().filter(|(_, freedom)| freedom.is_finite()).unzip();
     let freedom = (!known.is_empty()).then(|| {
         let list = parts::reals(Some(&labels(&known)), &each, units::ONE, &[]);
-        quantity(None, texts::EFFECTIVE_FREEDOM, list)
+        quantity("dtg_degreesOfFreedom", texts::EFFECTIVE_FREEDOM, list)
     });
     let mut quantities = vec![
-        group(words::SCALE_FACTORS, &[Kx, Kxy, Kyx, Ky], units::DEG_PER_H_PER_MA),
-        group(words::CONSTANT_DRIFT, &[Omega0x, Omega0y], units::DEG_PER_H),
-        group(words::G_DRIFT, &[OmegaG, OmegaK], units::DEG_PER_H_PER_M_PER_S2),
+        group("k", "dtg_scaleFactors", words::SCALE_FACTORS, &[Kx, Kxy, Kyx, Ky], units::DEG_PER_H_PER_MA),
+        group("omega_0", "dtg_constantDrift", words::CONSTANT_DRIFT, &[Omega0x, Omega0y], units::DEG_PER_H),
+        group("omega_g_k", "dtg_gSensitiveDrift", words::G_DRIFT, &[OmegaG, OmegaK], units::DEG_PER_H_PER_M_PER_S2),
     ];
     quantities.extend(freedom);
+    quantities.extend(correlation(calibrated, &u));
     quantities
+}
+
+/// Returns the correlation coefficients of the parameters, whose standard uncertainties are `u`, row by row; with these they
+/// are the covariance. The uncertainty of the local g is common to both drifts per m/s².
+fn correlation(calibrated: &Calibrated, u: &[f64; 8]) -> Option<Element> {
+    let Found { parameters, gravity_m_per_s2: g, gravity_u_m_per_s2: u_g, .. } = calibrated.found;
+    let values = parameters.to_vector();
+    let per_g = |place: usize| [Parameter::OmegaG, Parameter::OmegaK].iter().any(|one| one.place() == place);
+    let of_g = |place: usize| if per_g(place) { values[place] * u_g / g } else { 0.0 };
+    let unit = |place: usize| if per_g(place) { g.recip() } else { 1.0 };
+    let rows = &calibrated.done.document.covariance;
+    let coefficient = |row: usize, column: usize| {
+        let covariance = rows.get(row)?[column]? + of_g(row) * of_g(column);
+        Some(covariance * unit(row) * unit(column) / (u[row] * u[column]))
+    };
+    let each: Option<Vec<f64>> = (0..64).map(|at| coefficient(at / 8, at % 8)).collect();
+    let list = parts::reals(None, &each?, units::ONE, &[]);
+    Some(quantity("dtg_correlation", words::CORRELATION, list).with("refId", PARAMETERS))
 }
 
 /// Returns the decisions on parameters, the limits of their tolerances and the risks, in their order and unit. The risk
@@ -223,13 +243,13 @@ fn decisions(verdict: &Verdict, parameters: &[Parameter], unit: &str) -> Element
     let each: Vec<&str> = rows.iter().map(|row| decided(row.decision, passes(row))).collect();
     let limit = |kind, name, sign: f64| {
         let values: Vec<f64> = rows.iter().map(|row| limit_of(row, sign, verdict.gravity_m_per_s2)).collect();
-        quantity(Some(kind), name, parts::reals(None, &values, unit, &[]))
+        quantity(kind, name, parts::reals(None, &values, unit, &[]))
     };
     let risks: Vec<f64> = rows.iter().map(|row| row.specific_risk.unwrap_or(f64::NAN)).collect();
     let further = [
         limit("basic_toleranceLimitLower", words::LOWER_LIMIT, -1.0),
         limit("basic_toleranceLimitUpper", words::UPPER_LIMIT, 1.0),
-        quantity(None, words::SPECIFIC_RISK, parts::reals(None, &risks, units::ONE, &[])),
+        quantity("dtg_specificRisk", words::SPECIFIC_RISK, parts::reals(None, &risks, units::ONE, &[])),
     ];
     let decision = Element::new("dcc:metaData")
         .with("refId", RULE_ID)

@@ -11,6 +11,9 @@ use std::fmt::Display;
 
 const SCHEMA_VERSION: &str = "3.3.0";
 
+/// Publication of the symbols, the drift model and the equations.
+pub(super) const PAPER: &str = "https://doi.org/10.18698/2308-6033-2017-10-1691";
+
 /// Database of the vocabularies that `refType` uses.
 const VOCABULARIES: &str = "https://digilab.ptb.de/dkd/refType/vocab/";
 
@@ -67,13 +70,10 @@ pub(super) fn reals(
         .and(uncertainty)
 }
 
-/// Returns a quantity: its kind in PTB's vocabulary, its name and its value.
-pub(super) fn quantity(kind: Option<&str>, name: Text, value: Element) -> Element {
-    let quantity = Element::new("dcc:quantity").and(in_words("dcc:name", name)).and(value);
-    match kind {
-        Some(kind) => quantity.with("refType", kind),
-        None => quantity,
-    }
+/// Returns a quantity: its kinds in the vocabularies of PTB (`basic`, `math`) and of this program (`dtg`), its name and its
+/// value.
+pub(super) fn quantity(kinds: &str, name: Text, value: Element) -> Element {
+    Element::new("dcc:quantity").with("refType", kinds).and(in_words("dcc:name", name)).and(value)
 }
 
 /// Returns a statement: its name, its content as it is stated, and other elements that follow a declaration.
@@ -152,7 +152,7 @@ pub(super) fn temperature(facts: &Facts) -> Option<Element> {
 }
 
 pub(super) fn condition(name: Text, value: Element) -> Element {
-    let value = quantity(Some("basic_measuredValue"), name, value);
+    let value = quantity("basic_measuredValue", name, value);
     Element::new("dcc:influenceCondition").and(in_words("dcc:name", name)).and(Element::new("dcc:data").and(value))
 }
 
@@ -199,15 +199,16 @@ pub(super) fn certificate(facts: &Facts, subject: Subject) -> Dcc {
 }
 
 fn vocabularies() -> Element {
-    let vocabulary = |name, namespace| {
+    let vocabulary = |name, namespace, link| {
         Element::new("dcc:refTypeDefinition")
             .and(in_words("dcc:name", name))
             .and(Element::text("dcc:namespace", namespace))
-            .and(Element::text("dcc:link", VOCABULARIES))
+            .and(Element::text("dcc:link", link))
     };
     Element::new("dcc:refTypeDefinitions")
-        .and(vocabulary(words::BASIC_TERMS, "basic"))
-        .and(vocabulary(words::MATH_TERMS, "math"))
+        .and(vocabulary(words::BASIC_TERMS, "basic", VOCABULARIES))
+        .and(vocabulary(words::MATH_TERMS, "math", VOCABULARIES))
+        .and(vocabulary(words::DTG_TERMS, "dtg", PAPER))
 }
 
 fn core_data(facts: &Facts, identification: Option<Element>, previous_report: Option<Element>) -> Element {

@@ -15,6 +15,10 @@ use crate::wording::texts::calibration as texts;
 use crate::wording::texts::dcc as words;
 use base64ct::{Base64, Encoding};
 
+/// Identifiers of the quantities that say which position it is, and of those that were measured.
+const INDICES: &str = "i j";
+const MEASURED: &str = "alpha beta gamma";
+
 /// Returns the DCC of the certificate in a verified passport; `bytes` is the signed file, which the DCC contains.
 pub(crate) fn of_stand(
     content: &Content,
@@ -94,7 +98,7 @@ fn statements(content: &Content, facts: &Facts) -> Vec<Element> {
             .and(Element::text("dcc:date", day))
     });
     let range = certificate.temperature_range_c.map(|[low, high]| {
-        let limit = |kind, name, value| quantity(Some(kind), name, real(value, units::CELSIUS, None));
+        let limit = |kind, name, value| quantity(kind, name, real(value, units::CELSIUS, None));
         let data = [limit("math_minimum", words::LOWEST, low), limit("math_maximum", words::HIGHEST, high)];
         parts::statement(words::TEMPERATURE_RANGE, None).and(Element::new("dcc:data").and(data))
     });
@@ -104,13 +108,13 @@ fn statements(content: &Content, facts: &Facts) -> Vec<Element> {
     let surfaces = surfaces
         .filter_map(|(name, surface)| stated(surface.as_deref()).map(|surface| parts::statement(name, Some(surface))));
     let shared = [
-        (words::REPEATABILITY, certificate.repeatability_arcsec),
-        (words::COMMON_PLATFORM, certificate.common_platform_arcsec),
-        (words::COMMON_BASE, certificate.common_base_arcsec),
-        (words::CMC, certificate.cmc_arcsec),
+        ("dtg_repeatability", words::REPEATABILITY, certificate.repeatability_arcsec),
+        ("dtg_commonPlatform", words::COMMON_PLATFORM, certificate.common_platform_arcsec),
+        ("dtg_commonBase", words::COMMON_BASE, certificate.common_base_arcsec),
+        ("dtg_cmc", words::CMC, certificate.cmc_arcsec),
     ];
-    let shared = shared.into_iter().filter_map(|(name, value)| {
-        let value = quantity(None, name, real(value?, units::ARCSECOND, None));
+    let shared = shared.into_iter().filter_map(|(kind, name, value)| {
+        let value = quantity(kind, name, real(value?, units::ARCSECOND, None));
         Some(parts::statement(name, None).and(Element::new("dcc:data").and(value)))
     });
     traceability.into_iter().chain(valid_until).chain(range).chain(surfaces).chain(shared).collect()
@@ -132,36 +136,43 @@ fn result(content: &Content, facts: &Facts) -> Element {
     let equipment = (!references.is_empty()).then(|| Element::new("dcc:measuringEquipments").and(references));
     Element::new("dcc:measurementResult")
         .and(in_words("dcc:name", words::STAND_RESULT))
-        .and(Element::new("dcc:usedMethods").and(parts::stated_method(facts)))
+        .and(Element::new("dcc:usedMethods").and(parts::stated_method(facts).map(|of| of.with("refId", MEASURED))))
         .and(parts::software("dcc:usedSoftware"))
         .and(equipment)
         .and(Element::new("dcc:influenceConditions").and(parts::temperature(facts)))
         .and(parts::results(words::POSITIONS, words::POSITIONS_NOTE, quantities))
 }
 
-/// Returns one quantity for each column of the positions, its values in the order of the passport.
+/// Returns one quantity for each column of the positions, its values in the order of the passport. All columns refer to
+/// those of the indices, and the method to those that it measured.
 fn quantities(positions: &[CertifiedPosition]) -> Vec<Element> {
-    let column = |kind: Option<&str>, name: Text, unit: &str, value: fn(&CertifiedPosition) -> f64| {
+    let list = |value: fn(&CertifiedPosition) -> f64, unit: &str| {
         let values: Vec<f64> = positions.iter().map(value).collect();
-        quantity(kind, name, reals(None, &values, unit, &[]))
+        reals(None, &values, unit, &[])
     };
-    let measured = |name: Text, value: fn(&CertifiedPosition) -> (f64, Option<f64>)| {
+    let index = |id: &str, name: Text, value: fn(&CertifiedPosition) -> f64| {
+        quantity(&format!("dtg_{id}"), name, list(value, units::ONE)).with("id", id)
+    };
+    let nominal = |kind: &str, name: Text, value: fn(&CertifiedPosition) -> f64| {
+        quantity(&format!("basic_nominalValue {kind}"), name, list(value, units::DEGREE)).with("refId", INDICES)
+    };
+    let measured = |id: &str, name: Text, value: fn(&CertifiedPosition) -> (f64, Option<f64>)| {
         let (values, u): (Vec<f64>, Vec<Option<f64>>) = positions.iter().map(value).unzip();
-        quantity(Some("basic_measuredValue"), name, reals(None, &values, units::ARCSECOND, &u))
+        let list = reals(None, &values, units::ARCSECOND, &u);
+        quantity(&format!("basic_measuredValue dtg_{id}"), name, list).with("id", id).with("refId", INDICES)
     };
-    let freedom: Vec<f64> = positions.iter().map(|at| at.degrees_of_freedom.unwrap_or(f64::NAN)).collect();
-    let freedom = positions
-        .iter()
-        .any(|at| at.degrees_of_freedom.is_some())
-        .then(|| quantity(None, texts::FREEDOM, reals(None, &freedom, units::ONE, &[])));
+    let freedom = positions.iter().any(|at| at.degrees_of_freedom.is_some()).then(|| {
+        let list = list(|at| at.degrees_of_freedom.unwrap_or(f64::NAN), units::ONE);
+        quantity("dtg_degreesOfFreedom", texts::FREEDOM, list).with("refId", INDICES)
+    });
     let mut quantities = vec![
-        column(None, words::INDEX_I, units::ONE, |at| f64::from(at.i)),
-        column(None, words::INDEX_J, units::ONE, |at| f64::from(at.j)),
-        column(Some("basic_nominalValue"), words::THETA, units::DEGREE, |at| at.theta_deg),
-        column(Some("basic_nominalValue"), words::PHI, units::DEGREE, |at| at.phi_deg),
-        measured(words::ALPHA, |at| (at.alpha_arcsec, at.u_alpha_arcsec)),
-        measured(words::BETA, |at| (at.beta_arcsec, at.u_beta_arcsec)),
-        measured(words::GAMMA, |at| (at.gamma_arcsec, at.u_gamma_arcsec)),
+        index("i", words::INDEX_I, |at| f64::from(at.i)),
+        index("j", words::INDEX_J, |at| f64::from(at.j)),
+        nominal("dtg_theta", words::THETA, |at| at.theta_deg),
+        nominal("dtg_phi", words::PHI, |at| at.phi_deg),
+        measured("alpha", words::ALPHA, |at| (at.alpha_arcsec, at.u_alpha_arcsec)),
+        measured("beta", words::BETA, |at| (at.beta_arcsec, at.u_beta_arcsec)),
+        measured("gamma", words::GAMMA, |at| (at.gamma_arcsec, at.u_gamma_arcsec)),
     ];
     quantities.extend(freedom);
     quantities

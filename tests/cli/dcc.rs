@@ -236,6 +236,11 @@ fn every_example_is_valid_and_reads_back_bit_for_bit() {
             ("gamma_arcsec", Some("u_gamma_arcsec"), r"\arcsecond"),
             ("degrees_of_freedom", None, r"\one"),
         ];
+        for symbol in ["alpha", "beta", "gamma"] {
+            let kinds = format!("basic_measuredValue dtg_{symbol}");
+            let of_kind = document.descendants().find(|node| node.attribute("refType") == Some(&kinds)).unwrap();
+            assert_eq!(["id", "refId"].map(|name| of_kind.attribute(name)), [Some(symbol), Some("i j")]);
+        }
         let results = judged["results"].as_array().unwrap();
         let stated = shown["positions"].as_array().unwrap().iter().any(|at| at["degrees_of_freedom"].is_number());
         assert_eq!(results.len(), if stated { columns.len() } else { columns.len() - 1 });
@@ -515,6 +520,21 @@ fn a_gyro_has_its_certificate_with_decisions() {
             assert!((number(&drift["values"][place]) * g / value - 1.0).abs() < 1e-15);
             let expected = (u * u + (value * u_g / g).powi(2)).sqrt() / g;
             assert!((number(&drift["u"][place]) / expected - 1.0).abs() < 1e-12);
+        }
+        // u and correlation are the covariance of the result, with the common uncertainty of g.
+        let correlation = judged["results"].as_array().unwrap().last().unwrap()["values"].as_array().unwrap();
+        let u: Vec<f64> = [k, omega_0, drift].iter().flat_map(|one| one["u"].as_array().unwrap()).map(number).collect();
+        let of_g = |place: usize| match place {
+            6 => best["omega_g_deg_per_h_per_g"].as_f64().unwrap() * u_g / g,
+            7 => best["omega_k_deg_per_h_per_g"].as_f64().unwrap() * u_g / g,
+            _ => 0.0,
+        };
+        assert_eq!((correlation.len(), u.len()), (64, 8));
+        for (at, found) in correlation.iter().enumerate() {
+            let (row, column) = (at / 8, at % 8);
+            let unit: f64 = [row, column].iter().map(|place| if *place > 5 { g } else { 1.0 }).product();
+            let local = result["covariance"][row][column].as_f64().unwrap() + of_g(row) * of_g(column);
+            assert!((number(found) - local / unit / (u[row] * u[column])).abs() < 1e-12, "{row}, {column}");
         }
         let document = Document::parse(xml).unwrap();
         let texts = |name: &str| -> Vec<&str> {
