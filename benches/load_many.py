@@ -1,5 +1,5 @@
 """Measures the Python module: `load_many` against a laboratory that has only PyYAML and cryptography, and against
-`register` of the program; and the import.
+`register` of the program; memory after many loads; and the import.
 
     tests/bindings/run -k none; target/bindings/venv/bin/python benches/load_many.py [COUNT]
 
@@ -80,6 +80,20 @@ def by_register(folder: Path, signers: Path) -> float:
     return time.perf_counter() - begin
 
 
+def resident_kib() -> int:
+    status = Path("/proc/self/status").read_text()
+    return int(re.search(r"VmRSS:\s+(\d+)", status)[1])
+
+
+def memory(paths: list[Path], signers: Path) -> None:
+    import dtg_passport
+
+    for number in range(100_001):
+        dtg_passport.load(paths[number % len(paths)], signers, time=TIME).delta
+        if number in (1_000, 10_000, 100_000):
+            print(f"resident memory after {number} loads: {resident_kib()} KiB")
+
+
 def import_ms() -> float:
     code = "import numpy, time; begin = time.perf_counter(); import dtg_passport; print(1e3 * (time.perf_counter() - begin))"
     runs = [float(subprocess.run([sys.executable, "-c", code], capture_output=True, check=True).stdout) for _ in range(21)]
@@ -93,6 +107,7 @@ def main() -> None:
         paths = passports(folder, count)
         signers = folder / "signers"
         assert len(paths) == count
+        memory(paths[:100], signers)
         by_module(paths, signers, None)  # reads every file once, so that both find them in memory
         hand = by_hand(paths, signers)
         register = sorted(by_register(folder, signers) for _ in range(3))[1]
