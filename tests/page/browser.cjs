@@ -20,6 +20,10 @@ const RULES = {
   rules: { "void-style": "off", "long-title": "off", "no-inline-style": "off", "tel-non-breaking": "off" },
 };
 
+/** Waits until the browser has drawn two more frames. */
+const frames = (page) =>
+  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+
 /** What the page says: numbers with their values, days, words of the file, all other words, the annex. */
 function said() {
   const text = (element) => {
@@ -204,8 +208,7 @@ async function cut(page) {
     const { scrolls, ...clip } = await shown(index);
     if (!scrolls) continue;
     // What scrolling moves follows it a frame later.
-    const frames = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-    const picture = () => frames().then(() => page.screenshot({ clip, fullPage: true, animations: "allow" }));
+    const picture = () => frames(page).then(() => page.screenshot({ clip, fullPage: true, animations: "allow" }));
     const before = await picture();
     const hide = (hidden) => page.evaluate(([index, hidden]) => {
       for (const cell of document.querySelectorAll(".scroll:has(tbody th)")[index].querySelectorAll("td")) {
@@ -439,6 +442,8 @@ async function look(browser, folder, name) {
       // Dark changes colours alone: it is looked at once.
       if (colours === "dark" && device !== "screen") continue;
       await page.setViewportSize({ width, height: 1000 });
+      // What moves with scrolling follows a new size in a later frame.
+      await frames(page);
       result.unfit[`${device} ${colours}`] = await page.evaluate(unfit);
       result.crowded[`${device} ${colours}`] = await page.evaluate(crowded);
       if (device === "phone") result.cut = await cut(page);
