@@ -1,6 +1,6 @@
 //! Differences between a check and the certificate as rotations of the case, and the tests of them.
 
-use super::comparison::{CommonTurn, NotCompared, Test};
+use super::compared::{CommonTurn, NotCompared, Test};
 use super::components::{RunModel, Variance, case_turn, turns_at};
 use super::found::{Found, Scope, arcsec};
 use super::kind::{Kind, OUTLIER, Setting};

@@ -1,7 +1,7 @@
 //! Findings of a comparison: what its readings show, or leave open, in words, and what it says in the list of causes.
 
 use super::Certification;
-use super::comparison::{CommonTurn, ComparedPosition, Test};
+use super::compared::{CommonTurn, ComparedPosition, Test};
 use super::found::{Found, Scope};
 use super::kind::{Kind, OUTLIER, STRAGGLER};
 use super::remark::Remark;
@@ -11,7 +11,7 @@ use crate::wording::texts::remarks as texts;
 use nalgebra::Vector3;
 use std::fmt::{Display, Formatter};
 
-/// What a finding means for the result of a comparison.
+/// Effect of a finding on the result of a comparison.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Role {
     /// The stand has changed.
@@ -34,7 +34,7 @@ pub(crate) enum Role {
 pub(crate) struct Finding {
     pub role: Role,
     pub remark: Remark,
-    /// What the finding says in the list of causes, if it is one of them.
+    /// Entry of the finding in the list of causes; `None` if the finding is not a cause.
     pub cause: Option<Found>,
 }
 

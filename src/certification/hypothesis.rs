@@ -28,7 +28,7 @@ const MOST_PAIRED: usize = 100;
 /// Ratio of variances that runs which are no copies of each other may have beyond chance.
 const TOO_WELL: f64 = 0.1;
 
-/// What is wrong: which rows change, and how.
+/// Cause to be tried: the rows that it changes, and the form of the change.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Cause {
     pub(crate) kind: Kind,
@@ -36,7 +36,7 @@ pub(crate) struct Cause {
     pub(crate) change: Change,
 }
 
-/// What a cause concerns; places are counted from 0, in the order of header and runs.
+/// Readings that a cause concerns; places are counted from 0, in the order of header and runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum At {
     Position(usize),

@@ -7,8 +7,8 @@
 //! * `hypothesis`: the list of what may be wrong, and the search for what explains the measurement.
 //! * `kind`: kinds of findings and the probabilities at which they are reported; `found`: findings, their words, their JSON.
 //! * `remark`: remarks for the signatory.
-//! * `comparison`: the comparison of a later check run with the certificate: of positions, of all, and of the whole.
-//! * `measured`: what one file of readings shows of a stand.
+//! * `comparison`: the comparison of a later check run with the certificate; `compared`: its parts.
+//! * `measured`: evaluation of one file of readings.
 //! * `differences`: check minus certificate as rotations, and the tests of them.
 //! * `finding`: reasons for the result of that comparison, and its limits.
 //! * `transformation`: other units, columns, rows or signs of a file or a run.
@@ -16,6 +16,7 @@
 //!
 //! The model and the meaning of each number are described in docs/certification.md.
 
+mod compared;
 pub(crate) mod comparison;
 pub(crate) mod components;
 pub(crate) mod differences;
@@ -32,7 +33,8 @@ pub(crate) mod readings;
 pub(crate) mod remark;
 mod transformation;
 
-pub use comparison::{CommonTurn, ComparedPosition, Comparison, NotCompared, Test, compare};
+pub use compared::{CommonTurn, ComparedPosition, NotCompared, Test};
+pub use comparison::{Comparison, compare};
 use components::{Common, Components, Variance};
 use found::{Found, Naming, Scope};
 pub use header::{Header, NominalPosition};

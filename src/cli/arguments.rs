@@ -1,8 +1,8 @@
 //! The arguments: completed from the environment and the workspace, and parsed. What cannot be parsed is reported here.
 
 use super::failure::Failure;
-use super::options::{Format, set_languages};
-use super::{Cli, UNUSABLE, defaults, help, output};
+use super::output::{Format, set_languages};
+use super::{Cli, UNUSABLE, defaults, help, open_workspace, output};
 use crate::text::{printable, shown};
 use crate::workspace::WORKSPACE_FILE;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -111,7 +111,7 @@ fn advice(error: &clap::Error) -> String {
         words.any(|word| word == option)
     };
     // Where a workspace is specified, it lacks the value.
-    let here = |option: &str, words: &str| match defaults::workspace() {
+    let here = |option: &str, words: &str| match open_workspace::workspace() {
         Some(workspace) => {
             let file = shown(&workspace.root.join(WORKSPACE_FILE)).to_string();
             words.replace("specify a workspace", &format!("state `{}` in {file}", option.trim_start_matches('-')))

@@ -1,8 +1,9 @@
 //! Common part of `issue` and `reissue`: running a batch and reporting its progress.
 
 use super::key_options::{IssuerOptions, Keys};
-use super::options::{Format, Tabular, Threads, language};
-use super::{Code, Failure, REFUSED, UNUSABLE, long_run, output};
+use super::options::{Tabular, Threads};
+use super::output::{Format, language};
+use super::{Code, Failure, REFUSED, UNUSABLE, interrupt, long_run, output};
 use crate::batch::shard::Shard;
 use crate::batch::{Batch, Event, Listener, Outcome};
 use crate::files::{self, Durability};
@@ -86,7 +87,7 @@ impl BatchOptions {
 
     /// Runs a batch and reports each outcome as it occurs.
     pub(super) fn run(&self, keys: &Keys, trust: &Trust, work: impl FnOnce(&Batch, Listener)) -> Result<Code, Failure> {
-        let cancel = long_run::cancelled_by_ctrl_c()?;
+        let cancel = interrupt::cancelled_by_ctrl_c()?;
         let batch = Batch {
             durability: self.durability(),
             authority: keys.authority(trust),

@@ -1,10 +1,11 @@
 //! Verb `calibrate`: the gyro's parameters from a passport and currents, or those of several gyros.
 
 use super::inputs::{self, AdministrativeFile, Answer, Lines};
-use super::options::{self, Force, Instruments, Printed, Report, folder, language, languages};
+use super::options::{self, Force, Instruments, Printed, Report, folder};
+use super::output::{language, languages};
 use super::show::{Read, Whom};
 use super::trust_options::{Enquiry, date};
-use super::{Code, Failure, code, defaults, output, uncertainty};
+use super::{Code, Failure, code, defaults, open_workspace, output, uncertainty};
 use crate::batch::once::Once;
 use crate::batch::{Purpose, paths};
 use crate::calibration::document::{Subject, another_type};
@@ -170,7 +171,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
 /// Returns the passport that is in force in the workspace of a laboratory, and its folder of results.
 fn in_force(enquiry: Option<&mut Enquiry>) -> Result<(PathBuf, Option<PathBuf>), Failure> {
     let missing = "missing PASSPORT; give it, or use the workspace of a laboratory that states `stand`";
-    let workspace = defaults::workspace().ok_or_else(|| Failure::usage(missing))?;
+    let workspace = open_workspace::workspace().ok_or_else(|| Failure::usage(missing))?;
     let enquiry = enquiry.ok_or_else(|| Failure::usage("--no-verify needs PASSPORT"))?;
     let stand = workspace.stand_in_use(enquiry.question.serial.as_deref()).map_err(no_passport)?;
     let serial = stand.rsplit('/').next().unwrap_or(stand);
@@ -458,7 +459,7 @@ impl Bench<'_> {
 impl Options {
     /// Returns the passport, or `None` if tables alone are given because the workspace tells it, and the files of currents.
     fn inputs(&self) -> Result<(Option<PathBuf>, &[PathBuf]), Failure> {
-        let tells = defaults::workspace().is_some_and(|workspace| !workspace.stand.is_empty());
+        let tells = open_workspace::workspace().is_some_and(|workspace| !workspace.stand.is_empty());
         let is_table =
             |path: &Path| path.extension().is_some_and(|end| end.eq_ignore_ascii_case("csv")) || path.is_dir();
         match &self.files[..] {

@@ -2,14 +2,15 @@
 
 use super::diff::past;
 use super::inputs::{self, Answer, Lines};
-use super::options::{ExclusionOptions, Force, Out, Printed, Report, STAND, file_or_folder, languages};
+use super::options::{ExclusionOptions, Force, Out, Printed, Report, STAND, file_or_folder};
+use super::output::languages;
 use super::trust_options::OptionalTrust;
 use super::{Code, Failure, REFUSED, defaults, output};
 use crate::batch::certificates::Certificates;
 use crate::batch::once::Once;
 use crate::batch::{Purpose, paths};
 use crate::certification::found::Found;
-use crate::certification::measured::Measured;
+use crate::certification::measured::{Measured, NotMeasured};
 use crate::certification::{AngleReadings, Certification, Header, NotCertified, certify};
 use crate::files;
 use crate::folder::Folder;
@@ -207,8 +208,12 @@ fn one(options: &Options, readings: &Path, out: Option<&PathBuf>) -> Result<Code
     let header = options.stand.as_deref().map(|path| inputs::document(path, inputs::HEADER, Header::from_yaml));
     let excluded = options.exclusions.excluded()?;
     let again = options.report.path.is_some();
-    let measured = Measured::new(header.transpose()?, against.as_ref(), (&name, &bytes), excluded, again)?;
-    let Measured { certified, comparison, is_own, remark } = measured;
+    let measured = Measured::new(header.transpose()?, against.as_ref(), (&name, &bytes), excluded, again);
+    let Measured { certified, comparison, is_own, remark } = measured.map_err(|why| match why {
+        NotMeasured::Unreadable(error) => error.into(),
+        NotMeasured::NoHeader => Failure::unusable(why),
+        _ => Failure::refused(why),
+    })?;
     remark.iter().for_each(|remark| output::say(remark));
     // A check of one run needs no certificate of its own. If an output file was requested, the program says why there
     // is none.

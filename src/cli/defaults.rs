@@ -4,7 +4,8 @@
 //! folder from elsewhere must not choose whom to trust.
 
 use super::failure::Failure;
-use super::help;
+use super::open_workspace::workspace;
+use super::{help, open_workspace};
 use crate::files;
 use crate::interface;
 use crate::site::Site;
@@ -16,26 +17,6 @@ use clap::parser::ValueSource;
 use clap::{ArgMatches, Command};
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
-
-/// The workspace of this process; there is at most one.
-static WORKSPACE: OnceLock<Workspace> = OnceLock::new();
-
-/// The folder that the command line or the environment names, which need not be a workspace yet.
-static FOLDER: OnceLock<PathBuf> = OnceLock::new();
-
-pub(super) fn workspace() -> Option<&'static Workspace> {
-    WORKSPACE.get()
-}
-
-pub(super) fn folder() -> Option<&'static PathBuf> {
-    FOLDER.get()
-}
-
-/// Returns `true` if there is a workspace and it is of a laboratory.
-pub(super) fn is_of_a_laboratory() -> bool {
-    workspace().is_some_and(Workspace::is_of_a_laboratory)
-}
 
 /// Environment variables; the names are part of the interface.
 const WORKSPACE_VARIABLE: &str = "DTG_PASSPORT_WORKSPACE";
@@ -56,7 +37,7 @@ pub(super) fn add(arguments: &mut Vec<OsString>) -> Result<Vec<String>, Failure>
     let folder =
         matches.get_one::<PathBuf>("workspace").cloned().or_else(|| variable(WORKSPACE_VARIABLE).map(Into::into));
     if let Some(folder) = &folder {
-        let _ = FOLDER.set(folder.clone());
+        open_workspace::set_folder(folder.clone());
     }
     // `init` and `receive` make a workspace, so the one that the environment names need not be there yet.
     let folder = folder.filter(|folder| match matches.subcommand_name() {
@@ -85,7 +66,7 @@ pub(super) fn add(arguments: &mut Vec<OsString>) -> Result<Vec<String>, Failure>
     let options: Vec<OsString> = added.iter().map(|(option, value, _)| argument(option, value)).collect();
     arguments.splice(end..end, options);
     if let Some(workspace) = workspace {
-        let _ = WORKSPACE.set(workspace);
+        open_workspace::set(workspace);
     }
     let words = |(option, value, source): &Added| {
         let option = if option.is_empty() { "DIR" } else { option };

@@ -1,9 +1,10 @@
 //! Verb `deliver`: what a laboratory gets, in one file.
 
 use super::inputs::{self, Answer, Lines};
-use super::options::{ARCHIVE, Force, Out, Printed, file_or_folder, language};
+use super::options::{ARCHIVE, Force, Out, Printed, file_or_folder};
+use super::output::language;
 use super::trust_options::TrustOptions;
-use super::{Code, Failure, defaults, output};
+use super::{Code, Failure, open_workspace, output};
 use crate::batch::Purpose;
 use crate::delivery::{Delivery, NotDelivered, Wanted, deliver, tell};
 use crate::folder::Folder;
@@ -96,7 +97,7 @@ struct Archive {
 }
 
 fn of(passports: &Path, wanted: &[Wanted], trust: &Trust, question: &Question) -> Result<Delivery, Failure> {
-    let memory = defaults::workspace().map(Workspace::memory);
+    let memory = open_workspace::workspace().map(Workspace::memory);
     deliver(passports, wanted, (trust, question), memory, language()).map_err(|refused| match refused {
         NotDelivered::File(error) => error.into(),
         NotDelivered::NotValid(name, verification) => {

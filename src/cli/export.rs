@@ -1,7 +1,8 @@
 //! Verb `export`: verified passports in other forms: stand and site files, JSON, and a DCC.
 
 use super::inputs::{self, AdministrativeFile, Answer, Lines};
-use super::options::{Force, Printed, folder, stated_languages};
+use super::options::{Force, Printed, folder};
+use super::output::stated_languages;
 use super::trust_options::{Enquiry, TrustAmong};
 use super::{Code, Failure, REFUSED, UNUSABLE, defaults, output};
 use crate::batch::Purpose;

@@ -1,6 +1,6 @@
 //! Failure of a verb: the message and an exit code for people, and the same as JSON for programs.
 
-use super::{Code, REFUSED, UNUSABLE, defaults, output};
+use super::{Code, REFUSED, UNUSABLE, open_workspace, output};
 use crate::files::FileError;
 use crate::folder::Folder;
 use crate::interface::{self, Failed, Place};
@@ -100,7 +100,7 @@ impl Failure {
         let is_id = Folder::new("").path_of_id(&error.path().to_string_lossy()).is_some();
         let advice = match expected {
             _ if !error.is_unlike_any() => None,
-            _ if is_id && defaults::workspace().is_none() => Some(IN_A_WORKSPACE.to_owned()),
+            _ if is_id && open_workspace::workspace().is_none() => Some(IN_A_WORKSPACE.to_owned()),
             expected => expected.map(|expected| format!("expected {expected}")),
         };
         let failure = Self::from(Failed::from(error));

@@ -3,7 +3,7 @@
 use super::options::{Picture, Printed};
 use super::register::refuse_file;
 use super::trust_options::TrustOptions;
-use super::{Code, Failure, code, defaults, output};
+use super::{Code, Failure, code, open_workspace, output};
 use crate::folder::overview::{self, Query};
 use crate::parallel;
 use crate::passport::Question;
@@ -47,12 +47,12 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if !question.is_open() {
         output::warn("--issuer, --serial and --at have no effect on a history");
     }
-    let memory = defaults::workspace().map(Workspace::memory);
+    let memory = open_workspace::workspace().map(Workspace::memory);
     let query = Query {
         trust: &trust,
         question: &Question { now: question.now, ..Question::at(question.time) },
         memory: memory.as_ref(),
-        may_lack: defaults::is_of_a_laboratory(),
+        may_lack: open_workspace::is_of_a_laboratory(),
         threads: parallel::processors(),
     };
     let found = is_stand(&options.stand).then(|| overview::history(&options.passports, &options.stand, query));
@@ -68,7 +68,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
 
 /// Shows the files and passports of a certificate; `known` are the stands of the folder.
 fn of_certificate(options: &Options, query: Query, known: &[String]) -> Result<Code, Failure> {
-    let root = defaults::workspace().map_or(&options.passports, |workspace| &workspace.root);
+    let root = open_workspace::workspace().map_or(&options.passports, |workspace| &workspace.root);
     if let Some(found) = Trace::of(&options.stand, root, &options.passports, query)? {
         if options.picture.out.is_some() {
             return Err(Failure::usage("-o draws the years of a stand; give MODEL/SERIAL"));

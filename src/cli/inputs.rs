@@ -1,6 +1,6 @@
 //! Input files of the verbs: documents read, and several inputs of which one that fails does not stop the others.
 
-use super::options::language;
+use super::output::language;
 use super::{Code, Failure, output};
 use crate::batch::catalogue::Listed as _;
 use crate::batch::deliveries::Deliveries;

@@ -2,7 +2,7 @@
 
 use super::batch::BatchOptions;
 use super::options::{Instruments, folder_of_passports};
-use super::{Code, Failure, defaults, inputs, output, trust_options};
+use super::{Code, Failure, defaults, inputs, open_workspace, output, trust_options};
 use crate::batch::deliveries::{Deliveries, Placed};
 use crate::batch::issue::Job;
 use crate::passport::Stated;
@@ -92,7 +92,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
 
 /// Finds the files of the stands and sites of a table, by their names in the workspace or by their paths.
 fn placed(deliveries: &Deliveries) -> Result<Placed, Failure> {
-    let workspace = defaults::workspace();
+    let workspace = open_workspace::workspace();
     let stand = |name: &str| workspace.and_then(|workspace| workspace.stand(name)).unwrap_or_else(|| name.into());
     let site = |name: &str| workspace.and_then(|workspace| workspace.site(name)).unwrap_or_else(|| name.into());
     deliveries.placed(stand, site).map_err(|failures| {

@@ -1,7 +1,7 @@
 //! Values of the options `--key` and `--identity`: the signing key and the issuer. The passphrase of an encrypted key comes
 //! from a terminal or from the environment.
 
-use super::{Failure, defaults, output, trust_options};
+use super::{Failure, open_workspace, output, trust_options};
 use crate::document::Signer;
 use crate::folder::{Authority, Memory};
 use crate::passport::Trust;
@@ -114,7 +114,7 @@ impl SigningOptions {
             return Err(Failure::usage(words));
         }
         let is_its_own = |workspace: &&Workspace| passports.is_some() && workspace.passports.as_deref() == passports;
-        let memory = defaults::workspace().filter(is_its_own).map(Workspace::memory);
+        let memory = open_workspace::workspace().filter(is_its_own).map(Workspace::memory);
         Ok(Keys { options: self, without_register: false, signer, register_signer, public, register_public, memory })
     }
 }

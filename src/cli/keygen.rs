@@ -2,7 +2,7 @@
 
 use super::key_options::{self, PASSPHRASE_VARIABLE, passphrase, with_pub};
 use super::options::Formatted;
-use super::{Code, Failure, defaults, output};
+use super::{Code, Failure, open_workspace, output};
 use crate::files::{self, Access};
 use crate::signing::{self, allowed_signers_line, forbid_core_dumps};
 use crate::text::{name_of, shown};
@@ -57,7 +57,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     // For the same reason, check first that the line can be appended to the file.
     signers.map(|path| signing::with_signer(path, &line)).transpose().map_err(Failure::unusable)?;
     let is_the_key = |workspace: &&Workspace| workspace.key.as_deref().is_some_and(|key| same(key, &options.key));
-    let workspace = defaults::workspace().filter(|workspace| workspace.identity.is_none()).filter(is_the_key);
+    let workspace = open_workspace::workspace().filter(|workspace| workspace.identity.is_none()).filter(is_the_key);
     let settings = workspace.map(|workspace| workspace.with_identity(&identity)).transpose().map_err(Failure::usage)?;
     let passphrase = new_passphrase(options)?;
     let private = key.to_openssh(&identity, passphrase.as_ref().map(|p| p.as_str())).map_err(Failure::unusable)?;

@@ -1,19 +1,11 @@
-//! Work that takes long: Ctrl-C asks it to stop, and a progress bar shows how far it is.
+//! Work that takes long: a progress bar shows how far it is.
 
+use super::interrupt::cancelled_by_ctrl_c;
 use super::{Failure, output};
 use crate::interface::Failed;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt::Write;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// Returns a flag that Ctrl-C sets; the work ends at the next point where nothing is left half done.
-pub(super) fn cancelled_by_ctrl_c() -> Result<Arc<AtomicBool>, Failure> {
-    let cancel = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&cancel);
-    ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)).map_err(Failure::unusable)?;
-    Ok(cancel)
-}
 
 /// Returns where bars are drawn: on standard error if it is a terminal, and nowhere if only failures are reported.
 pub(super) fn target() -> ProgressDrawTarget {

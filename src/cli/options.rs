@@ -1,45 +1,15 @@
-//! Options that several verbs have: each is declared here once. Language and format are read once, from all arguments.
+//! Options that several verbs have: each is declared here once. `output` keeps language and format.
 
+use super::output::Format;
 use super::{Failure, inputs, output};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
-use crate::report::{Language, Languages};
+use crate::report::Language;
 use crate::stand::Excluded;
 use crate::text::{Printable, rule, shown};
 use clap::builder::{PathBufValueParser, PossibleValuesParser, TypedValueParser};
-use clap::{ArgMatches, Args, ValueEnum};
+use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
-
-pub(super) use crate::report::issued::Form as Format;
-
-/// Languages of this process.
-static LANGUAGES: OnceLock<Languages> = OnceLock::new();
-
-/// Takes the languages from the arguments, once, before anything is written.
-pub(super) fn set_languages(matches: &ArgMatches) {
-    let stated = matches.subcommand().and_then(|(_, verb)| verb.try_get_many::<Language>("lang").ok().flatten());
-    if let Some(mut stated) = stated
-        && let Some(first) = stated.next()
-    {
-        let _ = LANGUAGES.set(Languages::new(*first, stated.copied()));
-    }
-}
-
-/// Returns the languages, or `None` if neither the option nor the workspace states any.
-pub(super) fn stated_languages() -> Option<&'static Languages> {
-    LANGUAGES.get()
-}
-
-/// Returns the languages of pages.
-pub(super) fn languages() -> Languages {
-    stated_languages().cloned().unwrap_or_else(|| Language::English.into())
-}
-
-/// Returns the language of the text.
-pub(super) fn language() -> Language {
-    languages().first()
-}
 
 /// Option `--format` of a verb that prints a result; a verb that prints a table adds csv to it.
 #[derive(Args)]

@@ -1,12 +1,13 @@
 //! Output: results to standard output, messages to standard error. A closed pipe is not an error.
 
-use super::options::{Format, language};
-use super::{Failure, long_run};
+use super::{Failure, interrupt};
 use crate::files::{self, FileError};
 use crate::pdf;
 use crate::report::doc::{self, Block};
-use crate::report::{columns, style};
+pub(super) use crate::report::issued::Form as Format;
+use crate::report::{Language, Languages, columns, style};
 use crate::text::{excerpt, printable, shown};
+use clap::ArgMatches;
 use serde::Serialize;
 use serde_json::Value;
 use std::io::{self, Write};
@@ -25,6 +26,34 @@ pub(super) fn set_format(format: Format) {
 
 pub(super) fn format() -> Format {
     FORMAT.get().copied().unwrap_or(Format::Text)
+}
+
+/// Languages of this process.
+static LANGUAGES: OnceLock<Languages> = OnceLock::new();
+
+/// Takes the languages from the arguments, once, before anything is written.
+pub(super) fn set_languages(matches: &ArgMatches) {
+    let stated = matches.subcommand().and_then(|(_, verb)| verb.try_get_many::<Language>("lang").ok().flatten());
+    if let Some(mut stated) = stated
+        && let Some(first) = stated.next()
+    {
+        let _ = LANGUAGES.set(Languages::new(*first, stated.copied()));
+    }
+}
+
+/// Returns the languages, or `None` if neither the option nor the workspace states any.
+pub(super) fn stated_languages() -> Option<&'static Languages> {
+    LANGUAGES.get()
+}
+
+/// Returns the languages of pages.
+pub(super) fn languages() -> Languages {
+    stated_languages().cloned().unwrap_or_else(|| Language::English.into())
+}
+
+/// Returns the language of the text.
+pub(super) fn language() -> Language {
+    languages().first()
 }
 
 /// Returns `true` if results are JSON.
@@ -129,7 +158,7 @@ pub(super) fn page(path: &Path, html: String, force: bool) -> Result<Vec<u8>, Fi
     // Before a browser starts, which takes seconds.
     files::check_replaceable([path], force)?;
     // Ctrl-C then ends the browser, but not this program, which has to remove the browser's folder.
-    let _ = long_run::cancelled_by_ctrl_c();
+    let _ = interrupt::cancelled_by_ctrl_c();
     pdf::print(&html, path, std::env::var(pdf::BROWSER_VARIABLE).ok().as_deref())
 }
 

@@ -1,8 +1,9 @@
 //! Verb `receive`: what a factory hands over, verified and laid into a workspace.
 
-use super::options::{Printed, languages};
+use super::options::Printed;
+use super::output::languages;
 use super::trust_options::now;
-use super::{Code, Failure, defaults, output};
+use super::{Code, Failure, open_workspace, output};
 use crate::delivery::{LARGEST_ARCHIVE_BYTES, NotReceived, Order, receive};
 use crate::files;
 use crate::passport::Question;
@@ -59,7 +60,7 @@ fn ask(principal: &str) -> Option<String> {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let folder = options.folder.as_ref().or(defaults::folder());
+    let folder = options.folder.as_ref().or(open_workspace::folder());
     let folder = folder.ok_or_else(|| {
         Failure::usage(
             "missing DIR, the folder of the workspace; give it, or --workspace, or set DTG_PASSPORT_WORKSPACE",

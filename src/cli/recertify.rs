@@ -1,9 +1,10 @@
 //! Verb `recertify`: a new certificate from new readings, and successors of the passports in force, in one step.
 
 use super::key_options::IssuerOptions;
-use super::options::{ExclusionOptions, Force, Printed, Report, folder_of_passports, language, languages};
+use super::options::{ExclusionOptions, Force, Printed, Report, folder_of_passports};
+use super::output::{language, languages};
 use super::trust_options::{self, TrustOptions};
-use super::{Code, Failure, REFUSED, defaults, inputs, long_run, output};
+use super::{Code, Failure, REFUSED, defaults, inputs, interrupt, open_workspace, output};
 use crate::batch::Outcome;
 use crate::batch::recertification::{AtSite, NotRecertified, Recertification, check};
 use crate::certification::{Certification, Comparison, Header};
@@ -83,7 +84,7 @@ pub(super) struct Options {
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
-    let cancel = long_run::cancelled_by_ctrl_c()?;
+    let cancel = interrupt::cancelled_by_ctrl_c()?;
     // Before the readings are read: exchanged arguments are then recognised by the file that is there.
     let expected = "a passport, which `issue` makes and signs";
     let name = name_of(&options.passport);
@@ -158,7 +159,7 @@ fn failure(why: NotRecertified) -> Failure {
 
 /// Returns the folder of stand files, from which `issue` takes them, if the folder of passports is that of a workspace.
 fn stands(options: &Options) -> Option<PathBuf> {
-    let workspace = defaults::workspace().filter(|workspace| workspace.passports == options.out)?;
+    let workspace = open_workspace::workspace().filter(|workspace| workspace.passports == options.out)?;
     workspace.stands.clone()
 }
 

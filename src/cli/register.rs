@@ -1,9 +1,10 @@
 //! Verb `register`: the passports in a folder by their registers, and the renewal of registers.
 
 use super::key_options::SigningOptions;
-use super::options::{Format, Tabular};
+use super::options::Tabular;
+use super::output::Format;
 use super::trust_options::{TrustOptions, date};
-use super::{Code, Failure, code, defaults, inputs, output};
+use super::{Code, Failure, code, inputs, open_workspace, output};
 use crate::folder::overview::{Overview, Query};
 use crate::folder::renewal::{NotRenewed, Renewal};
 use crate::parallel;
@@ -99,13 +100,13 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         return renew(options, folder);
     }
     let (trust, question) = options.trust.load()?;
-    let memory = defaults::workspace().map(Workspace::memory);
+    let memory = open_workspace::workspace().map(Workspace::memory);
     let threads = parallel::processors();
     let query = Query {
         trust: &trust,
         question: &question,
         memory: memory.as_ref(),
-        may_lack: defaults::is_of_a_laboratory(),
+        may_lack: open_workspace::is_of_a_laboratory(),
         threads,
     };
     let mut overview = Overview::of(folder, query)?;
@@ -151,7 +152,7 @@ fn renew(options: &Options, folder: &Path) -> Result<Code, Failure> {
         with: other.clone(),
         withdrawn: withdrawn.iter().cloned().zip(reasons.into_iter().cloned()).collect(),
         not_withdrawn: not_withdrawn.clone(),
-        workspace: defaults::workspace().map(|workspace| workspace.root.clone()),
+        workspace: open_workspace::workspace().map(|workspace| workspace.root.clone()),
     };
     let dry_run = keys.dry_run;
     let keys = keys.keys(Some(folder))?;

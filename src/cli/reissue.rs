@@ -3,7 +3,7 @@
 use super::batch::BatchOptions;
 use super::options::folder_of_passports;
 use super::trust_options::{self, TrustOptions};
-use super::{Code, Failure, defaults, inputs};
+use super::{Code, Failure, defaults, inputs, open_workspace};
 use crate::batch::successors::Change;
 use crate::passport::issue::time_of_issue;
 use crate::passport::reissue::Reissue;
@@ -79,7 +79,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         options.batch.warn_unless_authorised(&trust.signers, public, order.issued_at, "--trust");
     }
     let folder = options.out.clone();
-    let site_file = |id: &str| defaults::workspace()?.site(id).filter(|path| path.exists());
+    let site_file = |id: &str| open_workspace::workspace()?.site(id).filter(|path| path.exists());
     let change = Change { order, stands: &options.stands, sites: &options.sites, site_file, question, folder };
     options.batch.run(&keys, &trust, |batch, tell| {
         batch.reissue(&options.passports, &mut std::io::stdin().lock(), change, tell);

@@ -1,7 +1,8 @@
 //! Verb `render`: the printed form of a verified passport.
 
 use super::inputs::{self, Answer, Lines};
-use super::options::{Force, Out, PAGE, Printed, file_or_folder, languages};
+use super::options::{Force, Out, PAGE, Printed, file_or_folder};
+use super::output::languages;
 use super::trust_options::TrustAmong;
 use super::{Code, Failure, defaults, output};
 use crate::batch::{Purpose, paths};

@@ -1,8 +1,9 @@
 //! Verb `status`: the contents of a workspace.
 
-use super::options::{Lang, language};
+use super::options::Lang;
+use super::output::language;
 use super::trust_options::{self, Lists, time};
-use super::{Code, Failure, code, defaults, inputs, output};
+use super::{Code, Failure, code, inputs, open_workspace, output};
 use crate::workspace::{SOON_DAYS, due, status};
 use clap::{Args, ValueEnum};
 use jiff::Timestamp;
@@ -38,7 +39,7 @@ enum Form {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let Some(workspace) = defaults::workspace() else {
+    let Some(workspace) = open_workspace::workspace() else {
         return Err(Failure::usage(
             "no workspace was specified; give --workspace DIR or set DTG_PASSPORT_WORKSPACE (`dtg-passport init DIR` makes \
              one)",

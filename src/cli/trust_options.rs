@@ -1,7 +1,7 @@
 //! Options of trust: the trusted keys, the question to verify for, and the folder of passports that tells which are
 //! current. Every verb uses this code, so the options are the same everywhere.
 
-use super::{Failure, defaults, output};
+use super::{Failure, open_workspace, output};
 use crate::earth::Place;
 use crate::files;
 use crate::folder::Registers;
@@ -130,7 +130,7 @@ impl Asked {
 /// has accepted.
 pub(super) fn among(trust: Trust, question: Question, registers: Option<&Path>) -> Enquiry {
     let Some(path) = registers else { return Enquiry::of(trust, question) };
-    let memory = defaults::workspace().map(Workspace::memory);
+    let memory = open_workspace::workspace().map(Workspace::memory);
     let registers = Registers::new(path, trust.clone(), question.now, memory);
     Enquiry::of(trust, question).with_registers(registers)
 }

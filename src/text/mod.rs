@@ -9,7 +9,7 @@
 //! * `words`: enums whose variants are words.
 //! * `scalar`: identifiers, dates and times.
 //! * `table`: tables of numbers (CSV).
-//! * `yaml`: conversion of hand-written YAML to a tree, and the location of a value, found again if an error needs it.
+//! * `yaml`: conversion of hand-written YAML to a tree; `locate`: location of a value, found again if an error needs it.
 //! * `misspelt`: the name that a misspelt one means.
 //! * `printable`: safe display of text from other sources.
 //! * `kind`: what a file is that was given instead of another.
@@ -23,6 +23,8 @@ pub(crate) mod characters;
 pub(crate) mod excerpt;
 pub(crate) mod field;
 pub(crate) mod kind;
+#[cfg(feature = "yaml")]
+mod locate;
 pub(crate) mod misspelt;
 pub(crate) mod node;
 pub(crate) mod number;

@@ -4,7 +4,7 @@ use super::cause::{Advice, RefusalCause};
 use super::characters::{is_sha256_hex, without_byte_order_mark};
 use super::excerpt::{Excerpt, Location, Step};
 #[cfg(feature = "yaml")]
-use super::yaml::locate;
+use super::locate::locate;
 use super::{Printable, without_secrets};
 use std::collections::HashMap;
 use std::fmt::{self, Display, Formatter};

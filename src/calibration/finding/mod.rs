@@ -139,11 +139,11 @@ result! {
     /// A cause that explains readings.
     #[serde(expecting = "struct CauseDocument")]
     pub struct Finding {
-        /// What it is.
+        /// Kind of the cause.
         pub kind: Kind,
-        /// Where it acts.
+        /// Readings on which the cause acts.
         pub scope: Scope,
-        /// Its size in `unit`; absent if it has none.
+        /// Size of the cause in `unit`; `None` for a cause without a size.
         pub size: Option<f64> = default,
         /// Unit of the size; 1 for a factor.
         pub unit: Option<String> = default,

@@ -1,9 +1,9 @@
 //! Change of a stand since its last certificate.
 
 use super::outcome_of;
-use crate::certification::comparison::{ComparedPosition, Comparison, Test};
 use crate::certification::found::together;
 use crate::certification::kind::{AXES, OUTLIER};
+use crate::certification::{ComparedPosition, Comparison, Test};
 use crate::passport::difference::NumberDifference;
 use crate::report::doc::{Block, Rows, Words, fields, heading, in_unit, listed, marked, probability, say, symbol};
 use crate::report::page::language::Text;
