@@ -44,3 +44,27 @@ fn remove_unless_in_use(path: &Path) -> io::Result<()> {
         Ok(()) | Err(TryLockError::Error(_)) => fs::remove_file(path),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_locked_stays_and_what_is_not_ours_too() {
+        let folder = tempfile::tempdir().unwrap();
+        let make = |name: &str| File::create_new(folder.path().join(name)).unwrap();
+        make(".dtg-passport-left.tmp");
+        make("here-1.yaml");
+        make(".another-program.tmp");
+        fs::create_dir(folder.path().join(".dtg-passport-folder.tmp")).unwrap();
+        let in_use = make(".dtg-passport-used.tmp");
+        in_use.lock().unwrap();
+        remove(folder.path());
+        assert!(!folder.path().join(".dtg-passport-left.tmp").exists());
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 4);
+        drop(in_use);
+        remove(folder.path());
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3);
+        remove(&folder.path().join("no such folder"));
+    }
+}

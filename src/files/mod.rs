@@ -274,7 +274,14 @@ pub(crate) fn check_distinct<'a>(paths: impl IntoIterator<Item = &'a PathBuf>) -
 /// Passports, registers and private keys are never replaced. Nor is anything but a regular file,
 /// because renaming a new file to the name of a device or of a link would remove it.
 pub(crate) fn write_replaceable(path: &Path, bytes: &[u8], force: bool) -> Result<(), FileError> {
-    together::write_replaceable_together(&[(path.to_owned(), bytes)], force)
+    check_replaceable([path], force)?;
+    if force {
+        return replace(path, bytes, Durability::Named);
+    }
+    write_new(path, bytes, Access::Shared).map_err(|error| match error {
+        FileError::Exists { path, .. } => FileError::Exists { path, replaceable: true },
+        error => error,
+    })
 }
 
 /// Returns `true` if a file is a passport, a register or a private key, by its content.

@@ -67,3 +67,47 @@ pub(crate) fn write_together<B: AsRef<[u8]>>(new: &[(PathBuf, B)], last: &[(Path
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_are_written_or_none() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        let file = |name: &str, text: &str| (at(name), text.as_bytes().to_vec());
+        fs::write(at("last"), "old").unwrap();
+        fs::write(at("b"), "there").unwrap();
+        let refused = write_together(&[file("a", "1"), file("b", "2")], &[file("last", "new")]);
+        assert!(matches!(refused, Err(FileError::Exists { path, .. }) if path == at("b")));
+        let read = |name: &str| fs::read_to_string(at(name)).ok();
+        assert_eq!((read("a"), read("b"), read("last")), (None, Some("there".into()), Some("old".into())));
+        // A folder in place of the last file: the new ones are removed again.
+        fs::create_dir(at("folder")).unwrap();
+        assert!(write_together(&[file("a", "1")], &[file("folder", "new")]).is_err());
+        assert_eq!(read("a"), None);
+        write_together(&[file("deep/er/a", "1"), file("c", "2")], &[file("last", "new")]).unwrap();
+        assert_eq!(
+            (read("deep/er/a"), read("c"), read("last")),
+            (Some("1".into()), Some("2".into()), Some("new".into()))
+        );
+        // What cannot be written leaves none of the others, nor replaces any.
+        for force in [false, true] {
+            let refused = write_replaceable_together(&[file("d", "1"), file("b/below", "2")], force);
+            assert!(matches!(refused, Err(FileError::Write(path, _)) if path == at("b/below")));
+            assert!(write_replaceable_together(&[file("d", "1"), file("folder", "2")], force).is_err());
+            assert_eq!(read("d"), None);
+        }
+        let refused = write_replaceable_together(&[file("d", "1"), file("b", "2")], false);
+        assert!(matches!(refused, Err(FileError::Exists { replaceable: true, .. })));
+        write_replaceable_together(&[file("c", "3"), file("b", "4")], true).unwrap();
+        assert_eq!((read("c"), read("b"), read("d")), (Some("3".into()), Some("4".into()), None));
+        fs::write(at("b"), "format: \"dtg-passport/1\"\n").unwrap();
+        let refused = write_replaceable_together(&[file("c", "5"), file("b", "6")], true);
+        assert!(matches!(refused, Err(FileError::Exists { replaceable: false, .. })));
+        assert_eq!(read("c"), Some("3".into()));
+        let left: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        assert_eq!(left.len(), 5, "no temporary file is left: {left:?}");
+    }
+}

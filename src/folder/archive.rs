@@ -64,3 +64,33 @@ fn in_a_name(number: &str) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' };
     number.chars().map(plain).take(MOST).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STAND: &str = include_str!("../../passports/SPS-2/0017/stand.yaml");
+
+    #[test]
+    fn a_superseded_stand_is_kept_once_for_each_content() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("stand.yaml");
+        assert_eq!(Superseded::of(&path, b"new").unwrap(), None);
+        std::fs::write(&path, STAND).unwrap();
+        assert_eq!(Superseded::of(&path, STAND.as_bytes()).unwrap(), None);
+        let old = Superseded::of(&path, b"new").unwrap().unwrap();
+        assert_eq!(old.path.file_name().unwrap(), "stand-C-2026-0142.superseded.yaml");
+        let (kept_at, bytes) = old.new_file().unwrap();
+        std::fs::write(kept_at, bytes).unwrap();
+        assert_eq!(std::fs::read(&old.path).unwrap(), STAND.as_bytes());
+        assert!(Superseded::of(&path, b"new").unwrap().unwrap().kept);
+        std::fs::write(&path, STAND.replace("12.4", "12.5")).unwrap();
+        let other = Superseded::of(&path, b"new").unwrap().unwrap();
+        assert_eq!(other.path.file_name().unwrap(), "stand-C-2026-0142.2.superseded.yaml");
+        std::fs::write(&path, "not a stand").unwrap();
+        assert_eq!(Superseded::of(&path, b"new").unwrap(), None);
+        // Neither a stand nor a passport by its name.
+        assert_eq!(crate::folder::place::numbered(old.path.file_name().unwrap()), None);
+        assert_eq!(in_a_name("№ 12/34"), "__12_34");
+    }
+}

@@ -451,6 +451,20 @@ mod tests {
     }
 
     /// Expected: one deviation with a rate of many u is found, and no other; without a rate none is.
+    #[test]
+    fn the_deviation_that_drifts_is_found() {
+        let still = drift([0.0; 4]);
+        assert_eq!((still.series.len(), still.tested(), still.drifts()), (24, 24, Some(false)));
+        assert_eq!(still.most_significant().unwrap().corrected_probability, Some(1.0));
+        let moving = drift([0.0, 8.0, 16.0, 24.0]);
+        assert_eq!(moving.drifts(), Some(true));
+        let found: Vec<_> = moving.series.iter().filter(|at| at.corrected_probability.unwrap() < DRIFTS).collect();
+        assert_eq!(found.len(), 1);
+        assert_eq!((found[0].index, found[0].angle), (PositionIndex { i: 2, j: 3 }, 2));
+        // Expected: 8 arcsec a year; the years have 365 and 366 days.
+        assert!((found[0].line.unwrap().slope - 8.0).abs() < 0.02);
+    }
+
     /// Expected: a change of 44.5 between the second and the third of four certificates, and one that comes and goes, are no
     /// rates. The sizes of the uncertainties, near 1, come from the stand file.
     #[test]

@@ -137,4 +137,23 @@ mod tests {
         assert!(condition(&DMatrix::from_element(2, 2, f64::NAN), 1e6).is_none());
         assert!(Factorised::new(DMatrix::from_element(2, 2, 0.0)).is_none());
     }
+
+    /// A straight line through (0, 1), (1, 3), (2, 5), (3, 8), by hand: slope 2.3, intercept 0.8.
+    #[test]
+    fn a_straight_line() {
+        let design = DMatrix::from_row_slice(4, 2, &[0.0, 1.0, 1.0, 1.0, 2.0, 1.0, 3.0, 1.0]);
+        let model = Factorised::new(design.clone()).unwrap();
+        let mut right = DMatrix::from_column_slice(4, 1, &[1.0, 3.0, 5.0, 8.0]);
+        let y = right.clone();
+        model.rotate(&mut right);
+        let (line, _) = model.solve_rotated(&right);
+        assert!((line[0] - 2.3).abs() < 1e-14 && (line[1] - 0.8).abs() < 1e-14);
+        // The rotated rest has the length of the residuals: 0.2, -0.1, -0.4, 0.3.
+        let rest: f64 = right.column(0).iter().skip(2).map(|x| x * x).sum();
+        assert!((rest - 0.3).abs() < 1e-13);
+        assert!(((y - design * line).norm_squared() - 0.3).abs() < 1e-13);
+        // Variance of the slope: 1/Σ(x - 1.5)² = 0.2.
+        let slope: f64 = model.r_inverse.row(0).iter().map(|x| x * x).sum();
+        assert!((slope - 0.2).abs() < 1e-14);
+    }
 }

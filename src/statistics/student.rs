@@ -221,4 +221,18 @@ mod tests {
         assert!((effective_degrees_of_freedom(&[(1.0, 4.0), (1.0, f64::INFINITY)]) - 16.0).abs() < 1e-15);
         assert_eq!(effective_degrees_of_freedom(&[(1.0, f64::INFINITY)]), f64::INFINITY);
     }
+
+    /// Expected: the coverage factor falls with the degrees of freedom, to that of the normal distribution (1.959964).
+    #[test]
+    fn the_coverage_factor_falls_to_that_of_the_normal_distribution() {
+        let (mut last, mut degrees_of_freedom) = (f64::INFINITY, 1.0);
+        while degrees_of_freedom < 1e300 {
+            let found = student_factor(0.05, degrees_of_freedom);
+            assert!(found <= last * (1.0 + 4.0 * f64::EPSILON), "{degrees_of_freedom}: {found} after {last}");
+            assert!(found >= 1.959_963_984_540_054 * (1.0 - 4.0 * f64::EPSILON), "{degrees_of_freedom}: {found}");
+            last = found;
+            degrees_of_freedom *= if degrees_of_freedom < 1e20 { 1.37 } else { 1e7 };
+        }
+        assert!((last - 1.959_963_984_540_054).abs() < 1e-14, "{last}");
+    }
 }

@@ -280,3 +280,22 @@ fn status_and_history_over_ten_thousand() {
         assert!(cfg!(debug_assertions) || seconds[2] <= 1.0, "{verb}: {seconds:?}");
     }
 }
+
+#[test]
+fn no_file_may_grow_large_enough() {
+    let workshop = Workshop::new(1, 5);
+    let issue = format!("issue stands --site sites {SIGN} --out out");
+    // The limit is in units of 512 bytes. Ignored, the signal becomes an error; otherwise it kills in the middle.
+    let limited = format!("ulimit -f 8; exec \"$DTG\" {issue}");
+    let output = workshop.shell(&format!("trap '' XFSZ; {limited} --format csv")).output().unwrap();
+    let said = Said::of(output, 2);
+    assert_eq!(said.ids("refused").len(), 5);
+    assert!(said.words.contains("cannot be written: File too large"), "{}", said.words);
+    assert!(workshop.sound("out").is_empty() && workshop.leftovers("out").is_empty());
+    let killed = workshop.shell(&limited).output().unwrap();
+    assert!(killed.status.signal().is_some(), "{}", killed.status);
+    assert!(workshop.sound("out").is_empty() && !workshop.leftovers("out").is_empty());
+    let said = workshop.run(&format!("{issue} --format csv"), 0);
+    assert_eq!(said.ids("issued").len(), 5);
+    assert!(workshop.leftovers("out").is_empty());
+}

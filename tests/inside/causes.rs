@@ -442,3 +442,20 @@ mod of_the_factory {
         assert_eq!(stand.certificate.odd_number(), None);
     }
 }
+
+/// Expected: what PowerShell's `>` writes is named; a byte order mark is not in the way.
+#[test]
+fn utf_16_is_named_in_every_input() {
+    let signers = include_str!("../../docs/allowed_signers");
+    let refused = [
+        AllowedSigners::parse("f", &utf16(signers)).unwrap_err(),
+        Table::read("f", &utf16("i,j,a,b\n"), &["i", "j"], &["a", "b"], &[]).unwrap_err(),
+        dtg_passport::calibration::CalibrationDocument::from_json("f", &utf16("{}")).unwrap_err(),
+    ];
+    for refused in refused {
+        let (cause, message) = first(&refused);
+        assert!(cause == "utf16" && message.starts_with("f: found UTF-16, expected UTF-8; "), "{message}");
+        assert!(message.contains("PowerShell"), "{message}");
+    }
+    assert!(AllowedSigners::parse("f", format!("\u{FEFF}{signers}").as_bytes()).is_ok());
+}

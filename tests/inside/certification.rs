@@ -212,3 +212,53 @@ fn nominal_angles_of_a_row_are_compared() {
     let error = with([0.0, 270.0, 180.0, 90.0, 0.0, 270.0, 180.0, 90.0]).unwrap_err().to_string();
     assert!(error.contains("a.csv:3:") && error.contains("found 270, expected 90, the nominal angle"), "{error}");
 }
+
+/// Without four positions of one θ in one run only the deviations of the stand tell its platform from its base, and the
+/// predictions would be worse than a reading by a factor of ten (deviations of 1°) to thousands (arcseconds): refused. Any
+/// three positions of a run can be predicted from the five others. Expected: the simulated angles; 95 % of them within
+/// their intervals.
+#[test]
+fn excluded_readings_are_determined_by_the_others() {
+    use dtg_passport::coefficients::PositionIndex;
+    use dtg_passport::stand::Excluded;
+
+    let without = |places: &[usize], readings: &AngleReadings| {
+        let out = |place: &usize| {
+            let PositionIndex { i, j } = EIGHT_POSITIONS[*place].0;
+            Excluded { i: Some(i), j: Some(j), run: 2, why: "bump".to_owned() }
+        };
+        let excluded: Vec<Excluded> = places.iter().map(out).collect();
+        let positions = header().positions;
+        let readings = AngleReadings::from_csv_without("a.csv", csv(readings).as_bytes(), &positions, &excluded, None);
+        certify(&header(), &readings.unwrap())
+    };
+    let mut stream = Stream::new(61);
+    let mut truth = Truth::new([1.0; 3], 0.0, 0.0);
+    let deviations = truth.angles_arcsec;
+    for (scale, runs) in [(0.001, 3), (0.1, 4), (1.0, 5)] {
+        truth.angles_arcsec = deviations.map(|angles| angles * scale);
+        for half in [[4, 5, 6, 7], [0, 1, 2, 3]] {
+            let refused = without(&half, &truth.measured(&mut stream, runs));
+            assert_eq!(refused, Err(NotCertified::Undetermined), "{scale} {half:?}");
+        }
+    }
+    let (mut inside, mut all) = (0.0, 0.0);
+    for places in (0..256_usize).map(|set| (0..8).filter(|place| set >> place & 1 == 1).collect::<Vec<_>>()) {
+        if !(1..=3).contains(&places.len()) {
+            continue;
+        }
+        let found = without(&places, &truth.measured(&mut stream, 3)).unwrap();
+        for (at, angles) in found.stand.positions.iter().zip(truth.angles_arcsec) {
+            let factor = student_factor(0.05, at.degrees_of_freedom.unwrap());
+            for (angle, u) in
+                [(at.alpha_arcsec - angles.x, at.u_alpha_arcsec), (at.gamma_arcsec - angles.z, at.u_gamma_arcsec)]
+            {
+                inside += f64::from(u8::from(angle.abs() <= factor * u.unwrap()));
+                all += 1.0;
+            }
+        }
+    }
+    let coverage = inside / all;
+    println!("{:.1} % of {all} intervals hold the true angle", 100.0 * coverage);
+    assert!((0.93..0.97).contains(&coverage), "{coverage}");
+}

@@ -155,3 +155,21 @@ fn terms_are_those_of_dense_matrices(setup: &Setup, Linearised { fit, data, .. }
         assert!((found / due - 1.0).abs() < 1e-6, "{factor}: {found} {due}");
     }
 }
+
+/// Expected: dense matrices, for a run whose noise of visits is far larger than stated.
+#[cfg(feature = "factory")]
+#[test]
+fn terms_of_a_run_with_a_jolt_are_those_of_dense_matrices() {
+    use dtg_passport::laboratory::Laboratory;
+    use dtg_passport::site::Site;
+    use dtg_passport::stand::Stand;
+
+    let stand = Stand::from_yaml("stand.yaml", include_bytes!("../cmd/files/stand.yaml")).unwrap();
+    let site = Site::from_yaml("here.yaml", include_bytes!("../cmd/files/sites/here.yaml")).unwrap();
+    let (setup, _) = Setup::stated(&stand.certificate, &stand.positions, &site, &Laboratory::paper()).unwrap();
+    let jolt = include_str!("../cmd/files/run.csv").replace("2,4,-0.22799247,", "2,4,-0.22749247,");
+    assert_ne!(jolt, include_str!("../cmd/files/run.csv"));
+    let readings = Readings::from_csv("jolt.csv", jolt.as_bytes(), setup.coefficients(), 1.0).unwrap();
+    let linearised = linearise(&setup, &readings, Method::LeastSquares, &Options::default()).unwrap();
+    terms_are_those_of_dense_matrices(&setup, &linearised);
+}

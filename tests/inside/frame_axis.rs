@@ -5,8 +5,8 @@ use crate::inside::programs;
 use crate::inside::reference::*;
 use dtg_passport::attitude::Deviation;
 use dtg_passport::calibration::sensitivity::VectorChange;
-use dtg_passport::calibration::{InputUncertainty, Method, Options, Setup, calibrate};
-use dtg_passport::coefficients::{EarthRate, Position, PositionIndex, pair_differences};
+use dtg_passport::calibration::{InputUncertainty, Method, Model, Options, Setup, analytic, calibrate, least_squares};
+use dtg_passport::coefficients::{Coefficients, EarthRate, Position, PositionIndex, StandGeometry, pair_differences};
 use dtg_passport::units::radians_from_arcseconds;
 use nalgebra::{Matrix2, Vector2, Vector3};
 use serde_json::Value;
@@ -301,4 +301,43 @@ fn the_axis_points_to_its_azimuth() {
     assert_eq!(dtg_passport::attitude::base(90.0), nalgebra::Matrix3::identity());
     let north = dtg_passport::attitude::base(0.0);
     assert_eq!(north.fixed_view::<2, 2>(0, 0), Matrix2::new(0.0, 1.0, -1.0, 0.0));
+}
+
+/// Expected: at the paper's azimuth the very bits of the equations without a rotation of the base.
+#[test]
+fn an_axis_that_points_east_changes_no_bit() {
+    for case in cases() {
+        let positions = positions(&case);
+        let plain = EarthRate::at_astronomic_latitude(case["latitude_deg"].as_f64().unwrap());
+        assert_eq!(plain.frame_axis_azimuth_deg, 90.0);
+        let found = StandGeometry::new(&positions).unwrap().at(plain);
+        for (at, position) in found.positions.iter().zip(&positions) {
+            let attitude = dtg_passport::attitude::actual(position.theta_deg, position.phi_deg, &position.deviation);
+            let (h, v) = (plain.horizontal_deg_per_h, plain.vertical_deg_per_h);
+            let omega = [attitude.m12 * h + attitude.m13 * v, attitude.m22 * h + attitude.m23 * v];
+            assert_eq!(<[f64; 2]>::from(at.earth_rate_deg_per_h), omega);
+            assert_eq!(<[f64; 2]>::from(at.specific_force_g), [attitude.m13, attitude.m23]);
+        }
+    }
+}
+
+/// Expected: with exact currents, any azimuth from 0° to 360° gives the gyro back, by both closed and least-squares
+/// methods, on ideal stands and those of the reference.
+#[test]
+fn any_azimuth_is_as_good_as_another_for_exact_currents() {
+    let stand = eight([[0.02, -0.03, 0.01]; 8]);
+    let gyro = gvk_6();
+    for step in 0..72 {
+        let frame_axis_azimuth_deg = 5.0 * f64::from(step);
+        let earth = EarthRate { frame_axis_azimuth_deg, ..EarthRate::at_astronomic_latitude(LATITUDE_DEG) };
+        let at: Coefficients = StandGeometry::new(&stand).unwrap().at(earth);
+        let currents: Vec<_> = at.positions.iter().map(|position| gyro.currents_ma(position).unwrap()).collect();
+        let closed = analytic::solve(&at, &currents).unwrap().parameters;
+        let fitted = least_squares::solve(&at, &currents, &paper_meter(), Model::Paper).unwrap();
+        for found in [closed, fitted] {
+            for (found, expected) in found.to_vector().into_iter().zip(gyro.to_vector()) {
+                assert!((found / expected - 1.0).abs() < 1e-10, "{frame_axis_azimuth_deg}: {found} {expected}");
+            }
+        }
+    }
 }

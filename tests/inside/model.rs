@@ -1,9 +1,13 @@
 //! The model against independent 60-digit reference values, and against what geometry demands.
 
 use dtg_passport::attitude::{self, Deviation};
-use dtg_passport::coefficients::{Coefficients, EIGHT_POSITIONS, EarthRate, Matrices, Position, StandGeometry};
+use dtg_passport::calibration::analytic;
+use dtg_passport::coefficients::{
+    Coefficients, EIGHT_POSITIONS, EarthRate, Matrices, Position, StandGeometry, pair_differences,
+};
+use dtg_passport::gyro::GyroParameters;
 use dtg_passport::units::radians_from_arcseconds;
-use nalgebra::{Matrix2, Matrix3};
+use nalgebra::{Matrix2, Matrix3, Vector2};
 use proptest::prelude::*;
 use serde_json::Value;
 
@@ -177,4 +181,72 @@ proptest! {
         prop_assert_eq!(found.c_deg_per_h_per_g, Matrix2::identity() * earth.vertical_deg_per_h);
     }
 
+    /// The definitions of B and C (paper, under eq. (13) and (15)) against the form used, free of the site.
+    #[test]
+    fn b_and_c_are_the_papers(stand in stand_up_to(0.2), latitude in -89.0..89.0) {
+        let m = StandGeometry::new(&stand).unwrap().at(EarthRate::at_astronomic_latitude(latitude)).matrices.unwrap();
+        let b = m.omega1_deg_per_h - m.omega2_deg_per_h * m.n2_inverse * m.n1;
+        let c = m.omega2_deg_per_h * m.n2_inverse;
+        prop_assert!((b - m.b_deg_per_h).abs().max() < 1e-13);
+        prop_assert!((c - m.c_deg_per_h_per_g).abs().max() < 1e-13);
+        prop_assert!((m.n2_inverse * m.n2 - Matrix2::identity()).abs().max() < ROUNDING);
+    }
+
+    /// A gyro drawn at random, its exact currents, and (13)-(16), (8): the same gyro.
+    #[test]
+    fn exact_currents_give_the_gyro_back(
+        stand in stand_up_to(0.2), latitude in -80.0..80.0,
+        k in prop::array::uniform2(50.0..150.0), k_cross in prop::array::uniform2(-20.0..20.0),
+        omega0 in prop::array::uniform2(-40.0..40.0), g_drifts in prop::array::uniform2(-30.0..30.0),
+    ) {
+        let gyro = GyroParameters {
+            k_deg_per_h_per_ma: Matrix2::new(k[0], k_cross[0], k_cross[1], k[1]),
+            omega0_deg_per_h: omega0.into(),
+            omega_g_deg_per_h_per_g: g_drifts[0],
+            omega_k_deg_per_h_per_g: g_drifts[1],
+        };
+        let at = StandGeometry::new(&stand).unwrap().at(EarthRate::at_astronomic_latitude(latitude));
+        let currents: Vec<_> = at.positions.iter().map(|position| gyro.currents_ma(position).unwrap()).collect();
+        // Rounding of the currents is magnified by how badly they determine K: up to the condition below nothing is lost.
+        let found = analytic::solve(&at, &currents);
+        let condition = condition_of_the_solution(&at, &currents);
+        prop_assume!(condition < 1e4);
+        let found = found.unwrap();
+        let limit = 1e-12 * condition;
+        prop_assert!((found.parameters.k_deg_per_h_per_ma - gyro.k_deg_per_h_per_ma).abs().max() < 100.0 * limit);
+        prop_assert!((found.parameters.omega0_deg_per_h - gyro.omega0_deg_per_h).abs().max() < 100.0 * limit);
+        prop_assert!((found.omega_n_deg_per_h_per_g - gyro.omega_n_deg_per_h_per_g()).abs().max() < 100.0 * limit);
+    }
+}
+
+/// Condition number of J_1 − J_2 Δ, whose inverse gives K (paper, eq. (13)).
+fn condition_of_the_solution(at: &Coefficients, currents: &[Vector2<f64>]) -> f64 {
+    let (j1, j2) = pair_differences(|position| currents[position]);
+    let values = (j1 - j2 * at.matrices.unwrap().delta).singular_values();
+    values.max() / values.min()
+}
+
+/// Expected: the gyro of the reference vectors; 1e-10 of each parameter's own size.
+#[test]
+fn reference_currents_give_the_reference_gyro() {
+    let mut worst: f64 = 0.0;
+    for case in reference()["cases"].as_array().unwrap() {
+        let at = coefficients(case);
+        let gyro = &case["gyro"];
+        let currents: Vec<Vector2<f64>> =
+            numbers(&gyro["currents_ma"]).chunks_exact(2).map(|pair| Vector2::new(pair[0], pair[1])).collect();
+        let found = analytic::solve(&at, &currents).unwrap().parameters;
+        let mut parameters = rows(&found.k_deg_per_h_per_ma);
+        parameters.extend(found.omega0_deg_per_h.iter());
+        parameters.extend([found.omega_g_deg_per_h_per_g, found.omega_k_deg_per_h_per_g]);
+        let mut expected = numbers(&gyro["k_deg_per_h_per_ma"]);
+        expected.extend(numbers(&gyro["omega0_deg_per_h"]));
+        expected.extend(numbers(&gyro["omega_g_deg_per_h_per_g"]));
+        expected.extend(numbers(&gyro["omega_k_deg_per_h_per_g"]));
+        for (found, expected) in parameters.iter().zip(&expected) {
+            worst = worst.max((found / expected - 1.0).abs());
+        }
+    }
+    println!("largest relative error of a parameter found by the analytic method: {worst:.1e}");
+    assert!(worst < 1e-10, "{worst:e}");
 }

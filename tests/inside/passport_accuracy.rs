@@ -6,7 +6,8 @@ use dtg_passport::laboratory::{Laboratory, Seating};
 use dtg_passport::passport::accuracy::Stated;
 use dtg_passport::passport::checks::{CheckName, Code};
 use dtg_passport::passport::issue::{self, Issue};
-use dtg_passport::passport::{Question, Trust, verify};
+use dtg_passport::passport::{Content, Question, Trust, verify};
+use dtg_passport::report::{passport as printed, style};
 use dtg_passport::signing::allowed_signers_line;
 use dtg_passport::site::Site;
 use dtg_passport::stand::Stand;
@@ -70,4 +71,27 @@ fn a_passport_states_what_the_stand_is_good_for_and_verify_computes_it_again() {
         assert_eq!(recomputed(|payload| altered(payload, key, 1e-10)), Code::WrongNumber, "{key}");
         assert_eq!(recomputed(|payload| altered(payload, key, 2e-13)), Code::Ok, "{key}");
     }
+}
+
+fn content(accuracy: Option<Stated>) -> Content {
+    issue::draft(&stand(), &site(), &order(accuracy)).unwrap().content().clone()
+}
+
+/// Expected: reproduction.md, 30" of the seat about the spin axis cost 0.145 % of K_xy; the meter's 0.0087 % of each
+/// reading costs 0.1 % of it (0.1339 % for 0.015 % uniform by the closed solution, least squares 0.77 of that).
+#[test]
+fn its_numbers_are_of_the_size_that_inputs_cost() {
+    let passport = content(Some(paper()));
+    let accuracy = passport.accuracy.as_ref().unwrap();
+    let k_xy = 100.0 * accuracy.standard_uncertainty.k_deg_per_h_per_ma[0][1] / 9.5;
+    let expected = libm::hypot(0.145, 0.1339 * 0.79);
+    assert!((k_xy / expected - 1.0).abs() < 0.05, "{k_xy} {expected}");
+    let shown = style::plain(&dtg_passport::report::doc::typed(
+        &printed::document(&passport, None),
+        dtg_passport::wording::Language::English,
+    ));
+    assert!(shown.contains("Expected calibration uncertainty") && shown.contains("GVK-6"), "{shown}");
+    assert!(shown.lines().all(|line| line.chars().count() <= 100));
+    let without = content(None);
+    assert_eq!(Content { accuracy: None, ..passport }, without);
 }

@@ -307,3 +307,20 @@ fn times_that_may_be_in_another_unit_are_named() {
     let minutes = read(&setup, &format!("i,j,jx_ma,jy_ma,time_s\n{rows}")).unwrap().remarks.join(" ");
     assert!(minutes.contains("23 moves to another position within 120 s, 5.0 s for each"), "{minutes}");
 }
+
+#[test]
+fn an_axis_without_current() {
+    let setup = paper();
+    let good = good(&setup);
+    let with = |x: bool, y: bool| {
+        let rows = good.lines().skip(1).map(|line| {
+            let cells: Vec<&str> = line.split(',').collect();
+            let cell = |keep: bool, place: usize| if keep { cells[place] } else { "0.0" };
+            format!("{},{},{},{}\n", cells[0], cells[1], cell(x, 2), cell(y, 3))
+        });
+        read(&setup, &format!("i,j,jx_ma,jy_ma\n{}", rows.collect::<String>())).unwrap_err()
+    };
+    assert!(with(false, false).contains("all zero"));
+    assert!(with(true, false).contains("J_y"));
+    assert!(with(false, true).contains("J_x"));
+}

@@ -174,3 +174,29 @@ fn rounding_is_not_taken_for_noise_of_the_gyro() {
     let mean = noises.iter().sum::<f64>() / noises.len() as f64;
     assert!(mean < 0.5, "{mean}");
 }
+
+/// Expected: copies of rows or of visits add nothing to one reading, neither a smaller uncertainty nor a noise of 0.
+#[test]
+fn copies_of_readings_count_as_one() {
+    let setup = bench(1, 2e-6);
+    let once = written(&setup, 1, (&mut Stream::new(2), 2e-6), 8);
+    let rows: Vec<&str> = std::str::from_utf8(&once).unwrap().lines().skip(1).collect();
+    let one = solved(&setup, &once);
+    let thrice = |repeated: Vec<String>, head: &str| format!("{head}\n{}\n", repeated.join("\n")).into_bytes();
+    let of_rows = thrice(rows.iter().flat_map(|row| [*row; 3].map(str::to_owned)).collect(), "i,j,jx_ma,jy_ma");
+    let numbered = |number: usize| rows.iter().map(move |row| format!("{number},{row}"));
+    let of = |what: &str| thrice((1..=3).flat_map(numbered).collect(), &format!("{what},i,j,jx_ma,jy_ma"));
+    for (csv, [identical_rows, identical_visits]) in
+        [(of_rows, [true, false]), (of("visit"), [false, true]), (of("cycle"), [false, true])]
+    {
+        let found = solved(&setup, &csv);
+        let digits = found.digits.unwrap();
+        assert_eq!([digits.identical_rows, digits.identical_visits], [identical_rows, identical_visits]);
+        assert_eq!(
+            (&found.results, found.visit_noise, found.turn_on_noise),
+            (&one.results, one.visit_noise, one.turn_on_noise)
+        );
+        assert_eq!((found.row_scatter, found.scatter), (None, None));
+        assert_eq!(found.noise_not_stated().count(), 2);
+    }
+}

@@ -40,7 +40,6 @@ proptest! {
             prop_assert!(found.consistent || !found.causes.is_empty() || !found.settled, "{found:?}");
         }
     }
-
 }
 
 /// A meter without any uncertainty would weigh without limit: refused, in words.

@@ -254,3 +254,12 @@ fn common_parts_turn_the_angles_of_a_tilted_platform() {
     let without = Certificate { common_base_arcsec: None, ..certificate };
     assert_eq!(without.combined(&at).u_arcsec(), [None; 3]);
 }
+
+/// `sha256sum docs/angles.csv`, and its five runs.
+#[test]
+fn the_evidence_is_the_readings() {
+    let evidence = certified(&header(HEADER)).stand.certificate.evidence.unwrap();
+    let sum = std::process::Command::new("sha256sum").arg("docs/angles.csv").output().unwrap();
+    assert!(String::from_utf8(sum.stdout).unwrap().starts_with(&evidence.readings_sha256));
+    assert_eq!(evidence.runs, 5);
+}

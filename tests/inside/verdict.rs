@@ -394,3 +394,14 @@ fn a_temperature_outside_the_certified_range_is_told() {
          the effect of this"
     );
 }
+
+/// Expected: docs/model.md: 10 °/h/g moves by 0.5 % from equator to pole.
+#[test]
+fn drifts_are_brought_to_the_types_gravity() {
+    let mut at_pole = found(|v| v[6] *= 9.8321849379 / G, SMALL);
+    at_pole.gravity_m_per_s2 = 9.8321849379;
+    let verdict = against_type(&at_pole, &GyroType::gvk_6());
+    assert!(verdict.parameters[6].deviation.abs() < 1e-12);
+    assert!((verdict.parameters[7].deviation - 10.0 * (G / 9.8321849379 - 1.0)).abs() < 1e-12);
+    assert_eq!(verdict.parameters[7].guarded, Decision::Fail);
+}

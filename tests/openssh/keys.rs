@@ -74,3 +74,13 @@ fn files_of_other_kinds_are_named() {
         assert!(refused.contains("found a public key"), "{name}.pub: {refused}");
     }
 }
+
+#[test]
+fn fingerprints_are_those_that_ssh_keygen_prints() {
+    let bench = Bench::new();
+    for index in 0..20 {
+        let key = bench.new_key(&format!("key{index}"));
+        let printed = bench.keygen(&["-l", "-f", &format!("key{index}.pub")]).output;
+        assert_eq!(printed.split(' ').nth(1), Some(key.public_key().fingerprint().as_str()));
+    }
+}

@@ -218,3 +218,15 @@ fn a_caption_names_the_columns_that_there_are() {
         assert_eq!(named, case.passport.contains("self_check:"), "{}", case.name);
     }
 }
+
+/// In the text of a passport such words are words: escaped.
+#[test]
+fn words_of_a_passport_are_no_markup() {
+    for case in &PASSPORTS.cases {
+        let html = case.html();
+        for element in ["<script", "<img", "<link", "<iframe", "<object", "<b>", "@import url(https:"] {
+            let allowed = usize::from(element == "@import url(https:") * html.matches("-- @import url(https:").count();
+            assert_eq!(html.matches(element).count(), allowed, "{}: {element}", case.name);
+        }
+    }
+}

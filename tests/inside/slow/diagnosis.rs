@@ -626,3 +626,20 @@ fn what_is_no_mistake_is_not_called_one() {
     let crossed: Vec<_> = currents(&setup(&other, LATITUDE_DEG), &gvk_6()).iter().map(|j| j.yx()).collect();
     assert_eq!(explained(&stand, LATITUDE_DEG, &crossed), [Vec::new(), Vec::new()]);
 }
+
+/// Common errors are in the covariance of the residuals: with a huge one stated and present, the fit is still good.
+#[test]
+fn chi_square_takes_every_stated_input() {
+    let stand = drawn_stand(&mut Stream::new(8), 5.0);
+    let mut turned = stand.clone();
+    // The base turned about its own axes is a turn of every Ã from the right: a platform turn of each position.
+    turned.iter_mut().for_each(|position| position.deviation.alpha_rad += 2e-3);
+    let currents = currents(&setup(&turned, LATITUDE_DEG), &gvk_6());
+    let silent = solve(&setup(&stand, LATITUDE_DEG), &currents);
+    assert!(silent.results[0].chi_square.probability < 1e-3, "{:?}", silent.results[0].chi_square);
+    let mut uncertainty = InputUncertainty::of_meter(paper_meter());
+    uncertainty.seating_rad = [2e-3; 3];
+    let stated = solve(&with_uncertainty(&stand, LATITUDE_DEG, uncertainty), &currents);
+    assert!(stated.results[0].chi_square.probability > 0.05, "{:?}", stated.results[0].chi_square);
+    assert!(stated.consistent);
+}

@@ -5,10 +5,11 @@ use dtg_passport::calibration::parameter::Parameter;
 use dtg_passport::calibration::{MeterUncertainty, Method, Model, analytic, least_squares};
 use dtg_passport::coefficients::{EIGHT_POSITIONS, EarthRate, Position, StandGeometry};
 use dtg_passport::gyro::GyroType;
+use dtg_passport::report::picture::simulation as picture;
 use dtg_passport::simulation::accuracy::{
     AccuracyOptions, AccuracyRow, AccuracyTable, PAPER_LATITUDE_DEG, Stands, accuracy,
 };
-use dtg_passport::simulation::convergence::{Convergence, convergence};
+use dtg_passport::simulation::convergence::{Convergence, LIMITS_DEG, convergence};
 use dtg_passport::simulation::draw::{self, CurrentError, Deviations};
 use dtg_passport::statistics::random::Run;
 use dtg_passport::statistics::summary::Summary;
@@ -103,6 +104,15 @@ fn the_papers_table_with_independent_errors() {
     }
 }
 
+/// No error in the currents: the paper's methods and least squares give the gyro back.
+#[test]
+fn without_noise_nothing_is_left() {
+    let options = AccuracyOptions { current_percent: 0.0, ..drawn(15.0, &[Method::Analytic, Method::LeastSquares]) };
+    for row in accuracy(&options, &Run::new(2_000, 1)).rows {
+        assert!(row.worst < 1e-9, "{row:?}");
+    }
+}
+
 fn of(table: &Convergence, deviations: Deviations, limit_deg: f64) -> (f64, usize, f64, u64) {
     let row = table.rows.iter().find(|row| row.deviations == deviations.key() && row.limit_deg == limit_deg);
     let row = row.expect("a row for each limit");
@@ -142,6 +152,38 @@ fn steps_of_successive_approximation() {
         let found = of(&table, Deviations::Corners, limit_deg);
         agrees(found.2, share, half_digit, found.3);
     }
+}
+
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    let table = |threads| {
+        let run = Run { threads, ..Run::new(3_210, 99) };
+        let options = drawn(15.0, &Method::ALL);
+        let options = AccuracyOptions { within_tolerance: true, ..options };
+        let accuracy = serde_json::to_string(&accuracy(&options, &run)).unwrap();
+        let convergence = convergence(&[5.0, 20.0], &run);
+        (accuracy, serde_json::to_string(&convergence).unwrap(), picture::convergence(&convergence).unwrap())
+    };
+    let one = table(1);
+    assert_eq!(one, table(2));
+    assert_eq!(one, table(7));
+    assert!(one.0.starts_with(
+        r#"{"trials":3210,"seed":99,"limit_deg":15.0,"latitude_deg":55.7658,"rows":[{"method":"analytic","#
+    ));
+}
+
+/// No colour but black, white and greys; every series with its name; text, not outlines.
+#[test]
+fn the_picture_reads_without_colour() {
+    let svg = picture::convergence(&convergence(&LIMITS_DEG, &Run::new(500, 1))).unwrap();
+    for word in ["most", "95th percentile", "mean of the converged", "uniform within", "degrees", "paper: 15"] {
+        assert!(svg.contains(word), "{word}");
+    }
+    for colour in svg.split('#').skip(1).filter_map(|rest| rest.get(..6)) {
+        assert!(colour[..2] == colour[2..4] && colour[2..4] == colour[4..], "#{colour}");
+    }
+    let none = Convergence { trials: 0, seed: 0, rows: Vec::new() };
+    assert!(picture::convergence(&none).is_none());
 }
 
 /// Expected: reproduction.md, least squares over analytic, unweighted: K 0.84, ω_0 0.83, g-drifts 1.00 at 5°; 0.82, 0.81,
