@@ -168,7 +168,10 @@ fn matches(pattern: &str) -> Paths<'static> {
 fn listed(list: &mut dyn BufRead) -> Result<Vec<Result<PathBuf, Failure>>, Failure> {
     let failed = |why: String| Failure::unusable(Path::new("-"), format!("standard input: {why}"));
     let mut bytes = Vec::new();
-    list.take(LARGEST_LIST as u64).read_to_end(&mut bytes).map_err(|error| failed(reason(&error)))?;
+    list.take(LARGEST_LIST as u64 + 1).read_to_end(&mut bytes).map_err(|error| failed(reason(&error)))?;
+    if bytes.len() > LARGEST_LIST {
+        return Err(failed(format!("larger than {LARGEST_LIST} bytes; split the list")));
+    }
     if is_utf16(&bytes) {
         let refused = Unreadable::whole("-", None, "UTF-16", "one path per line, in UTF-8", RefusalCause::Utf16);
         return Err(Failure::unreadable(Path::new("-"), refused));
