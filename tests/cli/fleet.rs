@@ -155,6 +155,37 @@ fn one_header_certifies_a_fleet() {
     assert!(own == common);
 }
 
+/// A year's fleet, from readings to archives. Expected: a certificate, a passport in force and an archive for each row, and
+/// only its own customer in it.
+#[test]
+fn two_hundred_stands_take_three_commands_and_two_tables() {
+    let place = Place::before_issue();
+    let serials: Vec<String> = (1001..1201).map(|serial| serial.to_string()).collect();
+    readings(&place, &serials.iter().map(String::as_str).collect::<Vec<_>>());
+    let table = |head: &str, row: &dyn Fn(&String) -> String| {
+        format!("{head}\n{}\n", serials.iter().map(row).collect::<Vec<_>>().join("\n"))
+    };
+    let certificates = table("serial,number,issued", &|serial| format!("{serial},C-{serial},2026-11-03"));
+    let deliveries =
+        table("stand,site,customer", &|serial| format!("SPS-2/{serial},moscow-bmstu,Customer of {serial}"));
+    fs::write(place.path("certificates.csv"), certificates).unwrap();
+    fs::write(place.path("deliveries.csv"), deliveries).unwrap();
+    place.good("certify angles --stand header.yaml --certificates certificates.csv --out factory/stands");
+    place.good("issue --deliveries deliveries.csv --workspace factory");
+    place.good("deliver --deliveries deliveries.csv --out archives --workspace factory");
+    let listed = place.json("register factory/passports --trust factory/allowed_signers", 0);
+    assert_eq!(listed["stands"].as_array().unwrap().len(), serials.len());
+    for serial in &serials {
+        let archive = fs::read(place.path(&format!("archives/SPS-2/{serial}/moscow-bmstu.zip"))).unwrap();
+        assert!(String::from_utf8_lossy(&archive).contains(&format!("{serial}/moscow-bmstu-1.yaml")), "{serial}");
+        let passport = format!("factory/passports/SPS-2/{serial}/moscow-bmstu-1.yaml");
+        let text = fs::read_to_string(place.path(&passport)).unwrap();
+        assert!(text.contains(&format!("number: \"C-{serial}\"")), "{text}");
+        assert_eq!(text.matches("customer: ").count(), 1, "{text}");
+        assert!(text.contains(&format!("customer: \"Customer of {serial}\"")), "{text}");
+    }
+}
+
 #[test]
 fn a_row_or_a_file_without_its_partner_is_refused_and_the_others_are_done() {
     let place = Place::before_issue();
