@@ -25,7 +25,7 @@ async function asked() {
     if (at?.some(Number.isNaN)) throw new Error("latitude and longitude are numbers with a decimal point");
     const revoked = await Promise.all([...byId("revoked").files].map(read));
     const register = await read(file("register"));
-    const question = { serial: value("serial"), time: value("time"), at, revoked, register };
+    const question = { serial: value("serial"), issuer: value("issuer"), time: value("time"), at, revoked, register };
     return Object.fromEntries(Object.entries(question).filter(([, given]) => given !== undefined));
 }
 

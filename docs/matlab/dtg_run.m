@@ -47,6 +47,9 @@ function words = message(text)
         else
             failed = found.checks(arrayfun(@(check) isequal(check.passed, false), found.checks));
             words = strjoin({failed.detail}, '; ');
+            for k = 1:numel(found.remarks)
+                words = [words, '; ', found.remarks{k}];
+            end
         end
     catch
     end

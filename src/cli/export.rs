@@ -103,7 +103,7 @@ impl Run<'_> {
             Failure { code: UNUSABLE, ..unread }
         })?;
         let verification = self.enquiry.verification(&name, &bytes);
-        let json = exported::json(&name, sha256_hex(&bytes), &verification);
+        let json = exported::json(&name, sha256_hex(&bytes), &verification, self.enquiry.remarks());
         let json = serde_json::to_value(json).map_err(Failure::unusable)?;
         let answer = |value: Value, code: Code| Answer { value, text: String::new(), code };
         let Some(passport) = verification.passport() else {

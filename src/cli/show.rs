@@ -87,7 +87,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let show = |path: &Path| {
         let Read { content, bytes, verification } = Read::of(path, enquiry.as_ref())?;
         let verification = verification.as_ref();
-        let value = exported::shown(&content, sha256_hex(&bytes), verification);
+        let remarks = enquiry.as_ref().map(Enquiry::remarks).unwrap_or_default();
+        let value = exported::shown(&content, sha256_hex(&bytes), verification, remarks);
         Ok::<_, Failure>((value, document(&content, verification)))
     };
     if let Some(path) = paths::one_file(&options.passports) {

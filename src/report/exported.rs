@@ -12,22 +12,25 @@ use serde::Serialize;
 struct Outcome {
     verified: bool,
     sha256: String,
+    not_asked: Vec<&'static str>,
+    remarks: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     register: Option<RegisterUsed>,
     checks: Vec<Check>,
 }
 
 impl Outcome {
-    fn of(sha256: String, verification: &Verification) -> Self {
+    fn of(sha256: String, verification: &Verification, remarks: Vec<String>) -> Self {
         let (register, checks) = (verification.register().cloned(), verification.checks().to_vec());
-        Self { verified: verification.valid(), sha256, register, checks }
+        let (verified, not_asked) = (verification.valid(), verification.not_asked());
+        Self { verified, sha256, not_asked, remarks, register, checks }
     }
 }
 
-/// Returns a passport as JSON: `{file, verified, sha256, register, checks, …}`, then the keys of the passport if every check
+/// Returns a passport as JSON: `{file, verified, sha256, not_asked, remarks, register, checks, …}`, then the keys of the passport if every check
 /// passed. The objects in a list have the same keys, null where a value is absent, so that programs such as MATLAB read
 /// the list as an array.
-pub(crate) fn json(file: &str, sha256: String, verification: &Verification) -> impl Serialize {
+pub(crate) fn json(file: &str, sha256: String, verification: &Verification, remarks: Vec<String>) -> impl Serialize {
     #[derive(Serialize)]
     struct Exported<'a> {
         file: &'a str,
@@ -37,12 +40,17 @@ pub(crate) fn json(file: &str, sha256: String, verification: &Verification) -> i
         content: Option<Node>,
     }
     let content = verification.passport().and_then(|passport| uniform_content(passport.content()));
-    Exported { file, outcome: Outcome::of(sha256, verification), content }
+    Exported { file, outcome: Outcome::of(sha256, verification, remarks), content }
 }
 
-/// Returns a passport as JSON with the keys of its file, in their order, and then `verified`, `sha256`, `register` and `checks`,
-/// as [`json`] writes them; without `verification` no check was run.
-pub(crate) fn shown(content: &Content, sha256: String, verification: Option<&Verification>) -> impl Serialize + use<> {
+/// Returns a passport as JSON with the keys of its file, in their order, and then what [`json`] says of its
+/// verification; without `verification` no check was run.
+pub(crate) fn shown(
+    content: &Content,
+    sha256: String,
+    verification: Option<&Verification>,
+    remarks: Vec<String>,
+) -> impl Serialize + use<> {
     #[derive(Serialize)]
     struct Shown {
         #[serde(flatten)]
@@ -50,7 +58,7 @@ pub(crate) fn shown(content: &Content, sha256: String, verification: Option<&Ver
         #[serde(flatten)]
         outcome: Outcome,
     }
-    Shown { content: content.write(), outcome: Outcome::of(sha256, verification.unwrap_or(&not_run())) }
+    Shown { content: content.write(), outcome: Outcome::of(sha256, verification.unwrap_or(&not_run()), remarks) }
 }
 
 /// Returns the keys of a passport and their values, with uniform keys in its lists.

@@ -32,6 +32,21 @@ def program(*arguments: object, accept: tuple[int, ...] = (0,)) -> str:
     return done.stdout
 
 
+def octave(script: Path) -> str:
+    """Run a script of Octave in its folder and return what it prints."""
+    # MATLAB's `system` returns what the command writes to standard error too, unlike that of Octave.
+    (script.parent / "system.m").write_text("""
+        function [status, text] = system(command)
+            [status, text] = builtin('system', ['{ ', command, '; } 2>&1']);
+        end
+    """)
+    path = f"{Path(os.environ['DTG_PASSPORT']).parent}:{os.environ['PATH']}"
+    command = ["octave-cli", "--norc", "--quiet", "--path", str(script.parent), str(script)]
+    done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "PATH": path}, cwd=script.parent)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
 def altered(good: list[bytes], count: int) -> list[bytes]:
     """Return passports with one change each: a byte, a bit, a line or a digit, always at the same places."""
     draw = random.Random(16)

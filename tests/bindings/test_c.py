@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
-from conftest import PROJECT, SIGNERS, TIME, Corpus, Registers, program
+from conftest import PROJECT, SIGNERS, TIME, Corpus, Registers, octave, program
 from orders import CURRENTS, GYRO, LABORATORY, ORDERS, PASSPORT, REFUSED, RUN, calibrated
 
 LIBRARIES = PROJECT / "target/debug"
@@ -324,20 +324,6 @@ def test_a_passport_in_memory_gets_the_answer_of_its_file(corpus: Corpus) -> Non
         assert c.dtg_positions(passport) == (8 if due["valid"] else 0)
         c.dtg_string_free(report)
         c.dtg_free(passport)
-
-
-def octave(script: Path) -> str:
-    # MATLAB's `system` returns what the command writes to standard error too, unlike that of Octave.
-    (script.parent / "system.m").write_text("""
-        function [status, text] = system(command)
-            [status, text] = builtin('system', ['{ ', command, '; } 2>&1']);
-        end
-    """)
-    path = f"{Path(os.environ['DTG_PASSPORT']).parent}:{os.environ['PATH']}"
-    command = ["octave-cli", "--norc", "--quiet", "--path", str(script.parent), str(script)]
-    done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "PATH": path})
-    assert done.returncode == 0, done.stderr
-    return done.stdout
 
 
 def test_lists_are_arrays_in_octave(corpus: Corpus, tmp_path: Path) -> None:

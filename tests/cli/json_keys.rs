@@ -112,7 +112,7 @@ shown = json.load(open(sys.argv[2], encoding="utf-8"))
 signed = yaml.safe_load(open(sys.argv[1], encoding="utf-8"))
 del signed["signature"]
 # What the verification found comes after the keys of the file.
-assert [shown.popitem()[0] for _ in range(3)] == ["checks", "sha256", "verified"]
+assert [shown.popitem()[0] for _ in range(5)] == ["checks", "remarks", "not_asked", "sha256", "verified"]
 numbers = 0
 def same(a, b, at):
     global numbers

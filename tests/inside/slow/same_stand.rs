@@ -50,7 +50,7 @@ fn figures_of_the_common_turn() {
     let cases = all.map(|runs| (quiet(), runs)).into_iter();
     for (truth, runs) in cases.chain(others.into_iter().flat_map(|truth| [(truth, (5, 1)), (truth, (5, 3))])) {
         let (same, chance) = taken_for_the_same(&truth, runs, 0.0, 1000, 1);
-        let [large, small] = [60.0, 12.0].map(|turn| taken_for_the_same(&truth, runs, turn, 100, 2).0);
+        let [large, small] = [60.0, 12.0].map(|turn| taken_for_the_same(&truth, runs, turn, 1000, 2).0);
         let (refused, turned) = (1000 - same, 1000 - chance);
         println!(
             "| {}, {} | {} | {} | {refused} | {turned} | {large} | {small} |",
