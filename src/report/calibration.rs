@@ -1,18 +1,21 @@
 //! Report of a calibration, composed once for a terminal and for its printed page.
 //!
+//! * `answer`: what it says about the gyro, in the first line of a terminal and in large letters.
 //! * `result`: parameters within their tolerances, the change since an earlier result.
 //! * `fit`: agreement of the readings with the model, inputs that are not stated.
 //! * `methods`: the paper's methods beside least squares.
 //! * `history`: the gyro over several calibrations.
 
+mod answer;
 mod fit;
 mod history;
 mod methods;
 mod result;
 
+pub(crate) use answer::Answer;
 pub(crate) use fit::{causes, not_stated};
 pub(crate) use methods::parameters;
-pub(crate) use result::{band_of_u, counted, rule};
+pub(crate) use result::{band_of_u, rule};
 
 use super::doc::{self, Block, Words};
 use super::page::language::Text;
@@ -24,12 +27,11 @@ use crate::calibration::readings::Exclusion;
 use crate::calibration::remarks;
 use crate::calibration::stated::TemperatureOutside;
 use crate::calibration::verdict::{COVERAGE_FACTOR, change_in_uncertainties};
-use crate::calibration::{Calibration, Decision, Method, NotStated, Parameter, Verdict};
+use crate::calibration::{Calibration, Method, NotStated, Parameter, Verdict};
 use crate::gyro::GyroType;
 use crate::interface::calibrated::Done;
 use crate::passport::{Check, Code};
 use crate::report::page::language::Language;
-use crate::report::style::Outcome;
 use crate::uncertainty::MonteCarlo;
 use crate::wording::texts::{calibration as texts, units};
 
@@ -80,6 +82,11 @@ impl<'a> Report<'a> {
     /// Returns the name of the gyro type and the verdict against it, or `None` if no type was specified.
     fn judged(&self) -> Option<(&str, &Verdict)> {
         self.gyro.map(|gyro| gyro.r#type.as_str()).zip(self.document.verdict.as_ref())
+    }
+
+    /// Returns what the calibration says about the gyro.
+    pub(crate) fn answer(&self) -> Answer {
+        Answer::of(self.document, self.gyro.map(|gyro| gyro.r#type.as_str()))
     }
 
     fn adopted(&self) -> Option<&ResultDocument> {
@@ -141,44 +148,6 @@ fn coverage_factor(factors: impl Iterator<Item = f64>) -> Words {
     }
 }
 
-/// Returns the outcome of a calibration with its word, and the reasons: which parameters pass, fail and are undecided by
-/// their values and by their change, or why no statement is made.
-pub(super) fn headline(document: &CalibrationDocument, gyro_type: Option<&str>) -> ((Outcome, Text), Words) {
-    let judged = gyro_type.zip(document.verdict.as_ref());
-    let (outcome, word, words): (Outcome, Text, Words) = match judged {
-        _ if !document.consistent => (Outcome::Failed, texts::INVALID, texts::DOES_NOT_FIT.into()),
-        _ if document.mistake.is_some() => (Outcome::Failed, texts::INVALID, texts::MISTAKE.into()),
-        None => (Outcome::NotAsked, texts::IS_CALIBRATED, texts::NO_TYPE_WORDS.into()),
-        Some((_, verdict)) if verdict.withheld => (Outcome::NotAsked, texts::IS_CALIBRATED, texts::NOT_VERIFIED.into()),
-        Some((name, verdict)) => {
-            // Nothing is decided on a change that is not assessed.
-            let worst = verdict.with_change(document.change.as_ref());
-            let of_change: Option<Words> = document.change.as_ref().map(|change| match change.withheld {
-                true => texts::CHANGE_NOT_ASSESSED.into(),
-                false => counted(change, |row| row.decision, texts::change_passed),
-            });
-            let of_values = counted(verdict, |row| row.decision, texts::passed);
-            let not_found = verdict.not_found();
-            let not_found = (!not_found.is_empty()).then(|| texts::not_in_the_model(symbols(not_found)));
-            let of_values = doc::joined([of_values].into_iter().chain(not_found), "; ");
-            let name = Words::Given(name.to_owned());
-            let words = [texts::of_type_name(name, of_values)].into_iter().chain(of_change);
-            (worst.into(), word(worst), doc::joined(words, ". "))
-        }
-    };
-    let withheld = judged.filter(|(_, verdict)| verdict.withheld);
-    let withheld = withheld.map(|(name, _)| texts::no_statement(Words::Given(name.to_owned())));
-    ((outcome, word), doc::joined([words].into_iter().chain(withheld), ". "))
-}
-
-fn word(decision: Decision) -> Text {
-    match decision {
-        Decision::Pass => texts::PASSES,
-        Decision::Fail => texts::FAILS,
-        Decision::Undecided => texts::IS_UNDECIDED,
-    }
-}
-
 /// Least effect of a further visit that is worth the time, percent of the standard uncertainty.
 const LEAST_EFFECT_PERCENT: f64 = 1.0;
 
@@ -194,9 +163,8 @@ pub(crate) struct Said<'a> {
 /// Returns the result: the verdict with what is doubtful, the parameters, the fit, and what to do. With details the sections
 /// of the report follow.
 pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, report: &Report, how: &Said) -> String {
-    let gyro_type = report.gyro.map(|gyro| gyro.r#type.as_str());
-    let ((outcome, word), reasons) = headline(&done.document, gyro_type);
-    let mut doc = vec![Block::Lines("", vec![vec![doc::marked(outcome, word), reasons]])];
+    let answer = report.answer();
+    let mut doc = vec![Block::Lines("", vec![vec![doc::marked(answer.outcome, answer.word), answer.in_a_line()]])];
     for (place, warning) in doubts(done, trials).into_iter().enumerate() {
         doc.push(doc::line(warning));
         if place == 0 && done.calibration.is_invalid() {

@@ -7,8 +7,8 @@ mod html;
 mod terminal;
 
 pub(crate) use crate::wording::words::{
-    Counted, Field, Statement, Words, code, given, in_unit, joined, listed, longest, marked, padded, probability,
-    strong, symbol, told,
+    Counted, Field, Statement, Words, code, either, given, in_unit, joined, listed, longest, marked, padded,
+    probability, strong, symbol, told,
 };
 pub(crate) use terminal::{said, sentence, text};
 

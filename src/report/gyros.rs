@@ -1,6 +1,6 @@
 //! Results of several gyros on one stand as text: a line for each, and what they have in common.
 
-use super::calibration::{assumed, doubts, headline, not_included, not_stated, passport};
+use super::calibration::{Answer, assumed, doubts, not_included, not_stated, passport};
 use super::doc::{self, longest, marked, padded, said};
 use super::style::Outcome;
 use crate::calibration::NotStated;
@@ -39,7 +39,8 @@ pub(crate) fn line(
     language: Language,
 ) -> String {
     let Done { calibration, document, readings, .. } = done;
-    let ((outcome, word), mut reasons) = headline(document, gyro_type);
+    let answer = Answer::of(document, gyro_type);
+    let mut reasons = answer.in_a_line();
     let is_invalid = calibration.is_invalid();
     if is_invalid {
         let causes = super::calibration::causes(calibration);
@@ -55,7 +56,7 @@ pub(crate) fn line(
     let digits = calibration.digits.iter().flat_map(of_digits);
     let all = [reasons].into_iter().chain(doubts).chain(without_reading(readings)).chain(digits);
     let words = plain(&doc::joined(all, "; ").plain(language));
-    format!("{}  {}  {words}\n", said(&of_input(outcome, word), language), printable(file))
+    format!("{}  {}  {words}\n", said(&of_input(answer.outcome, answer.word), language), printable(file))
 }
 
 /// Outcomes of several gyros, and what the lines do not say because all or many have it in common.
@@ -75,7 +76,8 @@ impl Gyros {
 
     /// Adds the result of a gyro with a passport on which these `checks` were made.
     pub(crate) fn add(&mut self, done: &Done, gyro_type: Option<&str>, checks: &[Check]) {
-        self.outcomes.push(headline(&done.document, gyro_type).0);
+        let Answer { outcome, word, .. } = Answer::of(&done.document, gyro_type);
+        self.outcomes.push((outcome, word));
         self.passport.get_or_insert_with(|| passport(&done.document, checks));
         self.results += 1;
         for what in &done.missing {

@@ -5,7 +5,7 @@ use crate::calibration::verdict::{ParameterVerdict, Verdict};
 use crate::calibration::{CalibrationDocument, Parameter};
 use crate::gyro::GyroType;
 use crate::report::calibration::{parameters, unit_at_type};
-use crate::report::doc::{self, Block, On, Rows, Words, heading, in_unit, marked, say, symbol, told};
+use crate::report::doc::{self, Block, On, Rows, Words, either, heading, in_unit, marked, say, symbol, told};
 use crate::report::page::Language;
 use crate::report::page::number::Number;
 use crate::report::picture::strips::{self, Key};
@@ -213,7 +213,7 @@ pub(crate) fn monte_carlo(found: &MonteCarlo) -> Vec<Block> {
     let caption = texts::monte_carlo_caption(told(Number::fixed(found.trials as f64, 0)), found.seed);
     let some = (1..found.parameters.len()).contains(&decided);
     let failed = told(Number::fixed(found.failed as f64, 0));
-    let warning = |words: Words| vec![Words::Either(Box::new("".into()), Box::new("WARNING: ".into())), words];
+    let warning = |words: Words| vec![either("", "WARNING: "), words];
     vec![
         parameters(&rows).captioned(texts::MONTE_CARLO, caption),
         say(some.then_some(texts::FIRST_ORDER_UNDECIDED)),

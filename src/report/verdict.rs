@@ -1,6 +1,6 @@
 //! Answer of `verify`, and the words of every check.
 
-use super::doc::{Block, Counted, Words, given, line, listed, longest, marked, padded, say};
+use super::doc::{Block, Counted, Words, either, given, line, listed, longest, marked, padded, say};
 use super::page::Number;
 use super::style::Outcome;
 pub(crate) use crate::interface::Verdict;
@@ -205,7 +205,7 @@ fn of_register(code: Code, register: Option<&RegisterUsed>) -> Words {
 
 /// A time, in a terminal as options take it.
 fn time(time: Timestamp) -> Words {
-    Words::Either(Box::new(Words::Time(time)), Box::new(time.into()))
+    either(Words::Time(time), time)
 }
 
 fn validity(content: &Content, code: Code) -> Words {

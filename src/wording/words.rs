@@ -150,6 +150,11 @@ pub(crate) fn strong(words: impl Into<Words>) -> Words {
     Words::Strong(Box::new(words.into()))
 }
 
+/// Words on a page only, and words in a terminal only.
+pub(crate) fn either(page: impl Into<Words>, terminal: impl Into<Words>) -> Words {
+    Words::Either(Box::new(page.into()), Box::new(terminal.into()))
+}
+
 /// A word as wide as the longest of these.
 pub(crate) fn padded(word: impl Into<Words>, longest: fn(Language) -> Option<usize>) -> Words {
     Words::Padded(Box::new(word.into()), Language::ALL.map(|language| longest(language).unwrap_or_default()))

@@ -6,7 +6,7 @@ use crate::calibration::chi_square::FEW_DEGREES;
 use crate::calibration::document::{ResidualDocument, ResultDocument};
 use crate::calibration::remarks::{Weight, scatter};
 use crate::calibration::{Calibration, Finding, NotStated};
-use crate::report::doc::{Block, On, Rows, Words, fields, in_unit, joined, probability, say, symbol};
+use crate::report::doc::{Block, On, Rows, Words, either, fields, in_unit, joined, probability, say, symbol};
 use crate::report::page::language::Text;
 use crate::report::page::number::Number;
 use crate::report::picture::strips::{AXES, Residuals};
@@ -58,7 +58,7 @@ fn advice(cause: &Finding) -> Option<Words> {
     let scope = cause.scope.index().filter(|_| cause.is_reading()).zip(cause.scope.visit).zip(cause.scope.cycle);
     scope.map(|((index, visit), cycle)| {
         let how = format!("Option: --exclude {},{},{visit},{cycle} and --why.", index.i, index.j);
-        Words::Either(Box::new("".into()), Box::new(how.into()))
+        either("", how)
     })
 }
 

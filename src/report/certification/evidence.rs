@@ -4,7 +4,9 @@ use crate::certification::Certification;
 use crate::certification::components::Common;
 use crate::certification::found::Found;
 use crate::certification::kind::{AXES, Kind};
-use crate::report::doc::{Block, On, Rows, Words, fields, heading, in_unit, listed, marked, probability, say, symbol};
+use crate::report::doc::{
+    Block, On, Rows, Words, either, fields, heading, in_unit, listed, marked, probability, say, symbol,
+};
 use crate::report::page::language::Text;
 use crate::report::page::number::Number;
 use crate::report::style::Outcome;
@@ -65,13 +67,12 @@ pub(crate) fn components(found: &Certification) -> Vec<Block> {
         .column(in_unit(mean, units::ARCSEC), |(_, s, ..)| Number::fixed(s / root, 2))
         .column(texts::UPPER, |(.., upper)| upper.map(|s| Number::fixed(s, 2)));
     let has_type_b = found.stand.certificate.type_b.iter().flatten().next().is_some();
-    let key = Words::Either(Box::new("".into()), Box::new(" (type_b)".into()));
     vec![
         heading(texts::COMPONENTS),
         say([texts::COMPONENTS_NOTE]),
         table.called(texts::COMPONENTS),
         say(is_few.then_some(texts::FEW_DEGREES)),
-        say((!has_type_b).then(|| texts::type_b_not_stated(key))),
+        say((!has_type_b).then(|| texts::type_b_not_stated(either("", " (type_b)")))),
         heading(texts::RUN_TURNS),
         run_turns(found),
     ]
@@ -83,8 +84,8 @@ fn run_turns(found: &Certification) -> Block {
     for (place, axis) in AXES.map(symbol).into_iter().chain(of_base).enumerate() {
         // A terminal has no headings over several columns.
         let part = if place < 3 { texts::OF_PLATFORM } else { texts::OF_BASE };
-        let with_part = vec![part.into(), " ".into(), axis.clone()].into();
-        rows = rows.column(Words::Either(Box::new(axis), Box::new(with_part)), |turn| {
+        let with_part = vec![part.into(), " ".into(), axis.clone()];
+        rows = rows.column(either(axis, with_part), |turn| {
             Number::fixed([turn.platform_arcsec, turn.base_arcsec].as_flattened()[place], 2)
         });
     }
