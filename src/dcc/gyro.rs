@@ -13,7 +13,7 @@ use crate::interface::calibrated::Done;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
 use crate::report::Languages;
-use crate::report::calibration::{band_of_u, not_stated, temperature_outside};
+use crate::report::calibration::{band_of_u, name_of, not_stated, temperature_outside};
 use crate::report::page::language::Text;
 use crate::text::Problems;
 use crate::wording::texts::calibration as texts;
@@ -154,12 +154,11 @@ fn decided(decision: Decision, simple_passes: bool) -> &'static str {
 }
 
 fn result(calibrated: &Calibrated, facts: &Facts) -> Element {
-    let method = match calibrated.method {
-        Method::Analytic => texts::ANALYTIC,
-        Method::Iterative => texts::ITERATIVE,
-        Method::LeastSquares => texts::LEAST_SQUARES_NAME,
-    };
-    let own = parts::method(in_words("dcc:name", method), in_words("dcc:description", words::MODEL), Some(PAPER));
+    let own = parts::method(
+        in_words("dcc:name", name_of(calibrated.method)),
+        in_words("dcc:description", words::MODEL),
+        Some(PAPER),
+    );
     let own = own.with("refId", PARAMETERS);
     let results = parts::results(texts::PARAMETERS, words::PARAMETERS_NOTE, quantities(calibrated));
     let gravity_u_m_per_s2 = calibrated.content.site.gravity_u_m_per_s2();

@@ -126,14 +126,9 @@ pub(crate) fn unit_at_type(parameter: Parameter) -> Text {
     }
 }
 
-/// The name of a method from its key in results.
-fn method(key: &str) -> Text {
-    let is = |method: Method| method.key() == key;
-    match () {
-        () if is(Method::LeastSquares) => texts::LEAST_SQUARES_NAME,
-        () if is(Method::Analytic) => texts::ANALYTIC,
-        () => texts::ITERATIVE,
-    }
+/// Returns the name of a method.
+pub(crate) fn name_of(method: Method) -> Text {
+    texts::method!(Method, method)
 }
 
 /// The coverage factor of several expanded uncertainties, or its range: 2, or that of Student's t.
@@ -271,12 +266,7 @@ pub(crate) fn temperature_outside(found: &TemperatureOutside) -> Words {
 
 /// Returns the sentence why a difference from an earlier result is no change.
 pub(crate) fn why_no_change(why: NoChange) -> Text {
-    match why {
-        NoChange::SameReadings => texts::SAME_READINGS,
-        NoChange::EarlierNotValid => texts::EARLIER_NOT_VALID,
-        NoChange::EarlierSuspect => texts::EARLIER_SUSPECT,
-        NoChange::EarlierNotVerified => texts::EARLIER_NOT_VERIFIED,
-    }
+    texts::no_change!(NoChange, why)
 }
 
 /// Returns which parameters the linear approximation is not valid for (JCGM 101, clause 8) and what to use in its place, or

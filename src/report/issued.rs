@@ -57,13 +57,7 @@ impl State {
     }
 
     fn text(self) -> Text {
-        match self {
-            Self::Issued => texts::ISSUED,
-            Self::Unchanged => texts::UNCHANGED,
-            Self::Planned => texts::PLANNED,
-            Self::Skipped => texts::SKIPPED,
-            Self::Refused => texts::REFUSED,
-        }
+        texts::state!(Self, self)
     }
 }
 

@@ -36,22 +36,8 @@ fn why(row: &Row) -> Words {
 
 /// The alarm with its code and its file; the detail of the library is English.
 pub(crate) fn alarm(alarm: &Alarm) -> Words {
-    let detail = match alarm.code {
-        AlarmCode::NotListed => texts::ALARM_NOT_LISTED,
-        AlarmCode::Differs => texts::ALARM_DIFFERS,
-        AlarmCode::Missing => texts::ALARM_MISSING,
-        AlarmCode::NoRegister => texts::ALARM_NO_REGISTER,
-        AlarmCode::RegisterUnknown => texts::ALARM_UNKNOWN,
-        AlarmCode::RegisterStale => texts::ALARM_STALE,
-        AlarmCode::RegisterOlder => texts::ALARM_OLDER,
-        AlarmCode::RegisterContradicted => texts::ALARM_CONTRADICTED,
-        AlarmCode::Certificates => texts::ALARM_CERTIFICATES,
-        AlarmCode::Misplaced => texts::ALARM_MISPLACED,
-        AlarmCode::RevocationList => texts::ALARM_REVOCATION_LIST,
-        AlarmCode::Unreadable => texts::ALARM_UNREADABLE,
-    };
     let file = alarm.file.as_ref().map_or_else(|| "".into(), |file| Words::All(vec![given(file), ": ".into()]));
-    let detail = Words::OfLibrary(alarm.detail.clone(), Box::new(detail.into()));
+    let detail = Words::OfLibrary(alarm.detail.clone(), Box::new(texts::alarm_code!(AlarmCode, alarm.code).into()));
     marked(Outcome::Failed, texts::alarm(alarm.code.key(), file, detail))
 }
 

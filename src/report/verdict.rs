@@ -130,11 +130,7 @@ pub(crate) fn counts_with_names(checks: &[Check]) -> Words {
 
 /// The result of a check in a word.
 pub(crate) fn word(passed: Option<bool>) -> Text {
-    match passed {
-        Some(true) => checks::PASSED,
-        None => checks::NOT_ASKED,
-        Some(false) => checks::FAILED,
-    }
+    passed.map_or(checks::NOT_ASKED, |passed| if passed { checks::PASSED } else { checks::FAILED })
 }
 
 /// What a check found in a passport with this `content`, by which register.
@@ -186,17 +182,7 @@ pub(crate) fn said(
 
 /// What the register says, with its number, time, SHA-256 and freshness.
 fn of_register(code: Code, register: Option<&RegisterUsed>) -> Words {
-    let text = match code {
-        Code::Ok => checks::REGISTER_OK,
-        Code::Superseded => checks::REGISTER_SUPERSEDED,
-        Code::Moved => checks::REGISTER_MOVED,
-        Code::Withdrawn => checks::REGISTER_WITHDRAWN,
-        Code::NotListed => checks::REGISTER_NOT_LISTED,
-        Code::RegisterStale => checks::REGISTER_STALE,
-        Code::RegisterOlder => checks::REGISTER_OLDER,
-        Code::RegisterContradicted => checks::REGISTER_CONTRADICTED,
-        _ => checks::REGISTER_UNKNOWN,
-    };
+    let text = checks::by_register!(Code, code);
     let Some(used) = register else { return text.into() };
     let fresh = used.fresh_until.map_or_else(|| "".into(), checks::register_fresh);
     let used = checks::register_used(used.sequence, time(used.issued_at), &used.sha256[..16], fresh);

@@ -10,7 +10,6 @@ use crate::report::doc::{Block, On, Rows, Words, either, fields, in_unit, joined
 use crate::report::page::language::Text;
 use crate::report::page::number::Number;
 use crate::report::picture::strips::{AXES, Residuals};
-use crate::wording::texts::causes as names;
 use crate::wording::texts::{calibration as texts, finding as words, pictures, units};
 
 pub(super) fn section(of: &Report) -> Vec<Block> {
@@ -113,22 +112,5 @@ fn residuals(result: &ResultDocument) -> Block {
 
 /// The name of an input without a stated uncertainty.
 pub(crate) fn not_stated(what: NotStated) -> Text {
-    match what {
-        NotStated::Angles => names::ANGLE,
-        NotStated::SomeAngles => texts::NOT_STATED_SOME_ANGLES,
-        NotStated::Return => names::RETURN,
-        NotStated::Platform => texts::NOT_STATED_PLATFORM,
-        NotStated::Base => texts::NOT_STATED_BASE,
-        NotStated::Latitude => names::LATITUDE,
-        NotStated::Deflection => names::DEFLECTION,
-        NotStated::Azimuth => names::AZIMUTH,
-        NotStated::Mark => names::MARK,
-        NotStated::Level => texts::NOT_STATED_LEVEL,
-        NotStated::Seat => texts::NOT_STATED_SEAT,
-        NotStated::Gain => texts::NOT_STATED_GAIN,
-        NotStated::Offset => texts::NOT_STATED_OFFSET,
-        NotStated::Visits => texts::NOT_STATED_VISITS,
-        NotStated::TurnOns => texts::NOT_STATED_TURN_ONS,
-        NotStated::Gravity => texts::NOT_STATED_GRAVITY,
-    }
+    texts::not_stated!(NotStated, what)
 }

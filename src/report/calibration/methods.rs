@@ -30,7 +30,7 @@ pub(super) fn brief(of: &Report) -> Vec<Block> {
 /// A sentence on each method that gave no result.
 fn refused(of: &Report) -> impl Iterator<Item = Block> {
     let refused = of.calibration.refused.iter();
-    refused.map(|(method, why)| say([texts::no_result(super::method(method.key()), reason(why))]))
+    refused.map(|(method, why)| say([texts::no_result(super::name_of(*method), reason(why))]))
 }
 
 /// The reason why a method gave no result.
@@ -80,7 +80,7 @@ fn table(of: &Report) -> Block {
             Parameter::AS_IN_THE_PAPER.map(|one| (!values[one.place()].is_nan()).then(|| number(one.place())))
         };
         let adopted = of.adopted().is_some_and(|adopted| adopted.method == result.method);
-        let method = super::method(&result.method);
+        let method = Method::ALL.into_iter().find(|method| method.key() == result.method).map(super::name_of);
         let name = if adopted { texts::adopted(method) } else { method.into() };
         let mut rows = vec![
             (Words::Strong(Box::new(name)), cells(&|place| Number::measured(values[place], u[place]))),

@@ -16,11 +16,7 @@ use maud::html;
 
 /// Returns the result in a word.
 pub(crate) fn word(outcome: Outcome) -> Text {
-    match outcome {
-        Outcome::Passed => texts::REPEATS,
-        Outcome::Failed => texts::REPEATS_NOT,
-        Outcome::Undecided | Outcome::NotAsked => pictures::DECISION_UNDECIDED,
-    }
+    texts::repeats!(Outcome, outcome)
 }
 
 /// The rotations of a check relative to the certificate, and how they decide.

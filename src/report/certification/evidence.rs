@@ -101,30 +101,12 @@ pub(crate) fn tests(found: &Certification) -> [Block; 2] {
         false => marked(Outcome::Undecided, texts::PROBABLE),
     };
     let table = Rows::of(&found.findings, "numbers tests")
-        .named(texts::FINDING, |at| name(at.kind))
+        .named(texts::FINDING, |at| texts::found!(Kind, at.kind))
         .column(checks::RESULT, outcome)
         .column(texts::SIZE, |at| at.size.map(|size| Number::fixed(size, 2)))
         .column(symbol("p"), |at| probability(at.probability));
     let table = if found.findings.is_empty() { none } else { table.called(texts::TESTS) };
     [table, say([texts::TESTS_NOTE])]
-}
-
-/// Returns the name of a kind of findings on readings.
-fn name(kind: Kind) -> Text {
-    match kind {
-        Kind::Angle => texts::FOUND_ANGLE,
-        Kind::Reading => texts::FOUND_READING,
-        Kind::Bump => texts::FOUND_BUMP,
-        Kind::RunTurned => texts::FOUND_RUN,
-        Kind::StandMoved => texts::FOUND_MOVE,
-        Kind::StandDrift => texts::FOUND_DRIFT,
-        Kind::PositionMoved => texts::FOUND_POSITION_MOVED,
-        Kind::PositionScatter | Kind::SettingScatter => texts::FOUND_SCATTER,
-        Kind::SharedSetting => texts::FOUND_SHARED,
-        Kind::AxisScatter => texts::FOUND_AXIS,
-        Kind::RunAxisScatter => texts::FOUND_RUN_AXIS,
-        _ => texts::FOUND_COPY,
-    }
 }
 
 /// The excluded readings and runs with their reasons; a terminal says nothing if there are none.

@@ -165,13 +165,8 @@ fn exclusion(excluded: &Excluded) -> Words {
 
 /// A contribution that repeated measurements cannot show (type B).
 fn type_b(line: &TypeB) -> Option<(Text, Words, bool)> {
-    let part = match line.acts_on {
-        ActsOn::Position => texts::TYPE_B_POSITION,
-        ActsOn::Platform => texts::TYPE_B_PLATFORM,
-        ActsOn::Base => texts::TYPE_B_BASE,
-    };
     let u = with_freedom(Words::Quantity(Number::exact(line.u_arcsec), units::ARCSEC), line.degrees_of_freedom);
-    field(part, Some(vec![u, ": ".into(), given(&line.source)]))
+    field(texts::type_b!(ActsOn, line.acts_on), Some(vec![u, ": ".into(), given(&line.source)]))
 }
 
 /// Returns an uncertainty with its degrees of freedom, if they are stated.

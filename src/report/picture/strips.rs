@@ -330,12 +330,7 @@ fn decided([x, y]: Point, decision: Option<Decision>) -> Markup {
 
 /// Returns a decision as a text for pages.
 pub(crate) fn decision(decision: Option<Decision>) -> Text {
-    match decision {
-        None => texts::NOT_ASSESSED,
-        Some(Decision::Pass) => texts::DECISION_PASS,
-        Some(Decision::Fail) => texts::DECISION_FAIL,
-        Some(Decision::Undecided) => texts::DECISION_UNDECIDED,
-    }
+    decision.map_or(texts::NOT_ASSESSED, |decision| texts::decision!(Decision, decision))
 }
 
 /// Shares of the tolerances that the expected standard uncertainties have; `None` if the tolerance is 0.
