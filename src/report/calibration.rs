@@ -18,22 +18,19 @@ pub(crate) use methods::parameters;
 pub(crate) use result::{band_of_u, rule};
 
 use super::doc::{self, Block, Words};
-use super::page::language::Text;
-use super::page::number::Number;
 use crate::calibration::document::{CalibrationDocument, NoChange, ResultDocument, Subject};
 use crate::calibration::parameter::{symbols, unit};
 use crate::calibration::prediction::FurtherVisit;
 use crate::calibration::readings::Exclusion;
-use crate::calibration::remarks;
 use crate::calibration::stated::TemperatureOutside;
 use crate::calibration::verdict::{COVERAGE_FACTOR, change_in_uncertainties};
-use crate::calibration::{Calibration, Method, NotStated, Parameter, Verdict};
+use crate::calibration::{Calibration, NotStated, Parameter, Verdict, remarks};
 use crate::gyro::GyroType;
 use crate::interface::calibrated::Done;
 use crate::passport::{Check, Code};
-use crate::report::page::language::Language;
 use crate::uncertainty::MonteCarlo;
 use crate::wording::texts::{calibration as texts, units};
+use crate::wording::{Language, Number, Text};
 
 /// A calibration with what its report states, in a terminal and on a page.
 pub(crate) struct Report<'a> {
@@ -64,8 +61,8 @@ impl<'a> Report<'a> {
     /// Returns the sections: anchor, heading, content.
     pub(crate) fn sections(&self) -> Vec<(&'static str, Text, Vec<Block>)> {
         let mut sections = vec![
-            ("result", texts::RESULT, result::section(self)),
-            ("fit", texts::FIT, fit::section(self)),
+            ("result", texts::RESULT, result::section(self, false)),
+            ("fit", texts::FIT, fit::section(self, false)),
             ("blind", texts::BLIND, fit::blind(self)),
         ];
         if methods::agreement(self).is_none() {
@@ -76,7 +73,7 @@ impl<'a> Report<'a> {
 
     /// Returns what fits on a screen: a row for each parameter, the fit, and the paper's methods where they do not agree.
     fn brief(&self) -> Vec<Block> {
-        [result::brief(self), fit::brief(self), methods::brief(self)].concat()
+        [result::section(self, true), fit::section(self, true), methods::brief(self)].concat()
     }
 
     /// Returns the name of the gyro type and the verdict against it, or `None` if no type was specified.
@@ -108,14 +105,14 @@ impl<'a> Report<'a> {
         let left_out = self.document.left_out.iter().map(ToString::to_string);
         let each = [(texts::EXCLUDED, excluded.collect::<Vec<_>>()), (texts::LEFT_OUT, left_out.collect())];
         let each = each.into_iter().filter(|(_, each)| !each.is_empty());
-        doc::fields(each.map(|(name, each)| (name, Words::Given(each.join("; ")), true)).collect())
+        doc::fields(each.map(|(name, each)| (name, Words::Given(each.join("; ")), true)))
     }
 }
 
 /// A value with its standard uncertainty.
 fn with_u(value: f64, u: f64, unit: Text) -> Words {
     let [value, u] = [Number::measured(value, u), Number::uncertainty(u)].map(|number| Words::Quantity(number, unit));
-    vec![value, ", ".into(), doc::symbol("u"), "\u{a0}=\u{a0}".into(), u].into()
+    doc::with(value, "u", Some(u))
 }
 
 /// Returns the unit of a parameter that refers to the g of a gyro type; that of one at local g has no zero.
@@ -126,20 +123,14 @@ pub(crate) fn unit_at_type(parameter: Parameter) -> Text {
     }
 }
 
-/// Returns the name of a method.
-pub(crate) fn name_of(method: Method) -> Text {
-    texts::method!(Method, method)
-}
-
 /// The coverage factor of several expanded uncertainties, or its range: 2, or that of Student's t.
 fn coverage_factor(factors: impl Iterator<Item = f64>) -> Words {
-    let [least, most] = factors.fold([f64::INFINITY, 0.0], |[least, most], k| [k.min(least), k.max(most)]);
     let printed = |k: f64| Number::fixed(k, 2);
-    let alike = |one: f64, other: f64| printed(one).text(Language::English) == printed(other).text(Language::English);
-    match () {
-        () if alike(most, COVERAGE_FACTOR) => Number::fixed(COVERAGE_FACTOR, 0).into(),
-        () if alike(least, most) => texts::student(printed(most)),
-        () => texts::student(vec![printed(least).into(), "–".into(), printed(most).into()]),
+    let range = doc::range(factors, printed);
+    let is_usual = |k: &Number| k.text(Language::English) == printed(COVERAGE_FACTOR).text(Language::English);
+    match range.last().is_some_and(is_usual) {
+        true => Number::fixed(COVERAGE_FACTOR, 0).into(),
+        false => texts::student(doc::joined(range, "–")),
     }
 }
 
@@ -181,7 +172,7 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, report: &Report, ho
             doc.extend(blocks);
         }
     } else {
-        doc.push(Block::Typed("\n".to_owned()));
+        doc.push(Block::Gap);
         doc.extend(report.brief());
     }
     doc.extend(remedies(done, report, how).into_iter().map(doc::line));
@@ -247,7 +238,7 @@ fn conditions(Subject { gyro_serial, date, operator, temperature_c, .. }: &Subje
 pub(crate) fn doubts(done: &Done, trials: Option<&MonteCarlo>) -> Vec<Words> {
     let Done { calibration, document, warning, earlier, .. } = done;
     let invalid = remarks::invalid(calibration);
-    let why = earlier.as_ref().and_then(|(_, why)| Some(why_no_change((*why)?).into()));
+    let why = earlier.as_ref().and_then(|(_, why)| Some(texts::no_change!(NoChange, (*why)?).into()));
     // The causes of a result that is not valid follow its first sentence.
     let of_scatter = if invalid.is_some() { Vec::new() } else { fit::warnings(calibration) };
     let outside = warning.as_ref().map(temperature_outside);
@@ -262,11 +253,6 @@ pub(crate) fn doubts(done: &Done, trials: Option<&MonteCarlo>) -> Vec<Words> {
 pub(crate) fn temperature_outside(found: &TemperatureOutside) -> Words {
     let [here, low, high] = [found.here_c, found.low_c, found.high_c].map(Number::exact);
     texts::temperature_outside(here, low, high)
-}
-
-/// Returns the sentence why a difference from an earlier result is no change.
-pub(crate) fn why_no_change(why: NoChange) -> Text {
-    texts::no_change!(NoChange, why)
 }
 
 /// Returns which parameters the linear approximation is not valid for (JCGM 101, clause 8) and what to use in its place, or

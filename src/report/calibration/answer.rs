@@ -4,10 +4,8 @@ use super::result::counted;
 use crate::calibration::parameter::symbols;
 use crate::calibration::{CalibrationDocument, Decision, Verdict};
 use crate::report::doc::{either, given, joined};
-use crate::report::page::language::Text;
-use crate::report::style::Outcome;
-use crate::wording::Words;
 use crate::wording::texts::calibration as texts;
+use crate::wording::{Outcome, Text, Words};
 
 /// Answer of a calibration. A page has the statement as a headline, and the reasons below it.
 pub(crate) struct Answer {

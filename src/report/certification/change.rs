@@ -6,12 +6,10 @@ use crate::certification::kind::{AXES, OUTLIER};
 use crate::certification::{ComparedPosition, Comparison, Test};
 use crate::passport::difference::NumberDifference;
 use crate::report::doc::{Block, Rows, Words, fields, heading, in_unit, listed, marked, probability, say, symbol};
-use crate::report::page::language::Text;
-use crate::report::page::number::Number;
 use crate::report::picture::strips::Residuals;
-use crate::report::style::Outcome;
 use crate::wording::number::Probability;
 use crate::wording::texts::{calibration, certification as texts, checks, pictures, units};
+use crate::wording::{Number, Outcome, Text};
 use maud::html;
 
 /// Returns the result in a word.
@@ -46,7 +44,7 @@ pub(crate) fn rotations(found: &Comparison) -> Vec<Block> {
         heading(texts::ROTATIONS),
         table.called(texts::ROTATIONS),
         say([texts::decision(Number::exact(OUTLIER))]),
-        fields(named.map(|(name, value)| (name, value, false)).into()),
+        fields(named.map(|(name, value)| (name, value, false))),
     ]
 }
 

@@ -5,13 +5,11 @@ use crate::certification::components::Common;
 use crate::certification::found::Found;
 use crate::certification::kind::{AXES, Kind};
 use crate::report::doc::{
-    Block, On, Rows, Words, either, fields, heading, in_unit, listed, marked, probability, say, symbol,
+    Block, On, Rows, Words, either, field, fields, heading, in_unit, listed, marked, probability, say, symbol,
 };
-use crate::report::page::language::Text;
-use crate::report::page::number::Number;
-use crate::report::style::Outcome;
 use crate::stand::{Certificate, Excluded};
 use crate::wording::texts::{certification as texts, checks, compass, passport, units};
+use crate::wording::{Number, Outcome, Text};
 
 /// Degrees of freedom at which a standard deviation has a relative standard uncertainty of 35 %: 1/√(2ν), JCGM 100, E.4.3.
 pub(crate) const FEW_DEGREES: f64 = 4.0;
@@ -37,10 +35,8 @@ pub(super) fn certified(certificate: &Certificate) -> Block {
         (passport::COMMON_PLATFORM, certificate.common_platform_arcsec),
         (passport::COMMON_BASE, certificate.common_base_arcsec),
     ];
-    let stated = |(name, u): (Text, Option<f64>)| {
-        u.map(|u| (name, Words::Quantity(Number::uncertainty(u), units::ARCSEC), false))
-    };
-    fields(each.into_iter().filter_map(stated).collect())
+    let arcsec = |u| Words::Quantity(Number::uncertainty(u), units::ARCSEC);
+    fields(each.into_iter().filter_map(|(name, u)| field(name, u.map(arcsec))))
 }
 
 pub(crate) fn components(found: &Certification) -> Vec<Block> {

@@ -13,18 +13,17 @@ use super::parts::signatures;
 use super::passport::PassportPage;
 use super::shell::{Annex, Page, Section, first};
 use crate::calibration::Calibration;
-use crate::calibration::document::CalibrationDocument;
+use crate::calibration::document::{CalibrationDocument, NoChange};
 use crate::calibration::stated::NotStated;
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
-use crate::report::calibration::{Answer, Report, causes, not_linear, rule, why_no_change};
+use crate::report::calibration::{Answer, Report, causes, not_linear, rule};
 use crate::report::doc::{Block, listed, marked, outcome_box, say, told};
-use crate::report::style::Outcome;
 use crate::report::uncertainty;
 use crate::uncertainty::{Budget, MonteCarlo};
-use crate::wording::Words;
 use crate::wording::texts::calibration as texts;
+use crate::wording::{Outcome, Words};
 use jiff::Timestamp;
 
 /// Digits of the SHA-256 of the currents in the name of a report.
@@ -46,17 +45,11 @@ pub enum UsedPassport<'a> {
 }
 
 impl UsedPassport<'_> {
-    fn content(&self) -> &Content {
+    /// Returns the content, and the SHA-256 of the file.
+    fn file(&self) -> (&Content, &str) {
         match self {
-            Self::Verified(page) => &page.content,
-            Self::NotVerified { content, .. } => content,
-        }
-    }
-
-    fn sha256(&self) -> &str {
-        match self {
-            Self::Verified(page) => &page.sha256,
-            Self::NotVerified { sha256, .. } => sha256,
+            Self::Verified(page) => (&page.content, &page.sha256),
+            Self::NotVerified { content, sha256 } => (content, sha256),
         }
     }
 }
@@ -128,21 +121,13 @@ impl CalibrationPage<'_> {
     }
 
     fn content(&self) -> &Content {
-        self.passport.content()
+        self.passport.file().0
     }
 
     fn report(&self) -> Report<'_> {
-        let (calibration, missing, document) = (self.calibration, self.missing, self.document);
+        let Self { calibration, missing, document, gyro, previous, details, .. } = *self;
         let without_height = self.content().site.is_gravity_without_height();
-        Report {
-            calibration,
-            missing,
-            document,
-            gyro: self.gyro,
-            previous: self.previous,
-            without_height,
-            details: self.details,
-        }
+        Report { calibration, missing, document, gyro, previous, without_height, details }
     }
 
     /// Returns the numbered sections: those on request only if they were requested.
@@ -192,8 +177,9 @@ impl CalibrationPage<'_> {
             outcome_box(Outcome::Failed, name, [vec![say([what])], causes(self.calibration)].concat())
         });
         let no_change = self.previous.iter().rev().find_map(|earlier| self.document.no_change(earlier));
-        let no_change =
-            no_change.map(|why| outcome_box(Outcome::Undecided, texts::NO_CHANGE, vec![say([why_no_change(why)])]));
+        let no_change = no_change.map(|why| {
+            outcome_box(Outcome::Undecided, texts::NO_CHANGE, vec![say([texts::no_change!(NoChange, why)])])
+        });
         let doubts = [subject::temperature(self), subject::date_of_readings(self)];
         [not_verified, invalid, no_change].into_iter().chain(doubts).flatten().collect()
     }
@@ -222,7 +208,7 @@ impl CalibrationPage<'_> {
             self.implausible(),
             say(answer.decision.and(self.document.verdict.as_ref()).map(rule)),
         ];
-        outcome_box(Outcome::of(answer.decision), answer.statement, words)
+        outcome_box(answer.decision, answer.statement, words)
     }
 
     /// How many inputs U does not include.

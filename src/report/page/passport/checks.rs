@@ -4,8 +4,8 @@
 use super::PassportPage;
 use crate::passport::{Check, CheckName, Code};
 use crate::report::doc::{Block, Rows, Words, listed, marked, note, outcome_box, told};
-use crate::report::page::language::Text;
 use crate::report::verdict::{said, word};
+use crate::wording::Text;
 use crate::wording::texts::checks as texts;
 
 /// Returns `true` if nothing shows whether the passport has been withdrawn.
