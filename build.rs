@@ -4,6 +4,10 @@
 //! A text is a line `NAME: English`, and below it, two blanks deep, the Russian. `{name}` is a placeholder; both languages
 //! have the same ones. `\u{a0}` is a non-breaking space. Lines that begin with `#` are comments; the first says what the table
 //! is for.
+//!
+//! After a line `[name]`, up to an empty line, each text is that of the variants `One | Other` of an enum, `_` for those without
+//! a text of their own; `Variant = table::NAME` takes a text from elsewhere. `name!(Enum, value)` is then the text of a value,
+//! and a variant without a text does not compile.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -33,9 +37,22 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// Returns the items of a table.
 fn table(text: &str) -> Result<String, String> {
     let (mut rust, mut all, mut known) = (String::new(), String::new(), BTreeSet::new());
-    let mut lines = (1..).zip(text.lines()).filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
+    let mut lines = (1..).zip(text.lines().chain([""])).filter(|(_, line)| !line.starts_with('#'));
+    let mut variants: Option<(&str, String)> = None;
     while let Some((number, first)) = lines.next() {
         let wrong = |what: &str| format!("line {number}: {what}: {first}");
+        if first.is_empty() {
+            rust.extend(variants.take().map(|(name, arms)| matched(name, &arms)));
+            continue;
+        }
+        if let Some(name) = first.strip_prefix('[').and_then(|name| name.strip_suffix(']')) {
+            variants = Some((name, String::new()));
+            continue;
+        }
+        if let Some(((_, arms), (of, path))) = variants.as_mut().zip(first.split_once(" = ")) {
+            *arms += &arm(of, &format!("crate::wording::texts::{path}"));
+            continue;
+        }
         let (name, en) = first.split_once(": ").ok_or_else(|| wrong("no `NAME: English`"))?;
         let ru = lines.next().and_then(|(_, line)| line.strip_prefix("  ")).ok_or_else(|| wrong("no Russian below"))?;
         let [en, ru] = [en, ru].map(|words| words.replace("\\u{a0}", "\u{a0}"));
@@ -44,11 +61,15 @@ fn table(text: &str) -> Result<String, String> {
         if set(&values) != set(&in_russian) {
             return Err(wrong("the languages have other placeholders"));
         }
-        if !known.insert(name.to_owned()) {
+        let name = variants.as_ref().map_or_else(|| name.to_owned(), |(of, _)| format!("{of}: {name}"));
+        if !known.insert(name.clone()) {
             return Err(wrong("this name occurs twice"));
         }
         let text = format!("crate::wording::Text {{ en: {en:?}, ru: {ru:?} }}");
-        let written = if values.is_empty() {
+        let written = if let Some((_, arms)) = &mut variants {
+            *arms += &arm(first.split(": ").next().unwrap_or_default(), &text);
+            Ok(())
+        } else if values.is_empty() {
             write!(rust, "#[doc = {en:?}]\npub(crate) const {name}: crate::wording::Text = {text};\n")
         } else {
             let parameters = values.iter().map(|name| format!("r#{name}: impl Into<crate::wording::Words>"));
@@ -64,6 +85,20 @@ fn table(text: &str) -> Result<String, String> {
         written.and_then(|()| write!(all, "({name:?}, {text}), ")).map_err(|why| why.to_string())?;
     }
     Ok(format!("{rust}#[cfg(test)]\npub(crate) const ALL: &[(&str, crate::wording::Text)] = &[{all}];\n"))
+}
+
+/// Returns the arm of a `match` for variants, with their text.
+fn arm(variants: &str, text: &str) -> String {
+    let each = variants.split(" | ").map(|name| if name == "_" { name.to_owned() } else { format!("$of::{name}") });
+    format!("{} => {text}, ", each.collect::<Vec<_>>().join(" | "))
+}
+
+/// Returns the macro of the texts of an enum.
+fn matched(name: &str, arms: &str) -> String {
+    format!(
+        "/// The text of a value.\nmacro_rules! {name} {{ ($of:ident, $value:expr) => {{ match $value {{ {arms}}} }} }}\n\
+         pub(crate) use {name};\n"
+    )
 }
 
 /// Returns the names of the placeholders in their order, each once.

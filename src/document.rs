@@ -3,10 +3,9 @@
 //! The file consists of `payload`, `signature: |` and the armor indented by two spaces, and nothing else. The signed
 //! message is every byte before `signature: |`.
 
-use crate::text::canonical;
 use crate::text::kind::mistaken;
 pub(crate) use crate::text::scalar::sha256_hex;
-use crate::text::{Field, Kind, Limits, Location, Printable, Problem, Problems, Unreadable, rule};
+use crate::text::{Field, Kind, Limits, Location, Printable, Problem, Problems, Unreadable, canonical, rule};
 use crate::trust::{AllowedSigners, Message, PublicKey, Signature, SignatureError};
 #[cfg(feature = "factory")]
 use crate::trust::{KeyError, KeyPoint, SigningKey};
@@ -182,7 +181,8 @@ impl<'a> SignedText<'a> {
             return Err(malformed(Unreadable::whole(name, location, "no signature", "`signature: |`", advice)));
         };
         let tail = &bytes[payload_end + SIGNATURE_LINE.len()..];
-        let armor = std::str::from_utf8(tail).ok().and_then(unindented);
+        let unindented = |text: &str| text.split_inclusive('\n').map(|line| line.strip_prefix(INDENT)).collect();
+        let armor: Option<String> = std::str::from_utf8(tail).ok().and_then(unindented);
         let refuse = |(found, expected, advice): (String, String, &str), signature| {
             let at = Location { line: payload.lines().count() + 2, column: 1 };
             Malformed { fault: Unreadable::whole(name, Some(at), found, expected, advice), signature }
@@ -250,11 +250,6 @@ pub(crate) fn parse<T: Field>(
 fn signature_line(bytes: &[u8]) -> Option<usize> {
     let begins_a_line = |at: &usize| *at > 0 && bytes[at - 1] == b'\n';
     memchr::memmem::find_iter(bytes, SIGNATURE_LINE).find(begins_a_line)
-}
-
-/// Returns the armor without its indentation, or `None` if a line is not indented.
-fn unindented(text: &str) -> Option<String> {
-    text.split_inclusive('\n').map(|line| line.strip_prefix(INDENT)).collect()
 }
 
 #[cfg(feature = "factory")]

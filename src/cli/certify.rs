@@ -248,7 +248,7 @@ fn one(options: &Options, readings: &Path, out: Option<&PathBuf>) -> Result<Code
         let shown = certified.as_ref().filter(|_| out.is_some() || is_own).map(report::certification);
         let compared = comparison.as_ref().map(|found| report::comparison(found, true));
         // Whether the stand has changed comes first: it decides whether the new certificate is of any use.
-        let between = (compared.is_some() && shown.is_some()).then(|| vec![Block::Typed("\n".to_owned())]);
+        let between = (compared.is_some() && shown.is_some()).then(|| vec![Block::Gap]);
         [compared, between, shown].into_iter().flatten().flatten().collect()
     };
     let as_json = || report::to_json(certified.as_ref(), refused.as_ref(), comparison.as_ref());

@@ -225,7 +225,7 @@ const NAME: &str = "dtg-passport: ";
 /// Writes clap's message about arguments. Errors are ignored, because there is nowhere left to report them.
 pub(super) fn usage(words: &str) {
     let words = match columns_of(terminal_size_of(io::stderr())) {
-        Some(columns) => &columns::sentences(words, columns),
+        Some(columns) => &columns::hanging(words, 0, columns),
         None => words,
     };
     let _ = anstream::stderr().lock().write_all(words.as_bytes());

@@ -93,13 +93,8 @@ impl Collector {
         lang: Option<&Languages>,
     ) -> Option<Facts<'a>> {
         let at = Path::Root;
-        self.need(
-            &at,
-            "country",
-            &file.country,
-            "a country code of ISO 3166-1 such as \"DE\"",
-            "coreData/countryCodeISO3166_1",
-        );
+        let expected = "a country code of ISO 3166-1 such as \"DE\"";
+        self.need(&at, "country", &file.country, expected, "coreData/countryCodeISO3166_1");
         file.number = self.agreed_text(&at, "number", known.number, file.number.as_deref());
         self.need(&at, "number", &file.number, "the number of the certificate", "coreData/uniqueIdentifier");
         file.issued = self.agreed(&at, "issued", known.issued, file.issued);

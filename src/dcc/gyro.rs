@@ -14,10 +14,9 @@ use crate::laboratory::Laboratory;
 use crate::passport::Content;
 use crate::report::Languages;
 use crate::report::calibration::{band_of_u, not_stated, temperature_outside};
-use crate::report::page::language::Text;
 use crate::text::Problems;
-use crate::wording::texts::calibration as texts;
-use crate::wording::texts::dcc as words;
+use crate::wording::Text;
+use crate::wording::texts::{calibration as texts, dcc as words};
 
 /// Identifier of the decision rule, to which every decision refers.
 const RULE_ID: &str = "decision_rule";
@@ -100,18 +99,16 @@ pub(crate) fn of_gyro(
 fn item(calibrated: &Calibrated) -> Element {
     let serial = stated(calibrated.subject.gyro_serial.as_deref()).map(parts::serial);
     let model = calibrated.judged.and_then(|(gyro_type, _)| stated(Some(gyro_type.r#type.as_str())));
-    Element::new("dcc:item")
-        .and(in_words("dcc:name", words::GYRO))
+    Element::named("dcc:item", words::GYRO)
         .and(model.map(|model| Element::text("dcc:model", model)))
         .and(Element::new("dcc:identifications").and(serial))
 }
 
 fn statements(calibrated: &Calibrated) -> Vec<Element> {
     let conformity = calibrated.judged.map(|(gyro_type, verdict)| {
-        Element::new("dcc:statement")
+        Element::named("dcc:statement", words::conformity(&gyro_type.r#type))
             .with("id", RULE_ID)
             .with("refType", "basic_conformity")
-            .and(in_words("dcc:name", words::conformity(&gyro_type.r#type)))
             .and(match verdict.rule.guard_band_of_u {
                 None => in_words("dcc:declaration", words::RULE_SIMPLE),
                 Some(band) => in_words("dcc:declaration", words::rule_guarded(band_of_u(band))),
@@ -154,19 +151,17 @@ fn decided(decision: Decision, simple_passes: bool) -> &'static str {
 }
 
 fn result(calibrated: &Calibrated, facts: &Facts) -> Element {
-    let method = match calibrated.method {
-        Method::Analytic => texts::ANALYTIC,
-        Method::Iterative => texts::ITERATIVE,
-        Method::LeastSquares => texts::LEAST_SQUARES_NAME,
-    };
-    let own = parts::method(in_words("dcc:name", method), in_words("dcc:description", words::MODEL), Some(PAPER));
+    let own = parts::method(
+        in_words("dcc:name", texts::method!(Method, calibrated.method)),
+        in_words("dcc:description", words::MODEL),
+        Some(PAPER),
+    );
     let own = own.with("refId", PARAMETERS);
     let results = parts::results(texts::PARAMETERS, words::PARAMETERS_NOTE, quantities(calibrated));
     let gravity_u_m_per_s2 = calibrated.content.site.gravity_u_m_per_s2();
     let gravity = real(calibrated.found.gravity_m_per_s2, units::M_PER_S2, gravity_u_m_per_s2);
     let conditions = parts::temperature(facts).into_iter().chain([parts::condition(words::GRAVITY, gravity)]);
-    Element::new("dcc:measurementResult")
-        .and(in_words("dcc:name", texts::TITLE))
+    Element::named("dcc:measurementResult", texts::TITLE)
         .and(in_words("dcc:description", words::NOT_SIGNED))
         .and(Element::new("dcc:usedMethods").and(own).and(parts::stated_method(facts)))
         .and(parts::software("dcc:usedSoftware"))
@@ -178,8 +173,7 @@ fn result(calibrated: &Calibrated, facts: &Facts) -> Element {
 /// Returns the stand, with its passport by identifier and SHA-256.
 fn equipment(calibrated: &Calibrated) -> Element {
     let Content { stand, passport, .. } = calibrated.content;
-    Element::new("dcc:measuringEquipment")
-        .and(in_words("dcc:name", words::STAND))
+    Element::named("dcc:measuringEquipment", words::STAND)
         .and(parts::hashed("dcc:certificate", words::PASSPORT, &passport.id, calibrated.passport_sha256))
         .and(parts::manufacturer(stand.manufacturer.as_deref()))
         .and(Element::text("dcc:model", &stand.model))
@@ -251,10 +245,9 @@ fn decisions(verdict: &Verdict, parameters: &[Parameter], unit: &str) -> Element
         limit("basic_toleranceLimitUpper", words::UPPER_LIMIT, 1.0),
         quantity("dtg_specificRisk", words::SPECIFIC_RISK, parts::reals(None, &risks, units::ONE, &[])),
     ];
-    let decision = Element::new("dcc:metaData")
+    let decision = Element::named("dcc:metaData", words::DECISIONS)
         .with("refId", RULE_ID)
         .with("refType", "basic_conformity")
-        .and(in_words("dcc:name", words::DECISIONS))
         .and(Element::text("dcc:conformityXMLList", each.join(" ")))
         .and(Element::new("dcc:data").and(further));
     Element::new("dcc:measurementMetaData").and(decision)

@@ -4,9 +4,8 @@ use super::Dcc;
 use super::administrative::{Contact, Location};
 use super::facts::{Facts, stated};
 use super::xml::Element;
-use crate::report::page::language::Text;
-use crate::wording::Words;
 use crate::wording::texts::dcc as words;
+use crate::wording::{Text, Words};
 use std::fmt::Display;
 
 const SCHEMA_VERSION: &str = "3.3.0";
@@ -73,14 +72,12 @@ pub(super) fn reals(
 /// Returns a quantity: its kinds in the vocabularies of PTB (`basic`, `math`) and of this program (`dtg`), its name and its
 /// value.
 pub(super) fn quantity(kinds: &str, name: Text, value: Element) -> Element {
-    Element::new("dcc:quantity").with("refType", kinds).and(in_words("dcc:name", name)).and(value)
+    Element::named("dcc:quantity", name).with("refType", kinds).and(value)
 }
 
 /// Returns a statement: its name, its content as it is stated, and other elements that follow a declaration.
 pub(super) fn statement(name: Text, declaration: Option<&str>) -> Element {
-    Element::new("dcc:statement")
-        .and(in_words("dcc:name", name))
-        .and(stated(declaration).map(|text| plain("dcc:declaration", text)))
+    Element::named("dcc:statement", name).and(stated(declaration).map(|text| plain("dcc:declaration", text)))
 }
 
 /// Returns a statement with words of the program.
@@ -138,9 +135,8 @@ pub(super) fn stated_method(facts: &Facts) -> Option<Element> {
 
 pub(super) fn results(name: Text, note: Text, quantities: Vec<Element>) -> Element {
     let list = Element::new("dcc:list").and(quantities);
-    let result = Element::new("dcc:result")
+    let result = Element::named("dcc:result", name)
         .with("refType", "basic_measurementResult")
-        .and(in_words("dcc:name", name))
         .and(in_words("dcc:description", note))
         .and(Element::new("dcc:data").and(list));
     Element::new("dcc:results").and(result)
@@ -153,7 +149,7 @@ pub(super) fn temperature(facts: &Facts) -> Option<Element> {
 
 pub(super) fn condition(name: Text, value: Element) -> Element {
     let value = quantity("basic_measuredValue", name, value);
-    Element::new("dcc:influenceCondition").and(in_words("dcc:name", name)).and(Element::new("dcc:data").and(value))
+    Element::named("dcc:influenceCondition", name).and(Element::new("dcc:data").and(value))
 }
 
 /// Parts that differ between a stand and a gyro.
@@ -200,8 +196,7 @@ pub(super) fn certificate(facts: &Facts, subject: Subject) -> Dcc {
 
 fn vocabularies() -> Element {
     let vocabulary = |name, namespace, link| {
-        Element::new("dcc:refTypeDefinition")
-            .and(in_words("dcc:name", name))
+        Element::named("dcc:refTypeDefinition", name)
             .and(Element::text("dcc:namespace", namespace))
             .and(Element::text("dcc:link", link))
     };

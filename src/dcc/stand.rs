@@ -7,12 +7,10 @@ use super::{Administrative, Dcc};
 use crate::document::sha256_hex;
 use crate::passport::Content;
 use crate::report::Languages;
-use crate::report::page::language::Text;
 use crate::stand::{CertifiedPosition, Datum};
 use crate::text::Problems;
-use crate::wording::Words;
-use crate::wording::texts::calibration as texts;
-use crate::wording::texts::dcc as words;
+use crate::wording::texts::{calibration as texts, dcc as words};
+use crate::wording::{Text, Words};
 use base64ct::{Base64, Encoding};
 
 /// Identifiers of the quantities that say which position it is, and of those that were measured.
@@ -32,8 +30,7 @@ pub(crate) fn of_stand(
     let predecessor = content.passport.reissued_from.as_ref();
     let sha256 = sha256_hex(bytes);
     let file_name = format!("{}-{}.yaml", content.site.id, content.passport.revision);
-    let document = Element::new("dcc:document")
-        .and(in_words("dcc:name", words::PASSPORT))
+    let document = Element::named("dcc:document", words::PASSPORT)
         .and(in_words("dcc:description", words::passport_note(id, sha256)))
         .and(Element::text("dcc:fileName", file_name))
         .and(Element::text("dcc:mimeType", "application/yaml"))
@@ -87,9 +84,8 @@ fn item(content: &Content) -> Element {
 fn statements(content: &Content, facts: &Facts) -> Vec<Element> {
     let certificate = &content.certificate;
     let traceability = stated(certificate.traceability.as_deref()).map(|text| {
-        Element::new("dcc:statement")
+        Element::named("dcc:statement", words::TRACEABILITY)
             .with("refType", "basic_metrologicallyTraceable")
-            .and(in_words("dcc:name", words::TRACEABILITY))
             .and(facts.file.traceable.map(|traceable| Element::text("dcc:traceable", traceable)))
             .and(plain("dcc:declaration", text))
     });
@@ -127,15 +123,13 @@ fn result(content: &Content, facts: &Facts) -> Element {
         let issued = words::reference_issued(Words::Given(reference.laboratory.clone()), reference.issued);
         let certificate = parts::hashed("dcc:certificate", words::REFERENCE, &reference.number, &reference.sha256)
             .and(in_words("dcc:description", issued));
-        Element::new("dcc:measuringEquipment")
-            .and(in_words("dcc:name", words::INSTRUMENT))
+        Element::named("dcc:measuringEquipment", words::INSTRUMENT)
             .and(certificate)
             .and(Element::new("dcc:identifications").and(number))
     });
     let references: Vec<Element> = references.collect();
     let equipment = (!references.is_empty()).then(|| Element::new("dcc:measuringEquipments").and(references));
-    Element::new("dcc:measurementResult")
-        .and(in_words("dcc:name", words::STAND_RESULT))
+    Element::named("dcc:measurementResult", words::STAND_RESULT)
         .and(Element::new("dcc:usedMethods").and(parts::stated_method(facts).map(|of| of.with("refId", MEASURED))))
         .and(parts::software("dcc:usedSoftware"))
         .and(equipment)

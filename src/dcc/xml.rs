@@ -31,6 +31,11 @@ impl Element {
         Self { words: Some(words), ..Self::new(name) }
     }
 
+    /// Creates an element that begins with its name in every language of the document.
+    pub(super) fn named(element: &'static str, name: impl Into<Words>) -> Self {
+        Self::new(element).and(Self::said("dcc:name", name.into()))
+    }
+
     /// Creates an element that contains a number, which reads back as the same binary64.
     pub(super) fn number(name: &'static str, value: f64) -> Self {
         Self::text(name, number(value))

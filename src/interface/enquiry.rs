@@ -205,25 +205,27 @@ fn content_of(node: &Node) -> Option<Vec<u8>> {
 }
 
 fn content(node: &Node, at: &Path, problems: &mut Problems) -> Option<Vec<u8>> {
-    let content = content_of(node);
-    if content.is_none() {
-        problems.at(at, node.describe(), "the content of a register, its text or a list of its bytes", "");
-    }
-    content
+    or_refused(content_of(node), (node, at), "the content of a register, its text or a list of its bytes", problems)
 }
 
 /// Reads lists of revoked keys, each as text or as a list of its bytes.
 fn lists(node: &Node, at: &Path, problems: &mut Problems) -> Option<Vec<Vec<u8>>> {
     let lists = if let Node::List(all) = node { all.iter().map(content_of).collect() } else { None };
-    if lists.is_none() {
-        problems.at(
-            at,
-            node.describe(),
-            "a list of revocations (KRLs or lists), each its text or a list of its bytes",
-            "",
-        );
+    let expected = "a list of revocations (KRLs or lists), each its text or a list of its bytes";
+    or_refused(lists, (node, at), expected, problems)
+}
+
+/// Returns what was read from a value, or says what was expected instead of it.
+pub(super) fn or_refused<T>(
+    read: Option<T>,
+    (node, at): (&Node, &Path),
+    expected: &str,
+    problems: &mut Problems,
+) -> Option<T> {
+    if read.is_none() {
+        problems.at(at, node.describe(), expected, "");
     }
-    lists
+    read
 }
 
 /// Returns the trust in `signers` without what `revoked` revokes. The files are names and contents.

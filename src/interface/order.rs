@@ -1,6 +1,6 @@
 //! Orders of a calibration.
 
-use super::enquiry::name;
+use super::enquiry::{name, or_refused};
 use super::{Asked, Failed};
 use crate::calibration::document::Subject;
 use crate::calibration::readings::Exclusion;
@@ -111,11 +111,8 @@ fn temperature(node: &Node, at: &Path, problems: &mut Problems) -> Option<f64> {
 
 /// Refuses earlier results that are not a list.
 fn list(node: &Node, at: &Path, problems: &mut Problems) -> Option<()> {
-    if matches!(node, Node::List(_)) {
-        return Some(());
-    }
-    problems.at(at, node.describe(), "a list of results of `calibrate`", "");
-    None
+    let list = matches!(node, Node::List(_)).then_some(());
+    or_refused(list, (node, at), "a list of results of `calibrate`", problems)
 }
 
 /// Reads the earlier results in an order, from the earliest to the latest. Each is read from its own text, as a file is.
@@ -138,10 +135,7 @@ fn previous(order: &str) -> Result<Vec<CalibrationDocument>, Failed> {
 fn model(node: &Node, at: &Path, problems: &mut Problems) -> Option<Model> {
     let models = [Model::Paper, Model::General];
     let found = models.into_iter().find(|model| *node == Node::Text(model.key().to_owned()));
-    if found.is_none() {
-        problems.at(at, node.describe(), listed(&models.map(Model::key)), "");
-    }
-    found
+    or_refused(found, (node, at), &listed(&models.map(Model::key)), problems)
 }
 
 /// Returns a reader of a file, its content as an object or with `yaml` its text, with the `check` that the file has.

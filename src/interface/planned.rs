@@ -34,25 +34,20 @@ pub fn plan(
     let azimuths_deg: Vec<f64> = asked.key("frame_axis_azimuths_deg", Vec::read).unwrap_or_default();
     let criterion = asked.key("criterion", Criterion::read).unwrap_or(Criterion::A);
     asked.done()?;
+    let unusable = |why: String| Err(Failed::unusable(why));
     if !(FEWEST_READINGS..=MOST_READINGS).contains(&readings) {
-        return Err(Failed::unusable(format!(
-            "readings: found {readings}, expected {FEWEST_READINGS} to {MOST_READINGS}"
-        )));
+        return unusable(format!("readings: found {readings}, expected {FEWEST_READINGS} to {MOST_READINGS}"));
     }
     if step_deg.is_some() && stand.is_some() {
-        return Err(Failed::unusable(
-            "step_deg: found a step and a stand, whose positions are certified; state one of the two",
-        ));
+        let why = "step_deg: found a step and a stand, whose positions are certified; state one of the two";
+        return unusable(why.to_owned());
     }
-    let angles = match step_deg {
-        None => Angles::QUADRANTS,
-        Some(step_deg) => Angles::every(step_deg)
-            .ok_or_else(|| Failed::unusable(format!("step_deg: found {step_deg}, expected {}", Angles::EXPECTED)))?,
+    let Some(angles) = step_deg.map_or(Some(Angles::QUADRANTS), Angles::every) else {
+        let step_deg = step_deg.unwrap_or_default();
+        return unusable(format!("step_deg: found {step_deg}, expected {}", Angles::EXPECTED));
     };
     if let Some(found) = azimuths_deg.iter().find(|azimuth| !(0.0..360.0).contains(*azimuth)) {
-        return Err(Failed::unusable(format!(
-            "frame_axis_azimuths_deg: found {found}, expected 0 or more and below 360"
-        )));
+        return unusable(format!("frame_axis_azimuths_deg: found {found}, expected 0 or more and below 360"));
     }
     let (stand, site, gyro, laboratory) = (stand.as_ref(), &site, &gyro, &laboratory);
     let question = Question { site, stand, angles, gyro, laboratory, readings, azimuths_deg, criterion };

@@ -1,37 +1,36 @@
 //! Report of a calibration, composed once for a terminal and for its printed page.
 //!
+//! * `answer`: what it says about the gyro, in the first line of a terminal and in large letters.
 //! * `result`: parameters within their tolerances, the change since an earlier result.
 //! * `fit`: agreement of the readings with the model, inputs that are not stated.
 //! * `methods`: the paper's methods beside least squares.
 //! * `history`: the gyro over several calibrations.
 
+mod answer;
 mod fit;
 mod history;
 mod methods;
 mod result;
 
+pub(crate) use answer::Answer;
 pub(crate) use fit::{causes, not_stated};
 pub(crate) use methods::parameters;
-pub(crate) use result::{band_of_u, counted, rule};
+pub(crate) use result::{band_of_u, rule};
 
 use super::doc::{self, Block, Words};
-use super::page::language::Text;
-use super::page::number::Number;
 use crate::calibration::document::{CalibrationDocument, NoChange, ResultDocument, Subject};
 use crate::calibration::parameter::{symbols, unit};
 use crate::calibration::prediction::FurtherVisit;
 use crate::calibration::readings::Exclusion;
-use crate::calibration::remarks;
 use crate::calibration::stated::TemperatureOutside;
 use crate::calibration::verdict::{COVERAGE_FACTOR, change_in_uncertainties};
-use crate::calibration::{Calibration, Decision, Method, NotStated, Parameter, Verdict};
+use crate::calibration::{Calibration, NotStated, Parameter, Verdict, remarks};
 use crate::gyro::GyroType;
 use crate::interface::calibrated::Done;
 use crate::passport::{Check, Code};
-use crate::report::page::language::Language;
-use crate::report::style::Outcome;
 use crate::uncertainty::MonteCarlo;
 use crate::wording::texts::{calibration as texts, units};
+use crate::wording::{Language, Number, Text};
 
 /// A calibration with what its report states, in a terminal and on a page.
 pub(crate) struct Report<'a> {
@@ -62,8 +61,8 @@ impl<'a> Report<'a> {
     /// Returns the sections: anchor, heading, content.
     pub(crate) fn sections(&self) -> Vec<(&'static str, Text, Vec<Block>)> {
         let mut sections = vec![
-            ("result", texts::RESULT, result::section(self)),
-            ("fit", texts::FIT, fit::section(self)),
+            ("result", texts::RESULT, result::section(self, false)),
+            ("fit", texts::FIT, fit::section(self, false)),
             ("blind", texts::BLIND, fit::blind(self)),
         ];
         if methods::agreement(self).is_none() {
@@ -74,12 +73,17 @@ impl<'a> Report<'a> {
 
     /// Returns what fits on a screen: a row for each parameter, the fit, and the paper's methods where they do not agree.
     fn brief(&self) -> Vec<Block> {
-        [result::brief(self), fit::brief(self), methods::brief(self)].concat()
+        [result::section(self, true), fit::section(self, true), methods::brief(self)].concat()
     }
 
     /// Returns the name of the gyro type and the verdict against it, or `None` if no type was specified.
     fn judged(&self) -> Option<(&str, &Verdict)> {
         self.gyro.map(|gyro| gyro.r#type.as_str()).zip(self.document.verdict.as_ref())
+    }
+
+    /// Returns what the calibration says about the gyro.
+    pub(crate) fn answer(&self) -> Answer {
+        Answer::of(self.document, self.gyro.map(|gyro| gyro.r#type.as_str()))
     }
 
     fn adopted(&self) -> Option<&ResultDocument> {
@@ -101,14 +105,14 @@ impl<'a> Report<'a> {
         let left_out = self.document.left_out.iter().map(ToString::to_string);
         let each = [(texts::EXCLUDED, excluded.collect::<Vec<_>>()), (texts::LEFT_OUT, left_out.collect())];
         let each = each.into_iter().filter(|(_, each)| !each.is_empty());
-        doc::fields(each.map(|(name, each)| (name, Words::Given(each.join("; ")), true)).collect())
+        doc::fields(each.map(|(name, each)| (name, Words::Given(each.join("; ")), true)))
     }
 }
 
 /// A value with its standard uncertainty.
 fn with_u(value: f64, u: f64, unit: Text) -> Words {
     let [value, u] = [Number::measured(value, u), Number::uncertainty(u)].map(|number| Words::Quantity(number, unit));
-    vec![value, ", ".into(), doc::symbol("u"), "\u{a0}=\u{a0}".into(), u].into()
+    doc::with(value, "u", Some(u))
 }
 
 /// Returns the unit of a parameter that refers to the g of a gyro type; that of one at local g has no zero.
@@ -119,63 +123,14 @@ pub(crate) fn unit_at_type(parameter: Parameter) -> Text {
     }
 }
 
-/// The name of a method from its key in results.
-fn method(key: &str) -> Text {
-    let is = |method: Method| method.key() == key;
-    match () {
-        () if is(Method::LeastSquares) => texts::LEAST_SQUARES_NAME,
-        () if is(Method::Analytic) => texts::ANALYTIC,
-        () => texts::ITERATIVE,
-    }
-}
-
 /// The coverage factor of several expanded uncertainties, or its range: 2, or that of Student's t.
 fn coverage_factor(factors: impl Iterator<Item = f64>) -> Words {
-    let [least, most] = factors.fold([f64::INFINITY, 0.0], |[least, most], k| [k.min(least), k.max(most)]);
     let printed = |k: f64| Number::fixed(k, 2);
-    let alike = |one: f64, other: f64| printed(one).text(Language::English) == printed(other).text(Language::English);
-    match () {
-        () if alike(most, COVERAGE_FACTOR) => Number::fixed(COVERAGE_FACTOR, 0).into(),
-        () if alike(least, most) => texts::student(printed(most)),
-        () => texts::student(vec![printed(least).into(), "–".into(), printed(most).into()]),
-    }
-}
-
-/// Returns the outcome of a calibration with its word, and the reasons: which parameters pass, fail and are undecided by
-/// their values and by their change, or why no statement is made.
-pub(super) fn headline(document: &CalibrationDocument, gyro_type: Option<&str>) -> ((Outcome, Text), Words) {
-    let judged = gyro_type.zip(document.verdict.as_ref());
-    let (outcome, word, words): (Outcome, Text, Words) = match judged {
-        _ if !document.consistent => (Outcome::Failed, texts::INVALID, texts::DOES_NOT_FIT.into()),
-        _ if document.mistake.is_some() => (Outcome::Failed, texts::INVALID, texts::MISTAKE.into()),
-        None => (Outcome::NotAsked, texts::IS_CALIBRATED, texts::NO_TYPE_WORDS.into()),
-        Some((_, verdict)) if verdict.withheld => (Outcome::NotAsked, texts::IS_CALIBRATED, texts::NOT_VERIFIED.into()),
-        Some((name, verdict)) => {
-            // Nothing is decided on a change that is not assessed.
-            let worst = verdict.with_change(document.change.as_ref());
-            let of_change: Option<Words> = document.change.as_ref().map(|change| match change.withheld {
-                true => texts::CHANGE_NOT_ASSESSED.into(),
-                false => counted(change, |row| row.decision, texts::change_passed),
-            });
-            let of_values = counted(verdict, |row| row.decision, texts::passed);
-            let not_found = verdict.not_found();
-            let not_found = (!not_found.is_empty()).then(|| texts::not_in_the_model(symbols(not_found)));
-            let of_values = doc::joined([of_values].into_iter().chain(not_found), "; ");
-            let name = Words::Given(name.to_owned());
-            let words = [texts::of_type_name(name, of_values)].into_iter().chain(of_change);
-            (worst.into(), word(worst), doc::joined(words, ". "))
-        }
-    };
-    let withheld = judged.filter(|(_, verdict)| verdict.withheld);
-    let withheld = withheld.map(|(name, _)| texts::no_statement(Words::Given(name.to_owned())));
-    ((outcome, word), doc::joined([words].into_iter().chain(withheld), ". "))
-}
-
-fn word(decision: Decision) -> Text {
-    match decision {
-        Decision::Pass => texts::PASSES,
-        Decision::Fail => texts::FAILS,
-        Decision::Undecided => texts::IS_UNDECIDED,
+    let range = doc::range(factors, printed);
+    let is_usual = |k: &Number| k.text(Language::English) == printed(COVERAGE_FACTOR).text(Language::English);
+    match range.last().is_some_and(is_usual) {
+        true => Number::fixed(COVERAGE_FACTOR, 0).into(),
+        false => texts::student(doc::joined(range, "–")),
     }
 }
 
@@ -194,9 +149,8 @@ pub(crate) struct Said<'a> {
 /// Returns the result: the verdict with what is doubtful, the parameters, the fit, and what to do. With details the sections
 /// of the report follow.
 pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, report: &Report, how: &Said) -> String {
-    let gyro_type = report.gyro.map(|gyro| gyro.r#type.as_str());
-    let ((outcome, word), reasons) = headline(&done.document, gyro_type);
-    let mut doc = vec![Block::Lines("", vec![vec![doc::marked(outcome, word), reasons]])];
+    let answer = report.answer();
+    let mut doc = vec![Block::Lines("", vec![vec![doc::marked(answer.outcome, answer.word), answer.in_a_line()]])];
     for (place, warning) in doubts(done, trials).into_iter().enumerate() {
         doc.push(doc::line(warning));
         if place == 0 && done.calibration.is_invalid() {
@@ -218,7 +172,7 @@ pub(crate) fn text(done: &Done, trials: Option<&MonteCarlo>, report: &Report, ho
             doc.extend(blocks);
         }
     } else {
-        doc.push(Block::Typed("\n".to_owned()));
+        doc.push(Block::Gap);
         doc.extend(report.brief());
     }
     doc.extend(remedies(done, report, how).into_iter().map(doc::line));
@@ -284,7 +238,7 @@ fn conditions(Subject { gyro_serial, date, operator, temperature_c, .. }: &Subje
 pub(crate) fn doubts(done: &Done, trials: Option<&MonteCarlo>) -> Vec<Words> {
     let Done { calibration, document, warning, earlier, .. } = done;
     let invalid = remarks::invalid(calibration);
-    let why = earlier.as_ref().and_then(|(_, why)| Some(why_no_change((*why)?).into()));
+    let why = earlier.as_ref().and_then(|(_, why)| Some(texts::no_change!(NoChange, (*why)?).into()));
     // The causes of a result that is not valid follow its first sentence.
     let of_scatter = if invalid.is_some() { Vec::new() } else { fit::warnings(calibration) };
     let outside = warning.as_ref().map(temperature_outside);
@@ -299,16 +253,6 @@ pub(crate) fn doubts(done: &Done, trials: Option<&MonteCarlo>) -> Vec<Words> {
 pub(crate) fn temperature_outside(found: &TemperatureOutside) -> Words {
     let [here, low, high] = [found.here_c, found.low_c, found.high_c].map(Number::exact);
     texts::temperature_outside(here, low, high)
-}
-
-/// Returns the sentence why a difference from an earlier result is no change.
-pub(crate) fn why_no_change(why: NoChange) -> Text {
-    match why {
-        NoChange::SameReadings => texts::SAME_READINGS,
-        NoChange::EarlierNotValid => texts::EARLIER_NOT_VALID,
-        NoChange::EarlierSuspect => texts::EARLIER_SUSPECT,
-        NoChange::EarlierNotVerified => texts::EARLIER_NOT_VERIFIED,
-    }
 }
 
 /// Returns which parameters the linear approximation is not valid for (JCGM 101, clause 8) and what to use in its place, or

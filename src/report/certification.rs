@@ -7,14 +7,13 @@ pub(crate) mod change;
 pub(crate) mod evidence;
 
 use crate::certification::components::{Common, Variance};
-use crate::certification::found;
-use crate::certification::{Certification, Comparison, NotCertified};
+use crate::certification::{Certification, Comparison, NotCertified, found};
 use crate::report::doc::{self, Block, Words, given, heading, marked, say};
 use crate::report::gyros::of_input;
 use crate::report::passport::deviations;
-use crate::report::style::Outcome;
 use crate::text::record::File;
 use crate::text::{Field, Node};
+use crate::wording::Outcome;
 use crate::wording::texts::{calibration, certification as texts};
 use serde_json::{Value, json};
 
@@ -63,9 +62,8 @@ pub(crate) fn line(found: &Certification, file: &str) -> Vec<Block> {
     let stand = &found.stand;
     let certificate = texts::line(given(&stand.certificate.number), stand.positions.len(), found.runs.len());
     let certified = of_input(outcome_of_certification(found), texts::LINE_CERTIFIED);
-    let words =
-        vec![certified, "  ".into(), given(stand.stand.id()), "  ".into(), given(file), "  ".into(), certificate];
-    let first = Block::Whole("", vec![vec![words.into()]]);
+    let words = doc::joined([certified, given(stand.stand.id()), given(file), certificate], "  ");
+    let first = Block::Whole("", vec![vec![words]]);
     [first].into_iter().chain(warnings(found).map(|warning| say([warning]))).collect()
 }
 
@@ -83,12 +81,12 @@ pub(crate) fn certification(found: &Certification) -> Vec<Block> {
     let repeated = repeated.map(|rows| (texts::REPEATED, rows.into(), false));
     let mut doc = vec![doc::line(vec![certified, "  ".into(), given(name), counted])];
     doc.extend(warnings(found).map(doc::line));
-    doc.push(Block::Typed("\n".to_owned()));
+    doc.push(Block::Gap);
     doc.extend(deviations::table(&stand.positions, "u").into_iter().take(1));
     doc.extend([
         deviations::note(&stand.positions, false),
         evidence::certified(&stand.certificate),
-        doc::fields(repeated.into_iter().collect()),
+        doc::fields(repeated),
         evidence::outliers(found),
     ]);
     doc.extend(evidence::components(found));

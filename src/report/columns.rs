@@ -1,11 +1,11 @@
 //! Text in columns that fits the terminal. Where there is none, lines have at most 100 characters. In a wider one, tables
 //! use the width that they need, and sentences still have at most 100 characters.
 
-use super::page::number::THIN_BLANK;
 use super::style;
 use crate::text::excerpt::columns_of;
 pub(crate) use crate::text::number::decimals;
 use crate::text::printable;
+use crate::wording::number::THIN_BLANK;
 use std::fmt::Write;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -95,22 +95,14 @@ fn broken(text: &str, indent: usize, columns: usize) -> String {
         } else {
             out.push_str(&line[..at]);
             let column = shown_columns(&line[..at]);
-            let hang = if indent == 0 && at == margin { after_ordinal(words).unwrap_or(HANG) } else { 0 };
+            // An item goes on after its number, as in `3. Words`.
+            let ordinal = words.split_once(". ").filter(|(number, _)| number.parse::<u8>().is_ok());
+            let after = ordinal.map_or(HANG, |(number, _)| number.len() + ". ".len());
+            let hang = if indent == 0 && at == margin { after } else { 0 };
             wrapped(&mut out, column, (column + hang).max(indent).max(HANG), &line[at..], columns);
         }
     }
     out
-}
-
-/// Returns the columns of the number of an item and of the space after it, as in `3. Words`; otherwise `None`.
-fn after_ordinal(words: &str) -> Option<usize> {
-    let (number, _) = words.split_once(". ")?;
-    number.parse::<u8>().ok().map(|_| number.len() + ". ".len())
-}
-
-/// Returns the text as [`fitted`] does, with no line wider than a sentence.
-pub(crate) fn sentences(text: &str, columns: usize) -> String {
-    fitted(text, columns.min(TEXT_COLUMNS))
 }
 
 /// Returns the place in bytes after the last gap of two spaces or more behind which half of the `columns` remain, and
@@ -238,9 +230,6 @@ pub(crate) fn table(out: &mut String, heads: usize, names: &[&str], rows: impl I
     }
 }
 
-/// Heading of a difference in units of its uncertainty; it stays on one line.
-pub(crate) const OFF: &str = "diff.\u{A0}/\u{A0}u";
-
 /// Returns the end of the columns from `next` on that fit next to the first `heads`; at least one does. A column `u` is
 /// never parted from its value.
 fn end_of_part(names: &[&str], columns: &[Vec<String>], heads: usize, next: usize) -> usize {
@@ -251,7 +240,8 @@ fn end_of_part(names: &[&str], columns: &[Vec<String>], heads: usize, next: usiz
         free = free.saturating_sub(needed);
         end += 1;
     }
-    let belongs = |name: &&str| matches!(*name, "u" | "U" | OFF);
+    // A difference in units of its uncertainty has its heading on one line.
+    let belongs = |name: &&str| matches!(*name, "u" | "U" | "diff.\u{A0}/\u{A0}u");
     if names.get(end).is_some_and(belongs) && end > next + 1 { end - 1 } else { end }
 }
 
@@ -301,12 +291,7 @@ fn column(heading: Vec<String>, lines: usize, cells: Vec<String>) -> Vec<String>
 /// Spreadsheets recognise a formula by its first character, and a signer may choose that character. An apostrophe
 /// before it makes the cell text. The same applies after a semicolon, because in many countries spreadsheets begin a
 /// new cell there, even within quotes.
-pub(crate) fn csv_row<'a>(cells: impl Iterator<Item = &'a str>) -> String {
-    csv_row_by(",", cells)
-}
-
-/// Returns a row of CSV as [`csv_row`] does, with another separator.
-pub(crate) fn csv_row_by<'a>(separator: &str, cells: impl Iterator<Item = &'a str>) -> String {
+pub(crate) fn csv_row<'a>(separator: &str, cells: impl Iterator<Item = &'a str>) -> String {
     let quoted = |cell: &str| {
         let cell = neutral(&printable(cell));
         if cell.contains([',', '"', ';']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell }
@@ -352,7 +337,7 @@ mod tests {
             ("＝1", "'＝1"),
             ("a-b", "a-b"),
         ] {
-            assert_eq!(csv_row([cell].into_iter()), format!("{written}\n"));
+            assert_eq!(csv_row(",", [cell].into_iter()), format!("{written}\n"));
         }
     }
 

@@ -4,9 +4,9 @@ use crate::passport::Content;
 use crate::passport::difference::{Differences, NumberDifference, OtherDifference};
 use crate::report::columns::decimals;
 use crate::report::doc::{Block, On, Rows, Words, code, given, heading, line, say, strong, symbol};
-use crate::report::page::Number;
 use crate::report::passport::numbers::DECIMALS;
 use crate::text::{Node, Printable, number};
+use crate::wording::Number;
 use crate::wording::texts::difference as texts;
 use serde_json::{Value, json};
 
@@ -65,12 +65,12 @@ pub(crate) fn document(a: &Side, b: &Side, found: &Differences) -> Vec<Block> {
         let issued = texts::issued(header.issued_at, given(&certificate.number), certificate.issued);
         [vec![name.into(), passport], vec!["".into(), issued]]
     });
-    doc.extend([line(first), Block::Typed("\n".to_owned()), Block::Lines("", sides.collect())]);
+    doc.extend([line(first), Block::Gap, Block::Lines("", sides.collect())]);
     if !found.numbers.is_empty() {
         // Computed numbers say nothing beyond those from which they were computed, if these differ.
         let given: Vec<_> = found.numbers.iter().filter(|at| !is_computed(&at.key)).cloned().collect();
         let shown = if given.is_empty() { &found.numbers } else { &given };
-        doc.extend([Block::Typed("\n".to_owned()), line(texts::u_of("B - A")), numbers(shown)]);
+        doc.extend([Block::Gap, line(texts::u_of("B - A")), numbers(shown)]);
         let hidden = differ - shown.len();
         doc.push(say((hidden > 0).then(|| texts::not_shown(hidden, code("--format json")))));
     }

@@ -7,15 +7,15 @@ mod html;
 mod terminal;
 
 pub(crate) use crate::wording::words::{
-    Counted, Field, Statement, Words, code, given, in_unit, joined, listed, longest, marked, padded, probability,
-    strong, symbol, told,
+    Counted, Field, Statement, Words, code, either, given, in_unit, joined, listed, longest, marked, padded,
+    probability, range, strong, symbol, told, with,
 };
 pub(crate) use terminal::{said, sentence, text};
 
-use super::page::language::{Language, Languages, Text};
+use super::page::language::Languages;
 use super::picture::strips::{Axis, Key};
-use super::style::Outcome;
 use crate::wording::texts::words;
+use crate::wording::{Language, Outcome, Text};
 use maud::Markup;
 
 /// Medium that shows a block or a column.
@@ -44,8 +44,8 @@ pub(crate) enum Block {
     Lines(&'static str, Vec<Vec<Words>>),
     /// As [`Block::Lines`], but broken only at a terminal: programs that read the output find whole ids and file names.
     Whole(&'static str, Vec<Vec<Words>>),
-    /// Lines for a terminal alone, such as a chart in block characters.
-    Typed(String),
+    /// An empty line of a terminal.
+    Gap,
     /// Elements of a page alone, such as a figure, in its languages.
     Drawn(Drawn),
     /// On pages alone: what the marks of a picture mean.
@@ -74,8 +74,8 @@ pub(crate) fn say<W: Into<Words>>(all: impl IntoIterator<Item = W>) -> Block {
 }
 
 /// Names and values, in a terminal one sentence.
-pub(crate) fn fields(all: Vec<Field>) -> Block {
-    Block::Said(Statement::Fields(all))
+pub(crate) fn fields(all: impl IntoIterator<Item = Field>) -> Block {
+    Block::Said(Statement::Fields(all.into_iter().collect()))
 }
 
 impl From<Statement> for Block {

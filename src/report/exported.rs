@@ -7,9 +7,13 @@ use crate::text::record::Record;
 use crate::text::{Field, Node};
 use serde::Serialize;
 
-/// Result of a verification.
+/// A passport with the result of its verification, whose keys come after those of `show` and before those of `export`.
 #[derive(Serialize)]
-struct Outcome {
+struct Exported<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<&'a str>,
+    #[serde(flatten)]
+    shown: Option<Node>,
     verified: bool,
     sha256: String,
     not_asked: Vec<&'static str>,
@@ -17,30 +21,25 @@ struct Outcome {
     #[serde(skip_serializing_if = "Option::is_none")]
     register: Option<RegisterUsed>,
     checks: Vec<Check>,
+    #[serde(flatten)]
+    exported: Option<Node>,
 }
 
-impl Outcome {
+impl Exported<'_> {
     fn of(sha256: String, verification: &Verification, remarks: Vec<String>) -> Self {
         let (register, checks) = (verification.register().cloned(), verification.checks().to_vec());
+        let (file, shown, exported) = (None, None, None);
         let (verified, not_asked) = (verification.valid(), verification.not_asked());
-        Self { verified, sha256, not_asked, remarks, register, checks }
+        Self { file, shown, verified, sha256, not_asked, remarks, register, checks, exported }
     }
 }
 
-/// Returns a passport as JSON: `{file, verified, sha256, not_asked, remarks, register, checks, …}`, then the keys of the passport if every check
-/// passed. The objects in a list have the same keys, null where a value is absent, so that programs such as MATLAB read
-/// the list as an array.
+/// Returns a passport as JSON: `{file, verified, sha256, not_asked, remarks, register, checks, …}`, then the keys of the
+/// passport if every check passed. The objects in a list have the same keys, null where a value is absent, so that programs
+/// such as MATLAB read the list as an array.
 pub(crate) fn json(file: &str, sha256: String, verification: &Verification, remarks: Vec<String>) -> impl Serialize {
-    #[derive(Serialize)]
-    struct Exported<'a> {
-        file: &'a str,
-        #[serde(flatten)]
-        outcome: Outcome,
-        #[serde(flatten)]
-        content: Option<Node>,
-    }
-    let content = verification.passport().and_then(|passport| uniform_content(passport.content()));
-    Exported { file, outcome: Outcome::of(sha256, verification, remarks), content }
+    let exported = verification.passport().and_then(|passport| uniform_content(passport.content()));
+    Exported { file: Some(file), exported, ..Exported::of(sha256, verification, remarks) }
 }
 
 /// Returns a passport as JSON with the keys of its file, in their order, and then what [`json`] says of its
@@ -51,14 +50,7 @@ pub(crate) fn shown(
     verification: Option<&Verification>,
     remarks: Vec<String>,
 ) -> impl Serialize + use<> {
-    #[derive(Serialize)]
-    struct Shown {
-        #[serde(flatten)]
-        content: Option<Node>,
-        #[serde(flatten)]
-        outcome: Outcome,
-    }
-    Shown { content: content.write(), outcome: Outcome::of(sha256, verification.unwrap_or(&not_run()), remarks) }
+    Exported { shown: content.write(), ..Exported::of(sha256, verification.unwrap_or(&not_run()), remarks) }
 }
 
 /// Returns the keys of a passport and their values, with uniform keys in its lists.

@@ -1,17 +1,14 @@
 //! Results of several gyros on one stand as text: a line for each, and what they have in common.
 
-use super::calibration::{assumed, doubts, headline, not_included, not_stated, passport};
-use super::doc::{self, longest, marked, padded, said};
-use super::style::Outcome;
+use super::calibration::{Answer, assumed, doubts, not_included, not_stated, passport};
+use super::doc::{self, Block, longest, marked, padded};
 use crate::calibration::NotStated;
 use crate::calibration::remarks::{of_digits, without_reading};
 use crate::interface::calibrated::Done;
 use crate::passport::Check;
-use crate::report::{columns, style};
-use crate::text::printable;
 use crate::uncertainty::MonteCarlo;
 use crate::wording::texts::calibration as texts;
-use crate::wording::{Language, Text, Words, plain};
+use crate::wording::{Language, Outcome, Text, Words};
 
 /// Words for the outcomes, in the order in which they are counted; the last two are of gyros without a result.
 const WORDS: [Text; 7] = [
@@ -39,7 +36,8 @@ pub(crate) fn line(
     language: Language,
 ) -> String {
     let Done { calibration, document, readings, .. } = done;
-    let ((outcome, word), mut reasons) = headline(document, gyro_type);
+    let answer = Answer::of(document, gyro_type);
+    let mut reasons = answer.in_a_line();
     let is_invalid = calibration.is_invalid();
     if is_invalid {
         let causes = super::calibration::causes(calibration);
@@ -54,8 +52,8 @@ pub(crate) fn line(
     let doubts = doubts(done, trials).into_iter().skip(usize::from(is_invalid));
     let digits = calibration.digits.iter().flat_map(of_digits);
     let all = [reasons].into_iter().chain(doubts).chain(without_reading(readings)).chain(digits);
-    let words = plain(&doc::joined(all, "; ").plain(language));
-    format!("{}  {}  {words}\n", said(&of_input(outcome, word), language), printable(file))
+    let words = [of_input(answer.outcome, answer.word), doc::given(file), doc::joined(all, "; ")];
+    doc::typed(&[Block::Whole("", vec![vec![doc::joined(words, "  ")]])], language)
 }
 
 /// Outcomes of several gyros, and what the lines do not say because all or many have it in common.
@@ -75,7 +73,8 @@ impl Gyros {
 
     /// Adds the result of a gyro with a passport on which these `checks` were made.
     pub(crate) fn add(&mut self, done: &Done, gyro_type: Option<&str>, checks: &[Check]) {
-        self.outcomes.push(headline(&done.document, gyro_type).0);
+        let Answer { outcome, word, .. } = Answer::of(&done.document, gyro_type);
+        self.outcomes.push((outcome, word));
         self.passport.get_or_insert_with(|| passport(&done.document, checks));
         self.results += 1;
         for what in &done.missing {
@@ -93,33 +92,30 @@ impl Gyros {
 
     /// Returns the counts of the outcomes with the mark of the worst; nothing for a single gyro.
     pub(crate) fn summary(&self) -> String {
-        if self.outcomes.len() < 2 {
-            return String::new();
-        }
+        doc::typed(&self.counts().into_iter().collect::<Vec<_>>(), self.language)
+    }
+
+    fn counts(&self) -> Option<Block> {
         let counted = WORDS.into_iter().filter_map(|word| {
             let count = self.outcomes.iter().filter(|(_, found)| *found == word).count();
             (count > 0).then(|| format!("{count} {}", word.of(self.language).to_lowercase()))
         });
-        let counts = counted.collect::<Vec<_>>().join(", ");
         let has = |outcome: &Outcome| self.outcomes.iter().any(|(found, _)| found == outcome);
         let worst = [Outcome::Failed, Outcome::Undecided, Outcome::NotAsked].into_iter().find(has);
-        let words = texts::gyros(self.outcomes.len(), counts).plain(self.language);
-        style::marked(worst.unwrap_or(Outcome::Passed), &words) + "\n"
+        let words = marked(worst.unwrap_or(Outcome::Passed), texts::gyros(self.outcomes.len(), doc::listed(counted)));
+        (self.outcomes.len() > 1).then(|| Block::Whole("", vec![vec![words]]))
     }
 
     /// Returns the counts, the passport, what was assumed or not tested, and the inputs without a stated uncertainty.
     pub(crate) fn text(&self, meter_assumed: bool, gyro_type: Option<&str>) -> String {
-        let mut out = self.summary();
-        let Some(passport) = &self.passport else { return out };
+        let Some(passport) = &self.passport else { return self.summary() };
         let (of_all, of_some): (Vec<_>, Vec<_>) = self.missing.iter().partition(|(_, number)| *number == self.results);
         let of_all: Vec<NotStated> = of_all.into_iter().map(|(what, _)| what).collect();
         let of_some = (!of_some.is_empty()).then(|| {
             texts::not_stated_for_some(doc::joined(of_some.into_iter().map(|(what, _)| not_stated(what)), "; "))
         });
         let all = [passport.clone()].into_iter().chain(assumed(meter_assumed, gyro_type.is_some()).map(Words::from));
-        for words in all.chain(not_included(&of_all)).chain(of_some) {
-            columns::paragraph(&mut out, "", &plain(&words.plain(self.language)));
-        }
-        out
+        let all = all.chain(not_included(&of_all)).chain(of_some).map(doc::line);
+        doc::typed(&self.counts().into_iter().chain(all).collect::<Vec<_>>(), self.language)
     }
 }

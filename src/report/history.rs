@@ -8,12 +8,10 @@ use crate::history::drift::{CommonJump, DRIFTS, Drift, Jump, SUSPECTED, Series, 
 use crate::history::{History, PastCertificate, PastPassport};
 use crate::report::columns::decimals;
 use crate::report::doc::{Block, Rows, Words, given, heading, line, marked, probability, say, strong, symbol};
-use crate::report::page::Number;
 use crate::report::register::state;
-use crate::report::style::Outcome;
 use crate::wording::number::Probability;
 use crate::wording::texts::history as texts;
-use crate::wording::{Language, Text, plain};
+use crate::wording::{Language, Number, Outcome, Text, plain};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use jiff::tz::TimeZone;
@@ -88,23 +86,13 @@ fn rotated(jump: &CommonJump) -> Words {
 }
 
 fn passport_json(at: &PastPassport) -> serde_json::Value {
-    let row = &at.row;
-    json!({
-        "id": row.id,
-        "file": row.file,
-        "sha256": row.sha256,
-        "state": row.state,
-        "expired": row.expired,
-        "site": row.site,
-        "certificate": row.certificate,
-        "valid_until": row.valid_until,
-        "since": row.since,
-        "by": row.by,
-        "issued_at": row.issued_at,
-        "ended_at": at.ended_at,
-        "predecessor": at.predecessor,
-        "reason": at.reason,
-    })
+    let mut json = json!(at.row);
+    json["issued_at"] = json!(at.row.issued_at);
+    json["ended_at"] = json!(at.ended_at);
+    json["predecessor"] = json!(at.predecessor);
+    // That of the re-issue; that of a withdrawal is among the withdrawals.
+    json["reason"] = json!(at.reason);
+    json
 }
 
 fn certificate_json(at: &PastCertificate) -> serde_json::Value {
@@ -259,7 +247,7 @@ pub(crate) fn document(history: &History) -> Vec<Block> {
     let mut doc = vec![
         line(first),
         say([vec![sentence, ".".into()]]),
-        Block::Typed("\n".to_owned()),
+        Block::Gap,
         Block::Lines("  ", time_line(history)),
         heading(texts::SITES),
         Block::Lines("  ", stays.collect()),

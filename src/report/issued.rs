@@ -6,8 +6,6 @@
 use super::columns::csv_row;
 use super::doc::{Block, Words, given, line, listed, longest, marked, padded, said, typed};
 use super::gyros::of_input;
-use super::page::Number;
-use super::page::language::Language;
 use super::passport::accuracy;
 use crate::batch::{Failure, Outcome};
 use crate::calibration::prediction::NoiseGrowth;
@@ -16,10 +14,9 @@ use crate::interface::{self, Failed};
 use crate::passport::annotations::Absence;
 use crate::passport::issue::Remarks;
 use crate::text::printable::{json, json_line};
-use crate::text::words;
-use crate::text::{Printable, RefusalCause, name_of, printable};
-use crate::wording::Text;
+use crate::text::{Printable, RefusalCause, name_of, printable, words};
 use crate::wording::texts::{calibration, issued as texts};
+use crate::wording::{Language, Number, Text};
 use serde::Serialize;
 
 /// Largest number of orders for which the text is complete.
@@ -30,10 +27,11 @@ const REMARKS_TOLD: usize = 50;
 
 words! {
     /// The result of an order, in one word.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+    #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
     #[serde(rename_all = "lowercase")]
     pub(crate) enum State: key {
         /// The passport is new.
+        #[default]
         Issued = "issued",
         /// An equal passport was there, and was left.
         Unchanged = "unchanged",
@@ -57,17 +55,11 @@ impl State {
     }
 
     fn text(self) -> Text {
-        match self {
-            Self::Issued => texts::ISSUED,
-            Self::Unchanged => texts::UNCHANGED,
-            Self::Planned => texts::PLANNED,
-            Self::Skipped => texts::SKIPPED,
-            Self::Refused => texts::REFUSED,
-        }
+        texts::state!(Self, self)
     }
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub(crate) struct Report {
     /// Id of the passport; for a refused re-issue, the predecessor's file; for an input, its file.
     pub id: String,
@@ -95,8 +87,7 @@ pub(crate) struct Report {
 
 impl Report {
     pub(super) fn new(id: String, state: State) -> Self {
-        let (file, sha256, noise_growth, reason, passports, cause) = (None, None, None, None, None, None);
-        Self { id, state, file, sha256, noise_growth, absences: Vec::new(), reason, passports, cause }
+        Self { id, state, ..Self::default() }
     }
 
     /// Creates the report of an order of a batch.
@@ -282,7 +273,7 @@ impl Reports {
     fn csv(&self, report: &Report) -> String {
         let head = if self.count == 1 { CSV_HEADER } else { "" };
         let texts = [&report.file, &report.sha256, &report.reason].map(|text| text.as_deref().unwrap_or_default());
-        head.to_owned() + &csv_row([report.state.key(), &report.id].into_iter().chain(texts))
+        head.to_owned() + &csv_row(",", [report.state.key(), &report.id].into_iter().chain(texts))
     }
 
     /// Returns the text to write at the end.

@@ -16,10 +16,9 @@ mod worksheet;
 
 use crate::passport::{Content, Verification};
 use crate::report::doc::{Block, given, heading, line, marked, say, strong};
-use crate::report::page::language::Text;
-use crate::report::style::Outcome;
 use crate::report::verdict;
 use crate::wording::texts::{passport as texts, verdict as verdicts};
+use crate::wording::{Outcome, Text};
 
 /// Returns the sections: anchor, heading, content.
 pub(crate) fn sections(content: &Content) -> [(&'static str, Text, Vec<Block>); 4] {

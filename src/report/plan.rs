@@ -2,8 +2,6 @@
 
 use super::calibration::with_key;
 use super::doc::{Block, On, Rows, Words, code, given, heading, in_unit, joined, line, listed, marked, say, symbol};
-use super::page::Number;
-use super::style::Outcome;
 use crate::calibration::Parameter;
 use crate::calibration::parameter::{symbols, unit};
 use crate::calibration::verdict::COVERAGE_FACTOR;
@@ -13,8 +11,8 @@ use crate::plan::sensitivity::Effect;
 use crate::plan::{Evaluation, Plan, Visited};
 use crate::text::number::decimal;
 use crate::uncertainty::dominant::unit_of;
-use crate::wording::Text;
 use crate::wording::texts::{compass, plan as texts, units};
+use crate::wording::{Number, Outcome, Text};
 
 /// Rise of ω_0 during the run for which its effect is stated, °/h.
 const DRIFT_DEG_PER_H: f64 = 0.01;
@@ -32,7 +30,8 @@ pub(crate) fn document(
 ) -> Vec<Block> {
     let failed = |words: Words| line(marked(Outcome::Failed, words));
     let gyro_type = gyro.r#type.as_str();
-    let prevented = gravity_prevents_a_pass(plan, gyro);
+    // The guard band that the uncertainty of local g alone makes exceeds a tolerance.
+    let prevented = COVERAGE_FACTOR * gyro.decision_rule().guard_band() * plan.gravity_over_tolerance > 1.0;
     let mut turn_ons = turn_ons(plan).map(line);
     let mut doc = Vec::new();
     if let Some(sentence) = no_gyro_can_pass(plan, gyro) {
@@ -65,7 +64,7 @@ pub(crate) fn document(
     doc.extend(positions(plan));
     doc.extend(uncertainties(plan));
     doc.extend(common_errors(plan));
-    doc.push(Block::Typed("\n".to_owned()));
+    doc.push(Block::Gap);
     doc.extend(turn_ons.into_iter().chain(remarks(plan, prevented, site_azimuth_deg).into_iter().map(line)));
     doc
 }
@@ -107,9 +106,8 @@ fn positions(plan: &Plan) -> [Block; 3] {
         Visited { theta_deg, phi_deg, .. } => format!("({theta_deg},{phi_deg})"),
     };
     let names = if is_certified { "(i,j)" } else { "(θ,φ)" };
-    let blank = || Block::Typed("\n".to_owned());
     let order = line(texts::order(names, listed(plan.order.places.iter().map(visit))));
-    [Block::Within("", vec![blank(), table.called(texts::VISITS), blank()]), order, blank()]
+    [Block::Within("", vec![Block::Gap, table.called(texts::VISITS), Block::Gap]), order, Block::Gap]
 }
 
 fn uncertainties(plan: &Plan) -> [Block; 2] {
@@ -168,11 +166,6 @@ pub(crate) fn percent(share: f64) -> Number {
     }
 }
 
-/// Which effects a sentence names.
-type Named = fn(&Effect) -> bool;
-/// The sentence.
-type Said = fn(Words) -> Words;
-
 /// The parameters of which no value can be found within the tolerance, if there are any.
 fn no_gyro_can_pass(plan: &Plan, gyro: &GyroType) -> Option<Words> {
     let of_tolerance = |parameter: &Parameter| {
@@ -183,11 +176,6 @@ fn no_gyro_can_pass(plan: &Plan, gyro: &GyroType) -> Option<Words> {
     let beyond: Vec<Parameter> = beyond.collect();
     let no_other = if plan.exhaustive { Words::from(texts::NO_OTHER) } else { "".into() };
     (!beyond.is_empty()).then(|| texts::no_gyro_can_pass(given(gyro.r#type.as_str()), symbols(beyond), no_other))
-}
-
-/// Returns `true` if the guard band that the uncertainty of local g alone makes exceeds a tolerance.
-fn gravity_prevents_a_pass(plan: &Plan, gyro: &GyroType) -> bool {
-    COVERAGE_FACTOR * gyro.decision_rule().guard_band() * plan.gravity_over_tolerance > 1.0
 }
 
 /// What the noise between turn-ons contributes, if it is much.
@@ -204,7 +192,8 @@ fn remarks(plan: &Plan, prevented: bool, site_azimuth_deg: f64) -> Vec<Words> {
     if plan.beyond_range > 0 {
         remarks.push(texts::beyond_range(code("meter.range_ma"), plan.beyond_range));
     }
-    let kinds: [(Said, Named); 3] = [
+    type Kind = (fn(Words) -> Words, fn(&Effect) -> bool);
+    let kinds: [Kind; 3] = [
         (texts::hidden, |effect| effect.matters() && effect.is_hidden()),
         (texts::shown, |effect| effect.matters() && !effect.is_hidden()),
         (texts::no_effect, |effect| !effect.matters()),

@@ -7,8 +7,8 @@ use crate::report::difference;
 use crate::report::doc::{Block, Words, code, given, line, listed, marked, say};
 use crate::report::issued::{self, Report, State};
 use crate::report::register::state;
-use crate::report::style::Outcome;
 use crate::text::{name_of, shown};
+use crate::wording::Outcome;
 use crate::wording::texts::{calibration, issued as texts};
 use serde_json::{Value, json};
 use std::path::Path;
@@ -65,15 +65,14 @@ pub(crate) fn document(found: &Recertified, dry_run: bool) -> Vec<Block> {
     let (of_check, count) = (change::word(checked), reports(found).count());
     let certificate = texts::new_certificate(number.clone(), old.clone(), of_check, count);
     let name = format!("{} {}: ", stand.stand.model, stand.stand.serial);
-    let blank = || Block::Typed("\n".to_owned());
-    let mut doc = vec![line(vec![marked(outcome, work), "  ".into(), given(name), certificate]), blank()];
+    let mut doc = vec![line(vec![marked(outcome, work), "  ".into(), given(name), certificate]), Block::Gap];
     doc.extend(certification::certification(&found.certification));
-    doc.push(blank());
+    doc.push(Block::Gap);
     doc.extend(certification::comparison(&found.comparison, false));
     doc.extend(in_question(found));
-    doc.push(blank());
+    doc.push(Block::Gap);
     doc.extend(change::deviations(&found.old_number, &found.changes));
-    doc.push(blank());
+    doc.push(Block::Gap);
     let done = |verb| match dry_run {
         true => issued::done(None, texts::PLANNED),
         false => issued::done(Some(true), verb),

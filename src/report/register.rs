@@ -4,11 +4,10 @@ use crate::folder::overview::{Alarm, AlarmCode, Overview};
 use crate::folder::renewal::{Renewed, Withdrawn};
 use crate::register::{Row, State};
 use crate::report::columns;
-use crate::report::doc::{Block, Words, given, line, listed, longest, marked, padded};
-use crate::report::style::Outcome;
+use crate::report::doc::{Block, Words, given, joined, line, listed, longest, marked, padded};
 use crate::text::shown;
-use crate::wording::Text;
 use crate::wording::texts::{checks, register as texts};
+use crate::wording::{Outcome, Text};
 use serde_json::{Value, json};
 
 /// The states of passports, in the order in which they are counted.
@@ -36,22 +35,8 @@ fn why(row: &Row) -> Words {
 
 /// The alarm with its code and its file; the detail of the library is English.
 pub(crate) fn alarm(alarm: &Alarm) -> Words {
-    let detail = match alarm.code {
-        AlarmCode::NotListed => texts::ALARM_NOT_LISTED,
-        AlarmCode::Differs => texts::ALARM_DIFFERS,
-        AlarmCode::Missing => texts::ALARM_MISSING,
-        AlarmCode::NoRegister => texts::ALARM_NO_REGISTER,
-        AlarmCode::RegisterUnknown => texts::ALARM_UNKNOWN,
-        AlarmCode::RegisterStale => texts::ALARM_STALE,
-        AlarmCode::RegisterOlder => texts::ALARM_OLDER,
-        AlarmCode::RegisterContradicted => texts::ALARM_CONTRADICTED,
-        AlarmCode::Certificates => texts::ALARM_CERTIFICATES,
-        AlarmCode::Misplaced => texts::ALARM_MISPLACED,
-        AlarmCode::RevocationList => texts::ALARM_REVOCATION_LIST,
-        AlarmCode::Unreadable => texts::ALARM_UNREADABLE,
-    };
     let file = alarm.file.as_ref().map_or_else(|| "".into(), |file| Words::All(vec![given(file), ": ".into()]));
-    let detail = Words::OfLibrary(alarm.detail.clone(), Box::new(detail.into()));
+    let detail = Words::OfLibrary(alarm.detail.clone(), Box::new(texts::alarm_code!(AlarmCode, alarm.code).into()));
     marked(Outcome::Failed, texts::alarm(alarm.code.key(), file, detail))
 }
 
@@ -81,11 +66,8 @@ pub(crate) fn document(overview: &Overview, listed_rows: usize) -> Vec<Block> {
         for row in &stand.rows {
             let is_used = Some(row.is_in_force());
             let file = row.file.as_ref().map_or_else(|| texts::NO_FILE.into(), given);
-            let state = Words::All(vec![
-                "  ".into(),
-                marked(is_used, padded(state(row), |language| longest(STATES, language))),
-            ]);
-            lines.push(vec![state, Words::All(vec![given(&row.id), "  ".into(), file])]);
+            let state = marked(is_used, padded(state(row), |language| longest(STATES, language)));
+            lines.push(vec![Words::All(vec!["  ".into(), state]), joined([given(&row.id), file], "  ")]);
             if row.by.is_some() || row.reason.is_some() || row.valid_until.is_some() {
                 lines.push(vec!["".into(), why(row)]);
             }
@@ -121,7 +103,7 @@ pub(crate) fn csv(overview: &Overview) -> String {
                 Some(&row.sha256),
                 row.file.as_deref(),
             ];
-            out += &columns::csv_row(cells.into_iter().map(|cell| cell.unwrap_or("")));
+            out += &columns::csv_row(",", cells.into_iter().map(|cell| cell.unwrap_or("")));
         }
     }
     out
@@ -149,7 +131,7 @@ pub(crate) fn renewed(renewed: &[Renewed], dry_run: bool) -> Block {
 }
 
 fn done(dry_run: bool, what: Text) -> Words {
-    if dry_run { marked(None, texts::PLANNED) } else { marked(Some(true), what) }
+    if dry_run { marked(Outcome::NotAsked, texts::PLANNED) } else { marked(Some(true), what) }
 }
 
 /// Returns the withdrawn passports as JSON: `[{register, sequence, revoked, alarms}]`.
@@ -167,10 +149,9 @@ pub(crate) fn withdrawn(withdrawn: &[Withdrawn], dry_run: bool) -> Block {
     let lines = withdrawn.iter().flat_map(|one| {
         let register = || texts::in_register(one.sequence);
         let file = || shown(&one.register).to_string();
-        one.ids.iter().map(move |id| {
-            let words = vec![given(id), "  ".into(), register(), "  ".into(), file().into()];
-            vec![done(dry_run, texts::WITHDRAWN), words.into()]
-        })
+        one.ids
+            .iter()
+            .map(move |id| vec![done(dry_run, texts::WITHDRAWN), joined([given(id), register(), file().into()], "  ")])
     });
     Block::Whole("", lines.collect())
 }

@@ -1,11 +1,11 @@
 //! Reference cases as text for a terminal and as JSON.
 
-use crate::report::{columns, style};
+use crate::report::columns::decimals;
+use crate::report::doc::{Block, Rows, line, marked, say, typed};
 use crate::selftest::Case;
-use crate::wording::number::{Number, localised};
-use crate::wording::{Language, plain};
+use crate::wording::number::localised;
+use crate::wording::{Language, Number, plain};
 use serde_json::{Value, json};
-use std::fmt::Write;
 
 /// Returns the cases as JSON:
 /// `{passed, failed, cases: [{example, quantity, source, expected, tolerance, found, digits, passed}]}`.
@@ -27,17 +27,32 @@ pub(crate) fn text(cases: &[Case]) -> String {
         0 => ("PASSED", format!("All {} values agree with", cases.len())),
         failed => ("FAILED", format!("{failed} of {} values differ from", cases.len())),
     };
-    let mut out = format!("{}  {words} their references.\n", style::marked(Some(failed == 0), word));
+    let mut doc = vec![line(vec![marked(Some(failed == 0), word), format!("  {words} their references.").into()])];
     for group in cases.chunk_by(|one, other| one.example == other.example) {
-        let Some(first) = group.first() else { continue };
-        let _ = writeln!(out, "\n{}", first.example);
-        let digits = group.iter().any(|case| case.digits.is_some());
-        let last = if digits { "digits" } else { "tolerance" };
-        let rows = group.iter().map(|case| row(case, digits));
-        columns::table(&mut out, 1, &["", "expected", "found", last, ""], rows);
-        columns::paragraph(&mut out, "  ", &format!("Source: {}.", sources(group)));
+        doc.extend([Block::Gap, line(group[0].example), table(group), say([format!("Source: {}.", sources(group))])]);
     }
-    out
+    typed(&doc, Language::English)
+}
+
+fn table(group: &[Case]) -> Block {
+    let has_digits = group.iter().any(|case| case.digits.is_some());
+    let two_digits = |value: f64| plain(&Number::scientific(value, 2).text(Language::English));
+    let number = |case: &Case, value: f64| match has_digits {
+        true => plain(&localised(&format!("{value:.14e}"), Language::English)),
+        false if case.expected == 0.0 => two_digits(value),
+        // One digit more than the tolerance affects.
+        false => format!("{value:.*}", decimals(case.tolerance)),
+    };
+    let precision =
+        |case: &Case| case.digits.map_or_else(|| two_digits(case.tolerance), |digits| format!("{digits:.1}"));
+    let rows = Rows::of(group, "")
+        .named("", |case| case.quantity.clone())
+        // As printed in the source: its digits show its precision.
+        .column("expected", |case| if has_digits { number(case, case.expected) } else { case.expected.to_string() })
+        .column("found", |case| number(case, case.found))
+        .column(if has_digits { "digits" } else { "tolerance" }, precision)
+        .column("", |case| marked(Some(case.passed()), if case.passed() { "ok" } else { "FAILED" }));
+    Block::Table(rows.table)
 }
 
 /// Returns every source once. Several places in one document follow one mention of the document.
@@ -51,19 +66,4 @@ fn sources(group: &[Case]) -> String {
         same.iter().take(1).copied().chain(rest.map(|(_, place)| place)).collect::<Vec<_>>().join(", ")
     });
     words.collect::<Vec<_>>().join("; ")
-}
-
-fn row(case: &Case, digits: bool) -> Vec<String> {
-    let two_digits = |value: f64| plain(&Number::scientific(value, 2).text(Language::English));
-    let number = |value: f64| match digits {
-        true => plain(&localised(&format!("{value:.14e}"), Language::English)),
-        false if case.expected == 0.0 => two_digits(value),
-        // One digit more than the tolerance affects.
-        false => format!("{value:.*}", columns::decimals(case.tolerance)),
-    };
-    // As printed in the source: its digits show its precision.
-    let expected = if digits { number(case.expected) } else { format!("{}", case.expected) };
-    let last = case.digits.map_or_else(|| two_digits(case.tolerance), |digits| format!("{digits:.1}"));
-    let verdict = style::marked(Some(case.passed()), if case.passed() { "ok" } else { "FAILED" });
-    vec![case.quantity.clone(), expected, number(case.found), last, verdict]
 }

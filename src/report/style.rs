@@ -15,19 +15,17 @@ pub(crate) fn faint(words: &str) -> String {
     styled(Style::new().dimmed(), words)
 }
 
-pub(crate) fn good(words: &str) -> String {
-    styled(AnsiColor::Green.on_default().bold(), words)
+impl From<bool> for Outcome {
+    /// Converts the result of a check.
+    fn from(passed: bool) -> Self {
+        if passed { Self::Passed } else { Self::Failed }
+    }
 }
 
-/// Formats a bad result or a warning.
-pub(crate) fn bad(words: &str) -> String {
-    styled(AnsiColor::Red.on_default().bold(), words)
-}
-
-impl From<Option<bool>> for Outcome {
-    /// Converts the result of a check; `None` if it was not asked.
-    fn from(passed: Option<bool>) -> Self {
-        passed.map_or(Self::NotAsked, |passed| if passed { Self::Passed } else { Self::Failed })
+impl<T: Into<Self>> From<Option<T>> for Outcome {
+    /// Converts the result of a check or a decision; `None` if it was not asked, or if no statement is made.
+    fn from(result: Option<T>) -> Self {
+        result.map_or(Self::NotAsked, Into::into)
     }
 }
 
@@ -41,19 +39,12 @@ impl From<Decision> for Outcome {
     }
 }
 
-impl Outcome {
-    /// Returns the outcome of a parameter; `None` if no statement is made.
-    pub(crate) fn of(decision: Option<Decision>) -> Self {
-        decision.map_or(Self::NotAsked, Self::from)
-    }
-}
-
 pub(crate) fn marked(outcome: impl Into<Outcome>, words: &str) -> String {
     let outcome = outcome.into();
     let words = format!("{} {words}", outcome.mark());
     match outcome {
-        Outcome::Passed => good(&words),
-        Outcome::Failed => bad(&words),
+        Outcome::Passed => styled(AnsiColor::Green.on_default().bold(), &words),
+        Outcome::Failed => styled(AnsiColor::Red.on_default().bold(), &words),
         Outcome::Undecided | Outcome::NotAsked => words,
     }
 }
@@ -81,7 +72,7 @@ mod tests {
 
     #[test]
     fn every_emphasis_goes_out() {
-        for text in [heading("a"), faint("b"), good("c"), bad("d"), marked(Some(true), "e"), marked(Some(false), "f")] {
+        for text in [heading("a"), faint("b"), marked(true, "e"), marked(false, "f")] {
             assert_eq!(outgoing(&text), text);
         }
     }

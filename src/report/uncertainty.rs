@@ -5,15 +5,13 @@ use crate::calibration::verdict::{ParameterVerdict, Verdict};
 use crate::calibration::{CalibrationDocument, Parameter};
 use crate::gyro::GyroType;
 use crate::report::calibration::{parameters, unit_at_type};
-use crate::report::doc::{self, Block, On, Rows, Words, heading, in_unit, marked, say, symbol, told};
-use crate::report::page::Language;
-use crate::report::page::number::Number;
+use crate::report::doc::{self, Block, On, Rows, Words, either, heading, in_unit, joined, marked, say, symbol, told};
 use crate::report::picture::strips::{self, Key};
-use crate::report::style::Outcome;
 use crate::uncertainty::dominant::{Dominant, of_input};
 use crate::uncertainty::monte_carlo::Distribution;
 use crate::uncertainty::{Budget, Contribution, MonteCarlo, ParameterBudget};
 use crate::wording::texts::{calibration as texts, units, words};
+use crate::wording::{Language, Number, Outcome};
 
 /// Effective degrees of freedom above which ∞ is printed.
 const MANY: f64 = 1e4;
@@ -52,11 +50,7 @@ pub(crate) fn budget(budget: &Budget, gyro: Option<&GyroType>, document: &Calibr
     };
     let remedy = Dominant::of(budget, gyro.map(|gyro| &gyro.tolerance));
     let (large, small): (Vec<_>, Vec<_>) = kinds(budget).into_iter().partition(|kind| kind.share >= LEAST_SHOWN);
-    let names = small
-        .iter()
-        .enumerate()
-        .flat_map(|(place, kind)| (place > 0).then(|| Words::from("; ")).into_iter().chain([kind.cause.kind_words()]));
-    let names: Vec<Words> = names.collect();
+    let names = joined(small.iter().map(|kind| kind.cause.kind_words()), "; ");
     let notes = [
         Some(texts::BUDGET_DASH.into()),
         document.scatter.map(|_| texts::BUDGET_MEANS.into()),
@@ -213,7 +207,7 @@ pub(crate) fn monte_carlo(found: &MonteCarlo) -> Vec<Block> {
     let caption = texts::monte_carlo_caption(told(Number::fixed(found.trials as f64, 0)), found.seed);
     let some = (1..found.parameters.len()).contains(&decided);
     let failed = told(Number::fixed(found.failed as f64, 0));
-    let warning = |words: Words| vec![Words::Either(Box::new("".into()), Box::new("WARNING: ".into())), words];
+    let warning = |words: Words| vec![either("", "WARNING: "), words];
     vec![
         parameters(&rows).captioned(texts::MONTE_CARLO, caption),
         say(some.then_some(texts::FIRST_ORDER_UNDECIDED)),

@@ -1,13 +1,11 @@
 //! Answer of `verify`, and the words of every check.
 
-use super::doc::{Block, Counted, Words, given, line, listed, longest, marked, padded, say};
-use super::page::Number;
-use super::style::Outcome;
+use super::doc::{Block, Counted, Words, either, given, joined, line, listed, longest, marked, padded, say};
 pub(crate) use crate::interface::Verdict;
 use crate::passport::place::Nearness;
 use crate::passport::{Check, CheckName, Code, Content, Dated, Question, RegisterUsed, Verification};
-use crate::wording::Text;
 use crate::wording::texts::{checks, units, verdict as texts};
+use crate::wording::{Number, Outcome, Text};
 use jiff::Timestamp;
 
 /// The answer for a file, what it is based on, and a line for each of its checks.
@@ -60,8 +58,8 @@ pub(crate) fn not_read(verdict: &Verdict) -> [Block; 2] {
 
 fn first_line(verdict: &Verdict) -> Block {
     let id = verdict.id.as_ref().map_or_else(|| texts::NO_ID.into(), given);
-    let first = vec![answer(verdict.valid, &verdict.checks), "  ".into(), id, "  ".into(), given(&verdict.file)];
-    Block::Whole("", vec![vec![first.into()]])
+    let first = joined([answer(verdict.valid, &verdict.checks), id, given(&verdict.file)], "  ");
+    Block::Whole("", vec![vec![first]])
 }
 
 /// The counts of the answers for several files, of which `unread` could not be read; nothing for a single file.
@@ -110,14 +108,11 @@ fn named(checks: &[Check], code: Code) -> Vec<&'static str> {
 fn counts(checks: &[Check]) -> Words {
     let failed = checks.iter().filter(|check| check.passed() == Some(false)).map(|check| check.name.as_str());
     let failed: Vec<&str> = failed.collect();
-    let count: [(usize, Counted); 3] = [
-        (checks.iter().filter(|check| check.passed().is_some()).count(), texts::checked),
-        (named(checks, Code::NotRun).len(), texts::not_run),
-        (named(checks, Code::NotAsked).len(), texts::not_asked),
-    ];
-    let first = std::iter::once(&count[0]);
-    let counts =
-        listed(first.chain(count[1..].iter().filter(|(count, _)| *count > 0)).map(|(count, words)| words(*count)));
+    let made = checks.iter().filter(|check| check.passed().is_some()).count();
+    let others: [(usize, Counted); 2] =
+        [(named(checks, Code::NotRun).len(), texts::not_run), (named(checks, Code::NotAsked).len(), texts::not_asked)];
+    let others = others.into_iter().filter(|(count, _)| *count > 0).map(|(count, words)| words(count));
+    let counts = listed([texts::checked(made)].into_iter().chain(others));
     if failed.is_empty() { counts } else { texts::failed(listed(failed), counts) }
 }
 
@@ -130,11 +125,7 @@ pub(crate) fn counts_with_names(checks: &[Check]) -> Words {
 
 /// The result of a check in a word.
 pub(crate) fn word(passed: Option<bool>) -> Text {
-    match passed {
-        Some(true) => checks::PASSED,
-        None => checks::NOT_ASKED,
-        Some(false) => checks::FAILED,
-    }
+    passed.map_or(checks::NOT_ASKED, |passed| if passed { checks::PASSED } else { checks::FAILED })
 }
 
 /// What a check found in a passport with this `content`, by which register.
@@ -186,17 +177,7 @@ pub(crate) fn said(
 
 /// What the register says, with its number, time, SHA-256 and freshness.
 fn of_register(code: Code, register: Option<&RegisterUsed>) -> Words {
-    let text = match code {
-        Code::Ok => checks::REGISTER_OK,
-        Code::Superseded => checks::REGISTER_SUPERSEDED,
-        Code::Moved => checks::REGISTER_MOVED,
-        Code::Withdrawn => checks::REGISTER_WITHDRAWN,
-        Code::NotListed => checks::REGISTER_NOT_LISTED,
-        Code::RegisterStale => checks::REGISTER_STALE,
-        Code::RegisterOlder => checks::REGISTER_OLDER,
-        Code::RegisterContradicted => checks::REGISTER_CONTRADICTED,
-        _ => checks::REGISTER_UNKNOWN,
-    };
+    let text = checks::by_register!(Code, code);
     let Some(used) = register else { return text.into() };
     let fresh = used.fresh_until.map_or_else(|| "".into(), checks::register_fresh);
     let used = checks::register_used(used.sequence, time(used.issued_at), &used.sha256[..16], fresh);
@@ -205,7 +186,7 @@ fn of_register(code: Code, register: Option<&RegisterUsed>) -> Words {
 
 /// A time, in a terminal as options take it.
 fn time(time: Timestamp) -> Words {
-    Words::Either(Box::new(Words::Time(time)), Box::new(time.into()))
+    either(Words::Time(time), time)
 }
 
 fn validity(content: &Content, code: Code) -> Words {

@@ -10,7 +10,8 @@ pub(crate) mod spacing;
 pub(crate) mod texts;
 pub(crate) mod words;
 
-pub(crate) use words::Words;
+pub(crate) use number::Number;
+pub(crate) use words::{Outcome, Words};
 
 use jiff::tz::TimeZone;
 use jiff::{Timestamp, civil::Date};

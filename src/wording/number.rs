@@ -119,16 +119,8 @@ impl Number {
 
     /// Creates a number with the shortest decimal, but at most `decimals` decimals, and no zeros at their end.
     pub(crate) fn at_most(value: f64, decimals: usize) -> Self {
-        let exact = Self::exact(value);
-        if exact.decimals() <= decimals {
-            return exact;
-        }
-        let rounded = Self::fixed(value, decimals);
-        let digits = match rounded.digits.contains('.') {
-            true => rounded.digits.trim_end_matches('0').trim_end_matches('.'),
-            false => &rounded.digits,
-        };
-        Self::new(value, digits.to_owned())
+        let rounded = format!("{value:.decimals$}").parse().unwrap_or(value);
+        Self { value, ..Self::exact(rounded) }
     }
 
     /// Creates the number of a standard uncertainty: two significant digits, or a plain 0.
@@ -152,15 +144,10 @@ impl Number {
         if place <= 0 {
             return Self::fixed(value, place.unsigned_abs() as usize);
         }
-        let digits = match usize::try_from(number::exponent_of(&format!("{value:e}")) - place) {
-            Ok(digits) => scaled(&format!("{value:.digits$e}")),
-            // Values smaller than one unit of the place: up to half a unit they are rounded to 0.
-            Err(_) if value.abs() > 0.5 * libm::pow(10.0, f64::from(place)) => {
-                format!("{}1{:0>2$}", if value < 0.0 { "-" } else { "" }, "", place as usize)
-            }
-            Err(_) => "0".to_owned(),
-        };
-        Self::new(value, without_minus_zero(digits))
+        // Rounded once: the quotient is as exact as the value.
+        let multiple = format!("{:.0}", value / libm::pow(10.0, f64::from(place)));
+        let zeros = if multiple.trim_start_matches('-') == "0" { 0 } else { place as usize };
+        Self::new(value, without_minus_zero(multiple + &"0".repeat(zeros)))
     }
 
     /// Returns a coordinate without its sign, and its hemisphere.
@@ -190,14 +177,6 @@ impl Number {
 
 /// A probability as the value of a text, with its relation: `p = 0.012`, `p < 10⁻⁶`.
 pub(crate) struct Probability(pub f64);
-
-/// Converts scientific notation with fewer decimals than its exponent to plain digits: `1.23e5` to `123000`.
-fn scaled(scientific: &str) -> String {
-    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((scientific, "0"));
-    let (whole, decimals) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-    let zeros = exponent.parse::<usize>().unwrap_or(0).saturating_sub(decimals.len());
-    format!("{whole}{decimals}{:0>zeros$}", "")
-}
 
 fn without_minus_zero(digits: String) -> String {
     match digits.strip_prefix('-') {

@@ -50,7 +50,7 @@ fn belong(before: &str, after: &str) -> bool {
 }
 
 /// Returns `true` for a capital letter with a point, as in «М. П.».
-fn is_initial(word: &str) -> bool {
+pub(crate) fn is_initial(word: &str) -> bool {
     let mut letters = word.chars();
     matches!((letters.next(), letters.next()), (Some(letter), Some('.')) if letter.is_uppercase())
 }

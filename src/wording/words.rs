@@ -65,8 +65,6 @@ pub(crate) enum Words {
     Others(Box<Words>),
     /// The mark of an outcome on telephones, which show the first column and few others.
     OnTelephones(Outcome),
-    /// Words for screen readers only.
-    Unseen(Box<Words>),
     /// Words in an element of this class.
     Styled(&'static str, Box<Words>),
     /// Words as in a cell, also where a page has the name of something: the languages side by side.
@@ -148,6 +146,25 @@ pub(crate) fn code(words: impl Into<String>) -> Words {
 
 pub(crate) fn strong(words: impl Into<Words>) -> Words {
     Words::Strong(Box::new(words.into()))
+}
+
+/// Words on a page only, and words in a terminal only.
+pub(crate) fn either(page: impl Into<Words>, terminal: impl Into<Words>) -> Words {
+    Words::Either(Box::new(page.into()), Box::new(terminal.into()))
+}
+
+/// A value, and after it another quantity that belongs to it, if that is known: `12.4, u = 1.2`.
+pub(crate) fn with(value: impl Into<Words>, name: &str, other: Option<impl Into<Words>>) -> Words {
+    let other = other.map(|other| [", ".into(), symbol(name), "\u{a0}=\u{a0}".into(), other.into()]);
+    [value.into()].into_iter().chain(other.into_iter().flatten()).collect::<Vec<_>>().into()
+}
+
+/// The least and the largest of some values as they are printed; one of them if both are printed alike.
+pub(crate) fn range(values: impl Iterator<Item = f64>, printed: impl Fn(f64) -> Number) -> Vec<Number> {
+    let [least, most] = values.fold([f64::INFINITY, 0.0], |[least, most], value| [value.min(least), value.max(most)]);
+    let range = [least, most].map(printed);
+    let [least, most] = range.each_ref().map(|number| number.text(Language::English));
+    range.into_iter().skip(usize::from(least == most)).collect()
 }
 
 /// A word as wide as the longest of these.
@@ -283,7 +300,7 @@ impl Words {
                 Language::Russian => grouped(*count, "\u{a0}"),
             },
             Self::Capital(words) => super::capital(&written(words)),
-            Self::Others(_) | Self::OnTelephones(_) | Self::Unseen(_) | Self::Blank => String::new(),
+            Self::Others(_) | Self::OnTelephones(_) | Self::Blank => String::new(),
             Self::All(all) => all.iter().map(written).collect(),
         }
     }

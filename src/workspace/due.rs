@@ -131,7 +131,7 @@ pub(crate) fn lines(all: &[Due], days: i32) -> Vec<Block> {
 /// spreadsheet program opens it; no cell begins as a formula does.
 pub(crate) fn csv(all: &[Due], language: Language) -> String {
     let separator = if language == Language::Russian { ";" } else { "," };
-    let row = |cells: [String; 7]| columns::csv_row_by(separator, cells.iter().map(String::as_str));
+    let row = |cells: [String; 7]| columns::csv_row(separator, cells.iter().map(String::as_str));
     let start = if language == Language::Russian { "\u{FEFF}" } else { "" };
     let rows = all.iter().map(|due| row(due.cells()));
     [start.to_owned(), row(COLUMNS.map(str::to_owned))].into_iter().chain(rows).collect()

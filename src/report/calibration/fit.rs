@@ -1,48 +1,35 @@
 //! Agreement of the readings with the fit, possible causes of disagreement, and errors that the residuals do not show.
 
 use super::Report;
-use crate::calibration::chi_square::ALARM;
-use crate::calibration::chi_square::FEW_DEGREES;
+use crate::calibration::chi_square::{ALARM, FEW_DEGREES};
 use crate::calibration::document::{ResidualDocument, ResultDocument};
 use crate::calibration::remarks::{Weight, scatter};
 use crate::calibration::{Calibration, Finding, NotStated};
-use crate::report::doc::{Block, On, Rows, Words, fields, in_unit, joined, probability, say, symbol};
-use crate::report::page::language::Text;
-use crate::report::page::number::Number;
+use crate::report::doc::{Block, On, Rows, Words, either, fields, in_unit, joined, probability, say, symbol};
 use crate::report::picture::strips::{AXES, Residuals};
-use crate::wording::texts::causes as names;
 use crate::wording::texts::{calibration as texts, finding as words, pictures, units};
+use crate::wording::{Number, Text};
 
-pub(super) fn section(of: &Report) -> Vec<Block> {
+/// A brief section has what is notable about the fit, and the residuals of readings that do not fit.
+pub(super) fn section(of: &Report, is_brief: bool) -> Vec<Block> {
     let Some(result) = of.adopted() else { return Vec::new() };
     let calibration = of.calibration;
+    let scatter = scatter(calibration).into_iter().filter(|(weight, _)| !is_brief || *weight == Weight::Remark);
+    let scatter = scatter.map(|(_, statement)| statement.into());
     if result.chi_square.degrees_of_freedom == 0 {
-        let scatter = scatter(calibration).into_iter().map(|(_, statement)| statement.into());
         return [say([texts::NOT_JUDGED])].into_iter().chain(scatter).collect();
     }
-    let answer = calibration.adopted();
-    let changed = answer.is_some_and(|found| found.chi_square.is_changed_by_estimates());
-    let mut doc = vec![chi_square(result), say(changed.then_some(texts::OF_ESTIMATES))];
-    doc.extend(scatter(calibration).into_iter().map(|(_, statement)| statement.into()));
-    doc.extend((!calibration.is_invalid()).then(|| causes(calibration)).into_iter().flatten());
-    doc.push(say(super::methods::agreement(of)));
+    let mut doc: Vec<Block> = [chi_square(result)].into_iter().chain(scatter).collect();
+    if !is_brief {
+        let changed = calibration.adopted().is_some_and(|found| found.chi_square.is_changed_by_estimates());
+        doc.insert(1, say(changed.then_some(texts::OF_ESTIMATES)));
+        doc.extend((!calibration.is_invalid()).then(|| causes(calibration)).into_iter().flatten());
+        doc.push(say(super::methods::agreement(of)));
+    }
     if of.details || !calibration.consistent {
         let key = Residuals::key(pictures::RESIDUAL, pictures::RESIDUAL_LIMITS);
         doc.extend([residuals(result), Block::Key(key)]);
     }
-    doc
-}
-
-/// The fit with what is notable about it; the residuals of readings that do not fit.
-pub(super) fn brief(of: &Report) -> Vec<Block> {
-    let Some(result) = of.adopted() else { return Vec::new() };
-    if result.chi_square.degrees_of_freedom == 0 {
-        return vec![say([texts::NOT_JUDGED])];
-    }
-    let mut doc = vec![chi_square(result)];
-    let notable = scatter(of.calibration).into_iter().filter(|(weight, _)| *weight == Weight::Remark);
-    doc.extend(notable.map(|(_, statement)| statement.into()));
-    doc.extend((!of.calibration.consistent).then(|| residuals(result)));
     doc
 }
 
@@ -58,7 +45,7 @@ fn advice(cause: &Finding) -> Option<Words> {
     let scope = cause.scope.index().filter(|_| cause.is_reading()).zip(cause.scope.visit).zip(cause.scope.cycle);
     scope.map(|((index, visit), cycle)| {
         let how = format!("Option: --exclude {},{},{visit},{cycle} and --why.", index.i, index.j);
-        Words::Either(Box::new("".into()), Box::new(how.into()))
+        either("", how)
     })
 }
 
@@ -113,22 +100,5 @@ fn residuals(result: &ResultDocument) -> Block {
 
 /// The name of an input without a stated uncertainty.
 pub(crate) fn not_stated(what: NotStated) -> Text {
-    match what {
-        NotStated::Angles => names::ANGLE,
-        NotStated::SomeAngles => texts::NOT_STATED_SOME_ANGLES,
-        NotStated::Return => names::RETURN,
-        NotStated::Platform => texts::NOT_STATED_PLATFORM,
-        NotStated::Base => texts::NOT_STATED_BASE,
-        NotStated::Latitude => names::LATITUDE,
-        NotStated::Deflection => names::DEFLECTION,
-        NotStated::Azimuth => names::AZIMUTH,
-        NotStated::Mark => names::MARK,
-        NotStated::Level => texts::NOT_STATED_LEVEL,
-        NotStated::Seat => texts::NOT_STATED_SEAT,
-        NotStated::Gain => texts::NOT_STATED_GAIN,
-        NotStated::Offset => texts::NOT_STATED_OFFSET,
-        NotStated::Visits => texts::NOT_STATED_VISITS,
-        NotStated::TurnOns => texts::NOT_STATED_TURN_ONS,
-        NotStated::Gravity => texts::NOT_STATED_GRAVITY,
-    }
+    texts::not_stated!(NotStated, what)
 }

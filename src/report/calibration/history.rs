@@ -6,8 +6,8 @@ use crate::calibration::verdict::{COVERAGE_FACTOR, Verdict};
 use crate::calibration::{CalibrationDocument, Parameter};
 use crate::gyro::GyroType;
 use crate::report::doc::{Block, On, Rows, Words, heading, in_unit, symbol};
-use crate::report::page::number::Number;
 use crate::report::picture::strips::{BESIDE_VALUES, Tolerances};
+use crate::wording::Number;
 use crate::wording::texts::calibration as texts;
 
 /// A parameter of one calibration of the gyro, at the g of the report.
@@ -47,7 +47,7 @@ pub(super) fn table(of: &Report) -> Vec<Block> {
         .named(texts::PARAMETER, |past| {
             // The name is shown once for its calibrations; screen readers say it in each row.
             let name = in_unit(symbol(past.parameter.symbol()), unit_of(past.parameter));
-            if past.number == 1 { name } else { Words::Unseen(Box::new(name)) }
+            if past.number == 1 { name } else { Words::Styled("unseen", Box::new(name)) }
         })
         .named(texts::CALIBRATED, |Past { document, number, .. }| {
             let sha256: String = document.currents_sha256().unwrap_or("–").chars().take(8).collect();

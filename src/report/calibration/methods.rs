@@ -7,7 +7,7 @@ use crate::calibration::iterative::NoIterativeSolution;
 use crate::calibration::result::MethodRefusal;
 use crate::calibration::{Method, Parameter};
 use crate::report::doc::{Block, Rows, Words, fields, heading, say, symbol};
-use crate::report::page::number::Number;
+use crate::wording::Number;
 use crate::wording::texts::{calibration as texts, passport, units};
 
 pub(super) fn section(of: &Report) -> Vec<Block> {
@@ -30,7 +30,7 @@ pub(super) fn brief(of: &Report) -> Vec<Block> {
 /// A sentence on each method that gave no result.
 fn refused(of: &Report) -> impl Iterator<Item = Block> {
     let refused = of.calibration.refused.iter();
-    refused.map(|(method, why)| say([texts::no_result(super::method(method.key()), reason(why))]))
+    refused.map(|(method, why)| say([texts::no_result(texts::method!(Method, method), reason(why))]))
 }
 
 /// The reason why a method gave no result.
@@ -80,7 +80,8 @@ fn table(of: &Report) -> Block {
             Parameter::AS_IN_THE_PAPER.map(|one| (!values[one.place()].is_nan()).then(|| number(one.place())))
         };
         let adopted = of.adopted().is_some_and(|adopted| adopted.method == result.method);
-        let method = super::method(&result.method);
+        let method = Method::ALL.into_iter().find(|method| method.key() == result.method);
+        let method = method.map(|method| texts::method!(Method, method));
         let name = if adopted { texts::adopted(method) } else { method.into() };
         let mut rows = vec![
             (Words::Strong(Box::new(name)), cells(&|place| Number::measured(values[place], u[place]))),

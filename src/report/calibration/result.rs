@@ -3,24 +3,33 @@
 
 use super::{Report, history, unit_at_type, with_u};
 use crate::calibration::document::ResultDocument;
-use crate::calibration::parameter::symbols;
-use crate::calibration::parameter::unit;
+use crate::calibration::parameter::{symbols, unit};
 use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::calibration::{NotStated, Parameter};
 use crate::report::doc::{Block, On, Rows, Words, fields, heading, in_unit, listed, marked, probability, say, symbol};
-use crate::report::page::language::Text;
-use crate::report::page::number::Number;
 use crate::report::picture::strips::{BESIDE_DECISIONS, Tolerances, decision};
-use crate::report::style::Outcome;
 use crate::wording::number::Probability;
 use crate::wording::texts::{calibration as texts, units};
+use crate::wording::{Number, Outcome, Text};
 
-pub(super) fn section(of: &Report) -> Vec<Block> {
+/// A brief section has a row for each parameter; what is doubtful has been said above it.
+pub(super) fn section(of: &Report, is_brief: bool) -> Vec<Block> {
+    let compared_with = [texts::NOMINAL, texts::DEVIATION];
     let mut doc = vec![of.left_out()];
     match of.judged() {
+        None => doc.extend(alone(of)),
+        Some((_, verdict)) if is_brief => {
+            doc.push(compared(verdict, texts::brief_caption, compared_with, Extent::Brief));
+            let largest = verdict.parameters.iter().filter_map(|row| row.specific_risk).reduce(f64::max);
+            let largest = largest.map(|risk| texts::largest_risk(probability(risk)));
+            // The column says the usual rule.
+            let is_usual = verdict.rule.guard_band() == 1.0;
+            doc.push(notes(verdict, [rule(verdict)].into_iter().chain(largest).filter(|_| !is_usual)));
+            doc.extend(from_gravity(of, verdict));
+        }
         Some((name, verdict)) => {
             doc.push(heading(texts::conformity(name)));
-            doc.push(compared(verdict, texts::verdict_caption, [texts::NOMINAL, texts::DEVIATION], Extent::Values));
+            doc.push(compared(verdict, texts::verdict_caption, compared_with, Extent::Values));
             doc.push(Block::Key(Tolerances::key([verdict].into_iter())));
             doc.push(say((!verdict.withheld).then(|| rule(verdict))).only(On::Terminal));
             doc.push(simple(verdict, Some(texts::RISK_NOTE), of.details));
@@ -28,41 +37,15 @@ pub(super) fn section(of: &Report) -> Vec<Block> {
             let u = of.calibration.mostly_from_turn_ons();
             doc.push(say(u.map(|u| texts::from_turn_ons(Words::Quantity(Number::uncertainty(u), units::DEG_PER_H)))));
         }
-        None => doc.extend(alone(of)),
     }
-    doc.extend(of.adopted().into_iter().flat_map(|result| beyond_the_eight(result, true)));
-    if let Some(change) = &of.document.change {
+    doc.extend(of.adopted().into_iter().flat_map(|result| beyond_the_eight(result, !is_brief)));
+    if let Some(change) = of.document.change.as_ref().filter(|_| !is_brief) {
         doc.push(heading(texts::CHANGE));
         doc.push(compared(change, texts::change_caption, [texts::EARLIER, texts::CHANGED_BY], Extent::Change));
         doc.push(simple(change, None, of.details));
         doc.push(previous(of));
     }
     doc.extend(history::table(of));
-    doc
-}
-
-/// A row for each parameter, and the parameters that cannot pass, would pass with the other sign, or are not decided.
-pub(super) fn brief(of: &Report) -> Vec<Block> {
-    let further = of.adopted().into_iter().flat_map(|result| beyond_the_eight(result, false));
-    let Some((_, verdict)) = of.judged() else {
-        return [of.left_out()].into_iter().chain(alone(of)).chain(further).collect();
-    };
-    let names = [
-        names(texts::too_uncertain, verdict.too_uncertain()),
-        names(texts::opposite, verdict.opposite()),
-        names(texts::dependent, verdict.dependent()),
-    ];
-    let mut doc = vec![of.left_out()];
-    doc.push(compared(verdict, texts::brief_caption, [texts::NOMINAL, texts::DEVIATION], Extent::Brief));
-    doc.extend(further);
-    // The column says the usual rule.
-    let agreed = (verdict.rule.guard_band() != 1.0).then(|| {
-        let largest = verdict.parameters.iter().filter_map(|row| row.specific_risk).reduce(f64::max);
-        [Some(rule(verdict)), largest.map(|risk| texts::largest_risk(probability(risk)))]
-    });
-    let said = agreed.into_iter().flatten().chain(names).flatten();
-    doc.push(say(said.filter(|_| !verdict.withheld)));
-    doc.extend(from_gravity(of, verdict));
     doc
 }
 
@@ -131,25 +114,21 @@ pub(crate) fn band_of_u(band: f64) -> Words {
     if band == 1.0 { symbol("U") } else { Words::All(vec![Number::exact(band).into(), "\u{a0}".into(), symbol("U")]) }
 }
 
-/// Simple acceptance, a note on the risks, and the parameters that no gyro could pass, would pass with the other sign, or
-/// are not decided.
+/// Simple acceptance, a note on the risks, and notes on parameters.
 fn simple(verdict: &Verdict, note: Option<Text>, details: bool) -> Block {
-    if verdict.withheld {
-        return say::<Words>([]);
-    }
-    let full_stop = |words: Words| Words::All(vec![words, ".".into()]);
-    let is_guarded = verdict.rule.guard_band() > 0.0;
-    let by_simple =
-        (is_guarded && details).then(|| full_stop(counted(verdict, |row| row.simple, texts::passed_by_simple)));
-    let all = [
-        by_simple,
-        note.map(Words::from),
+    let by_simple = (verdict.rule.guard_band() > 0.0 && details)
+        .then(|| vec![counted(verdict, |row| row.simple, texts::passed_by_simple), ".".into()].into());
+    notes(verdict, [by_simple, note.map(Words::from), verdict.common_factor_in_words()].into_iter().flatten())
+}
+
+/// The sentences `first`, and the parameters that no gyro could pass, would pass with the other sign, or are not decided.
+fn notes(verdict: &Verdict, first: impl Iterator<Item = Words>) -> Block {
+    let names = [
         names(texts::too_uncertain, verdict.too_uncertain()),
         names(texts::opposite, verdict.opposite()),
-        verdict.common_factor_in_words(),
         names(texts::dependent, verdict.dependent()),
     ];
-    say(all.into_iter().flatten())
+    say(first.chain(names.into_iter().flatten()).filter(|_| !verdict.withheld))
 }
 
 /// The parameters without a type: values and expanded uncertainties.
@@ -179,7 +158,7 @@ fn compared(
     // One digit stands before every decimal mark, so that these align where the numbers begin at one place.
     let risk = |row: &ParameterVerdict| vec![Words::from(row.specific_risk.map(probability))];
     let by = if verdict.rule.guard_band() > 0.0 { texts::GUARDED } else { texts::SIMPLE };
-    let outcome = |row: &ParameterVerdict| Outcome::of(verdict.decision(row));
+    let outcome = |row: &ParameterVerdict| Outcome::from(verdict.decision(row));
     let mut table = Rows::of(&rows, "numbers result")
         .named(texts::PARAMETER, |row| {
             let unit = Words::First(Box::new(unit_at_type(row.parameter).into()));
@@ -237,11 +216,7 @@ fn beyond_the_eight(result: &ResultDocument, with_turn_ons: bool) -> Vec<Block> 
     let of_u = &result.standard_uncertainty;
     let mut doc = Vec::new();
     let pair = result.anisoelasticity_deg_per_h_per_g2.zip(of_u.anisoelasticity_deg_per_h_per_g2);
-    doc.push(fields(
-        pair.map(|(value, u)| (texts::ANISOELASTICITY, with_u(value, u, units::DEG_PER_H_PER_G2), false))
-            .into_iter()
-            .collect(),
-    ));
+    doc.push(fields(pair.map(|(value, u)| (texts::ANISOELASTICITY, with_u(value, u, units::DEG_PER_H_PER_G2), false))));
     if let Some((matrix, u)) = result.g_matrix_deg_per_h_per_g.zip(of_u.g_matrix_deg_per_h_per_g) {
         let values = matrix.as_flattened().iter().zip(u.as_flattened()).zip(["xx", "xy", "xz", "yx", "yy", "yz"]);
         let rows: Vec<_> = values.collect();
@@ -273,9 +248,9 @@ fn beyond_the_eight(result: &ResultDocument, with_turn_ons: bool) -> Vec<Block> 
         doc.extend([heading(texts::CYCLES), table.called(texts::CYCLES)]);
     }
     let drift = result.drift_deg_per_h_per_h.zip(of_u.drift_deg_per_h_per_h);
-    doc.push(fields(drift.map_or_else(Vec::new, |(drift, u)| {
-        let each = [texts::DRIFT_X, texts::DRIFT_Y].into_iter().zip(drift.into_iter().zip(u));
-        each.map(|(name, (drift, u))| (name, with_u(drift, u, units::DEG_PER_H2), false)).collect()
+    doc.push(fields(drift.into_iter().flat_map(|(drift, u)| {
+        let each = |name, axis: usize| (name, with_u(drift[axis], u[axis], units::DEG_PER_H2), false);
+        [each(texts::DRIFT_X, 0), each(texts::DRIFT_Y, 1)]
     })));
     doc
 }

@@ -6,21 +6,15 @@ use crate::certification::kind::{AXES, OUTLIER};
 use crate::certification::{ComparedPosition, Comparison, Test};
 use crate::passport::difference::NumberDifference;
 use crate::report::doc::{Block, Rows, Words, fields, heading, in_unit, listed, marked, probability, say, symbol};
-use crate::report::page::language::Text;
-use crate::report::page::number::Number;
 use crate::report::picture::strips::Residuals;
-use crate::report::style::Outcome;
 use crate::wording::number::Probability;
 use crate::wording::texts::{calibration, certification as texts, checks, pictures, units};
+use crate::wording::{Number, Outcome, Text};
 use maud::html;
 
 /// Returns the result in a word.
 pub(crate) fn word(outcome: Outcome) -> Text {
-    match outcome {
-        Outcome::Passed => texts::REPEATS,
-        Outcome::Failed => texts::REPEATS_NOT,
-        Outcome::Undecided | Outcome::NotAsked => pictures::DECISION_UNDECIDED,
-    }
+    texts::repeats!(Outcome, outcome)
 }
 
 /// The rotations of a check relative to the certificate, and how they decide.
@@ -50,7 +44,7 @@ pub(crate) fn rotations(found: &Comparison) -> Vec<Block> {
         heading(texts::ROTATIONS),
         table.called(texts::ROTATIONS),
         say([texts::decision(Number::exact(OUTLIER))]),
-        fields(named.map(|(name, value)| (name, value, false)).into()),
+        fields(named.map(|(name, value)| (name, value, false))),
     ]
 }
 

@@ -4,12 +4,12 @@ use crate::certification::Certification;
 use crate::certification::components::Common;
 use crate::certification::found::Found;
 use crate::certification::kind::{AXES, Kind};
-use crate::report::doc::{Block, On, Rows, Words, fields, heading, in_unit, listed, marked, probability, say, symbol};
-use crate::report::page::language::Text;
-use crate::report::page::number::Number;
-use crate::report::style::Outcome;
+use crate::report::doc::{
+    Block, On, Rows, Words, either, field, fields, heading, in_unit, listed, marked, probability, say, symbol,
+};
 use crate::stand::{Certificate, Excluded};
 use crate::wording::texts::{certification as texts, checks, compass, passport, units};
+use crate::wording::{Number, Outcome, Text};
 
 /// Degrees of freedom at which a standard deviation has a relative standard uncertainty of 35 %: 1/√(2ν), JCGM 100, E.4.3.
 pub(crate) const FEW_DEGREES: f64 = 4.0;
@@ -35,10 +35,8 @@ pub(super) fn certified(certificate: &Certificate) -> Block {
         (passport::COMMON_PLATFORM, certificate.common_platform_arcsec),
         (passport::COMMON_BASE, certificate.common_base_arcsec),
     ];
-    let stated = |(name, u): (Text, Option<f64>)| {
-        u.map(|u| (name, Words::Quantity(Number::uncertainty(u), units::ARCSEC), false))
-    };
-    fields(each.into_iter().filter_map(stated).collect())
+    let arcsec = |u| Words::Quantity(Number::uncertainty(u), units::ARCSEC);
+    fields(each.into_iter().filter_map(|(name, u)| field(name, u.map(arcsec))))
 }
 
 pub(crate) fn components(found: &Certification) -> Vec<Block> {
@@ -65,13 +63,12 @@ pub(crate) fn components(found: &Certification) -> Vec<Block> {
         .column(in_unit(mean, units::ARCSEC), |(_, s, ..)| Number::fixed(s / root, 2))
         .column(texts::UPPER, |(.., upper)| upper.map(|s| Number::fixed(s, 2)));
     let has_type_b = found.stand.certificate.type_b.iter().flatten().next().is_some();
-    let key = Words::Either(Box::new("".into()), Box::new(" (type_b)".into()));
     vec![
         heading(texts::COMPONENTS),
         say([texts::COMPONENTS_NOTE]),
         table.called(texts::COMPONENTS),
         say(is_few.then_some(texts::FEW_DEGREES)),
-        say((!has_type_b).then(|| texts::type_b_not_stated(key))),
+        say((!has_type_b).then(|| texts::type_b_not_stated(either("", " (type_b)")))),
         heading(texts::RUN_TURNS),
         run_turns(found),
     ]
@@ -83,8 +80,8 @@ fn run_turns(found: &Certification) -> Block {
     for (place, axis) in AXES.map(symbol).into_iter().chain(of_base).enumerate() {
         // A terminal has no headings over several columns.
         let part = if place < 3 { texts::OF_PLATFORM } else { texts::OF_BASE };
-        let with_part = vec![part.into(), " ".into(), axis.clone()].into();
-        rows = rows.column(Words::Either(Box::new(axis), Box::new(with_part)), |turn| {
+        let with_part = vec![part.into(), " ".into(), axis.clone()];
+        rows = rows.column(either(axis, with_part), |turn| {
             Number::fixed([turn.platform_arcsec, turn.base_arcsec].as_flattened()[place], 2)
         });
     }
@@ -100,30 +97,12 @@ pub(crate) fn tests(found: &Certification) -> [Block; 2] {
         false => marked(Outcome::Undecided, texts::PROBABLE),
     };
     let table = Rows::of(&found.findings, "numbers tests")
-        .named(texts::FINDING, |at| name(at.kind))
+        .named(texts::FINDING, |at| texts::found!(Kind, at.kind))
         .column(checks::RESULT, outcome)
         .column(texts::SIZE, |at| at.size.map(|size| Number::fixed(size, 2)))
         .column(symbol("p"), |at| probability(at.probability));
     let table = if found.findings.is_empty() { none } else { table.called(texts::TESTS) };
     [table, say([texts::TESTS_NOTE])]
-}
-
-/// Returns the name of a kind of findings on readings.
-fn name(kind: Kind) -> Text {
-    match kind {
-        Kind::Angle => texts::FOUND_ANGLE,
-        Kind::Reading => texts::FOUND_READING,
-        Kind::Bump => texts::FOUND_BUMP,
-        Kind::RunTurned => texts::FOUND_RUN,
-        Kind::StandMoved => texts::FOUND_MOVE,
-        Kind::StandDrift => texts::FOUND_DRIFT,
-        Kind::PositionMoved => texts::FOUND_POSITION_MOVED,
-        Kind::PositionScatter | Kind::SettingScatter => texts::FOUND_SCATTER,
-        Kind::SharedSetting => texts::FOUND_SHARED,
-        Kind::AxisScatter => texts::FOUND_AXIS,
-        Kind::RunAxisScatter => texts::FOUND_RUN_AXIS,
-        _ => texts::FOUND_COPY,
-    }
 }
 
 /// The excluded readings and runs with their reasons; a terminal says nothing if there are none.

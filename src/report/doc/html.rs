@@ -1,12 +1,11 @@
 //! Blocks as parts of a page.
 
 use super::{Block, Cell, Column, On, Statement, Table, Words};
-use crate::report::page::language::{Language, Languages};
-use crate::report::page::number::Number;
+use crate::report::page::language::Languages;
 use crate::report::page::parts::{self, given, mark};
-use crate::report::page::spacing::BLANK;
 use crate::report::page::symbols::italic;
-use crate::wording::{Piece, capital, pieces};
+use crate::wording::spacing::BLANK;
+use crate::wording::{Language, Number, Piece, capital, pieces};
 use maud::{Markup, html};
 
 /// How words are written.
@@ -68,7 +67,6 @@ impl Languages {
             (Words::Marked(outcome, words), _) => html! { (mark(*outcome)) " " (same(words)) },
             (Words::Strong(words), _) => html! { strong { (named(words)) } },
             (Words::Styled(class, words), _) => html! { span class=(class) { (named(words)) } },
-            (Words::Unseen(words), _) => html! { span.unseen { (named(words)) } },
             (Words::All(all), _) => html! { @for one in all { (same(one)) } },
             (value, How::In(language)) => Self::from(language).value(value),
             (value, _) => self.value(value),
@@ -131,11 +129,11 @@ impl Languages {
 
     fn block(&self, block: &Block) -> Markup {
         match block {
+            Block::Said(Statement::Sentences(all)) | Block::List(all) if all.is_empty() => html! {},
+            Block::Said(Statement::Fields(all)) | Block::Record(all) if all.is_empty() => html! {},
             Block::Heading(words) => html! { h3 { (self.name(words)) } },
-            Block::Said(Statement::Sentences(all)) if all.is_empty() => html! {},
             Block::Said(Statement::Sentences(all)) => self.paragraph(all),
             Block::Line(words) => self.paragraph(std::slice::from_ref(words)),
-            Block::Said(Statement::Fields(all)) | Block::Record(all) if all.is_empty() => html! {},
             Block::Said(Statement::Fields(all)) | Block::Record(all) => html! {
                 dl.fields { @for (name, value, wide) in all {
                     div class=[wide.then_some("wide")] { dt { (self.name(&(*name).into())) } dd { (self.cell(value)) } }
@@ -143,10 +141,9 @@ impl Languages {
             },
             Block::Table(table) => self.table(table),
             Block::Within(class, all) => html! { div class=(class) { (self.blocks(all)) } },
-            Block::Typed(_) | Block::Lines(..) | Block::Whole(..) => html! {},
+            Block::Gap | Block::Lines(..) | Block::Whole(..) => html! {},
             Block::Drawn(draw) => draw(self),
             Block::Key(entries) => self.key(entries),
-            Block::List(all) if all.is_empty() => html! {},
             Block::List(all) => html! { ul.absences { @for one in all { li { (self.name(one)) } } } },
             Block::Boxed(class, headline, all) => html! {
                 div class=(class) { p.headline { (self.name(headline)) } (self.blocks(all)) }
@@ -229,11 +226,11 @@ impl Languages {
 
     /// Writes the cells of a column, its numbers with aligned decimal marks.
     fn column(&self, cells: &[Cell]) -> Vec<Markup> {
-        let number = |cell: &Cell| match cell {
-            Cell::Words(Words::Number(number) | Words::Quantity(number, _)) => Some(number.clone()),
+        let numbers = cells.iter().map(|cell| match cell {
+            Cell::Words(Words::Number(number) | Words::Quantity(number, _)) => Some(number),
             _ => None,
-        };
-        let longest = self.longest_tail(cells.iter().filter_map(number));
+        });
+        let pads = self.pads(&numbers.collect::<Vec<_>>());
         let written = |cell: &Cell| match cell {
             // Directly followed by its unit in one language; all units of a column have one width.
             Cell::Words(Words::Quantity(number, unit)) => {
@@ -241,9 +238,6 @@ impl Languages {
             }
             cell => self.table_cell(cell, How::Cell),
         };
-        let padded = cells.iter().map(|cell| {
-            html! { (written(cell)) @if let Some(number) = number(cell) { (self.pad(&number, &longest)) } }
-        });
-        padded.collect()
+        cells.iter().zip(pads).map(|(cell, pad)| html! { (written(cell)) (pad) }).collect()
     }
 }

@@ -1,8 +1,8 @@
 //! Blocks as text for a terminal, in one language.
 
 use super::{Block, Cell, Field, On, Table, Words};
-use crate::report::page::language::Language;
 use crate::report::{columns, style};
+use crate::wording::Language;
 use std::fmt::Write;
 
 /// Returns words as those of a terminal.
@@ -39,7 +39,7 @@ pub(crate) fn text(out: &mut String, blocks: &[Block], language: Language) {
             Block::Record(all) => record(out, all, language),
             Block::Table(of) => table(out, of, language),
             Block::Within(_, all) => text(out, all, language),
-            Block::Typed(lines) => out.push_str(lines),
+            Block::Gap => out.push('\n'),
             Block::List(all) => {
                 let each = all.iter().map(|words| said(words, language)).collect::<Vec<_>>();
                 columns::paragraph(out, "  ", &(each.join("; ") + "."));

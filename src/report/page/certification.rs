@@ -2,8 +2,7 @@
 //! 17025:2017](crate::bibliography::Bibliography::Iso17025), 7.5.1): readings, exclusions, tests, components and budget of
 //! the uncertainty, the change since the previous certificate, and signature lines.
 
-use super::language::{Languages, Text};
-use super::number::Number;
+use super::language::Languages;
 use super::parts::{file_name, signatures};
 use super::shell::{Annex, Page, Section, first};
 use crate::certification::{Certification, Comparison};
@@ -11,8 +10,8 @@ use crate::passport::difference::NumberDifference;
 use crate::report::certification::{change, evidence, outcome_of, outcome_of_certification};
 use crate::report::doc::{self, Block, Words, heading, joined, marked, note, outcome_box, say, stated, symbol, told};
 use crate::report::passport::{deviations, general};
-use crate::report::style::Outcome;
 use crate::wording::texts::{certification as texts, passport as passport_texts, units};
+use crate::wording::{Number, Outcome, Text};
 
 /// Id of the section of the uncertainty.
 const UNCERTAINTY: &str = "uncertainty";
@@ -184,6 +183,6 @@ impl CertificationPage<'_> {
             (texts::REPEATED, (*repeated_rows).into(), false),
             (texts::FILE_SHA256, Words::Code(self.sha256()), true),
         ];
-        [vec![doc::fields(fields.into())], evidence::exclusions(self.certification)].concat()
+        [vec![doc::fields(fields)], evidence::exclusions(self.certification)].concat()
     }
 }

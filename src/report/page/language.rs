@@ -1,48 +1,44 @@
 //! Languages of a page.
 
 pub use crate::wording::Language;
-pub(crate) use crate::wording::Text;
 
-use crate::wording::Words;
+use crate::wording::{Text, Words};
 
 /// The languages of one page, in order. The first one sets the format of numbers and dates.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Languages {
-    first: Language,
-    others: Vec<Language>,
-}
+pub struct Languages(Vec<Language>);
 
 impl From<Language> for Languages {
     fn from(language: Language) -> Self {
-        Self { first: language, others: Vec::new() }
+        Self(vec![language])
     }
 }
 
 impl Languages {
     /// Creates the list of `first` and `others`; a repeated language counts once.
     pub fn new(first: Language, others: impl IntoIterator<Item = Language>) -> Self {
-        let mut languages = Self::from(first);
+        let Self(mut languages) = first.into();
         for other in others {
-            if other != first && !languages.others.contains(&other) {
-                languages.others.push(other);
+            if !languages.contains(&other) {
+                languages.push(other);
             }
         }
-        languages
+        Self(languages)
     }
 
     /// Returns the first language: the language of the page and of its numbers.
     pub(crate) fn first(&self) -> Language {
-        self.first
+        self.0[0]
     }
 
     /// Returns all languages in their order.
     pub fn iter(&self) -> impl Iterator<Item = Language> {
-        std::iter::once(self.first).chain(self.others.iter().copied())
+        self.0.iter().copied()
     }
 
     /// Returns `true` if the page has only one language.
     pub fn single(&self) -> bool {
-        self.others.is_empty()
+        self.0.len() == 1
     }
 
     /// Returns the distinct wordings, each with the first language that uses it. So a unit that is written alike in two
@@ -60,13 +56,13 @@ impl Languages {
 
     /// Returns words for screen readers, in the first language only.
     pub(crate) fn spoken(&self, text: Text) -> &'static str {
-        text.of(self.first)
+        text.of(self.first())
     }
 
     /// Returns plain text for places without markup, such as the margins of a sheet: `north / север`.
     pub(crate) fn plain(&self, words: &Words) -> String {
         match words {
-            Words::First(words) => words.plain(self.first),
+            Words::First(words) => words.plain(self.first()),
             words => self.sayings(words).into_iter().map(|(_, words)| words).collect::<Vec<_>>().join(" / "),
         }
     }

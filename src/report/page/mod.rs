@@ -26,5 +26,4 @@ pub(crate) mod symbols;
 
 pub use calibration::{CalibrationPage, UsedPassport};
 pub use language::{Language, Languages};
-pub(crate) use number::Number;
 pub use passport::PassportPage;

@@ -1,11 +1,11 @@
 //! Numbers as elements of a page, and what aligns the decimal marks of a column.
 
 use super::language::Languages;
-use super::spacing::BLANK;
 use crate::text::number;
+use crate::wording::Number;
+use crate::wording::number::THIN_BLANK;
+use crate::wording::spacing::BLANK;
 use maud::{Markup, html};
-
-pub(crate) use crate::wording::number::{LARGEST_IN_ARCSEC, LATITUDES, LONGITUDES, Number, THIN_BLANK, localised};
 
 impl Languages {
     /// Writes the number as an element that carries the value itself for programs, in the notation of signed documents.
@@ -18,23 +18,20 @@ impl Languages {
         html! { "<" (BLANK) (limit.text(self.first())) }
     }
 
-    /// Returns the longest of each part of the tails of some numbers.
-    pub(crate) fn longest_tail(&self, numbers: impl Iterator<Item = Number>) -> Tail {
-        let tails = numbers.map(|number| Tail::of(&number.text(self.first())));
-        tails.fold(Tail::default(), Tail::or_longer)
-    }
-
-    /// Writes invisible characters that make the tail of a number as long as `longest`, so that the decimal marks of a column
-    /// align.
-    pub(crate) fn pad(&self, number: &Number, longest: &Tail) -> Markup {
-        let missing = longest.beyond(&Tail::of(&number.text(self.first())));
-        html! { @if !missing.is_empty() { span.pad aria-hidden="true" { (missing) } } }
+    /// Writes after each number invisible characters that make its tail as long as the longest, so that the decimal marks of
+    /// a column align.
+    pub(crate) fn pads(&self, numbers: &[Option<&Number>]) -> Vec<Markup> {
+        let tail = |number: &Option<&Number>| number.map(|number| Tail::of(&number.text(self.first())));
+        let tails: Vec<Option<Tail>> = numbers.iter().map(tail).collect();
+        let longest = tails.iter().flatten().cloned().fold(Tail::default(), Tail::or_longer);
+        let missing = tails.iter().map(|tail| tail.as_ref().map(|tail| longest.beyond(tail)).unwrap_or_default());
+        missing.map(|missing| html! { @if !missing.is_empty() { span.pad aria-hidden="true" { (missing) } } }).collect()
     }
 }
 
 /// Part of a printed number from its decimal mark on: the mark, digits, spaces between their groups, and a power of ten.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Tail {
+struct Tail {
     /// Number of characters of each of the `KINDS`.
     counts: [usize; 3],
     power: String,

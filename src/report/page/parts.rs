@@ -1,13 +1,12 @@
 //! Elements of pages: marks, quantities, dates, figures, forms to fill in by hand, QR codes.
 
-use super::language::{Language, Languages, Text};
-use super::number::Number;
-use super::spacing::{BLANK, unbroken};
+use super::language::Languages;
+use super::spacing::unbroken;
 use super::symbols::index;
 use crate::report::doc::{Block, Words, blank, heading, record, say};
-use crate::report::style::Outcome;
+use crate::wording::spacing::BLANK;
 use crate::wording::texts::{calibration, record as forms, units, words};
-use crate::wording::{date_text, time_text};
+use crate::wording::{Language, Number, Outcome, Text, date_text, time_text};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use maud::{Markup, html};

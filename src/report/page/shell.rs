@@ -1,9 +1,10 @@
 //! Common parts of every page: the enclosing document, the style, the running heads in print, contents, sections, annex.
 
-use super::language::{Languages, Text};
+use super::language::Languages;
 use crate::report::doc::{Block, Words, say};
 use crate::report::picture;
 use crate::text::printable;
+use crate::wording::Text;
 use crate::wording::texts::{calibration, words as texts};
 use base64ct::{Base64, Encoding};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -173,13 +174,10 @@ pub(crate) fn document(languages: &Languages, title: &str, margins: [String; 3],
             body { (body) }
         }
     };
-    printable::page(&short_shapes(page.into_string())) + "\n"
-}
-
-/// Returns a page with the shapes of its pictures as empty elements, which makes it shorter by a fiftieth.
-fn short_shapes(page: String) -> String {
+    // Empty elements make a page with pictures shorter by a fiftieth.
     let shapes = ["></polygon>", "></line>", "></path>", "></rect>", "></ellipse>", "></circle>", "></use>"];
-    shapes.into_iter().fold(page, |page, ends| page.replace(ends, "/>"))
+    let page = shapes.into_iter().fold(page.into_string(), |page, ends| page.replace(ends, "/>"));
+    printable::page(&page) + "\n"
 }
 
 /// Returns the style of the margins with these words: upper left, upper right, lower left.

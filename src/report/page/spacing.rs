@@ -1,8 +1,7 @@
 //! Words that no line breaks: dates, powers of ten, units with a solidus, ids.
 
+use crate::wording::spacing::is_initial;
 use maud::{Markup, html};
-
-pub(crate) use crate::wording::spacing::BLANK;
 
 /// Units in which browsers see a place for a line to end, after the solidus.
 const WITH_SOLIDUS: [&str; 3] = ["m/s²", "м/с²", "°/"];
@@ -68,11 +67,6 @@ fn with_initials(text: &str) -> Vec<&str> {
         }
     }
     words
-}
-
-/// Returns `true` for an initial: a capital and a full stop.
-fn is_initial(word: &str) -> bool {
-    word.strip_suffix('.').is_some_and(|letter| letter.chars().count() == 1 && letter.chars().all(char::is_uppercase))
 }
 
 /// Writes the index of a unit, °/(h·g₀), in a size that can be read.

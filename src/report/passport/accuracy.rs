@@ -1,8 +1,7 @@
 //! Expected calibration uncertainty, and inputs that the passport does not state.
 
 use super::numbers::numbers_of;
-use crate::calibration::parameter::Parameter;
-use crate::calibration::parameter::unit;
+use crate::calibration::parameter::{Parameter, unit};
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
 use crate::passport::accuracy::Accuracy;
@@ -10,9 +9,9 @@ use crate::passport::annotations::{Absence, absent};
 use crate::report::doc::{
     Block, Field, On, Rows, Words, field, given, heading, in_unit, listed, record, say, symbol, wide,
 };
-use crate::report::page::number::Number;
 use crate::report::picture::strips::Accuracies;
 use crate::site::{LATITUDE_MARGIN_ARCSEC, UNKNOWN_DEFLECTION_U_ARCSEC};
+use crate::wording::Number;
 use crate::wording::texts::{absences, passport as texts, units};
 
 /// Decrease of normal gravity per metre of height, in m/s² per metre (free air), as in the signed comments.

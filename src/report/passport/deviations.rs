@@ -4,14 +4,15 @@ use crate::attitude::ANGLE_SYMBOLS;
 use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::passport::Content;
 use crate::report::doc::{
-    Block, Rows, Words, drawn, field, given, heading, in_unit, listed, record, say, symbol, told, wide,
+    Block, Rows, Words, drawn, field, given, heading, in_unit, joined, listed, range, record, say, symbol, told, wide,
+    with,
 };
-use crate::report::page::language::{Language, Text};
-use crate::report::page::number::{LARGEST_IN_ARCSEC, Number};
 use crate::report::picture::positions as pictures;
 use crate::report::picture::strips::Deviations;
 use crate::stand::{ActsOn, Certificate, CertifiedPosition, Datum, Excluded, TypeB};
+use crate::wording::number::LARGEST_IN_ARCSEC;
 use crate::wording::texts::{passport as texts, units};
+use crate::wording::{Number, Text};
 
 pub(super) fn section(content: &Content) -> Vec<Block> {
     let Content { certificate, positions, .. } = content;
@@ -47,18 +48,12 @@ fn expanded(certificate: &Certificate, positions: &[CertifiedPosition]) -> Optio
 pub(crate) fn expanded_range(content: &Content) -> Option<Words> {
     let combined = expanded(&content.certificate, &content.positions)?;
     let us = combined.iter().flat_map(CertifiedPosition::u_arcsec).flatten().map(|u| COVERAGE_FACTOR * u);
-    Some(range(us))
+    Some(range_arcsec(us))
 }
 
 /// Returns a value that some quantities share, or their range.
-fn range(values: impl Iterator<Item = f64>) -> Words {
-    let [least, most] = values.fold([f64::INFINITY, 0.0], |[least, most], value| [value.min(least), value.max(most)]);
-    let [least, most] = [least, most].map(Number::uncertainty);
-    let arcsec = |number| Words::Quantity(number, units::ARCSEC);
-    match least.text(Language::English) == most.text(Language::English) {
-        true => arcsec(most),
-        false => vec![arcsec(least), "–".into(), arcsec(most)].into(),
-    }
+fn range_arcsec(values: impl Iterator<Item = f64>) -> Words {
+    joined(range(values, Number::uncertainty).into_iter().map(|u| Words::Quantity(u, units::ARCSEC)), "–")
 }
 
 /// The deviations with their bars; the uncertainties of `positions` are those that `letter` names: U, of which they are
@@ -80,7 +75,7 @@ pub(crate) fn table(positions: &[CertifiedPosition], letter: &'static str) -> Ve
             let angle = Number::angle(at.angles_arcsec()[axis], u(at).unwrap_or(0.0));
             if large { Words::Quantity(angle, units::ARCSEC) } else { angle.into() }
         };
-        let whiskers = match (bars.has_u(), is_expanded) {
+        let whiskers = match (bars.largest_u.is_some(), is_expanded) {
             (false, _) => Words::from(""),
             (true, true) => vec!["\u{a0}±\u{a0}".into(), symbol("U")].into(),
             (true, false) => vec!["\u{a0}±\u{a0}2".into(), symbol("u")].into(),
@@ -117,7 +112,7 @@ pub(crate) fn note(positions: &[CertifiedPosition], rounded: bool) -> Block {
 pub(crate) fn budget(certificate: &Certificate, positions: &[CertifiedPosition]) -> Block {
     let of_axis = |at: &[CertifiedPosition], axis: usize, factor: f64| {
         let us: Vec<f64> = at.iter().filter_map(|at| Some(factor * at.u_arcsec()[axis]?)).collect();
-        (!us.is_empty()).then(|| range(us.into_iter()))
+        (!us.is_empty()).then(|| range_arcsec(us.into_iter()))
     };
     let of_axes = |at: &[CertifiedPosition], factor: f64| {
         let each: Option<Vec<Words>> = (0..3).map(|axis| of_axis(at, axis, factor)).collect();
@@ -138,7 +133,10 @@ fn common_fields(certificate: &Certificate) -> Vec<Option<(Text, Words, bool)>> 
     let mut all = vec![
         field(texts::COMMON_PLATFORM, certificate.common_platform_arcsec.map(arcsec)),
         field(texts::COMMON_BASE, certificate.common_base_arcsec.map(arcsec)),
-        field(texts::REPEATABILITY, certificate.repeatability_arcsec.map(|u| with_freedom(arcsec(u), freedom))),
+        field(
+            texts::REPEATABILITY,
+            certificate.repeatability_arcsec.map(|u| with(arcsec(u), "ν", freedom.map(Number::exact))),
+        ),
     ];
     all.extend(certificate.type_b.iter().flatten().map(type_b));
     all.push(wide(
@@ -165,19 +163,9 @@ fn exclusion(excluded: &Excluded) -> Words {
 
 /// A contribution that repeated measurements cannot show (type B).
 fn type_b(line: &TypeB) -> Option<(Text, Words, bool)> {
-    let part = match line.acts_on {
-        ActsOn::Position => texts::TYPE_B_POSITION,
-        ActsOn::Platform => texts::TYPE_B_PLATFORM,
-        ActsOn::Base => texts::TYPE_B_BASE,
-    };
-    let u = with_freedom(Words::Quantity(Number::exact(line.u_arcsec), units::ARCSEC), line.degrees_of_freedom);
-    field(part, Some(vec![u, ": ".into(), given(&line.source)]))
-}
-
-/// Returns an uncertainty with its degrees of freedom, if they are stated.
-fn with_freedom(u: Words, freedom: Option<f64>) -> Words {
-    let freedom = freedom.map(|known| [", ".into(), symbol("ν"), "\u{a0}=\u{a0}".into(), Number::exact(known).into()]);
-    [u].into_iter().chain(freedom.into_iter().flatten()).collect::<Vec<_>>().into()
+    let u = Words::Quantity(Number::exact(line.u_arcsec), units::ARCSEC);
+    let u = with(u, "ν", line.degrees_of_freedom.map(Number::exact));
+    field(texts::type_b!(ActsOn, line.acts_on), Some(vec![u, ": ".into(), given(&line.source)]))
 }
 
 /// The stand in its positions.

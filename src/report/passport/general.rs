@@ -4,9 +4,9 @@
 use crate::passport::Content;
 use crate::passport::content::PassportHeader;
 use crate::report::doc::{Block, On, Words, blank, field, given, heading, record, say, wide};
-use crate::report::page::number::Number;
 use crate::stand::{Certificate, Identity, Reference};
 use crate::trust::PublicKey;
+use crate::wording::Number;
 use crate::wording::texts::{passport as texts, record as forms, units, words};
 
 pub(super) fn section(content: &Content) -> Vec<Block> {

@@ -2,15 +2,14 @@
 
 use crate::calibration::parameter::Parameter;
 use crate::gyro::Parameters;
-use crate::passport::Content;
 use crate::passport::content::{PositionCurrents as Current, PositionVectors as Vectors, SelfCheck};
-use crate::passport::{MatrixRows, Rows as Matrix};
+use crate::passport::{Content, MatrixRows, Rows as Matrix};
 use crate::report::calibration::parameters;
 use crate::report::doc::{Block, On, Rows, Words, drawn, heading, in_unit, say, symbol};
-use crate::report::page::language::{Languages, Text};
-use crate::report::page::number::Number;
+use crate::report::page::language::Languages;
 use crate::report::page::parts::symbol as written;
 use crate::wording::texts::{passport as texts, units};
+use crate::wording::{Number, Text};
 use maud::{Markup, html};
 
 /// Paper from which the equations are numbered.

@@ -1,12 +1,12 @@
 //! The site, and the Earth there.
 
 use crate::passport::Content;
-use crate::report::doc::{Block, Words, field, given, heading, record, symbol, wide};
-use crate::report::page::language::Text;
-use crate::report::page::number::{LATITUDES, LONGITUDES, Number};
+use crate::report::doc::{Block, Words, field, given, heading, record, symbol, wide, with};
 use crate::site::{Earth, Site};
 use crate::units::{ARCSECONDS_PER_DEGREE, sin_cos_of_degrees};
+use crate::wording::number::{LATITUDES, LONGITUDES};
 use crate::wording::texts::{passport as texts, units};
+use crate::wording::{Number, Text};
 
 /// Length of a degree on the ground, in metres, for the number of printed digits.
 const METRES_PER_DEGREE: f64 = 111e3;
@@ -82,10 +82,7 @@ fn angle(degrees: f64, u_arcsec: f64) -> Number {
 
 /// Returns a value with its standard uncertainty, if that is known.
 fn with_u(value: impl Into<Words>, u: Option<f64>, unit: Text) -> Words {
-    let u = u
-        .filter(|u| *u > 0.0)
-        .map(|u| vec![", ".into(), symbol("u"), "\u{a0}=\u{a0}".into(), Words::Quantity(Number::uncertainty(u), unit)]);
-    vec![value.into()].into_iter().chain(u.into_iter().flatten()).collect::<Vec<_>>().into()
+    with(value, "u", u.filter(|u| *u > 0.0).map(|u| Words::Quantity(Number::uncertainty(u), unit)))
 }
 
 /// Returns g, with its uncertainty if that is known.

@@ -3,7 +3,7 @@
 use super::numbers::DECIMALS;
 use crate::passport::{Content, MatrixRows};
 use crate::report::doc::{Block, Rows, Words, heading, say};
-use crate::report::page::number::Number;
+use crate::wording::Number;
 use crate::wording::texts::passport as texts;
 
 /// Printed decimals of K: all that numbers of nine decimals determine.

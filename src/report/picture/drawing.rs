@@ -4,9 +4,10 @@
 //! readable if a narrow screen puts the panels below each other. Nothing has a fixed colour: the classes are defined in
 //! `style.css`.
 
-use crate::report::page::language::{Language, Languages};
-use crate::report::page::number::{Number, localised};
+use crate::report::page::language::Languages;
 use crate::report::page::symbols::{Piece, index_letters, pieces};
+use crate::wording::number::localised;
+use crate::wording::{Language, Number};
 use maud::{Markup, html};
 
 /// A point of a drawing: distance to the right and down, in units of the drawing.
@@ -334,15 +335,10 @@ impl Ticks {
 
 /// Returns the smallest round step that is not below `step`, and its power of ten.
 fn round_step(step: f64) -> (f64, i32) {
-    if !(step > 0.0 && step.is_finite()) {
-        return (1.0, 0);
-    }
-    let exponent = libm::floor(libm::log10(step)) as i32;
-    let rounded = [1.0, 2.0, 5.0].into_iter().find(|digit| digit * power_of_ten(exponent) >= step * (1.0 - 1e-9));
-    match rounded {
-        Some(digit) => (digit * power_of_ten(exponent), exponent),
-        None => (power_of_ten(exponent + 1), exponent + 1),
-    }
+    let exponent = exponent(step);
+    let is_enough = |digit: &f64| digit * power_of_ten(exponent) >= step * (1.0 - 1e-9);
+    let digit = [1.0, 2.0, 5.0].into_iter().find(is_enough);
+    digit.map_or((power_of_ten(exponent + 1), exponent + 1), |digit| (digit * power_of_ten(exponent), exponent))
 }
 
 pub(crate) fn power_of_ten(exponent: i32) -> f64 {
@@ -351,22 +347,15 @@ pub(crate) fn power_of_ten(exponent: i32) -> f64 {
 
 /// Returns the largest value not above `value` that is 1, 2 or 5 times a power of ten: the length of a scale bar.
 pub(crate) fn round_below(value: f64) -> f64 {
-    let exponent = libm::floor(libm::log10(value)) as i32;
-    let digit = [5.0, 2.0, 1.0].into_iter().find(|digit| digit * power_of_ten(exponent) <= value * (1.0 + 1e-9));
-    digit.unwrap_or(1.0) * power_of_ten(exponent)
+    let unit = power_of_ten(exponent(value));
+    [5.0, 2.0].into_iter().find(|digit| digit * unit <= value * (1.0 + 1e-9)).unwrap_or(1.0) * unit
 }
 
-/// Returns a power of ten as a factor of a unit, such as `10⁻³`.
-pub(crate) fn power(exponent: i32, language: Language) -> String {
-    let one = localised(&format!("1e{exponent}"), language);
-    one.find("10").map_or_else(String::new, |at| one[at..].to_owned())
-}
-
-/// Returns a unit with the power of ten that is factored out of its numbers.
+/// Returns a unit with the power of ten that is factored out of its numbers, such as `10⁻³ °/h`.
 pub(crate) fn with_power(exponent: i32, unit: &str, language: Language) -> String {
     match exponent {
         0 => unit.to_owned(),
-        exponent => format!("{}\u{a0}{unit}", power(exponent, language)),
+        exponent => format!("{}\u{a0}{unit}", localised(&format!("1e{exponent}"), language)),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Picture files: SVG with its own style, which other pictures get from their page.
 
 use super::drawing::{Anchor, Point, coordinate, label, panel, symbols, width};
-use crate::report::page::Language;
+use crate::wording::Language;
 use maud::{Markup, PreEscaped, html};
 
 /// Style in black and grey on a white ground. Its rules are plain, because not only browsers draw these files.

@@ -8,7 +8,7 @@ use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::history::drift::{DRIFTS, Drift, Series};
 use crate::history::{History, PastPassport};
 use crate::register::State;
-use crate::report::page::Language;
+use crate::wording::Language;
 use jiff::Timestamp;
 use jiff::civil::Date;
 use maud::{Markup, html};
@@ -130,19 +130,20 @@ fn shortened(site: &str) -> String {
     site.chars().take(MOST - 1).chain(['…']).collect()
 }
 
+/// Returns years, change since the first certificate, and expanded uncertainty of each value, arcsec.
+fn changes(series: &Series) -> impl Iterator<Item = [f64; 3]> {
+    let first = series.values.first().map_or(0.0, |at| at.arcsec);
+    series.values.iter().map(move |at| [at.years, at.arcsec - first, COVERAGE_FACTOR * at.u_arcsec.unwrap_or(0.0)])
+}
+
 fn drift(drift: &Drift, top: f64) -> Markup {
-    let ends = drift.series.iter().flat_map(|series| {
-        let first = series.values.first().map_or(0.0, |at| at.arcsec);
-        series.values.iter().flat_map(move |at| {
-            let half = COVERAGE_FACTOR * at.u_arcsec.unwrap_or(0.0);
-            [at.arcsec - first - half, at.arcsec - first + half]
-        })
-    });
+    let all = || drift.series.iter().flat_map(changes);
+    let ends = all().flat_map(|[_, change, half]| [change - half, change + half]);
     let (low, high) = ends.fold((-1.0, 1.0), |(low, high), end| (f64::min(low, end), f64::max(high, end)));
     // No whisker ends on an axis.
     let margin = 0.06 * (high - low);
     let (low, high) = (low - margin, high + margin);
-    let last = drift.series.iter().flat_map(|series| &series.values).map(|at| at.years).fold(0.0, f64::max);
+    let last = all().map(|[years, ..]| years).fold(0.0, f64::max);
     let years = [-0.06 * last.max(1.0), 1.06 * last.max(1.0)];
     let sample = html! { (whisker(14.0, 1.0, 13.0)) (mark([14.0, 7.0], 1, "mark")) };
     let legend = [
@@ -170,8 +171,7 @@ fn panel(series: &Series, field: &Field, lowest: bool) -> Markup {
     let language = Language::English;
     let years = Ticks::along(&field.x, language).marks(language).into_iter().filter(|(year, _)| *year >= 0.0);
     let years = years.map(|(year, printed)| (year, if lowest { printed } else { String::new() }));
-    let changes = Ticks::between(field.y.values[0], field.y.values[1], 3).marks(language);
-    let first = series.values.first().map_or(0.0, |at| at.arcsec);
+    let ticks = Ticks::between(field.y.values[0], field.y.values[1], 3).marks(language);
     let drifts = series.corrected_probability.is_some_and(|p| p < DRIFTS);
     let [left, right] = field.x.places;
     let title = format!(
@@ -186,20 +186,17 @@ fn panel(series: &Series, field: &Field, lowest: bool) -> Markup {
     );
     html! {
         g {
-            (field.axes(&years.collect::<Vec<_>>(), &changes))
+            (field.axes(&years.collect::<Vec<_>>(), &ticks))
             (line([left, field.y.place(0.0)], [right, field.y.place(0.0)], "grid"))
             @if let Some(fitted) = &series.line {
-                @let end = |x: f64| [field.x.place(x), field.y.clamped(fitted.at(x) - first)];
+                @let end = |x: f64| [field.x.place(x), field.y.clamped(fitted.at(x) - series.values.first().map_or(0.0, |at| at.arcsec))];
                 @let last = series.values.last().map_or(0.0, |at| at.years);
                 (line(end(0.0), end(last), if drifts { "series" } else { "grid" }))
             }
-            @for at in &series.values {
-                @let x = field.x.place(at.years);
-                @let half = COVERAGE_FACTOR * at.u_arcsec.unwrap_or(0.0);
-                @if half > 0.0 {
-                    (whisker(x, field.y.clamped(at.arcsec - first - half), field.y.clamped(at.arcsec - first + half)))
-                }
-                (mark([x, field.y.clamped(at.arcsec - first)], 1, "mark"))
+            @for [years, change, half] in changes(series) {
+                @let (x, y) = (field.x.place(years), |arcsec: f64| field.y.clamped(arcsec));
+                @if half > 0.0 { (whisker(x, y(change - half), y(change + half))) }
+                (mark([x, y(change)], 1, "mark"))
             }
             (label([right, field.y.places[1] - 3.0], Anchor::End, if drifts { "title" } else { "small" }, &symbols(&title)))
         }

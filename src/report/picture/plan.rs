@@ -5,10 +5,9 @@ use super::drawing::{Anchor, Point, Scale, label, number, plain_symbol, rectangl
 use super::file::{caption, file};
 use crate::calibration::Parameter;
 use crate::plan::{Evaluation, Plan};
-use crate::report::page::Number;
 use crate::report::plan::{percent, percent_of_tolerance};
 use crate::units::quantity;
-use crate::wording::{Language, plain};
+use crate::wording::{Language, Number, plain};
 use maud::{Markup, html};
 
 /// Left and right end of the bars of both panels. Names are to their left, numbers to their right.

@@ -7,13 +7,11 @@
 
 use super::drawing::{Anchor, Point, arrow, label, line, panel, panels, polygon, power_of_ten, words};
 use crate::attitude::{self, Deviation};
-use crate::report::page::Number;
-use crate::report::page::language::{Language, Languages, Text};
+use crate::report::page::language::Languages;
 use crate::stand::CertifiedPosition;
 use crate::units::{ARCSECONDS_PER_DEGREE, degrees_from_radians, sin_cos_of_degrees};
-use crate::wording::Words;
-use crate::wording::texts::compass;
-use crate::wording::texts::pictures as texts;
+use crate::wording::texts::{compass, pictures as texts};
+use crate::wording::{Language, Number, Text, Words};
 use maud::{Markup, html};
 use nalgebra::{Matrix3, Vector3};
 

@@ -3,9 +3,9 @@
 use super::drawing::{Anchor, Field, Look, Point, Scale, Ticks, label, line, sample, symbols, words};
 use super::file::{caption, file};
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
-use crate::report::page::{Language, Number};
 use crate::report::simulation::not_converged;
 use crate::simulation::{Convergence, ConvergenceRow};
+use crate::wording::{Language, Number};
 use maud::{Markup, html};
 
 const SIZE: Point = [660.0, 492.0];

@@ -4,11 +4,9 @@
 use super::drawing::{Anchor, Point, arrow, coordinate, label, line, list, panel, panels, symbols, width, words};
 use super::positions::{AXIS, AXIS_HEIGHT, GYRO, GYRO_HEIGHT, View, base_before, base_behind, rows, stand as parts};
 use crate::attitude;
-use crate::report::page::Number;
 use crate::report::page::language::Languages;
-use crate::wording::Words;
-use crate::wording::texts::compass;
-use crate::wording::texts::pictures as texts;
+use crate::wording::texts::{compass, pictures as texts};
+use crate::wording::{Number, Words};
 use maud::{Markup, html};
 use nalgebra::{Matrix3, Vector3};
 
@@ -41,6 +39,8 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
     let axle = xi * -THETA_AT;
     let theta = |share: f64| axle + rows(&turned(share * THETA_DEG, 0.0))[1] * THETA_ARC;
     let phi = |share: f64| rows(&turned(THETA_DEG, share * PHI_DEG))[0] * PHI_ARC;
+    // Outside the middle of its arc.
+    let theta_letter = theta(0.5) + (theta(0.5) - 0.5 * (theta(0.0) + theta(1.0))).normalize() * 0.14;
     let axis = |direction: &Vector3<f64>, from: f64| {
         arrow(view.point(&(direction * from)), view.point(&(direction * AXIS)), "axis")
     };
@@ -57,6 +57,8 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
         let name = |language| text.plain(language);
         Part { names: languages.iter().map(name).collect(), at: view.point(&at), within }
     });
+    let letters = [("x", x * 1.37), ("y", y * 1.37), ("z", z * 1.37), ("θ", theta_letter), ("φ", phi(0.5) * 1.11)];
+    let letters = letters.map(|(name, at)| (name, view.point(&at)));
     let drawing = [
         parts(&view, &frame, &platform, (&base_behind(&view, &base), &base_before(&view, &base))),
         line(view.point(&(xi * -1.1)), view.point(&(xi * -1.6)), "axle"),
@@ -66,10 +68,7 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
         axis(&z, GYRO_HEIGHT),
         arc(&view, &theta, Some(axle)),
         arc(&view, &phi, None),
-        letters(
-            &view,
-            &[("x", x * 1.37), ("y", y * 1.37), ("z", z * 1.37), ("θ", theta_letter(&theta)), ("φ", phi(0.5) * 1.11)],
-        ),
+        html! { @for (name, at) in letters { (words([at[0], at[1] + 4.0], Anchor::Middle, "letter", name)) } },
         compass_rose(languages, &base),
         leaders(&named),
     ];
@@ -88,12 +87,6 @@ fn near_the_right_corner(view: &View, base: &Matrix3<f64>) -> Vector3<f64> {
     corners.into_iter().max_by(|one, other| right(one).total_cmp(&right(other))).unwrap_or_default()
 }
 
-/// Returns the place of the letter θ: outside the middle of its arc.
-fn theta_letter(theta: &impl Fn(f64) -> Vector3<f64>) -> Vector3<f64> {
-    let middle = theta(0.5);
-    middle + (middle - 0.5 * (theta(0.0) + theta(1.0))).normalize() * 0.14
-}
-
 /// Draws the arc of an angle with a head at its end, and from `corner` the two sides of the angle.
 fn arc(view: &View, at: &impl Fn(f64) -> Vector3<f64>, corner: Option<Vector3<f64>>) -> Markup {
     const STEPS: u32 = 14;
@@ -105,15 +98,6 @@ fn arc(view: &View, at: &impl Fn(f64) -> Vector3<f64>, corner: Option<Vector3<f6
         }
         polyline.dimension points=(list(&points)) {}
         (arrow(last, view.point(&at(1.0)), "dimension-arrow"))
-    }
-}
-
-fn letters(view: &View, letters: &[(&str, Vector3<f64>)]) -> Markup {
-    html! {
-        @for (letter, at) in letters {
-            @let [x, y] = view.point(at);
-            (words([x, y + 4.0], Anchor::Middle, "letter", letter))
-        }
     }
 }
 

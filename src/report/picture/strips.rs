@@ -9,9 +9,9 @@ use crate::calibration::document::{ResidualDocument, ResultDocument};
 use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::calibration::{Decision, Found, Parameter, ParameterVerdict, Verdict, against_type};
 use crate::passport::Accuracy;
-use crate::report::page::number::LARGEST_IN_ARCSEC;
 use crate::stand::CertifiedPosition;
 use crate::units::ARCSECONDS_PER_DEGREE;
+use crate::wording::number::LARGEST_IN_ARCSEC;
 use crate::wording::texts::{pictures as texts, units};
 use crate::wording::{Language, Text, Words};
 use maud::{Markup, html};
@@ -90,7 +90,7 @@ impl Axis {
 pub(crate) struct Deviations {
     column: Column,
     /// Largest uncertainty, if one is stated.
-    largest_u: Option<f64>,
+    pub largest_u: Option<f64>,
 }
 
 impl Deviations {
@@ -130,21 +130,13 @@ impl Deviations {
 
     /// Returns the axis, in degrees if there would be no room for the numbers in arcseconds.
     pub(crate) fn axis(&self) -> Axis {
-        self.column.axis(if self.is_in_degrees() { 1.0 / ARCSECONDS_PER_DEGREE } else { 1.0 })
+        self.column.axis(if self.unit() == units::DEGREES { 1.0 / ARCSECONDS_PER_DEGREE } else { 1.0 })
     }
 
     /// Returns the unit of the axis.
     pub(crate) fn unit(&self) -> Text {
-        if self.is_in_degrees() { units::DEGREES } else { units::ARCSEC }
-    }
-
-    /// Returns `true` if an uncertainty is stated.
-    pub(crate) fn has_u(&self) -> bool {
-        self.largest_u.is_some()
-    }
-
-    fn is_in_degrees(&self) -> bool {
-        self.column.scale.values[1].max(-self.column.scale.values[0]) > LARGEST_IN_ARCSEC
+        let [low, high] = self.column.scale.values;
+        if high.max(-low) > LARGEST_IN_ARCSEC { units::DEGREES } else { units::ARCSEC }
     }
 
     /// Returns the key; the whiskers are expanded uncertainties or twice an own part.
@@ -330,12 +322,7 @@ fn decided([x, y]: Point, decision: Option<Decision>) -> Markup {
 
 /// Returns a decision as a text for pages.
 pub(crate) fn decision(decision: Option<Decision>) -> Text {
-    match decision {
-        None => texts::NOT_ASSESSED,
-        Some(Decision::Pass) => texts::DECISION_PASS,
-        Some(Decision::Fail) => texts::DECISION_FAIL,
-        Some(Decision::Undecided) => texts::DECISION_UNDECIDED,
-    }
+    decision.map_or(texts::NOT_ASSESSED, |decision| texts::decision!(Decision, decision))
 }
 
 /// Shares of the tolerances that the expected standard uncertainties have; `None` if the tolerance is 0.

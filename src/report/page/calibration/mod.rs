@@ -13,20 +13,17 @@ use super::parts::signatures;
 use super::passport::PassportPage;
 use super::shell::{Annex, Page, Section, first};
 use crate::calibration::Calibration;
-use crate::calibration::document::CalibrationDocument;
-use crate::calibration::parameter::symbols;
+use crate::calibration::document::{CalibrationDocument, NoChange};
 use crate::calibration::stated::NotStated;
-use crate::calibration::verdict::{Decision, Verdict};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
-use crate::report::calibration::{Report, causes, counted, not_linear, rule, why_no_change};
+use crate::report::calibration::{Answer, Report, causes, not_linear, rule};
 use crate::report::doc::{Block, listed, marked, outcome_box, say, told};
-use crate::report::style::Outcome;
 use crate::report::uncertainty;
 use crate::uncertainty::{Budget, MonteCarlo};
-use crate::wording::Words;
 use crate::wording::texts::calibration as texts;
+use crate::wording::{Outcome, Words};
 use jiff::Timestamp;
 
 /// Digits of the SHA-256 of the currents in the name of a report.
@@ -48,17 +45,11 @@ pub enum UsedPassport<'a> {
 }
 
 impl UsedPassport<'_> {
-    fn content(&self) -> &Content {
+    /// Returns the content, and the SHA-256 of the file.
+    fn file(&self) -> (&Content, &str) {
         match self {
-            Self::Verified(page) => &page.content,
-            Self::NotVerified { content, .. } => content,
-        }
-    }
-
-    fn sha256(&self) -> &str {
-        match self {
-            Self::Verified(page) => &page.sha256,
-            Self::NotVerified { sha256, .. } => sha256,
+            Self::Verified(page) => (&page.content, &page.sha256),
+            Self::NotVerified { content, sha256 } => (content, sha256),
         }
     }
 }
@@ -95,11 +86,14 @@ pub struct CalibrationPage<'a> {
 impl CalibrationPage<'_> {
     /// Returns the report as one self-contained HTML document.
     pub fn html(&self, languages: &Languages) -> String {
-        let warning = match (self.verified(), self.fits(), &self.document.mistake) {
-            (false, ..) => texts::NOT_VERIFIED.into(),
-            (true, false, _) => texts::DOES_NOT_FIT.into(),
-            (true, true, Some(_)) => texts::MISTAKE.into(),
-            (true, true, None) => self.reservation(),
+        let answer = self.report().answer();
+        // What stands at the head of every sheet.
+        let warning = match answer.invalid {
+            _ if !self.verified() => texts::NOT_VERIFIED.into(),
+            Some([why, _]) => why.into(),
+            None if answer.outcome == Outcome::Failed => first(answer.statement.clone()),
+            None if subject::outside(self).is_some() => texts::TEMPERATURE_IS_OUTSIDE.into(),
+            None => "".into(),
         };
         let signatures =
             [vec![say([texts::ONLY_THIS_ONE])], signatures([texts::CALIBRATED_BY, texts::APPROVED_BY]).into()];
@@ -107,7 +101,7 @@ impl CalibrationPage<'_> {
             margins: [first(texts::margin(self.name())), warning, first(texts::margin_sha256(&self.currents.1))],
             name: self.name(),
             title: (texts::TITLE, self.gyro_name(), texts::SUBTITLE.into()),
-            head: [self.headlines(), vec![self.verdict(), subject::band(self)]].concat(),
+            head: [self.headlines(&answer), vec![self.verdict(answer), subject::band(self)]].concat(),
             front: None,
             sections: self.sections(),
             signatures: signatures.concat(),
@@ -126,32 +120,14 @@ impl CalibrationPage<'_> {
         page.html(languages)
     }
 
-    /// Returns the headline of parameters that fail, or of a temperature outside the certified range, for the head of every
-    /// sheet.
-    fn reservation(&self) -> Words {
-        match self.judged().filter(|(_, verdict)| verdict.overall == Decision::Fail) {
-            Some((gyro, _)) => first(texts::conforms_not(&gyro.r#type)),
-            None if subject::outside(self).is_some() => texts::TEMPERATURE_IS_OUTSIDE.into(),
-            None => "".into(),
-        }
-    }
-
     fn content(&self) -> &Content {
-        self.passport.content()
+        self.passport.file().0
     }
 
     fn report(&self) -> Report<'_> {
-        let (calibration, missing, document) = (self.calibration, self.missing, self.document);
+        let Self { calibration, missing, document, gyro, previous, details, .. } = *self;
         let without_height = self.content().site.is_gravity_without_height();
-        Report {
-            calibration,
-            missing,
-            document,
-            gyro: self.gyro,
-            previous: self.previous,
-            without_height,
-            details: self.details,
-        }
+        Report { calibration, missing, document, gyro, previous, without_height, details }
     }
 
     /// Returns the numbered sections: those on request only if they were requested.
@@ -165,11 +141,6 @@ impl CalibrationPage<'_> {
         sections.extend(methods);
         sections.push(("subject", texts::SUBJECT, subject::section(self)));
         sections
-    }
-
-    /// Returns the gyro type and the verdict against it, or `None` if no type was specified.
-    fn judged(&self) -> Option<(&GyroType, &Verdict)> {
-        self.gyro.zip(self.document.verdict.as_ref())
     }
 
     /// Returns the serial number of the gyro, if it was stated.
@@ -196,26 +167,19 @@ impl CalibrationPage<'_> {
         matches!(self.passport, UsedPassport::Verified(_))
     }
 
-    fn fits(&self) -> bool {
-        self.calibration.consistent
-    }
-
     /// The warnings at the head of the report, the most serious first.
-    fn headlines(&self) -> Vec<Block> {
+    fn headlines(&self, answer: &Answer) -> Vec<Block> {
         let not_verified = (!self.verified()).then(|| {
             let headline = marked(Outcome::NotAsked, texts::NOT_VERIFIED);
             Block::Boxed("verdict refused", headline, vec![say([texts::NOT_VERIFIED_WORDS])])
         });
-        let invalid = self.calibration.is_invalid().then(|| {
-            let [name, what] = match self.fits() {
-                true => [texts::MISTAKE, texts::MISTAKE_WORDS],
-                false => [texts::DOES_NOT_FIT, texts::DOES_NOT_FIT_WORDS],
-            };
+        let invalid = answer.invalid.map(|[name, what]| {
             outcome_box(Outcome::Failed, name, [vec![say([what])], causes(self.calibration)].concat())
         });
         let no_change = self.previous.iter().rev().find_map(|earlier| self.document.no_change(earlier));
-        let no_change =
-            no_change.map(|why| outcome_box(Outcome::Undecided, texts::NO_CHANGE, vec![say([why_no_change(why)])]));
+        let no_change = no_change.map(|why| {
+            outcome_box(Outcome::Undecided, texts::NO_CHANGE, vec![say([texts::no_change!(NoChange, why)])])
+        });
         let doubts = [subject::temperature(self), subject::date_of_readings(self)];
         [not_verified, invalid, no_change].into_iter().chain(doubts).flatten().collect()
     }
@@ -227,70 +191,31 @@ impl CalibrationPage<'_> {
         say(all.map(|words| vec![told(words), ".".into()]))
     }
 
-    fn verdict(&self) -> Block {
-        let Some((gyro, verdict)) = self.judged() else {
-            let no_type = [texts::NO_TYPE_WORDS.into()].into_iter().chain(self.not_in_u());
-            let words = vec![
-                say(no_type),
-                say([texts::NOT_TESTED]),
-                self.unexplained_change(),
-                self.not_linear(),
-                self.implausible(),
-            ];
-            return outcome_box(Outcome::NotAsked, texts::NO_TYPE, words);
-        };
-        let kind = &gyro.r#type;
-        if verdict.withheld {
-            return outcome_box(Outcome::NotAsked, told(texts::no_statement(kind)), vec![self.implausible()]);
-        }
-        let change = self.document.stated_change();
-        let name = match (verdict.overall, change.map(|change| change.overall)) {
-            (Decision::Fail, _) => texts::conforms_not(kind),
-            (_, Some(Decision::Fail)) => texts::changed_too_much(kind),
-            (Decision::Undecided, _) => texts::undecided(kind),
-            (Decision::Pass, Some(Decision::Undecided)) => texts::change_undecided(kind),
-            (Decision::Pass, _) => texts::conforms(kind),
-        };
-        let of_change = change.map(|change| {
-            let unknown = (!self.report().is_same_gyro()).then(|| texts::SAME_GYRO_NOT_SHOWN.into());
-            counted_in_all(change, texts::change_passed, unknown)
-        });
-        let mut words = vec![counted_in_all(verdict, texts::passed, self.not_in_u())];
-        words.extend(of_change);
-        words.extend([self.not_linear(), self.implausible(), say([rule(verdict)])]);
-        outcome_box(verdict.with_change(change), name, words)
+    /// The statement of conformity with its reasons, and what they depend on.
+    fn verdict(&self, answer: Answer) -> Block {
+        let report = self.report();
+        let mut reasons = answer.reasons.into_iter();
+        let of_values = say(reasons.next().into_iter().chain(self.not_in_u().filter(|_| !answer.withheld)));
+        let unknown = self.document.stated_change().filter(|_| !report.is_same_gyro());
+        let of_change = say(reasons.chain(unknown.map(|_| texts::SAME_GYRO_NOT_SHOWN.into())));
+        let last = self.previous.last();
+        let words = vec![
+            of_values,
+            of_change,
+            say(report.gyro.is_none().then_some(texts::NOT_TESTED)),
+            say(last.and_then(|earlier| self.document.unexplained_in_words(earlier))),
+            say(self.monte_carlo.and_then(not_linear)),
+            self.implausible(),
+            say(answer.decision.and(self.document.verdict.as_ref()).map(rule)),
+        ];
+        outcome_box(answer.decision, answer.statement, words)
     }
 
     /// How many inputs U does not include.
-    fn not_in_u(&self) -> Vec<Words> {
+    fn not_in_u(&self) -> impl Iterator<Item = Words> {
         let count = self.missing.len();
         let more = subject::outside(self).map_or_else(|| "".into(), |_| Words::from(texts::AND_TEMPERATURE));
         let counted = (count > 0).then(|| told(texts::not_in_u(count, more)));
-        counted.into_iter().chain(self.laboratory.is_none().then(|| texts::METER_IS_ASSUMED.into())).collect()
+        counted.into_iter().chain(self.laboratory.is_none().then(|| texts::METER_IS_ASSUMED.into()))
     }
-
-    /// The parameters that have changed more than chance explains, if no type decides on the change.
-    fn unexplained_change(&self) -> Block {
-        say(self.previous.last().and_then(|earlier| self.document.unexplained_in_words(earlier)))
-    }
-
-    /// The parameters for which a Monte Carlo run shows that the linear approximation is not valid.
-    fn not_linear(&self) -> Block {
-        say(self.monte_carlo.and_then(not_linear))
-    }
-}
-
-/// How many parameters pass, and which were not assessed; then what follows.
-fn counted_in_all(
-    verdict: &Verdict,
-    passed: fn(usize, usize) -> Words,
-    then: impl IntoIterator<Item = Words>,
-) -> Block {
-    let mut all = vec![counted(verdict, |row| row.decision, passed)];
-    let not_found = verdict.not_found();
-    if !not_found.is_empty() {
-        all.extend(["; ".into(), texts::not_in_the_model(symbols(not_found))]);
-    }
-    all.push(".".into());
-    say([Words::All(all)].into_iter().chain(then))
 }

@@ -7,13 +7,12 @@ use crate::report::calibration::temperature_outside;
 use crate::report::doc::{
     Block, Words, blank, code, field, given, heading, marked, note, outcome_box, record, say, stated, told, wide,
 };
-use crate::report::page::number::Number;
 use crate::report::page::parts::file_name;
 use crate::report::page::passport::checks;
 use crate::report::page::passport::checks::withdrawal_not_checked;
 use crate::report::passport::{accuracy, site};
-use crate::report::style::Outcome;
 use crate::wording::texts::{calibration as texts, passport as passport_texts, record as forms, units};
+use crate::wording::{Number, Outcome};
 
 pub(super) fn section(page: &CalibrationPage) -> Vec<Block> {
     let (of_passport, of_laboratory) = (heading(texts::PASSPORT), heading(passport_texts::LABORATORY));
@@ -109,7 +108,7 @@ fn passport(page: &CalibrationPage) -> Vec<Block> {
     let fields = record([
         field(passport_texts::ID, Some(given(&header.id))),
         field(passport_texts::ISSUED, Some(Words::Time(header.issued_at))),
-        wide(texts::PASSPORT_SHA256, Some(code(page.passport.sha256()))),
+        wide(texts::PASSPORT_SHA256, Some(code(page.passport.file().1))),
         field(passport_texts::ISSUER, signed.map(|_| given(&header.issuer))),
         wide(passport_texts::KEY, signed.map(|passport| code(passport.key.fingerprint()))),
     ]);

@@ -4,8 +4,8 @@
 use super::PassportPage;
 use crate::passport::{Check, CheckName, Code};
 use crate::report::doc::{Block, Rows, Words, listed, marked, note, outcome_box, told};
-use crate::report::page::language::Text;
 use crate::report::verdict::{said, word};
+use crate::wording::Text;
 use crate::wording::texts::checks as texts;
 
 /// Returns `true` if nothing shows whether the passport has been withdrawn.
@@ -22,7 +22,7 @@ pub(super) fn refusal(page: &PassportPage) -> Option<Block> {
 
 /// "In force", or the reasons why the passport may not be used.
 fn headline(page: &PassportPage) -> Words {
-    let failed: Vec<Text> = failed(page).map(|check| reason(check.code)).collect();
+    let failed: Vec<Text> = failed(page).map(|check| texts::reason!(Code, check.code)).collect();
     match failed.is_empty() {
         true => texts::IN_FORCE.into(),
         false => told(vec![texts::NOT_TO_BE_USED.into(), ": ".into(), listed(failed)]),
@@ -42,62 +42,24 @@ fn failed<'a>(page: &'a PassportPage) -> impl Iterator<Item = &'a Check> {
     page.verification.checks().iter().filter(|check| check.passed() == Some(false))
 }
 
-fn reason(code: Code) -> Text {
-    match code {
-        Code::Expired => texts::EXPIRED,
-        Code::NotYetValid => texts::NOT_YET,
-        Code::WrongStand => texts::ANOTHER_STAND,
-        Code::WrongPlace => texts::ANOTHER_PLACE,
-        Code::Superseded => texts::SUPERSEDED,
-        Code::Moved => texts::MOVED,
-        Code::Withdrawn => texts::WITHDRAWN,
-        _ => texts::REFUSED,
-    }
-}
-
 /// Every check with its result; those that were not asked have one row.
 pub(crate) fn table(page: &PassportPage) -> Block {
     let (not_asked, asked): (Vec<&Check>, Vec<_>) =
         page.verification.checks().iter().partition(|check| check.passed().is_none());
-    let row = |check: &Check| (Words::from(name(check.name)), check.passed(), told(words(page, check)));
+    let name = |check: &Check| texts::check!(CheckName, check.name);
+    let row = |check: &Check| (Words::from(name(check)), check.passed(), told(words(page, check)));
     let mut rows: Vec<(Words, Option<bool>, Words)> = asked.into_iter().map(row).collect();
     if !not_asked.is_empty() {
-        let joined = |of: fn(CheckName) -> Text| told(listed(not_asked.iter().map(|check| of(check.name))));
-        rows.push((joined(name), None, joined(absent)));
+        let not_given = |check: &&Check| texts::not_given!(CheckName, check.name);
+        let [names, inputs] =
+            [listed(not_asked.iter().map(|check| name(check))), listed(not_asked.iter().map(not_given))].map(told);
+        rows.push((names, None, inputs));
     }
     let table = Rows::of(&rows, "checks")
         .named(texts::CHECK, |(name, ..)| name.clone())
         .column(texts::RESULT, |(_, passed, _)| marked(*passed, word(*passed)))
         .column(texts::FOUND, |(.., found)| found.clone());
     table.captioned(texts::CHECK, told(texts::caption(Words::Time(page.question.time))))
-}
-
-fn name(check: CheckName) -> Text {
-    match check {
-        CheckName::Grammar => texts::GRAMMAR,
-        CheckName::Signature => texts::SIGNATURE,
-        CheckName::Schema => texts::SCHEMA,
-        CheckName::Signer => texts::SIGNER,
-        CheckName::Revocation => texts::REVOCATION,
-        CheckName::Recomputed => texts::RECOMPUTED,
-        CheckName::InForce => texts::VALIDITY,
-        CheckName::Issuer => texts::ISSUER,
-        CheckName::Stand => texts::STAND,
-        CheckName::Place => texts::PLACE,
-        CheckName::Register => texts::REGISTER,
-    }
-}
-
-/// Returns what was not given for a check that was not asked.
-fn absent(check: CheckName) -> Text {
-    match check {
-        CheckName::Revocation => texts::REVOCATION_NO_LIST,
-        CheckName::Issuer => texts::ISSUER_NOT_ASKED,
-        CheckName::Stand => texts::STAND_NOT_ASKED,
-        CheckName::Place => texts::PLACE_NOT_ASKED,
-        CheckName::Register => texts::REGISTER_NOT_ASKED,
-        _ => texts::NOT_RUN,
-    }
 }
 
 fn words(page: &PassportPage, check: &Check) -> Words {

@@ -3,13 +3,13 @@
 use super::PassportPage;
 use super::checks::{table, withdrawal_not_checked};
 use crate::report::doc::{self, Block, Words, drawn, given, marked, note, say, told};
-use crate::report::page::language::Text;
-use crate::report::page::number::{LATITUDES, LONGITUDES, Number};
 use crate::report::page::parts::{self, signature};
 use crate::report::passport::{deviations, general};
 use crate::report::picture::stand::stand as picture;
 use crate::stand::Identity;
+use crate::wording::number::{LATITUDES, LONGITUDES};
 use crate::wording::texts::{checks, passport as texts, record, units};
+use crate::wording::{Number, Text};
 
 /// The name of the stand with its model and serial number.
 pub(super) fn name_of_the_stand(stand: &Identity) -> Words {

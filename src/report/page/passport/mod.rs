@@ -12,13 +12,14 @@ pub(crate) mod checks;
 mod front;
 mod record;
 
-use super::language::{Language, Languages};
+use super::language::Languages;
 use super::shell::{Annex, Page, Section, first};
 use crate::document::sha256_hex;
 use crate::passport::{Content, Question, Trust, Verification, verify};
 use crate::report::doc::{given, told};
 use crate::report::passport;
 use crate::trust::PublicKey;
+use crate::wording::Language;
 use crate::wording::texts::{passport as texts, record as record_texts};
 
 /// The printed form of a verified passport.
@@ -60,22 +61,9 @@ impl<'a> PassportPage<'a> {
     pub fn of(bytes: &'a [u8], question: &'a Question, verification: Verification) -> Result<Self, Box<Verification>> {
         let text = std::str::from_utf8(bytes).ok();
         let genuine = verification.authentic().map(|(content, key)| (content.clone(), key.clone()));
-        match text.zip(genuine) {
-            Some((text, (content, key))) => {
-                let sha256 = sha256_hex(bytes);
-                Ok(Self {
-                    text,
-                    sha256,
-                    question,
-                    verification,
-                    content,
-                    key,
-                    prints_annex: false,
-                    prints_forms: false,
-                })
-            }
-            None => Err(Box::new(verification)),
-        }
+        let Some((text, (content, key))) = text.zip(genuine) else { return Err(Box::new(verification)) };
+        let (sha256, prints_annex, prints_forms) = (sha256_hex(bytes), false, false);
+        Ok(Self { text, sha256, question, verification, content, key, prints_annex, prints_forms })
     }
 
     /// Returns the page as one self-contained HTML document.

@@ -2,9 +2,9 @@
 //! 2.610-2019](crate::bibliography::Bibliography::GostR2610) that are filled in by hand. Fields unknown to the file
 //! stay empty.
 
-use crate::report::doc::{Block, Cell, Column, On, Rows, Table, Words, blank, given, heading, record, say};
-use crate::report::page::language::Text;
+use crate::report::doc::{Block, Rows, Words, blank, given, heading, record, say};
 use crate::stand::Identity;
+use crate::wording::Text;
 use crate::wording::texts::{passport, record as texts};
 
 /// The forms for a stand, with the id of its passport.
@@ -55,12 +55,9 @@ fn part(name: Text, block: Block) -> Block {
 /// A form of empty rows. Its class has the widths of its columns: `dated` begins with a date, whose width the `third`
 /// column has too.
 fn form(name: Text, class: &'static str, headings: &[Text], rows: usize) -> Block {
-    let column = |heading: &Text| {
-        let cells = vec![Cell::Words("".into()); rows];
-        Column { heading: (*heading).into(), cells, foot: None, on: On::Page }
-    };
-    let columns = headings.iter().map(column).collect();
-    part(name, Block::Table(Table { name: Some(name), class, columns, ..Table::default() }))
+    let empty = vec![(); rows];
+    let table = headings.iter().fold(Rows::of(&empty, class), |table, heading| table.column(*heading, |()| ""));
+    part(name, table.called(name))
 }
 
 fn completeness(stand: &Identity, id: &str) -> Block {
