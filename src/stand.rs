@@ -159,6 +159,12 @@ impl Certificate {
         self.performed.unwrap_or(self.issued)
     }
 
+    /// Returns the degrees of freedom of the parts common to a run, three axes for each run after the first; infinite without
+    /// evidence.
+    pub(crate) fn freedom_of_runs(&self) -> f64 {
+        self.evidence.as_ref().map_or(f64::INFINITY, |evidence| 3.0 * (f64::from(evidence.runs) - 1.0))
+    }
+
     /// Returns a position with the standard uncertainties of its certified values in place of their own parts: combined
     /// with the common parts ([GUM](crate::bibliography::Bibliography::Gum), 5.1.2), `None` where a part is not stated.
     pub(crate) fn combined(&self, at: &CertifiedPosition) -> CertifiedPosition {

@@ -185,18 +185,14 @@ pub(crate) fn inputs(setup: &Setup, data: &Data, fit: &Fit) -> (Vec<Input>, DMat
     let (sensitivity, currents_ma) = (Sensitivity::new(setup, &fit.unknowns), &fit.currents_ma);
     let estimates = Estimates::new(setup, &data.repeats);
     let (rows, differences) = (2 * currents_ma.len(), data.offsets.rows.nrows());
-    let own_and_common = own_and_common(setup, &data.repeats, &estimates);
     let of_differences = (0..differences).map(|row| (Cause::Differences(row), 1.0, estimates.visits));
-    let each = own_and_common.into_iter().chain(of_differences);
+    let each = table(setup, &data.repeats, &estimates).into_iter().chain(of_differences);
     let inputs: Vec<Input> = each.filter_map(|(cause, u, basis)| estimates.input(cause, u, basis)).collect();
-    let mut columns = DMatrix::zeros(rows + differences, inputs.len());
-    for (column, input) in inputs.iter().enumerate() {
-        if let Cause::Differences(row) = input.cause {
+    let each: Vec<_> = inputs.iter().map(|input| (input.cause, input.standard_uncertainty)).collect();
+    let mut columns = sensitivity.columns(currents_ma, &each).resize_vertically(rows + differences, 0.0);
+    for (column, (cause, _)) in each.iter().enumerate() {
+        if let Cause::Differences(row) = cause {
             columns[(rows + row, column)] = 1.0;
-        }
-        for (place, current_ma) in currents_ma.iter().enumerate() {
-            let change = sensitivity.to(place, current_ma, input.cause) * input.standard_uncertainty;
-            columns.fixed_view_mut::<2, 1>(2 * place, column).copy_from(&change);
         }
     }
     (inputs, columns)
@@ -204,7 +200,7 @@ pub(crate) fn inputs(setup: &Setup, data: &Data, fit: &Fit) -> (Vec<Input>, DMat
 
 /// Returns the inputs behind the misclosures of the positions with their standard uncertainties and what these rest on: those of
 /// stand and site, then those that a calibration adds. Exact ones have an uncertainty of 0.
-fn own_and_common(setup: &Setup, repeats: &Repeats, estimates: &Estimates) -> Vec<(Cause, f64, Basis)> {
+pub(crate) fn table(setup: &Setup, repeats: &Repeats, estimates: &Estimates) -> Vec<(Cause, f64, Basis)> {
     let u = setup.uncertainty();
     let positions = || setup.coefficients().positions.iter().map(|at| at.index).enumerate();
     let mut inputs = Vec::new();

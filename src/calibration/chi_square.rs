@@ -1,6 +1,6 @@
 //! Chi-square test of a fit: its value from all inputs, and its distribution if uncertainties rest on estimates.
 
-use super::causes::Cause;
+use super::causes::{Cause, table};
 use super::estimates::{Basis, Estimates};
 use super::least_squares::multiply_rows;
 use super::propagation::{self, Propagation, Rest, covariance};
@@ -156,10 +156,9 @@ fn estimated(propagation: &Propagation, rest: &Rest, lower: Option<DMatrix<f64>>
             m[(column, row)] = left;
         }
     }
-    let own = own_parts(propagation, &estimates);
-    let common = common_parts(propagation, &estimates);
-    let mut parts = Vec::with_capacity(own.len());
-    for (estimate, (own, common)) in own.iter().zip(&common).enumerate() {
+    let of_estimates = parts_of_estimates(propagation, &estimates);
+    let mut parts = Vec::with_capacity(of_estimates.len());
+    for (estimate, (own, common)) in of_estimates.iter().enumerate() {
         let mut product = m.clone();
         for (place, block) in own.iter().enumerate() {
             multiply_rows(&mut product, place, block);
@@ -175,7 +174,7 @@ fn estimated(propagation: &Propagation, rest: &Rest, lower: Option<DMatrix<f64>>
         let degrees_of_freedom = estimates.degrees_of_freedom[estimate];
         parts.push(Part { degrees_of_freedom, trace: product.trace(), square });
     }
-    let of_visits = |estimate: usize| Some((estimate, terms(rest, &own[estimate], z)?));
+    let of_visits = |estimate: usize| Some((estimate, terms(rest, &of_estimates[estimate].0, z)?));
     Estimated { parts, visits: estimates.of_visits().and_then(of_visits) }
 }
 
@@ -208,52 +207,35 @@ fn absorbed(propagation: &Propagation, Rest { q2, common }: &Rest, lower: Option
     v
 }
 
-/// Returns the whitened own part of each position that rests on each estimate, 2×2.
-fn own_parts(propagation: &Propagation, estimates: &Estimates) -> Vec<Vec<Matrix2<f64>>> {
-    let (fit, repeats, sensitivity) = (propagation.fit, &propagation.data.repeats, propagation.sensitivity());
-    let (positions, k) = (fit.whitening.len(), &fit.unknowns.parameters.k_deg_per_h_per_ma);
-    let noise = k * k.transpose();
-    let mut parts = vec![vec![Matrix2::zeros(); positions]; estimates.degrees_of_freedom.len()];
-    for (place, whiten) in fit.whitening.iter().enumerate() {
-        let mut add = |basis: Basis, covariance: &dyn Fn() -> Matrix2<f64>| {
-            for (estimate, share) in basis.shares() {
-                parts[estimate][place] += whiten * covariance() * whiten.transpose() * share;
+/// Returns the whitened parts of the covariance that rest on each estimate: the own part of each position, 2×2, and the errors
+/// for one standard uncertainty of each input common to all positions (rows × inputs).
+fn parts_of_estimates(propagation: &Propagation, estimates: &Estimates) -> Vec<(Vec<Matrix2<f64>>, DMatrix<f64>)> {
+    let Propagation { setup, data, fit, .. } = propagation;
+    let (sensitivity, positions) = (propagation.sensitivity(), &setup.coefficients().positions);
+    let whitened =
+        |place: usize, cause, u: f64| fit.whitening[place] * sensitivity.to(place, &fit.currents_ma[place], cause) * u;
+    let none = (vec![Matrix2::zeros(); positions.len()], DMatrix::zeros(fit.model.rows, 0));
+    let mut parts = vec![none; estimates.degrees_of_freedom.len()];
+    // The scatter of K between turn-ons is taken as known.
+    let inputs = table(setup, &data.repeats, estimates).into_iter();
+    let inputs = inputs.filter(|(cause, u, _)| *u > 0.0 && !matches!(cause, Cause::Scale(_)));
+    for (cause, u, basis) in inputs {
+        let own = cause.position().and_then(|index| positions.iter().position(|at| at.index == index));
+        for (estimate, share) in basis.shares() {
+            let (of_positions, common) = &mut parts[estimate];
+            if let Some(place) = own {
+                let change = whitened(place, cause, u);
+                of_positions[place] += change * change.transpose() * share;
+                continue;
             }
-        };
-        for (basis, change) in estimates.angles[place].into_iter().zip(sensitivity.to_certified_angles(place)) {
-            add(basis, &|| change * change.transpose());
+            let last = common.ncols();
+            *common = std::mem::take(common).insert_column(last, 0.0);
+            for place in 0..positions.len() {
+                common.fixed_view_mut::<2, 1>(2 * place, last).copy_from(&whitened(place, cause, u));
+            }
         }
-        add(estimates.returns, &|| sensitivity.of_return(place) * repeats.return_share(place));
-        add(estimates.noise, &|| noise * repeats.noise_variance_ma2(place));
-        add(estimates.visits, &|| Matrix2::from_diagonal_element(repeats.drift_variance(place)));
     }
     parts
-}
-
-/// Returns the whitened errors for one standard uncertainty of each input common to all positions that rests on each
-/// estimate (rows × inputs).
-fn common_parts(propagation: &Propagation, estimates: &Estimates) -> Vec<DMatrix<f64>> {
-    let (fit, u, sensitivity) = (propagation.fit, propagation.setup.uncertainty(), propagation.sensitivity());
-    let turn_on = propagation.data.repeats.turn_on_of_mean_deg_per_h();
-    let inputs: [(Basis, f64, Vec<Cause>); 3] = [
-        (estimates.platform, u.common_platform_rad, [0, 1, 2].map(Cause::Platform).into()),
-        (estimates.base, u.common_base_rad, [0, 1, 2].map(Cause::Base).into()),
-        (estimates.turn_ons, turn_on, [0, 1].map(Cause::TurnOn).into()),
-    ];
-    let of_estimate = |estimate| match inputs.iter().find(|(basis, ..)| *basis == Basis::Estimate(estimate)) {
-        None => DMatrix::zeros(fit.model.rows, 0),
-        Some((_, u, causes)) => {
-            let mut columns = DMatrix::zeros(fit.model.rows, causes.len());
-            for (place, (whiten, current_ma)) in fit.whitening.iter().zip(&fit.currents_ma).enumerate() {
-                for (column, cause) in causes.iter().enumerate() {
-                    let change = whiten * sensitivity.to(place, current_ma, *cause) * *u;
-                    columns.fixed_view_mut::<2, 1>(2 * place, column).copy_from(&change);
-                }
-            }
-            columns
-        }
-    };
-    (0..estimates.degrees_of_freedom.len()).map(of_estimate).collect()
 }
 
 #[cfg(test)]

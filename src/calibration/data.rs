@@ -28,6 +28,7 @@ pub(crate) struct Data {
 }
 
 /// The fit of a model, with the errors of visits, readings and turn-ons as observed.
+#[derive(Debug, Clone)]
 pub(crate) struct Observation {
     pub(crate) data: Data,
     pub(crate) fit: Fit,

@@ -152,6 +152,7 @@ impl Offsets {
 }
 
 /// Differences between the visits to each position.
+#[derive(Debug, Clone)]
 pub(crate) struct Differences {
     /// Number of elements of a_v.
     terms: usize,
@@ -165,6 +166,7 @@ pub(crate) struct Differences {
 }
 
 /// Departure of a visit from the mean of the visits to its position.
+#[derive(Debug, Clone)]
 struct Departure {
     /// Combinations of a_v.
     combinations: Vec<f64>,

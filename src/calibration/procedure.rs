@@ -2,14 +2,13 @@
 
 use super::analytic::{self, AnalyticMap, AnalyticSolution};
 use super::chi_square::chi_square;
-use super::data::{Data, Observation};
+use super::data::Observation;
 use super::document::result::{
     ChiSquareDocument, NoiseDocument, ResidualDocument, ResultDocument, UncertaintyDocument, rows,
 };
 use super::drift::drift_can_be_fitted;
 use super::finding::{self, by_type::by_size, visits};
 use super::iterative::{self, NoIterativeSolution, StopRule};
-use super::least_squares::Fit;
 use super::propagation::{Propagation, covariance, standard_deviations};
 use super::result::{Cycle, ModelTest};
 use super::unknowns::Unknowns;
@@ -63,9 +62,27 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
     let evaluation = Evaluation::new(Propagation::new(setup, data, fit));
     let (causes, consistent) =
         finding::all(setup, readings, (&observation, &explained), options, &evaluation.chi_square);
+    let closed = options.model != Model::General && !options.drift && data.offsets.are_balanced();
+    let paper = if fit.of == Model::Paper { None } else { Some(data.fit(setup, Model::Paper)?) };
+    let paper = paper.as_ref().map(|paper| Evaluation::new(Propagation::new(setup, data, paper)));
+    let of_the_paper = paper.as_ref().unwrap_or(&evaluation);
+    let of_closed = of_the_paper.closed();
+    let (mut results, mut refused) = (Vec::new(), Vec::new());
+    for &method in &options.methods {
+        let result = match method {
+            Method::Analytic | Method::Iterative if !closed => Err(MethodRefusal::NotThisModel),
+            Method::Analytic => of_the_paper.analytic(of_closed.as_ref()).map_err(MethodRefusal::from),
+            Method::Iterative => of_the_paper.iterative(of_closed.as_ref(), &options.stop_rule),
+            Method::LeastSquares => Ok(evaluation.least_squares(paper.as_ref().map(|paper| &paper.chi_square))),
+        };
+        match result {
+            Ok(result) => results.push(result),
+            Err(refusal) => refused.push((method, refusal)),
+        }
+    }
     let mut calibration = Calibration {
-        results: Vec::new(),
-        refused: Vec::new(),
+        results,
+        refused,
         digits,
         scatter: seen.visits,
         row_scatter: seen.rows,
@@ -76,24 +93,8 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
         settled: fit.settled,
         consistent,
         causes,
+        observation,
     };
-    let closed = options.model != Model::General && !options.drift && data.offsets.are_balanced();
-    let paper = if fit.of == Model::Paper { None } else { Some(data.fit(setup, Model::Paper)?) };
-    let paper = paper.as_ref().map(|paper| Evaluation::new(Propagation::new(setup, data, paper)));
-    let of_the_paper = paper.as_ref().unwrap_or(&evaluation);
-    let of_closed = of_the_paper.closed();
-    for &method in &options.methods {
-        let result = match method {
-            Method::Analytic | Method::Iterative if !closed => Err(MethodRefusal::NotThisModel),
-            Method::Analytic => of_the_paper.analytic(of_closed.as_ref()).map_err(MethodRefusal::from),
-            Method::Iterative => of_the_paper.iterative(of_closed.as_ref(), &options.stop_rule),
-            Method::LeastSquares => Ok(evaluation.least_squares(paper.as_ref().map(|paper| &paper.chi_square))),
-        };
-        match result {
-            Ok(result) => calibration.results.push(result),
-            Err(refusal) => calibration.refused.push((method, refusal)),
-        }
-    }
     let usual = GyroType::gvk_6().nominal.to_model();
     let valid = calibration.adopted().filter(|_| calibration.fits());
     let range = valid.map_or_else(Vec::new, |found| by_size(&found.parameters, &usual));
@@ -110,41 +111,40 @@ pub(super) fn without_causes(setup: &Setup, readings: &Readings, options: &Optio
     Some(Evaluation::new(Propagation::new(setup, &data, &fit)).least_squares(None))
 }
 
-/// First-order response of a calibration to small changes of all its inputs.
-#[derive(Debug, Clone)]
-pub(crate) struct Linearised {
-    /// Weighted fit at which the derivatives are taken.
-    pub(crate) fit: Fit,
-    /// Result of the method: that of the fit, or the analytic solution, to which the iterative method converges.
-    pub(crate) found: Unknowns,
-    /// Mean currents with their repeats and offsets.
-    pub(crate) data: Data,
-    /// L: response of the parameters to the misclosures (parameters × misclosures, two per position). L F is the spread
-    /// of the parameters.
-    pub(crate) response: DMatrix<f64>,
-}
-
-/// Returns the fit of [`calibrate`] and the response of `method` there, from which budgets and Monte Carlo start.
-pub(crate) fn linearise(
+/// Returns the fit of [`calibrate`] with the model of `method`, from which budgets and Monte Carlo start.
+pub(crate) fn observe(
     setup: &Setup,
     readings: &Readings,
     method: Method,
     options: &Options,
-) -> Result<Linearised, MethodRefusal> {
-    let setup = &*setup.of_readings(readings);
-    let model = if method == Method::LeastSquares { options.model } else { Model::Paper };
-    let (Observation { data, fit, .. }, _) = visits::observe(setup, readings, model, options.drift)?;
-    let propagation = Propagation::new(setup, &data, &fit);
-    let (found, response) = match method {
-        Method::LeastSquares => (fit.unknowns, propagation.response_of_least_squares()),
-        Method::Analytic | Method::Iterative => {
-            let parameters = analytic::solve(setup.coefficients(), &data.currents_ma)?.parameters;
-            let map = AnalyticMap::new(setup.coefficients(), &fit.currents_ma)?;
-            let rows = propagation.causes.nrows();
-            (Unknowns::of(parameters), propagation.analytic(&map, &DMatrix::identity(rows, rows)).0)
-        }
-    };
-    Ok(Linearised { fit, found, data, response })
+) -> Result<Observation, NoLeastSquares> {
+    let (observation, _) =
+        visits::observe(&setup.of_readings(readings), readings, method.model(options), options.drift)?;
+    Ok(observation)
+}
+
+/// Returns the result of a method, for the iterative method the analytic solution to which it converges, and L: the response
+/// of the parameters to the misclosures (parameters × misclosures, two per position). L F is the spread of the parameters.
+pub(crate) fn response(
+    setup: &Setup,
+    Observation { data, fit, .. }: &Observation,
+    method: Method,
+) -> Result<(Unknowns, DMatrix<f64>), NoAnalyticSolution> {
+    let propagation = Propagation::new(setup, data, fit);
+    if method == Method::LeastSquares {
+        return Ok((fit.unknowns, propagation.response_of_least_squares()));
+    }
+    let parameters = analytic::solve(setup.coefficients(), &data.currents_ma)?.parameters;
+    let map = AnalyticMap::new(setup.coefficients(), &fit.currents_ma)?;
+    let rows = propagation.causes.nrows();
+    Ok((Unknowns::of(parameters), propagation.analytic(&map, &DMatrix::identity(rows, rows)).0))
+}
+
+impl Method {
+    /// Returns the model that the method fits; the paper's methods have the paper's.
+    pub(crate) fn model(self, options: &Options) -> Model {
+        if self == Self::LeastSquares { options.model } else { Model::Paper }
+    }
 }
 
 /// Returns a value in units of its standard uncertainty, or 0 if it can only be rounding.

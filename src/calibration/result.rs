@@ -1,6 +1,7 @@
 //! Results of a calibration.
 
 use super::chi_square::ALARM;
+use super::data::Observation;
 use super::document::ResultDocument;
 use super::finding::{Finding, Kind};
 use super::iterative::NoIterativeSolution;
@@ -35,7 +36,7 @@ words! {
 word_of_a_key!(Method, key, "");
 
 /// The result of a calibration.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Calibration {
     /// Results in the order of the requested methods; refused methods are missing.
     pub results: Vec<MethodResult>,
@@ -62,6 +63,8 @@ pub struct Calibration {
     /// Causes that explain the readings or the parameters, the most likely first. Without a gyro type only a unit of the currents
     /// that is wrong by a factor of a thousand or more is recognised of those that leave no residuals.
     pub causes: Vec<Finding>,
+    /// Fit of all readings, from which budgets start.
+    pub(crate) observation: Observation,
 }
 
 /// Reason why a result is not that of the gyro.

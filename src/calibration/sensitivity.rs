@@ -149,29 +149,30 @@ impl<'a> Sensitivity<'a> {
     /// of the turn-ons. Exact inputs have no column.
     pub(crate) fn shared(&self, currents_ma: &[Vector2<f64>], repeats: &Repeats) -> DMatrix<f64> {
         let u = self.setup.uncertainty();
-        let mut columns: Vec<(f64, Cause)> = Vec::with_capacity(11);
-        for (axis, seat) in u.seating_rad.into_iter().enumerate() {
-            columns.push((libm::hypot(u.common_platform_rad, seat), Cause::Seat(axis)));
-        }
-        let azimuth_rad = libm::hypot(u.azimuth_rad, u.mark_rad);
-        for (axis, own) in [u.level_rad, u.level_rad, azimuth_rad].into_iter().enumerate() {
-            columns.push((libm::hypot(u.common_base_rad, own), Cause::Base(axis)));
-        }
-        columns.push((libm::hypot(u.latitude_rad, u.deflection_rad), Cause::Latitude));
-        columns.push((u.meter.gain, Cause::Gain));
-        columns.push((u.meter.offset_ma, Cause::Offset));
-        columns.extend([0, 1].map(|axis| (repeats.turn_on_of_mean_deg_per_h(), Cause::TurnOn(axis))));
-        columns.extend((0..4).map(|element| (repeats.scale_of_mean(element), Cause::Scale(element))));
-        columns.retain(|(u, _)| *u > 0.0);
-        let positions = currents_ma.len();
-        let mut matrix = DMatrix::zeros(2 * positions, columns.len());
-        for (column, (u, cause)) in columns.iter().enumerate() {
-            for (place, current) in currents_ma.iter().enumerate() {
-                let change = self.to(place, current, *cause) * *u;
-                matrix.fixed_view_mut::<2, 1>(2 * place, column).copy_from(&change);
+        let case = [0, 1, 2].map(|axis| (Cause::Seat(axis), libm::hypot(u.common_platform_rad, u.seating_rad[axis])));
+        let at_site = [u.level_rad, u.level_rad, libm::hypot(u.azimuth_rad, u.mark_rad)];
+        let base = [0, 1, 2].map(|axis| (Cause::Base(axis), libm::hypot(u.common_base_rad, at_site[axis])));
+        let others = [
+            (Cause::Latitude, libm::hypot(u.latitude_rad, u.deflection_rad)),
+            (Cause::Gain, u.meter.gain),
+            (Cause::Offset, u.meter.offset_ma),
+        ];
+        let turn_ons = [0, 1].map(|axis| (Cause::TurnOn(axis), repeats.turn_on_of_mean_deg_per_h()));
+        let scale = [0, 1, 2, 3].map(|element| (Cause::Scale(element), repeats.scale_of_mean(element)));
+        let inputs = case.into_iter().chain(base).chain(others).chain(turn_ons).chain(scale);
+        self.columns(currents_ma, &inputs.filter(|(_, u)| *u > 0.0).collect::<Vec<_>>())
+    }
+
+    /// Returns the errors of the misclosures for one standard uncertainty of each of the `inputs`, °/h (two rows per position
+    /// × inputs).
+    pub(crate) fn columns(&self, currents_ma: &[Vector2<f64>], inputs: &[(Cause, f64)]) -> DMatrix<f64> {
+        let mut columns = DMatrix::zeros(2 * currents_ma.len(), inputs.len());
+        for (mut column, (cause, u)) in columns.column_iter_mut().zip(inputs) {
+            for (place, current_ma) in currents_ma.iter().enumerate() {
+                column.fixed_rows_mut::<2>(2 * place).copy_from(&(self.to(place, current_ma, *cause) * *u));
             }
         }
-        matrix
+        columns
     }
 
     /// Returns the change of the misclosure of position `place` per unit of a cause, °/h.

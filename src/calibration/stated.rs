@@ -122,11 +122,9 @@ impl Setup {
 /// Returns the effective degrees of freedom of a common part: 3 (R − 1) for the part from R runs, and those stated for
 /// each contribution of type B.
 fn of_common(certificate: &Certificate, on: ActsOn, common_arcsec: Option<f64>) -> f64 {
-    let Some((evidence, common_arcsec)) = certificate.evidence.as_ref().zip(common_arcsec) else {
-        return f64::INFINITY;
-    };
+    let Some(common_arcsec) = common_arcsec.filter(|_| certificate.evidence.is_some()) else { return f64::INFINITY };
     let shown = (common_arcsec * common_arcsec - certificate.type_b_arcsec2(on)).max(0.0).sqrt();
-    let mut parts = vec![(shown, 3.0 * (f64::from(evidence.runs) - 1.0))];
+    let mut parts = vec![(shown, certificate.freedom_of_runs())];
     let type_b = certificate.type_b_on(on);
     parts.extend(type_b.map(|line| (line.u_arcsec, line.degrees_of_freedom.unwrap_or(f64::INFINITY))));
     effective_degrees_of_freedom(&parts)

@@ -313,14 +313,11 @@ impl Variance {
     /// Returns the variance of a sum of independent parts, with degrees of freedom by Welch and Satterthwaite:
     /// [GUM](crate::bibliography::Bibliography::Gum), eq. (G.2b).
     pub(crate) fn sum(parts: impl IntoIterator<Item = Self>) -> Self {
-        let (mut value, mut squares) = (0.0, 0.0);
-        for part in parts {
-            value += part.value;
-            squares += part.value * part.value / part.degrees_of_freedom;
-        }
+        let (value, doubt) = parts.into_iter().fold((0.0, 0.0), |(value, doubt), part| {
+            (value + part.value, doubt + part.value * part.value / part.degrees_of_freedom)
+        });
         // No part varies, or every varying part is known exactly.
-        let degrees_of_freedom = if squares > 0.0 { value * value / squares } else { f64::INFINITY };
-        Self { value, degrees_of_freedom }
+        Self { value, degrees_of_freedom: if doubt > 0.0 { value * value / doubt } else { f64::INFINITY } }
     }
 
     /// Returns the variance with the degrees of freedom for `changes`, the number of runs less one.

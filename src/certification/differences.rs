@@ -38,8 +38,7 @@ fn angles_of(stand: &Stand) -> Vec<Vector3<f64>> {
 /// Returns the rotation common to most positions between two certificates, with its test, and the `later` angles without it;
 /// `None` if the certificates have other positions or lack uncertainties, or if no more than half of the positions agree.
 pub(crate) fn turned(earlier: &Stand, later: &Stand) -> Option<(CommonTurn, Vec<Vector3<f64>>)> {
-    let nominal =
-        |stand: &Stand| stand.positions.iter().map(|at| (at.index(), at.theta_deg, at.phi_deg)).collect::<Vec<_>>();
+    let nominal = |stand: &Stand| stand.positions.iter().map(NominalPosition::from).collect::<Vec<_>>();
     let is_stated = |at: &CertifiedPosition| certified_u_arcsec(at).is_some();
     if nominal(earlier) != nominal(later) || !earlier.positions.iter().chain(&later.positions).all(is_stated) {
         return None;
@@ -52,12 +51,11 @@ pub(crate) fn turned(earlier: &Stand, later: &Stand) -> Option<(CommonTurn, Vec<
     let differences = Differences::with(earlier, &angles_of(later), of_later)?;
     let repeating = differences.repeating(&(0..later.positions.len()).collect::<Vec<_>>());
     let [before, after] = [earlier, later].map(|stand| &stand.certificate);
-    let runs = |of: &Certificate| of.evidence.as_ref().map_or(f64::INFINITY, |of| 3.0 * (f64::from(of.runs) - 1.0));
     let between = Between {
         runs: 1.0,
         platform_arcsec2: square(after.common_platform_arcsec?),
         base_arcsec2: square(after.common_base_arcsec.unwrap_or(0.0)),
-        degrees_of_freedom: runs(before).min(runs(after)),
+        degrees_of_freedom: before.freedom_of_runs().min(after.freedom_of_runs()),
     };
     let common = differences.common(&repeating, earlier, Some(&between)).filter(|_| !repeating.is_empty())?;
     let (shared, ..) = differences.shared(&repeating)?;
@@ -321,7 +319,7 @@ impl Between {
         again: Option<&Certification>,
     ) -> Result<Self, Box<Remark>> {
         let evidence = certificate.evidence.as_ref().map(|evidence| f64::from(evidence.runs));
-        let of_certificate = evidence.map_or(f64::INFINITY, |runs| 3.0 * (runs - 1.0));
+        let of_certificate = certificate.freedom_of_runs();
         let stated =
             [(certificate.common_platform_arcsec, ActsOn::Platform), (certificate.common_base_arcsec, ActsOn::Base)];
         let stated = |evidence: f64| {

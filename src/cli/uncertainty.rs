@@ -2,7 +2,7 @@
 
 use super::options::Threads;
 use super::{Failure, inputs, long_run, output};
-use crate::calibration::{Calibration, CalibrationDocument, Method, Options as CalibrationOptions, Readings, Setup};
+use crate::calibration::{Calibration, CalibrationDocument, Options as CalibrationOptions, Readings, Setup};
 use crate::gyro::{GyroType, Tolerance};
 use crate::interface::calibrated::{WholeDocument, distributions};
 use crate::report::uncertainty as report;
@@ -76,12 +76,11 @@ impl UncertaintyOptions {
         if !self.budget && !self.monte_carlo {
             return Ok(Found { budget: None, monte_carlo: None });
         }
-        let method = calibration.adopted().map_or(Method::LeastSquares, |answer| answer.method);
         if let Some(why) = self.monte_carlo.then(|| refused_model(options)).flatten() {
             let advice = "omit --monte-carlo, or --anisoelasticity, --drift and --model general";
             return Err(Failure::unusable(format!("{why}; {advice}")));
         }
-        let budget = Budget::new(setup, readings, method, options).map_err(Failure::refused)?;
+        let budget = Budget::of(calibration, setup, readings, options).map_err(Failure::refused)?;
         let trials = self.monte_carlo.then(|| self.trials(setup, readings, (&budget, options))).transpose()?;
         let budget = self.budget.then(|| (budget, tolerance.cloned()));
         Ok(Found { budget, monte_carlo: trials })

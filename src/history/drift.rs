@@ -3,8 +3,8 @@
 //! a change of one position that the parts common to all positions hide.
 
 use crate::calibration::inputs::Turn;
-use crate::certification::CommonTurn;
 use crate::certification::differences::turned;
+use crate::certification::{CommonTurn, NominalPosition};
 use crate::coefficients::PositionIndex;
 use crate::passport::difference::u_of_deviations_arcsec;
 use crate::stand::{ActsOn, Certificate, CertifiedPosition, Stand};
@@ -113,20 +113,20 @@ impl Drift {
         };
         let (common, tested) = without_common(certificates);
         let tested: Vec<&Stand> = tested.iter().collect();
-        let mut nominal: Vec<Nominal> = Vec::new();
-        for at in certificates.iter().flat_map(|stand| &stand.positions) {
-            if !nominal.contains(&nominal_of(at)) {
-                nominal.push(nominal_of(at));
-            }
-        }
-        nominal.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2)));
+        let positions = certificates.iter().flat_map(|stand| &stand.positions);
+        let mut nominal: Vec<NominalPosition> = positions.map(NominalPosition::from).collect();
+        let angles = |a: &NominalPosition, b: &NominalPosition| {
+            a.theta_deg.total_cmp(&b.theta_deg).then(a.phi_deg.total_cmp(&b.phi_deg))
+        };
+        nominal.sort_by(|a, b| a.index().cmp(&b.index()).then_with(|| angles(a, b)));
+        nominal.dedup();
         let mut series: Vec<Series> = nominal
             .iter()
             .flat_map(|position| (0..3).map(move |angle| (position, angle)))
             .map(|(position, angle)| {
                 let both = certificates.iter().zip(&tested);
-                let values = both.filter_map(|(stand, tested)| value(stand, tested, *position, angle, first)).collect();
-                Series::of(position.0, angle, values)
+                let values = both.filter_map(|(stand, tested)| value(stand, tested, position, angle, first)).collect();
+                Series::of(position.index(), angle, values)
             })
             .collect();
         let mut relative = relative_series(&tested, first);
@@ -255,7 +255,7 @@ fn without_common(certificates: &[&Stand]) -> (Vec<CommonJump>, Vec<Stand>) {
 
 /// Returns the value of a deviation in a certificate, or `None` if it does not contain the position; `tested` is the
 /// certificate without the rotations common to all positions.
-fn value(stand: &Stand, tested: &Stand, nominal: Nominal, angle: usize, first: Date) -> Option<Value> {
+fn value(stand: &Stand, tested: &Stand, nominal: &NominalPosition, angle: usize, first: Date) -> Option<Value> {
     let (at, without) = (position(stand, nominal)?, position(tested, nominal)?);
     let u_arcsec = u_of_deviations_arcsec(at, &stand.certificate)[angle];
     Some(Value {
@@ -274,7 +274,7 @@ fn value(stand: &Stand, tested: &Stand, nominal: Nominal, angle: usize, first: D
 fn degrees_of_freedom(stand: &Stand, at: &CertifiedPosition, angle: usize, u: f64) -> f64 {
     let certificate = &stand.certificate;
     let own = at.u_arcsec()[angle].unwrap_or(0.0);
-    let runs = certificate.evidence.as_ref().map_or(f64::INFINITY, |evidence| 3.0 * (f64::from(evidence.runs) - 1.0));
+    let runs = certificate.freedom_of_runs();
     let type_b = [ActsOn::Platform, ActsOn::Base].map(|on| certificate.type_b_arcsec2(on)).iter().sum::<f64>();
     let common = (u * u - own * own).max(0.0);
     let repeated = (common - type_b).max(0.0);
@@ -305,11 +305,11 @@ fn relative_series(certificates: &[&Stand], first: Date) -> Vec<Series> {
     if known.len() < 2 || !known.iter().any(is_common) {
         return Vec::new();
     }
-    let mut wanted: Vec<&CertifiedPosition> = known[0].positions.iter().collect();
-    wanted.retain(|at| known.iter().all(|stand| position(stand, nominal_of(at)).is_some()));
-    wanted.sort_by_key(|at| at.index());
+    let mut wanted: Vec<NominalPosition> = known[0].positions.iter().map(NominalPosition::from).collect();
+    wanted.retain(|at| known.iter().all(|stand| position(stand, at).is_some()));
+    wanted.sort_by_key(NominalPosition::index);
     let each = known.iter().map(|stand| {
-        let positions: Vec<_> = wanted.iter().filter_map(|at| position(stand, nominal_of(at))).collect();
+        let positions: Vec<_> = wanted.iter().filter_map(|at| position(stand, at)).collect();
         (covariance(&positions, &stand.certificate), positions, *stand)
     });
     let each: Vec<_> = each.collect();
@@ -340,15 +340,8 @@ fn relative_series(certificates: &[&Stand], first: Date) -> Vec<Series> {
     (0..size).map(of_row).collect()
 }
 
-/// Index of a position and its nominal angles (θ, φ), degrees.
-type Nominal = (PositionIndex, f64, f64);
-
-fn nominal_of(at: &CertifiedPosition) -> Nominal {
-    (at.index(), at.theta_deg, at.phi_deg)
-}
-
-fn position(stand: &Stand, nominal: Nominal) -> Option<&CertifiedPosition> {
-    stand.positions.iter().find(|at| nominal_of(at) == nominal)
+fn position<'a>(stand: &'a Stand, nominal: &NominalPosition) -> Option<&'a CertifiedPosition> {
+    stand.positions.iter().find(|at| NominalPosition::from(*at) == *nominal)
 }
 
 /// Returns the covariance of α, β, γ of all positions, arcsec²: their own parts, and the turns of platform and base.

@@ -49,8 +49,8 @@ pub fn calibrate_json(
 
 /// Returns the budget of the uncertainty as JSON if `order` asks for it.
 fn budget(done: &Done, order: &Order) -> Option<serde_json::Value> {
-    let answer = done.calibration.adopted().filter(|_| order.budget)?;
-    let budget = Budget::new(&done.setup, &done.readings, answer.method, &order.options).ok()?;
+    done.calibration.adopted().filter(|_| order.budget)?;
+    let budget = Budget::of(&done.calibration, &done.setup, &done.readings, &order.options).ok()?;
     Some(budget.to_json(order.gyro.as_ref().map(|gyro| &gyro.tolerance)))
 }
 
@@ -155,8 +155,7 @@ pub fn monte_carlo(content: &Content, currents: (&str, &[u8]), order: &Order, ru
     let options = &order.options;
     let prepared = prepared(content, currents, order)?;
     let Done { setup, readings, calibration, .. } = prepared.run(options, Subject::default(), &[])?;
-    let method = calibration.adopted().map_or(Method::LeastSquares, |answer| answer.method);
-    let budget = Budget::new(&setup, &readings, method, options).map_err(Failed::refused)?;
+    let budget = Budget::of(&calibration, &setup, &readings, options).map_err(Failed::refused)?;
     Ok(json(&distributions(&setup, &readings, (&budget, options), run)?))
 }
 
@@ -309,8 +308,7 @@ impl<'a> Prepared<'a> {
         let documented = |readings: &Readings, calibration: &Calibration| {
             let id = &content.passport.id;
             let mut document = CalibrationDocument::new(id, verified, gravity, calibration, &missing);
-            let budget =
-                calibration.adopted().and_then(|answer| Budget::new(&setup, readings, answer.method, options).ok());
+            let budget = calibration.adopted().and_then(|_| Budget::of(calibration, &setup, readings, options).ok());
             if gyro_type.is_some() {
                 document.not_tested.clear();
             }

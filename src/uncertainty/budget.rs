@@ -5,10 +5,13 @@
 //! results).
 
 use crate::calibration::causes;
+use crate::calibration::data::Observation;
 use crate::calibration::estimates::Estimates;
-use crate::calibration::procedure::{Linearised, linearise};
+use crate::calibration::procedure::{observe, response};
 use crate::calibration::propagation::{covariance, product};
-use crate::calibration::{Basis, Cause, Input, Method, MethodRefusal, Model, Options, Parameter, Readings, Setup};
+use crate::calibration::{
+    Basis, Calibration, Cause, Input, Method, MethodRefusal, Model, Options, Parameter, Readings, Setup,
+};
 use crate::statistics::student::student_factor;
 use nalgebra::DMatrix;
 use std::collections::BTreeMap;
@@ -91,9 +94,31 @@ impl Budget {
     /// # Errors
     /// Returns [`MethodRefusal`] if the method has no solution for these readings.
     pub fn new(setup: &Setup, readings: &Readings, method: Method, options: &Options) -> Result<Self, MethodRefusal> {
-        let Linearised { fit, found, data, response } = linearise(setup, readings, method, options)?;
-        let setup = &*setup.of_readings(readings);
-        let (inputs, columns) = causes::inputs(setup, &data, &fit);
+        Self::at(&setup.of_readings(readings), &observe(setup, readings, method, options)?, method)
+    }
+
+    /// Computes the budget of the adopted result of a calibration, or of least squares if there is none.
+    ///
+    /// # Errors
+    /// Returns [`MethodRefusal`] as [`Self::new`] does.
+    pub(crate) fn of(
+        calibration: &Calibration,
+        setup: &Setup,
+        readings: &Readings,
+        options: &Options,
+    ) -> Result<Self, MethodRefusal> {
+        let method = calibration.adopted().map_or(Method::LeastSquares, |answer| answer.method);
+        let observation = &calibration.observation;
+        if observation.fit.of != method.model(options) {
+            return Self::new(setup, readings, method, options);
+        }
+        Self::at(&setup.of_readings(readings), observation, method)
+    }
+
+    fn at(setup: &Setup, observation: &Observation, method: Method) -> Result<Self, MethodRefusal> {
+        let (found, response) = response(setup, observation, method)?;
+        let Observation { data, fit, .. } = observation;
+        let (inputs, columns) = causes::inputs(setup, data, fit);
         let spread = product(&response, &columns);
         let of = if method == Method::LeastSquares { fit.of } else { Model::Paper };
         let spread = spread.rows(0, of.columns()).into_owned();

@@ -4,8 +4,9 @@
 //! Source: [JCGM 101](crate::bibliography::Bibliography::Jcgm101), 6.4. The distribution is normal if only a standard
 //! uncertainty is known (6.4.7), and scaled t if the uncertainty was estimated with few degrees of freedom (6.4.9).
 
+use crate::calibration::data::Observation;
 use crate::calibration::estimates::Estimates;
-use crate::calibration::procedure::{Linearised, linearise};
+use crate::calibration::procedure::{observe, response};
 use crate::calibration::repeats::Repeats;
 use crate::calibration::{Basis, Cause, Input, Method, MethodRefusal, NoAnalyticSolution, Options, Readings, Setup};
 use dtg_passport_trials::draw::{Draw, Slot};
@@ -33,11 +34,13 @@ impl Engine {
     /// # Errors
     /// Returns [`MethodRefusal`] if the method has no solution for these readings.
     pub fn new(setup: &Setup, readings: &Readings, method: Method) -> Result<Self, MethodRefusal> {
-        let Linearised { fit, data, .. } = linearise(setup, readings, method, &Options::default())?;
+        let setup = &*setup.of_readings(readings);
+        let observation = observe(setup, readings, method, &Options::default())?;
+        response(setup, &observation, method)?;
+        let Observation { data, fit, .. } = observation;
         if !data.offsets.are_balanced() {
             return Err(MethodRefusal::NotThisModel);
         }
-        let setup = &*setup.of_readings(readings);
         let means_ma = readings.means_ma();
         let solver = match method {
             Method::LeastSquares => {

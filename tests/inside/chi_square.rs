@@ -5,8 +5,9 @@ use dtg_passport::calibration::analytic::{self, AnalyticMap};
 use dtg_passport::calibration::causes;
 use dtg_passport::calibration::chi_square::{ChiSquare, Estimated, chi_square, quadratic_form};
 use dtg_passport::calibration::data::Data;
+use dtg_passport::calibration::data::Observation;
 use dtg_passport::calibration::estimates::{Basis, Estimates};
-use dtg_passport::calibration::procedure::{Linearised, linearise};
+use dtg_passport::calibration::procedure::observe;
 use dtg_passport::calibration::propagation::Propagation;
 use dtg_passport::calibration::unknowns::Unknowns;
 use dtg_passport::calibration::{InputUncertainty, MeterUncertainty, Method, Model, Options, Readings, Setup};
@@ -101,8 +102,8 @@ fn parts_are_those_of_dense_matrices() {
     }
     let readings = Readings::from_csv("run.csv", run.as_bytes(), setup.coefficients(), 1000.0).unwrap();
     for options in [Options::default(), Options { model: Model::General, ..Options::default() }] {
-        let linearised = linearise(&setup, &readings, Method::LeastSquares, &options).unwrap();
-        let Linearised { fit, data, .. } = &linearised;
+        let observation = observe(&setup, &readings, Method::LeastSquares, &options).unwrap();
+        let Observation { fit, data, .. } = &observation;
         let (_, Estimated { parts, .. }) = quadratic_form(&Propagation::new(&setup, data, fit));
         let estimates = Estimates::new(&setup, &data.repeats);
         assert!(parts.len() >= 6, "angles, returns and noise, platform, base and turn-ons: {parts:?}");
@@ -126,12 +127,12 @@ fn parts_are_those_of_dense_matrices() {
             assert!(is(part.trace, trace), "{estimate}: {part:?} {trace}");
             assert!(is(part.square, square), "{estimate}: {part:?} {square}");
         }
-        terms_are_those_of_dense_matrices(&setup, &linearised);
+        terms_are_those_of_dense_matrices(&setup, &observation);
     }
 }
 
 /// Checks chi-square with other variances of the visits, which scale the columns of that estimate, against y' P y.
-fn terms_are_those_of_dense_matrices(setup: &Setup, Linearised { fit, data, .. }: &Linearised) {
+fn terms_are_those_of_dense_matrices(setup: &Setup, Observation { fit, data, .. }: &Observation) {
     let (_, Estimated { visits, .. }) = quadratic_form(&Propagation::new(setup, data, fit));
     let (of_visits, terms) = visits.expect("a noise of the gyro that is estimated");
     let (inputs, columns) = causes::inputs(setup, data, fit);
@@ -170,6 +171,6 @@ fn terms_of_a_run_with_a_jolt_are_those_of_dense_matrices() {
     let jolt = include_str!("../cmd/files/run.csv").replace("2,4,-0.22799247,", "2,4,-0.22749247,");
     assert_ne!(jolt, include_str!("../cmd/files/run.csv"));
     let readings = Readings::from_csv("jolt.csv", jolt.as_bytes(), setup.coefficients(), 1.0).unwrap();
-    let linearised = linearise(&setup, &readings, Method::LeastSquares, &Options::default()).unwrap();
-    terms_are_those_of_dense_matrices(&setup, &linearised);
+    let observation = observe(&setup, &readings, Method::LeastSquares, &Options::default()).unwrap();
+    terms_are_those_of_dense_matrices(&setup, &observation);
 }

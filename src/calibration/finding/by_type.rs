@@ -64,17 +64,17 @@ pub(crate) fn causes(
     usual: &GyroParameters,
 ) -> Vec<Finding> {
     let Some(gyro_type) = gyro_type else { return by_size(&found.parameters, usual) };
+    // A result that is near enough to the type needs no explanation.
+    let as_read = distance(&against_type(found, gyro_type));
+    if as_read < CLEARLY {
+        return Vec::new();
+    }
     let setup = &*setup.of_readings(readings);
     let Ok(Observation { data, fit, .. }) = Observation::plain(setup, readings, options.model, (options.drift, false))
     else {
         return Vec::new();
     };
     let case = Case { setup, data, model: fit.of, found, gyro_type };
-    let as_read = case.distance(found);
-    // A result that is near enough to the type needs no explanation.
-    if as_read < CLEARLY {
-        return Vec::new();
-    }
     let by_size =
         || if has_drifts(found, gyro_type) { by_size(&found.parameters, &case.nominal()) } else { Vec::new() };
     let each: [&dyn Fn() -> Vec<Finding>; 4] =

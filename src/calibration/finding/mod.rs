@@ -1,7 +1,7 @@
 //! Causes of readings that do not agree: one list, with one level of false alarms for all of them together.
 //!
 //! A cause changes the set-up or the readings, and the readings are fitted again. Causes within turn-ons and visits are
-//! compared by F tests on the differences between visits (`visits`), causes of the whole run by the fit of the positions
+//! compared by F tests on the differences between visits (`visits`, `layer`), causes of the whole run by the fit of the positions
 //! (`fits`), and what leaves no residuals by the distance from the gyro type (`by_type`). `words` has the sentences.
 //!
 //! Half of [`LEVEL`] is that of chi-square of the fit, the other half is shared by the other tests. A finding states the
@@ -9,6 +9,7 @@
 
 pub(crate) mod by_type;
 pub(crate) mod fits;
+pub(crate) mod layer;
 pub(crate) mod rows;
 pub(crate) mod visits;
 mod words;

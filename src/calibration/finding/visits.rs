@@ -4,27 +4,23 @@
 //! leaves. What was found is removed, and the rest is tried again. A single visit is the case of
 //! [Stefansky's test](crate::bibliography::Bibliography::Stefansky72); the probability is Bonferroni's bound.
 
+use super::layer::{AS_STATED, Columns, Explains, Layer};
 use super::{Finding, Kind, LEVEL, Scope, jointly};
 use crate::calibration::chi_square::{ChiSquare, chi_square};
 use crate::calibration::data::Observation;
-use crate::calibration::offsets::VisitRows;
+use crate::calibration::inputs::Turn;
+use crate::calibration::offsets::VisitRow;
 use crate::calibration::propagation::Propagation;
 use crate::calibration::scatter::{IMPROBABLE, VisitErrors};
 use crate::calibration::sensitivity::Sensitivity;
 use crate::calibration::{Model, NoLeastSquares, NoiseSource, Options, Readings, Setup, Visit};
-use crate::statistics::distributions::chi_square_larger;
 use crate::statistics::student::f_larger;
 use crate::units::{SECONDS_PER_HOUR, arcseconds_from_radians, sin_cos_of_degrees};
-use nalgebra::{DMatrix, DVector, Matrix2, Vector2, Vector3};
+use nalgebra::{DMatrix, Matrix2, Vector2, Vector3};
+use std::collections::BTreeMap;
 
 /// Most causes that are looked for one after the other.
 const MOST: usize = 4;
-
-/// Length of a column, relative to its own, below which it is a combination of others.
-const ALONE: f64 = 1e-4;
-
-/// Probability of a larger scatter from which one is as stated.
-const AS_STATED: f64 = 0.05;
 
 /// Relative difference of two sums of squares that are equal but for rounding.
 const EQUAL: f64 = 1e-6;
@@ -54,130 +50,27 @@ pub(crate) struct Explained {
     values: Vec<f64>,
 }
 
-/// Vectors of the columns of a cause in a visit, by the indices of position and visit.
-pub(crate) type Columns<'a> = Box<dyn Fn(usize, usize) -> Vec<Vector2<f64>> + 'a>;
-
-struct Candidate<'a> {
+struct Candidate {
     kind: Kind,
     scope: Scope,
     /// Number of candidates of this kind.
     count: usize,
-    columns: Columns<'a>,
+    columns: Columns,
 }
 
-/// Equations of the visits, less what is explained.
-pub(crate) struct Layer {
-    rows: VisitRows,
-    /// Orthonormal directions that are explained.
-    taken: Vec<DVector<f64>>,
-    left: DVector<f64>,
-    degrees_of_freedom: usize,
-    /// Least variance of a residual in any case, and whether it is the whole variance as stated.
-    least: f64,
-    is_stated: bool,
-}
-
-impl Layer {
-    fn new(setup: &Setup, readings: &Readings, of: &Observation) -> Option<Self> {
-        let Observation { data, fit, differences, .. } = of;
-        let errors = VisitErrors::new(setup, readings, fit, data.repeats.noise_ma);
-        let visit = data.repeats.visit;
-        let of_visit = |place, number| errors.with_noise(place, number, visit.deg_per_h);
-        let differences = differences.as_ref()?;
-        let rows = differences.rows(&fit.unknowns.parameters.k_deg_per_h_per_ma, of_visit)?;
-        // An estimated noise contains what is suspect; what is stated explains this much of the scatter in any case.
-        let stated = if visit.source == NoiseSource::Estimated { 0.0 } else { visit.deg_per_h };
-        let explained =
-            |place, number| errors.with_noise(place, number, stated).trace() / of_visit(place, number).trace();
-        let least = rows.each.iter().map(|row| explained(row.place, row.visit)).fold(1.0, f64::min);
-        Some(Self::of(rows, differences.degrees_of_freedom(), least))
-    }
-
-    /// Returns the equations `rows` with these degrees of freedom, whose residuals have `least` as variance in any case; 1 is the
-    /// whole variance as stated.
-    pub(crate) fn of(mut rows: VisitRows, degrees_of_freedom: usize, least: f64) -> Self {
-        let design = std::mem::replace(&mut rows.design, DMatrix::zeros(0, 0));
-        let (left, is_stated) = (rows.rates.clone(), least >= 1.0);
-        let mut layer = Self { rows, taken: Vec::new(), left, degrees_of_freedom, least, is_stated };
-        layer.take(&design);
-        layer.degrees_of_freedom = degrees_of_freedom;
-        layer
-    }
-
-    /// Returns the whitened columns of a cause, less their mean over the visits to each position.
-    pub(crate) fn columns(&self, of: &Columns) -> DMatrix<f64> {
-        let each: Vec<Vec<Vector2<f64>>> = self.rows.each.iter().map(|row| of(row.place, row.visit)).collect();
-        let count = each.first().map_or(0, Vec::len);
-        let mut columns = DMatrix::zeros(2 * each.len(), count);
-        let mut first = 0;
-        for visits in self.rows.each.chunk_by(|one, other| one.place == other.place) {
-            let here = || visits.iter().zip(first..);
-            for (column, mut filled) in columns.column_iter_mut().enumerate() {
-                let mean: Vector2<f64> = here().map(|(row, at)| row.share * each[at][column]).sum();
-                for (row, at) in here() {
-                    filled.fixed_rows_mut::<2>(2 * at).copy_from(&(row.whitening * (each[at][column] - mean)));
-                }
-            }
-            first += visits.len();
-        }
-        columns
-    }
-
-    /// Returns the orthonormal directions that columns add.
-    fn directions(&self, columns: &DMatrix<f64>) -> Vec<DVector<f64>> {
-        let mut new: Vec<DVector<f64>> = Vec::new();
-        for column in columns.column_iter() {
-            let mut left = column.into_owned();
-            // Twice, because the first time leaves rounding of the size of the column.
-            for _ in 0..2 {
-                for taken in self.taken.iter().chain(&new) {
-                    left.axpy(-taken.dot(&left), taken, 1.0);
-                }
-            }
-            if left.norm() > ALONE * column.norm() {
-                new.push(left.normalize());
-            }
-        }
-        new
-    }
-
-    fn take(&mut self, columns: &DMatrix<f64>) {
-        for direction in self.directions(columns) {
-            self.left.axpy(-direction.dot(&self.left), &direction, 1.0);
-            self.taken.push(direction);
-            self.degrees_of_freedom = self.degrees_of_freedom.saturating_sub(1);
-        }
-    }
-
-    /// Returns what columns explain, as probability for one of `count` and as a score, the least of which is the best; `None`
-    /// if they explain nothing that can be compared.
-    pub(crate) fn tried(&self, columns: &DMatrix<f64>, count: usize) -> Option<(f64, f64, f64)> {
-        let directions = self.directions(columns);
-        let rank = directions.len();
-        let rest = self.degrees_of_freedom.checked_sub(rank).filter(|rest| rank > 0 && *rest > 0)?;
-        let gain: f64 = directions.iter().map(|direction| direction.dot(&self.left).powi(2)).sum();
-        let others = (self.left.norm_squared() - gain).max(0.0);
-        let variance = (others / rest as f64).max(self.least);
-        // Of a noise that is stated, and with which the others agree, the variance is known.
-        let is_known = self.is_stated && chi_square_larger(others / self.least, rest) >= AS_STATED;
-        let freedom = if is_known { f64::INFINITY } else { rest as f64 };
-        let probability = (count as f64 * f_larger(gain / rank as f64 / variance, rank, freedom)).min(1.0);
-        let all = (rest + rank) as f64;
-        let score = all * libm::log(others.max(self.least * all)) + rank as f64 * libm::log(all + 1.0);
-        Some((probability, score + 2.0 * libm::log(count as f64), gain))
-    }
-
-    /// Returns the values of columns with which they explain most.
-    pub(crate) fn values(&self, columns: &DMatrix<f64>) -> Vec<f64> {
-        let mut left = columns.clone();
-        for (mut column, original) in left.column_iter_mut().zip(columns.column_iter()) {
-            for taken in &self.taken {
-                column.axpy(-taken.dot(&original), taken, 1.0);
-            }
-        }
-        let found = left.svd(true, true).solve(&self.left, ALONE);
-        found.map_or_else(|_| vec![0.0; columns.ncols()], |found| found.data.into())
-    }
+/// Returns the equations of the visits; `None` if no position has two.
+fn layer(setup: &Setup, readings: &Readings, of: &Observation) -> Option<Layer> {
+    let Observation { data, fit, differences, .. } = of;
+    let errors = VisitErrors::new(setup, readings, fit, data.repeats.noise_ma);
+    let visit = data.repeats.visit;
+    let of_visit = |place, number| errors.with_noise(place, number, visit.deg_per_h);
+    let differences = differences.as_ref()?;
+    let rows = differences.rows(&fit.unknowns.parameters.k_deg_per_h_per_ma, of_visit)?;
+    // An estimated noise contains what is suspect; what is stated explains this much of the scatter in any case.
+    let stated = if visit.source == NoiseSource::Estimated { 0.0 } else { visit.deg_per_h };
+    let explained = |place, number| errors.with_noise(place, number, stated).trace() / of_visit(place, number).trace();
+    let least = rows.each.iter().map(|row| explained(row.place, row.visit)).fold(1.0, f64::min);
+    Some(Layer::of(rows, differences.degrees_of_freedom(), least))
 }
 
 /// Fits the readings with one K of all turn-ons, and with one of each if the differences between visits show that they differ.
@@ -197,44 +90,37 @@ pub(crate) fn observe(
 /// Returns the causes that explain the differences between visits, the first one first, and whether every turn-on must have a K
 /// of its own. This needs less evidence than naming it, because an uncertainty without the scatter of K would be too small.
 fn explained(setup: &Setup, readings: &Readings, of: &Observation) -> (Vec<Explained>, bool) {
-    let Some(mut layer) = Layer::new(setup, readings, of) else { return (Vec::new(), false) };
-    let mut candidates = candidates(setup, readings, of);
+    let Some(mut layer) = layer(setup, readings, of) else { return (Vec::new(), false) };
+    let mut candidates = candidates(setup, readings, of, &layer);
     // A turn-on with few positions has no K of its own.
-    let is_determined = |columns: &Columns| {
-        let columns = layer.columns(columns);
-        layer.directions(&columns).len() == columns.ncols()
-    };
-    candidates.retain(|candidate| candidate.kind != Kind::KDiffers || is_determined(&candidate.columns));
-    let columns: Vec<DMatrix<f64>> = candidates.iter().map(|candidate| layer.columns(&candidate.columns)).collect();
-    let of_k = candidates.iter().zip(&columns).filter(|(candidate, _)| candidate.kind == Kind::KDiffers);
-    let may_differ =
-        of_k.filter_map(|(_, columns)| layer.tried(columns, 1)).any(|(probability, ..)| probability < MAY_DIFFER);
+    candidates.retain(|candidate| candidate.kind != Kind::KDiffers || candidate.columns.are_independent());
+    let mut may_differ = None;
     let mut found: Vec<Explained> = Vec::new();
     while found.len() < MOST {
-        let tried = candidates.iter().zip(&columns).filter_map(|(candidate, columns)| {
-            let (probability, score, gain) = layer.tried(columns, candidate.count)?;
-            Some((candidate, columns, jointly(probability), score, gain))
+        let tried = candidates.iter().map(|one| Some((one, layer.tried(&one.columns, one.count)?)));
+        let tried: Vec<(&Candidate, Explains)> = tried.flatten().collect();
+        may_differ.get_or_insert_with(|| {
+            tried.iter().any(|(one, explains)| one.kind == Kind::KDiffers && explains.probability < MAY_DIFFER)
         });
-        let tried: Vec<_> = tried.filter(|(.., probability, _, _)| *probability < LEVEL).collect();
-        let Some(best) = tried.iter().min_by(|one, other| one.3.total_cmp(&other.3)) else { break };
+        let alarms = || tried.iter().filter(|(_, explains)| jointly(explains.probability) < LEVEL);
+        let best = alarms().min_by(|(_, one), (_, other)| one.score.total_cmp(&other.score));
+        let Some((candidate, best)) = best.copied() else { break };
         // Of two visits to a position either may be the wrong one.
-        let alike = |other: &&(&Candidate, &DMatrix<f64>, f64, f64, f64)| {
-            other.0.kind == best.0.kind
-                && other.4 * (1.0 + EQUAL) > best.4
-                && (best.0.kind == Kind::Visit || other.3 == best.3)
-        };
-        let explained =
-            |(candidate, columns, probability, ..): &(&Candidate, &DMatrix<f64>, f64, f64, f64)| Explained {
-                kind: candidate.kind,
-                scope: candidate.scope.clone(),
-                probability: *probability,
-                values: layer.values(columns),
-            };
-        found.extend(tried.iter().filter(alike).map(explained));
-        let columns = best.1.clone();
-        layer.take(&columns);
+        let alike = alarms().filter(|(other, explains)| {
+            other.kind == candidate.kind
+                && explains.squares * (1.0 + EQUAL) > best.squares
+                && (candidate.kind == Kind::Visit || explains.score == best.score)
+        });
+        found.extend(alike.map(|(one, explains)| Explained {
+            kind: one.kind,
+            scope: one.scope.clone(),
+            probability: jointly(explains.probability),
+            values: layer.values(&one.columns),
+        }));
+        layer.take(&candidate.columns);
+        candidates.iter_mut().for_each(|one| layer.reduce(&mut one.columns));
     }
-    let differs = found.first().map_or(may_differ, |first| first.kind == Kind::KDiffers);
+    let differs = found.first().map_or(may_differ == Some(true), |first| first.kind == Kind::KDiffers);
     (found, differs)
 }
 
@@ -248,89 +134,79 @@ fn time(readings: &Readings) -> Option<impl Fn(&Visit) -> f64> {
     })
 }
 
-/// Returns the readings with exp(−t/τ) in hours as the time, where t is the time since the first reading of the turn-on and τ
-/// this fraction of the longest turn-on; `None` if times are not known or do not differ.
-pub(super) fn settling(readings: &Readings, fraction: f64) -> Option<Readings> {
+/// Returns the function exp(−t/τ) of a visit, where t is the time since the first reading of the turn-on and τ this fraction of
+/// the longest turn-on; `None` if times are not known or do not differ.
+fn decay(readings: &Readings, fraction: f64) -> Option<impl Fn(&Visit) -> f64> {
     let time = time(readings)?;
-    let range = |cycle: u32| {
-        let times = readings.visits().filter(|visit| visit.cycle == cycle).map(&time);
-        times.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], t| [least.min(t), most.max(t)])
-    };
-    let longest = readings.cycles().into_iter().map(|cycle| range(cycle)[1] - range(cycle)[0]).fold(0.0, f64::max);
-    let starts: Vec<(u32, f64)> = readings.cycles().into_iter().map(|cycle| (cycle, range(cycle)[0])).collect();
-    let of = |visit: &Visit| {
-        let start = starts.iter().find(|(cycle, _)| *cycle == visit.cycle).map_or(0.0, |(_, start)| *start);
-        SECONDS_PER_HOUR * libm::exp((start - time(visit)) / (fraction * longest))
-    };
-    (longest > 0.0).then(|| readings.timed_by(of))
+    let mut ranges: BTreeMap<u32, [f64; 2]> = BTreeMap::new();
+    for visit in readings.visits() {
+        let [first, last] = ranges.entry(visit.cycle).or_insert([f64::INFINITY, f64::NEG_INFINITY]);
+        (*first, *last) = (first.min(time(visit)), last.max(time(visit)));
+    }
+    let longest = ranges.values().map(|[first, last]| last - first).fold(0.0, f64::max);
+    let of = move |visit: &Visit| libm::exp((ranges[&visit.cycle][0] - time(visit)) / (fraction * longest));
+    (longest > 0.0).then_some(of)
+}
+
+/// Returns the readings with [`decay`] in hours as the time, or `None` if there is none.
+pub(super) fn settling(readings: &Readings, fraction: f64) -> Option<Readings> {
+    decay(readings, fraction).map(|decay| readings.timed_by(|visit| SECONDS_PER_HOUR * decay(visit)))
 }
 
 /// Returns what may explain the differences between visits.
-fn candidates<'a>(setup: &'a Setup, readings: &'a Readings, of: &'a Observation) -> Vec<Candidate<'a>> {
-    let (positions, offsets) = (readings.positions(), &of.data.offsets);
-    let axes = |size: f64| vec![Vector2::new(size, 0.0), Vector2::new(0.0, size)];
-    let each =
-        positions.iter().enumerate().flat_map(|(place, at)| (0..at.visits.len()).map(move |visit| (place, visit)));
-    let each: Vec<(usize, usize)> = each.filter(|(place, _)| positions[*place].visits.len() > 1).collect();
-    let count = each.len();
-    let of_visit = |(place, visit): (usize, usize)| {
-        let found = &positions[place].visits[visit];
-        let (cycle, number) = (Some(found.cycle), Some(found.number));
-        let scope = Scope { cycle, visit: number, ..Scope::of(positions[place].index) };
-        let columns: Columns = Box::new(move |at, one| axes(f64::from(u8::from((at, one) == (place, visit)))));
-        Candidate { kind: Kind::Visit, scope, count, columns }
+fn candidates(setup: &Setup, readings: &Readings, of: &Observation, layer: &Layer) -> Vec<Candidate> {
+    let (positions, offsets, rows) = (readings.positions(), &of.data.offsets, &layer.rows);
+    let found = |row: &VisitRow| &positions[row.place].visits[row.visit];
+    let one = |kind, count, each| Candidate { kind, scope: Scope::default(), count, columns: layer.columns(each) };
+    // A number of each visit, or several, acts about x and y alike.
+    let alike = |each: DMatrix<f64>| each.kronecker(&Matrix2::identity());
+    let by = |of: &dyn Fn(&Visit) -> f64| alike(DMatrix::from_fn(rows.len(), 1, |row, _| of(found(&rows[row]))));
+    let of_visit = |(number, row): (usize, &VisitRow)| {
+        let Visit { cycle, number: visit, .. } = found(row);
+        let scope = Scope { cycle: Some(*cycle), visit: Some(*visit), ..Scope::of(positions[row.place].index) };
+        let alone = DMatrix::from_fn(rows.len(), 1, |row, _| f64::from(u8::from(row == number)));
+        Candidate { scope, ..one(Kind::Visit, rows.len(), alike(alone)) }
     };
-    let mut all: Vec<Candidate> = each.iter().copied().map(of_visit).collect();
-    let all_of = |kind, count, columns: Columns<'a>| Candidate { kind, scope: Scope::default(), count, columns };
-    if offsets.cycles.len() > 1 && !offsets.scale {
-        let (last, others) =
-            offsets.cycles.split_last().map_or((0, Vec::new()), |(last, others)| (*last, others.to_vec()));
-        all.push(all_of(
-            Kind::KDiffers,
-            1,
-            Box::new(move |place, visit| {
-                let (at, cycle) = (&positions[place], positions[place].visits[visit].cycle);
-                let of = |other: &u32| if cycle == last { -1.0 } else { f64::from(u8::from(cycle == *other)) };
-                others.iter().flat_map(|other| [0, 1].map(|axis| of(other) * at.mean_ma[axis])).flat_map(axes).collect()
-            }),
-        ));
+    let mut all: Vec<Candidate> = rows.iter().enumerate().map(of_visit).collect();
+    if let Some((last, others)) = offsets.cycles.split_last().filter(|(_, others)| !others.is_empty() && !offsets.scale)
+    {
+        let of = |row: &VisitRow, other: u32| {
+            let cycle = found(row).cycle;
+            if cycle == *last { -1.0 } else { f64::from(u8::from(cycle == other)) }
+        };
+        let each = DMatrix::from_fn(rows.len(), 2 * others.len(), |row, column| {
+            of(&rows[row], others[column / 2]) * positions[rows[row].place].mean_ma[column % 2]
+        });
+        all.push(one(Kind::KDiffers, 1, alike(each)));
     }
     let Some(time) = time(readings) else { return all };
-    let mut order: Vec<(f64, usize, usize)> = positions
-        .iter()
-        .enumerate()
-        .flat_map(|(place, at)| at.visits.iter().enumerate().map(move |(visit, found)| (found, place, visit)))
-        .map(|(found, place, visit)| (time(found), place, visit))
-        .collect();
-    order.sort_by(|one, other| one.0.total_cmp(&other.0));
     if !offsets.drift {
-        all.push(all_of(Kind::Drift, 1, Box::new(move |place, visit| axes(time(&positions[place].visits[visit])))));
+        all.push(one(Kind::Drift, 1, by(&time)));
     }
-    for settled in SETTLING.iter().filter_map(|fraction| settling(readings, *fraction)) {
-        let of = move |place: usize, visit: usize| {
-            axes(settled.positions()[place].visits[visit].time_s.unwrap_or(0.0) / SECONDS_PER_HOUR)
-        };
-        // A drift is simpler, and comes first unless settling explains clearly more.
-        all.push(all_of(Kind::Settling, 4 * SETTLING.len(), Box::new(of)));
-    }
-    let sensitivity = Sensitivity::new(setup, &of.fit.unknowns);
-    let frame = setup.frame_axis();
-    for axis in 0..2 {
-        let turned = |place: usize| {
-            let about = if axis == 1 { Vector3::z() } else { setup.turns[place].attitude * frame };
-            sensitivity.to_case_turns(place) * about
-        };
-        let mut approach: Vec<Vec<f64>> = positions.iter().map(|at| vec![0.0; at.visits.len()]).collect();
-        for pair in order.windows(2) {
-            let [from, to] = [pair[0].1, pair[1].1].map(|place| setup.turns[place].angles_deg[axis]);
-            if to != from {
-                approach[pair[1].1][pair[1].2] = (to - from).signum();
-            }
-        }
-        let columns: Vec<Vector2<f64>> = (0..positions.len()).map(turned).collect();
-        let of = move |place: usize, visit: usize| vec![columns[place] * approach[place][visit]];
-        all.push(all_of(Kind::Backlash, 2, Box::new(of)));
-    }
+    let decays = SETTLING.iter().filter_map(|fraction| decay(readings, *fraction));
+    // A drift is simpler, and comes first unless settling explains clearly more.
+    all.extend(decays.map(|decay| one(Kind::Settling, 4 * SETTLING.len(), by(&decay))));
+    let places = positions.iter().enumerate();
+    let visits = places.flat_map(|(place, at)| at.visits.iter().enumerate().map(move |visit| (place, visit)));
+    let mut order: Vec<(f64, usize, usize)> =
+        visits.map(|(place, (number, visit))| (time(visit), place, number)).collect();
+    order.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let (sensitivity, frame) = (Sensitivity::new(setup, &of.fit.unknowns), setup.frame_axis());
+    all.extend([0, 1].map(|axis| {
+        let turned = |turn: &Turn| if axis == 1 { Vector3::z() } else { turn.attitude * frame };
+        let angle = |place: usize| setup.turns[place].angles_deg[axis];
+        let moves = order.windows(2).map(|pair| {
+            let moved = angle(pair[1].1) - angle(pair[0].1);
+            ((pair[1].1, pair[1].2), if moved == 0.0 { 0.0 } else { moved.signum() })
+        });
+        let approach: BTreeMap<(usize, usize), f64> = moves.collect();
+        let each = rows.iter().flat_map(|VisitRow { place, visit, .. }| {
+            let column = sensitivity.to_case_turns(*place) * turned(&setup.turns[*place]);
+            let [x, y]: [f64; 2] = (column * approach.get(&(*place, *visit)).copied().unwrap_or(0.0)).into();
+            [x, y]
+        });
+        one(Kind::Backlash, 2, DMatrix::from_iterator(2 * rows.len(), 1, each))
+    }));
     all
 }
 

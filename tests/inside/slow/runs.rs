@@ -2,7 +2,7 @@
 
 use crate::inside::reference::*;
 use dtg_passport::calibration::drift::drift_test as drift_of;
-use dtg_passport::calibration::finding::visits::{Columns, Layer};
+use dtg_passport::calibration::finding::layer::Layer;
 use dtg_passport::calibration::noise::NoiseSource;
 use dtg_passport::calibration::offsets::{Differences, Offsets};
 use dtg_passport::calibration::parameter::Parameter;
@@ -705,12 +705,12 @@ fn least_likely(
     let each = readings.positions().iter().enumerate();
     let each: Vec<_> = each.flat_map(|(place, at)| (0..at.visits.len()).map(move |visit| (place, visit))).collect();
     let tried = each.iter().map(|at| {
-        let of: Columns = Box::new(move |place, visit| {
-            let here = f64::from(u8::from((place, visit) == *at));
-            vec![Vector2::new(here, 0.0), Vector2::new(0.0, here)]
-        });
-        let columns = layer.columns(&of);
-        (layer.tried(&columns, each.len()).unwrap().0, *at, layer.values(&columns))
+        let here = |row: usize, column: usize| {
+            row % 2 == column && (layer.rows[row / 2].place, layer.rows[row / 2].visit) == *at
+        };
+        let columns =
+            layer.columns(DMatrix::from_fn(2 * each.len(), 2, |row, column| f64::from(u8::from(here(row, column)))));
+        (layer.tried(&columns, each.len()).unwrap().probability, *at, layer.values(&columns))
     });
     tried.min_by(|one, other| one.0.total_cmp(&other.0)).unwrap()
 }
