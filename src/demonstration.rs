@@ -4,7 +4,7 @@
 use crate::calibration::{self, Options, Parameter, Readings, Setup};
 use crate::coefficients::PositionIndex;
 use crate::earth::Place;
-use crate::files::{self, Access};
+use crate::files::{self, Access, Durability};
 use crate::folder::{Authority, Folder, Issued};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
@@ -109,7 +109,7 @@ impl Stage<'_> {
     /// Writes a file that everyone may read, and returns its path.
     fn write(&self, name: &str, text: &str) -> Result<PathBuf> {
         let path = self.path(name);
-        files::write_new(&path, text.as_bytes(), Access::Shared)?;
+        files::write_new(&path, text.as_bytes(), Access::Shared, Durability::Named)?;
         Ok(path)
     }
 
@@ -139,7 +139,7 @@ impl Stage<'_> {
 
     fn key(&mut self, signers: &str) -> Result<()> {
         let private = self.key.to_openssh(IDENTITY, None)?;
-        files::write_new(&self.path("factory.key"), private.as_bytes(), Access::Private)?;
+        files::write_new(&self.path("factory.key"), private.as_bytes(), Access::Private, Durability::Named)?;
         let path = self.write("allowed_signers", signers)?;
         self.line("THE FACTORY")?;
         self.line("1. The factory creates a signing key and sends its public half to every laboratory, once:")?;

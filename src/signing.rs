@@ -30,36 +30,9 @@ pub enum KeyFileError {
     /// File without a key that can sign.
     #[error("{}: {}", shown(.0), .1)]
     Key(PathBuf, KeyError),
-    /// Private key that others can read, with its permissions.
-    #[error("{}: mode {:04o} allows others to read the private key; restrict it with chmod 600", shown(.0), .1)]
-    Exposed(PathBuf, u32),
-    /// Encrypted key without a passphrase, and why there is none.
-    #[error("{}: the key is encrypted: {}", shown(.0), Printable(.1))]
-    Passphrase(PathBuf, String),
-    /// Public key whose private half was not found.
-    #[error(
-        "{}: found only the public half, expected the private half in ssh-agent or in {}; check that OpenSSH is \
-         installed and that ssh-agent has this key (ssh-add -L)",
-        shown(path),
-        shown(private)
-    )]
-    NoPrivateHalf {
-        /// Path of the public key.
-        path: PathBuf,
-        /// Path where the private half was expected.
-        private: PathBuf,
-    },
-    /// Private key next to a public key that does not belong to it.
-    #[error("{}: is not the private half of {}; use the matching key file", shown(private), shown(path))]
-    OtherPrivateHalf {
-        /// Path of the public key.
-        path: PathBuf,
-        /// Path of the private key.
-        private: PathBuf,
-    },
-    /// File that is not text.
-    #[error("{}: found binary data, expected a private key in OpenSSH format or a .pub file", shown(.0))]
-    NotText(PathBuf),
+    /// File whose key cannot be used, and why, in words.
+    #[error("{}: {}", shown(.0), Printable(.1))]
+    Unusable(PathBuf, String),
 }
 
 /// Function that asks for the passphrase of a key file; it is called only for an encrypted key.
@@ -99,12 +72,16 @@ pub fn signer(path: &Path, ask: AskPassphrase) -> Result<Box<dyn Signer + Sync>,
     let (public, private) = private_half(path)?;
     let Some(private) = private else { return Ok(ssh_keygen(Some(public), true)) };
     match private_key(&private, ask)? {
-        Some(key) if key.public_key() != public => {
-            Err(KeyFileError::OtherPrivateHalf { path: path.to_owned(), private })
-        }
+        Some(key) if key.public_key() != public => Err(other_half(path, private)),
         Some(key) => Ok(Box::new(key)),
         None => Ok(ssh_keygen(Some(public), false)),
     }
+}
+
+/// Returns the refusal of a private key next to a public key that does not belong to it.
+fn other_half(path: &Path, private: PathBuf) -> KeyFileError {
+    let why = format!("is not the private half of {}; use the matching key file", shown(path));
+    KeyFileError::Unusable(private, why)
 }
 
 fn is_public(path: &Path) -> bool {
@@ -120,7 +97,12 @@ fn private_half(path: &Path) -> Result<(PublicKey, Option<PathBuf>), KeyFileErro
     }
     let private = path.with_extension("");
     if !private.exists() {
-        return Err(KeyFileError::NoPrivateHalf { path: path.to_owned(), private });
+        let why = format!(
+            "found only the public half, expected the private half in ssh-agent or in {}; check that OpenSSH is installed and \
+             that ssh-agent has this key (ssh-add -L)",
+            shown(&private)
+        );
+        return Err(KeyFileError::Unusable(path.to_owned(), why));
     }
     Ok((public, Some(private)))
 }
@@ -131,7 +113,8 @@ fn private_key(path: &Path, ask: AskPassphrase) -> Result<Option<SigningKey>, Ke
     let key = match SigningKey::from_openssh(&text, None) {
         Err(KeyError::Encrypted) => {
             let asked = ask(path);
-            let passphrase = asked.map_err(|reason| KeyFileError::Passphrase(path.to_owned(), reason))?;
+            let encrypted = |why| KeyFileError::Unusable(path.to_owned(), format!("the key is encrypted: {why}"));
+            let passphrase = asked.map_err(encrypted)?;
             SigningKey::from_openssh(&text, Some(&passphrase))
         }
         key => key,
@@ -152,9 +135,7 @@ pub(crate) fn key_to_sign_with(path: &Path) -> Result<PublicKey, KeyFileError> {
     if is_public(path) {
         let (public, private) = private_half(path)?;
         return match private {
-            Some(private) if key_to_sign_with(&private)? != public => {
-                Err(KeyFileError::OtherPrivateHalf { path: path.to_owned(), private })
-            }
+            Some(private) if key_to_sign_with(&private)? != public => Err(other_half(path, private)),
             _ => Ok(public),
         };
     }
@@ -186,7 +167,8 @@ fn private_text(path: &Path) -> Result<Zeroizing<String>, KeyFileError> {
 
 fn text(path: &Path) -> Result<Zeroizing<String>, KeyFileError> {
     let bytes = Zeroizing::new(files::read(path, LARGEST_KEY_FILE_BYTES)?);
-    let text = std::str::from_utf8(&bytes).map_err(|_| KeyFileError::NotText(path.to_owned()))?;
+    let why = "found binary data, expected a private key in OpenSSH format or a .pub file";
+    let text = std::str::from_utf8(&bytes).map_err(|_| KeyFileError::Unusable(path.to_owned(), why.to_owned()))?;
     Ok(Zeroizing::new(text.to_owned()))
 }
 
@@ -210,7 +192,8 @@ fn refuse_exposed(path: &Path) -> Result<(), KeyFileError> {
     let failed = |error| FileError::Read(path.to_owned(), error);
     let mode = std::fs::metadata(path).map_err(failed)?.permissions().mode() & 0o7777;
     if mode & 0o077 != 0 {
-        return Err(KeyFileError::Exposed(path.to_owned(), mode));
+        let why = format!("mode {mode:04o} allows others to read the private key; restrict it with chmod 600");
+        return Err(KeyFileError::Unusable(path.to_owned(), why));
     }
     Ok(())
 }
@@ -267,13 +250,15 @@ pub(crate) fn with_signer(path: &Path, line: &str) -> Result<Vec<u8>, NotAppende
         Err(error) if error.is_missing() => Vec::new(),
         read => read?,
     };
-    if text.last().is_some_and(|last| *last != b'\n') {
-        text.push(b'\n');
-    }
-    text.extend_from_slice(line.as_bytes());
-    text.push(b'\n');
+    append_line(&mut text, line);
     AllowedSigners::parse(&name_of(path), &text)?;
     Ok(text)
+}
+
+/// Appends a line to a text; a missing final line feed is added first.
+pub(crate) fn append_line(text: &mut Vec<u8>, line: &str) {
+    let end: &[u8] = if text.last().is_some_and(|last| *last != b'\n') { b"\n" } else { b"" };
+    text.extend([end, line.as_bytes(), b"\n"].concat());
 }
 
 /// Appends a line to the allowed signers of a file, completely or not at all; a missing file is created.

@@ -12,8 +12,6 @@ use crate::text::advice::{beyond_range, without_full_turns};
 use crate::text::{Advice, Document, Identifier, Path, Problems, RefusalCause, record};
 use crate::units::{ARCSECONDS_PER_DEGREE, radians_from_arcseconds};
 use jiff::civil::Date;
-#[cfg(feature = "factory")]
-use remarks::NumberInUse;
 use std::collections::BTreeSet;
 
 /// Largest deviation that can be certified, in either direction, degrees.
@@ -251,9 +249,9 @@ impl Stand {
     /// Checks that the certificate does not use the number of an existing one, `there`, for other angles.
     ///
     /// # Errors
-    /// Returns [`NumberInUse`] if it does.
+    /// Returns a sentence if it does.
     #[cfg(feature = "factory")]
-    pub(crate) fn check_number(&self, there: &Self) -> Result<(), NumberInUse> {
+    pub(crate) fn check_number(&self, there: &Self) -> Result<(), String> {
         let number = &self.certificate.number;
         if *number != there.certificate.number {
             return Ok(());
@@ -263,7 +261,11 @@ impl Stand {
         };
         let new = self.positions.iter().find(|at| !kept(at, &there.positions));
         match new.or_else(|| there.positions.iter().find(|at| !kept(at, &self.positions))) {
-            Some(at) => Err(NumberInUse { number: number.clone(), index: at.index() }),
+            Some(at) => Err(format!(
+                "certificate {number} already states other angles for this stand, first for position {}; give the new \
+                 certificate its own number and dates",
+                at.index()
+            )),
             None => Ok(()),
         }
     }
@@ -272,9 +274,9 @@ impl Stand {
     /// from the same readings it may be certified anew, because other exclusions give other angles.
     ///
     /// # Errors
-    /// Returns [`NumberInUse`] if other readings gave other angles.
+    /// Returns a sentence if other readings gave other angles.
     #[cfg(feature = "factory")]
-    pub(crate) fn check_number_of_file(&self, there: &Self) -> Result<(), NumberInUse> {
+    pub(crate) fn check_number_of_file(&self, there: &Self) -> Result<(), String> {
         let evidence = |stand: &Self| stand.certificate.evidence.clone();
         let same_readings = evidence(there).is_some() && evidence(there) == evidence(self);
         if same_readings { Ok(()) } else { self.check_number(there) }

@@ -34,7 +34,7 @@ impl Certificates {
     /// Returns every cell that has no value or no number.
     pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
         let names = COLUMNS.map(|(column, _)| column);
-        let table = Table::read(name, bytes, &names[..3], &[], &names[3..])?;
+        let table = Table::read(name, bytes, [&names[..3], &[], &names[3..]])?;
         let (mut rows, mut numbers, mut problems) = (BTreeMap::new(), BTreeMap::new(), Vec::new());
         for row in &table.rows {
             let mut filled = Vec::new();

@@ -38,7 +38,7 @@ impl Deliveries {
     /// # Errors
     /// Returns every cell that is not as it should be, and every row that is there twice.
     pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        let table = Table::read(name, bytes, &["stand", "site"], &[], &["valid_until", "customer"])?;
+        let table = Table::read(name, bytes, [&["stand", "site"], &[], &["valid_until", "customer"]])?;
         let (mut rows, mut problems) = (BTreeMap::new(), Vec::new());
         for row in &table.rows {
             let text = |column: &str| table.place(column).map(|place| (place, &row[place]));

@@ -130,7 +130,7 @@ impl Run<'_> {
         self.sites.iter().filter_map(warning).collect()
     }
 
-    /// Issues a single passport; every passport of a batch is made here.
+    /// Issues a single passport.
     fn one(&self, folder: &StandFolder, stand: &PreparedStand, site: &Site, terms: &Terms) -> Outcome {
         let of_row = terms.valid_until.map(|day| Issue { valid_until: Some(day), ..self.job.order.clone() });
         let order = of_row.as_ref().unwrap_or(self.job.order);
@@ -140,11 +140,7 @@ impl Run<'_> {
             PreparedStand::new(stand)
         });
         let stand = of_customer.as_ref().unwrap_or(stand);
-        let settled = match self.batch.is_dry() {
-            false => folder.issue(stand, site, order).map(Outcome::There),
-            true => folder.next_first(stand, site, order).map(Outcome::from),
-        };
         let id = || passport_id(&stand.stand().stand, &site.id, order.revision);
-        settled.unwrap_or_else(|why| Outcome::Failed(Failure::folder(id(), &why)))
+        self.batch.settled(folder, id, || folder.next_first(stand, site, order))
     }
 }

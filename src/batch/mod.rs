@@ -185,6 +185,21 @@ impl Batch<'_> {
         self.authority.signer.is_none()
     }
 
+    /// Issues the passport that `next` determines, or in a dry run only determines it; every passport of a batch is made here.
+    /// `id` names it in a failure.
+    fn settled(
+        &self,
+        folder: &StandFolder,
+        id: impl FnOnce() -> String,
+        next: impl Fn() -> Result<Next, FolderRefused>,
+    ) -> Outcome {
+        let settled = match self.is_dry() {
+            false => folder.settle(next).map(Outcome::There),
+            true => next().map(Outcome::from),
+        };
+        settled.unwrap_or_else(|why| Outcome::Failed(Failure::folder(id(), &why)))
+    }
+
     /// Does the work of stands, `at_once` of them side by side, or of few ones passport by passport with the number of threads
     /// that `work` gets; tells the events in the order of the stands.
     fn each_stand<T: Sync>(
@@ -205,7 +220,7 @@ impl Batch<'_> {
     /// Writes the register of a stand; returns the outcomes, each after its remarks.
     fn finish(&self, folder: &StandFolder, settled: Vec<Settled>) -> Vec<Event> {
         let listed = if self.is_dry() { Ok(()) } else { folder.list() };
-        let listed = listed.map_err(|why| Failure::folder(folder.stand().to_owned(), &why));
+        let listed = listed.map_err(|why| Failure::folder(folder.stand.clone(), &why));
         let events = settled.into_iter().flat_map(|Settled { mut outcome, mut remarks }| {
             if let Err(failure) = &listed {
                 outcome.not_listed(failure);

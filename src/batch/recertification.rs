@@ -18,7 +18,7 @@ use crate::passport::difference::{NumberDifference, of_deviations};
 use crate::passport::issue::PreparedStand;
 use crate::passport::reissue::{Reissue, successor};
 use crate::passport::{Code, Content, Question, Trust, Verification, verify};
-use crate::register::{Entry, Row, State, VerifiedRegister};
+use crate::register::{Entry, Row, State};
 use crate::site::Site;
 use crate::stand::{Excluded, Stand};
 use crate::text::scalar::day;
@@ -311,7 +311,7 @@ impl Recertification<'_> {
 
     /// Selects the passports that get a successor: the current ones in the register.
     fn chosen(&self, from: &StandFolder, old: &Stand, new: &Stand) -> Result<Chosen, NotRecertified> {
-        let entries = from.register().map_or(&[][..], VerifiedRegister::entries);
+        let entries = from.entries();
         let time = self.question.time;
         let given = entries.iter().find(|entry| same_file(&from.path_of_entry(entry), self.passport));
         let Some(given) = given else {
@@ -371,12 +371,11 @@ impl Recertification<'_> {
 
     /// Returns the passports under the certificate of `old`, in every state, with the customer that their files state.
     fn in_question(&self, from: &StandFolder, old: &Stand) -> Vec<(Row, Option<String>)> {
-        let entries = from.register().map_or(&[][..], VerifiedRegister::entries);
         let of_entry = |entry: &Entry| {
             let customer = from.listed_content(entry).and_then(|content| content.stand.customer);
             (Row::of(entry, self.question.time), customer)
         };
-        entries.iter().filter(|entry| entry.certificate == old.certificate.number).map(of_entry).collect()
+        from.entries().iter().filter(|entry| entry.certificate == old.certificate.number).map(of_entry).collect()
     }
 
     /// Returns the next step for the successor of one passport.
@@ -466,6 +465,6 @@ fn write(
     let written = to.list_together(&new, (stand_file.to_owned(), text.as_bytes().to_vec()));
     written.map_err(|refused| match refused {
         FolderRefused::File(error) => NotRecertified::File(error),
-        refused => NotRecertified::Folder(to.stand().to_owned(), Box::new(refused)),
+        refused => NotRecertified::Folder(to.stand.clone(), Box::new(refused)),
     })
 }

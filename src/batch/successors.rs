@@ -16,7 +16,7 @@ use crate::passport::issue::PreparedStand;
 use crate::passport::place::distant_correction;
 use crate::passport::reissue::{Reissue, ReissueRefused, Successor, successor};
 use crate::passport::{CheckName, Code, Content, Question, Verification, content_from_anyone, verify};
-use crate::register::{Entry, State, VerifiedRegister};
+use crate::register::{Entry, State};
 use crate::site::Site;
 use crate::stand::Stand;
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
@@ -195,8 +195,8 @@ impl Run<'_> {
         let candidates: Vec<Candidate> = match &job.files {
             Some(files) => files.iter().map(|path| Candidate { path: path.clone(), entry: None }).collect(),
             None => {
-                let entries = from.register().map_or(&[][..], VerifiedRegister::entries);
-                entries.iter().map(|entry| Candidate { path: from.path_of_entry(entry), entry: Some(entry) }).collect()
+                let candidate = |entry| Candidate { path: from.path_of_entry(entry), entry: Some(entry) };
+                from.entries().iter().map(candidate).collect()
             }
         };
         // If only one stand file is given, use it for every stand, so that it is refused as that of another stand.
@@ -216,7 +216,10 @@ impl Run<'_> {
         }
         let places: Vec<Vec<(usize, Following)>> = places.into_values().collect();
         let followed = parallel::map(&places, threads, |place| {
-            place.iter().map(|(_, next)| self.follow(next, &to)).collect::<Vec<_>>()
+            let follow = |(_, next): &(usize, Following)| {
+                self.batch.settled(&to, || next.name.clone(), || to.next_successor(&next.successor))
+            };
+            place.iter().map(follow).collect::<Vec<_>>()
         });
         for ((index, next), outcome) in places.into_iter().flatten().zip(followed.into_iter().flatten()) {
             settled.insert(index, Settled { outcome, remarks: next.remarks });
@@ -224,15 +227,6 @@ impl Run<'_> {
         let planned = job.files.is_none().then_some(Event::Planned(settled.len() as u64));
         let done = self.batch.finish(&to, settled.into_values().collect());
         Ok(planned.into_iter().chain(done).collect())
-    }
-
-    /// Issues a successor; every successor of a batch is made here.
-    fn follow(&self, next: &Following, to: &StandFolder) -> Outcome {
-        let settled = match self.batch.is_dry() {
-            false => to.reissue(&next.successor).map(Outcome::There),
-            true => to.next_successor(&next.successor).map(Outcome::from),
-        };
-        settled.unwrap_or_else(|why| Outcome::Failed(Failure::folder(next.name.clone(), &why)))
     }
 
     /// Returns the successor of a passport, or the outcome of one that gets none.
@@ -264,7 +258,7 @@ impl Run<'_> {
             return Err(refused(format!("{}: is not the listed file; restore it from the backup", shown(path))));
         }
         let verification = verify(&name, &bytes, self.batch.authority.trust, &change.question);
-        let verification = match from.register() {
+        let verification = match &from.register {
             Some(register) => verification.with_register(Ok((register, None)), &change.question),
             None => verification,
         };
@@ -312,8 +306,7 @@ impl Run<'_> {
         let site = entry.site_and_revision().0;
         match &order.site {
             Some(new) => {
-                let entries = from.register().map_or(&[][..], VerifiedRegister::entries);
-                let was_there = || entries.iter().any(|entry| entry.site_and_revision().0 == new.id.as_str());
+                let was_there = || from.entries().iter().any(|entry| entry.site_and_revision().0 == new.id.as_str());
                 !order.moved && new.id.as_str() != site && (job.is_corrected || was_there())
             }
             // A new certificate concerns the passports for all sites.

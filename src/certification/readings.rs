@@ -95,7 +95,7 @@ impl AngleReadings {
         excluded: &[Excluded],
         against: Option<&Stand>,
     ) -> Result<Self, Unreadable> {
-        let table = Table::read(name, bytes, &COLUMNS[..3], &COLUMNS[3..], &ANGLE_COLUMNS)?;
+        let table = Table::read(name, bytes, [&COLUMNS[..3], &COLUMNS[3..], &ANGLE_COLUMNS])?;
         let mut problems = Vec::new();
         let mut rows: Vec<Reading> = Vec::new();
         let is_out = |place| excluded.iter().any(|excluded| is_excluded(excluded, place));

@@ -43,14 +43,11 @@ impl BatchOptions {
     /// Warns if a file `allowed_signers` next to the key gives the key to another identity. The file is not trusted:
     /// without `--trust` nothing depends on it.
     pub(super) fn warn_of_other_identity(&self, public: &PublicKey, issued_at: Timestamp) {
-        let Some(key) = self.issuer.key() else { return };
+        let Some(key) = &self.issuer.signing.key else { return };
         let path = files::folder_of(key).join("allowed_signers");
         let Ok(bytes) = files::read(&path, LARGEST_DOCUMENT_BYTES) else { return };
         let Ok(signers) = AllowedSigners::parse("allowed_signers", &bytes) else { return };
-        if !matches!(
-            signers.authorise(public, self.issuer.identity(), NAMESPACE, issued_at),
-            Err(NotAuthorised::UnknownKey)
-        ) {
+        if signers.lines().iter().any(|line| line.key == *public) {
             self.warn_unless_authorised(&signers, public, issued_at, &shown(&path).to_string());
         }
     }
@@ -63,8 +60,9 @@ impl BatchOptions {
         issued_at: Timestamp,
         source: &str,
     ) {
-        if let Err(miss) = signers.authorise(public, self.issuer.identity(), NAMESPACE, issued_at) {
-            let (who, refuse) = (self.issuer.identity(), "laboratories with that list will refuse the new passports");
+        let who = self.issuer.signing.identity();
+        if let Err(miss) = signers.authorise(public, who, NAMESPACE, issued_at) {
+            let refuse = "laboratories with that list will refuse the new passports";
             output::warn(&match miss {
                 NotAuthorised::UnknownKey => format!(
                     "--identity {who}: the list of trusted keys ({source}) does not contain the signing key; {refuse}; use a \

@@ -1,6 +1,6 @@
 //! Verb `calibrate`: the gyro's parameters from a passport and currents, or those of several gyros.
 
-use super::inputs::{self, AdministrativeFile, Answer, Lines};
+use super::inputs::{self, AdministrativeFile, Answer, Lines, Named};
 use super::options::{self, Force, Instruments, Printed, Report, folder};
 use super::output::{language, languages};
 use super::show::{Read, Whom};
@@ -18,7 +18,7 @@ use crate::dcc::{self, Calibrated};
 use crate::document::sha256_hex;
 use crate::files;
 use crate::gyro::GyroType;
-use crate::interface::calibrated::{Done, Prepared};
+use crate::interface::calibrated::{Done, Prepared, WholeDocument};
 use crate::interface::{self, Failed};
 use crate::laboratory::{Laboratory, TEMPERATURES_C};
 use crate::passport::{Check, Verification};
@@ -27,14 +27,13 @@ use crate::report::gyros::{self, Gyros};
 use crate::report::{CalibrationPage, PassportPage, UsedPassport};
 use crate::report::{issued, style};
 use crate::text::{Kind, Printable, name_of, printable, shown};
+use crate::uncertainty::MonteCarlo;
 use crate::wording::plain;
 use crate::workspace::{NoPassport, Results, serial_of};
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 use jiff::Timestamp;
 use jiff::civil::Date;
-use serde::Serialize;
-use serde_json::Value;
 use std::cell::Cell;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -216,21 +215,13 @@ struct Found {
 }
 
 impl Found {
-    fn whole(&self) -> crate::interface::calibrated::WholeDocument<'_, crate::uncertainty::MonteCarlo> {
+    fn whole(&self) -> WholeDocument<'_, MonteCarlo> {
         self.uncertainty.with(&self.done.document)
     }
 
     fn code(&self) -> Code {
         code(false, self.done.is_refused())
     }
-}
-
-/// Result for one of several gyros.
-#[derive(Serialize)]
-struct Line {
-    file: String,
-    #[serde(flatten)]
-    result: Value,
 }
 
 impl Bench<'_> {
@@ -306,15 +297,17 @@ impl Bench<'_> {
         files::check_replaceable(files(), force)?;
         let found = self.calibrate(path)?;
         let done = &found.done;
+        let is_printed = options.report.path.is_some() || found.place.is_some();
+        let html = if is_printed { self.page(&found)? } else { String::new() };
         let mut written = Vec::new();
         if let Some(path) = &options.dcc {
             written.push((path, self.dcc(done)?.into_bytes()));
         }
         if let Some(path) = &options.report.path {
-            written.push((path, output::page(path, self.page(&found)?, force)?));
+            written.push((path, output::page(path, html.clone(), force)?));
         }
         written.iter().try_for_each(|(path, bytes)| output::saved_too(path, bytes, force))?;
-        self.keep(&found)?.iter().for_each(|path| output::say_after(&format!("wrote {}", shown(path))));
+        self.keep(&found, html)?.iter().for_each(|path| output::say_after(&format!("wrote {}", shown(path))));
         if options.dcc.is_some() {
             output::say_after("the DCC is not signed; the passport of the stand is, and its SHA-256 is in the DCC");
         }
@@ -358,7 +351,8 @@ impl Bench<'_> {
                     );
                     return Err(Failed::new(interface::EXISTS, words, Vec::new()).into());
                 }
-                files::together::write_replaceable_together(&self.result(&found, &stem)?, options.force.replace)?;
+                let files = result(&found, &stem, &self.page(&found)?)?;
+                files::together::write_replaceable_together(&files, options.force.replace)?;
                 written.insert(stem, found.currents.0.clone());
             }
             if let Some(serial) = found.done.document.gyro_serial().filter(|_| found.place.is_some()) {
@@ -368,13 +362,13 @@ impl Bench<'_> {
                     let words = format!("nothing was written: gyro {serial} is that of {} too", Printable(other));
                     return Err(Failure::refused(words));
                 }
-                self.keep(&found)?;
+                self.keep(&found, self.page(&found)?)?;
             }
             let trials = found.uncertainty.monte_carlo.as_ref();
             let text = gyros::line(&found.currents.0, &found.done, trials, self.gyro_name(), language());
             let result = serde_json::to_value(found.whole()).map_err(Failure::unusable)?;
             all.add(&found.done, self.gyro_name(), self.checks());
-            Ok(Answer { value: Line { file: found.currents.0.clone(), result }, text, code: found.code() })
+            Ok(Answer { value: Named { file: found.currents.0.clone(), result }, text, code: found.code() })
         };
         let (code, failed) = inputs::each(currents, Purpose::Tables, Lines::or(Lines::Text), calibrate)?;
         let folder = options.out.as_ref().or(self.results.as_ref());
@@ -394,23 +388,14 @@ impl Bench<'_> {
         Ok(code)
     }
 
-    /// Returns the result and the report, with the paths of their files.
-    fn result(&self, found: &Found, stem: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
-        let json = printable::json(&found.whole()).map_err(Failure::unusable)? + "\n";
-        Ok(vec![
-            (with_end(stem, ".json"), json.into_bytes()),
-            (with_end(stem, ".html"), self.page(found)?.into_bytes()),
-        ])
-    }
-
     /// Writes the result and the report into the folder of results, as PDF too where a browser prints it, and returns their
     /// paths.
-    fn keep(&self, found: &Found) -> Result<Vec<PathBuf>, Failure> {
+    fn keep(&self, found: &Found, html: String) -> Result<Vec<PathBuf>, Failure> {
         let Some(place) = &found.place else { return Ok(Vec::new()) };
-        let mut files = self.result(found, place)?;
+        let mut files = result(found, place, &html)?;
         if !self.lacks_pdf.get() {
             let path = with_end(place, ".pdf");
-            match output::page(&path, self.page(found)?, false) {
+            match output::page(&path, html, false) {
                 Ok(pdf) => files.push((path, pdf)),
                 Err(error) => {
                     self.lacks_pdf.set(true);
@@ -509,6 +494,12 @@ impl Options {
             drift: self.drift,
         }
     }
+}
+
+/// Returns the result and the report, with the paths of their files.
+fn result(found: &Found, stem: &Path, html: &str) -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
+    let json = printable::json(&found.whole()).map_err(Failure::unusable)? + "\n";
+    Ok(vec![(with_end(stem, ".json"), json.into_bytes()), (with_end(stem, ".html"), html.into())])
 }
 
 /// Returns a path with something after its name, which may contain a point.

@@ -199,7 +199,7 @@ fn write(path: &Path, certified: &Certification, known: &[&Stand], force: bool) 
         files::together::write_together(superseded.new_file().as_slice(), &[])?;
         output::say_after(&format!("kept the superseded stand file as {}", shown(&superseded.path)));
     }
-    output::file(path, &text, force)
+    Ok(files::write_replaceable(path, text.as_bytes(), force)?)
 }
 
 fn one(options: &Options, readings: &Path, out: Option<&PathBuf>) -> Result<Code, Failure> {

@@ -7,6 +7,7 @@ use super::trust_options::TrustOptions;
 use super::{Code, Failure, open_workspace, output};
 use crate::batch::Purpose;
 use crate::delivery::{Delivery, NotDelivered, Wanted, deliver, tell};
+use crate::files;
 use crate::folder::Folder;
 use crate::passport::{Question, Trust};
 use crate::text::{name_of, shown};
@@ -54,7 +55,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         ))),
         (None, Out::File(path)) => {
             let delivery = of(&options.passports, &options.wanted, &trust, &question)?;
-            output::file(path, &delivery.archive, options.force.replace)?;
+            files::write_replaceable(path, &delivery.archive, options.force.replace)?;
             output::show(|| &delivery, || delivery.document(&shown(path).to_string()))?;
             Ok(0)
         }
@@ -74,7 +75,7 @@ fn each(options: &Options, (table, out): (&Path, &Path), trust: &Trust, question
         let wanted = wanted.iter().filter(|wanted| path == wanted.path_in(out)).cloned().collect::<Vec<_>>();
         let delivery = of(&options.passports, &wanted, trust, question)?;
         folder.check_place(path).map_err(Failure::refused)?;
-        output::file(path, &delivery.archive, options.force.replace)?;
+        files::write_replaceable(path, &delivery.archive, options.force.replace)?;
         let name = name_of(path);
         let text = output::typed(&delivery.row(&name));
         keys.extend(delivery.keys.iter().cloned());
@@ -97,7 +98,7 @@ struct Archive {
 }
 
 fn of(passports: &Path, wanted: &[Wanted], trust: &Trust, question: &Question) -> Result<Delivery, Failure> {
-    let memory = open_workspace::workspace().map(Workspace::memory);
+    let memory = open_workspace::workspace().map(Workspace::memory).cloned();
     deliver(passports, wanted, (trust, question), memory, language()).map_err(|refused| match refused {
         NotDelivered::File(error) => error.into(),
         NotDelivered::NotValid(name, verification) => {

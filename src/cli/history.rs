@@ -4,12 +4,13 @@ use super::options::{Picture, Printed};
 use super::register::refuse_file;
 use super::trust_options::TrustOptions;
 use super::{Code, Failure, code, open_workspace, output};
-use crate::folder::overview::{self, Query};
-use crate::parallel;
+use crate::folder::overview::{Overview, Query};
+use crate::folder::place;
 use crate::passport::Question;
 use crate::report::history as report;
 use crate::report::picture::history as picture;
-use crate::text::{Identifier, Printable, first_few, shown};
+use crate::text::scalar::identifiers;
+use crate::text::{Printable, first_few, shown};
 use crate::workspace::{Trace, Workspace};
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
@@ -36,38 +37,27 @@ pub(super) struct Options {
     _printed: Printed,
 }
 
-/// Returns `true` for model and serial number, which may also be the number of a certificate.
-fn is_stand(text: &str) -> bool {
-    text.split_once('/').is_some_and(|(model, serial)| [model, serial].iter().all(|name| Identifier::new(name).is_ok()))
-}
-
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     refuse_file(&options.passports)?;
     let (trust, question) = options.trust.load()?;
     if !question.is_open() {
         output::warn("--issuer, --serial and --at have no effect on a history");
     }
-    let memory = open_workspace::workspace().map(Workspace::memory);
-    let query = Query {
-        trust: &trust,
-        question: &Question { now: question.now, ..Question::at(question.time) },
-        memory: memory.as_ref(),
-        may_lack: open_workspace::is_of_a_laboratory(),
-        threads: parallel::processors(),
-    };
-    let found = is_stand(&options.stand).then(|| overview::history(&options.passports, &options.stand, query));
-    let (history, is_incomplete) = match found.transpose()? {
-        Some((Ok(history), is_incomplete)) => (history, is_incomplete),
-        Some((Err(known), _)) => return of_certificate(options, query, &known),
-        None => return of_certificate(options, query, &[]),
-    };
+    let question = Question { now: question.now, ..Question::at(question.time) };
+    let query = Workspace::query(open_workspace::workspace(), &trust, &question);
+    // Model and serial number may also be the number of a certificate.
+    if identifiers::<2>(&options.stand).is_none() {
+        return of_certificate(options, query);
+    }
+    let overview = Overview::of_stand(&options.passports, &options.stand, query)?;
+    let Some(history) = overview.history(&options.stand, query) else { return of_certificate(options, query) };
     options.picture.save(|| Ok(picture::history(&history, question.time)))?;
     output::show(|| report::to_json(&history), || report::document(&history))?;
-    Ok(code(is_incomplete, false))
+    Ok(code(overview.is_incomplete(), false))
 }
 
-/// Shows the files and passports of a certificate; `known` are the stands of the folder.
-fn of_certificate(options: &Options, query: Query, known: &[String]) -> Result<Code, Failure> {
+/// Shows the files and passports of a certificate.
+fn of_certificate(options: &Options, query: Query) -> Result<Code, Failure> {
     let root = open_workspace::workspace().map_or(&options.passports, |workspace| &workspace.root);
     if let Some(found) = Trace::of(&options.stand, root, &options.passports, query)? {
         if options.picture.out.is_some() {
@@ -77,7 +67,8 @@ fn of_certificate(options: &Options, query: Query, known: &[String]) -> Result<C
         return Ok(0);
     }
     let (folder, stand) = (shown(&options.passports), Printable(&options.stand));
-    Err(Failure::refused(match is_stand(&options.stand) {
+    let known: Vec<String> = place::stands(&options.passports)?.into_iter().map(|(_, stand)| stand).collect();
+    Err(Failure::refused(match identifiers::<2>(&options.stand).is_some() {
         false => format!("{folder}: no register and no stand file states certificate {stand}; a stand is MODEL/SERIAL"),
         true if known.contains(&options.stand) => format!(
             "{folder}: has passports of {stand}, but no register of it that counts; make it with `register {folder} \
@@ -86,7 +77,7 @@ fn of_certificate(options: &Options, query: Query, known: &[String]) -> Result<C
         true if known.is_empty() => format!("{folder}: found no register of {stand}; the folder contains no registers"),
         true => format!(
             "{folder}: found no register of {stand}; the folder contains registers of {}",
-            Printable(first_few(known))
+            Printable(first_few(&known))
         ),
     }))
 }

@@ -8,7 +8,7 @@ use crate::batch::{Purpose, paths};
 use crate::dcc::Administrative;
 use crate::files::{self, FileError};
 use crate::gyro::GyroType;
-use crate::interface::{Document, Failed, MISSING_DATA, REFUSED};
+use crate::interface::{Failed, MISSING_DATA, REFUSED};
 use crate::laboratory::Laboratory;
 use crate::report::doc::said;
 use crate::report::issued;
@@ -155,12 +155,12 @@ impl Lines {
     }
 }
 
-/// Input without a result, for programs.
+/// Result of an input, or why there is none, with the name of its file, for programs.
 #[derive(Serialize)]
-struct Refused<'a> {
-    file: &'a str,
+pub(super) struct Named<T> {
+    pub file: String,
     #[serde(flatten)]
-    refusal: Document<'a>,
+    pub result: T,
 }
 
 /// Calls `work` for every input, and reports its answer or its failure. An error of the output ends the work.
@@ -191,7 +191,7 @@ pub(super) fn each<T: Serialize>(
             },
             Err((file, failure)) => {
                 let heard = match lines {
-                    Lines::Json => output::json_line(&Refused { file: &file, refusal: failure.failed.document() }),
+                    Lines::Json => output::json_line(&Named { file: file.clone(), result: failure.failed.document() }),
                     Lines::Text => output::text(&issued::failed_line(&file, &failure.failed, language())),
                     Lines::None => Ok(()),
                 };

@@ -75,7 +75,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         valid_until: options.valid_until,
         accuracy: options.accuracy.then(|| stated(&options.instruments)).transpose()?,
         allow_uncalibratable: options.batch.allow_uncalibratable,
-        ..Issue::first(options.batch.issuer.identity(), issued_at)
+        ..Issue::first(options.batch.issuer.signing.identity(), issued_at)
     };
     let folder = options.batch.folder(&options.out);
     let placed = options.deliveries.as_deref().map(|path| placed(&inputs::deliveries(path)?)).transpose()?;

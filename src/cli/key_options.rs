@@ -32,7 +32,7 @@ pub(super) fn identity(text: &str) -> Result<String, BadIdentity> {
 pub(super) struct SigningOptions {
     /// Private key file, or a .pub file whose private half is in ssh-agent or a FIDO token
     #[arg(long, help_heading = "Signing", value_name = "KEY")]
-    key: Option<PathBuf>,
+    pub key: Option<PathBuf>,
     /// Issuer: the principal of the key in allowed_signers
     #[arg(long, help_heading = "Signing", value_name = "WHO", value_parser = identity)]
     pub identity: Option<String>,
@@ -53,7 +53,7 @@ pub(super) struct SigningOptions {
 )]
 pub(super) struct IssuerOptions {
     #[command(flatten)]
-    signing: SigningOptions,
+    pub signing: SigningOptions,
     /// Leave the registers to a second person, who lists the passports with `register DIR --renew --adopt`; until then they
     /// do not count
     #[arg(long, conflicts_with = "register_key")]
@@ -69,23 +69,10 @@ pub(super) struct Keys<'a> {
     /// Public half of the key, if there is one and it is known before it signs.
     pub public: Option<PublicKey>,
     register_public: Option<PublicKey>,
-    memory: Option<Memory>,
+    memory: Option<&'static Memory>,
 }
 
 impl IssuerOptions {
-    /// Returns the path of the key, if one is given.
-    pub(super) fn key(&self) -> Option<&Path> {
-        self.signing.key.as_deref()
-    }
-
-    pub(super) fn identity(&self) -> &str {
-        self.signing.identity()
-    }
-
-    pub(super) fn dry_run(&self) -> bool {
-        self.signing.dry_run
-    }
-
     /// Reads the keys, as [`SigningOptions::keys`] does.
     pub(super) fn keys(&self, passports: Option<&Path>) -> Result<Keys<'_>, Failure> {
         Ok(Keys { without_register: self.without_register, ..self.signing.keys(passports)? })
@@ -93,7 +80,7 @@ impl IssuerOptions {
 }
 
 impl SigningOptions {
-    fn identity(&self) -> &str {
+    pub(super) fn identity(&self) -> &str {
         self.identity.as_deref().unwrap_or_default()
     }
 
@@ -105,7 +92,10 @@ impl SigningOptions {
     /// Reads the keys. In a dry run they are checked as far as this needs no passphrase. A workspace remembers the registers
     /// of its own folder of passports.
     pub(super) fn keys(&self, passports: Option<&Path>) -> Result<Keys<'_>, Failure> {
-        let signs = |key: &Option<PathBuf>| key.as_deref().filter(|_| !self.dry_run).map(signer_of).transpose();
+        signing::forbid_core_dumps();
+        let signs = |key: &Option<PathBuf>| {
+            key.as_deref().filter(|_| !self.dry_run).map(|key| signing::signer(key, &ask)).transpose()
+        };
         let (signer, register_signer) = (signs(&self.key)?, signs(&self.register_key)?);
         let public = public_key(self.key.as_deref(), signer.as_deref())?;
         let register_public = public_key(self.register_key.as_deref(), register_signer.as_deref())?;
@@ -119,11 +109,12 @@ impl SigningOptions {
     }
 }
 
-/// Returns the public half of a key, or `None` if there is no key, or if it is not known before the key signs.
+/// Returns the public half of a key, or `None` if there is no key, or if it is not known before the key signs. Without a
+/// `signer`, in a dry run, no passphrase is asked for.
 fn public_key(key: Option<&Path>, signer: Option<&(dyn Signer + Sync)>) -> Result<Option<PublicKey>, Failure> {
     match signer {
         Some(signer) => Ok(signer.public_key()),
-        None => key.map(key_to_sign_with).transpose(),
+        None => Ok(key.map(signing::key_to_sign_with).transpose()?),
     }
 }
 
@@ -136,9 +127,9 @@ impl Keys<'_> {
         match &self.public {
             Some(public) => {
                 let own = signing::own_trust(self.options.identity(), public, self.register_public.as_ref());
-                Ok(own.unwrap_or_else(|| Trust::of(AllowedSigners::empty())))
+                Ok(own.unwrap_or_else(|| Trust::of(AllowedSigners::default())))
             }
-            None if self.signer.is_none() => Ok(Trust::of(AllowedSigners::empty())),
+            None if self.signer.is_none() => Ok(Trust::of(AllowedSigners::default())),
             None => Err(Failure::unusable("the public half of the key is not known before it signs; specify --trust")),
         }
     }
@@ -152,7 +143,7 @@ impl Keys<'_> {
             signer: self.signer.as_deref(),
             register_signer: of_registers.filter(|_| !self.without_register),
             clock: &trust_options::now,
-            memory: self.memory.as_ref(),
+            memory: self.memory,
         }
     }
 
@@ -177,21 +168,12 @@ impl Keys<'_> {
     }
 }
 
-pub(super) fn signer_of(key: &Path) -> Result<Box<dyn Signer + Sync>, Failure> {
-    signing::forbid_core_dumps();
-    signing::signer(key, &ask).map_err(unusable)
-}
-
-/// Returns the public half of the key that would sign, for a dry run: no passphrase is asked for.
-pub(super) fn key_to_sign_with(key: &Path) -> Result<PublicKey, Failure> {
-    signing::forbid_core_dumps();
-    signing::key_to_sign_with(key).map_err(unusable)
-}
-
-fn unusable(error: KeyFileError) -> Failure {
-    match error {
-        KeyFileError::File(error) => error.into(),
-        error => Failure::unusable(error),
+impl From<KeyFileError> for Failure {
+    fn from(error: KeyFileError) -> Self {
+        match error {
+            KeyFileError::File(error) => error.into(),
+            error => Self::unusable(error),
+        }
     }
 }
 

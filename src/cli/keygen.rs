@@ -3,7 +3,7 @@
 use super::key_options::{self, PASSPHRASE_VARIABLE, passphrase, with_pub};
 use super::options::Formatted;
 use super::{Code, Failure, open_workspace, output};
-use crate::files::{self, Access};
+use crate::files::{self, Access, Durability};
 use crate::signing::{self, allowed_signers_line, forbid_core_dumps};
 use crate::text::{name_of, shown};
 use crate::trust::SigningKey;
@@ -61,9 +61,9 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let settings = workspace.map(|workspace| workspace.with_identity(&identity)).transpose().map_err(Failure::usage)?;
     let passphrase = new_passphrase(options)?;
     let private = key.to_openssh(&identity, passphrase.as_ref().map(|p| p.as_str())).map_err(Failure::unusable)?;
-    files::write_new(&options.key, private.as_bytes(), Access::Private)?;
+    files::write_new(&options.key, private.as_bytes(), Access::Private, Durability::Named)?;
     let public = format!("{} {identity}\n", key.public_key().to_openssh());
-    files::write_new(&public_path, public.as_bytes(), Access::Shared)?;
+    files::write_new(&public_path, public.as_bytes(), Access::Shared, Durability::Named)?;
     if let Some((path, text)) = settings {
         files::rewrite(&path, text.as_bytes())?;
         output::say(&format!("stated {identity} as the issuer in {}", shown(&path)));

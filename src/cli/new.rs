@@ -3,6 +3,7 @@
 use super::options::{Force, Formatted};
 use super::{Code, Failure, inputs, output};
 use crate::earth::Place;
+use crate::files;
 use crate::interface::enquiry::place_of;
 use crate::plan::document::Planned;
 use crate::template::{self, Positions};
@@ -77,7 +78,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         Kind::Site => template::site(&site_id(options.file.as_deref())?, options.at, options.height_m),
     };
     if let Some(path) = &options.file {
-        output::file(path, &text, options.force.replace)?;
+        files::write_replaceable(path, text.as_bytes(), options.force.replace)?;
         output::say(&format!("wrote {}; replace the values that its comments describe", shown(path)));
     }
     match (output::is_json(), &options.file) {

@@ -24,8 +24,3 @@ pub(super) fn workspace() -> Option<&'static Workspace> {
 pub(super) fn folder() -> Option<&'static PathBuf> {
     FOLDER.get()
 }
-
-/// Returns `true` if there is a workspace and it is of a laboratory.
-pub(super) fn is_of_a_laboratory() -> bool {
-    workspace().is_some_and(Workspace::is_of_a_laboratory)
-}

@@ -145,11 +145,6 @@ pub(super) fn json_line(value: &impl Serialize) -> Result<(), Failure> {
     result(&(printable::json_line(value).map_err(Failure::unusable)? + "\n"))
 }
 
-/// Writes a result to a file. An existing file is replaced only on request.
-pub(super) fn file(path: &Path, bytes: impl AsRef<[u8]>, force: bool) -> Result<(), Failure> {
-    files::write_replaceable(path, bytes.as_ref(), force).map_err(Failure::from)
-}
-
 /// Returns a page in the format that the suffix of its path states: HTML, or PDF.
 pub(super) fn page(path: &Path, html: String, force: bool) -> Result<Vec<u8>, FileError> {
     if !path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("pdf")) {
@@ -162,9 +157,10 @@ pub(super) fn page(path: &Path, html: String, force: bool) -> Result<Vec<u8>, Fi
     pdf::print(&html, path, std::env::var(pdf::BROWSER_VARIABLE).ok().as_deref())
 }
 
-/// Writes a file in addition to the result of a verb as [`file`] does, and says so after the result.
+/// Writes a file in addition to the result of a verb, and says so after the result. An existing file is replaced only on
+/// request.
 pub(super) fn saved_too(path: &Path, bytes: impl AsRef<[u8]>, force: bool) -> Result<(), Failure> {
-    file(path, bytes, force)?;
+    files::write_replaceable(path, bytes.as_ref(), force)?;
     say_after(&format!("wrote {}", shown(path)));
     Ok(())
 }

@@ -103,7 +103,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     check(&options.number, options.issued, options.performed, options.valid_until).map_err(failure)?;
     let keys = options.issuer.keys(options.out.as_deref())?;
     keys.check_dry_run(&trust, issued_at)?;
-    let dry_run = options.issuer.dry_run();
+    let dry_run = options.issuer.signing.dry_run;
     let record = RefCell::new(None);
     let print = |certification: &Certification, comparison: &Comparison, changes: &[NumberDifference]| {
         let Some(path) = &options.report.path else { return Ok(()) };

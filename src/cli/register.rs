@@ -5,9 +5,8 @@ use super::options::Tabular;
 use super::output::Format;
 use super::trust_options::{TrustOptions, date};
 use super::{Code, Failure, code, inputs, open_workspace, output};
-use crate::folder::overview::{Overview, Query};
+use crate::folder::overview::Overview;
 use crate::folder::renewal::{NotRenewed, Renewal};
-use crate::parallel;
 use crate::register::{Row, State};
 use crate::report::register as report;
 use crate::text::{Printable, misspelt, shown};
@@ -100,15 +99,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         return renew(options, folder);
     }
     let (trust, question) = options.trust.load()?;
-    let memory = open_workspace::workspace().map(Workspace::memory);
-    let threads = parallel::processors();
-    let query = Query {
-        trust: &trust,
-        question: &question,
-        memory: memory.as_ref(),
-        may_lack: open_workspace::is_of_a_laboratory(),
-        threads,
-    };
+    let query = Workspace::query(open_workspace::workspace(), &trust, &question);
     let mut overview = Overview::of(folder, query)?;
     let code = code(overview.is_incomplete(), overview.needs_attention());
     overview.remarks.iter().chain(&overview.absent).for_each(|words| output::say(words));

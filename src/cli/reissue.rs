@@ -72,7 +72,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         valid_until: options.valid_until,
         allow_uncalibratable: options.batch.allow_uncalibratable,
         same_content: options.same_content,
-        ..Reissue::new(options.batch.issuer.identity(), issued_at, &options.reason)
+        ..Reissue::new(options.batch.issuer.signing.identity(), issued_at, &options.reason)
     };
     let keys = options.batch.issuer.keys(options.out.as_deref())?;
     if let Some(public) = &keys.public {

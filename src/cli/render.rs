@@ -6,6 +6,7 @@ use super::output::languages;
 use super::trust_options::TrustAmong;
 use super::{Code, Failure, defaults, output};
 use crate::batch::{Purpose, paths};
+use crate::files;
 use crate::folder::Folder;
 use crate::report::{PassportPage, style, verdict};
 use crate::text::{Kind, name_of, shown};
@@ -68,7 +69,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
             }
         };
         let page_bytes = output::page(&path, page.html(&languages()), options.force.replace)?;
-        output::file(&path, page_bytes, options.force.replace)?;
+        files::write_replaceable(&path, &page_bytes, options.force.replace)?;
         if !output::is_json() && !verdict.valid {
             let document = verdict::document(&verdict, &page.verification, &enquiry.question);
             output::say_verdict(&style::plain(&output::typed(&document)));

@@ -38,7 +38,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if withdrawn.is_empty() {
         output::say("already withdrawn; nothing was written");
     }
-    let dry_run = options.issuer.dry_run();
+    let dry_run = options.issuer.signing.dry_run;
     output::show(|| report::withdrawn_json(&withdrawn), || vec![report::withdrawn(&withdrawn, dry_run)])?;
     withdrawn.iter().flat_map(|one| &one.alarms).for_each(|alarm| output::complain(&format!("ALARM: {alarm}")));
     Ok(0)

@@ -61,21 +61,12 @@ pub(super) struct TrustOptions {
     asked: Asked,
 }
 
-/// Register that says whether a passport counts.
-#[derive(Args)]
-pub(super) struct Among {
-    /// Register of the stand, or the folder of passports that has it as MODEL/SERIAL/register.yaml
-    #[arg(long, help_heading = "Verification", visible_alias = "passports", value_name = "FILE|DIR")]
-    register: Option<PathBuf>,
-}
-
 /// Options of trust of a verb that reads passports.
 #[derive(Args)]
+#[command(mut_arg("trust", |trust| trust.required(true)))]
 pub(super) struct TrustAmong {
     #[command(flatten)]
-    trust: TrustOptions,
-    #[command(flatten)]
-    among: Among,
+    trust: OptionalTrust,
 }
 
 /// Options of trust of a verb that also works without a passport.
@@ -85,8 +76,9 @@ pub(super) struct OptionalTrust {
     lists: Lists,
     #[command(flatten)]
     asked: Asked,
-    #[command(flatten)]
-    among: Among,
+    /// Register of the stand, or the folder of passports that has it as MODEL/SERIAL/register.yaml
+    #[arg(long, help_heading = "Verification", visible_alias = "passports", value_name = "FILE|DIR")]
+    register: Option<PathBuf>,
 }
 
 impl OptionalTrust {
@@ -94,23 +86,26 @@ impl OptionalTrust {
     pub(super) fn load(&self) -> Result<Option<Enquiry>, Failure> {
         let question = self.asked.question();
         let trust = self.lists.load()?;
-        Ok(trust.map(|trust| among(trust, question, self.among.register.as_deref())))
+        Ok(trust.map(|trust| among(trust, question, self.register.as_deref())))
     }
 }
 
 impl TrustAmong {
     pub(super) fn load(&self) -> Result<Enquiry, Failure> {
-        let (trust, question) = self.trust.load()?;
-        Ok(among(trust, question, self.among.register.as_deref()))
+        self.trust.load()?.ok_or_else(missing)
     }
 }
 
 impl TrustOptions {
     pub(super) fn load(&self) -> Result<(Trust, Question), Failure> {
         let question = self.asked.question();
-        let trust = self.lists.load()?.ok_or_else(|| Failure::usage("missing --trust SIGNERS"))?;
+        let trust = self.lists.load()?.ok_or_else(missing)?;
         Ok((trust, question))
     }
+}
+
+fn missing() -> Failure {
+    Failure::usage("missing --trust SIGNERS")
 }
 
 impl Asked {
@@ -130,7 +125,7 @@ impl Asked {
 /// has accepted.
 pub(super) fn among(trust: Trust, question: Question, registers: Option<&Path>) -> Enquiry {
     let Some(path) = registers else { return Enquiry::of(trust, question) };
-    let memory = open_workspace::workspace().map(Workspace::memory);
+    let memory = open_workspace::workspace().map(Workspace::memory).cloned();
     let registers = Registers::new(path, trust.clone(), question.now, memory);
     Enquiry::of(trust, question).with_registers(registers)
 }

@@ -4,7 +4,7 @@
 
 use crate::report::Language;
 use crate::stand::check_not_empty;
-use crate::text::{Document, Field, Path, Problems, Unreadable, record, word_of_a_key, words, yaml};
+use crate::text::{Document, Field, Node, Path, Problems, Unreadable, record, word_of_a_key, words, yaml};
 use jiff::civil::Date;
 
 words! {
@@ -115,12 +115,12 @@ impl Administrative {
         }
         check_not_empty(self.responsible.as_ref(), &at.key("responsible"), "at least one name", problems);
         // The schema of the DCC has no empty texts. A country without a code is already reported.
-        let mut check_text = |at: &Path, text: &str| {
-            if text.trim().is_empty() && at.last_key() != "country" {
+        let mut check_text = |at: &Path, scalar: &Node| {
+            if matches!(scalar, Node::Text(text) if text.trim().is_empty()) && at.last_key() != "country" {
                 problems.at(at, "only spaces", "text", "enter text, or omit the key");
             }
         };
-        self.write().iter().for_each(|node| node.each_text(&at, &mut check_text));
+        self.write().iter().for_each(|node| node.each_scalar(&at, &mut check_text));
         problems.within(&at.key("temperature_c"), self.temperature_c, -90.0, 100.0);
         if let Some(Performed { from: Some(from), to: Some(to) }) = self.performed
             && to < from

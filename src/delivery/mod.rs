@@ -17,7 +17,8 @@ use crate::register::{Entry, FILE_NAME, RegisterRefused, State};
 use crate::report::Languages;
 use crate::report::doc::{Block, Words, given, line, listed, marked};
 use crate::report::page::instructions::instructions;
-use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, name_of as shown_name};
+use crate::text::scalar::identifiers;
+use crate::text::{LARGEST_DOCUMENT_BYTES, name_of as shown_name};
 use crate::trust::PublicKey;
 use crate::wording::Language;
 use crate::wording::texts::delivery as texts;
@@ -44,11 +45,9 @@ impl std::str::FromStr for Wanted {
     type Err = &'static str;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let names: Vec<&str> = text.split('/').collect();
-        let all_good = names.iter().all(|name| Identifier::new(name).is_ok());
-        match names[..] {
-            [model, serial] if all_good => Ok(Self { stand: format!("{model}/{serial}"), site: None }),
-            [model, serial, site] if all_good => {
+        match (identifiers::<2>(text), identifiers(text)) {
+            (Some(_), _) => Ok(Self { stand: text.to_owned(), site: None }),
+            (_, Some([model, serial, site])) => {
                 Ok(Self { stand: format!("{model}/{serial}"), site: Some(site.to_owned()) })
             }
             _ => Err("expected MODEL/SERIAL or MODEL/SERIAL/SITE, such as SPS-2/0017/moscow-bmstu"),

@@ -10,6 +10,7 @@ use crate::passport::{self, Question, Trust, Verification, verify};
 use crate::register::{self, Doubt, FILE_NAME, FORM, Register, VerifiedRegister};
 use crate::report::doc::{Block, Words, code, given, line, listed, marked};
 use crate::report::{Languages, PassportPage};
+use crate::signing::append_line;
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of as shown_name, printable, shown};
 use crate::trust::{AllowedSigners, LARGEST_TRUST_FILE_BYTES, NotAuthorised, PublicKey, check_identity};
 use crate::wording::texts::delivery as texts;
@@ -100,7 +101,7 @@ impl Parcel {
     /// Returns [`NotReceived`] for an archive or a document that is damaged, or that no delivery has.
     fn open(bytes: &[u8], now: Timestamp) -> Result<Self, NotReceived> {
         let mut parcel = Self { stands: BTreeMap::new(), signers: BTreeMap::new() };
-        let nobody = Trust::of(AllowedSigners::empty());
+        let nobody = Trust::of(AllowedSigners::default());
         for (member, bytes) in archive::read(bytes)? {
             match member {
                 Member::Other => {}
@@ -119,8 +120,7 @@ impl Parcel {
                     let (content, key) = (verification.content_from_anyone(), verification.key_from_anyone());
                     let Some((content, key)) = content.zip(key) else {
                         // These checks come before that of the key, so they show no fingerprint.
-                        let why = verification.failed().map_or("", |check| &check.detail);
-                        return Err(refused(format!("{name}: {why}")));
+                        return Err(refused(format!("{name}: {}", verification.why())));
                     };
                     let header = &content.passport;
                     parcel.note(&header.issuer, key, passport::NAMESPACE, header.issued_at);
@@ -298,7 +298,7 @@ pub(crate) fn receive(bytes: &[u8], order: &Order) -> Result<Received, NotReceiv
     }
     let path = workspace.trust.clone().ok_or(not_stated("trust"))?;
     let (mut text, known) = match files::read(&path, LARGEST_TRUST_FILE_BYTES) {
-        Err(error) if error.is_missing() => (Vec::new(), AllowedSigners::empty()),
+        Err(error) if error.is_missing() => (Vec::new(), AllowedSigners::default()),
         read => {
             let text = read?;
             let known = AllowedSigners::parse(&shown_name(&path), &text)?;
@@ -311,10 +311,7 @@ pub(crate) fn receive(bytes: &[u8], order: &Order) -> Result<Received, NotReceiv
     let typed: Vec<String> = to_ask.filter_map(|key| (order.ask)(&key.principal)).collect();
     given.extend(typed);
     parcel.confirm(&new, &given, order.may_replace)?;
-    for key in &new {
-        let end: &[u8] = if text.last().is_some_and(|last| *last != b'\n') { b"\n" } else { b"" };
-        text = [&text, end, key.line.as_bytes(), b"\n"].concat();
-    }
+    new.iter().for_each(|key| append_line(&mut text, &key.line));
     let trust = Trust::of(AllowedSigners::parse(&shown_name(&path), &text)?);
     let question = Question::at(order.now);
     let good = parcel.verified(&workspace, &trust, &question)?;

@@ -215,14 +215,9 @@ pub(crate) enum Durability {
 /// Number of attempts to write a file again after its temporary file was removed; even a second removal is unlikely.
 const ATTEMPTS: usize = 4;
 
-/// Writes a new durable file, as [`write_new_as`] does.
-pub(crate) fn write_new(path: &Path, bytes: &[u8], access: Access) -> Result<(), FileError> {
-    write_new_as(path, bytes, access, Durability::Named)
-}
-
 /// Writes a new file: to a temporary name in its folder, synced, renamed without replacing, and the folder synced, as far
 /// as `durability` demands it. Missing folders are created.
-pub(crate) fn write_new_as(path: &Path, bytes: &[u8], access: Access, durability: Durability) -> Result<(), FileError> {
+pub(crate) fn write_new(path: &Path, bytes: &[u8], access: Access, durability: Durability) -> Result<(), FileError> {
     let persist = |temporary: NamedTempFile| temporary.persist_noclobber(path);
     write(path, bytes, access, durability, persist)
 }
@@ -278,7 +273,7 @@ pub(crate) fn write_replaceable(path: &Path, bytes: &[u8], force: bool) -> Resul
     if force {
         return replace(path, bytes, Durability::Named);
     }
-    write_new(path, bytes, Access::Shared).map_err(|error| match error {
+    write_new(path, bytes, Access::Shared, Durability::Named).map_err(|error| match error {
         FileError::Exists { path, .. } => FileError::Exists { path, replaceable: true },
         error => error,
     })

@@ -31,7 +31,8 @@ use crate::passport::{Content, Trust};
 use crate::register::State;
 use crate::site::Site;
 use crate::stand::{Identity, Stand};
-use crate::text::{Identifier, name_of, shown};
+use crate::text::scalar::identifiers;
+use crate::text::{name_of, shown};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use std::collections::HashMap;
@@ -166,12 +167,9 @@ impl Folder {
 
     /// Returns the path of the passport with this id, or `None` if the text is not an id.
     pub(crate) fn path_of_id(&self, id: &str) -> Option<PathBuf> {
-        let parts: Vec<&str> = id.split('/').collect();
-        let [model, serial, site, revision] = parts.as_slice() else { return None };
-        let names = [model, serial, site].map(|name| Identifier::new(name).ok());
-        let [Some(model), Some(serial), Some(site)] = names else { return None };
-        let revision: u32 = revision.parse().ok()?;
-        Some(self.root.join(model.as_str()).join(serial.as_str()).join(place::file_name(site.as_str(), revision)))
+        let (series, revision) = id.rsplit_once('/')?;
+        let [model, serial, site] = identifiers(series)?;
+        Some(self.root.join(model).join(serial).join(place::file_name(site, revision.parse().ok()?)))
     }
 
     /// Issues revision 1 of a stand for a site, and lists it in the register of the stand.
@@ -188,9 +186,9 @@ impl Folder {
         order: &Issue,
         authority: &Authority,
     ) -> Result<Issued, FolderRefused> {
-        let name = format!("{}-{}.yaml", site.id, order.revision);
+        let name = place::file_name(site.id.as_str(), order.revision);
         let folder = StandFolder::open(self, &stand.stand().stand.id(), authority, |other| other == name)?;
-        let issued = folder.issue(stand, site, order)?;
+        let issued = folder.settle(|| folder.next_first(stand, site, order))?;
         folder.list().map(|()| issued)
     }
 
@@ -199,8 +197,8 @@ impl Folder {
     /// # Errors
     /// Returns [`FolderRefused`] if the successor cannot be issued, written or listed; no passport is then replaced.
     pub fn reissue(&self, successor: &Successor, authority: &Authority) -> Result<Issued, FolderRefused> {
-        let folder = StandFolder::open(self, &successor.stand().stand.id(), authority, |_| false)?;
-        let issued = folder.reissue(successor)?;
+        let folder = StandFolder::open(self, &successor.prepared().stand().stand.id(), authority, |_| false)?;
+        let issued = folder.settle(|| folder.next_successor(successor))?;
         folder.list().map(|()| issued)
     }
 
@@ -233,7 +231,7 @@ impl Folder {
         let there = names.entry(name.to_ascii_lowercase()).or_insert_with(|| name.to_owned());
         match *there == name {
             true => Ok(()),
-            false => Err(FolderRefused::OtherCase { path: path.to_owned(), there: folder.join(there) }),
+            false => Err(FolderRefused::other_case(path.to_owned(), &folder.join(there))),
         }
     }
 }

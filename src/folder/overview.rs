@@ -2,7 +2,7 @@
 //!
 //! Each folder is read by itself, so memory grows with the entries of accepted registers only, not with other files.
 
-use super::place::{self, file_name, is_in_place, listed_content, numbered, path_of_id, stand_of};
+use super::place::{file_name, is_in_place, listed_content, numbered, path_of_id, stand_of};
 use super::registers::{self, Memory, doubt};
 use crate::document::sha256_hex;
 use crate::files::leftovers::is_lasting;
@@ -121,17 +121,14 @@ pub(crate) struct Overview {
 /// Findings in one folder.
 #[derive(Default)]
 struct Found {
-    stand: Option<StandRows>,
-    alarms: Vec<Alarm>,
-    remarks: Vec<String>,
-    absent: Vec<String>,
+    own: Overview,
     /// Fingerprint of the certified angles, by certificate number, of the current passports.
     angles: BTreeSet<(String, u64)>,
 }
 
 impl Found {
     fn alarm(&mut self, code: AlarmCode, stand: Option<&str>, file: &Path, detail: impl Display) {
-        self.alarms.push(Alarm::new(code, stand, Some(file), detail));
+        self.own.alarms.push(Alarm::new(code, stand, Some(file), detail));
     }
 }
 
@@ -147,15 +144,15 @@ impl Overview {
         let unread = |error: &FileError| Alarm::new(AlarmCode::Unreadable, None, Some(error.path()), error);
         overview.alarms.extend(unreadable.iter().map(unread));
         let mut shared: BTreeMap<(String, u64), Vec<String>> = BTreeMap::new();
-        for found in found {
-            overview.alarms.extend(found.alarms);
-            overview.remarks.extend(found.remarks);
-            overview.absent.extend(found.absent);
-            let Some(stand) = found.stand else { continue };
-            for angles in found.angles {
-                shared.entry(angles).or_default().push(stand.stand.clone());
+        for Found { own, angles } in found {
+            for (stand, angles) in own.stands.iter().flat_map(|stand| angles.iter().map(move |angles| (stand, angles)))
+            {
+                shared.entry(angles.clone()).or_default().push(stand.stand.clone());
             }
-            overview.stands.push(stand);
+            overview.alarms.extend(own.alarms);
+            overview.remarks.extend(own.remarks);
+            overview.absent.extend(own.absent);
+            overview.stands.extend(own.stands);
         }
         for ((number, _), stands) in shared.into_iter().filter(|(_, stands)| stands.len() > 1) {
             // No two stands have the same deviations, so one of them has those of the other.
@@ -257,7 +254,7 @@ impl Query<'_> {
             } else if kind == Some(Kind::Passport) || numbered(name).is_some() {
                 let id = listed.map(|place| rows[place].id.as_str());
                 let is_good = self.unlisted(&path, &bytes, id, register.as_ref(), &mut found);
-                let is_told = || found.alarms.iter().any(|alarm| alarm.code == AlarmCode::NoRegister);
+                let is_told = || found.own.alarms.iter().any(|alarm| alarm.code == AlarmCode::NoRegister);
                 if is_good && !is_there && !is_told() {
                     let detail = "has passports, but no register; make it with `register DIR --renew`, or restore it from \
                                   the backup";
@@ -277,7 +274,7 @@ impl Query<'_> {
         let register = match registers::read(path, self.trust, self.question.now) {
             Ok(register) => register,
             Err(refused) => {
-                found.alarms.push(Alarm::new(AlarmCode::RegisterUnknown, stand.as_deref(), None, refused));
+                found.own.alarms.push(Alarm::new(AlarmCode::RegisterUnknown, stand.as_deref(), None, refused));
                 return None;
             }
         };
@@ -290,7 +287,7 @@ impl Query<'_> {
             match memory.last(&of, self.trust, self.question.now) {
                 Err(refused) => found.alarm(AlarmCode::RegisterUnknown, Some(&of), path, refused),
                 Ok((last, remark)) => {
-                    found.remarks.extend(remark);
+                    found.own.remarks.extend(remark);
                     if let Some(doubt) = last.and_then(|last| doubt(&register, &last)) {
                         let code = match doubt {
                             Doubt::Older(_) => AlarmCode::RegisterOlder,
@@ -333,12 +330,12 @@ impl Query<'_> {
         let verification = verify(&name_of(path), bytes, self.trust, &Question::at(self.question.now));
         let stand = register.map(|register| register.header().stand.as_str());
         let Some((content, _)) = verification.authentic() else {
-            let why = verification.failed().map_or_else(String::new, |check| check.detail.clone());
+            let why = verification.why();
             match place_of {
                 Some(id) => {
                     found.alarm(AlarmCode::Differs, stand, path, format!("is not the listed file of {id}: {why}"));
                 }
-                None => found.remarks.push(format!("{}: has no effect: {why}", name_of(path))),
+                None => found.own.remarks.push(format!("{}: has no effect: {why}", name_of(path))),
             }
             return false;
         };
@@ -380,7 +377,7 @@ impl Query<'_> {
                 continue;
             }
             match self.may_lack {
-                true => found.absent.push(format!("{}: listed, but not here", row.id)),
+                true => found.own.absent.push(format!("{}: listed, but not here", row.id)),
                 false => {
                     let detail = format!("{} is listed, but its file is missing; restore it from the backup", row.id);
                     found.alarm(AlarmCode::Missing, stand, &path, detail);
@@ -397,13 +394,13 @@ impl Query<'_> {
                 numbers.len(),
                 numbers.join(", ")
             );
-            found.alarms.push(Alarm::new(AlarmCode::Certificates, stand, None, detail));
+            found.own.alarms.push(Alarm::new(AlarmCode::Certificates, stand, None, detail));
         }
         found
             .angles
             .retain(|(number, _)| rows.iter().any(|row| row.state == State::Current && row.certificate == *number));
         rows.retain(|row| self.selects(row, header));
-        found.stand = Some(StandRows {
+        found.own.stands.push(StandRows {
             stand: header.stand.clone(),
             sequence: header.sequence,
             sha256: register.sha256().to_owned(),
@@ -439,26 +436,13 @@ fn fingerprint(bytes: &[u8]) -> Option<u64> {
     Some(hasher.finish())
 }
 
-/// Returns the history of a stand, `<model>/<serial>`, or `None` if the folder has no register of it, and the stands that
-/// the folder has. The second value is `true` if a file could not be read.
-///
-/// # Errors
-/// Returns [`FileError`] if the folder cannot be read.
-pub(crate) fn history(
-    root: &Path,
-    stand: &str,
-    query: Query,
-) -> Result<(Result<History, Vec<String>>, bool), FileError> {
-    let below = root.join(stand);
-    let folder = if below.is_dir() { &below } else { root };
-    let overview = Overview::of(folder, query)?;
-    let is_incomplete = overview.is_incomplete();
-    let history = overview.history(stand, query).map(Ok);
-    let known = || Ok(place::stands(root)?.into_iter().map(|(_, stand)| stand).collect());
-    Ok((history.map_or_else(|| known().map(Err), Ok)?, is_incomplete))
-}
-
 impl Overview {
+    /// Reads the registers of a stand, `<model>/<serial>`, as [`Overview::of`] does.
+    pub(crate) fn of_stand(root: &Path, stand: &str, query: Query) -> Result<Self, FileError> {
+        let below = root.join(stand);
+        Self::of(if below.is_dir() { &below } else { root }, query)
+    }
+
     /// Returns the history of a stand, or `None` without a register of it.
     pub(crate) fn history(&self, stand: &str, query: Query) -> Option<History> {
         let found = self.stands.iter().find(|found| found.stand == stand)?;

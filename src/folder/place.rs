@@ -5,7 +5,8 @@ use crate::files::walk::{Entry, Walk};
 use crate::files::{self, FileError};
 use crate::passport::{Content, content_from_anyone};
 use crate::register::FILE_NAME;
-use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, name_of};
+use crate::text::scalar::identifiers;
+use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::fs;
@@ -57,7 +58,7 @@ pub(crate) fn stands(root: &Path) -> Result<Vec<(PathBuf, String)>, FileError> {
         let (Entry::File(path) | Entry::Link(path)) = entry? else { continue };
         let folder = files::folder_of(&path);
         if let Some(stand) = stand_of(folder)
-            && stand.split('/').all(|name| Identifier::new(name).is_ok())
+            && identifiers::<2>(&stand).is_some()
         {
             let levels = folder.ancestors().nth(2).map(Path::to_owned);
             let above = if folder.iter().count() > 2 { levels } else { None };

@@ -3,9 +3,8 @@
 use crate::files::FileError;
 use crate::passport::issue::IssueRefused;
 use crate::register::{Doubt, Entry, NoRegister, RegisterRefused};
-use crate::stand::remarks::NumberInUse;
 use crate::text::shown;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Reason why no new passport was written to a folder.
 #[derive(Debug, thiserror::Error)]
@@ -65,22 +64,6 @@ pub enum FolderRefused {
     /// Link in the path of the passport.
     #[error("{}: is a link; specify its target with --out, because links may lead out of the folder", shown(.0))]
     Link(PathBuf),
-    /// Existing name that differs only in case.
-    #[error(
-        "{}: found {}, which differs only in case; use the same spelling, or rename one, because Windows and macOS do \
-         not distinguish them",
-        shown(path),
-        shown(there)
-    )]
-    OtherCase {
-        /// Path of the folder or file that would be created.
-        path: PathBuf,
-        /// Path of the existing folder or file.
-        there: PathBuf,
-    },
-    /// Existing passport that states other angles under the number of the certificate.
-    #[error("{}: {}", shown(.0), .1)]
-    NumberInUse(PathBuf, NumberInUse),
     /// New passport that fails verification with the given trust: the check that failed and its detail.
     #[error(
         "the new passport failed verification ({0}: {1}); nothing was written; check --key, --identity and --trust"
@@ -118,6 +101,16 @@ impl FolderRefused {
             path,
             format!("already exists and cannot be compared as a passport ({why}); move it to another folder"),
         )
+    }
+
+    /// Returns the refusal of a path next to which another name, `there`, differs only in case.
+    pub(super) fn other_case(path: PathBuf, there: &Path) -> Self {
+        let there = shown(there);
+        let words = format!(
+            "found {there}, which differs only in case; use the same spelling, or rename one, because Windows and macOS do \
+             not distinguish them"
+        );
+        Self::There(path, words)
     }
 
     /// Returns the refusal of a revision that is missing before an existing one.

@@ -197,7 +197,7 @@ impl Registers {
 /// Returns why a register does not count, given the last one accepted; `None` if it does.
 pub(crate) fn doubt(register: &VerifiedRegister, last: &VerifiedRegister) -> Option<Doubt> {
     if let Err(contradiction) = register.agree(last) {
-        return Some(Doubt::Contradicted(Box::new(contradiction)));
+        return Some(Doubt::Contradicted(contradiction));
     }
     let (number, known) = (register.header().sequence, last.header().sequence);
     match number {

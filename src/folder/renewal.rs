@@ -8,7 +8,7 @@ use super::{Authority, Folder};
 use crate::document::sha256_hex;
 use crate::files::leftovers::is_lasting;
 use crate::files::walk::Walk;
-use crate::files::{self, Durability, FileError};
+use crate::files::{self, FileError};
 use crate::passport::Content;
 use crate::register::draft::Draft;
 use crate::register::{Doubt, Entry, FILE_NAME, RegisterRefused, State, VerifiedRegister};
@@ -51,27 +51,9 @@ pub(crate) enum NotRenewed {
     File(#[from] FileError),
     #[error(transparent)]
     Folder(#[from] FolderRefused),
-    /// Lists of withdrawn passports of an earlier version whose passports are undecided: the files and the identifiers.
-    #[error(
-        "{}: withdraws {}, in a format of an earlier version; for each passport, add --withdrawn ID --reason TEXT or \
-         --not-withdrawn ID",
-        .0.join(", "),
-        .1.join(", ")
-    )]
-    Undecided(Vec<String>, Vec<String>),
-    /// SHA-256 that is that of no file to take over.
-    #[error(
-        "--adopt {0}: found no unlisted passport and no outdated register with this SHA-256 that a trusted key signed"
-    )]
-    NothingToAdopt(String),
-    /// Register whose key has expired or was revoked: its SHA-256, and why it is not accepted.
-    #[error(
-        "{1}; if this is the last register, take it over with --adopt {0}; otherwise restore the last one from the backup"
-    )]
-    Outdated(String, String),
-    /// Passport that no register lists.
-    #[error("{0}: no register lists this passport{1}")]
-    NoSuchPassport(String, String),
+    /// Order that the folder does not permit, in words.
+    #[error("{0}")]
+    Rule(String),
     #[error("{}: found no passport and no register in this folder; check the path", shown(.0))]
     Empty(PathBuf),
 }
@@ -106,22 +88,21 @@ impl Renewal {
             prepared.push(self.prepare(folder, stand, authority, &mut adopted)?);
         }
         if let Some(sha256) = self.adopt.iter().find(|sha256| !adopted.contains(*sha256)) {
-            return Err(NotRenewed::NothingToAdopt(sha256.clone()));
+            return Err(NotRenewed::Rule(format!(
+                "--adopt {sha256}: found no unlisted passport and no outdated register with this SHA-256 that a trusted key \
+                 signed"
+            )));
         }
         for (id, _) in &self.withdrawn {
             if !prepared.iter().flatten().any(|(_, draft, _)| draft.entry(id).is_some()) {
-                return Err(NotRenewed::NoSuchPassport(id.clone(), String::new()));
+                return Err(not_listed(id, ""));
             }
         }
         let mut renewed = Vec::new();
         for (folder, draft, conclusions) in prepared.into_iter().flatten() {
-            let (stand, sequence) = (folder.stand().to_owned(), draft.sequence());
+            let (stand, sequence) = (folder.stand.clone(), draft.sequence());
             let entries = draft.entries().to_vec();
-            folder.write(
-                true,
-                |new| Ok(new.take_from(draft)?),
-                |path, text| Ok(files::replace(path, text, Durability::Named)?),
-            )?;
+            folder.write(true, |new| Ok(new.take_from(draft)?))?;
             renewed.push(Renewed { stand, sequence, entries, conclusions });
         }
         Ok(renewed)
@@ -206,7 +187,7 @@ impl Renewal {
         adopted: &mut BTreeSet<String>,
         conclusions: &mut Vec<String>,
     ) -> Result<VerifiedRegister, NotRenewed> {
-        let path = folder.path().join(FILE_NAME);
+        let path = folder.path.join(FILE_NAME);
         let refused = match folder.read_register() {
             Ok(register) => return Ok(register),
             Err(FolderRefused::Doubt(_, Doubt::Contradicted(_))) if self.with.is_some() => {
@@ -224,7 +205,7 @@ impl Renewal {
         match VerifiedRegister::take_over(&name_of(&path), &bytes, authority.trust) {
             Ok(register) if outdated && self.adopt.contains(&sha256) => {
                 adopted.insert(sha256);
-                let remembered = authority.memory.map(|memory| memory.path_of(folder.stand()));
+                let remembered = authority.memory.map(|memory| memory.path_of(&folder.stand));
                 let remembered = remembered.and_then(|path| {
                     crate::register::Register::from_anyone(&name_of(&path), &registers::bytes(&path).ok()?).ok()
                 });
@@ -237,7 +218,10 @@ impl Renewal {
                 }
                 Ok(register)
             }
-            Ok(_) if outdated => Err(NotRenewed::Outdated(sha256, refused.to_string())),
+            Ok(_) if outdated => Err(NotRenewed::Rule(format!(
+                "{refused}; if this is the last register, take it over with --adopt {sha256}; otherwise restore the last one \
+                 from the backup"
+            ))),
             _ => Err(refused.into()),
         }
     }
@@ -268,7 +252,12 @@ impl Renewal {
         }
         match files.is_empty() {
             true => Ok(()),
-            false => Err(NotRenewed::Undecided(files, undecided.into_iter().collect())),
+            false => Err(NotRenewed::Rule(format!(
+                "{}: withdraws {}, in a format of an earlier version; for each passport, add --withdrawn ID --reason TEXT or \
+                 --not-withdrawn ID",
+                files.join(", "),
+                undecided.into_iter().collect::<Vec<_>>().join(", ")
+            ))),
         }
     }
 }
@@ -320,7 +309,7 @@ impl Withdrawal<'_> {
         let (mut prepared, mut listed) = (Vec::new(), Vec::new());
         for stand in &stands {
             let this = StandFolder::open(&folder, stand, authority, |_| true)?;
-            let mut draft = Draft::after(this.register(), stand, authority.issuer, authority.now());
+            let mut draft = Draft::after(this.register.as_ref(), stand, authority.issuer, authority.now());
             listed.extend(draft.entries().iter().map(|entry| entry.id.clone()));
             let mut ids = Vec::new();
             for wanted in self.ids {
@@ -348,20 +337,21 @@ impl Withdrawal<'_> {
             }
         }
         if let Some(id) = missing.into_iter().next() {
-            return Err(NotRenewed::NoSuchPassport(id.clone(), nearest(&listed, id)));
+            return Err(not_listed(id, &nearest(&listed, id)));
         }
         let mut withdrawn = Vec::new();
         for (this, sequence, ids) in prepared {
             let alarms = ids.iter().filter_map(|id| difference(&this, id)).collect();
-            this.write(
-                false,
-                |draft| Ok(ids.iter().try_for_each(|id| draft.withdraw(id, self.reason))?),
-                |path, text| Ok(files::replace(path, text, Durability::Named)?),
-            )?;
-            withdrawn.push(Withdrawn { register: this.path().join(FILE_NAME), sequence, ids, alarms });
+            this.write(false, |draft| Ok(ids.iter().try_for_each(|id| draft.withdraw(id, self.reason))?))?;
+            withdrawn.push(Withdrawn { register: this.path.join(FILE_NAME), sequence, ids, alarms });
         }
         Ok(withdrawn)
     }
+}
+
+/// Returns the refusal of an order for a passport that no register lists.
+fn not_listed(id: &str, more: &str) -> NotRenewed {
+    NotRenewed::Rule(format!("{id}: no register lists this passport{more}"))
 }
 
 fn is_pattern(text: &str) -> bool {
@@ -380,7 +370,7 @@ fn nearest(ids: &[String], id: &str) -> String {
 
 /// Returns how the file at the path of a listed passport differs from it, in words, or `None` if it does not.
 fn difference(folder: &StandFolder, id: &str) -> Option<String> {
-    let entry = folder.register()?.entry(id)?;
+    let entry = folder.register.as_ref()?.entry(id)?;
     let path = folder.path_of_entry(entry);
     let found = match path.symlink_metadata() {
         Err(_) => "is missing".to_owned(),

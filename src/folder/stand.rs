@@ -42,9 +42,9 @@ pub(crate) struct StandFolder<'a> {
     authority: &'a Authority<'a>,
     folder: &'a Folder,
     /// Stand, `<model>/<serial>`.
-    stand: String,
-    path: PathBuf,
-    register: Option<VerifiedRegister>,
+    pub stand: String,
+    pub path: PathBuf,
+    pub register: Option<VerifiedRegister>,
     /// Sites by their lower-case names, each with its spelling and its last revision.
     sites: Mutex<BTreeMap<String, (String, u32)>>,
     /// Entries to add to the register, by their ids.
@@ -169,28 +169,16 @@ impl<'a> StandFolder<'a> {
         match (verification.authentic(), verification.content_from_anyone(), verification.key_from_anyone()) {
             (Some((content, _)), ..) => Ok(content.clone()),
             (None, Some(_), Some(key)) => {
-                let failed = verification.failed();
-                let why = failed.map_or_else(String::new, |check| for_the_issuer(&check.detail).to_owned());
+                let why = for_the_issuer(verification.why()).to_owned();
                 Err(FolderRefused::Foreign { path: path.to_owned(), fingerprint: key.fingerprint(), why })
             }
-            _ => {
-                let failed = verification.failed();
-                let why = failed.map_or("", |check| &check.detail);
-                Err(FolderRefused::not_comparable(path.to_owned(), why))
-            }
+            _ => Err(FolderRefused::not_comparable(path.to_owned(), verification.why())),
         }
     }
 
-    pub(crate) fn register(&self) -> Option<&VerifiedRegister> {
-        self.register.as_ref()
-    }
-
-    pub(crate) fn path(&self) -> &Path {
-        &self.path
-    }
-
-    pub(crate) fn stand(&self) -> &str {
-        &self.stand
+    /// Returns the entries of the register; none without one.
+    pub(crate) fn entries(&self) -> &[Entry] {
+        self.register.as_ref().map_or(&[], VerifiedRegister::entries)
     }
 
     pub(crate) fn path_of(&self, site: &str, revision: u32) -> PathBuf {
@@ -199,8 +187,7 @@ impl<'a> StandFolder<'a> {
 
     /// Returns the sites that listed passports state, for remarks only: at most `most`.
     pub(crate) fn sites(&self, most: usize) -> Vec<Site> {
-        let entries = self.register.iter().flat_map(VerifiedRegister::entries);
-        entries.take(most).filter_map(|entry| Some(self.listed_content(entry)?.site)).collect()
+        self.entries().iter().take(most).filter_map(|entry| Some(self.listed_content(entry)?.site)).collect()
     }
 
     /// Returns the content of the passport of an entry, if its file is the listed one.
@@ -219,8 +206,12 @@ impl<'a> StandFolder<'a> {
     fn later(&self, site: &str, revision: u32) -> Option<u32> {
         let sites = self.sites.lock().unwrap_or_else(PoisonError::into_inner);
         let in_names = sites.get(&site.to_ascii_lowercase()).map(|(_, last)| *last);
-        let entries = self.register.iter().flat_map(VerifiedRegister::entries).map(Entry::site_and_revision);
-        let listed = entries.filter(|(other, _)| *other == site).map(|(_, revision)| revision);
+        let listed = self
+            .entries()
+            .iter()
+            .map(Entry::site_and_revision)
+            .filter(|(other, _)| *other == site)
+            .map(|(_, revision)| revision);
         listed.chain(in_names).max().filter(|last| *last > revision)
     }
 
@@ -229,7 +220,7 @@ impl<'a> StandFolder<'a> {
         let path = self.path_of(site, revision);
         let sites = self.sites.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((there, _)) = sites.get(&site.to_ascii_lowercase()).filter(|(there, _)| there != site) {
-            return Err(FolderRefused::OtherCase { there: self.path.join(there), path });
+            return Err(FolderRefused::other_case(path, &self.path.join(there)));
         }
         drop(sites);
         let found = match path.symlink_metadata() {
@@ -287,12 +278,7 @@ impl<'a> StandFolder<'a> {
         }
     }
 
-    /// Issues revision 1 of a stand for a site, or finds that it is there.
-    pub(crate) fn issue(&self, stand: &PreparedStand, site: &Site, order: &Issue) -> Result<Issued, FolderRefused> {
-        self.settle(|| self.next_first(stand, site, order))
-    }
-
-    /// Returns the next step of [`Self::issue`]; nothing is signed or written.
+    /// Returns the next step for revision 1 of a stand at a site; nothing is signed or written.
     pub(crate) fn next_first(&self, stand: &PreparedStand, site: &Site, order: &Issue) -> Result<Next, FolderRefused> {
         let draft = Box::new(stand.draft(site, order)?);
         let (name, revision) = (site.id.as_str(), order.revision);
@@ -314,16 +300,12 @@ impl<'a> StandFolder<'a> {
         }
     }
 
-    /// Issues the successor of a passport, or finds that it is there.
-    pub(crate) fn reissue(&self, successor: &Successor) -> Result<Issued, FolderRefused> {
-        self.settle(|| self.next_successor(successor))
-    }
-
-    /// Returns the next step of [`Self::reissue`]; nothing is signed or written.
+    /// Returns the next step for the successor of a passport; nothing is signed or written.
     pub(crate) fn next_successor(&self, successor: &Successor) -> Result<Next, FolderRefused> {
-        let old = self.register.as_ref().and_then(|register| register.entry(successor.old_id()));
+        let (old_id, old_sha256) = successor.old();
+        let old = self.register.as_ref().and_then(|register| register.entry(old_id));
         let state = if successor.same_site { State::Superseded } else { State::Moved };
-        let superseded = successor.supersedes().then(|| (successor.old_id().to_owned(), state));
+        let superseded = successor.supersedes().then(|| (old_id.to_owned(), state));
         let site = successor.site.id.as_str();
         let mut revision = successor.first_revision();
         loop {
@@ -355,7 +337,7 @@ impl<'a> StandFolder<'a> {
                 return self.there(there, &draft, superseded);
             }
             let predecessor = there.content.passport.reissued_from.as_ref();
-            if predecessor.is_some_and(|predecessor| predecessor.sha256 == successor.old_sha256()) {
+            if predecessor.is_some_and(|predecessor| predecessor.sha256 == old_sha256) {
                 let latest = later.map_or(there.path, |last| self.path_of(site, last));
                 let words = "is already a successor of this passport for this site, with different content; re-issue the \
                              passport that is current";
@@ -408,12 +390,11 @@ impl<'a> StandFolder<'a> {
 
     /// Signs and writes the next passport. If another run writes a file of that name first, the next step is determined
     /// again.
-    fn settle(&self, next: impl Fn() -> Result<Next, FolderRefused>) -> Result<Issued, FolderRefused> {
+    pub(crate) fn settle(&self, next: impl Fn() -> Result<Next, FolderRefused>) -> Result<Issued, FolderRefused> {
         let settle_once = || {
             let Sealed { issued, text } = self.seal(next()?)?;
             if let Some(text) = text {
-                let written =
-                    files::write_new_as(&issued.path, text.as_bytes(), Access::Shared, self.folder.durability);
+                let written = files::write_new(&issued.path, text.as_bytes(), Access::Shared, self.folder.durability);
                 if let Err(error) = written {
                     self.listings().remove(&issued.id);
                     return Err(error.into());
@@ -441,11 +422,7 @@ impl<'a> StandFolder<'a> {
             return Ok(());
         }
         self.sync_names()?;
-        self.write(
-            false,
-            |draft| add(draft, listings),
-            |path, text| Ok(files::replace(path, text, self.folder.durability)?),
-        )
+        self.write(false, |draft| add(draft, listings))
     }
 
     /// Syncs the names of the passports, if that was put off when they were written, and those of the folders above.
@@ -474,13 +451,22 @@ impl<'a> StandFolder<'a> {
         if listings.is_empty() || self.authority.register_signer.is_none() {
             return together(None);
         }
-        self.write(true, |draft| add(draft, listings), |path, text| together(Some((path, text))))
+        self.write_by(true, |draft| add(draft, listings), |path, text| together(Some((path, text))))
+    }
+
+    /// Replaces the register by one that `change` makes of it, as [`Self::write_by`] does.
+    pub(crate) fn write(
+        &self,
+        even_if_same: bool,
+        change: impl FnOnce(&mut Draft) -> Result<(), FolderRefused>,
+    ) -> Result<(), FolderRefused> {
+        self.write_by(even_if_same, change, |path, text| Ok(files::replace(path, text, self.folder.durability)?))
     }
 
     /// Replaces the register by one that `change` makes of it, under a lock that other runs respect; `write` writes it.
     /// Without a signer of registers nothing is written, and the passports do not count yet. A register with the
     /// entries of the one before is written only `even_if_same`.
-    pub(crate) fn write(
+    fn write_by(
         &self,
         even_if_same: bool,
         change: impl FnOnce(&mut Draft) -> Result<(), FolderRefused>,
@@ -500,7 +486,7 @@ impl<'a> StandFolder<'a> {
             },
         };
         if let (Some(before), Some(now)) = (&self.register, &current) {
-            let doubt = |why| FolderRefused::Doubt(path.clone(), Doubt::Contradicted(Box::new(why)));
+            let doubt = |why| FolderRefused::Doubt(path.clone(), Doubt::Contradicted(why));
             now.agree(before).map_err(doubt)?;
         }
         if self.register.is_some() && current.is_none() {
@@ -524,7 +510,7 @@ impl<'a> StandFolder<'a> {
     /// is current.
     ///
     /// # Errors
-    /// Returns [`FolderRefused::NumberInUse`] if a listed passport states other angles under its number.
+    /// Returns [`FolderRefused::There`] if a listed passport states other angles under its number.
     pub(crate) fn against_certificate(&self, stand: &PreparedStand) -> Result<Vec<String>, FolderRefused> {
         let Some(register) = &self.register else { return Ok(Vec::new()) };
         let (text, stand) = (stand.text(), stand.stand());
@@ -541,7 +527,7 @@ impl<'a> StandFolder<'a> {
                 continue;
             }
             let there = self.authentic(&path, &bytes)?.to_stand();
-            stand.check_number(&there).map_err(|error| FolderRefused::NumberInUse(path, error))?;
+            stand.check_number(&there).map_err(|why| FolderRefused::There(path, why))?;
         }
         let mut others: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
         for entry in counting().filter(|entry| entry.state == State::Current && entry.certificate != *number) {

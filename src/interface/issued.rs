@@ -60,7 +60,7 @@ pub fn issue(
     let of_stand = StandFolder::open(&folder, &stand.stand().stand.id(), &authority, |other| other == name);
     let of_stand = of_stand.map_err(failed)?;
     let mut words = of_stand.against_certificate(&stand).map_err(failed)?;
-    let issued = of_stand.issue(&stand, &site, &order).map_err(failed)?;
+    let issued = of_stand.settle(|| of_stand.next_first(&stand, &site, &order)).map_err(failed)?;
     of_stand.list().map_err(failed)?;
     if issued.new {
         words.extend(issued.remarks.words());

@@ -5,7 +5,7 @@
 //! a gyro; a passport states it before delivery.
 
 use crate::calibration::prediction::exact_currents_ma;
-use crate::calibration::{Method, NoLeastSquares, NoReadings, NoSetup, Options, Parameter, Readings, Setup, calibrate};
+use crate::calibration::{Method, Options, Parameter, Readings, Setup, calibrate};
 use crate::coefficients::PositionCoefficients;
 use crate::gyro::{GyroParameters, GyroType, Parameters};
 use crate::laboratory::Laboratory;
@@ -34,24 +34,6 @@ pub struct Stated {
     pub laboratory: Laboratory,
 }
 
-/// Reason why no accuracy can be stated.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum NoAccuracy {
-    /// The stand cannot be used, or an uncertainty is invalid.
-    #[error(transparent)]
-    Setup(#[from] NoSetup),
-    /// The positions do not determine the parameters of the gyro.
-    #[error(transparent)]
-    LeastSquares(#[from] NoLeastSquares),
-    /// The currents of the gyro are not finite.
-    #[error(transparent)]
-    Currents(#[from] NoReadings),
-    /// The nominal K has no inverse.
-    #[error("the nominal K of this gyro type has no inverse")]
-    SingularGyro,
-}
-
 impl Stated {
     /// Returns the gyro type and the laboratory that a passport states.
     pub(crate) fn of(accuracy: &Accuracy) -> Self {
@@ -59,19 +41,22 @@ impl Stated {
     }
 
     /// Computes the standard uncertainties of the parameters on a certified stand at a site.
+    ///
+    /// # Errors
+    /// Returns the reason why no accuracy can be stated, in words.
     pub(crate) fn accuracy(
         &self,
         certificate: &Certificate,
         positions: &[CertifiedPosition],
         site: &Site,
-    ) -> Result<Accuracy, NoAccuracy> {
-        let (setup, _) = Setup::stated(certificate, positions, site, &self.laboratory)?;
+    ) -> Result<Accuracy, String> {
+        let (setup, _) = Setup::stated(certificate, positions, site, &self.laboratory).map_err(words)?;
         let setup = setup.of_gyro(self.gyro.noise.as_ref());
         let gyro = at_gravity(&self.gyro, site.earth().gravity_m_per_s2);
-        let currents = exact_currents_ma(&setup, &gyro).ok_or(NoAccuracy::SingularGyro)?;
-        let readings = Readings::new(setup.coefficients(), &currents)?;
+        let currents = exact_currents_ma(&setup, &gyro).ok_or("the nominal K of this gyro type has no inverse")?;
+        let readings = Readings::new(setup.coefficients(), &currents).map_err(words)?;
         let options = Options { methods: vec![Method::LeastSquares], ..Options::default() };
-        let calibration = calibrate(&setup, &readings, &options)?;
+        let calibration = calibrate(&setup, &readings, &options).map_err(words)?;
         let u =
             |parameter| calibration.adopted().and_then(|found| found.standard_uncertainty(parameter)).unwrap_or(0.0);
         let standard_uncertainty = Parameters::of(&GyroParameters::from_vector(&Parameter::EIGHT.map(u)));
@@ -79,6 +64,10 @@ impl Stated {
         let gyro = GyroType { decision: None, ..self.gyro.clone() };
         Ok(Accuracy { gyro, laboratory: self.laboratory.clone(), standard_uncertainty })
     }
+}
+
+fn words(error: impl std::error::Error) -> String {
+    error.to_string()
 }
 
 /// Returns the nominal parameters of the gyro with the drifts per local g.

@@ -16,9 +16,9 @@ pub(crate) fn payload(content: &Content) -> String {
 
 /// Writes the part of the payload that is the same at every site: the keys of [`Stand`].
 pub(crate) fn payload_of_stand(stand: &Stand, has_matrices: bool) -> String {
-    let of_certificate =
-        || absent_of_certificate(&stand.certificate, &stand.positions, stand.datum.as_ref(), has_matrices);
-    canonical::write(stand, &|path| of_the_stand(path, of_certificate))
+    let absent = absent_of_certificate(&stand.certificate, &stand.positions, stand.datum.as_ref(), has_matrices);
+    let comments = |path: &str| lines(path, if path == "certificate" { sentences(&absent) } else { Vec::new() });
+    canonical::write(stand, &comments)
 }
 
 /// Writes the payload of a passport, given the part that [`payload_of_stand`] wrote.
@@ -155,29 +155,14 @@ fn those_that_are(absences: impl IntoIterator<Item = (bool, Absence)>) -> Vec<Ab
     absences.into_iter().filter_map(|(is, absence)| is.then_some(absence)).collect()
 }
 
-/// Returns the comments above the keys that are the same in every passport of a stand; `absences` are those of its
-/// certificate.
-fn of_the_stand(path: &str, absences: impl Fn() -> Vec<Absence>) -> Vec<String> {
+/// Returns the comments above a key that are the same in every passport.
+fn fixed(path: &str) -> &'static [&'static str] {
     match path {
-        "certificate" => {
-            let mut lines = vec!["Certified measurement of the stand, with its uncertainty.".to_owned()];
-            lines.extend(absences().iter().map(Absence::to_string));
-            lines
-        }
-        "positions" => vec![
-            "Nominal frame angle theta and platform angle phi; deviation of the actual orientation from the nominal:"
-                .to_owned(),
-            "E = Rz(gamma) Ry(beta) Rx(alpha) transforms coordinates from the nominal to the actual platform, eq. (4)."
-                .to_owned(),
+        "certificate" => &["Certified measurement of the stand, with its uncertainty."],
+        "positions" => &[
+            "Nominal frame angle theta and platform angle phi; deviation of the actual orientation from the nominal:",
+            "E = Rz(gamma) Ry(beta) Rx(alpha) transforms coordinates from the nominal to the actual platform, eq. (4).",
         ],
-        _ => Vec::new(),
-    }
-}
-
-fn comments(content: &Content, path: &str) -> Vec<String> {
-    let fixed: &[&str] = match path {
-        "format" => return of_the_format(content.site.frame_axis_azimuth_deg()),
-        "certificate" | "positions" => return of_the_stand(path, || of_the_certificate(content)),
         "matrices" => &[
             "With J1 = (J11 - J13, J12 - J14), J2 = (J21 - J23, J22 - J24) as columns, in mA:",
             "K = B (J1 - J2 Delta)^-1, eq. (13); omega_n = C - K J2 n2^-1, eq. (15);",
@@ -195,14 +180,27 @@ fn comments(content: &Content, path: &str) -> Vec<String> {
              g.",
         ],
         _ => &[],
-    };
-    let mut lines: Vec<String> = fixed.iter().map(|line| (*line).to_owned()).collect();
-    match path {
-        "site" => lines.extend(of_the_site(content).iter().map(Absence::to_string)),
-        "earth" => lines.extend(of_the_earth(content)),
-        _ => {}
     }
-    lines
+}
+
+/// Returns the comments above a key: the fixed ones, then those of this passport.
+fn lines(path: &str, more: Vec<String>) -> Vec<String> {
+    fixed(path).iter().map(|line| (*line).to_owned()).chain(more).collect()
+}
+
+fn comments(content: &Content, path: &str) -> Vec<String> {
+    let more = match path {
+        "format" => of_the_format(content.site.frame_axis_azimuth_deg()),
+        "certificate" => sentences(&of_the_certificate(content)),
+        "site" => sentences(&of_the_site(content)),
+        "earth" => of_the_earth(content),
+        _ => Vec::new(),
+    };
+    lines(path, more)
+}
+
+fn sentences(absences: &[Absence]) -> Vec<String> {
+    absences.iter().map(Absence::to_string).collect()
 }
 
 /// Returns the comments above the first key, with the azimuth of the frame's axis if that does not point east as in the

@@ -79,9 +79,9 @@ impl Differences {
         match (a, b) {
             (None, None) => {}
             (Some(Node::Map(_)) | None, Some(Node::Map(_)) | None) => {
-                for name in keys(a, b) {
+                for (name, a, b) in entries(a, b) {
                     let below = if key.is_empty() { name.to_owned() } else { format!("{key}.{name}") };
-                    self.compare(&below, a.and_then(|a| a.get(name)), b.and_then(|b| b.get(name)));
+                    self.compare(&below, a, b);
                 }
             }
             (Some(Node::List(_)) | None, Some(Node::List(_)) | None) => {
@@ -133,16 +133,20 @@ pub(crate) fn of_deviations(a: &Stand, b: &Stand) -> Vec<NumberDifference> {
     numbers
 }
 
-/// Returns the keys of two mappings, those of the first before those that only the second has.
-pub(super) fn keys<'n>(a: Option<&'n Node>, b: Option<&'n Node>) -> Vec<&'n str> {
+/// Key of two mappings, and its value in each.
+type EntryOfBoth<'n> = (&'n str, Option<&'n Node>, Option<&'n Node>);
+
+/// Returns the entries of two mappings, those of the first before those that only the second has.
+pub(super) fn entries<'n>(a: Option<&'n Node>, b: Option<&'n Node>) -> Vec<EntryOfBoth<'n>> {
     let of = |node: Option<&'n Node>| -> &'n [(String, Node)] {
         match node {
             Some(Node::Map(entries)) => entries,
             _ => &[],
         }
     };
-    let only_in_b = of(b).iter().filter(|(name, _)| a.and_then(|a| a.get(name)).is_none());
-    of(a).iter().chain(only_in_b).map(|(name, _)| name.as_str()).collect()
+    let get = |node: Option<&'n Node>, name: &str| node.and_then(|node| node.get(name));
+    let only_in_b = of(b).iter().filter(|(name, _)| get(a, name).is_none());
+    of(a).iter().chain(only_in_b).map(|(name, _)| (name.as_str(), get(a, name), get(b, name))).collect()
 }
 
 /// Place of an item in a list: its indices i and j, or its number from 1; for a matrix, row and column.

@@ -1,6 +1,5 @@
 //! Issue of a signed passport from a certified stand and a site.
 
-use super::accuracy::NoAccuracy;
 use super::annotations::{self, Absence, absent};
 use super::content::{Dated, PASSPORT_FORMAT, REFERENCE_GYRO, derive_from, passport_id};
 use super::verification::{Known, Question, Trust, Verification, verify_known};
@@ -60,9 +59,8 @@ pub struct Issue {
 impl Issue {
     /// Creates an issue with revision 1 that expires with the certificate.
     pub fn first(issuer: &str, issued_at: Timestamp) -> Self {
-        let issuer = issuer.to_owned();
         Self {
-            issuer,
+            issuer: issuer.to_owned(),
             issued_at,
             valid_until: None,
             revision: 1,
@@ -80,53 +78,9 @@ pub enum IssueRefused {
     /// The matrix n_2 has no inverse.
     #[error(transparent)]
     Singular(#[from] SingularPositions),
-    /// The time of issue is earlier than the date of the certificate.
-    #[error("issued_at {issued_at} is earlier than the date of the certificate, {certified} (UTC); check both")]
-    BeforeCertificate {
-        /// Time of issue.
-        issued_at: Timestamp,
-        /// Date of the certificate.
-        certified: Date,
-    },
-    /// The time of issue is ahead of the clock.
-    #[error("issued_at {issued_at} is later than the clock, {clock}; specify an earlier time of issue, or omit it")]
-    AheadOfClock {
-        /// Requested time of issue.
-        issued_at: Timestamp,
-        /// Time of the clock.
-        clock: Timestamp,
-    },
-    /// The passport would be valid longer than its certificate.
-    #[error(
-        "the passport would be valid until {passport}, but the certificate only until {certificate}; specify an \
-             earlier date (--valid-until)"
-    )]
-    BeyondCertificate {
-        /// Requested expiry date of the passport.
-        passport: Date,
-        /// Expiry date of the certificate.
-        certificate: Date,
-    },
-    /// The time of issue is later than the expiry date.
-    #[error(
-        "issued_at {issued_at} is later than the expiry date of the {}, {last}; {}",
-        document.word(),
-        if *document == Dated::Certificate { "have the stand recertified" } else { "specify a later one (--valid-until)" }
-    )]
-    AlreadyExpired {
-        /// Time of issue.
-        issued_at: Timestamp,
-        /// Earlier of the two expiry dates.
-        last: Date,
-        /// Document with that expiry date.
-        document: Dated,
-    },
-    /// The statements of the site contradict each other.
+    /// The site, a date, the accuracy, the size or the self-check breaks a rule, in words.
     #[error("{0}")]
-    ImplausibleSite(Unreadable),
-    /// The expected calibration uncertainty cannot be computed.
-    #[error("the expected calibration uncertainty cannot be computed: {0}")]
-    Accuracy(#[from] NoAccuracy),
+    Rule(String),
     /// The issuer's name cannot be a principal of allowed_signers.
     #[error(transparent)]
     Identity(#[from] BadIdentity),
@@ -136,25 +90,6 @@ pub enum IssueRefused {
          positions, or issue the passport anyway with --allow-uncalibratable"
     )]
     Uncalibratable,
-    /// The self-check does not reproduce its own parameters.
-    #[error(
-        "the self-check fails: the relative error of a parameter is {error:.1e} (limit {limit:e}); on this stand at this \
-         site the eight positions do not determine the gyro (the uncertainty of K grows as 1/cos(latitude), here \
-         {growth:.4})",
-        limit = SelfCheck::LIMIT
-    )]
-    SelfCheckFails {
-        /// Largest relative error of a parameter.
-        error: f64,
-        /// Growth of the uncertainty, 1/cos Φ, which is large near the poles.
-        growth: f64,
-    },
-    /// The passport would have this many bytes without its signature, more than verifiers accept.
-    #[error(
-        "the passport would have {0} bytes, more than the limit of {LARGEST_DOCUMENT_BYTES}; certify fewer \
-         positions"
-    )]
-    TooLarge(usize),
     /// The text read back differs from the text written: a defect of this program.
     #[error("the text read back differs from the text written; nothing was signed. {0}")]
     ReadBack(Unreadable),
@@ -169,11 +104,13 @@ pub enum IssueRefused {
 /// Returns the time of issue: `asked`, or the time of the `clock` if `asked` is `None`.
 ///
 /// # Errors
-/// Returns [`IssueRefused::AheadOfClock`] if the time is ahead of the clock. Such a passport would not be valid yet, and no
+/// Returns [`IssueRefused::Rule`] if the time is ahead of the clock. Such a passport would not be valid yet, and no
 /// register of today could list it.
 pub(crate) fn time_of_issue(asked: Option<Timestamp>, clock: Timestamp) -> Result<Timestamp, IssueRefused> {
     match asked {
-        Some(issued_at) if issued_at > clock => Err(IssueRefused::AheadOfClock { issued_at, clock }),
+        Some(issued_at) if issued_at > clock => Err(IssueRefused::Rule(format!(
+            "issued_at {issued_at} is later than the clock, {clock}; specify an earlier time of issue, or omit it"
+        ))),
         asked => Ok(asked.unwrap_or(clock)),
     }
 }
@@ -235,13 +172,21 @@ impl PreparedStand {
         }
         let payload = annotations::payload_with(&content, text);
         if payload.len() + LONGEST_SIGNATURE > LARGEST_DOCUMENT_BYTES {
-            return Err(IssueRefused::TooLarge(payload.len()));
+            return Err(IssueRefused::Rule(format!(
+                "the passport would have {} bytes, more than the limit of {LARGEST_DOCUMENT_BYTES}; certify fewer positions",
+                payload.len()
+            )));
         }
         read_back(&payload, &content)?;
         if let Some(self_check) = &content.self_check {
             let error = self_check.error(&content.coefficients());
             if error.is_nan() || error > SelfCheck::LIMIT {
-                return Err(IssueRefused::SelfCheckFails { error, growth: site.uncertainty_growth() });
+                let (limit, growth) = (SelfCheck::LIMIT, site.uncertainty_growth());
+                return Err(IssueRefused::Rule(format!(
+                    "the self-check fails: the relative error of a parameter is {error:.1e} (limit {limit:e}); on this stand \
+                     at this site the eight positions do not determine the gyro (the uncertainty of K grows as \
+                     1/cos(latitude), here {growth:.4})"
+                )));
             }
         }
         let ideal = self.ideal.as_ref().map(|ideal| ideal.at(content.earth.rate(site)));
@@ -260,7 +205,8 @@ pub fn draft(stand: &Stand, site: &Site, issue: &Issue) -> Result<Draft, IssueRe
 fn content_of(stand: &Stand, geometry: &StandGeometry, site: &Site, issue: &Issue) -> Result<Content, IssueRefused> {
     let derived = derive_from(geometry, site, &REFERENCE_GYRO);
     let accuracy = |stated: &Stated| stated.accuracy(&stand.certificate, &stand.positions, site);
-    let accuracy = issue.accuracy.as_ref().map(accuracy);
+    let accuracy = issue.accuracy.as_ref().map(accuracy).transpose();
+    let unknown = |why| IssueRefused::Rule(format!("the expected calibration uncertainty cannot be computed: {why}"));
     let (reissued_from, supersedes) =
         issue.reissued.clone().map(|reissued| (reissued.from, reissued.supersedes)).unzip();
     Ok(Content {
@@ -284,7 +230,7 @@ fn content_of(stand: &Stand, geometry: &StandGeometry, site: &Site, issue: &Issu
         matrices: derived.matrices,
         vectors: derived.vectors,
         self_check: derived.self_check,
-        accuracy: accuracy.transpose()?,
+        accuracy: accuracy.map_err(unknown)?,
     })
 }
 
@@ -295,26 +241,29 @@ fn check_site(site: &Site) -> Result<(), IssueRefused> {
     if problems.is_empty() {
         return Ok(());
     }
-    Err(IssueRefused::ImplausibleSite(problems.refuse("the new passport", "")))
+    Err(IssueRefused::Rule(problems.refuse("the new passport", "").to_string()))
 }
 
 fn check_dates(content: &Content) -> Result<(), IssueRefused> {
-    let issued_at = content.passport.issued_at;
-    let certified = content.certificate.issued;
-    if issued_at < day(certified).0 {
-        return Err(IssueRefused::BeforeCertificate { issued_at, certified });
-    }
-    if let (Some(passport), Some(certificate)) = (content.passport.valid_until, content.certificate.valid_until)
-        && passport > certificate
-    {
-        return Err(IssueRefused::BeyondCertificate { passport, certificate });
-    }
-    match content.last_day() {
-        Some((last, document)) if issued_at > day(last).1 => {
-            Err(IssueRefused::AlreadyExpired { issued_at, last, document })
+    let (issued_at, certified) = (content.passport.issued_at, content.certificate.issued);
+    let words = match (content.passport.valid_until, content.certificate.valid_until, content.last_day()) {
+        _ if issued_at < day(certified).0 => {
+            format!("issued_at {issued_at} is earlier than the date of the certificate, {certified} (UTC); check both")
         }
-        _ => Ok(()),
-    }
+        (Some(passport), Some(certificate), _) if passport > certificate => format!(
+            "the passport would be valid until {passport}, but the certificate only until {certificate}; specify an \
+             earlier date (--valid-until)"
+        ),
+        (.., Some((last, document))) if issued_at > day(last).1 => {
+            let remedy = match document {
+                Dated::Certificate => "have the stand recertified",
+                Dated::Passport => "specify a later one (--valid-until)",
+            };
+            format!("issued_at {issued_at} is later than the expiry date of the {}, {last}; {remedy}", document.word())
+        }
+        _ => return Ok(()),
+    };
+    Err(IssueRefused::Rule(words))
 }
 
 /// Reads the written text with the verifier's reader and compares its content with the original.

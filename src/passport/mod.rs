@@ -32,7 +32,7 @@ pub(crate) use crate::coefficients::Rows;
 use crate::document::Form;
 pub use crate::document::{Malformed, RegisterUsed};
 use crate::text::Limits;
-pub use accuracy::{Accuracy, NoAccuracy, Stated};
+pub use accuracy::{Accuracy, Stated};
 pub use checks::{Check, CheckName, Code};
 pub use content::{
     Content, Dated, PassportHeader, PositionCurrents, PositionVectors, Predecessor, SelfCheck, content_from_anyone,

@@ -3,38 +3,30 @@
 use super::accuracy::Stated;
 use super::content::{Content, Derived, REFERENCE_GYRO, SelfCheck, derive};
 use crate::earth::{AZIMUTH_QUANTUM_DEG, LENGTH_QUANTUM_M};
-use crate::text::{Field, Node};
+use crate::text::{Field, Node, Path};
 use std::collections::BTreeSet;
 
 /// Largest allowed difference, relative to the largest element of each matrix, each set of vectors or each number.
 pub(crate) const LIMIT: f64 = 1e-12;
 
-/// A number that does not follow from the passport's own inputs.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{field}: the passport states {}, its inputs give {}", words(*.stated), words(*.computed))]
-pub(crate) struct WrongNumber {
-    /// Path of the field, such as `matrices.delta[0][1]`.
-    pub field: String,
-    /// Value that the passport states; NaN if it states none.
-    pub stated: f64,
-    /// Value computed from the inputs; NaN if there is none.
-    pub computed: f64,
-}
-
-fn words(value: f64) -> String {
-    if value.is_nan() { "nothing".to_owned() } else { format!("{value}") }
+/// Describes a number that does not follow from the passport's own inputs; `field` is its path, such as
+/// `matrices.delta[0][1]`. A value that is not there is NaN.
+fn wrong_number(field: &str, stated: f64, computed: f64) -> String {
+    let [stated, computed] =
+        [stated, computed].map(|value| if value.is_nan() { "nothing".to_owned() } else { format!("{value}") });
+    format!("{field}: the passport states {stated}, its inputs give {computed}")
 }
 
 /// Compares Earth parameters, matrices, vectors, self-check and accuracy with the values computed from the signed
 /// inputs.
 ///
-/// Returns the wrong numbers in the order of comparison; if there is nothing to compare with, the number that is absent.
+/// Returns the wrong numbers in words, in the order of comparison; if there is nothing to compare with, the number that
+/// is absent.
 /// The self-check is computed for the gyro that it states. A passport may have none, because no calibration needs it.
-pub(crate) fn compare(content: &Content) -> Vec<WrongNumber> {
+pub(crate) fn compare(content: &Content) -> Vec<String> {
     let gyro = content.self_check.as_ref().map_or(REFERENCE_GYRO, SelfCheck::parameters);
     let Ok(mut derived) = derive(&content.positions, &content.site, &gyro) else {
-        let field = "matrices.n2_inverse".to_owned();
-        return vec![WrongNumber { field, stated: f64::NAN, computed: f64::NAN }];
+        return vec![wrong_number("matrices.n2_inverse", f64::NAN, f64::NAN)];
     };
     if content.self_check.is_none() {
         derived.self_check = None;
@@ -52,8 +44,7 @@ pub(crate) fn compare(content: &Content) -> Vec<WrongNumber> {
     if let Some(self_check) = &content.self_check {
         let error = self_check.error(&content.coefficients());
         if error.is_nan() || error > SelfCheck::LIMIT {
-            let field = "self_check (calibrated again, relative error)".to_owned();
-            wrong.push(WrongNumber { field, stated: 0.0, computed: error });
+            wrong.push(wrong_number("self_check (calibrated again, relative error)", 0.0, error));
         }
     }
     compare_accuracy(content, &mut wrong);
@@ -62,7 +53,7 @@ pub(crate) fn compare(content: &Content) -> Vec<WrongNumber> {
 
 /// Compares number by number, within the limits: each key of a matrix or of all positions relative to its own largest
 /// element.
-fn compare_derived(content: &Content, derived: &Derived, wrong: &mut Vec<WrongNumber>) {
+fn compare_derived(content: &Content, derived: &Derived, wrong: &mut Vec<String>) {
     let set = |field: &str| field.split('[').map(|part| part.split_once(']').map_or(part, |(_, key)| key)).collect();
     for (path, stated, computed) in [
         ("earth", content.earth.write(), derived.earth.write()),
@@ -75,7 +66,7 @@ fn compare_derived(content: &Content, derived: &Derived, wrong: &mut Vec<WrongNu
 }
 
 /// Compares the expected calibration uncertainty, each number by itself.
-fn compare_accuracy(content: &Content, wrong: &mut Vec<WrongNumber>) {
+fn compare_accuracy(content: &Content, wrong: &mut Vec<String>) {
     let Some(accuracy) = &content.accuracy else { return };
     let computed = Stated::of(accuracy).accuracy(&content.certificate, &content.positions, &content.site);
     let numbers = |node| numbers("accuracy.standard_uncertainty", node);
@@ -96,18 +87,13 @@ fn quantum(field: &str) -> f64 {
 
 /// Returns all numbers of a node with their fields, in the order of the file.
 fn numbers(path: &str, node: Option<Node>) -> Vec<(String, f64)> {
-    match node {
-        Some(Node::Number(value)) => vec![(path.to_owned(), value)],
-        Some(Node::Integer(value)) => vec![(path.to_owned(), value as f64)],
-        Some(Node::List(items)) => {
-            let items = items.into_iter().enumerate();
-            items.flat_map(|(index, item)| numbers(&format!("{path}[{index}]"), Some(item))).collect()
-        }
-        Some(Node::Map(entries)) => {
-            entries.into_iter().flat_map(|(key, value)| numbers(&format!("{path}.{key}"), Some(value))).collect()
-        }
-        _ => Vec::new(),
-    }
+    let mut found = Vec::new();
+    node.unwrap_or(Node::Null).each_scalar(&Path::Root.key(path), &mut |at, scalar| match scalar {
+        Node::Number(value) => found.push((at.to_string(), *value)),
+        Node::Integer(value) => found.push((at.to_string(), *value as f64)),
+        _ => {}
+    });
+    found
 }
 
 /// Compares numbers that stand in the same place of their set, relative to the largest of it; `set` names the set to which
@@ -116,7 +102,7 @@ fn compare_numbers(
     stated: &[(String, f64)],
     computed: &[(String, f64)],
     set: impl Fn(&str) -> String,
-    wrong: &mut Vec<WrongNumber>,
+    wrong: &mut Vec<String>,
 ) {
     let mut seen = BTreeSet::new();
     for name in stated.iter().chain(computed).map(|(field, _)| set(field)).filter(|name| seen.insert(name.clone())) {
@@ -134,7 +120,7 @@ fn compare_numbers(
             // comparison.
             let agrees = c.is_finite() && (s - c).abs() <= limit;
             if let Some((field, _)) = stated.get(index).or(computed.get(index)).filter(|_| !agrees) {
-                wrong.push(WrongNumber { field: field.clone(), stated: s, computed: c });
+                wrong.push(wrong_number(field, s, c));
             }
         }
     }

@@ -1,12 +1,11 @@
 //! Re-issue of a passport: for another site, a corrected stand, a corrected site or another key.
 
 use super::checks::for_the_issuer;
-use super::difference::keys;
+use super::difference::entries;
 use super::issue::{Draft, Issue, IssueRefused, PreparedStand, Reissued};
 use super::{CheckName, Code, Content, Predecessor, Stated, Verification};
 use crate::document::sha256_hex;
 use crate::site::Site;
-use crate::stand::remarks::NumberInUse;
 use crate::stand::{Certificate, Identity, Stand};
 use crate::text::{Field, Node, number, rule};
 use jiff::Timestamp;
@@ -58,59 +57,12 @@ impl Reissue {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReissueRefused {
-    /// The predecessor failed verification: the check that failed and its detail.
-    #[error("the predecessor failed verification ({0}: {1})")]
-    OldDoesNotHold(&'static str, String),
-    /// The predecessor can only be referenced because of this check, and the factory's files were not given.
-    #[error(
-        "the numbers of the predecessor cannot be used ({0}: {1}); pass the factory's files with --stand and --site (for \
-         many passports: --sites)"
-    )]
-    NeedsFactoryFiles(&'static str, String),
-    /// The stand file is for another stand.
-    #[error("the stand file is for {given}, but the predecessor is for {old}; use `issue` for another stand")]
-    OtherStand {
-        /// Model and serial number in the file.
-        given: String,
-        /// Model and serial number in the predecessor.
-        old: String,
-    },
-    /// `moved` was given, but the site is the same.
-    #[error(
-        "the site is the same ({0}); omit --moved, because a new passport for the same site always supersedes its \
-             predecessor"
-    )]
-    NotMoved(String),
+    /// The predecessor or the order breaks a rule, in words.
+    #[error("{0}")]
+    Rule(String),
     /// The reason is empty or contains a character that a passport cannot contain.
     #[error("the reason is empty or contains a character that is not allowed in signed files; state it in plain words")]
     BadReason,
-    /// The new passport would be dated before its predecessor.
-    #[error("issued_at {issued_at} is earlier than that of the predecessor, {old}; check the clock")]
-    BeforeOld {
-        /// Time of issue of the new passport.
-        issued_at: Timestamp,
-        /// Time of issue of the predecessor.
-        old: Timestamp,
-    },
-    /// The given certificate is older than that of the predecessor.
-    #[error(
-        "certificate {given} was measured on {given_measured}, before certificate {old} ({old_measured}) of the \
-         predecessor; use the newest stand file; if the certificate of the predecessor is wrong, withdraw the \
-         predecessor, then pass the list with --revoked, and --stand and --site"
-    )]
-    OlderCertificate {
-        /// Number of the certificate in the stand file.
-        given: String,
-        /// Date on which the stand was measured for it, or its date of issue if none is stated.
-        given_measured: Date,
-        /// Number of the certificate in the predecessor.
-        old: String,
-        /// Date on which the stand was measured for it, or its date of issue if none is stated.
-        old_measured: Date,
-    },
-    /// The given certificate has the number of that of the predecessor, but other angles.
-    #[error(transparent)]
-    NumberInUse(#[from] NumberInUse),
     /// The new passport cannot be issued.
     #[error(transparent)]
     Issue(#[from] IssueRefused),
@@ -146,14 +98,18 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Reissue)
     }
     let limit = limit(verification)?;
     let Some(old) = verification.content_from_anyone() else {
-        return Err(ReissueRefused::OldDoesNotHold("schema", "it has no content".to_owned()));
+        return Err(does_not_hold("schema", "it has no content"));
     };
-    if let Some((check, detail)) = limit.clone().filter(|_| order.stand.is_none() || order.site.is_none()) {
-        return Err(ReissueRefused::NeedsFactoryFiles(check, detail));
+    let rule = |words: String| Err(ReissueRefused::Rule(words));
+    if let Some((check, detail)) = limit.as_ref().filter(|_| order.stand.is_none() || order.site.is_none()) {
+        return rule(format!(
+            "the numbers of the predecessor cannot be used ({check}: {detail}); pass the factory's files with --stand and \
+             --site (for many passports: --sites)"
+        ));
     }
     if order.issued_at < old.passport.issued_at {
         let (issued_at, old) = (order.issued_at, old.passport.issued_at);
-        return Err(ReissueRefused::BeforeOld { issued_at, old });
+        return rule(format!("issued_at {issued_at} is earlier than that of the predecessor, {old}; check the clock"));
     }
     let prepared = order.stand.clone().unwrap_or_else(|| Arc::new(PreparedStand::new(old.to_stand())));
     let stand = prepared.stand();
@@ -161,19 +117,29 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Reissue)
     let name = |stand: &Identity| format!("{} {}", stand.model, stand.serial);
     let (given, known) = (name(&stand.stand), name(&old.stand));
     if given != known {
-        return Err(ReissueRefused::OtherStand { given, old: known });
+        return rule(format!(
+            "the stand file is for {given}, but the predecessor is for {known}; use `issue` for another stand"
+        ));
     }
     let [given_measured, old_measured] = [&stand.certificate, &old.certificate].map(Certificate::measured);
     if limit.is_none() && given_measured < old_measured {
-        let [given, old] = [&stand.certificate, &old.certificate].map(|certificate| certificate.number.clone());
-        return Err(ReissueRefused::OlderCertificate { given, given_measured, old, old_measured });
+        let [given, old] = [&stand.certificate, &old.certificate].map(|certificate| &certificate.number);
+        return rule(format!(
+            "certificate {given} was measured on {given_measured}, before certificate {old} ({old_measured}) of the \
+             predecessor; use the newest stand file; if the certificate of the predecessor is wrong, withdraw the \
+             predecessor, then pass the list with --revoked, and --stand and --site"
+        ));
     }
     if limit.is_none() {
-        stand.check_number(&old.to_stand())?;
+        stand.check_number(&old.to_stand()).map_err(ReissueRefused::Rule)?;
     }
     let same_site = site.id == old.site.id;
     if same_site && order.moved {
-        return Err(ReissueRefused::NotMoved(site.id.to_string()));
+        return rule(format!(
+            "the site is the same ({}); omit --moved, because a new passport for the same site always supersedes its \
+             predecessor",
+            site.id
+        ));
     }
     let old_last_day = old.passport.valid_until.filter(|_| order.stand.is_none());
     let predecessor = Predecessor {
@@ -229,10 +195,14 @@ fn limit(verification: &Verification) -> Result<Option<(&'static str, String)>, 
             | (CheckName::Revocation, Code::KeyRevoked)
             | (CheckName::Register, Code::Withdrawn)
             | (CheckName::InForce, Code::Expired) => limit = Some((name, detail)),
-            _ => return Err(ReissueRefused::OldDoesNotHold(name, detail)),
+            _ => return Err(does_not_hold(name, &detail)),
         }
     }
     Ok(limit)
+}
+
+fn does_not_hold(check: &str, detail: &str) -> ReissueRefused {
+    ReissueRefused::Rule(format!("the predecessor failed verification ({check}: {detail})"))
 }
 
 impl Successor {
@@ -240,20 +210,13 @@ impl Successor {
         self.issue.reissued.as_ref().is_some_and(|reissued| reissued.supersedes)
     }
 
-    pub(crate) fn stand(&self) -> &Stand {
-        self.stand.stand()
-    }
-
     pub(crate) fn prepared(&self) -> &PreparedStand {
         &self.stand
     }
 
-    pub(crate) fn old_id(&self) -> &str {
-        self.issue.reissued.as_ref().map_or("", |reissued| &reissued.from.id)
-    }
-
-    pub(crate) fn old_sha256(&self) -> &str {
-        self.issue.reissued.as_ref().map_or("", |reissued| &reissued.from.sha256)
+    /// Returns the identifier and the SHA-256 of the predecessor.
+    pub(crate) fn old(&self) -> (&str, &str) {
+        self.issue.reissued.as_ref().map_or(("", ""), |reissued| (&reissued.from.id, &reissued.from.sha256))
     }
 
     /// Returns the lowest possible revision: the next one at the same site, 1 at another.
@@ -278,17 +241,17 @@ pub(crate) fn changes(old: &Content, stand: &Stand, site: &Site, issuer: &str) -
     const MOST: usize = 12;
     let mut changes = Vec::new();
     if old.site.id == site.id {
-        compare("site", old.site.write(), site.write(), &mut changes);
+        compare("site", old.site.write().as_ref(), site.write().as_ref(), &mut changes);
     } else {
         changes.push(format!("site {} -> {}", old.site.id, site.id));
     }
-    compare("stand", old.stand.write(), stand.stand.write(), &mut changes);
-    compare("certificate", old.certificate.write(), stand.certificate.write(), &mut changes);
-    compare("datum", old.datum.write(), stand.datum.write(), &mut changes);
+    compare("stand", old.stand.write().as_ref(), stand.stand.write().as_ref(), &mut changes);
+    compare("certificate", old.certificate.write().as_ref(), stand.certificate.write().as_ref(), &mut changes);
+    compare("datum", old.datum.write().as_ref(), stand.datum.write().as_ref(), &mut changes);
     for position in &stand.positions {
         let name = format!("position {}", position.index());
         let before = old.positions.iter().find(|other| other.index() == position.index());
-        compare(&name, before.and_then(Field::write), position.write(), &mut changes);
+        compare(&name, before.and_then(Field::write).as_ref(), position.write().as_ref(), &mut changes);
     }
     for position in &old.positions {
         if !stand.positions.iter().any(|other| other.index() == position.index()) {
@@ -306,18 +269,17 @@ pub(crate) fn changes(old: &Content, stand: &Stand, site: &Site, issuer: &str) -
     if changes.is_empty() { NO_CHANGES.to_owned() } else { changes.join("; ") }
 }
 
-fn compare(path: &str, old: Option<Node>, new: Option<Node>, changes: &mut Vec<String>) {
-    match (&old, &new) {
+fn compare(path: &str, old: Option<&Node>, new: Option<&Node>, changes: &mut Vec<String>) {
+    match (old, new) {
         (old, new) if old == new => {}
         (Some(Node::Map(_)), Some(Node::Map(_))) => {
-            for key in keys(old.as_ref(), new.as_ref()) {
-                let of = |node: &Option<Node>| node.as_ref().and_then(|node| node.get(key)).cloned();
-                compare(&format!("{path} {key}"), of(&old), of(&new), changes);
+            for (key, old, new) in entries(old, new) {
+                compare(&format!("{path} {key}"), old, new, changes);
             }
         }
         (None, Some(Node::Map(_))) => changes.push(format!("{path} added")),
         (Some(Node::Map(_)), None) => changes.push(format!("{path} removed")),
-        (old, new) => changes.push(format!("{path} {} -> {}", words(old.as_ref()), words(new.as_ref()))),
+        (old, new) => changes.push(format!("{path} {} -> {}", words(old), words(new))),
     }
 }
 

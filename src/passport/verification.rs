@@ -157,6 +157,12 @@ impl Verification {
         self.checks.iter().find(|check| check.passed() == Some(false))
     }
 
+    /// Returns the detail of the first check that failed; empty if none did.
+    #[cfg(feature = "factory")]
+    pub(crate) fn why(&self) -> &str {
+        self.failed().map_or("", |check| &check.detail)
+    }
+
     /// Returns the result code of the check `name`: [`Code::NotAsked`] if it was not requested.
     pub fn code(&self, name: CheckName) -> Option<Code> {
         self.checks.iter().find(|check| check.name == name).map(|check| check.code)

@@ -13,7 +13,7 @@ pub enum Doubt {
     Older(u64),
     /// Another known register contradicts this one.
     #[error("{0}")]
-    Contradicted(Box<Contradiction>),
+    Contradicted(Contradiction),
     /// The number is so much higher than that of the last known register that a person must confirm it; in words.
     #[error("{0}")]
     Unconfirmed(String),
@@ -40,10 +40,8 @@ impl VerifiedRegister {
         }
         if header.issuer != content.passport.issuer {
             let (register, passport) = (&header.issuer, &content.passport.issuer);
-            return (
-                Code::RegisterUnknown,
-                format!("the register is of {register}, and the passport is of {passport}"),
-            );
+            let detail = format!("the register is of {register}, and the passport is of {passport}");
+            return (Code::RegisterUnknown, detail);
         }
         let entry = self.entry(&content.passport.id).filter(|entry| entry.sha256 == sha256);
         let since = |entry: &super::Entry| entry.since.unwrap_or(header.issued_at);
@@ -80,10 +78,8 @@ impl VerifiedRegister {
         }
         if let Some(last) = header.fresh_until.filter(|_| self.is_stale(question.time.max(question.now))) {
             let advice = "get the last one from the issuer";
-            return (
-                Code::RegisterStale,
-                format!("register {} was fresh until {last} (inclusive); {advice}", header.sequence),
-            );
+            let detail = format!("register {} was fresh until {last} (inclusive); {advice}", header.sequence);
+            return (Code::RegisterStale, detail);
         }
         let fresh = header.fresh_until.map_or_else(String::new, |last| format!(", fresh until {last} (inclusive)"));
         let sha256 = &self.sha256()[..16];

@@ -230,9 +230,7 @@ impl Draft {
         joined.extend(other.entries()[next..].iter().cloned());
         self.set(joined);
         self.at_least(other.header().sequence.saturating_add(1));
-        if self.previous_issued_at.is_none_or(|before| before < other.header().issued_at) {
-            self.previous_issued_at = Some(other.header().issued_at);
-        }
+        self.previous_issued_at = self.previous_issued_at.max(Some(other.header().issued_at));
         Ok(())
     }
 

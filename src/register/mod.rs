@@ -26,6 +26,7 @@ pub use succession::Contradiction;
 use crate::document::{self, Form, SignedText, sha256_hex};
 use crate::passport::Trust;
 use crate::text::record::{LARGEST_EXACT_INTEGER, OneLine};
+use crate::text::scalar::identifiers;
 use crate::text::{Identifier, Limits, Path, Printable, Problems, Unreadable, canonical, record, word_of_a_key, words};
 use crate::trust::{NotAuthorised, PublicKey};
 use jiff::civil::Date;
@@ -223,8 +224,7 @@ impl Register {
             problems.at(&at.key("format"), format!("{:?}", self.format), format!("{FORMAT:?}"), "");
         }
         let of_header = at.key("register");
-        let is_stand = header.stand.split_once('/').is_some_and(|(model, serial)| is_name(model) && is_name(serial));
-        if !is_stand {
+        if identifiers::<2>(&header.stand).is_none() {
             problems.at(&of_header.key("stand"), format!("{:?}", header.stand), "<model>/<serial>", "");
         }
         if header.sequence == 0 {
@@ -266,7 +266,8 @@ impl Register {
             problems.at(&at.key(key), found, expected, "");
         };
         let (site, revision) = entry.site_and_revision();
-        if !is_name(site) || revision == 0 || entry.id != format!("{}/{site}/{revision}", header.stand) {
+        if Identifier::new(site).is_err() || revision == 0 || entry.id != format!("{}/{site}/{revision}", header.stand)
+        {
             return refuse("id", format!("{:?}", entry.id), format!("{}/<site>/<revision>", header.stand));
         }
         if !known.ids.insert(&entry.id) {
@@ -320,10 +321,6 @@ struct Known<'a> {
     files: HashSet<&'a str>,
     /// Last revision of each site.
     last: HashMap<&'a str, u32>,
-}
-
-fn is_name(text: &str) -> bool {
-    Identifier::new(text).is_ok()
 }
 
 impl VerifiedRegister {

@@ -2,24 +2,10 @@
 
 use super::{Register, State, VerifiedRegister};
 
-/// Difference between two registers of a stand, neither of which continues the other.
+/// Difference between two registers of a stand, neither of which continues the other, in words.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "sequence {later} (SHA-256 {later_sha256}) does not continue sequence {earlier} (SHA-256 {earlier_sha256}): {what}; \
-     ask the factory, which can join them with `register DIR --renew --with OTHER`"
-)]
-pub struct Contradiction {
-    /// Sequence number of the later register.
-    pub later: u64,
-    /// SHA-256 of the later register.
-    pub later_sha256: String,
-    /// Sequence number of the earlier register.
-    pub earlier: u64,
-    /// SHA-256 of the earlier register.
-    pub earlier_sha256: String,
-    /// Difference, in words.
-    what: String,
-}
+#[error("{0}")]
+pub struct Contradiction(String);
 
 impl State {
     /// Returns `true` if a passport in this state may later be in the state `later`.
@@ -73,12 +59,10 @@ impl VerifiedRegister {
                 Some(what) => what,
             },
         };
-        Err(Contradiction {
-            later: later.header().sequence,
-            later_sha256: later.sha256.clone(),
-            earlier: earlier.header().sequence,
-            earlier_sha256: earlier.sha256.clone(),
-            what,
-        })
+        let [one, other] = [later, earlier].map(|of| format!("{} (SHA-256 {})", of.header().sequence, of.sha256));
+        Err(Contradiction(format!(
+            "sequence {one} does not continue sequence {other}: {what}; ask the factory, which can join them with `register \
+             DIR --renew --with OTHER`"
+        )))
     }
 }

@@ -1,9 +1,7 @@
-//! Remarks on unusual values in a certificate, which are possible and therefore not refused, but usually errors;
-//! and the number that is refused, because it was used for other angles.
+//! Remarks on unusual values in a certificate, which are possible and therefore not refused, but usually errors.
 
 use super::{Certificate, CertifiedPosition};
 use crate::attitude::{ANGLE_SYMBOLS, ANGLES};
-use crate::coefficients::PositionIndex;
 use crate::text::Printable;
 use crate::text::scalar::latin;
 use crate::wording::Words;
@@ -35,20 +33,6 @@ pub(crate) struct Odd {
     pub sentence: String,
     /// What pages and other languages say in its place.
     pub words: Words,
-}
-
-/// Certificate number that is already used for other angles.
-#[cfg(feature = "factory")]
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "certificate {number} already states other angles for this stand, first for position {index}; give the new \
-     certificate its own number and dates"
-)]
-pub struct NumberInUse {
-    /// Number of the certificate.
-    pub number: String,
-    /// First position with other angles.
-    pub index: PositionIndex,
 }
 
 impl Certificate {

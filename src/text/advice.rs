@@ -19,8 +19,11 @@ fn is_placeholder(text: &str) -> bool {
 /// Reports every placeholder in a hand-written document. A value with an error already, such as no number, gets the advice.
 #[cfg(feature = "yaml")]
 pub(crate) fn check_placeholders(node: &Node, problems: &mut Problems) {
-    node.each_text(&Path::Root, &mut |at, text| {
-        if is_placeholder(text) && !problems.advise(at, REPLACE) {
+    node.each_scalar(&Path::Root, &mut |at, scalar| {
+        if let Node::Text(text) = scalar
+            && is_placeholder(text)
+            && !problems.advise(at, REPLACE)
+        {
             problems.at(at, format!("{text:?}"), "your value", REPLACE);
         }
     });
@@ -56,11 +59,7 @@ const WAYS: &[Way] = &[
     (|it| is_date(it.text) && !it.name.ends_with("_deg"), Some(RefusalCause::SpreadsheetDate), ""),
     (|it| is_overload(it.text), Some(RefusalCause::Overload), ""),
     (|it| is_grouped(it.text), Some(RefusalCause::Thousands), ""),
-    (
-        |it| it.name.ends_with("_arcsec") && is_in_parts(it.text),
-        None,
-        "write degrees, minutes and seconds of arc as one number of arcseconds",
-    ),
+    (is_in_parts, None, "write degrees, minutes and seconds of arc as one number of arcseconds"),
     (
         |it| it.name.ends_with("_s") && it.text.contains(':'),
         None,
@@ -91,11 +90,7 @@ const WAYS: &[Way] = &[
     ),
     (|it| has_decimal_comma(it.text), Some(RefusalCause::DecimalComma), ""),
     (|it| is_number(&it.text.replace(['D', 'd'], "E")), None, "write the exponent with E, such as 1.0E-3"),
-    (
-        |it| it.name.ends_with("_deg") && is_in_minutes(it.text),
-        None,
-        "write decimal degrees, such as 55.7658; south and west are negative",
-    ),
+    (is_in_minutes, None, "write decimal degrees, such as 55.7658; south and west are negative"),
     (|it| has_unit(it.text), None, "write the number alone, in the unit that the name states"),
     (
         |it| !it.text.is_ascii() && (it.of != Of::Cell || it.text.chars().any(|c| c.is_ascii_digit())),
@@ -161,15 +156,16 @@ pub(crate) fn without_full_turns(angle: f64, turn: f64, least: f64) -> Option<St
     (!(least..least + turn).contains(&angle)).then(|| format!("{within:.decimals$}"))
 }
 
-/// Returns `true` for an angle with a sign of degrees, in several numbers, or with the letter of a hemisphere.
-fn is_in_minutes(text: &str) -> bool {
+/// Returns `true` for degrees with their sign, in several numbers, or with the letter of a hemisphere.
+fn is_in_minutes(&Written { text, name, .. }: &Written) -> bool {
     let numbers = numbers_in(text);
-    numbers > 1 && !text.contains(',') || numbers > 0 && text.contains(|c| "°′″NSEW".contains(c))
+    let has_signs = numbers > 0 && text.contains(|c| "°′″NSEW".contains(c));
+    name.ends_with("_deg") && (numbers > 1 && !text.contains(',') || has_signs)
 }
 
-/// Returns `true` for an angle in several numbers with colons or the signs of degrees, minutes and seconds between them.
-fn is_in_parts(text: &str) -> bool {
-    numbers_in(text) > 1 && text.contains(|c| ":°′'".contains(c))
+/// Returns `true` for arcseconds in several numbers with colons or the signs of degrees, minutes and seconds between them.
+fn is_in_parts(&Written { text, name, .. }: &Written) -> bool {
+    name.ends_with("_arcsec") && numbers_in(text) > 1 && text.contains(|c| ":°′'".contains(c))
 }
 
 fn numbers_in(text: &str) -> usize {

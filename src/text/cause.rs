@@ -3,70 +3,46 @@
 use super::words;
 
 words! {
-    /// Recognised cause of an error in a document; [`RefusalCause::code`] is its word in JSON.
+    /// Recognised cause of an error in a document; [`RefusalCause::code`] is its word in JSON. The second text is the usual
+    /// advice.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
     #[non_exhaustive]
-    pub enum RefusalCause: pub code {
+    pub enum RefusalCause: pub code, advice {
         /// Comma as the decimal mark.
-        DecimalComma = "decimal_comma",
+        DecimalComma = "decimal_comma", "use a decimal point";
         /// Unit of a column or key that is not written as in the format.
-        HeaderUnit = "header_unit",
+        HeaderUnit = "header_unit", "write the name as in the header of the format, which contains the unit";
         /// Row of units below the header.
-        UnitsRow = "units_row",
+        UnitsRow = "units_row", "delete it, because the names of the columns state the units";
         /// Second header, as in joined tables.
-        RepeatedHeader = "repeated_header",
+        RepeatedHeader = "repeated_header", "delete it, and check that the joined tables belong together";
         /// Row with means or other statistics.
-        SummaryRow = "summary_row",
+        SummaryRow = "summary_row", "delete it, because the program computes from the readings themselves";
         /// Date that a spreadsheet program made of a number.
         SpreadsheetDate = "spreadsheet_date",
+            "a spreadsheet program has made a date of a number: set the format of the column to text, and import the \
+             original file again";
         /// Value or word that an instrument writes for an overload.
-        Overload = "overload",
+        Overload = "overload", "instruments write such a value for an overload";
         /// Angle that is right except for a full turn.
-        FullTurn = "full_turn",
+        FullTurn = "full_turn", "subtract or add a full turn";
         /// Times that begin again at midnight.
-        Midnight = "midnight",
+        Midnight = "midnight", "the times seem to start again at midnight: add 86400 s to them from there on";
         /// Control character, such as Ctrl-Z or NUL at the end of a file.
         ControlCharacter = "control_character",
+            "delete it; old programs end a file with Ctrl-Z (U+001A), and an interrupted copy may end with NUL \
+             (U+0000)";
         /// Separators of thousands.
         Thousands = "thousands",
+            "write the number without separators of thousands; if the mark is a decimal comma, use a decimal point";
         /// Whole number with a leading zero.
-        LeadingZero = "leading_zero",
+        LeadingZero = "leading_zero", "omit the leading zero, because some YAML readers take such a number as octal";
         /// No-break or other space that is not ASCII.
-        NoBreakSpace = "no_break_space",
+        NoBreakSpace = "no_break_space", "replace it with a space, or delete it within a number";
         /// Space within the options of a trusted key.
-        OptionBlank = "option_blank",
+        OptionBlank = "option_blank", "delete the space; options and principals are separated by commas alone";
         /// File in UTF-16.
-        Utf16 = "utf16",
-    }
-}
-
-impl RefusalCause {
-    /// Returns the usual advice on an error with this cause.
-    fn advice(self) -> &'static str {
-        match self {
-            Self::DecimalComma => "use a decimal point",
-            Self::HeaderUnit => "write the name as in the header of the format, which contains the unit",
-            Self::UnitsRow => "delete it, because the names of the columns state the units",
-            Self::RepeatedHeader => "delete it, and check that the joined tables belong together",
-            Self::SummaryRow => "delete it, because the program computes from the readings themselves",
-            Self::SpreadsheetDate => {
-                "a spreadsheet program has made a date of a number: set the format of the column to text, and import the \
-                 original file again"
-            }
-            Self::Overload => "instruments write such a value for an overload",
-            Self::FullTurn => "subtract or add a full turn",
-            Self::Midnight => "the times seem to start again at midnight: add 86400 s to them from there on",
-            Self::ControlCharacter => {
-                "delete it; old programs end a file with Ctrl-Z (U+001A), and an interrupted copy may end with NUL (U+0000)"
-            }
-            Self::Thousands => {
-                "write the number without separators of thousands; if the mark is a decimal comma, use a decimal point"
-            }
-            Self::LeadingZero => "omit the leading zero, because some YAML readers take such a number as octal",
-            Self::NoBreakSpace => "replace it with a space, or delete it within a number",
-            Self::OptionBlank => "delete the space; options and principals are separated by commas alone",
-            Self::Utf16 => "save the file as UTF-8; PowerShell's `>` and \"Unicode\" in Windows programs mean UTF-16",
-        }
+        Utf16 = "utf16", "save the file as UTF-8; PowerShell's `>` and \"Unicode\" in Windows programs mean UTF-16";
     }
 }
 

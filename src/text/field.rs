@@ -57,11 +57,7 @@ pub(crate) fn refuse<T: Field>(
 ///
 /// A single pass over the fields of a record ([`Field::emit`]) serves every form in which a document is written.
 pub(crate) trait Sink: Sized {
-    fn boolean(&mut self, value: bool);
-    fn integer(&mut self, value: i64);
-    /// Writes a finite binary64 number.
-    fn number(&mut self, value: f64);
-    fn text(&mut self, value: &str);
+    fn scalar(&mut self, value: Scalar);
     fn list<T: Field>(&mut self, items: &[T]);
     /// Writes a mapping. `entries` writes each key and its value; if `empty` is `true`, it writes none.
     fn mapping(&mut self, empty: bool, entries: impl FnOnce(&mut Self));
@@ -71,6 +67,16 @@ pub(crate) trait Sink: Sized {
     }
     /// Writes the key of the next value; returns `false` if both are to be omitted.
     fn key(&mut self, key: &str) -> bool;
+}
+
+/// Value that is neither a list nor a mapping.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Scalar<'a> {
+    Bool(bool),
+    Integer(i64),
+    /// Finite binary64 number.
+    Number(f64),
+    Text(&'a str),
 }
 
 /// Destination that is a [`Node`].
@@ -89,20 +95,13 @@ impl Tree {
 }
 
 impl Sink for Tree {
-    fn boolean(&mut self, value: bool) {
-        self.values.push(Node::Bool(value));
-    }
-
-    fn integer(&mut self, value: i64) {
-        self.values.push(Node::Integer(value));
-    }
-
-    fn number(&mut self, value: f64) {
-        self.values.push(Node::Number(value));
-    }
-
-    fn text(&mut self, value: &str) {
-        self.values.push(Node::Text(value.to_owned()));
+    fn scalar(&mut self, value: Scalar) {
+        self.values.push(match value {
+            Scalar::Bool(value) => Node::Bool(value),
+            Scalar::Integer(value) => Node::Integer(value),
+            Scalar::Number(value) => Node::Number(value),
+            Scalar::Text(value) => Node::Text(value.to_owned()),
+        });
     }
 
     fn list<T: Field>(&mut self, items: &[T]) {

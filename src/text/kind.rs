@@ -7,28 +7,31 @@ use super::{Unreadable, words};
 const BEGINNING_BYTES: usize = 4096;
 
 words! {
-    /// Kind of a file that a user may have, and a noun phrase for it.
+    /// Kind of a file that a user may have, a noun phrase for it, and what to do with it where another one is expected.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    pub(crate) enum Kind: pub(crate) words {
-        Stand = "a stand file (dtg-stand/1)",
-        Site = "a site file (dtg-site/1)",
-        Gyro = "a gyro type (dtg-gyro/1)",
+    pub(crate) enum Kind: pub(crate) words, advice {
+        Stand = "a stand file (dtg-stand/1)", "give this file to `issue`, or to other commands with --stand";
+        Site = "a site file (dtg-site/1)", "give this file to a command with --site, such as `issue`";
+        Gyro = "a gyro type (dtg-gyro/1)", "give this file to a command with --gyro, such as `calibrate`";
         Laboratory = "a laboratory file (dtg-laboratory/1)",
-        Dcc = "an administrative file (dtg-dcc/1)",
-        Passport = "a passport (dtg-passport/1)",
-        Register = "a register of a stand (dtg-register/1)",
+            "give this file to a command with --laboratory, such as `calibrate`";
+        Dcc = "an administrative file (dtg-dcc/1)", "give this file to `export` or `calibrate` with --administrative";
+        Passport = "a passport (dtg-passport/1)", "commands that take a passport take it as the first argument";
+        Register = "a register of a stand (dtg-register/1)", "give this file with --register";
         RevocationList = "a list of withdrawn passports of an earlier version (dtg-revocation/1)",
-        Angles = "a table of angles (CSV)",
-        Currents = "a table of currents (CSV)",
-        Result = "the result of a calibration (JSON)",
-        AllowedSigners = "a list of trusted keys (allowed_signers)",
-        PublicKey = "a public key",
-        PrivateKey = "a private key",
-        KeyRevocationList = "an OpenSSH key revocation list (KRL)",
-        Workbook = "a ZIP archive or an Office file",
-        Measurement = "a data file of MATLAB or LabVIEW",
-        Pdf = "a PDF file",
-        Html = "an HTML page",
+            "the register of each stand replaces these lists; make the registers with `register DIR --renew`, which asks for \
+             each passport in the list";
+        Angles = "a table of angles (CSV)", "give this file to `certify`, or to `recertify` after the passport";
+        Currents = "a table of currents (CSV)", "give this file to `calibrate`, after the passport";
+        Result = "the result of a calibration (JSON)", "give this file to `calibrate` with --previous";
+        AllowedSigners = "a list of trusted keys (allowed_signers)", "give this file with --trust";
+        PublicKey = "a public key", "give the file that has this key with its owner, as `keygen` prints the line";
+        PrivateKey = "a private key", "give this file with --key, and keep it secret";
+        KeyRevocationList = "an OpenSSH key revocation list (KRL)", "give this file with --revoked";
+        Workbook = "a ZIP archive or an Office file", "unpack it, or export the table as CSV";
+        Measurement = "a data file of MATLAB or LabVIEW", "export the table as CSV";
+        Pdf = "a PDF file", "give the file from which it was made";
+        Html = "an HTML page", "give the file from which it was made";
     }
 }
 
@@ -96,31 +99,6 @@ impl Kind {
     /// Returns `true` for documents in YAML, whose readers report the value of `format`.
     pub(crate) fn is_yaml(self) -> bool {
         FORMATS.iter().any(|(_, kind)| *kind == self)
-    }
-
-    fn advice(self) -> &'static str {
-        match self {
-            Self::Register => "give this file with --register",
-            Self::RevocationList => {
-                "the register of each stand replaces these lists; make the registers with `register DIR --renew`, which asks for each passport in the list"
-            }
-            Self::KeyRevocationList => "give this file with --revoked",
-            Self::AllowedSigners => "give this file with --trust",
-            Self::PrivateKey => "give this file with --key, and keep it secret",
-            Self::Gyro => "give this file to a command with --gyro, such as `calibrate`",
-            Self::Laboratory => "give this file to a command with --laboratory, such as `calibrate`",
-            Self::Dcc => "give this file to `export` or `calibrate` with --administrative",
-            Self::Measurement => "export the table as CSV",
-            Self::Workbook => "unpack it, or export the table as CSV",
-            Self::Html | Self::Pdf => "give the file from which it was made",
-            Self::Stand => "give this file to `issue`, or to other commands with --stand",
-            Self::Site => "give this file to a command with --site, such as `issue`",
-            Self::Passport => "commands that take a passport take it as the first argument",
-            Self::Angles => "give this file to `certify`, or to `recertify` after the passport",
-            Self::Currents => "give this file to `calibrate`, after the passport",
-            Self::Result => "give this file to `calibrate` with --previous",
-            Self::PublicKey => "give the file that has this key with its owner, as `keygen` prints the line",
-        }
     }
 }
 

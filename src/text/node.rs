@@ -58,13 +58,12 @@ impl Node {
         }
     }
 
-    /// Calls `found` for every text in the value at `at`, with the path of the text.
-    pub(crate) fn each_text(&self, at: &Path, found: &mut impl FnMut(&Path, &str)) {
+    /// Calls `found` for every value in the one at `at` that is neither a list nor a mapping, with its path.
+    pub(crate) fn each_scalar(&self, at: &Path, found: &mut impl FnMut(&Path, &Node)) {
         match self {
-            Node::Text(text) => found(at, text),
-            Node::List(items) => items.iter().enumerate().for_each(|(n, item)| item.each_text(&at.item(n), found)),
-            Node::Map(entries) => entries.iter().for_each(|(key, value)| value.each_text(&at.key(key), found)),
-            _ => {}
+            Node::List(items) => items.iter().enumerate().for_each(|(n, item)| item.each_scalar(&at.item(n), found)),
+            Node::Map(entries) => entries.iter().for_each(|(key, value)| value.each_scalar(&at.key(key), found)),
+            scalar => found(at, scalar),
         }
     }
 }
@@ -186,12 +185,8 @@ pub(crate) fn hand_written_text(name: &str, bytes: &[u8]) -> Result<String, Unre
         // It is refused, and no copy is made of it.
         return text_of(name, bytes, LARGEST_DOCUMENT_BYTES, None).map(str::to_owned);
     }
-    let mut plain = Vec::with_capacity(bytes.len());
-    for (index, &byte) in bytes.iter().enumerate() {
-        if byte != b'\r' || bytes.get(index + 1) != Some(&b'\n') {
-            plain.push(byte);
-        }
-    }
+    let is_kept = |(index, byte): &(usize, &u8)| **byte != b'\r' || bytes.get(index + 1) != Some(&b'\n');
+    let plain: Vec<u8> = bytes.iter().enumerate().filter(is_kept).map(|(_, byte)| *byte).collect();
     text_of(name, &plain, LARGEST_DOCUMENT_BYTES, None).map(str::to_owned)
 }
 

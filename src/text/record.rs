@@ -2,7 +2,7 @@
 
 use super::canonical::Scanner;
 use super::characters::{STRAIGHT_QUOTES, allowed_in_string, is_printable_ascii, latin, typographic_quote};
-use super::field::{Field, Sink, refuse};
+use super::field::{Field, Scalar, Sink, refuse};
 use super::problem::UPDATE;
 use super::{Advice, Node, Path, Problems, RefusalCause, advice, misspelt, node, rule};
 use std::collections::HashSet;
@@ -65,7 +65,7 @@ impl<T: Document> Field for File<T> {
     fn emit<S: Sink>(&self, sink: &mut S) {
         sink.mapping(false, |sink| {
             if sink.key("format") {
-                sink.text(T::FORMAT);
+                sink.scalar(Scalar::Text(T::FORMAT));
             }
             self.0.emit_entries(sink);
         });
@@ -82,59 +82,55 @@ macro_rules! record {
         $(#[$about])*
         $vis struct $name { $($(#[$doc])* pub $field: $type,)* }
 
-        impl $crate::text::Field for $name {
-            fn read(
-                node: &$crate::text::Node,
-                at: &$crate::text::Path,
-                problems: &mut $crate::text::Problems,
-            ) -> Option<Self> {
-                $crate::text::record::Record::read_beside(node, &[], at, problems)
+        const _: () = {
+            use $crate::text::canonical::Scanner;
+            use $crate::text::field::{Field, Sink};
+            use $crate::text::record::{Record, entries, key, read_field};
+            use $crate::text::{Node, Path, Problems};
+
+            impl Field for $name {
+                fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
+                    Self::read_beside(node, &[], at, problems)
+                }
+
+                fn is_mapping(&self) -> bool {
+                    true
+                }
+
+                fn emit<S: Sink>(&self, sink: &mut S) {
+                    let empty = true $(&& self.$field.is_absent())*;
+                    sink.mapping(empty, |sink| self.emit_entries(sink));
+                }
+
+                fn scan(scanner: &mut Scanner) -> Option<Self> {
+                    scanner.mapping(Self::KEYS, |scanner| {
+                        Some(Self { $($field: scanner.entry(const { key(stringify!($field)) }, Field::absent, Field::scan)?,)* })
+                    })
+                }
             }
 
-            fn is_mapping(&self) -> bool {
-                true
-            }
+            impl Record for $name {
+                const KEYS: &'static [&'static str] = &[$(key(stringify!($field))),*];
 
-            fn emit<S: $crate::text::field::Sink>(&self, sink: &mut S) {
-                let empty = true $(&& $crate::text::Field::is_absent(&self.$field))*;
-                sink.mapping(empty, |sink| $crate::text::record::Record::emit_entries(self, sink));
-            }
+                fn emit_entries<S: Sink>(&self, sink: &mut S) {
+                    $(if !self.$field.is_absent() && sink.key(const { key(stringify!($field)) }) {
+                        self.$field.emit(sink);
+                    })*
+                }
 
-            fn scan(scanner: &mut $crate::text::canonical::Scanner) -> Option<Self> {
-                scanner.mapping(<Self as $crate::text::record::Record>::KEYS, |scanner| {
-                    Some(Self { $($field: scanner.entry(const { $crate::text::record::key(stringify!($field)) }, $crate::text::Field::absent, $crate::text::Field::scan)?,)* })
-                })
+                fn read_beside(node: &Node, beside: &[&str], at: &Path, problems: &mut Problems) -> Option<Self> {
+                    let known: Vec<&str> = beside.iter().chain(Self::KEYS).copied().collect();
+                    let entries = entries(node, at, problems, &known)?;
+                    $(let $field = read_field(entries, key(stringify!($field)), at, problems);)*
+                    Some(Self { $($field: $field?,)* })
+                }
             }
-        }
+        };
 
         /// Serialises the record with the keys of the file.
         impl serde::Serialize for $name {
             fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
                 serde::Serialize::serialize(&$crate::text::Field::write(self), serializer)
-            }
-        }
-
-        impl $crate::text::record::Record for $name {
-            const KEYS: &'static [&'static str] = &[$($crate::text::record::key(stringify!($field))),*];
-
-            fn emit_entries<S: $crate::text::field::Sink>(&self, sink: &mut S) {
-                $(if !$crate::text::Field::is_absent(&self.$field)
-                    && sink.key(const { $crate::text::record::key(stringify!($field)) })
-                {
-                    $crate::text::Field::emit(&self.$field, sink);
-                })*
-            }
-
-            fn read_beside(
-                node: &$crate::text::Node,
-                beside: &[&str],
-                at: &$crate::text::Path,
-                problems: &mut $crate::text::Problems,
-            ) -> Option<Self> {
-                let known: Vec<&str> = beside.iter().chain(Self::KEYS).copied().collect();
-                let entries = $crate::text::record::entries(node, at, problems, &known)?;
-                $(let $field = $crate::text::record::read_field(entries, $crate::text::record::key(stringify!($field)), at, problems);)*
-                Some(Self { $($field: $field?,)* })
             }
         }
     };
@@ -250,7 +246,7 @@ impl Field for f64 {
     }
 
     fn emit<S: Sink>(&self, sink: &mut S) {
-        sink.number(*self);
+        sink.scalar(Scalar::Number(*self));
     }
 
     fn scan(scanner: &mut Scanner) -> Option<Self> {
@@ -271,7 +267,7 @@ impl Field for u32 {
     }
 
     fn emit<S: Sink>(&self, sink: &mut S) {
-        sink.integer(i64::from(*self));
+        sink.scalar(Scalar::Integer(i64::from(*self)));
     }
 }
 
@@ -289,7 +285,7 @@ impl Field for u64 {
     }
 
     fn emit<S: Sink>(&self, sink: &mut S) {
-        sink.integer(i64::try_from(*self).unwrap_or(i64::MAX));
+        sink.scalar(Scalar::Integer(i64::try_from(*self).unwrap_or(i64::MAX)));
     }
 }
 
@@ -333,7 +329,7 @@ impl Field for bool {
     }
 
     fn emit<S: Sink>(&self, sink: &mut S) {
-        sink.boolean(*self);
+        sink.scalar(Scalar::Bool(*self));
     }
 }
 
@@ -362,7 +358,7 @@ impl Field for String {
     }
 
     fn emit<S: Sink>(&self, sink: &mut S) {
-        sink.text(self);
+        sink.scalar(Scalar::Text(self));
     }
 
     fn scan(scanner: &mut Scanner) -> Option<Self> {

@@ -3,7 +3,7 @@
 pub(crate) use super::characters::{STRAIGHT_QUOTES, latin, typographic_quote};
 
 use super::characters::character;
-use super::field::{Sink, refuse};
+use super::field::{Scalar, Sink, refuse};
 use super::{Field, Node, Path, Problems};
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -72,6 +72,13 @@ impl Identifier {
     }
 }
 
+/// Returns the identifiers in a text that has one slash between them, such as model and serial number of a stand; `None` if
+/// there is another number of them, or if a part is not an identifier.
+pub(crate) fn identifiers<const N: usize>(text: &str) -> Option<[&str; N]> {
+    let names: [&str; N] = text.split('/').collect::<Vec<_>>().try_into().ok()?;
+    names.iter().all(|name| Identifier::new(name).is_ok()).then_some(names)
+}
+
 /// Returns the reason why a text in the form of a date is not a day of the calendar, or `None` if it has another form
 /// or is one.
 pub(crate) fn impossible_date(text: &str) -> Option<String> {
@@ -123,18 +130,21 @@ impl Field for Identifier {
     }
 
     fn emit<S: Sink>(&self, sink: &mut S) {
-        sink.text(&self.0);
+        sink.scalar(Scalar::Text(&self.0));
     }
+}
+
+/// Returns the value of a text that is exactly as the value is displayed.
+fn exact<T: FromStr + fmt::Display>(node: &Node) -> Option<T> {
+    let Node::Text(text) = node else { return None };
+    text.parse().ok().filter(|value: &T| value.to_string() == *text)
 }
 
 const FORM_OF_DATE: &str = "write year, month and day, in double quotes";
 
 impl Field for Date {
     fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
-        if let Node::Text(text) = node
-            && let Ok(date) = text.parse::<Date>()
-            && date.to_string() == *text
-        {
+        if let Some(date) = exact(node) {
             return Some(date);
         }
         let advice = match node {
@@ -150,20 +160,14 @@ impl Field for Date {
     }
 
     fn emit<S: Sink>(&self, sink: &mut S) {
-        sink.text(&self.to_string());
+        sink.scalar(Scalar::Text(&self.to_string()));
     }
 }
 
 impl Field for Timestamp {
     fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
-        if let Node::Text(text) = node
-            && let Ok(time) = text.parse::<Timestamp>()
-            && time.to_string() == *text
-            && time.subsec_nanosecond() == 0
-        {
-            return Some(time);
-        }
-        refuse(node, at, "use RFC 3339, UTC, whole seconds", problems)
+        let time = exact(node).filter(|time: &Self| time.subsec_nanosecond() == 0);
+        time.or_else(|| refuse(node, at, "use RFC 3339, UTC, whole seconds", problems))
     }
 
     fn expected(_: &str) -> String {
@@ -171,7 +175,7 @@ impl Field for Timestamp {
     }
 
     fn emit<S: Sink>(&self, sink: &mut S) {
-        sink.text(&self.to_string());
+        sink.scalar(Scalar::Text(&self.to_string()));
     }
 }
 

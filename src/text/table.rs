@@ -39,34 +39,24 @@ pub(crate) struct Cell {
 }
 
 impl<'a> Table<'a> {
-    /// Reads the table `name`. It must have the columns `indices` and `measured`, whose numbers may have decimals, and may have
-    /// the `optional` ones, in any order.
+    /// Reads the table `name` with the columns of indices and the measured ones, whose numbers may have decimals; those of the
+    /// third list are optional. They may be in any order.
     ///
     /// # Errors
     /// Returns [`Unreadable`] with every error in the form. The caller checks the content of the cells.
-    pub(crate) fn read(
-        name: &'a str,
-        bytes: &'a [u8],
-        indices: &[&'a str],
-        measured: &[&'a str],
-        optional: &[&'a str],
-    ) -> Result<Self, Unreadable> {
-        Self::parse(name, bytes, indices, measured, optional).map_err(|unreadable| {
-            let expected = if measured.contains(&"jx_ma") { Kind::Currents } else { Kind::Angles };
+    pub(crate) fn read(name: &'a str, bytes: &'a [u8], columns: [&[&'a str]; 3]) -> Result<Self, Unreadable> {
+        Self::parse(name, bytes, columns).map_err(|unreadable| {
+            let expected = if columns[1].contains(&"jx_ma") { Kind::Currents } else { Kind::Angles };
             let other = mistaken(name, bytes, expected.words(), |kind| kind == expected);
             other.unwrap_or_else(|| unreadable.in_text(bytes))
         })
     }
 
-    fn parse(
-        name: &'a str,
-        bytes: &'a [u8],
-        indices: &[&'a str],
-        measured: &[&'a str],
-        optional: &[&'a str],
-    ) -> Result<Self, Unreadable> {
-        let required = &[indices, measured].concat()[..];
-        let known = &[required, optional].concat()[..];
+    fn parse(name: &'a str, bytes: &'a [u8], columns: [&[&'a str]; 3]) -> Result<Self, Unreadable> {
+        let [indices, measured, _] = columns;
+        let known = &columns.concat()[..];
+        let range = indices.len()..indices.len() + measured.len();
+        let required = &known[..range.end];
         let header = || format!("a table with the header {}", required.join(","));
         if without_byte_order_mark(bytes).is_empty() {
             let advice = "the file may be truncated; copy it again";
@@ -82,19 +72,16 @@ impl<'a> Table<'a> {
         if declared.is_some() {
             first = lines.next();
         }
-        let Some((line, header)) = first else {
+        let Some(first) = first else {
             return Err(Unreadable::whole(name, None, "only spaces and comments", header(), ""));
         };
-        let separator = declared.unwrap_or_else(|| separator_of(header, known));
-        let range = indices.len()..required.len();
-        let header = Header::read(name, (line, header), separator, (required, range.clone()), known)?;
-        let mut problems = Vec::new();
-        let mut rows = Vec::new();
-        for (line, text) in lines {
-            match cells(line, text, separator).map(|cells| header.examined((line, text), separator, cells)) {
-                Ok(Ok(None)) => {}
-                Ok(Ok(Some(row))) => rows.push(row),
-                Ok(Err(problem)) | Err(problem) => problems.push(problem),
+        let separator = declared.unwrap_or_else(|| separator_of(first.1, known));
+        let header = Header::read(name, first, separator, known, range.clone())?;
+        let (mut problems, mut rows) = (Vec::new(), Vec::new());
+        for line in lines {
+            match header.examined(line) {
+                Ok(row) => rows.extend(row),
+                Err(problem) => problems.push(problem),
             }
             if problems.len() >= MOST_COUNTED {
                 break;
@@ -107,12 +94,8 @@ impl<'a> Table<'a> {
         let Header { columns, left_out, .. } = header;
         let mut separated = None;
         if problems.is_empty() && separator != ',' {
-            let separators = if separator == ';' { "semicolons" } else { "tabs" };
             match with_decimal_points(&mut rows, &columns) {
-                Ok(commas) => {
-                    let and = if commas { " and decimal commas" } else { "" };
-                    separated = Some(format!("read with {separators} between columns{and}"));
-                }
+                Ok(and) => separated = Some(format!("read with {} between columns{and}", in_words(separator))),
                 Err(problem) => problems.push(problem),
             }
         }
@@ -242,11 +225,11 @@ fn without_trailing(mut cells: Vec<Cell>, columns: usize) -> Vec<Cell> {
     cells
 }
 
-/// Replaces the decimal commas of a table that has no commas between its columns, and returns `true` if there were
-/// any. Commas are decimal marks only if the whole table has no decimal point.
-fn with_decimal_points(rows: &mut [Row], columns: &[&str]) -> Result<bool, Problem> {
+/// Replaces the decimal commas of a table that has no commas between its columns, and returns the end of the remark on it.
+/// Commas are decimal marks only if the whole table has no decimal point.
+fn with_decimal_points(rows: &mut [Row], columns: &[&str]) -> Result<&'static str, Problem> {
     let comma = rows.iter().flatten().find(|cell| cell.text.contains(',')).cloned();
-    let Some(comma) = comma else { return Ok(false) };
+    let Some(comma) = comma else { return Ok("") };
     for (place, cell) in rows.iter().flat_map(|row| row.iter().enumerate()) {
         if cell.text.contains('.') {
             let found = format!("{:?}, with decimal commas from line {} on", cell.text, comma.location.line);
@@ -265,7 +248,7 @@ fn with_decimal_points(rows: &mut [Row], columns: &[&str]) -> Result<bool, Probl
             cell.text = number;
         }
     }
-    Ok(true)
+    Ok(" and decimal commas")
 }
 
 /// Largest number of cells in a row: that of spreadsheet programs.
@@ -325,6 +308,10 @@ fn quoted_cell(quoted: &str, separator: char) -> Option<(String, &str)> {
 /// Separators of columns with their names, in the order in which a header is searched for them.
 const SEPARATORS: [(char, &str); 3] = [(',', "commas"), (';', "semicolons"), ('\t', "tabs")];
 
+fn in_words(separator: char) -> &'static str {
+    SEPARATORS.iter().find(|(known, _)| *known == separator).map_or("", |(_, words)| words)
+}
+
 /// Returns the separator that gives the most known columns, the first of equal ones.
 fn separator_of(header: &str, known: &[&str]) -> char {
     let found = SEPARATORS.iter().map(|(separator, _)| *separator).filter(|it| header.contains(*it));
@@ -377,6 +364,7 @@ struct Header<'a> {
     written: usize,
     /// Range of the measured columns in `columns` and `order`.
     measured: Range<usize>,
+    separator: char,
 }
 
 impl<'a> Header<'a> {
@@ -384,9 +372,10 @@ impl<'a> Header<'a> {
         name: &str,
         (line, header): (usize, &str),
         separator: char,
-        (required, measured): (&[&'a str], Range<usize>),
         known: &[&'a str],
+        measured: Range<usize>,
     ) -> Result<Self, Unreadable> {
+        let required = &known[..measured.end];
         let at = Location { line, column: 1 };
         let expected = || format!("the header {} (columns in any order)", required.join(","));
         // Decimal commas in a row of numbers, or commas in a title, do not separate columns.
@@ -395,12 +384,11 @@ impl<'a> Header<'a> {
             let found = "numbers instead of the header";
             return Err(Unreadable::whole(name, Some(at), found, expected(), "add the header"));
         }
-        let words = |sought: char| SEPARATORS.iter().find(|(it, _)| *it == sought).map_or("", |(_, words)| words);
         let other = SEPARATORS.iter().find(|(other, _)| *other != separator && header.contains(*other));
         if let Some((_, and)) =
             other.filter(|_| count_known(parts(), known) > count_known(header.split(separator), known))
         {
-            let found = format!("columns separated by {} and {and}", words(separator));
+            let found = format!("columns separated by {} and {and}", in_words(separator));
             let advice = "save as CSV with commas between columns and decimal points in numbers";
             return Err(Unreadable::whole(name, Some(at), found, expected(), advice));
         }
@@ -465,17 +453,13 @@ impl<'a> Header<'a> {
         }
         let (columns, order) = known.iter().filter_map(|column| Some((*column, place(column)?))).unzip();
         let names = cells.into_iter().map(|cell| cell.text).collect();
-        Ok(Self { columns, order, left_out, names, written, measured })
+        Ok(Self { columns, order, left_out, names, written, measured, separator })
     }
 
     /// Returns the cells of a row that are used; `None` for an empty row. Spreadsheet programs omit separators at the end of a
     /// row, so cells of other columns may be missing there.
-    fn examined(
-        &self,
-        (line, text): (usize, &str),
-        separator: char,
-        cells: Vec<Cell>,
-    ) -> Result<Option<Examined>, Problem> {
+    fn examined(&self, (line, text): (usize, &str)) -> Result<Option<Examined>, Problem> {
+        let cells = cells(line, text, self.separator)?;
         let written = cells.len();
         let cells = without_trailing(cells, self.names.len());
         if cells.iter().all(|cell| cell.text.is_empty()) {
@@ -485,11 +469,11 @@ impl<'a> Header<'a> {
             return Err(Problem::new(Some(Location { line, column: 1 }), "", found, "readings", cause));
         }
         if cells.len() > self.names.len() || !self.has_used(cells.len()) {
-            return Err(self.wrong_number_of_cells((line, text), separator, &cells));
+            return Err(self.wrong_number_of_cells((line, text), &cells));
         }
         let is_further = |place: &usize| !self.order.contains(place) && cells[*place].text.parse::<f64>().is_ok();
         let from_measured = self.first_measured()..cells.len();
-        let further = match separator == ',' && has_split_number(&cells[from_measured.clone()]) {
+        let further = match self.separator == ',' && has_split_number(&cells[from_measured.clone()]) {
             true => from_measured.clone().filter(is_further).count(),
             false => 0,
         };
@@ -536,7 +520,8 @@ impl<'a> Header<'a> {
     }
 
     /// Creates the report of a row that has another number of cells than the header.
-    fn wrong_number_of_cells(&self, (line, text): (usize, &str), separator: char, cells: &[Cell]) -> Problem {
+    fn wrong_number_of_cells(&self, (line, text): (usize, &str), cells: &[Cell]) -> Problem {
+        let separator = self.separator;
         let (names, found, at) = (&self.names, cells.len(), Some(Location { line, column: 1 }));
         if let Some((found, cause)) =
             text.chars().find_map(odd).filter(|(_, cause)| *cause == RefusalCause::ControlCharacter)

@@ -1,8 +1,22 @@
 //! Enums each of whose variants is a word in files and results.
 
 /// Declares an enum whose variants have words; the function after the colon returns the word, `ALL` is in the order of
-/// declaration.
+/// declaration. With a second name after the colon, that function returns the second text of each variant.
 macro_rules! words {
+    ($(#[$about:meta])* $vis:vis enum $name:ident : $fn_vis:vis $word:ident, $more:ident {
+        $($(#[$doc:meta])* $variant:ident = $text:literal, $other:literal;)*
+    }) => {
+        $crate::text::words! {
+            $(#[$about])* $vis enum $name: $fn_vis $word { $($(#[$doc])* $variant = $text,)* }
+        }
+
+        impl $name {
+            /// Returns the second text of the variant.
+            fn $more(self) -> &'static str {
+                match self { $(Self::$variant => $other,)* }
+            }
+        }
+    };
     ($(#[$about:meta])* $vis:vis enum $name:ident : $fn_vis:vis $word:ident {
         $($(#[$doc:meta])* $variant:ident = $text:literal,)*
     }) => {
@@ -24,25 +38,25 @@ macro_rules! words {
 /// Lets an enum declared by [`words!`] be the value of a key. The text after the words says more of what is expected.
 macro_rules! word_of_a_key {
     ($name:ident, $word:ident, $more:literal) => {
-        impl $crate::text::Field for $name {
-            fn read(
-                node: &$crate::text::Node,
-                at: &$crate::text::Path,
-                problems: &mut $crate::text::Problems,
-            ) -> Option<Self> {
-                let is_word = |one: &Self| matches!(node, $crate::text::Node::Text(text) if text == one.$word());
-                let one = Self::ALL.into_iter().find(is_word);
-                one.or_else(|| $crate::text::field::refuse(node, at, "", problems))
-            }
+        const _: () = {
+            use $crate::text::field::{Field, Scalar, Sink, refuse};
+            use $crate::text::{Node, Path, Problems};
 
-            fn expected(_: &str) -> String {
-                $crate::text::words::listed(&Self::ALL.map(Self::$word)) + $more
-            }
+            impl Field for $name {
+                fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
+                    let is_word = |one: &Self| matches!(node, Node::Text(text) if text == one.$word());
+                    Self::ALL.into_iter().find(is_word).or_else(|| refuse(node, at, "", problems))
+                }
 
-            fn emit<S: $crate::text::field::Sink>(&self, sink: &mut S) {
-                sink.text(self.$word());
+                fn expected(_: &str) -> String {
+                    $crate::text::words::listed(&Self::ALL.map(Self::$word)) + $more
+                }
+
+                fn emit<S: Sink>(&self, sink: &mut S) {
+                    sink.scalar(Scalar::Text(self.$word()));
+                }
             }
-        }
+        };
     };
 }
 pub(crate) use {word_of_a_key, words};

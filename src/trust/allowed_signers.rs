@@ -11,8 +11,8 @@ use crate::text::{Kind, Printable, Unreadable};
 use jiff::Timestamp;
 use thiserror::Error;
 
-/// Trusted keys, each with the principals, namespaces and validity period that it is trusted for.
-#[derive(Debug, Clone)]
+/// Trusted keys, each with the principals, namespaces and validity period that it is trusted for; none by default.
+#[derive(Debug, Clone, Default)]
 pub struct AllowedSigners {
     lines: Vec<SignerLine>,
     /// Types of the keys that were skipped, because they cannot sign passports.
@@ -52,17 +52,12 @@ impl AllowedSigners {
     /// date without `Z`, because it would depend on the verifier's local time. A list without any key is an error too.
     pub fn parse(name: &str, text: &[u8]) -> Result<Self, Unreadable> {
         let is_near = |kind| matches!(kind, Kind::AllowedSigners | Kind::PublicKey | Kind::PrivateKey);
-        Self::read(name, text)
-            .map_err(|refused| mistaken(name, text, Kind::AllowedSigners.words(), is_near).unwrap_or(refused))
-    }
-
-    fn read(name: &str, text: &[u8]) -> Result<Self, Unreadable> {
-        let kept = lines::read(name, text, signer_line::read)?;
-        if kept.is_empty() {
-            let advice = "add the line that `keygen` prints";
-            return Err(Unreadable::whole(name, None, "no key", "a line for each trusted key", advice));
-        }
-        let mut signers = Self { lines: Vec::new(), skipped: Vec::new() };
+        let advice = "add the line that `keygen` prints";
+        let none = || Unreadable::whole(name, None, "no key", "a line for each trusted key", advice);
+        let kept = lines::read(name, text, signer_line::read)
+            .and_then(|kept| if kept.is_empty() { Err(none()) } else { Ok(kept) })
+            .map_err(|refused| mistaken(name, text, Kind::AllowedSigners.words(), is_near).unwrap_or(refused))?;
+        let mut signers = Self::default();
         for line in kept {
             match line {
                 Ok(line) => signers.lines.push(line),
@@ -70,12 +65,6 @@ impl AllowedSigners {
             }
         }
         Ok(signers)
-    }
-
-    /// Creates a list without any key.
-    #[cfg(feature = "factory")]
-    pub(crate) fn empty() -> Self {
-        Self { lines: Vec::new(), skipped: Vec::new() }
     }
 
     pub(crate) fn lines(&self) -> &[SignerLine] {

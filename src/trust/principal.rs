@@ -60,32 +60,20 @@ pub(super) fn matches_list(text: &str, list: &str) -> bool {
     matched
 }
 
-/// Returns `true` if the pattern matches; the worst-case time is proportional to the product of the lengths.
+/// Returns `true` if the pattern matches; the time is proportional to the product of the lengths.
 fn matches(text: &[u8], pattern: &[u8]) -> bool {
-    let (mut at, mut in_pattern) = (0, 0);
-    let mut last_star = None;
-    while at < text.len() {
-        match pattern.get(in_pattern) {
-            Some(b'*') => {
-                last_star = Some((at, in_pattern));
-                in_pattern += 1;
-            }
-            Some(&byte) if byte == b'?' || byte == text[at] => {
-                at += 1;
-                in_pattern += 1;
-            }
-            _ => match last_star {
-                // Let the star match one more byte, and try the rest of the pattern again after it.
-                Some((start, star)) => {
-                    last_star = Some((start + 1, star));
-                    at = start + 1;
-                    in_pattern = star + 1;
-                }
-                None => return false,
-            },
+    // Whether the pattern so far matches the first bytes of the text, for every number of them.
+    let mut matched = vec![false; text.len() + 1];
+    matched[0] = true;
+    for &part in pattern {
+        if part == b'*' {
+            (0..text.len()).for_each(|at| matched[at + 1] |= matched[at]);
+        } else {
+            (0..text.len()).rev().for_each(|at| matched[at + 1] = matched[at] && (part == b'?' || part == text[at]));
+            matched[0] = false;
         }
     }
-    pattern[in_pattern..].iter().all(|&byte| byte == b'*')
+    matched[text.len()]
 }
 
 #[cfg(test)]

@@ -183,21 +183,12 @@ impl Signature {
     pub(crate) fn verify_message(&self, message: &Message, point: Option<&KeyPoint>) -> Result<(), SignatureError> {
         self.check_namespace(message.namespace)?;
         let signed = message.signed.as_deref().ok_or(SignatureError::DoesNotHold)?;
-        let own;
-        let point = match point.filter(|point| point.is_of(&self.key)) {
-            Some(point) => point,
-            None => {
-                own = KeyPoint::of(&self.key).ok_or(SignatureError::DoesNotHold)?;
-                &own
-            }
-        };
+        let known = point.filter(|point| point.is_of(&self.key)).cloned();
+        let point = known.or_else(|| KeyPoint::of(&self.key)).ok_or(SignatureError::DoesNotHold)?;
         let signature = ed25519_dalek::Signature::from_bytes(&self.signature);
-        let verified = match &self.key.application {
-            Some(application) => {
-                point.0.verify_strict(&signed_by_token(application, &self.flags_and_counter, signed), &signature)
-            }
-            None => point.0.verify_strict(signed, &signature),
-        };
+        let by_token = |application| signed_by_token(application, &self.flags_and_counter, signed);
+        let by_token = self.key.application.as_deref().map(by_token);
+        let verified = point.0.verify_strict(by_token.as_deref().unwrap_or(signed), &signature);
         verified.map_err(|_| SignatureError::DoesNotHold)
     }
 }

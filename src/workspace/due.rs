@@ -15,7 +15,6 @@ use crate::wording::{Language, Text};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use serde::Serialize;
-use std::fmt::Write;
 
 words! {
     /// What ends on a day.
@@ -154,13 +153,7 @@ pub(crate) fn ics(all: &[Due], time: Timestamp, language: Language) -> String {
         }
         out.push_str("\r\n");
     };
-    let escaped = |text: &str| {
-        let mut escaped = String::new();
-        for c in printable(text).chars() {
-            let _ = if "\\;,".contains(c) { write!(escaped, "\\{c}") } else { write!(escaped, "{c}") };
-        }
-        escaped
-    };
+    let escaped = |text: &str| printable(text).replace('\\', "\\\\").replace(';', "\\;").replace(',', "\\,");
     let head = ["BEGIN:VCALENDAR", "VERSION:2.0", "PRODID:-//dtg-passport//status//EN"];
     head.iter().for_each(|text| line((*text).to_owned()));
     for due in all {

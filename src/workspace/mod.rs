@@ -19,10 +19,14 @@ pub(crate) use results::{NoPassport, Results, serial_of};
 pub(crate) use status::{SOON_DAYS, status};
 
 use crate::files::{self, FileError};
+use crate::folder::overview::Query;
 use crate::folder::{Folder, Memory};
 use crate::interface::enquiry::place_of;
+use crate::parallel;
+use crate::passport::{Question, Trust};
 use crate::text::node::{location_of, odd_character, utf8, without_byte_order_mark};
-use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, Location, Problem, Unreadable, misspelt, name_of};
+use crate::text::scalar::identifiers;
+use crate::text::{LARGEST_DOCUMENT_BYTES, Location, Problem, Unreadable, misspelt, name_of};
 use crate::wording::Language;
 use std::path::{Path, PathBuf};
 use toml::de::{DeTable, DeValue};
@@ -74,6 +78,8 @@ pub(crate) struct Workspace {
     pub gyro: Option<PathBuf>,
     /// Folder of the results of calibrations.
     pub results: Option<PathBuf>,
+    /// Last accepted registers, in the folder `registers`.
+    memory: Memory,
 }
 
 /// Reason why a workspace cannot be used.
@@ -132,8 +138,7 @@ impl Workspace {
                 refuse(text.get(value.span()).unwrap_or("nothing").to_owned(), "text", "put it in double quotes");
                 continue;
             };
-            let is_stand =
-                |text: &String| identifiers(&text.split('/').collect::<Vec<_>>()).is_some_and(|names| names.len() == 2);
+            let is_stand = |text: &String| named::<2>(text).is_some();
             match (name, found.first()) {
                 ("lang", Some(tag)) if language(tag).is_none() => refuse(format!("{tag:?}"), "\"en\" or \"ru\"", ""),
                 ("stand", _) if !found.iter().all(is_stand) => {
@@ -168,6 +173,7 @@ impl Workspace {
             laboratory: path(laboratory),
             gyro: path(gyro),
             results: path(results),
+            memory: Memory::new(root.join(REGISTERS_FOLDER)),
         })
     }
 
@@ -177,21 +183,26 @@ impl Workspace {
         Self::from_toml(root, WORKSPACE_FILE, text.as_bytes())
     }
 
-    /// Returns the memory of the last accepted registers, in the folder `registers`.
-    pub(crate) fn memory(&self) -> Memory {
-        Memory::new(self.root.join(REGISTERS_FOLDER))
+    /// Returns the memory of the last accepted registers.
+    pub(crate) fn memory(&self) -> &Memory {
+        &self.memory
+    }
+
+    /// Returns the query of a folder of passports, which is perhaps that of a workspace.
+    pub(crate) fn query<'a>(workspace: Option<&'a Self>, trust: &'a Trust, question: &'a Question) -> Query<'a> {
+        let may_lack = workspace.is_some_and(Self::is_of_a_laboratory);
+        Query { trust, question, memory: workspace.map(Self::memory), may_lack, threads: parallel::processors() }
     }
 
     /// Returns the path of the stand file of `MODEL/SERIAL`, or `None` if `name` is not of this form.
     pub(crate) fn stand(&self, name: &str) -> Option<PathBuf> {
-        let names: Vec<&str> = name.split('/').collect();
-        let [model, serial] = identifiers(&names)?.try_into().ok()?;
+        let [model, serial] = named(name)?;
         Some(self.stands.as_ref()?.join(model).join(serial).join("stand.yaml"))
     }
 
     /// Returns the path of the file of the site `id`, or `None` if it is not an identifier.
     pub(crate) fn site(&self, id: &str) -> Option<PathBuf> {
-        let [id] = identifiers(&[id])?.try_into().ok()?;
+        let [id] = named(id)?;
         Some(self.sites.as_ref()?.join(format!("{id}.yaml")))
     }
 
@@ -200,20 +211,19 @@ impl Workspace {
     /// next to which the passport is.
     pub(crate) fn passport(&self, id: &str) -> Option<PathBuf> {
         let root = self.passports.as_ref()?;
-        let names: Vec<&str> = id.split('/').collect();
-        match identifiers(&names)?.as_slice() {
-            [model, serial] => Some(root.join(model).join(serial)),
-            [model, serial, site] => Some(root.join(model).join(serial).join(format!("{site}.yaml"))),
-            _ => Folder::new(root).path_of_id(id),
+        match (named(id), named(id), named::<4>(id)) {
+            (Some([model, serial]), ..) => Some(root.join(model).join(serial)),
+            (_, Some([model, serial, site]), _) => Some(root.join(model).join(serial).join(format!("{site}.yaml"))),
+            (.., Some(_)) => Folder::new(root).path_of_id(id),
+            _ => None,
         }
     }
 }
 
-/// Returns the names if each is an identifier and not that of a file with an extension of YAML or of a table.
-fn identifiers<'a>(names: &[&'a str]) -> Option<Vec<&'a str>> {
-    let is_file = |name: &str| [".yaml", ".yml", ".csv"].iter().any(|end| name.to_lowercase().ends_with(end));
-    let each = names.iter().map(|name| (Identifier::new(name).is_ok() && !is_file(name)).then_some(*name));
-    each.collect()
+/// Returns the identifiers in a text as [`identifiers`] does, unless one is that of a file of YAML or of a table.
+fn named<const N: usize>(text: &str) -> Option<[&str; N]> {
+    let is_file = |name: &&str| [".yaml", ".yml", ".csv"].iter().any(|end| name.to_lowercase().ends_with(end));
+    identifiers(text).filter(|names| !names.iter().any(is_file))
 }
 
 fn unknown_key(key: &str, at: Location) -> Problem {

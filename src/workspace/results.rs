@@ -59,7 +59,7 @@ impl Workspace {
     /// Returns the path of the passport of `stand` that may be used by `enquiry`, or of the only one there is.
     pub(crate) fn passport_in_force(&self, stand: &str, enquiry: &Enquiry) -> Result<PathBuf, NoPassport> {
         let root = self.passports.as_deref().ok_or(NoPassport::NotStated("`passports`"))?;
-        let registers = Registers::new(root, enquiry.trust.clone(), enquiry.question.now, Some(self.memory()));
+        let registers = Registers::new(root, enquiry.trust.clone(), enquiry.question.now, Some(self.memory().clone()));
         let found = registers.of(stand)?;
         let mut there: Vec<(&str, PathBuf, Verification)> = Vec::new();
         for entry in found.register.entries() {

@@ -5,8 +5,7 @@ use super::{WORKSPACE_FILE, Workspace};
 use crate::batch::paths::{is_stand, is_yaml};
 use crate::files::walk::{Entry, Walk};
 use crate::files::{self, FileError};
-use crate::folder::overview::{Overview, Query, StandRows};
-use crate::parallel;
+use crate::folder::overview::{Overview, StandRows};
 use crate::passport::{Question, Trust};
 use crate::register::{Row, State, days_until};
 use crate::report::doc::{Block, Counted, Words, code, given, joined, line, listed, marked};
@@ -122,17 +121,8 @@ pub(crate) fn status(
     let sites = sites(workspace, &mut remarks)?;
     let register = match (&workspace.passports, trust) {
         (Some(folder), Some(trust)) => {
-            let memory = workspace.memory();
             let question = Question { now, ..Question::at(time) };
-            let threads = parallel::processors();
-            let query = Query {
-                trust,
-                question: &question,
-                memory: Some(&memory),
-                may_lack: workspace.is_of_a_laboratory(),
-                threads,
-            };
-            Some(Overview::of(folder, query)?)
+            Some(Overview::of(folder, Workspace::query(Some(workspace), trust, &question))?)
         }
         (None, _) => {
             remarks.push("no folder of passports is stated (passports)".to_owned());

@@ -123,7 +123,7 @@ fn times_that_begin_again_at_midnight_are_told() {
 
 /// Returns what becomes of a table with the rows of `text`, the measured columns `a` and `b`, and others.
 fn table(text: &str) -> (&'static str, String) {
-    let read = Table::read("t.csv", text.as_bytes(), &["i", "j"], &["a", "b"], &["time_s"]);
+    let read = Table::read("t.csv", text.as_bytes(), [&["i", "j"], &["a", "b"], &["time_s"]]);
     read.map_or_else(|refused| first(&refused), |table| ("read", format!("{} rows", table.rows.len())))
 }
 
@@ -184,9 +184,9 @@ fn separators_of_thousands_are_not_decimal_marks() {
 #[test]
 fn cells_are_those_of_rfc_4180() {
     let text = "i,j,a,b,remark\n1,\"1\",\"b,b\",c,\"x\"\"y\" \nµ, \"2\",3,4\n";
-    let read = Table::read("t.csv", text.as_bytes(), &["i", "j"], &["a", "b"], &["remark"]);
+    let read = Table::read("t.csv", text.as_bytes(), [&["i", "j"], &["a", "b"], &["remark"]]);
     assert!(read.unwrap_err().to_string().contains("found 4 values"), "remark is used, so it must be there");
-    let read = Table::read("t.csv", text.as_bytes(), &["i", "j"], &["a", "b"], &[]).unwrap();
+    let read = Table::read("t.csv", text.as_bytes(), [&["i", "j"], &["a", "b"], &[]]).unwrap();
     let texts: Vec<&str> = read.rows[0].iter().map(|cell| cell.text.as_str()).collect();
     assert_eq!(texts, ["1", "1", "b,b", "c"]);
     let columns: Vec<usize> = read.rows[1].iter().map(|cell| cell.location.column).collect();
@@ -449,7 +449,7 @@ fn utf_16_is_named_in_every_input() {
     let signers = include_str!("../../docs/allowed_signers");
     let refused = [
         AllowedSigners::parse("f", &utf16(signers)).unwrap_err(),
-        Table::read("f", &utf16("i,j,a,b\n"), &["i", "j"], &["a", "b"], &[]).unwrap_err(),
+        Table::read("f", &utf16("i,j,a,b\n"), [&["i", "j"], &["a", "b"], &[]]).unwrap_err(),
         dtg_passport::calibration::CalibrationDocument::from_json("f", &utf16("{}")).unwrap_err(),
     ];
     for refused in refused {

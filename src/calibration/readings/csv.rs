@@ -52,7 +52,7 @@ impl Readings {
         coefficients: &Coefficients,
         range_ma: f64,
     ) -> Result<Self, Unreadable> {
-        let table = Table::read(name, bytes, &COLUMNS[..2], &COLUMNS[2..], &OPTIONAL_COLUMNS)?;
+        let table = Table::read(name, bytes, [&COLUMNS[..2], &COLUMNS[2..], &OPTIONAL_COLUMNS])?;
         let [cycle, visit, time, ..] = OPTIONAL_COLUMNS.map(|column| table.place(column));
         let mut problems = Vec::new();
         let mut readings = Vec::new();

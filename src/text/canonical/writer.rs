@@ -1,6 +1,6 @@
 //! Writer of the canonical form.
 
-use crate::text::field::Sink;
+use crate::text::field::{Scalar, Sink};
 use crate::text::{Field, number, rule};
 
 /// Source of the comment lines above a key, given as a path such as `earth.gravity_m_per_s2`; without the `# `.
@@ -74,25 +74,18 @@ impl<'a> Writer<'a> {
 }
 
 impl Sink for Writer<'_> {
-    fn boolean(&mut self, value: bool) {
-        self.on_the_line(|writer| writer.text.push_str(if value { "true" } else { "false" }));
-    }
-
-    fn integer(&mut self, value: i64) {
-        self.on_the_line(|writer| writer.text.push_str(&value.to_string()));
-    }
-
-    fn number(&mut self, value: f64) {
-        if !value.is_finite() {
-            // No text may contain it: the readers refuse it, and so does the reader that checks what was written.
-            debug_assert!(false, "only finite numbers are written");
-            return self.text.push_str(" null");
-        }
-        self.on_the_line(|writer| number::write(value, writer.text));
-    }
-
-    fn text(&mut self, value: &str) {
-        self.on_the_line(|writer| rule::write_quoted(value, writer.text));
+    fn scalar(&mut self, value: Scalar) {
+        self.on_the_line(|Self { text, .. }| match value {
+            Scalar::Bool(value) => text.push_str(if value { "true" } else { "false" }),
+            Scalar::Integer(value) => text.push_str(&value.to_string()),
+            Scalar::Number(value) if value.is_finite() => number::write(value, text),
+            Scalar::Number(_) => {
+                // No text may contain it: the readers refuse it, and so does the reader that checks what was written.
+                debug_assert!(false, "only finite numbers are written");
+                text.push_str("null");
+            }
+            Scalar::Text(value) => rule::write_quoted(value, text),
+        });
     }
 
     fn list<T: Field>(&mut self, items: &[T]) {

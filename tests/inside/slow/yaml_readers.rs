@@ -6,7 +6,7 @@
 use crate::inside::programs;
 use dtg_passport::text::Node;
 use dtg_passport::text::canonical;
-use dtg_passport::text::field::Sink;
+use dtg_passport::text::field::{Scalar, Sink};
 use dtg_passport::text::rule::{self, allowed_in_string};
 use dtg_passport::text::yaml;
 use dtg_passport::text::{Field, Path as At, Problems};
@@ -171,10 +171,10 @@ impl Field for Node {
     fn emit<S: Sink>(&self, sink: &mut S) {
         match self {
             Node::Null => panic!("no document has an empty value"),
-            Node::Bool(value) => sink.boolean(*value),
-            Node::Integer(value) => sink.integer(*value),
-            Node::Number(value) => sink.number(*value),
-            Node::Text(value) => sink.text(value),
+            Node::Bool(value) => sink.scalar(Scalar::Bool(*value)),
+            Node::Integer(value) => sink.scalar(Scalar::Integer(*value)),
+            Node::Number(value) => sink.scalar(Scalar::Number(*value)),
+            Node::Text(value) => sink.scalar(Scalar::Text(value)),
             Node::List(items) => sink.list(items),
             Node::Map(entries) => sink.mapping(entries.is_empty(), |sink| {
                 for (key, value) in entries {
