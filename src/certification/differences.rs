@@ -304,7 +304,7 @@ pub(super) fn square(value: f64) -> f64 {
     value * value
 }
 
-/// Probability below which the variances of check and certificate are not pooled.
+/// Probability below which the variances of check and certificate are not pooled: that of platform and base together.
 const PARTED: f64 = 0.05;
 
 impl Between {
@@ -339,11 +339,13 @@ impl Between {
         let Some(stated) = evidence.filter(|runs| *runs > 1.0).map(stated) else { return Ok(found) };
         let both = [found.platform_arcsec2, found.base_arcsec2].into_iter().zip(stated);
         // An estimate of 0 is no smaller than another.
-        let is_alike = |(check, certified): (f64, f64)| {
-            let ratio = if check > 0.0 && certified > 0.0 { check / certified } else { 1.0 };
-            f_beyond(ratio, own, of_certificate).min(f_beyond(1.0 / ratio, of_certificate, own)) > PARTED / 2.0
-        };
-        if both.clone().all(is_alike) {
+        let compared = both.clone().filter(|(check, certified)| *check > 0.0 && *certified > 0.0);
+        let of_either_side = PARTED / (2 * compared.clone().count()) as f64;
+        let mut is_alike = compared.map(|(check, certified)| {
+            let ratio = check / certified;
+            f_beyond(ratio, own, of_certificate).min(f_beyond(1.0 / ratio, of_certificate, own)) > of_either_side
+        });
+        if is_alike.all(|is_alike| is_alike) {
             let pooled: Vec<f64> = both
                 .map(|(check, certified)| (check * own + certified * of_certificate) / (own + of_certificate))
                 .collect();
