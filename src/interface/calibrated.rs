@@ -262,66 +262,28 @@ impl<'a> Prepared<'a> {
     /// Calibrates the gyro. `subject` says which one and under which conditions; its SHA-256 is filled in here. The result
     /// is compared with the last of the `previous` ones.
     pub(crate) fn run(
-        self,
+        mut self,
         options: &Options,
         subject: Subject,
         previous: &[CalibrationDocument],
     ) -> Result<Done, Failed> {
-        let Self { content, laboratory, gyro_type, setup, mut missing, name, currents_sha256, readings } = self;
+        let (content, laboratory, gyro_type) = (self.content, self.laboratory, self.gyro_type);
         let early = subject.check_date(&content.certificate).map_err(Failed::unusable)?;
         let warning = TemperatureOutside::of(&content.certificate, &subject, laboratory);
-        let gyro = gyro_type.map(|gyro_type| gyro_type.r#type.clone());
-        let subject = Subject { currents_sha256, gyro_type: gyro, ..subject };
-        if let Some([before, now]) = subject.another_gyro(previous) {
-            let [before, now] = [before, now].map(printable::printable);
-            return Err(Failed::refused(format!(
-                "the previous result is that of gyro {before}, not of {now}; give the result of the same gyro, or correct \
-                 the serial number"
-            )));
-        }
-        if let Some([later, now]) = subject.later_result(previous) {
-            let words =
-                format!("the previous result is of {later}, after these readings of {now}; check which is earlier");
-            return Err(Failed::refused(words));
-        }
+        check_gyro_and_day(&subject, previous)?;
         let unknown_gyro = subject.unknown_gyro(previous);
-        let calibration = calibration::calibrate(&setup, &readings, options);
-        let name = printable::printable(&name);
-        let mut calibration = calibration.map_err(|error| {
-            let unread: Vec<String> = readings.left_out.iter().map(ToString::to_string).collect();
-            let is_remediable = matches!(error, NoLeastSquares::Inseparable { .. }) && options.model == Model::Paper;
-            let remedy = match unread.as_slice() {
-                _ if !is_remediable => String::new(),
-                [] => "; check that each axis was recorded from its own channel, or read more positions (`plan` finds them)"
-                    .to_owned(),
-                unread => format!("; read the other positions of the passport too: {}", unread.join(", ")),
-            };
-            Failed::refused(format!("{name}: {error}{remedy}"))
-        })?;
-        missing.extend(calibration.noise_not_stated());
-        if let Some(words) = calibration.meaningless() {
-            return Err(Failed::refused(format!("{name}: {words}")));
-        }
-        let gravity = (content.earth.gravity_m_per_s2, content.site.gravity_u_m_per_s2());
-        let verified = subject.passport_verified_as_of.is_some();
+        let mut calibration = self.calibrated(options)?;
+        self.missing.extend(calibration.noise_not_stated());
         let last = previous.last();
+        let verified = subject.passport_verified_as_of.is_some();
         let documented = |readings: &Readings, calibration: &Calibration| {
-            let id = &content.passport.id;
-            let mut document = CalibrationDocument::new(id, verified, gravity, calibration, &missing);
-            let budget = calibration.adopted().and_then(|_| Budget::of(calibration, &setup, readings, options).ok());
-            if gyro_type.is_some() {
-                document.not_tested.clear();
-            }
-            document.degrees_of_freedom = budget.map_or_else(BTreeMap::new, |budget| budget.degrees_of_freedom());
-            let noise = last.and_then(|earlier| document.visits_of_one(earlier)).zip(document.found());
-            document.u_of_single_visits =
-                noise.and_then(|(noise, found)| u_of_single_visits(&setup, readings, &found.parameters, noise));
-            document
+            self.documented((readings, calibration), options, verified, last)
         };
-        let mut document = documented(&readings, &calibration);
-        document.subject = Some(subject);
+        let mut document = documented(&self.readings, &calibration);
+        let gyro = gyro_type.map(|gyro_type| gyro_type.r#type.clone());
+        document.subject = Some(Subject { currents_sha256: self.currents_sha256.clone(), gyro_type: gyro, ..subject });
         document.assumed_meter = laboratory.is_none().then(|| ASSUMED_METER.to_owned());
-        (document.excluded, document.left_out) = (readings.exclusions.clone(), readings.left_out.clone());
+        (document.excluded, document.left_out) = (self.readings.exclusions.clone(), self.readings.left_out.clone());
         let Some(found) = document.found() else {
             let words = document.refused.iter().map(|(method, why)| format!("{method}: {why}"));
             return Err(Failed::refused(words.collect::<Vec<_>>().join("\n")));
@@ -334,32 +296,19 @@ impl<'a> Prepared<'a> {
             by_type::narrow(&mut calibration.causes, &found, gyro_type);
         }
         calibration.causes.retain(|cause| cause.kind != Kind::Range || !calibration.consistent);
-        let case = (&setup, &readings, options);
+        let case = (&self.setup, &self.readings, options);
         let of_type = if calibration.fits() { by_type::causes(case, &found, gyro_type, &usual) } else { Vec::new() };
         calibration.with_words(of_type);
         let mut document = document.explained_by(&calibration);
-        document.remarks = calibration::remarks::remarks(&calibration, &readings);
+        document.remarks = calibration::remarks::remarks(&calibration, &self.readings);
         let of_laboratory = laboratory.into_iter().flat_map(Laboratory::remarks);
         let of_files = of_laboratory.chain(gyro_type.into_iter().flat_map(GyroType::remarks));
         let english = |words: Words| plain(&words.plain(Language::English));
         let of_conditions = warning.map(|warning| warning.to_string()).into_iter().chain(of_files.map(english));
         let of_others = of_conditions.chain(early).chain(another_type(previous, gyro_type)).chain(unknown_gyro.clone());
-        document.remarks.extend(readings.remarks.iter().cloned().chain(of_others));
+        document.remarks.extend(self.readings.remarks.iter().cloned().chain(of_others));
         if let Some(gyro_type) = gyro_type {
-            let without = without_suspects(&calibration, &readings, |rest| {
-                // Without a visit, the paper's methods may not have a result.
-                let methods = vec![Method::LeastSquares];
-                let mut found = calibration::calibrate(&setup, rest, &Options { methods, ..options.clone() }).ok()?;
-                found.with_words(calibration.mistake().filter(|cause| cause.invalidates()).cloned());
-                Some((documented(rest, &found), found))
-            });
-            let agreed = |judged: &dyn Fn(&CalibrationDocument) -> Option<Verdict>| {
-                let others = without.iter().map(|found| found.as_ref().and_then(judged));
-                Some(others.fold(judged(&document)?, Verdict::agreed))
-            };
-            let verdict = agreed(&|found| found.judged(gyro_type));
-            let change = last.and_then(|earlier| agreed(&|found| found.changed(earlier, gyro_type)));
-            (document.verdict, document.change) = (verdict, change);
+            self.judge(&mut document, &calibration, gyro_type, (options, last), documented);
         }
         let unexplained = last.and_then(|earlier| document.unexplained_in_words(earlier));
         let of_verdict = document.verdict.as_ref().filter(|verdict| !verdict.withheld);
@@ -370,18 +319,19 @@ impl<'a> Prepared<'a> {
         let earlier = last.map(|earlier| (earlier.clone(), document.no_change(earlier)));
         // With a type, the drifts are stated at its g: the local g is in their uncertainties.
         let of_gravity = |parameter| if document.verdict.is_some() { found.u_from_gravity(parameter) } else { 0.0 };
-        let cost_of_missing = cost_of_missing(&setup, &readings, &found.parameters, of_gravity);
+        let cost_of_missing = cost_of_missing(&self.setup, &self.readings, &found.parameters, of_gravity);
         // A further visit is of no use as long as one is suspect.
         let sound = of_verdict.filter(|_| calibration.suspects().next().is_none());
         let least_certain = sound.and_then(Verdict::least_certain);
         let further = least_certain.and_then(|row| {
             let result = (&calibration, &found.parameters);
-            let visit = best_further_visit(&setup, &readings, result, (row.parameter, options))?;
+            let visit = best_further_visit(&self.setup, &self.readings, result, (row.parameter, options))?;
             Some((row.parameter, FurtherVisit { ratio: row.ratio_with_gravity(visit.ratio), ..visit }))
         });
         let stated_c = document.subject.as_ref().and_then(|subject| temperature_c(subject, laboratory));
         let unchecked_range_c = content.certificate.temperature_range_c.filter(|_| stated_c.is_none());
         let without_height = content.site.is_gravity_without_height();
+        let Self { setup, readings, missing, .. } = self;
         Ok(Done {
             setup,
             readings,
@@ -396,5 +346,91 @@ impl<'a> Prepared<'a> {
             unchecked_range_c,
             without_height,
         })
+    }
+
+    /// Calibrates the gyro, or says what is to be read for it.
+    fn calibrated(&self, options: &Options) -> Result<Calibration, Failed> {
+        let name = printable::printable(&self.name);
+        let calibration = calibration::calibrate(&self.setup, &self.readings, options).map_err(|error| {
+            let unread: Vec<String> = self.readings.left_out.iter().map(ToString::to_string).collect();
+            let is_remediable = matches!(error, NoLeastSquares::Inseparable { .. }) && options.model == Model::Paper;
+            let remedy = match unread.as_slice() {
+                _ if !is_remediable => String::new(),
+                [] => "; check that each axis was recorded from its own channel, or read more positions (`plan` finds them)"
+                    .to_owned(),
+                unread => format!("; read the other positions of the passport too: {}", unread.join(", ")),
+            };
+            Failed::refused(format!("{name}: {error}{remedy}"))
+        })?;
+        match calibration.meaningless() {
+            Some(words) => Err(Failed::refused(format!("{name}: {words}"))),
+            None => Ok(calibration),
+        }
+    }
+
+    /// Returns a calibration from `readings` as a document, without a verdict.
+    fn documented(
+        &self,
+        (readings, calibration): (&Readings, &Calibration),
+        options: &Options,
+        verified: bool,
+        last: Option<&CalibrationDocument>,
+    ) -> CalibrationDocument {
+        let content = self.content;
+        let gravity = (content.earth.gravity_m_per_s2, content.site.gravity_u_m_per_s2());
+        let mut document =
+            CalibrationDocument::new(&content.passport.id, verified, gravity, calibration, &self.missing);
+        let budget = calibration.adopted().and_then(|_| Budget::of(calibration, &self.setup, readings, options).ok());
+        if self.gyro_type.is_some() {
+            document.not_tested.clear();
+        }
+        document.degrees_of_freedom = budget.map_or_else(BTreeMap::new, |budget| budget.degrees_of_freedom());
+        let noise = last.and_then(|earlier| document.visits_of_one(earlier)).zip(document.found());
+        document.u_of_single_visits =
+            noise.and_then(|(noise, found)| u_of_single_visits(&self.setup, readings, &found.parameters, noise));
+        document
+    }
+
+    /// Adds the verdict by the type and the change since the `last` result, on which the results with and without the suspect
+    /// visits agree; `documented` makes a document of a calibration.
+    fn judge(
+        &self,
+        document: &mut CalibrationDocument,
+        calibration: &Calibration,
+        gyro_type: &GyroType,
+        (options, last): (&Options, Option<&CalibrationDocument>),
+        documented: impl Fn(&Readings, &Calibration) -> CalibrationDocument,
+    ) {
+        let without = without_suspects(calibration, &self.readings, |rest| {
+            // Without a visit, the paper's methods may not have a result.
+            let methods = vec![Method::LeastSquares];
+            let mut found = calibration::calibrate(&self.setup, rest, &Options { methods, ..options.clone() }).ok()?;
+            found.with_words(calibration.mistake().filter(|cause| cause.invalidates()).cloned());
+            Some((documented(rest, &found), found))
+        });
+        let agreed = |judged: &dyn Fn(&CalibrationDocument) -> Option<Verdict>| {
+            let others = without.iter().map(|found| found.as_ref().and_then(judged));
+            Some(others.fold(judged(document)?, Verdict::agreed))
+        };
+        let verdict = agreed(&|found| found.judged(gyro_type));
+        let change = last.and_then(|earlier| agreed(&|found| found.changed(earlier, gyro_type)));
+        (document.verdict, document.change) = (verdict, change);
+    }
+}
+
+/// Refuses earlier results of another gyro, and later ones.
+fn check_gyro_and_day(subject: &Subject, previous: &[CalibrationDocument]) -> Result<(), Failed> {
+    if let Some([before, now]) = subject.another_gyro(previous) {
+        let [before, now] = [before, now].map(printable::printable);
+        return Err(Failed::refused(format!(
+            "the previous result is that of gyro {before}, not of {now}; give the result of the same gyro, or correct the \
+             serial number"
+        )));
+    }
+    match subject.later_result(previous) {
+        Some([later, now]) => Err(Failed::refused(format!(
+            "the previous result is of {later}, after these readings of {now}; check which is earlier"
+        ))),
+        None => Ok(()),
     }
 }
