@@ -83,7 +83,7 @@ mod tests {
         assert!(matches!(refused, Err(FileError::Exists { path, .. }) if path == at("b")));
         let read = |name: &str| fs::read_to_string(at(name)).ok();
         assert_eq!((read("a"), read("b"), read("last")), (None, Some("there".into()), Some("old".into())));
-        // A folder in place of the last file: the new ones are removed again.
+        // If the last file cannot be replaced, because it is a folder, the new files are removed again.
         fs::create_dir(at("folder")).unwrap();
         assert!(write_together(&[file("a", "1")], &[file("folder", "new")]).is_err());
         assert_eq!(read("a"), None);

@@ -42,9 +42,10 @@ pub fn plan(
         let why = "step_deg: found a step and a stand, whose positions are certified; state one of the two";
         return unusable(why.to_owned());
     }
-    let Some(angles) = step_deg.map_or(Some(Angles::QUADRANTS), Angles::every) else {
-        let step_deg = step_deg.unwrap_or_default();
-        return unusable(format!("step_deg: found {step_deg}, expected {}", Angles::EXPECTED));
+    let angles = match step_deg {
+        None => Angles::QUADRANTS,
+        Some(step_deg) => Angles::every(step_deg)
+            .ok_or_else(|| Failed::unusable(format!("step_deg: found {step_deg}, expected {}", Angles::EXPECTED)))?,
     };
     if let Some(found) = azimuths_deg.iter().find(|azimuth| !(0.0..360.0).contains(*azimuth)) {
         return unusable(format!("frame_axis_azimuths_deg: found {found}, expected 0 or more and below 360"));

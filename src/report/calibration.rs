@@ -1,6 +1,6 @@
 //! Report of a calibration, composed once for a terminal and for its printed page.
 //!
-//! * `answer`: what it says about the gyro, in the first line of a terminal and in large letters.
+//! * `answer`: the first line in a terminal, and the headline of a page.
 //! * `result`: parameters within their tolerances, the change since an earlier result.
 //! * `fit`: agreement of the readings with the model, inputs that are not stated.
 //! * `methods`: the paper's methods beside least squares.

@@ -234,9 +234,9 @@ def test_every_door_gives_the_answer_of_the_program(asked: Asked, door: object, 
             elif door is matlab:
                 keys = ("id", "not_asked", "remarks", "checks") if due["valid"] else ("identifier", "message")
                 said = [check["detail"] for check in due["checks"] if check["passed"] is False] + due["remarks"]
-                due |= {"identifier": "dtg:refused", "message": f"exit code 1: {'; '.join(said)}"}
+                due = due | {"identifier": "dtg:refused", "message": f"exit code 1: {'; '.join(said)}"}
                 # Octave writes null as an empty list.
-                found |= {"checks": [{**check, "passed": check["passed"] or None} for check in found.get("checks", [])]}
+                found |= {"checks": [{**check, "passed": None if check["passed"] == [] else check["passed"]} for check in found.get("checks", [])]}
             assert {key: found[key] for key in keys} == {key: due[key] for key in keys}, (case.question, case.files, path)
             codes.update(check["code"] for check in due["checks"])
         assert all(set(answer["not_asked"]) == unasked for answer in case.answers), (case.question, case.files)

@@ -16,6 +16,7 @@ pub(crate) struct Layer {
     pub(crate) rows: Vec<VisitRow>,
     /// Orthonormal directions that are explained.
     taken: Vec<DVector<f64>>,
+    /// Differences between visits, less their parts along these directions.
     left: DVector<f64>,
     degrees_of_freedom: usize,
     /// Least variance of a residual in any case, and whether it is the whole variance as stated.
@@ -27,11 +28,11 @@ pub(crate) struct Layer {
 pub(crate) struct Columns {
     /// Length of each column.
     lengths: Vec<f64>,
-    /// What is left of them beside the directions that are explained.
+    /// The columns, less their parts along the directions that are explained.
     left: DMatrix<f64>,
 }
 
-/// What columns explain.
+/// How much the columns of a cause explain, and how probably chance explains as much.
 #[derive(Clone, Copy)]
 pub(crate) struct Explains {
     /// Probability that chance explains as much by one of the causes of its kind.

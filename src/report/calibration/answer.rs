@@ -1,4 +1,4 @@
-//! What a calibration says about the gyro: the first line of a terminal, and the large letters of a page.
+//! Answer of a calibration on the gyro: the first line in a terminal, and the headline of a page.
 
 use super::result::counted;
 use crate::calibration::parameter::symbols;

@@ -130,9 +130,13 @@ fn shortened(site: &str) -> String {
     site.chars().take(MOST - 1).chain(['…']).collect()
 }
 
+fn first_arcsec(series: &Series) -> f64 {
+    series.values.first().map_or(0.0, |at| at.arcsec)
+}
+
 /// Returns years, change since the first certificate, and expanded uncertainty of each value, arcsec.
 fn changes(series: &Series) -> impl Iterator<Item = [f64; 3]> {
-    let first = series.values.first().map_or(0.0, |at| at.arcsec);
+    let first = first_arcsec(series);
     series.values.iter().map(move |at| [at.years, at.arcsec - first, COVERAGE_FACTOR * at.u_arcsec.unwrap_or(0.0)])
 }
 
@@ -189,7 +193,7 @@ fn panel(series: &Series, field: &Field, lowest: bool) -> Markup {
             (field.axes(&years.collect::<Vec<_>>(), &ticks))
             (line([left, field.y.place(0.0)], [right, field.y.place(0.0)], "grid"))
             @if let Some(fitted) = &series.line {
-                @let end = |x: f64| [field.x.place(x), field.y.clamped(fitted.at(x) - series.values.first().map_or(0.0, |at| at.arcsec))];
+                @let end = |x: f64| [field.x.place(x), field.y.clamped(fitted.at(x) - first_arcsec(series))];
                 @let last = series.values.last().map_or(0.0, |at| at.years);
                 (line(end(0.0), end(last), if drifts { "series" } else { "grid" }))
             }

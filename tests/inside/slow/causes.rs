@@ -20,7 +20,7 @@ const PERIOD_S: f64 = 120.0;
 const TURN_ON_S: f64 = 4560.0;
 
 fn trials() -> u64 {
-    std::env::var("DTG_TRIALS").ok().and_then(|trials| trials.parse().ok()).unwrap_or(200)
+    super::trials(200)
 }
 
 /// What is wrong with a run, with its size.

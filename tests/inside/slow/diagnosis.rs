@@ -16,10 +16,10 @@ use dtg_passport::gyro::{GyroParameters, GyroType, Parameters};
 use dtg_passport::statistics::random::{Run, Stream};
 use nalgebra::Vector2;
 
-/// Trials of each kind: 1,000, or as many as the variable says. The figures of docs/development/reproduction.md:
+/// Trials of each kind. The figures of docs/development/reproduction.md:
 /// `DTG_TRIALS=10000 cargo test --release --lib inside::slow::diagnosis -- --nocapture`.
 fn trials() -> u64 {
-    std::env::var("DTG_TRIALS").ok().and_then(|trials| trials.parse().ok()).unwrap_or(1_000)
+    super::trials(1_000)
 }
 
 fn least_squares_only() -> Options {

@@ -102,10 +102,6 @@ fn good_stands_are_not_accused() {
     }
 }
 
-fn trials(default: usize) -> usize {
-    std::env::var("TRIALS").ok().and_then(|trials| trials.parse().ok()).unwrap_or(default)
-}
-
 /// docs/certification.md: how often a good stand is suspected and accused.
 #[test]
 #[ignore = "minutes"]
@@ -114,7 +110,7 @@ fn figures_of_good_stands() {
     for (what, case) in [("good stands", Case::default()), ("good stands, 4 × about z", about_z)] {
         let is_z = |at: &Found| at.kind == Kind::AxisScatter && case.own[2] > 1.0;
         let [three, five, eight] =
-            [3, 5, 8].map(|runs| of_good(trials(4000), &case, runs, is_z).map(|of| format!("{of:.1}")));
+            [3, 5, 8].map(|runs| of_good(super::trials(4000) as usize, &case, runs, is_z).map(|of| format!("{of:.1}")));
         println!(
             "| {what}: any finding; below 1 % | {} | {} | {} |",
             three.join("; "),
@@ -128,7 +124,7 @@ fn figures_of_good_stands() {
 #[test]
 #[ignore = "minutes"]
 fn the_table_of_findings() {
-    let trials = trials(400);
+    let trials = super::trials(400) as usize;
     let row = |what: &str, runs: &[usize], of: &dyn Fn(usize) -> [f64; 3]| {
         let each: Vec<String> = runs.iter().map(|runs| format!("{:.0}", of(*runs)[0])).collect();
         let first: Vec<String> = runs.iter().map(|runs| format!("{:.0}", of(*runs)[1])).collect();

@@ -38,3 +38,9 @@ mod tampering;
 mod uncertainty;
 #[cfg(feature = "factory")]
 mod yaml_readers;
+
+/// Returns the number of trials of each kind: as many as the variable `DTG_TRIALS` says, or the usual number.
+#[cfg(feature = "monte-carlo")]
+fn trials(usual: u64) -> u64 {
+    std::env::var("DTG_TRIALS").ok().and_then(|trials| trials.parse().ok()).unwrap_or(usual)
+}
