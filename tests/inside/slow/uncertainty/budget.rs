@@ -143,7 +143,7 @@ fn the_sentence_is_computed() {
 /// whose derivatives are finite differences.
 #[test]
 fn uncertainties_are_those_of_suncal() {
-    let samples = 20_000.0_f64;
+    let samples = 5_000.0_f64;
     let cases = three();
     let described: Vec<Value> = cases
         .iter()
