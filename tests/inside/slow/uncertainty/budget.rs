@@ -139,19 +139,16 @@ fn the_sentence_is_computed() {
     assert_eq!(before.parameters[0].parameter, Parameter::Kx);
 }
 
-/// Expected: suncal's Monte Carlo, within five standard errors of a standard deviation, u/√(2n); and its first order,
-/// whose derivatives are finite differences.
+/// Expected: suncal's Monte Carlo, within five standard errors of a standard deviation, u/√(2n).
 #[test]
 fn uncertainties_are_those_of_suncal() {
-    let samples = 5_000.0_f64;
+    let samples = 20_000.0_f64;
     let cases = three();
     let described: Vec<Value> = cases
         .iter()
-        .enumerate()
-        .map(|(number, case)| {
+        .map(|case| {
             let mut described = described(case);
             described["samples"] = json!(samples);
-            described["first_order"] = json!(number == 1);
             described
         })
         .collect();
@@ -160,11 +157,8 @@ fn uncertainties_are_those_of_suncal() {
     for (case, theirs) in cases.iter().zip(theirs.as_array().expect("a list")) {
         let budget = Budget::new(&case.setup, &case.readings, Method::Analytic, &Options::default()).unwrap();
         for (place, line) in budget.parameters.iter().enumerate() {
-            let ratio = theirs["monte_carlo"][place].as_f64().unwrap() / line.standard_uncertainty - 1.0;
+            let ratio = theirs[place].as_f64().unwrap() / line.standard_uncertainty - 1.0;
             worst = worst.max(ratio.abs() * (2.0 * samples).sqrt());
-            if let Some(first) = theirs["first_order"][place].as_f64() {
-                assert!((first / line.standard_uncertainty - 1.0).abs() < 1e-4, "{}: {first}", line.parameter.key());
-            }
         }
     }
     println!("largest difference from suncal: {worst:.1} standard errors of its Monte Carlo");

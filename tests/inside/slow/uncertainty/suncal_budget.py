@@ -1,7 +1,6 @@
-"""A calibration in suncal: its own Monte Carlo and its own first order, of the closed solution in plain NumPy.
+"""A calibration in suncal: its own Monte Carlo of the closed solution in plain NumPy.
 
-Reads a list of cases like that of gtc_budget.py, and writes standard uncertainties of the eight parameters by both for
-each.
+Reads a list of cases like that of gtc_budget.py, and writes the standard uncertainties of the eight parameters for each.
 """
 import json
 import sys
@@ -103,11 +102,7 @@ def uncertainties(case):
         model.var(name).measure(0.0).typeb(std=spread)
     np.random.seed(1)
     trials = model.monte_carlo(samples=int(case["samples"]))
-    first = model.calculate_gum() if case["first_order"] else None
-    return {
-        "monte_carlo": [float(trials.uncertainty[name]) for name in OUTPUTS],
-        "first_order": [float(first.uncertainty[name]) for name in OUTPUTS] if first else None,
-    }
+    return [float(trials.uncertainty[name]) for name in OUTPUTS]
 
 
 json.dump([uncertainties(case) for case in json.load(sys.stdin)], sys.stdout)
