@@ -36,6 +36,8 @@ mod chi_square;
 #[cfg(feature = "factory")]
 mod forgeries;
 mod frame_axis;
+#[cfg(feature = "monte-carlo")]
+mod geometry;
 #[cfg(all(feature = "factory", feature = "monte-carlo", feature = "report"))]
 mod hidden_drift;
 mod interface;
