@@ -222,7 +222,7 @@ fn faults() -> Vec<Sized> {
             drift_deg_per_h2: size,
             ..Fault::default()
         }),
-        ("settling", design(1, 3, 1, true), Kind::Settling, 0.006, |size| Fault {
+        ("settling", design(1, 3, 1, true), Kind::Settling, 0.0066, |size| Fault {
             settling_deg_per_h: size,
             ..Fault::default()
         }),
