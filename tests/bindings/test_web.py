@@ -398,3 +398,7 @@ def test_dropped_files_and_late_answers(tmp_path: Path) -> None:
     assert waiting["headings"] == ["Serial number"] and waiting["focus"] == "serial" and "VALID" not in waiting["text"]
     assert waiting["chosen"]["passport"] == [PASSPORT.name] and waiting["chosen"]["signers-file"] == [SIGNERS.name]
     assert found["errors"] == [] and all(result["violations"] == [] for result in found["results"])
+
+
+def test_the_library_compiles_without_features() -> None:
+    subprocess.run([PROJECT / "web/build", "check"], check=True, cwd=PROJECT)

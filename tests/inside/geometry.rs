@@ -1,4 +1,4 @@
-//! What geometry demands of the model, at any stand and latitude.
+//! Rotations, lengths and closed forms of the model, on stands and at latitudes drawn at random.
 
 use crate::inside::reference::*;
 use dtg_passport::attitude;
@@ -6,16 +6,17 @@ use dtg_passport::calibration::analytic;
 use dtg_passport::coefficients::{Coefficients, EarthRate, Position, StandGeometry, pair_differences};
 use dtg_passport::gyro::GyroParameters;
 use dtg_passport::statistics::random::Stream;
+use dtg_passport::units::degrees_from_radians;
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
 /// Some sixteen roundings of 1.1e-16 each.
 const ROUNDING: f64 = 2e-15;
 
 /// Stands with deviations up to a limit, each at a latitude; the number of a draw is its seed.
-fn drawn(limit_deg: f64, latitude_deg: f64) -> impl Iterator<Item = (u64, Stream, Vec<Position>, EarthRate)> {
+fn drawn(limit_rad: f64, latitude_deg: f64) -> impl Iterator<Item = (u64, Stream, Vec<Position>, EarthRate)> {
     (0..256).map(move |number| {
         let mut stream = Stream::new(number);
-        let stand = drawn_stand(&mut stream, limit_deg);
+        let stand = drawn_stand(&mut stream, degrees_from_radians(limit_rad));
         let earth = EarthRate::at_astronomic_latitude(stream.within(latitude_deg));
         (number, stream, stand, earth)
     })
@@ -23,7 +24,7 @@ fn drawn(limit_deg: f64, latitude_deg: f64) -> impl Iterator<Item = (u64, Stream
 
 #[test]
 fn real_orientation_is_a_rotation() {
-    for (number, mut stream, stand, _) in drawn(45.0, 90.0) {
+    for (number, mut stream, stand, _) in drawn(0.8, 90.0) {
         let matrix = attitude::actual(stream.within(360.0), stream.within(360.0), &stand[0].deviation);
         assert!((matrix * matrix.transpose() - Matrix3::identity()).abs().max() < ROUNDING, "{number}");
         assert!((matrix.determinant() - 1.0).abs() < ROUNDING, "{number}");
@@ -33,7 +34,7 @@ fn real_orientation_is_a_rotation() {
 /// |n|² + Ã₃₃² = 1 (gravity is 1 g in any axes), and ω_3 with its third component has the length Ω.
 #[test]
 fn vectors_have_the_lengths_that_geometry_demands() {
-    for (number, _, stand, earth) in drawn(45.0, 89.9) {
+    for (number, _, stand, earth) in drawn(0.8, 89.9) {
         let rotation = 15.041_066_876_065_45;
         for (position, at) in stand.iter().zip(StandGeometry::new(&stand).unwrap().at(earth).positions) {
             let squared = at.specific_force_g.norm_squared() + at.specific_force_z_g.powi(2);
@@ -64,7 +65,7 @@ fn zero_deviations_give_the_closed_form() {
 /// The definitions of B and C (paper, under eq. (13) and (15)) against the form used, free of the site.
 #[test]
 fn b_and_c_are_the_papers() {
-    for (number, _, stand, earth) in drawn(11.0, 89.0) {
+    for (number, _, stand, earth) in drawn(0.2, 89.0) {
         let m = StandGeometry::new(&stand).unwrap().at(earth).matrices.unwrap();
         let b = m.omega1_deg_per_h - m.omega2_deg_per_h * m.n2_inverse * m.n1;
         let c = m.omega2_deg_per_h * m.n2_inverse;
@@ -78,7 +79,7 @@ fn b_and_c_are_the_papers() {
 #[test]
 fn exact_currents_give_the_gyro_back() {
     let mut well_determined = 0;
-    for (number, mut stream, stand, earth) in drawn(11.0, 80.0) {
+    for (number, mut stream, stand, earth) in drawn(0.2, 80.0) {
         let mut within = |limit| stream.within(limit);
         let gyro = GyroParameters {
             k_deg_per_h_per_ma: Matrix2::new(100.0 + within(50.0), within(20.0), within(20.0), 100.0 + within(50.0)),

@@ -289,15 +289,16 @@ async function recoloured(page) {
     const both = seen[0].filter((share) => seen[1].includes(share)).map((share) => share.split(",").map(Number));
     if (both.length === 0) found.push(`${href} is seen in no place`);
     // Points on an edge are mixed with what is behind, and pixels lie differently: a colour may be that of another point.
-    const [first, repeated] = [[], []];
-    for (const [drawn, colours] of [[places[0], first], [places[1], repeated]]) {
+    const colours = [];
+    for (const drawn of places) {
       const clip = await drawn.evaluate((element) => {
         element.scrollIntoView({ block: "center", behavior: "instant" });
         const { left, top, width, height } = element.getBoundingClientRect();
         return { x: left + scrollX, y: top + scrollY, width, height };
       });
-      colours.push(...(await colours_at(page, await pixels(page, clip), both)));
+      colours.push(await colours_at(page, await pixels(page, clip), both));
     }
+    const [first, repeated] = colours;
     const same = repeated.filter((colour) => first.includes(colour)).length;
     if (same < repeated.length / 4) found.push(`${href} has other colours where it is repeated: ${same} of ${first.length} points are the same`);
   }

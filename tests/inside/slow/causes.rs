@@ -20,7 +20,7 @@ const PERIOD_S: f64 = 120.0;
 const TURN_ON_S: f64 = 4560.0;
 
 fn trials() -> u64 {
-    super::trials(100)
+    super::trials(200)
 }
 
 /// What is wrong with a run, with its size.
@@ -255,8 +255,9 @@ fn the_right_cause_is_named_first() {
         let [named, right] =
             [1.0, 3.0].map(|times| share(700 + number as u64, count, of, fault(times * detectable), is));
         println!("{name}: first for {detectable:.1e} {named:.1} %; for three times this {right:.1} %");
-        assert!((named - 50.0).abs() <= 20.0, "{name}: {named}");
-        assert!(right >= 90.0, "{name}: {right}");
+        // Three standard errors of 200 runs are 10.6 %; the sizes are rounded.
+        assert!((named - 50.0).abs() <= 15.0, "{name}: {named}");
+        assert!(right >= 95.0, "{name}: {right}");
     }
 }
 

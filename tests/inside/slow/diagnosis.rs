@@ -19,7 +19,7 @@ use nalgebra::Vector2;
 /// Trials of each kind. The figures of docs/development/reproduction.md:
 /// `DTG_TRIALS=10000 cargo test --release --lib inside::slow::diagnosis -- --nocapture`.
 fn trials() -> u64 {
-    super::trials(200)
+    super::trials(1_000)
 }
 
 fn least_squares_only() -> Options {

@@ -13,7 +13,7 @@ use std::fs;
 use std::path::Path;
 
 /// Executions of each target: some seconds in all.
-const EXECUTIONS: usize = 1_500;
+const EXECUTIONS: usize = 4_000;
 
 /// The files of a folder beside this one, in the order of their names.
 fn files(folder: &str, target: &Target) -> Vec<(String, Vec<u8>)> {

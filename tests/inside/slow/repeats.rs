@@ -356,13 +356,13 @@ const COARSE: [([u32; 3], usize); 3] = [([1, 2, 1], 4), ([1, 4, 1], 4), ([1, 2, 
 /// Good readings are suspect as rarely as the probability says: 0.1 % for the visits, and again for the rows.
 #[test]
 fn good_readings_are_hardly_ever_suspect() {
-    const RUNS: u32 = 500;
+    const RUNS: u32 = 2000;
     for (number, (design, digits)) in DESIGNS.into_iter().chain(COARSE).enumerate() {
         let mut stream = Stream::new(400 + number as u64);
         let suspect = (0..RUNS).filter(|_| !suspects(&run(&mut stream, design, digits, |_| 0.0)).is_empty()).count();
         println!("{design:?} (turn-ons, visits, rows), {digits} digits: {suspect} of {RUNS} good runs with a suspect");
-        // Of 500, 0.5 or 1 are expected; more than 5 have a probability below 1e-3.
-        assert!(suspect <= 5, "{design:?}: {suspect}");
+        // Of 2000, 2 or 4 are expected; more than 12 have a probability below 1e-3.
+        assert!(suspect <= 12, "{design:?}: {suspect}");
     }
 }
 
