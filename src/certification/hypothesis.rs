@@ -68,7 +68,8 @@ pub(crate) enum Change {
 fn share(kind: Kind, runs: usize) -> f64 {
     match kind {
         Kind::Angle | Kind::RunTurned | Kind::SettingScatter if runs == 3 => 1.0,
-        Kind::Angle => 0.7,
+        Kind::RunAxisScatter if runs == 3 => 0.25,
+        Kind::Angle => 0.65,
         Kind::SettingScatter | Kind::RunTurned => 0.4,
         Kind::Reading => 0.3,
         Kind::Bump | Kind::PositionScatter | Kind::StandMoved => 0.2,
