@@ -162,10 +162,10 @@ pub(crate) mod workspace;
 mod integrator_guide {}
 
 // Tests of `tests/inside` and fuzz targets name the library as its users do.
-#[cfg(any(test, fuzzing))]
+#[cfg(any(test, feature = "fuzzing"))]
 extern crate self as dtg_passport;
-/// What must hold for every reader: for the tests, and where `cargo fuzz` builds the library.
-#[cfg(all(any(test, fuzzing), feature = "cli"))]
+/// What must hold for every reader: for the tests, and the fuzzer of `tests/fuzz`.
+#[cfg(all(any(test, feature = "fuzzing"), feature = "cli"))]
 #[path = "../tests/fuzz/properties.rs"]
 pub mod fuzzing;
 #[cfg(test)]

@@ -9,7 +9,7 @@ use crate::text::{canonical, number};
 use crate::{earth, units};
 
 /// Writes the payload of a passport: its content in canonical form, with its comments.
-#[cfg(any(test, fuzzing))]
+#[cfg(any(test, feature = "fuzzing"))]
 pub(crate) fn payload(content: &Content) -> String {
     canonical::write(content, &|path| comments(content, path))
 }

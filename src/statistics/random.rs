@@ -35,7 +35,7 @@ impl Stream {
     }
 
     /// Returns a uniform whole number below `end`, or 0 if `end` is 0.
-    #[cfg(any(test, fuzzing))]
+    #[cfg(any(test, feature = "fuzzing"))]
     pub(crate) fn below(&mut self, end: usize) -> usize {
         ((self.unit() * end as f64) as usize).min(end.saturating_sub(1))
     }

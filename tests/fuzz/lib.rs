@@ -1,5 +1,5 @@
 //! Fuzz targets of the readers. What must hold is in `properties.rs`, how inputs are changed in `mutation.rs`; both are parts of
-//! the library where it is built with `--cfg fuzzing`, as `cargo fuzz` does, and of its tests: `tests/inside/slow/fuzz.rs` runs
+//! the library with its feature `fuzzing`, and of its tests: `tests/inside/slow/fuzz.rs` runs
 //! them without a fuzzer.
 
 pub use dtg_passport::fuzzing::mutation;

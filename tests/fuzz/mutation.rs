@@ -96,7 +96,7 @@ pub fn mutate(bytes: &mut Vec<u8>, stream: &mut Stream, longest: usize) {
 }
 
 /// The same for a fuzzer's buffer, in turn with the fuzzer's own changes; gives the new length.
-#[cfg(fuzzing)]
+#[cfg(feature = "fuzzing")]
 pub fn in_place(
     data: &mut [u8],
     size: usize,
