@@ -1,9 +1,11 @@
 """Measures the Python module: `load_many` against a laboratory that has only PyYAML and cryptography, and against
 `register` of the program; memory after many loads; and the import.
 
-    tests/bindings/run -k none; target/bindings/venv/bin/python benches/load_many.py [COUNT]
+    tests/bindings/run --install; packaging/release linux wheel
+    target/bindings/venv/bin/pip install --no-deps --force-reinstall target/packages/*manylinux*.whl
+    DTG_PASSPORT=target/static/dtg-passport target/bindings/venv/bin/python benches/load_many.py [COUNT]
 
-`register` is that of the debug build, unless DTG_PASSPORT names a release build.
+Module and program are those of packages, because `tests/bindings/run` compiles them without optimisation.
 
 Both read the same files, verify the signature of each, and give four matrices as arrays. The laboratory's program knows
 no revocation, no expiry and no canonical form; `load_many` runs every check, on all processors.

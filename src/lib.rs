@@ -164,7 +164,7 @@ mod integrator_guide {}
 // Tests of `tests/inside` and fuzz targets name the library as its users do.
 #[cfg(any(test, feature = "fuzzing"))]
 extern crate self as dtg_passport;
-/// What must hold for every reader: for the tests, and the fuzzer of `tests/fuzz`.
+/// Properties that every reader has for any input, checked by the tests and by the fuzzer.
 #[cfg(all(any(test, feature = "fuzzing"), feature = "cli"))]
 #[path = "../tests/fuzz/properties.rs"]
 pub mod fuzzing;

@@ -1,11 +1,10 @@
-"""The program and the wheel for Windows against the program for Linux: 200 good and 2,000 altered passports, and calibrations."""
+"""The program for Windows against that for Linux: 200 good and 2,000 altered passports, and calibrations."""
 
 from __future__ import annotations
 
 import json
 import os
 import subprocess
-from pathlib import Path
 
 from conftest import PROJECT, TIME, Corpus, program
 
@@ -39,35 +38,3 @@ def test_calibrations_are_the_same_to_the_bit(corpus: Corpus) -> None:
     trust = ("--trust", PROJECT / "docs/allowed_signers", "--time", TIME)
     asked = (PROJECT / "passports/SPS-2/0017/moscow-bmstu-1.yaml", PROJECT / "docs/currents.csv", *trust, *options)
     assert windows("calibrate", *asked) == program("calibrate", *asked)
-
-
-def test_the_wheel_gives_the_answers_and_numbers_of_the_program(corpus: Corpus, tmp_path: Path) -> None:
-    gyro, laboratory = PROJECT / "docs/gvk-6.yaml", PROJECT / "docs/laboratory.yaml"
-    examples, currents = PROJECT / "docs/allowed_signers", PROJECT / "docs/currents.csv"
-    passport = PROJECT / "passports/SPS-2/0017/moscow-bmstu-1.yaml"
-    stand, site = PROJECT / "passports/SPS-2/0017/stand.yaml", PROJECT / "sites/moscow-bmstu.yaml"
-    issue = {"stand": stand, "site": site, "key": corpus.folder / "key", "identity": "factory@example.org",
-             "issued_at": "2026-11-10T00:00:00Z", "out": tmp_path / "found"}  # fmt: skip
-    asked = {"time": TIME, "paths": corpus.paths, "good": corpus.good, "signers": corpus.signers, "passport": passport,
-             "examples": examples, "currents": currents, "laboratory": laboratory, "gyro": gyro, "issue": issue}  # fmt: skip
-    command = [os.environ["DTG_PYTHON_WINDOWS"], str(PROJECT / "tests/windows/wheel.py")]
-    done = subprocess.run(command, input=json.dumps(asked, default=str), capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    found = json.loads(done.stdout)
-    assert found["system"] == "win32"
-
-    assert found["verdicts"] == [[due[key] for key in ("valid", "id", "not_asked", "remarks", "checks")] for due in corpus.verdicts]
-    trust = ("--trust", corpus.signers, "--time", TIME)
-    parts = ("passport", "stand", "positions", "earth", "matrices", "vectors", "self_check")
-    exported = program("export", *corpus.good, "--to", "json", *trust).splitlines()
-    stated = lambda one: {key: value for key, value in one.items() if value is not None}
-    # As text: JSON writes every binary64 with its shortest decimals.
-    for content, line in zip(found["contents"], exported, strict=True):
-        due = json.loads(line, object_hook=stated)
-        assert json.dumps([content.get(part) for part in parts]) == json.dumps([due.get(part) for part in parts])
-    options = ("--gyro", gyro, "--laboratory", laboratory, "--budget", "--method", "least-squares", "--format", "json")
-    result = program("calibrate", passport, currents, "--trust", examples, "--time", TIME, *options)
-    assert found["result"] == json.loads(result)
-    key = ("--key", issue["key"], "--identity", issue["identity"], "--issued-at", issue["issued_at"])
-    [issued] = json.loads(program("issue", stand, "--site", site, *key, "--out", tmp_path / "due", "--format", "json"))
-    assert found["sha256"] == issued["sha256"]
