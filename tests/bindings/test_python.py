@@ -774,8 +774,8 @@ def test_an_issued_passport_has_the_bytes_of_the_program(corpus: Corpus, tmp_pat
 
 @pytest.mark.parametrize("site", ["moscow-bmstu", "beijing-nim"])
 @pytest.mark.parametrize("stand", ["SPS-1/0203", "SPS-2/0017"])
-def test_a_release_build_issues_the_shipped_passports(corpus: Corpus, tmp_path: Path, stand: str, site: str) -> None:
-    """pip builds the module for release; the tests of the documentation compare a debug build with the same files."""
+def test_the_module_issues_the_shipped_passports(corpus: Corpus, tmp_path: Path, stand: str, site: str) -> None:
+    """`cargo test --test docs examples` compares the program with the same files, with `--release` that of a release build."""
     folder = PROJECT / "passports" / stand
     key = tmp_path / "key"
     key.touch(mode=0o600)  # Git does not keep this mode.
