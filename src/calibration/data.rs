@@ -96,6 +96,11 @@ impl Data {
         self.problem(setup, model).solve()
     }
 
+    /// Returns the fit if it settles soon: see [`Problem::solve_soon`].
+    pub(crate) fn fit_soon(&self, setup: &Setup, model: Model) -> Option<Fit> {
+        self.problem(setup, model).solve_soon()
+    }
+
     fn problem<'a>(
         &'a self,
         setup: &'a Setup,

@@ -30,6 +30,10 @@ const SINGULAR: f64 = 1e6;
 /// Maximum number of steps of the fit; usually it needs three or four.
 const LARGEST_NUMBER_OF_STEPS: usize = 30;
 
+/// Number of steps after which the fit of a possible cause is given up. A fit is the slower, the larger its residuals are
+/// relative to the currents: with those that a gyro could leave it needs four or five.
+const STEPS_OF_A_CAUSE: usize = 8;
+
 /// Length of the last step, as a fraction of the solution's own uncertainty, below which the fit is settled.
 pub(crate) const SETTLED: f64 = 1e-6;
 
@@ -173,7 +177,7 @@ pub(crate) struct Problem<'a, F> {
 impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
     pub(crate) fn solve(&self) -> Result<Fit, NoLeastSquares> {
         let start = self.first()?;
-        if let Some(fit) = self.settle(start.clone()) {
+        if let Some(fit) = self.settle(start.clone(), LARGEST_NUMBER_OF_STEPS) {
             return Ok(fit);
         }
         // No gyro gives such readings. One step with the measured currents as regressors is the best available fit.
@@ -183,6 +187,11 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         Ok(fit)
     }
 
+    /// Returns the fit if it settles soon, because the readings nearly fit.
+    pub(crate) fn solve_soon(&self) -> Option<Fit> {
+        self.settle(self.first().ok()?, STEPS_OF_A_CAUSE)
+    }
+
     /// Fits the parameters again after a change of weights or offsets, from the solution of `last` on.
     pub(crate) fn solve_again(&self, last: &Fit) -> Result<Fit, NoLeastSquares> {
         let mut start = Solution { unknowns: last.unknowns, changing: last.changing.clone() };
@@ -190,7 +199,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
             start.changing = vec![0.0; self.offsets.columns()];
             self.offsets_determined(&last.currents_ma)?;
         }
-        match self.settle(start) {
+        match self.settle(start, LARGEST_NUMBER_OF_STEPS) {
             Some(fit) if last.settled => Ok(fit),
             _ => self.solve(),
         }
@@ -265,10 +274,10 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         self.model.parameters().iter().copied().chain(turn_ons).chain(drift.into_iter().flatten()).collect()
     }
 
-    /// Iterates from `start` until a step is negligible, or returns `None` if the steps do not converge.
-    fn settle(&self, start: Solution) -> Option<Fit> {
+    /// Iterates from `start` until a step is negligible, or returns `None` if no step is within this number.
+    fn settle(&self, start: Solution, largest_number: usize) -> Option<Fit> {
         let mut solution = start;
-        for _ in 0..LARGEST_NUMBER_OF_STEPS {
+        for _ in 0..largest_number {
             let ((step, length), mut fit) = self.step(&solution, None)?;
             self.advance(&mut fit, &step);
             if length < SETTLED {

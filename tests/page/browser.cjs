@@ -277,9 +277,9 @@ async function recoloured(page) {
     const places = [page.locator(href), page.locator(`svg.picture use[href="${href}"]`).last()];
     const seen = [];
     for (const drawn of places) {
-      await drawn.scrollIntoViewIfNeeded();
       // Where the part is not hidden by another, in shares of its box.
       seen.push(await drawn.evaluate((element) => {
+        element.scrollIntoView({ block: "center", behavior: "instant" });
         const box = element.getBoundingClientRect();
         const shares = [...Array(24).keys()].flatMap((down) => [...Array(24).keys()].map((across) => [(across + 0.5) / 24, (down + 0.5) / 24]));
         const is_there = ([across, down]) => document.elementFromPoint(box.left + across * box.width, box.top + down * box.height)?.closest("use, g[id]") === element;
@@ -381,7 +381,9 @@ function low() {
 /** Marks the beginning of every heading and of every row below one, and says what was marked, in the order of the page. */
 function marked() {
   const heads = { H2: 2, H3: 3, CAPTION: 4, THEAD: 5 };
+  const tables = [...document.querySelectorAll("table")];
   const found = [];
+  const places = [];
   for (const element of document.querySelectorAll("h2, h3, caption, thead, tbody tr, .fields > div, li, p, figure, pre > span:nth-child(-n + 3)")) {
     const level = heads[element.tagName] ?? 0;
     if (element.closest(".unseen, .screen, .band, .checked, header") || element.getClientRects().length === 0) continue;
@@ -389,16 +391,17 @@ function marked() {
     const style = getComputedStyle(element);
     const lines = Math.round(element.getBoundingClientRect().height / (parseFloat(style.lineHeight) || 12));
     const rows = element.tagName === "FIGURE" ? 3 : element.tagName === "P" ? Math.max(1, lines) : 1;
-    const table = element.closest("table");
-    const tables = [...document.querySelectorAll("table")];
-    // Words out of the flow, which no browser leaves out in print and no eye sees.
-    const mark = document.createElement("span");
-    mark.textContent = `qz${found.length}zq`;
-    mark.style.cssText = "position:absolute;font:1px sans-serif;color:#fefefe;pointer-events:none";
-    const place = element.matches("tr, thead") ? element.querySelector("th, td") : element.matches(".fields > div") ? element.firstElementChild : element;
-    place.prepend(mark);
-    found.push({ level, rows, table: tables.indexOf(table), name: element.textContent.replace(/qz\d+zq/g, "").trim().slice(0, 40) });
+    found.push({ level, rows, table: tables.indexOf(element.closest("table")), name: element.textContent.trim().slice(0, 40) });
+    places.push(element.matches("tr, thead") ? element.querySelector("th, td") : element.matches(".fields > div") ? element.firstElementChild : element);
   }
+  // Words out of the flow, which no browser leaves out in print and no eye sees; after all measurements, because each change
+  // has the page laid out again.
+  places.forEach((place, index) => {
+    const mark = document.createElement("span");
+    mark.textContent = `qz${index}zq`;
+    mark.style.cssText = "position:absolute;font:1px sans-serif;color:#fefefe;pointer-events:none";
+    place.prepend(mark);
+  });
   return found;
 }
 

@@ -4,7 +4,7 @@
 //! of another site, a gyro or a base that is rotated, positions with other numbers. A result is explained by the only change
 //! that brings it clearly nearest to the type.
 
-use super::fits::{LARGEST_ROTATION_DEG, fitted, numberings};
+use super::fits::{LARGEST_ROTATION_DEG, fitted, numberings, settled};
 use super::{Finding, Kind, Scope, minimum};
 use crate::calibration::data::{Data, Observation};
 use crate::calibration::{Found, Model, Options, Readings, Setup, Verdict, against_type};
@@ -31,6 +31,9 @@ const LARGEST_CHANGE_OF_SCALE: f64 = 2.0;
 
 /// Largest latitude at which a place is searched; nearer to a pole K cannot be determined.
 const MOST_DEG: f64 = 89.9;
+
+/// Step of the search for a place, °.
+const COARSE_DEG: f64 = 3.0;
 
 /// Least probability of chi-square, and largest difference of chi-square from the best, of another numbering.
 const NUMBERING: (f64, f64) = (0.001, 10.0);
@@ -136,7 +139,7 @@ impl Case<'_> {
 
     /// Returns the result of other readings on another set-up. Its uncertainties are those of the result, relative to K.
     fn refitted(&self, setup: &Setup, data: &Data) -> Option<Found> {
-        let fit = data.fit(setup, self.model).ok().filter(|fit| fit.settled)?;
+        let fit = settled(setup, data, self.model)?;
         let (parameters, found) = (fit.unknowns.parameters, &self.found);
         let scale = parameters.k_deg_per_h_per_ma.norm() / found.parameters.k_deg_per_h_per_ma.norm();
         let values = found.parameters.to_vector();
@@ -235,9 +238,9 @@ impl Case<'_> {
         };
         let at = |latitude_deg| of(latitude_deg).map_or(f64::INFINITY, |found| self.distance(&found));
         // A hemisphere has one minimum, except near the equator, where both hemispheres may lead to the same minimum.
-        let coarse = (-89..=89).map(f64::from).map(|deg| (at(deg), deg));
+        let coarse = (-29..=29).map(|step| COARSE_DEG * f64::from(step)).map(|deg| (at(deg), deg));
         let (_, coarse) = coarse.min_by(|(one, _), (other, _)| one.total_cmp(other))?;
-        let latitude_deg = minimum((coarse - 1.0).max(-MOST_DEG), (coarse + 1.0).min(MOST_DEG), at);
+        let latitude_deg = minimum((coarse - COARSE_DEG).max(-MOST_DEG), (coarse + COARSE_DEG).min(MOST_DEG), at);
         let (best, factor) = (at(latitude_deg), self.scale());
         let scaled = self.refitted(self.setup, &self.mapped(Matrix2::identity() / factor))?;
         let otherwise = self.distance(&scaled).min(as_read);

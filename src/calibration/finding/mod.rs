@@ -285,16 +285,24 @@ fn drift(setup: &Setup, readings: &Readings, options: &Options) -> Option<Findin
     (probability < LEVEL).then_some(found)
 }
 
-/// Returns the minimum point of a function with one minimum between `low` and `high`, by ternary search to 1e-6 of
-/// their distance.
+/// Returns the minimum point of a function with one minimum between `low` and `high`, to 1e-6 of their distance.
 pub(crate) fn minimum(mut low: f64, mut high: f64, of: impl Fn(f64) -> f64) -> f64 {
-    const STEPS: usize = 34;
+    const STEPS: usize = 29;
+    /// The golden section: of the two points between the ends, one is a point of the next step too.
+    const SECTION: f64 = 0.618_033_988_749_894_8;
+    let lower = |low: f64, high: f64| high - SECTION * (high - low);
+    let upper = |low: f64, high: f64| low + SECTION * (high - low);
+    let mut inner = [lower(low, high), upper(low, high)];
+    let mut values = inner.map(&of);
     for _ in 0..STEPS {
-        let third = (high - low) / 3.0;
-        if of(low + third) <= of(high - third) {
-            high -= third;
+        if values[0] <= values[1] {
+            high = inner[1];
+            inner = [lower(low, high), inner[0]];
+            values = [of(inner[0]), values[0]];
         } else {
-            low += third;
+            low = inner[0];
+            inner = [inner[1], upper(low, high)];
+            values = [values[1], of(inner[1])];
         }
     }
     (low + high) / 2.0
