@@ -190,20 +190,9 @@ mod tests {
     /// direction that all share.
     #[test]
     fn parts_of_several_estimates() {
-        let shares = |place: usize| [(0, 1.2), (1, 0.9), (2, 0.7)][place % 3];
-        let (known, nu, common, nu_common) = (0.2, 6.0, 0.3, 3.0);
-        // C = diag(known + share) + common · 1 1′/8, so by Sherman and Morrison.
-        let form = |z: &[f64], own: &dyn Fn(usize) -> f64, common: f64| {
-            let (mut square, mut sum, mut inverse) = (0.0, 0.0, 0.0);
-            for (place, z) in z.iter().enumerate() {
-                let v = known + own(place);
-                square += z * z / v;
-                sum += z / v;
-                inverse += 1.0 / v;
-            }
-            let rest = 8.0 / common + inverse;
-            square - sum * sum / rest
-        };
+        use nalgebra::{SMatrix, SVector};
+
+        let (shares, known, nu, common, nu_common) = ([1.2, 0.9, 0.7], 0.2, 6.0, 0.3, 3.0);
         let mut stream = Stream::new(3);
         let mut chi = |nu: f64| (0..nu as usize).map(|_| stream.normal().powi(2)).sum::<f64>() / nu;
         let draws: Vec<([f64; 3], f64)> = (0..20_000).map(|_| ([chi(nu), chi(nu), chi(nu)], chi(nu_common))).collect();
@@ -211,40 +200,28 @@ mod tests {
         let mut improbable = [0, 0];
         for (factors, factor) in draws {
             let shared = (common / 8.0_f64).sqrt() * stream.normal();
-            let z: Vec<f64> = (0..8).map(|place| (known + shares(place).1).sqrt() * stream.normal() + shared).collect();
-            let own = |place: usize| shares(place).1 * factors[shares(place).0];
-            let value = form(&z, &own, common * factor);
+            let own = |place: usize| f64::sqrt(known + shares[place % 3]);
+            let z = SVector::<f64, 8>::from_fn(|place, _| own(place) * stream.normal() + shared);
             // Parts at the estimates, as a calibration takes them: S by its elements.
-            let parts = parts(&own, known, common * factor, nu, nu_common, &|place| shares(place).0);
+            let of_group = |group: usize| {
+                let estimate = |place: usize| if place % 3 == group { shares[group] * factors[group] } else { 0.0 };
+                SMatrix::<f64, 8, 8>::from_diagonal(&SVector::from_fn(|place, _| estimate(place)))
+            };
+            let of_all = SMatrix::from_element(common * factor / 8.0);
+            let estimates = [of_group(0), of_group(1), of_group(2), of_all];
+            let covariance = estimates.iter().sum::<SMatrix<f64, 8, 8>>() + SMatrix::identity() * known;
+            let inverse = covariance.try_inverse().expect("a covariance");
+            let parts = [0, 1, 2, 3].map(|place| {
+                let s = inverse * estimates[place];
+                let degrees_of_freedom = [nu, nu, nu, nu_common][place];
+                Part { degrees_of_freedom, trace: s.trace(), square: (s * s).trace() }
+            });
+            let value = z.dot(&(inverse * z));
             improbable[0] += u32::from(ScaledF::new(8, &parts).larger(value) < 0.05);
             improbable[1] += u32::from(chi_square_larger(value, 8) < 0.05);
         }
         let percent = improbable.map(|count| f64::from(count) / 200.0);
         assert!((percent[0] - 5.0).abs() < 0.8, "{percent:?}");
         assert!(percent[1] > 7.0, "{percent:?}");
-    }
-
-    fn parts(
-        own: &dyn Fn(usize) -> f64,
-        known: f64,
-        common: f64,
-        nu: f64,
-        nu_common: f64,
-        group: &dyn Fn(usize) -> usize,
-    ) -> Vec<Part> {
-        use nalgebra::DMatrix;
-        let of = |keep: &dyn Fn(usize) -> bool| {
-            DMatrix::from_fn(8, 8, |row, column| if row == column && keep(row) { own(row) } else { 0.0 })
-        };
-        let ones = DMatrix::from_element(8, 8, common / 8.0);
-        let whole = of(&|_| true) + DMatrix::identity(8, 8) * known + &ones;
-        let inverse = whole.try_inverse().expect("a covariance");
-        let part = |matrix: DMatrix<f64>, degrees_of_freedom: f64| {
-            let s = &inverse * matrix;
-            Part { degrees_of_freedom, trace: s.trace(), square: (&s * &s).trace() }
-        };
-        let mut parts: Vec<Part> = (0..3).map(|one| part(of(&|place| group(place) == one), nu)).collect();
-        parts.push(part(ones, nu_common));
-        parts
     }
 }

@@ -4,7 +4,7 @@ use crate::inside::reference::*;
 use dtg_passport::calibration::iterative::{self, StopRule};
 use dtg_passport::calibration::least_squares::{self, NoLeastSquares};
 use dtg_passport::calibration::parameter::Parameter;
-use dtg_passport::calibration::{InputUncertainty, Method, MethodResult, Model, Options, calibrate};
+use dtg_passport::calibration::{InputUncertainty, Method, MethodResult, Model, Options, Setup, calibrate};
 use dtg_passport::coefficients::{EarthRate, Position, PositionIndex, StandGeometry};
 use dtg_passport::statistics::least_squares::condition;
 use dtg_passport::statistics::random::Stream;
@@ -65,13 +65,11 @@ fn with(change: impl Fn(&mut InputUncertainty)) -> Vec<MethodResult> {
 fn inputs_cost_what_was_computed_independently() {
     let arcsec = radians_from_arcseconds;
     let near = |found: f64, expected: f64, digit: f64| (found - expected).abs() <= 0.6 * digit;
-    for result in with(|u| u.seating_rad = [0.0, 0.0, arcsec(30.0)]) {
-        let [_, k_xy, omega0, _] = uncertainties(&result);
-        assert!(near(k_xy, 0.145, 1e-3) && near(omega0, 0.0029, 1e-4), "seat: {k_xy} {omega0}");
-    }
-    for result in with(|u| u.azimuth_rad = arcsec(30.0)) {
-        let [_, k_xy, omega0, _] = uncertainties(&result);
-        assert!(near(k_xy, 0.145, 1e-3) && near(omega0, 0.0029, 1e-4), "azimuth: {k_xy} {omega0}");
+    let of_seat = with(|u| u.seating_rad = [0.0, 0.0, arcsec(30.0)]);
+    let of_azimuth = with(|u| u.azimuth_rad = arcsec(30.0));
+    for result in of_seat.iter().chain(&of_azimuth) {
+        let [_, k_xy, omega0, _] = uncertainties(result);
+        assert!(near(k_xy, 0.145, 1e-3) && near(omega0, 0.0029, 1e-4), "seat or azimuth: {k_xy} {omega0}");
     }
     for result in with(|u| u.meter.offset_ma = 1e-4) {
         let [k_x, _, omega0, omega_g] = uncertainties(&result);
@@ -104,24 +102,21 @@ fn inputs_cost_what_was_computed_independently() {
 #[test]
 fn undetermined_parameters_are_named() {
     let perfect = eight([[0.0; 3]; 8]);
+    let refused = |setup: &Setup, currents_ma: &[Vector2<f64>], model: Model| {
+        least_squares::solve(setup.coefficients(), currents_ma, &paper_meter(), model).unwrap_err()
+    };
     let upright = setup(&perfect[..4], LATITUDE_DEG);
-    let currents_ma = currents(&upright, &gvk_6());
-    let error = least_squares::solve(upright.coefficients(), &currents_ma, &paper_meter(), Model::Paper).unwrap_err();
-    let words = error.to_string();
-    assert!(words.contains("cannot determine ω_g and ω_k"), "{words}");
+    let error = refused(&upright, &currents(&upright, &gvk_6()), Model::Paper);
+    assert!(error.to_string().contains("cannot determine ω_g and ω_k"), "{error}");
     let eight = setup(&perfect, LATITUDE_DEG);
     let currents_ma = currents(&eight, &gvk_6());
-    let error =
-        least_squares::solve(eight.coefficients(), &currents_ma, &paper_meter(), Model::Anisoelastic).unwrap_err();
-    assert!(error.to_string().contains("cannot determine ω_n (anisoelasticity)"), "{error}");
+    let error = refused(&eight, &currents_ma, Model::Anisoelastic).to_string();
+    assert!(error.contains("cannot determine ω_n (anisoelasticity)"), "{error}");
     // A question that the readings cannot answer is refused, whatever other methods say.
     let options = Options { model: Model::Anisoelastic, ..Options::default() };
-    assert_eq!(
-        calibrate(&eight, &readings(&eight, &currents_ma), &options).unwrap_err().to_string(),
-        error.to_string()
-    );
-    let constant = vec![Vector2::new(0.1, -0.2); 8];
-    let error = least_squares::solve(eight.coefficients(), &constant, &paper_meter(), Model::Paper).unwrap_err();
+    let found = calibrate(&eight, &readings(&eight, &currents_ma), &options).unwrap_err();
+    assert_eq!(found.to_string(), error);
+    let error = refused(&eight, &[Vector2::new(0.1, -0.2); 8], Model::Paper);
     assert!(matches!(error, NoLeastSquares::Inseparable { .. }), "{error}");
 }
 

@@ -8,14 +8,23 @@ use crate::text::{Node, Path, Unreadable, advice};
 use dtg_passport::calibration::Readings;
 use dtg_passport::trust::AllowedSigners;
 
-/// Returns the word of the cause of the first error, or an empty text, and its message.
-fn first(refused: &Unreadable) -> (&'static str, String) {
+/// The word of the cause of the first error, or an empty text, and its message.
+type First = (&'static str, String);
+
+fn first(refused: &Unreadable) -> First {
     let problem = &refused.problems()[0];
     (problem.cause.map_or("", RefusalCause::code), refused.to_string().lines().next().unwrap_or_default().to_owned())
 }
 
+/// Requires a cause, and what the message about `written` begins with and contains.
+#[track_caller]
+fn told(written: &str, (found, message): First, cause: &str, beginning: &str, words: &str) {
+    assert_eq!(found, cause, "{written}: {message}");
+    assert!(message.starts_with(beginning) && message.contains(words), "{written}: {message}");
+}
+
 /// Currents in all positions, with `header` instead of the usual one, and a row changed by `row` (its number, from 1).
-fn currents(header: &str, row: impl Fn(usize, &str) -> String) -> (&'static str, String) {
+fn currents(header: &str, row: impl Fn(usize, &str) -> String) -> First {
     let rows = include_str!("../../docs/currents.csv").lines().filter(|line| line.starts_with(['1', '2']));
     let rows: Vec<String> = rows.enumerate().map(|(index, line)| row(index + 1, line)).collect();
     let text = format!("{header}\n{}\n", rows.join("\n"));
@@ -43,10 +52,8 @@ fn a_row_that_is_not_of_readings_has_its_cause() {
         ("\0\0\0", "control_character", "c.csv:4:1: found control character U+0000"),
         ("1,1,\u{2212}2,003831e-01,0.1", "decimal_comma", "c.csv:4:1: found 5 values"),
     ] {
-        let (found, message) =
-            currents(HEADER, |n, line| if n == 3 { format!("{before}\n{line}") } else { line.to_owned() });
-        assert_eq!(found, cause, "{before}: {message}");
-        assert!(message.starts_with(beginning), "{message}");
+        let found = currents(HEADER, |n, line| if n == 3 { format!("{before}\n{line}") } else { line.to_owned() });
+        told(before, found, cause, beginning, "");
     }
 }
 
@@ -61,13 +68,12 @@ fn a_header_with_units_is_told_what_to_write() {
         ("i,j,jx_uA,jy_ma", "", "convert the numbers from µA to mA, then name it jx_ma"),
         ("i,j,j\u{445}_ma,jy_ma", "", "only looks like a Latin letter; type jx_ma again"),
     ] {
-        let (found, message) = currents(header, |_, line| line.to_owned());
-        assert_eq!(found, cause, "{header}: {message}");
-        assert!(message.starts_with("c.csv:1:5: found column") && message.contains(remedy), "{message}");
+        let found = currents(header, |_, line| line.to_owned());
+        told(header, found, cause, "c.csv:1:5: found column", remedy);
     }
     // Commas within the names do not separate columns where semicolons do.
-    let (found, message) = currents("i;j;Jx, мА;Jy, мА", |_, line| line.replace(',', ";"));
-    assert_eq!(found, "header_unit", "{message}");
+    let header = "i;j;Jx, мА;Jy, мА";
+    told(header, currents(header, |_, line| line.replace(',', ";")), "header_unit", "", "");
 }
 
 #[test]
@@ -97,32 +103,27 @@ fn a_cell_that_is_not_a_number_has_its_cause() {
         ("1.5 mA", ""),
         ("a lot", ""),
     ] {
-        let (found, message) =
-            currents(HEADER, |n, line| if n == 3 { format!("1,3,{written},0.1") } else { line.to_owned() });
-        assert_eq!(found, cause, "{written}: {message}");
-        assert!(message.starts_with("c.csv:4:5: jx_ma: found "), "{message}");
+        let found = currents(HEADER, |n, line| if n == 3 { format!("1,3,{written},0.1") } else { line.to_owned() });
+        told(written, found, cause, "c.csv:4:5: jx_ma: found ", "");
     }
 }
 
 #[test]
 fn times_that_begin_again_at_midnight_are_told() {
-    let clock = |s: usize| s % 86_400;
+    let clock = |row: usize| (85_000 + 300 * row) % 86_400;
     for (header, row) in [
-        (",time_s", &(|n: usize| format!("{}", clock(85_000 + 300 * n))) as &dyn Fn(usize) -> String),
-        (",visit,time_s", &|n| format!("1,{}", clock(85_000 + 300 * n))),
-        (",cycle,time_s", &|n| format!("{},{}", 1 + n / 5, clock(85_000 + 300 * n))),
+        (",time_s", &(|n: usize| format!("{}", clock(n))) as &dyn Fn(usize) -> String),
+        (",visit,time_s", &|n| format!("1,{}", clock(n))),
+        (",cycle,time_s", &|n| format!("{},{}", 1 + n / 5, clock(n))),
     ] {
         let (found, message) = currents(&format!("{HEADER}{header}"), |n, line| format!("{line},{}", row(n)));
-        assert_eq!(found, "midnight", "{header}: {message}");
-        assert!(
-            message.contains(": time_s: found 100 s") && message.ends_with("add 86400 s to them from there on"),
-            "{message}"
-        );
+        assert!(message.ends_with("add 86400 s to them from there on"), "{message}");
+        told(header, (found, message), "midnight", "", ": time_s: found 100 s");
     }
 }
 
 /// Returns what becomes of a table with the rows of `text`, the measured columns `a` and `b`, and others.
-fn table(text: &str) -> (&'static str, String) {
+fn table(text: &str) -> First {
     let read = Table::read("t.csv", text.as_bytes(), [&["i", "j"], &["a", "b"], &["time_s"]]);
     read.map_or_else(|refused| first(&refused), |table| ("read", format!("{} rows", table.rows.len())))
 }
@@ -143,9 +144,7 @@ fn decimal_commas_between_commas_are_refused() {
         ("i,j,a,b\n1,1,10,6,-33,4\n", 2),
         ("i,j,a,b\n1,1,\u{2212}2,003831e-01,0.1\n", 2),
     ] {
-        let (cause, message) = table(text);
-        assert_eq!(cause, "decimal_comma", "{text}{message}");
-        assert!(message.starts_with(&format!("t.csv:{line}:1: ")), "{message}");
+        told(text, table(text), "decimal_comma", &format!("t.csv:{line}:1: "), "");
     }
     for text in [
         "i,j,a,b,c,d,e\n1,1,10.5,60.25,21,40,,,\n",
@@ -157,7 +156,7 @@ fn decimal_commas_between_commas_are_refused() {
         // A name that begins like a statistic.
         "by,i,j,a,b\nMaxim,1,1,10,60\n",
     ] {
-        assert_eq!(table(text).0, "read", "{text}{}", table(text).1);
+        told(text, table(text), "read", "", "");
     }
 }
 
@@ -166,8 +165,7 @@ fn decimal_commas_between_commas_are_refused() {
 #[test]
 fn separators_of_thousands_are_not_decimal_marks() {
     for rows in ["1;1;-622;-1.064\n1;2;12.345;17", "1;1;2,697;-2,136\n1;2;-459;63"] {
-        let (cause, message) = table(&format!("i;j;a;b\n{rows}"));
-        assert!(cause == "thousands" && message.contains("without thousands separators"), "{message}");
+        told(rows, table(&format!("i;j;a;b\n{rows}")), "thousands", "", "without thousands separators");
     }
     for rows in [
         "1;1;-622.5;-1.064\n1;2;12.345;17",
@@ -176,7 +174,7 @@ fn separators_of_thousands_are_not_decimal_marks() {
         "1;1;-622;1064\n1;2;12345;17",
         "1;1;1234.567;-1.064\n1;2;12.345;17",
     ] {
-        assert_eq!(table(&format!("i;j;a;b\n{rows}")).0, "read", "{rows}");
+        told(rows, table(&format!("i;j;a;b\n{rows}")), "read", "", "");
     }
 }
 
@@ -324,9 +322,8 @@ fn a_space_between_options_of_a_trusted_key_is_named() {
         ("f@e.org, g@e.org", 10),
     ] {
         let text = format!("{line} ssh-ed25519{key}\n");
-        let (cause, message) = first(&AllowedSigners::parse("s", text.as_bytes()).unwrap_err());
-        assert_eq!(cause, "option_blank", "{line}: {message}");
-        assert!(message.starts_with(&format!("s:1:{column}: found a space")), "{message}");
+        let found = first(&AllowedSigners::parse("s", text.as_bytes()).unwrap_err());
+        told(line, found, "option_blank", &format!("s:1:{column}: found a space"), "");
     }
 }
 
@@ -352,27 +349,30 @@ mod of_the_factory {
             ("400000", "", "in arcseconds"),
         ] {
             let text = angles.replacen("1,1,1,10.9,-35.1", &format!("1,1,1,10.9,{written}"), 1);
-            let (found, message) =
-                first(&AngleReadings::from_csv("a", text.as_bytes(), &header.positions).unwrap_err());
-            assert_eq!(found, cause, "{message}");
-            assert!(message.ends_with(due), "{message}");
+            let found = first(&AngleReadings::from_csv("a", text.as_bytes(), &header.positions).unwrap_err());
+            assert!(found.1.ends_with(due), "{found:?}");
+            told(written, found, cause, "", "");
         }
         let stand = include_str!("../../passports/SPS-2/0017/stand.yaml");
         for (angle, other, due) in
             [("phi_deg: 0,", "phi_deg: 360,", "write 0,"), ("phi_deg: 90,", "phi_deg: -270,", "write 90,")]
         {
             let text = stand.replacen(angle, other, 1);
-            let (found, message) = first(&Stand::from_yaml("s", text.as_bytes()).unwrap_err());
-            assert!(found == "full_turn" && message.contains(due), "{message}");
+            told(other, first(&Stand::from_yaml("s", text.as_bytes()).unwrap_err()), "full_turn", "", due);
         }
-        let site = |line: &str| Site::from_yaml("s", format!("{SITE}{line}\n").as_bytes()).unwrap_err();
         for (line, due) in [("longitude_deg: 317.5", "-42.5"), ("frame_axis_azimuth_deg: 360", "this one is 0")] {
-            let (found, message) = first(&site(line));
-            assert!(found == "full_turn" && message.ends_with(due), "{message}");
+            let found = site(line);
+            assert!(found.1.ends_with(due), "{found:?}");
+            told(line, found, "full_turn", "", "");
         }
     }
 
     const SITE: &str = "format: \"dtg-site/1\"\nid: \"here\"\nlatitude_deg: 55.5\n";
+
+    /// What is told of a site with a line that is wrong.
+    fn site(line: &str) -> First {
+        first(&Site::from_yaml("s", format!("{SITE}{line}\n").as_bytes()).unwrap_err())
+    }
 
     #[test]
     fn invisible_characters_of_yaml_are_named_with_their_place() {
@@ -390,13 +390,10 @@ mod of_the_factory {
             ("deflection_arcsec: {xi: 1,5, eta: 2}", "decimal_comma", "s:4:27:"),
             ("deflection_arcsec: {xi: 1,500, eta: 2}", "thousands", "s:4:27:"),
         ] {
-            let (found, message) = first(&Site::from_yaml("s", format!("{SITE}{line}\n").as_bytes()).unwrap_err());
-            assert_eq!(found, cause, "{message}");
-            assert!(message.starts_with(beginning), "{message}");
+            told(line, site(line), cause, beginning, "");
         }
         assert!(Site::from_yaml("s", format!("{SITE}height_m: 150 # a\u{A0}b\n").as_bytes()).is_ok());
-        let (found, message) = first(&Site::from_yaml("s", &utf16(SITE)).unwrap_err());
-        assert!(found == "utf16", "{message}");
+        told(SITE, first(&Site::from_yaml("s", &utf16(SITE)).unwrap_err()), "utf16", "", "");
     }
 
     /// Expected: the great-circle distance from 37.69 N, 55.77 E to Moscow (55.8 N, 37.6 E) on a sphere (6,371 km) is 2,428 km.
@@ -408,17 +405,15 @@ mod of_the_factory {
             Site::from_yaml("s", text.as_bytes()).unwrap()
         };
         let other = |place: &Site| (place.id.to_string(), place.place().unwrap());
-        let km = |words: String| words.split(" km").next().unwrap().rsplit(' ').next().unwrap().parse::<f64>().unwrap();
-        let words = site(37.69, 55.77, "moscow-1").misplaced(&[]).unwrap();
-        assert!(
-            (km(words.clone()) - 2428.0).abs() < 15.0 && words.contains("latitude and longitude exchanged"),
-            "{words}"
-        );
-        let here = site(55.75, 37.6, "here");
-        let words = site(37.69, 55.77, "there").misplaced(&[other(&here)]).unwrap();
-        assert!((km(words.clone()) - 2428.0).abs() < 15.0 && words.contains("from here"), "{words}");
+        let here = other(&site(55.75, 37.6, "here"));
+        let exchanged = "latitude and longitude exchanged";
+        for (id, others, due) in [("moscow-1", vec![], exchanged), ("there", vec![here.clone()], "from here")] {
+            let words = site(37.69, 55.77, id).misplaced(&others).unwrap();
+            let km: f64 = words.split(" km").next().unwrap().rsplit(' ').next().unwrap().parse().unwrap();
+            assert!((km - 2428.0).abs() < 15.0 && words.contains(due), "{words}");
+        }
         // A distant site is not wrong by itself.
-        assert_eq!(site(1.3, 103.8, "there").misplaced(&[other(&here)]), None);
+        assert_eq!(site(1.3, 103.8, "there").misplaced(&[here]), None);
         assert_eq!(site(55.7658, 37.6856, "moscow-1").misplaced(&[]), None);
         let folder = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/sites")).unwrap();
         let paths =
@@ -453,9 +448,7 @@ fn utf_16_is_named_in_every_input() {
         dtg_passport::calibration::CalibrationDocument::from_json("f", &utf16("{}")).unwrap_err(),
     ];
     for refused in refused {
-        let (cause, message) = first(&refused);
-        assert!(cause == "utf16" && message.starts_with("f: found UTF-16, expected UTF-8; "), "{message}");
-        assert!(message.contains("PowerShell"), "{message}");
+        told("UTF-16", first(&refused), "utf16", "f: found UTF-16, expected UTF-8; ", "PowerShell");
     }
     assert!(AllowedSigners::parse("f", format!("\u{FEFF}{signers}").as_bytes()).is_ok());
 }

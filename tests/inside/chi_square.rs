@@ -1,6 +1,6 @@
 //! Chi-square of a fit, and the parts of its covariance that rest on estimates, against dense matrices.
 
-use dtg_passport::attitude::Deviation;
+use crate::inside::reference::*;
 use dtg_passport::calibration::analytic::{self, AnalyticMap};
 use dtg_passport::calibration::causes;
 use dtg_passport::calibration::chi_square::{ChiSquare, Estimated, chi_square, quadratic_form};
@@ -11,8 +11,6 @@ use dtg_passport::calibration::procedure::observe;
 use dtg_passport::calibration::propagation::Propagation;
 use dtg_passport::calibration::unknowns::Unknowns;
 use dtg_passport::calibration::{InputUncertainty, MeterUncertainty, Method, Model, Options, Readings, Setup};
-use dtg_passport::coefficients::{EIGHT_POSITIONS, EarthRate, Position};
-use dtg_passport::gyro::GyroType;
 use dtg_passport::statistics::random::Stream;
 use nalgebra::{DMatrix, DVector};
 
@@ -34,13 +32,11 @@ fn uncertainty(noise_ma: f64) -> InputUncertainty {
     }
 }
 
-/// The eight positions with deviations drawn within a limit.
-fn setup(stream: &mut Stream, limit_rad: f64, latitude_deg: f64, uncertainty: InputUncertainty) -> Setup {
-    let stand = EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| {
-        let [alpha_rad, beta_rad, gamma_rad] = [(); 3].map(|()| stream.within(limit_rad));
-        Position { index, theta_deg, phi_deg, deviation: Deviation { alpha_rad, beta_rad, gamma_rad } }
-    });
-    Setup::new(&stand, EarthRate::at_astronomic_latitude(latitude_deg), uncertainty).unwrap()
+/// P = C⁻¹ − C⁻¹ X (X' C⁻¹ X)⁻¹ X' C⁻¹ from dense matrices, where C is the sum over the columns of all inputs.
+fn projected(columns: &DMatrix<f64>, design: &DMatrix<f64>) -> DMatrix<f64> {
+    let inverse = (columns * columns.transpose()).try_inverse().unwrap();
+    let weighted = &inverse * design;
+    &inverse - &weighted * (design.tr_mul(&weighted)).try_inverse().unwrap() * weighted.transpose()
 }
 
 /// Checks [`chi_square`] against r' C⁻ r by the pseudo-inverse of the residuals' covariance, for two methods.
@@ -48,27 +44,21 @@ fn setup(stream: &mut Stream, limit_rad: f64, latitude_deg: f64, uncertainty: In
 fn chi_square_is_that_of_the_residuals_of_any_method() {
     let mut stream = Stream::new(1);
     let uncertainty = InputUncertainty { level_rad: 2e-5, ..uncertainty(0.0) };
-    let setup = setup(&mut stream, 0.14, 40.0, uncertainty);
-    let gyro = GyroType::gvk_6().nominal.to_model();
+    let setup = with_uncertainty(&drawn_stand(&mut stream, 8.0), 40.0, uncertainty);
     let positions = &setup.coefficients().positions;
-    let mut currents: Vec<_> = positions.iter().map(|at| gyro.currents_ma(at).unwrap()).collect();
+    let mut currents = currents(&setup, &gvk_6());
     currents.iter_mut().for_each(|current| *current = current.map(|j| j * (1.0 + stream.within(2e-4))));
-    let each: Vec<_> = positions.iter().map(|at| at.index).zip(currents.clone()).collect();
-    let data = Data::new(&setup, &Readings::new(setup.coefficients(), &each).unwrap());
+    let data = Data::new(&setup, &readings(&setup, &currents));
     let fit = data.fit(&setup, Model::Paper).unwrap();
     let propagation = Propagation::new(&setup, &data, &fit);
     let ChiSquare { value: expected, degrees_of_freedom, .. } = chi_square(&propagation);
     assert_eq!(degrees_of_freedom, 8);
     let map = AnalyticMap::new(setup.coefficients(), &fit.currents_ma).unwrap();
-    let closed = analytic::solve(setup.coefficients(), &currents).unwrap().parameters;
-    let closed = Unknowns::of(closed);
+    let closed = Unknowns::of(analytic::solve(setup.coefficients(), &currents).unwrap().parameters);
     let methods =
         [(fit.unknowns, propagation.least_squares()), (closed, propagation.analytic(&map, &propagation.causes).0)];
     for (unknowns, spread) in methods {
-        let rows = positions.iter().zip(&currents).flat_map(|(at, j)| {
-            let misclosure = unknowns.misclosure(at, j);
-            [misclosure.x, misclosure.y]
-        });
+        let rows = positions.iter().zip(&currents).flat_map(|(at, j)| <[f64; 2]>::from(unknowns.misclosure(at, j)));
         let residuals = DVector::from_iterator(16, rows);
         let left = &propagation.causes - &propagation.design * &spread;
         let inverse = (&left * left.transpose()).pseudo_inverse(1e-14).unwrap();
@@ -77,8 +67,7 @@ fn chi_square_is_that_of_the_residuals_of_any_method() {
     }
 }
 
-/// Expected: tr P D and tr P D P D with P = C⁻¹ − C⁻¹ X (X' C⁻¹ X)⁻¹ X' C⁻¹ from dense matrices, where C is the sum of
-/// all inputs and D of those on one estimate.
+/// Expected: tr P D and tr P D P D from dense matrices, where D is the sum of the inputs on one estimate.
 #[test]
 fn parts_are_those_of_dense_matrices() {
     let mut stream = Stream::new(5);
@@ -91,12 +80,11 @@ fn parts_are_those_of_dense_matrices() {
         common_base_degrees_of_freedom: 4.0,
         ..uncertainty(1e-6)
     };
-    let setup = setup(&mut stream, 0.01, 55.0, uncertainty);
-    let gyro = GyroType::gvk_6().nominal.to_model();
+    let setup = with_uncertainty(&drawn_stand(&mut stream, 0.5), 55.0, uncertainty);
     let mut run = "cycle,i,j,jx_ma,jy_ma\n".to_owned();
     for (cycle, count) in [(1, 8), (2, 8), (3, 5)] {
-        for at in setup.coefficients().positions.iter().take(count) {
-            let [x, y] = <[f64; 2]>::from(gyro.currents_ma(at).unwrap()).map(|j| j + stream.within(1e-4));
+        for (at, exact) in setup.coefficients().positions.iter().zip(currents(&setup, &gvk_6())).take(count) {
+            let [x, y] = <[f64; 2]>::from(exact).map(|j| j + stream.within(1e-4));
             run += &format!("{cycle},{},{},{x},{y}\n", at.index.i, at.index.j);
         }
     }
@@ -108,10 +96,8 @@ fn parts_are_those_of_dense_matrices() {
         let estimates = Estimates::new(&setup, &data.repeats);
         assert!(parts.len() >= 6, "angles, returns and noise, platform, base and turn-ons: {parts:?}");
         let (inputs, columns) = causes::inputs(&setup, data, fit);
-        let inverse = (&columns * columns.transpose()).try_inverse().unwrap();
         let design = fit.design(&data.offsets);
-        let weighted = &inverse * &design;
-        let p = &inverse - &weighted * (design.tr_mul(&weighted)).try_inverse().unwrap() * weighted.transpose();
+        let p = projected(&columns, &design);
         for (estimate, part) in parts.iter().enumerate() {
             let mut of_estimate = DMatrix::zeros(design.nrows(), design.nrows());
             for (input, column) in inputs.iter().zip(columns.column_iter()) {
@@ -148,10 +134,7 @@ fn terms_are_those_of_dense_matrices(setup: &Setup, Observation { fit, data, .. 
         for (input, mut column) in inputs.iter().zip(scaled.column_iter_mut()) {
             column *= if input.basis == Basis::Estimate(of_visits) { f64::sqrt(factor) } else { 1.0 };
         }
-        let inverse = (&scaled * scaled.transpose()).try_inverse().unwrap();
-        let weighted = &inverse * &design;
-        let p = &inverse - &weighted * (design.tr_mul(&weighted)).try_inverse().unwrap() * weighted.transpose();
-        let due = y.dot(&(p * &y));
+        let due = y.dot(&(projected(&scaled, &design) * &y));
         let found: f64 = terms.iter().map(|term| term.with(factor)).sum();
         assert!((found / due - 1.0).abs() < 1e-6, "{factor}: {found} {due}");
     }

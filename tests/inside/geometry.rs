@@ -62,19 +62,6 @@ fn zero_deviations_give_the_closed_form() {
     }
 }
 
-/// The definitions of B and C (paper, under eq. (13) and (15)) against the form used, free of the site.
-#[test]
-fn b_and_c_are_the_papers() {
-    for (number, _, stand, earth) in drawn(0.2, 89.0) {
-        let m = StandGeometry::new(&stand).unwrap().at(earth).matrices.unwrap();
-        let b = m.omega1_deg_per_h - m.omega2_deg_per_h * m.n2_inverse * m.n1;
-        let c = m.omega2_deg_per_h * m.n2_inverse;
-        assert!((b - m.b_deg_per_h).abs().max() < 1e-13, "{number}");
-        assert!((c - m.c_deg_per_h_per_g).abs().max() < 1e-13, "{number}");
-        assert!((m.n2_inverse * m.n2 - Matrix2::identity()).abs().max() < ROUNDING, "{number}");
-    }
-}
-
 /// A gyro drawn at random, its exact currents, and (13)-(16), (8): the same gyro.
 #[test]
 fn exact_currents_give_the_gyro_back() {

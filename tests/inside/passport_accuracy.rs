@@ -1,53 +1,30 @@
 //! `issue --accuracy`: what the passport states is what a calibration states, and `verify` computes it again.
 
-use crate::inside::programs;
+use crate::inside::fixtures;
 use dtg_passport::gyro::GyroType;
 use dtg_passport::laboratory::{Laboratory, Seating};
 use dtg_passport::passport::accuracy::Stated;
 use dtg_passport::passport::checks::{CheckName, Code};
-use dtg_passport::passport::issue::{self, Issue};
-use dtg_passport::passport::{Content, Question, Trust, verify};
+use dtg_passport::passport::issue::{Draft, Issue, draft};
+use dtg_passport::passport::{Content, verify};
 use dtg_passport::report::{passport as printed, style};
-use dtg_passport::signing::allowed_signers_line;
-use dtg_passport::site::Site;
-use dtg_passport::stand::Stand;
-use dtg_passport::trust::{AllowedSigners, SigningKey};
-use std::fs;
+use dtg_passport::trust::SigningKey;
 
-const ISSUER: &str = "factory@example.org";
-
-fn stand() -> Stand {
-    let path = programs::project("passports/SPS-2/0017/stand.yaml");
-    Stand::from_yaml("stand.yaml", &fs::read(path).unwrap()).unwrap()
-}
-
-fn site() -> Site {
-    let path = programs::project("sites/moscow-bmstu.yaml");
-    Site::from_yaml("moscow-bmstu.yaml", &fs::read(path).unwrap()).unwrap()
-}
-
-fn order(accuracy: Option<Stated>) -> Issue {
-    let first = Issue::first(ISSUER, "2026-11-09T09:00:00Z".parse().unwrap());
-    Issue { accuracy, ..first }
-}
-
-fn paper() -> Stated {
+/// A passport of the shipped stand in Moscow, with the accuracy for the paper's gyro or without.
+fn drafted(with_accuracy: bool) -> Draft {
     let seating_arcsec = Some(Seating { about_x: 5.0, about_y: 5.0, about_z: 30.0 });
     let laboratory = Laboratory { seating_arcsec, ..Laboratory::paper() };
-    Stated { gyro: GyroType::gvk_6(), laboratory }
+    let accuracy = with_accuracy.then(|| Stated { gyro: GyroType::gvk_6(), laboratory });
+    let order = Issue { accuracy, ..Issue::first(fixtures::ISSUER, fixtures::at(fixtures::ISSUED_AT)) };
+    let site = fixtures::site(include_str!("../../sites/moscow-bmstu.yaml"));
+    draft(&fixtures::stand(fixtures::ARC_MINUTES), &site, &order).unwrap()
 }
 
 /// The code of `recomputed` after the text was changed and signed by the rightful key.
 fn recomputed(change: impl Fn(&str) -> String) -> Code {
     let key = SigningKey::generate().unwrap();
-    let line = allowed_signers_line(ISSUER, &key.public_key()).unwrap();
-    let signers = AllowedSigners::parse("allowed_signers", line.as_bytes()).unwrap();
-    let trust = Trust::of(signers);
-    let payload = change(issue::draft(&stand(), &site(), &order(Some(paper()))).unwrap().payload());
-    let signature = key.sign(dtg_passport::passport::NAMESPACE, payload.as_bytes()).unwrap();
-    let text = dtg_passport::document::join(&payload, &signature);
-    let question = Question::at("2026-12-01T00:00:00Z".parse().unwrap());
-    let answer = verify("passport.yaml", text.as_bytes(), &trust, &question);
+    let text = fixtures::signed(&change(drafted(true).payload()), &key);
+    let answer = verify("passport.yaml", text.as_bytes(), &fixtures::trust(&key), &fixtures::question());
     assert_eq!(answer.code(CheckName::Schema), Some(Code::Ok), "{:?}", answer.checks());
     answer.code(CheckName::Recomputed).unwrap()
 }
@@ -73,15 +50,11 @@ fn a_passport_states_what_the_stand_is_good_for_and_verify_computes_it_again() {
     }
 }
 
-fn content(accuracy: Option<Stated>) -> Content {
-    issue::draft(&stand(), &site(), &order(accuracy)).unwrap().content().clone()
-}
-
 /// Expected: reproduction.md, 30" of the seat about the spin axis cost 0.145 % of K_xy; the meter's 0.0087 % of each
 /// reading costs 0.1 % of it (0.1339 % for 0.015 % uniform by the closed solution, least squares 0.77 of that).
 #[test]
 fn its_numbers_are_of_the_size_that_inputs_cost() {
-    let passport = content(Some(paper()));
+    let passport = drafted(true).content().clone();
     let accuracy = passport.accuracy.as_ref().unwrap();
     let k_xy = 100.0 * accuracy.standard_uncertainty.k_deg_per_h_per_ma[0][1] / 9.5;
     let expected = libm::hypot(0.145, 0.1339 * 0.79);
@@ -92,6 +65,5 @@ fn its_numbers_are_of_the_size_that_inputs_cost() {
     ));
     assert!(shown.contains("Expected calibration uncertainty") && shown.contains("GVK-6"), "{shown}");
     assert!(shown.lines().all(|line| line.chars().count() <= 100));
-    let without = content(None);
-    assert_eq!(Content { accuracy: None, ..passport }, without);
+    assert_eq!(Content { accuracy: None, ..passport }, *drafted(false).content());
 }

@@ -4,7 +4,6 @@ use crate::inside::reference::*;
 use dtg_passport::calibration::parameter::Parameter;
 use dtg_passport::calibration::{Calibration, InputUncertainty, Options, Readings, Setup, calibrate};
 use dtg_passport::statistics::random::Stream;
-use nalgebra::Vector2;
 
 /// Last digit of a meter that shows milliamperes with four decimals.
 const DIGIT_MA: f64 = 1e-4;
@@ -26,6 +25,13 @@ fn written(setup: &Setup, rows: usize, (stream, noise_ma): (&mut Stream, f64), d
         }
     }
     csv.into_bytes()
+}
+
+/// CSV of one reading of each position without noise, each current as `shown`.
+fn exact(setup: &Setup, shown: impl Fn(f64) -> String) -> Vec<u8> {
+    let each = setup.coefficients().positions.iter().zip(currents(setup, &gvk_6()));
+    let rows = each.map(|(at, j)| format!("{},{},{},{}\n", at.index.i, at.index.j, shown(j.x), shown(j.y)));
+    format!("i,j,jx_ma,jy_ma\n{}", rows.collect::<String>()).into_bytes()
 }
 
 fn solved(setup: &Setup, csv: &[u8]) -> Calibration {
@@ -81,18 +87,17 @@ fn noise_that_spreads_over_digits_takes_the_rounding_with_it() {
 /// Expected: the uncertainty is proportional to the digit, and does not change where the stated floor is larger.
 #[test]
 fn the_rounding_takes_the_place_of_a_smaller_floor_only() {
-    let mut setup = bench(1, 0.0);
-    let found = [2, 3, 4].map(|decimals| solved(&setup, &written(&setup, 1, (&mut Stream::new(2), 0.0), decimals)));
+    let setup = bench(1, 0.0);
+    let of_decimals = |setup: &Setup, decimals: usize| solved(setup, &exact(setup, |j| format!("{j:.decimals$}")));
+    let found = [2, 3, 4].map(|decimals| of_decimals(&setup, decimals));
     let digits = found.each_ref().map(|found| found.digits.unwrap().last_digit_ma.unwrap());
     for (digit, expected) in digits.into_iter().zip([1e-2, 1e-3, 1e-4]) {
         assert!((digit / expected - 1.0).abs() < 1e-12, "{digit}");
     }
     let [_, coarse, fine] = found.each_ref().map(|found| u(found, Parameter::Omega0x));
     assert!((coarse / fine / 10.0 - 1.0).abs() < 0.02, "{coarse} {fine}");
-    let seven = solved(&setup, &written(&setup, 1, (&mut Stream::new(2), 0.0), 7));
-    assert_eq!(seven.digits, None);
-    setup = setup.with(|u| u.meter.floor_ma = 3e-5);
-    let stated = solved(&setup, &written(&setup, 1, (&mut Stream::new(2), 0.0), 4));
+    assert_eq!(of_decimals(&setup, 7).digits, None);
+    let stated = of_decimals(&setup.with(|u| u.meter.floor_ma = 3e-5), 4);
     assert_eq!(stated.digits, None);
     assert!((u(&stated, Parameter::Omega0x) / fine - 3e-5 / (1e-4 / 12_f64.sqrt())).abs() < 1e-3);
 }
@@ -102,12 +107,8 @@ fn the_rounding_takes_the_place_of_a_smaller_floor_only() {
 #[test]
 fn a_meter_of_fixed_significant_digits_has_the_digit_of_its_largest_current() {
     let setup = bench(1, 0.0);
-    let fixed = solved(&setup, &written(&setup, 1, (&mut Stream::new(2), 0.0), 4));
-    let mut csv = "i,j,jx_ma,jy_ma\n".to_owned();
-    for (at, exact) in setup.coefficients().positions.iter().zip(currents(&setup, &gvk_6())) {
-        csv += &format!("{},{},{:.3e},{:.3e}\n", at.index.i, at.index.j, exact.x, exact.y);
-    }
-    let ranged = solved(&setup, csv.as_bytes());
+    let fixed = solved(&setup, &exact(&setup, |j| format!("{j:.4}")));
+    let ranged = solved(&setup, &exact(&setup, |j| format!("{j:.3e}")));
     assert_eq!(ranged.digits, fixed.digits);
     assert!((u(&ranged, Parameter::Kx) / u(&fixed, Parameter::Kx) - 1.0).abs() < 1e-3);
     assert!(ranged.adopted().unwrap().chi_square.probability > 0.01);
@@ -118,14 +119,6 @@ fn a_meter_of_fixed_significant_digits_has_the_digit_of_its_largest_current() {
 #[test]
 fn the_step_of_a_meter_may_differ_from_the_last_digit() {
     let setup = bench(1, 0.0);
-    let exact = currents(&setup, &gvk_6());
-    let step_ma = |shown: fn(f64) -> String| {
-        let mut csv = "i,j,jx_ma,jy_ma\n".to_owned();
-        for (at, exact) in setup.coefficients().positions.iter().zip(&exact) {
-            csv += &format!("{},{},{},{}\n", at.index.i, at.index.j, shown(exact.x), shown(exact.y));
-        }
-        solved(&setup, csv.as_bytes()).digits.unwrap().last_digit_ma.unwrap()
-    };
     let autorange = |j: f64| if j.abs() >= 0.2 { format!("{j:.4}") } else { format!("{j:.5}") };
     let half = |j: f64| format!("{:.5}", (j / 5e-5).round() * 5e-5);
     fn rounded(j: f64) -> f64 {
@@ -134,7 +127,7 @@ fn the_step_of_a_meter_may_differ_from_the_last_digit() {
     let single = |j: f64| format!("{:.8e}", rounded(j) as f32);
     let cast = |j: f64| format!("{}", f64::from(rounded(j) as f32));
     for (shown, expected) in [(autorange as fn(f64) -> String, 1e-4), (half, 5e-5), (single, 1e-4), (cast, 1e-4)] {
-        let step = step_ma(shown);
+        let step = solved(&setup, &exact(&setup, shown)).digits.unwrap().last_digit_ma.unwrap();
         assert!((step / expected - 1.0).abs() < 1e-12, "{step} {expected}");
     }
 }
@@ -143,17 +136,10 @@ fn the_step_of_a_meter_may_differ_from_the_last_digit() {
 #[test]
 fn the_last_digit_is_that_of_the_decimal_number() {
     let setup = bench(1, 0.0);
-    let each = |scale: fn(f64) -> f64| {
-        let rows = setup.coefficients().positions.iter().zip(currents(&setup, &gvk_6()));
-        let csv = rows.map(|(at, exact)| {
-            let read: Vector2<f64> = exact.map(scale);
-            format!("{},{},{},{}\n", at.index.i, at.index.j, read.x, read.y)
-        });
-        solved(&setup, format!("i,j,jx_ma,jy_ma\n{}", csv.collect::<String>()).as_bytes()).digits
-    };
-    assert_eq!(each(|exact| exact), None);
-    assert_eq!(each(|exact| f64::from(exact as f32)), None);
-    let converted = each(|exact| (exact * 1e4).round() * 0.1 * 1e-3).unwrap().last_digit_ma.unwrap();
+    let digits = |scale: fn(f64) -> f64| solved(&setup, &exact(&setup, |j| scale(j).to_string())).digits;
+    assert_eq!(digits(|exact| exact), None);
+    assert_eq!(digits(|exact| f64::from(exact as f32)), None);
+    let converted = digits(|exact| (exact * 1e4).round() * 0.1 * 1e-3).unwrap().last_digit_ma.unwrap();
     assert!((converted / DIGIT_MA - 1.0).abs() < 1e-12, "{converted}");
 }
 

@@ -1,7 +1,7 @@
 //! Attacks on the register of a stand: somebody who can change files, but has no trusted key, wants a passport used that does
 //! not count, or something written. Each has a name; their number and kinds are counted at the end.
 
-use crate::inside::fixtures::{ARC_MINUTES, ISSUER, SITE, issued_plus, site, stand, trust_as};
+use crate::inside::fixtures::{ARC_MINUTES, ISSUER, SITE, issued_plus, signed_as, site, stand, trust_as};
 use dtg_passport::document::sha256_hex;
 use dtg_passport::folder::overview::{Overview, Query};
 use dtg_passport::folder::registers::Registers;
@@ -30,6 +30,9 @@ fn day(number: i64) -> Timestamp {
 fn now() -> Timestamp {
     day(10)
 }
+
+/// Sites and revisions of the passports that are asked about.
+const ASKED: [(&str, u32); 4] = [("here", 1), ("here", 2), ("there", 1), ("hall", 1)];
 
 /// Change of a register before it is signed.
 type Change<'a> = &'a dyn Fn(&mut Register);
@@ -124,11 +127,9 @@ impl Factory {
     /// Notes an attack, after which `verify --register` must say `codes` of `here/1`, `here/2`, `there/1` and `hall/1`.
     fn attacked(&self, kind: &'static str, name: &str, codes: [&str; 4]) {
         let question = Question::at(now());
-        let found = [("here", 1), ("here", 2), ("there", 1), ("hall", 1)].map(|(site, revision)| {
-            match self.file(site, revision).exists() {
-                true => self.code_at(site, revision, &question, None),
-                false => "absent",
-            }
+        let found = ASKED.map(|(site, revision)| match self.file(site, revision).exists() {
+            true => self.code_at(site, revision, &question, None),
+            false => "absent",
         });
         for (found, due) in found.iter().zip(codes) {
             assert!(*found == due || *found == "absent" || due == "*", "{kind}, {name}: {found:?}, expected {codes:?}");
@@ -140,23 +141,24 @@ impl Factory {
         assert!(self.tried.borrow_mut().entry(kind).or_default().insert(name.to_owned()), "{kind}, {name}: twice");
     }
 
-    fn signed(&self, content: &Register, key: &SigningKey) -> Vec<u8> {
-        signed_as(&content.payload(), key, REGISTER_NAMESPACE)
-    }
-
     /// Puts another file in the place of the register for one attack.
-    fn with_register(&self, bytes: &[u8], attack: impl FnOnce()) {
+    fn with_register(&self, bytes: impl AsRef<[u8]>, attack: impl FnOnce()) {
         let good = fs::read(self.register()).unwrap();
         fs::write(self.register(), bytes).unwrap();
         attack();
         fs::write(self.register(), good).unwrap();
     }
+
+    /// The same with the register changed and signed by `key`.
+    fn with_changed(&self, change: Change, key: &SigningKey, attack: impl FnOnce()) {
+        let mut register = self.content();
+        change(&mut register);
+        self.with_register(signed(&register, key), attack);
+    }
 }
 
-fn signed_as(payload: &str, key: &SigningKey, namespace: &str) -> Vec<u8> {
-    let armor = key.sign(namespace, payload.as_bytes()).unwrap().to_armor();
-    let armor: String = armor.lines().map(|line| format!("  {line}\n")).collect();
-    format!("{payload}signature: |\n{armor}").into_bytes()
+fn signed(register: &Register, key: &SigningKey) -> String {
+    signed_as(REGISTER_NAMESPACE, &register.payload(), key)
 }
 
 fn site_named(name: &str) -> Site {
@@ -206,39 +208,38 @@ fn a_register_that_cannot_be_read_makes_no_passport_valid() {
     factory.attacked("nothing", "nothing", GOOD);
     let (path, good) = (factory.register(), fs::read(factory.register()).unwrap());
     for (name, bytes) in damaged(&good) {
-        factory.with_register(&bytes, || factory.attacked("register damaged", name, UNKNOWN));
+        factory.with_register(bytes, || factory.attacked("register damaged", name, UNKNOWN));
     }
     let away = factory.folder.path().join("away.yaml");
     fs::rename(&path, &away).unwrap();
     factory.attacked("register removed", "removed", UNKNOWN);
-    fs::create_dir(&path).unwrap();
-    factory.attacked("register replaced", "a folder", UNKNOWN);
-    fs::remove_dir(&path).unwrap();
+    let replaced = |kind, name, make: &dyn Fn(&Path)| {
+        make(&path);
+        factory.attacked(kind, name, UNKNOWN);
+        fs::remove_file(&path).or_else(|_| fs::remove_dir(&path)).unwrap();
+    };
+    replaced("register replaced", "a folder", &|path| fs::create_dir(path).unwrap());
+    replaced("register replaced", "1 TiB of nothing", &|path| {
+        fs::File::create(path).unwrap().set_len(1 << 40).unwrap();
+    });
     #[cfg(unix)]
     {
-        std::os::unix::fs::symlink(&away, &path).unwrap();
-        factory.attacked("register linked", "to itself elsewhere", UNKNOWN);
-        fs::remove_file(&path).unwrap();
-        std::os::unix::fs::symlink("/nowhere", &path).unwrap();
-        factory.attacked("register linked", "to nowhere", UNKNOWN);
-        fs::remove_file(&path).unwrap();
-        assert!(std::process::Command::new("mkfifo").arg(&path).status().unwrap().success());
-        factory.attacked("register replaced", "a pipe", UNKNOWN);
-        fs::remove_file(&path).unwrap();
-        let folder = path.parent().unwrap().to_owned();
+        use std::os::unix::fs::symlink;
+
+        replaced("register linked", "to itself elsewhere", &|path| symlink(&away, path).unwrap());
+        replaced("register linked", "to nowhere", &|path| symlink("/nowhere", path).unwrap());
+        replaced("register replaced", "a pipe", &|path| {
+            assert!(std::process::Command::new("mkfifo").arg(path).status().unwrap().success());
+        });
         fs::rename(&away, &path).unwrap();
-        let store = factory.folder.path().join("store");
-        fs::rename(&folder, &store).unwrap();
-        std::os::unix::fs::symlink(&store, &folder).unwrap();
+        let (folder, store) = (path.parent().unwrap(), factory.folder.path().join("store"));
+        fs::rename(folder, &store).unwrap();
+        symlink(&store, folder).unwrap();
         factory.attacked("folder linked", "of the stand", UNKNOWN);
-        fs::remove_file(&folder).unwrap();
-        fs::rename(&store, &folder).unwrap();
+        fs::remove_file(folder).unwrap();
+        fs::rename(&store, folder).unwrap();
         fs::rename(&path, &away).unwrap();
     }
-    let sparse = fs::File::create(&path).unwrap();
-    sparse.set_len(1 << 40).unwrap();
-    factory.attacked("register replaced", "1 TiB of nothing", UNKNOWN);
-    fs::remove_file(&path).unwrap();
     fs::rename(&away, &path).unwrap();
     factory.attacked("nothing", "as before", GOOD);
     assert_counted(&factory, 24, 6);
@@ -254,12 +255,9 @@ fn the_files_of_other_passports_have_no_effect() {
         for (what, bytes) in damaged(&good) {
             fs::write(&path, bytes).unwrap();
             // The state of the damaged file itself is not asked.
-            let codes: Vec<&str> = [("here", 1), ("here", 2), ("there", 1), ("hall", 1)]
-                .iter()
-                .zip(GOOD)
-                .map(|(other, due)| if *other == (site, revision) { "*" } else { due })
-                .collect();
-            factory.attacked("passport damaged", &name(what), codes.try_into().unwrap());
+            let mut codes = GOOD;
+            codes[ASKED.iter().position(|asked| *asked == (site, revision)).unwrap()] = "*";
+            factory.attacked("passport damaged", &name(what), codes);
         }
         fs::remove_file(&path).unwrap();
         factory.attacked("passport removed", &name("removed"), GOOD);
@@ -283,6 +281,11 @@ fn the_files_of_other_passports_have_no_effect() {
     assert_counted(&factory, 54, 4);
 }
 
+/// Makes an entry that has ended current again.
+fn current(entry: &mut Entry) {
+    *entry = Entry { state: State::Current, since: None, by: None, ..entry.clone() };
+}
+
 /// Every field of a register is changed and signed by every wrong key; and every rule of its content is broken by the right
 /// one.
 #[test]
@@ -304,7 +307,6 @@ fn no_other_signature_and_no_broken_rule_is_accepted() {
         revoked: vec![RevokedKeys::parse("keys", revoked.public_key().to_openssh().as_bytes()).unwrap()],
     };
     factory.attacked("nothing", "several keys", GOOD);
-    let good = factory.content();
     let wrong_keys = [
         ("a stranger", &stranger),
         ("a colleague", &colleague),
@@ -313,10 +315,6 @@ fn no_other_signature_and_no_broken_rule_is_accepted() {
         ("an expired key", &expired),
         ("a later key", &late),
     ];
-    let entry = |place: usize| {
-        move |register: &mut Register, change: &dyn Fn(&mut Entry)| change(&mut register.passports[place])
-    };
-    let first = entry(0);
     let changes: [(&str, Change); 9] = [
         ("nothing", &|_| {}),
         ("sequence", &|register| register.register.0.sequence += 1),
@@ -324,25 +322,20 @@ fn no_other_signature_and_no_broken_rule_is_accepted() {
         ("issued_at", &|register| register.register.0.issued_at = day(5)),
         ("fresh_until", &|register| register.register.0.fresh_until = Some("2099-01-01".parse().unwrap())),
         ("issuer", &|register| register.register.0.issuer = "another@example.org".to_owned()),
-        ("state", &|register| {
-            first(register, &|entry| *entry = Entry { state: State::Current, since: None, by: None, ..entry.clone() });
-        }),
-        ("sha256", &|register| first(register, &|entry| entry.sha256 = "1".repeat(64))),
-        ("valid_until", &|register| first(register, &|entry| entry.valid_until = None)),
+        ("state", &|register| current(&mut register.passports[0])),
+        ("sha256", &|register| register.passports[0].sha256 = "1".repeat(64)),
+        ("valid_until", &|register| register.passports[0].valid_until = None),
     ];
     for (who, key) in wrong_keys {
         for (what, change) in changes {
-            let mut register = good.clone();
-            change(&mut register);
-            factory.with_register(&factory.signed(&register, key), || {
-                factory.attacked("signed by another key", &format!("{who}: {what}"), UNKNOWN);
-            });
+            let attack = || factory.attacked("signed by another key", &format!("{who}: {what}"), UNKNOWN);
+            factory.with_changed(change, key, attack);
         }
     }
-    factory.with_register(&signed_as(&good.payload(), &factory.key, "dtg-passport"), || {
+    let text = factory.content().payload();
+    factory.with_register(signed_as("dtg-passport", &text, &factory.key), || {
         factory.attacked("signed by another key", "for passports", UNKNOWN);
     });
-    let by = Some("SPS-2/0017/here/2".to_owned());
     let broken: [(&str, Change); 22] = [
         ("another format", &|register| register.format = "dtg-register/2".to_owned()),
         ("sequence 0", &|register| register.register.0.sequence = 0),
@@ -366,30 +359,14 @@ fn no_other_signature_and_no_broken_rule_is_accepted() {
         ("superseded by none", &|register| register.passports[0].by = None),
         ("superseded without a time", &|register| register.passports[0].since = None),
         ("current and superseded", &|register| register.passports[0].state = State::Current),
-        ("withdrawn without a reason", &|register| {
-            register.passports.iter_mut().for_each(|entry| entry.reason = None);
-        }),
-        ("a reason of 501 characters", &|register| {
-            register
-                .passports
-                .iter_mut()
-                .for_each(|entry| entry.reason = entry.reason.as_ref().map(|_| "ж".repeat(501)));
-        }),
-        ("current with a successor", &|register| {
-            let by = &by;
-            register.passports.iter_mut().filter(|entry| entry.state == State::Current).for_each(|entry| {
-                entry.by.clone_from(by);
-            });
-        }),
+        ("withdrawn without a reason", &|register| register.passports[1].reason = None),
+        ("a reason of 501 characters", &|register| register.passports[1].reason = Some("ж".repeat(501))),
+        ("current with a successor", &|register| register.passports[2].by = Some("SPS-2/0017/here/2".to_owned())),
     ];
     for (what, change) in broken {
-        let mut register = good.clone();
-        change(&mut register);
-        factory.with_register(&factory.signed(&register, &factory.key), || {
-            factory.attacked("rule broken by the right key", what, UNKNOWN);
-        });
+        let attack = || factory.attacked("rule broken by the right key", what, UNKNOWN);
+        factory.with_changed(change, &factory.key, attack);
     }
-    let text = good.payload();
     for (what, from, to) in [
         ("a state that does not exist", "state: \"current\"", "state: \"valid\""),
         ("sequence 2^53", "sequence: ", "sequence: 900719925474099"),
@@ -399,37 +376,39 @@ fn no_other_signature_and_no_broken_rule_is_accepted() {
     ] {
         let altered = text.replacen(from, to, 1);
         assert_ne!(altered, text, "{what}");
-        factory.with_register(&signed_as(&altered, &factory.key, REGISTER_NAMESPACE), || {
+        factory.with_register(signed_as(REGISTER_NAMESPACE, &altered, &factory.key), || {
             factory.attacked("rule broken by the right key", what, UNKNOWN);
         });
     }
-    for (what, change) in [("of another stand", "SPS-2/0018"), ("of another model", "SPS-3/0017")] {
-        let mut register = good.clone();
-        register.register.0.stand = change.to_owned();
+    let of_stand = |register: &mut Register, stand: &str| {
+        register.register.0.stand = stand.to_owned();
         for entry in &mut register.passports {
             for id in [Some(&mut entry.id), entry.by.as_mut()].into_iter().flatten() {
-                *id = id.replace(STAND, change);
+                *id = id.replace(STAND, stand);
             }
         }
-        factory.with_register(&factory.signed(&register, &factory.key), || {
-            factory.attacked("register of something else", what, UNKNOWN);
-        });
+    };
+    let not_listed = ["superseded", "ok", "withdrawn", "not_listed"];
+    let others: [(&str, &str, &SigningKey, [&str; 4], Change); 5] = [
+        ("register of something else", "of another stand", &factory.key, UNKNOWN, &|register| {
+            of_stand(register, "SPS-2/0018");
+        }),
+        ("register of something else", "of another model", &factory.key, UNKNOWN, &|register| {
+            of_stand(register, "SPS-3/0017");
+        }),
+        ("register of the future", "two days ahead", &factory.key, UNKNOWN, &|register| {
+            register.register.0.issued_at = day(12);
+        }),
+        ("register of something else", "of another factory for this stand", &colleague, UNKNOWN, &|register| {
+            register.register.0.issuer = "another@example.org".to_owned();
+        }),
+        ("not listed", "hall/1", &factory.key, not_listed, &|register| {
+            register.passports.retain(|entry| !entry.id.contains("hall"));
+        }),
+    ];
+    for (kind, name, key, codes, change) in others {
+        factory.with_changed(change, key, || factory.attacked(kind, name, codes));
     }
-    let mut ahead = good.clone();
-    ahead.register.0.issued_at = day(12);
-    factory.with_register(&factory.signed(&ahead, &factory.key), || {
-        factory.attacked("register of the future", "two days ahead", UNKNOWN);
-    });
-    let mut two_factories = good.clone();
-    two_factories.register.0.issuer = "another@example.org".to_owned();
-    factory.with_register(&factory.signed(&two_factories, &colleague), || {
-        factory.attacked("register of something else", "of another factory for this stand", UNKNOWN);
-    });
-    let mut unlisted = good;
-    unlisted.passports.retain(|entry| !entry.id.contains("hall"));
-    factory.with_register(&factory.signed(&unlisted, &factory.key), || {
-        factory.attacked("not listed", "hall/1", ["superseded", "ok", "withdrawn", "not_listed"]);
-    });
     assert_counted(&factory, 80, 6);
 }
 
@@ -443,7 +422,7 @@ fn an_older_register_does_not_count_where_a_later_one_is_known() {
     assert_eq!(remembered("here", 2), "ok");
     let last = fs::read(factory.register()).unwrap();
     let first = factory.first_register();
-    factory.with_register(&first, || {
+    factory.with_register(first, || {
         assert_eq!(remembered("here", 1), "register_older");
         assert_eq!(remembered("hall", 1), "register_older");
         assert_eq!(factory.code_at("here", 1, &question, None), "ok");
@@ -465,43 +444,38 @@ fn an_older_register_does_not_count_where_a_later_one_is_known() {
     factory.note("older register", "removed before the factory's next command");
     fs::write(factory.register(), &last).unwrap();
     // Contradictions, signed by the right key.
-    let good = factory.content();
+    let later = |more: u64, change: Change| {
+        let mut register = factory.content();
+        register.register.0.sequence += more;
+        change(&mut register);
+        signed(&register, &factory.key)
+    };
     let cases: [(&str, u64, Change); 5] = [
         ("two of one number", 0, &|register| register.register.0.fresh_until = Some("2099-01-01".parse().unwrap())),
         ("an entry is lost", 1, &|register| drop(register.passports.remove(2))),
-        ("a state goes back", 1, &|register| {
-            let entry = &mut register.passports[0];
-            *entry = Entry { state: State::Current, since: None, by: None, ..entry.clone() };
-        }),
+        ("a state goes back", 1, &|register| current(&mut register.passports[0])),
         ("another SHA-256", 1, &|register| register.passports[2].sha256 = "3".repeat(64)),
         ("another order", 1, &|register| register.passports.swap(1, 2)),
     ];
     for (name, more, change) in cases {
-        let mut register = good.clone();
-        register.register.0.sequence += more;
-        change(&mut register);
-        factory.with_register(&factory.signed(&register, &factory.key), || {
+        factory.with_register(later(more, change), || {
             assert_eq!(remembered("here", 2), "register_contradicted", "{name}");
             factory.note("contradiction", name);
         });
     }
+    let memory_of = |name: &str, register: &[u8]| {
+        let memory = Memory::new(factory.folder.path().join(name));
+        memory.keep(STAND, register).unwrap();
+        memory
+    };
     for (name, more, code) in [("1,000 further", 1000, "ok"), ("1,001 further", 1001, "register_unknown")] {
-        let mut register = good.clone();
-        register.register.0.sequence += more;
-        let fresh = tempfile::tempdir().unwrap();
-        let memory = Memory::new(fresh.path().to_owned());
-        memory.keep(STAND, &last).unwrap();
-        factory.with_register(&factory.signed(&register, &factory.key), || {
-            assert_eq!(factory.code_at("here", 2, &question, Some(memory)), code);
+        factory.with_register(later(more, &|_| ()), || {
+            assert_eq!(factory.code_at("here", 2, &question, Some(memory_of(name, &last))), code);
             factory.note("number", name);
         });
     }
     // A withdrawal counts even in a register that is too old.
-    let fresh = tempfile::tempdir().unwrap();
-    let memory = Memory::new(fresh.path().to_owned());
-    let mut later = good.clone();
-    later.register.0.sequence += 1;
-    memory.keep(STAND, &factory.signed(&later, &factory.key)).unwrap();
+    let memory = memory_of("later", later(1, &|_| ()).as_bytes());
     assert_eq!(factory.code_at("there", 1, &question, Some(memory)), "withdrawn");
     factory.note("older register", "that withdraws");
     assert_counted(&factory, 10, 3);
@@ -535,9 +509,8 @@ fn a_renewal_keeps_what_another_run_lists_meanwhile() {
 #[test]
 fn times_of_the_question_do_not_bring_a_passport_back() {
     let factory = Factory::new();
-    let mut register = factory.content();
-    register.register.0.fresh_until = Some("2026-11-15".parse().unwrap());
-    factory.with_register(&factory.signed(&register, &factory.key), || {
+    let fresh: Change = &|register| register.register.0.fresh_until = Some("2026-11-15".parse().unwrap());
+    factory.with_changed(fresh, &factory.key, || {
         let question = |time, now| Question { now, ..Question::at(time) };
         let codes = |question: &Question| {
             [("here", 1), ("here", 2), ("there", 1)]

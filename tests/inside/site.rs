@@ -1,12 +1,12 @@
 //! A site: latitude, rates, gravity, radius, mark, and the check of place. Expected values by hand or from the sources named.
 
+use crate::inside::fixtures;
 use dtg_passport::earth::{Place, place_at};
 use dtg_passport::passport::checks::{CheckName, Code};
-use dtg_passport::passport::{Question, Trust, Verification, issue, verify};
-use dtg_passport::signing::allowed_signers_line;
+use dtg_passport::passport::issue::{Issue, draft};
+use dtg_passport::passport::{Question, verify};
 use dtg_passport::site::Site;
-use dtg_passport::stand::Stand;
-use dtg_passport::trust::{AllowedSigners, SigningKey};
+use dtg_passport::trust::SigningKey;
 
 /// 0.1″ in degrees.
 const TENTH_OF_ARCSECOND_DEG: f64 = 0.1 / 3600.0;
@@ -120,62 +120,31 @@ fn the_mark_gives_an_astronomic_azimuth() {
     assert!((earth.azimuth_u_arcsec.unwrap() - (10.0_f64 * 10.0 + 2.917 * 2.917).sqrt()).abs() < 2e-3);
 }
 
-/// Issues a passport for `site` and asks about `place`.
-fn ask(site: &Site, place: Place) -> Verification {
-    let stand = include_bytes!("../../passports/SPS-2/0017/stand.yaml");
-    let stand = Stand::from_yaml("stand.yaml", stand).unwrap();
-    let key = SigningKey::generate().unwrap();
-    let order = issue::Issue::first("factory", "2026-11-09T09:00:00Z".parse().unwrap());
-    let passport = issue::draft(&stand, site, &order).unwrap().sign(&key).unwrap();
-    let line = allowed_signers_line("factory", &key.public_key()).unwrap();
-    let trust = Trust::of(AllowedSigners::parse("signers", line.as_bytes()).unwrap());
-    let question = Question { place: Some(place), ..Question::at("2026-12-01T00:00:00Z".parse().unwrap()) };
-    let answer = verify("passport", passport.as_bytes(), &trust, &question);
-    assert_eq!(answer.code(CheckName::Recomputed), Some(Code::Ok), "{:?}", answer.checks());
-    answer
-}
-
+/// Expected: 0.001 °/h are 513 m or 0.0046° of latitude; the 30″ of an unknown deflection are 927 m more.
 #[test]
 fn the_place_is_checked_by_distance() {
-    let here = site("latitude_deg: 55.7658\nlongitude_deg: 37.6856");
     let centre = Place { latitude_deg: 55.7658, longitude_deg: 37.6856 };
-    for (azimuth, metres, code) in [(0.0, 512.0, Code::Ok), (90.0, 512.0, Code::Ok), (180.0, 514.0, Code::WrongPlace)] {
-        assert_eq!(
-            ask(&here, place_at(centre, azimuth, metres)).code(CheckName::Place),
-            Some(code),
-            "{azimuth} {metres}"
-        );
-    }
-}
-
-fn detail_of_place(answer: &Verification) -> &str {
-    let place = answer.checks().iter().find(|check| check.name == CheckName::Place);
-    &place.unwrap().detail
-}
-
-#[test]
-fn without_longitude_the_latitude_alone_is_checked() {
-    let here = site("latitude_deg: 55.7658");
-    for (longitude_deg, latitude_deg, code) in
-        [(-120.0, 55.7658, Code::Ok), (37.0, 55.7703, Code::Ok), (37.0, 55.7705, Code::WrongPlace)]
-    {
-        // 513 m are 0.0046° of latitude.
-        let answer = ask(&here, Place { latitude_deg, longitude_deg });
-        assert_eq!(answer.code(CheckName::Place), Some(code), "{latitude_deg} {longitude_deg}");
-        let detail = detail_of_place(&answer);
-        assert!(detail.contains("the longitude of the site is unknown"), "{detail}");
-    }
-}
-
-#[test]
-fn an_astronomic_latitude_without_deflection_allows_thirty_arcseconds() {
-    // 30″ are 927 m: with the 513 m of Moscow 1,440 m.
-    let here = site("astronomic_latitude_deg: 55.7658\nlongitude_deg: 37.6856");
-    let centre = Place { latitude_deg: 55.7658, longitude_deg: 37.6856 };
-    for (metres, code) in [(1430.0, Code::Ok), (1450.0, Code::WrongPlace)] {
-        let answer = ask(&here, place_at(centre, 0.0, metres));
-        assert_eq!(answer.code(CheckName::Place), Some(code), "{metres}");
-        assert!(detail_of_place(&answer).contains("30″"));
+    let at = |latitude_deg, longitude_deg| Place { latitude_deg, longitude_deg };
+    let whole = "latitude_deg: 55.7658\nlongitude_deg: 37.6856";
+    let (latitude, unknown) = ("latitude_deg: 55.7658", "the longitude of the site is unknown");
+    let astronomic = "astronomic_latitude_deg: 55.7658\nlongitude_deg: 37.6856";
+    for (keys, place, code, said) in [
+        (whole, place_at(centre, 0.0, 512.0), Code::Ok, ""),
+        (whole, place_at(centre, 90.0, 512.0), Code::Ok, ""),
+        (whole, place_at(centre, 180.0, 514.0), Code::WrongPlace, ""),
+        (latitude, at(55.7658, -120.0), Code::Ok, unknown),
+        (latitude, at(55.7703, 37.0), Code::Ok, unknown),
+        (latitude, at(55.7705, 37.0), Code::WrongPlace, unknown),
+        (astronomic, place_at(centre, 0.0, 1430.0), Code::Ok, "30″"),
+        (astronomic, place_at(centre, 0.0, 1450.0), Code::WrongPlace, "30″"),
+    ] {
+        let key = SigningKey::generate().unwrap();
+        let passport = fixtures::drafted(&fixtures::stand(fixtures::ARC_MINUTES), &site(keys), 1).sign(&key).unwrap();
+        let question = Question { place: Some(place), ..fixtures::question() };
+        let answer = verify("passport", passport.as_bytes(), &fixtures::trust(&key), &question);
+        assert_eq!(answer.code(CheckName::Recomputed), Some(Code::Ok), "{:?}", answer.checks());
+        let found = answer.checks().iter().find(|check| check.name == CheckName::Place).unwrap();
+        assert!(found.code == code && found.detail.contains(said), "{keys}, {place:?}: {found:?}");
     }
 }
 
@@ -261,8 +230,7 @@ fn gravity_is_near_normal_gravity() {
 #[test]
 fn no_passport_is_issued_for_a_site_that_contradicts_itself() {
     let implausible = Site { gravity_m_per_s2: Some(9.7803), ..site("latitude_deg: 55.0") };
-    let stand = Stand::from_yaml("stand.yaml", include_bytes!("../../passports/SPS-2/0017/stand.yaml")).unwrap();
-    let order = issue::Issue::first("factory", "2026-11-09T09:00:00Z".parse().unwrap());
-    let refused = issue::draft(&stand, &implausible, &order).unwrap_err().to_string();
+    let order = Issue::first(fixtures::ISSUER, fixtures::issued_plus(0));
+    let refused = draft(&fixtures::stand(fixtures::ARC_MINUTES), &implausible, &order).unwrap_err().to_string();
     assert!(refused.contains("site.gravity_m_per_s2: found 9.7803"), "{refused}");
 }

@@ -1,10 +1,7 @@
 //! The crate of the trials: random numbers, elementary functions, bins and sums.
 
-use crate::attitude::Deviation;
-use crate::calibration::{InputUncertainty, MeterUncertainty, Method, Readings, Setup};
-use crate::coefficients::{EarthRate, eight_positions};
-use crate::gyro::GyroType;
-use crate::laboratory::Laboratory;
+use crate::calibration::{InputUncertainty, Method};
+use crate::inside::reference::*;
 use crate::statistics::distributions::{normal_below, normal_quantile};
 use crate::uncertainty::Engine;
 use dtg_passport_trials::PARAMETERS;
@@ -187,19 +184,15 @@ fn a_trial_that_fails_is_told() {
 
 /// Creates an engine for an ideal stand with uncertain inputs; the angles have `known` degrees of freedom.
 fn engine(method: Method, known: f64) -> Engine {
-    let positions = eight_positions(Deviation::default);
     let uncertainty = InputUncertainty {
         angles_rad: vec![[1e-5, 2e-5, 3e-5]; 8],
         angles_degrees_of_freedom: vec![known; 8],
         repeatability_rad: 1e-5,
         level_rad: 1e-5,
-        ..InputUncertainty::of_meter(MeterUncertainty::from(&Laboratory::paper().meter))
+        ..InputUncertainty::of_meter(paper_meter())
     };
-    let setup = Setup::new(&positions, EarthRate::at_astronomic_latitude(50.0), uncertainty).unwrap();
-    let gyro = GyroType::gvk_6().nominal.to_model();
-    let each = setup.coefficients().positions.iter().map(|at| (at.index, gyro.currents_ma(at).unwrap()));
-    let readings = Readings::new(setup.coefficients(), &each.collect::<Vec<_>>()).unwrap();
-    Engine::new(&setup, &readings, method).unwrap()
+    let setup = with_uncertainty(&eight([[0.0; 3]; 8]), 50.0, uncertainty);
+    Engine::new(&setup, &readings(&setup, &currents(&setup, &gvk_6())), method).unwrap()
 }
 
 /// The widest instructions of this machine and scalar ones give the same bits.

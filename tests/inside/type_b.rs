@@ -3,8 +3,8 @@
 use crate::inside::{fixtures, written};
 use dtg_passport::attitude::{Deviation, deviation};
 use dtg_passport::certification::{AngleReadings, Certification, Header, certify};
-use dtg_passport::passport::verify;
-use dtg_passport::report::passport as printed;
+use dtg_passport::passport::{Content, verify};
+use dtg_passport::report::{Language, passport};
 use dtg_passport::stand::{ActsOn, Certificate, CertifiedPosition, Stand};
 use dtg_passport::trust::SigningKey;
 use nalgebra::{Matrix3, Rotation3, Vector3};
@@ -33,6 +33,11 @@ fn certified(header: &Header) -> Certification {
 
 fn header(text: &str) -> Header {
     Header::from_yaml("header.yaml", text.as_bytes()).unwrap()
+}
+
+/// The printed passport of a stand in English.
+fn printed(content: &Content) -> String {
+    dtg_passport::report::doc::typed(&passport::document(content, None), Language::English)
 }
 
 fn refused(text: &str) -> String {
@@ -106,15 +111,14 @@ fn it_goes_through_every_document() {
     assert_eq!(Stand::from_yaml("stand.yaml", text.as_bytes()).unwrap(), found.stand);
     let key = SigningKey::generate().unwrap();
     let content = fixtures::content(&found.stand, &fixtures::site(fixtures::SITE));
-    let passport = written(&content, &key);
-    assert!(passport.contains(&format!("{line}\n")), "{passport}");
-    let answer = verify("p.yaml", passport.as_bytes(), &fixtures::trust(&key), &fixtures::question());
-    let passport = answer.passport().unwrap_or_else(|| panic!("{:?}", answer.checks()));
-    let content = passport.content();
+    let text = written(&content, &key);
+    assert!(text.contains(&format!("{line}\n")), "{text}");
+    let answer = verify("p.yaml", text.as_bytes(), &fixtures::trust(&key), &fixtures::question());
+    let verified = answer.passport().unwrap_or_else(|| panic!("{:?}", answer.checks()));
+    let content = verified.content();
     assert_eq!(content.certificate, found.stand.certificate);
     assert_eq!(content.certificate.type_b_on(ActsOn::Platform).count(), 1);
-    let shown =
-        dtg_passport::report::doc::typed(&printed::document(content, None), dtg_passport::wording::Language::English);
+    let shown = printed(content);
     for words in
         ["Type B, common part of the platform", "0.6″: mirror cube", "0.4″, ν = 8: mirror flatness", "5, SHA-256"]
     {
@@ -175,8 +179,7 @@ positions:
     let good = certified(&header_of("0.5"));
     assert_eq!(Header::from(&good.stand).certificate.cmc_arcsec, Some(0.5));
     let content = fixtures::content(&good.stand, &fixtures::site(fixtures::SITE));
-    let shown =
-        dtg_passport::report::doc::typed(&printed::document(&content, None), dtg_passport::wording::Language::English);
+    let shown = printed(&content);
     for words in ["A/1, M, 2025-06-30, SHA-256", "0.5″"] {
         assert!(shown.contains(words), "no {words:?} in\n{shown}");
     }

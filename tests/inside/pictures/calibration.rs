@@ -36,19 +36,17 @@ fn row(
 }
 
 /// The strips of a verdict, each as a document, and the axis below them.
-fn strips(parameters: Vec<ParameterVerdict>) -> (Vec<String>, String) {
+fn strips(parameters: Vec<ParameterVerdict>) -> (Vec<String>, Axis) {
     let rule = GyroType::gvk_6().decision_rule();
     let verdict = Verdict { overall: Decision::Fail, rule, gravity_m_per_s2: 9.8, parameters, withheld: false };
     let each = verdict.parameters.iter().map(|row| whole(&[BESIDE_DECISIONS.of_parameter(&verdict, row)])).collect();
-    (each, whole(&[BESIDE_DECISIONS.axis().drawn(Language::English)]))
+    (each, Axis::drawn_along_x(BESIDE_DECISIONS.axis().drawn(Language::English)))
 }
 
 /// An interval of 128 tolerances to both sides, where the axis ends at one and a half: it has no ends there.
 #[test]
 fn an_interval_beyond_the_axis_has_arrows_at_its_ends() {
     let (drawn, axis) = strips(vec![row(Parameter::Kx, 0.01, 6.4, 0.05, Decision::Undecided)]);
-    let axis = Document::parse(&axis).unwrap();
-    let axis = Axis::along_x(axis.root_element());
     let page = Document::parse(&drawn[0]).unwrap();
     let [left, right] = of_class(page.root(), "meridian")[..] else { panic!("{drawn:?}") };
     axis.says(tip(left)[0], -150.0);
@@ -66,8 +64,6 @@ fn an_arrow_points_outwards_from_a_value_that_the_axis_does_not_reach() {
         row(Parameter::Ky, -0.45, 0.02, 0.05, Decision::Fail),
         row(Parameter::Omega0x, 0.0159, 0.0063, 0.01, Decision::Undecided),
     ]);
-    let axis = Document::parse(&axis).unwrap();
-    let axis = Axis::along_x(axis.root_element());
     let due = [(150.0, 150.0, "mark"), (-150.0, -150.0, "mark"), (96.0, 150.0, "site")];
     for (text, (from, to, class)) in drawn.iter().zip(due) {
         let page = Document::parse(text).unwrap();

@@ -22,9 +22,7 @@ fn passports() -> Vec<Content> {
 fn deviations_are_where_their_axes_say() {
     for content in passports() {
         let bars = Deviations::of(&content.positions);
-        let axis_text = whole(&[bars.axis().drawn(Language::English)]);
-        let axis_page = Document::parse(&axis_text).unwrap();
-        let axis = Axis::along_x(axis_page.root_element());
+        let axis = Axis::drawn_along_x(bars.axis().drawn(Language::English));
         let unit_arcsec = if bars.unit().en == "°" { 3600.0 } else { 1.0 };
         let says = |place: f64, arcsec: f64| axis.says(place, arcsec / unit_arcsec);
         let deviations = content.positions.iter().flat_map(|at| at.angles_arcsec().into_iter().zip(at.u_arcsec()));
@@ -62,9 +60,7 @@ fn accuracy_is_where_its_axis_says() {
     let (content, _) = passport(fixtures::ARC_MINUTES, fixtures::SITE);
     let (stated, gravity) = (content.accuracy.as_ref().unwrap(), content.earth.gravity_m_per_s2);
     let shares = Accuracies::of(stated, gravity);
-    let axis_text = whole(&[shares.axis().drawn(Language::English)]);
-    let axis_page = Document::parse(&axis_text).unwrap();
-    let axis = Axis::along_x(axis_page.root_element());
+    let axis = Axis::drawn_along_x(shares.axis().drawn(Language::English));
     let u = &stated.standard_uncertainty;
     let [[kx, kxy], [kyx, ky]] = u.k_deg_per_h_per_ma;
     let [x, y] = u.omega0_deg_per_h;

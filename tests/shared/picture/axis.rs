@@ -1,7 +1,8 @@
 //! Axes of a picture, read from their marks and the numbers next to these.
 
-use super::{number, of_class};
-use roxmltree::Node;
+use super::{number, of_class, whole};
+use maud::Markup;
+use roxmltree::{Document, Node};
 
 /// Marks of an axis: their places and the values of their numbers.
 #[derive(Debug)]
@@ -15,6 +16,11 @@ impl Axis {
         Self::of(svg, ["x1", "x2"], said, |text, at| {
             text.attribute("text-anchor") == Some("middle") && (number(text, "x") - at).abs() < 0.2
         })
+    }
+
+    /// Reads the axis along x of a drawing.
+    pub fn drawn_along_x(picture: Markup) -> Self {
+        Self::along_x(Document::parse(&whole(&[picture])).unwrap().root_element())
     }
 
     /// Reads the axis of a picture with horizontal lines and their numbers to the left.
