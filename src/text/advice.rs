@@ -1,10 +1,10 @@
 //! Advice on what a person or a program wrote where a number belongs, and on unknown names that are known ones in letters of
 //! another alphabet, or in another unit.
 
+use super::characters::latin;
+use super::{Advice, Node, RefusalCause};
 #[cfg(feature = "yaml")]
-use super::Problems;
-use super::characters::{STRAIGHT_QUOTES, latin, typographic_quote};
-use super::{Advice, Node, Path, RefusalCause};
+use super::{Path, Problems};
 
 /// Word that a template contains instead of a value that only the user knows, and that no document of theirs may contain.
 const PLACEHOLDER: &str = "CHANGE";
@@ -29,108 +29,45 @@ pub(crate) fn check_placeholders(node: &Node, problems: &mut Problems) {
     });
 }
 
-/// Text where a number is expected.
-#[derive(Debug, Clone, Copy)]
-struct Written<'a> {
-    text: &'a str,
-    /// Name of the column or key, which ends with the unit.
-    name: &'a str,
-    of: Of,
-}
-
-/// Place of a text: a cell of a table, or the value of a key, which may be a tolerance.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Of {
-    Cell,
-    Key,
-    Tolerance,
-}
-
-/// Way to write what is not a number: the test, the cause if it is a recognised one, and the advice unless it is the usual one
-/// of the cause.
-type Way = (fn(&Written) -> bool, Option<RefusalCause>, &'static str);
-
-/// Ways in which people and programs write what is not a number; the first that fits is taken.
-const WAYS: &[Way] = &[
-    (|it| is_placeholder(it.text), None, REPLACE),
-    (|it| it.of == Of::Tolerance && it.text.contains(['±', '/']), None, TOLERANCE),
-    (|it| it.text.chars().any(char::is_control), Some(RefusalCause::ControlCharacter), ""),
-    (|it| it.of == Of::Cell && it.text.contains(';'), None, "separate columns by commas"),
-    (|it| is_date(it.text) && !it.name.ends_with("_deg"), Some(RefusalCause::SpreadsheetDate), ""),
-    (|it| is_overload(it.text), Some(RefusalCause::Overload), ""),
-    (|it| is_grouped(it.text), Some(RefusalCause::Thousands), ""),
-    (is_in_parts, None, "write degrees, minutes and seconds of arc as one number of arcseconds"),
-    (
-        |it| it.name.ends_with("_s") && it.text.contains(':'),
-        None,
-        "count seconds from the first reading, as one number",
-    ),
-    (
-        |it| it.name.ends_with("_deg") && has_two_points(it.text),
-        None,
-        "it has two points; write degrees, minutes and seconds as decimal degrees, with one point",
-    ),
-    (|it| has_two_points(it.text), None, "it has two points; use one decimal point"),
-    (
-        |it| is_number(unquoted(it.text)) && it.of != Of::Cell && typographic_quote(it.text).is_some(),
-        None,
-        STRAIGHT_QUOTES,
-    ),
-    (|it| it.of != Of::Cell && has_leading_zero(it.text), Some(RefusalCause::LeadingZero), ""),
-    (|it| is_number(unquoted(it.text)), None, "write the number without quotes"),
-    (
-        |it| it.text.strip_prefix('(').and_then(|text| text.strip_suffix(')')).is_some_and(is_number),
-        None,
-        "write a negative number with a minus, without parentheses",
-    ),
-    (
-        |it| has_decimal_comma(it.text) && !it.text.is_ascii(),
-        Some(RefusalCause::DecimalComma),
-        "use a decimal point, and an ASCII minus",
-    ),
-    (|it| has_decimal_comma(it.text), Some(RefusalCause::DecimalComma), ""),
-    (|it| is_number(&it.text.replace(['D', 'd'], "E")), None, "write the exponent with E, such as 1.0E-3"),
-    (is_in_minutes, None, "write decimal degrees, such as 55.7658; south and west are negative"),
-    (|it| has_unit(it.text), None, "write the number alone, in the unit that the name states"),
-    (
-        |it| !it.text.is_ascii() && (it.of != Of::Cell || it.text.chars().any(|c| c.is_ascii_digit())),
-        None,
-        "use ASCII digits, a decimal point and an ASCII minus",
-    ),
-    (|it| it.of != Of::Cell && it.text.parse::<f64>().is_ok(), None, NOT_FINITE),
+/// Ways in which people and programs write what is not a number, with their causes; the first that fits is taken.
+const WAYS: [(fn(&str) -> bool, RefusalCause); 5] = [
+    (|text| text.chars().any(char::is_control), RefusalCause::ControlCharacter),
+    (is_date, RefusalCause::SpreadsheetDate),
+    (is_overload, RefusalCause::Overload),
+    (is_grouped, RefusalCause::Thousands),
+    (has_decimal_comma, RefusalCause::DecimalComma),
 ];
 
 const NOT_FINITE: &str = "use a finite number, because NaN and infinity are not measured values";
 
-/// Advice for a tolerance that is written as two limits, or with ±.
-const TOLERANCE: &str = "a tolerance is one number for both directions and both axes: state half the width of the interval, and \
-                         its middle as the nominal value";
-
-fn on(written: Written) -> Option<Advice> {
-    let (_, cause, words) = WAYS.iter().find(|(fits, ..)| fits(&written))?;
-    Some(match cause {
-        None => (*words).into(),
-        Some(cause) if words.is_empty() => (*cause).into(),
-        Some(cause) => (*cause, *words).into(),
-    })
+/// Returns what to do about a text where a number belongs, or `None` without such advice.
+fn on_text(text: &str) -> Option<Advice> {
+    if is_placeholder(text) {
+        return Some(REPLACE.into());
+    }
+    let way = WAYS.iter().find(|(fits, _)| fits(text)).map(|(_, cause)| (*cause).into());
+    // The minus of printed numbers.
+    way.or_else(|| text.contains('\u{2212}').then(|| "use an ASCII minus".into()))
 }
 
 /// Returns what to do about a value of YAML that is not a number; empty without such advice.
-pub(crate) fn on_yaml(node: &Node, at: &Path) -> Advice {
-    let is_tolerance = matches!(at, Path::Key(parent, _) if parent.last_key() == "tolerance");
-    let of = if is_tolerance { Of::Tolerance } else { Of::Key };
+pub(crate) fn on_yaml(node: &Node) -> Advice {
     match node {
-        Node::List(_) | Node::Map(_) if is_tolerance => TOLERANCE.into(),
-        Node::Text(text) => on(Written { text, name: at.last_key(), of }).unwrap_or_default(),
+        Node::Text(text) if has_leading_zero(text) => RefusalCause::LeadingZero.into(),
+        Node::Text(text) => match text.parse::<f64>() {
+            Ok(number) if number.is_finite() => "write the number without quotes".into(),
+            Ok(_) => NOT_FINITE.into(),
+            Err(_) => on_text(text).unwrap_or_default(),
+        },
         Node::Number(_) => NOT_FINITE.into(),
         _ => Advice::default(),
     }
 }
 
-/// Returns how to write the number that a cell of CSV in a column of this name seems to mean; for a reading that was not
-/// taken, it ends with the advice `not_taken`.
-pub(crate) fn on_cell(text: &str, column: &str, not_taken: &str) -> Advice {
-    let advice = on(Written { text, name: column, of: Of::Cell }).unwrap_or_else(|| not_taken.into());
+/// Returns how to write the number that a cell of CSV seems to mean; for a reading that was not taken, it ends with the advice
+/// `not_taken`.
+pub(crate) fn on_cell(text: &str, not_taken: &str) -> Advice {
+    let advice = on_text(text).unwrap_or_else(|| not_taken.into());
     if advice.cause == Some(RefusalCause::Overload) { overload(not_taken) } else { advice }
 }
 
@@ -154,26 +91,6 @@ pub(crate) fn without_full_turns(angle: f64, turn: f64, least: f64) -> Option<St
     let decimals = format!("{angle}").split_once('.').map_or(0, |(_, decimals)| decimals.len());
     let within = (angle - least).rem_euclid(turn) + least;
     (!(least..least + turn).contains(&angle)).then(|| format!("{within:.decimals$}"))
-}
-
-/// Returns `true` for degrees with their sign, in several numbers, or with the letter of a hemisphere.
-fn is_in_minutes(&Written { text, name, .. }: &Written) -> bool {
-    let numbers = numbers_in(text);
-    let has_signs = numbers > 0 && text.contains(|c| "°′″NSEW".contains(c));
-    name.ends_with("_deg") && (numbers > 1 && !text.contains(',') || has_signs)
-}
-
-/// Returns `true` for arcseconds in several numbers with colons or the signs of degrees, minutes and seconds between them.
-fn is_in_parts(&Written { text, name, .. }: &Written) -> bool {
-    name.ends_with("_arcsec") && numbers_in(text) > 1 && text.contains(|c| ":°′'".contains(c))
-}
-
-fn numbers_in(text: &str) -> usize {
-    text.split(|c: char| !c.is_ascii_digit() && c != '.').filter(|part| !part.is_empty()).count()
-}
-
-fn is_number(text: &str) -> bool {
-    text.parse::<f64>().is_ok_and(f64::is_finite)
 }
 
 /// Beginnings of the names of months: English, German, French, Russian.
@@ -209,7 +126,7 @@ fn is_overload(text: &str) -> bool {
 
 /// Returns `true` for a number in groups of three digits with equal separators between them.
 fn is_grouped(text: &str) -> bool {
-    let digits = with_ascii_minus(unquoted(text));
+    let digits = with_ascii_minus(text);
     let digits = digits.trim_start_matches(['+', '-']);
     let is_digits = |part: &str| !part.is_empty() && part.bytes().all(|digit| digit.is_ascii_digit());
     let Some(mark) = digits.chars().find(|c| ",.'’_ \u{A0}\u{2009}\u{202F}".contains(*c)) else { return false };
@@ -225,37 +142,16 @@ fn is_grouped(text: &str) -> bool {
 }
 
 fn has_leading_zero(text: &str) -> bool {
-    let digits = unquoted(text).trim_start_matches(['+', '-']);
+    let digits = text.trim_start_matches(['+', '-']);
     digits.len() > 1 && digits.starts_with('0') && digits.bytes().all(|digit| digit.is_ascii_digit())
 }
 
 fn has_decimal_comma(text: &str) -> bool {
-    text.contains(',') && is_number(&with_ascii_minus(unquoted(text)).replacen(',', ".", 1))
+    text.contains(',') && with_ascii_minus(text).replacen(',', ".", 1).parse::<f64>().is_ok_and(f64::is_finite)
 }
 
 fn with_ascii_minus(text: &str) -> String {
     text.replace('\u{2212}', "-")
-}
-
-fn has_unit(text: &str) -> bool {
-    if text.parse::<f64>().is_ok() {
-        return false;
-    }
-    let number = text.trim_start_matches(['+', '-']);
-    let rest = number.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.');
-    rest.len() < number.len() && rest.trim_start().starts_with(|c: char| c.is_alphabetic() || "°%″′µ".contains(c))
-}
-
-/// Returns a text without the quotes around it, straight or typographic.
-pub(super) fn unquoted(text: &str) -> &str {
-    text.trim_matches(|c| "\"'“”„‟«»‘’".contains(c)).trim()
-}
-
-/// Returns `true` for digits with two points between them.
-fn has_two_points(text: &str) -> bool {
-    let digits = text.trim_start_matches(['+', '-']);
-    digits.matches('.').count() == 2
-        && digits.split('.').all(|part| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
 /// Last parts of names that are units.
@@ -265,33 +161,28 @@ const UNITS: [&str; 36] = [
     "mas",
 ];
 
-/// Returns the advice for an unknown name that only looks like one of the `known`, is one of them in another unit or another
-/// way of writing it, or is an expanded uncertainty instead of a standard one; `None` for other names.
+/// Returns the advice for an unknown name that only looks like one of the `known`, or is one of them in another unit or another
+/// way of writing it; `None` for other names.
 pub(crate) fn on_name(known: &[&str], found: &str) -> Option<Advice> {
     if let Some((latin, odd)) = latin(found).filter(|(latin, _)| known.contains(&latin.as_str())) {
         return Some(
             Advice::from(format!("the {odd} only looks like a Latin letter; type {latin} again")).meaning(&latin),
         );
     }
-    if let Some(name) = known.iter().find(|name| found.starts_with("U_") && **name == found.to_lowercase()) {
-        let words = "if U is an expanded uncertainty, divide the numbers by its coverage factor k; then name it";
-        return Some(Advice::from(format!("{words} {name}")).meaning(name));
-    }
     let lower = found.to_lowercase();
     let of_name = split(&lower).map(|(quantity, unit)| (quantity.to_owned(), unit.to_owned()));
     let is_written = of_name.is_none();
     let (quantity, unit) = of_name.or_else(|| written_unit(&lower))?;
-    let (name, known) = known.iter().find_map(|name| {
+    let (name, is_same) = known.iter().find_map(|name| {
         let (of, known) = split(name)?;
-        (of.replace('_', "") == quantity.replace('_', "") && (is_written || known != unit)).then_some((*name, known))
+        (of.replace('_', "") == quantity.replace('_', "") && (is_written || known != unit))
+            .then_some((*name, known == unit))
     })?;
-    let words = |unit: &str| unit.split('_').map(unit_in_words).collect::<Vec<_>>().join(" ");
-    let convert = format!("convert the numbers from {} to {}, then name it {name}", words(&unit), words(known));
-    let advice = match (is_written, known == unit) {
-        (true, true) => (RefusalCause::HeaderUnit, format!("name it {name}, which states the unit")).into(),
-        (true, false) => (RefusalCause::HeaderUnit, convert).into(),
-        (false, _) => Advice::from(convert),
+    let words = match is_same {
+        true => format!("name it {name}, which states the unit"),
+        false => format!("convert the numbers, then name it {name}"),
     };
+    let advice = if is_written { (RefusalCause::HeaderUnit, words).into() } else { Advice::from(words) };
     Some(advice.meaning(name))
 }
 
@@ -326,21 +217,6 @@ fn written_unit(lower: &str) -> Option<(String, String)> {
     let quantity = greek.into_iter().fold(quantity, |name, (letter, word)| name.replace(letter, word));
     let quantity = latin(&quantity).map_or(quantity, |(latin, _)| latin);
     Some((quantity, unit(written)?.to_owned()))
-}
-
-/// Returns a part of a unit in a name as people write it.
-fn unit_in_words(part: &str) -> &str {
-    match part {
-        "a" => "A",
-        "ma" => "mA",
-        "ua" => "µA",
-        "na" => "nA",
-        "mgal" => "mGal",
-        "deg" => "degrees",
-        "arcmin" => "arcminutes",
-        "arcsec" => "arcseconds",
-        other => other,
-    }
 }
 
 /// Returns the quantity and the unit of a name such as `alpha_arcsec` or `k_x_deg_per_h_per_ma`; `None` if it states no unit.

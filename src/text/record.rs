@@ -219,7 +219,7 @@ impl Field for f64 {
             // Adding zero turns -0.0 into 0.0, the only zero that a document can contain.
             Node::Number(value) if value.is_finite() => Some(*value + 0.0),
             Node::Integer(value) => Some(*value as f64),
-            other => refuse(other, at, advice::on_yaml(other, at), problems),
+            other => refuse(other, at, advice::on_yaml(other), problems),
         }
     }
 

@@ -126,7 +126,7 @@ impl<'a> Table<'a> {
         let cell = &row[column];
         let value = cell.text.parse::<f64>().ok().filter(|value| value.is_finite());
         if value.is_none() {
-            let advice = advice::on_cell(&cell.text, self.columns[column], not_taken);
+            let advice = advice::on_cell(&cell.text, not_taken);
             problems.push(self.problem(cell, column, described(&cell.text), "a number", advice));
         }
         value
@@ -142,7 +142,7 @@ impl<'a> Table<'a> {
             let advice = match cell.text.parse::<f64>() {
                 Ok(0.0) => "count from 1".into(),
                 Ok(_) => Advice::default(),
-                Err(_) => advice::on_cell(&cell.text, self.columns[column], ""),
+                Err(_) => advice::on_cell(&cell.text, ""),
             };
             problems.push(self.problem(cell, column, described(&cell.text), "a whole number of 1 or more", advice));
         }

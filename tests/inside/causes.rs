@@ -4,7 +4,7 @@
 use crate::inside::reference::*;
 use crate::text::cause::RefusalCause;
 use crate::text::table::Table;
-use crate::text::{Node, Path, Unreadable, advice};
+use crate::text::{Node, Unreadable, advice};
 use dtg_passport::calibration::Readings;
 use dtg_passport::trust::AllowedSigners;
 
@@ -63,9 +63,9 @@ fn a_header_with_units_is_told_what_to_write() {
         ("i,j,\"Jx, мА\",\"Jy, мА\"", "header_unit", "name it jx_ma, which states the unit"),
         ("i,j,Jx, мА,Jy, мА", "header_unit", "name it jx_ma"),
         ("i,j,J_x/mA,J_y/mA", "header_unit", "name it jx_ma"),
-        ("i,j,Jx [мкА],Jy [мкА]", "header_unit", "convert the numbers from µA to mA, then name it jx_ma"),
+        ("i,j,Jx [мкА],Jy [мкА]", "header_unit", "convert the numbers, then name it jx_ma"),
         ("i,j,jx_мА,jy_мА", "header_unit", "name it jx_ma"),
-        ("i,j,jx_uA,jy_ma", "", "convert the numbers from µA to mA, then name it jx_ma"),
+        ("i,j,jx_uA,jy_ma", "", "convert the numbers, then name it jx_ma"),
         ("i,j,j\u{445}_ma,jy_ma", "", "only looks like a Latin letter; type jx_ma again"),
     ] {
         let found = currents(header, |_, line| line.to_owned());
@@ -98,8 +98,6 @@ fn a_cell_that_is_not_a_number_has_its_cause() {
         ("\"1,234.5\"", "thousands"),
         ("-1\u{A0}234.5", "thousands"),
         ("1.234.567", "thousands"),
-        ("12.5.6", ""),
-        ("0:10", ""),
         ("1.5 mA", ""),
         ("a lot", ""),
     ] {
@@ -237,71 +235,47 @@ fn a_misspelt_column_is_told_from_another() {
 /// Expected: the one remedy for what a person wrote as the value of a key.
 #[test]
 fn a_value_of_yaml_that_is_not_a_number_has_its_cause() {
-    let on = |text: &str, key: &str| {
-        let advice = advice::on_yaml(&Node::Text(text.to_owned()), &Path::Root.key(key));
+    let on = |text: &str| {
+        let advice = advice::on_yaml(&Node::Text(text.to_owned()));
         (advice.cause.map_or("", RefusalCause::code), advice.words)
     };
-    for (written, key, cause, remedy) in [
-        ("1,500", "height_m", "thousands", "without separators of thousands"),
-        ("1.500,5", "height_m", "thousands", "without separators of thousands"),
-        ("-1 000,5", "latitude_deg", "thousands", "without separators of thousands"),
-        ("1_500", "height_m", "thousands", "without separators of thousands"),
-        ("1'500", "height_m", "thousands", "without separators of thousands"),
-        ("0150", "height_m", "leading_zero", "octal"),
-        ("-007", "height_m", "leading_zero", "octal"),
-        ("150,0", "alpha_arcsec", "decimal_comma", "use a decimal point"),
-        ("0,622", "alpha_arcsec", "decimal_comma", "use a decimal point"),
-        ("12 Sep", "height_m", "spreadsheet_date", "to text"),
-        ("OL", "alpha_arcsec", "overload", "for an overload"),
-        ("55.45.56", "alpha_arcsec", "", "it has two points; use one decimal point"),
-        ("55.45.56", "latitude_deg", "", "degrees, minutes and seconds as decimal degrees"),
-        ("\u{201C}1.5\u{201D}", "alpha_arcsec", "", "straight ones"),
-        ("'1.5'", "alpha_arcsec", "", "without quotes"),
-        ("1.5", "alpha_arcsec", "", "without quotes"),
-        ("55°45′56″", "latitude_deg", "", "decimal degrees, such as 55.7658"),
-        ("55 45 56", "latitude_deg", "", "decimal degrees, such as 55.7658"),
-        ("55.7 N", "latitude_deg", "", "decimal degrees, such as 55.7658"),
-        ("55.7°", "alpha_arcsec", "", "the number alone, in the unit"),
-        ("-.5m", "height_m", "", "the number alone, in the unit"),
-        ("0°01′10.9″", "alpha_arcsec", "", "one number of arcseconds"),
-        ("-1:10.9", "u_arcsec", "", "one number of arcseconds"),
-        ("\u{2212}5", "alpha_arcsec", "", "ASCII minus"),
-        ("nan", "alpha_arcsec", "", "a finite number"),
-        ("a,b", "alpha_arcsec", "", ""),
-        ("NORTH", "latitude_deg", "", ""),
+    for (written, cause, remedy) in [
+        ("1,500", "thousands", "without separators of thousands"),
+        ("1.500,5", "thousands", "without separators of thousands"),
+        ("-1 000,5", "thousands", "without separators of thousands"),
+        ("1_500", "thousands", "without separators of thousands"),
+        ("1'500", "thousands", "without separators of thousands"),
+        ("0150", "leading_zero", "octal"),
+        ("-007", "leading_zero", "octal"),
+        ("150,0", "decimal_comma", "use a decimal point"),
+        ("0,622", "decimal_comma", "use a decimal point"),
+        ("12 Sep", "spreadsheet_date", "to text"),
+        ("OL", "overload", "for an overload"),
+        ("1.5", "", "without quotes"),
+        ("\u{2212}5", "", "an ASCII minus"),
+        ("nan", "", "a finite number"),
+        ("a,b", "", ""),
+        ("NORTH", "", ""),
     ] {
-        let (found, words) = on(written, key);
+        let (found, words) = on(written);
         assert_eq!(found, cause, "{written}: {words}");
         assert!(words.contains(remedy) && words.is_empty() == remedy.is_empty(), "{written}: {words}");
     }
-    let tolerance = Path::Root.key("tolerance");
-    let limits = Node::List(vec![Node::Number(-0.1), Node::Number(0.3)]);
-    for node in [limits, Node::Text("±0.3".to_owned()), Node::Text("-0.1/+0.3".to_owned())] {
-        assert!(advice::on_yaml(&node, &tolerance.key("k")).words.contains("half the width of the interval"));
-        assert!(!advice::on_yaml(&node, &Path::Root.key("k")).words.contains("half the width"));
-    }
-    assert!(advice::on_yaml(&Node::Number(f64::INFINITY), &Path::Root.key("k")).words.contains("finite"));
+    assert!(advice::on_yaml(&Node::Number(f64::INFINITY)).words.contains("finite"));
 }
 
-/// Expected: the units by hand; GUM 2.3.5 and 6.2.1 for U = k u.
+/// Expected: the units by hand.
 #[test]
 fn another_unit_is_to_be_converted() {
     let known = ["alpha_arcsec", "u_alpha_arcsec", "jx_ma", "time_s", "gravity_m_per_s2", "omega_g_deg_per_h_per_g"];
     for (found, words) in [
-        ("alpha_arcmin", "convert the numbers from arcminutes to arcseconds, then name it alpha_arcsec"),
-        ("jx_A", "convert the numbers from A to mA, then name it jx_ma"),
-        ("gravity_mGal", "convert the numbers from mGal to m per s2, then name it gravity_m_per_s2"),
-        (
-            "omega_g_rad_per_s_per_g",
-            "convert the numbers from rad per s per g to degrees per h per g, then name it omega_g_deg_per_h_per_g",
-        ),
+        ("alpha_arcmin", "convert the numbers, then name it alpha_arcsec"),
+        ("jx_A", "convert the numbers, then name it jx_ma"),
+        ("gravity_mGal", "convert the numbers, then name it gravity_m_per_s2"),
+        ("omega_g_rad_per_s_per_g", "convert the numbers, then name it omega_g_deg_per_h_per_g"),
         ("α, ″", "name it alpha_arcsec, which states the unit"),
         ("alpha (угл. с)", "name it alpha_arcsec, which states the unit"),
         ("time [s]", "name it time_s, which states the unit"),
-        (
-            "U_alpha_arcsec",
-            "if U is an expanded uncertainty, divide the numbers by its coverage factor k; then name it u_alpha_arcsec",
-        ),
     ] {
         assert_eq!(advice::on_name(&known, found).map(|advice| advice.words).as_deref(), Some(words), "{found}");
     }
