@@ -42,14 +42,14 @@ pub(super) fn parse(mut arguments: Vec<OsString>) -> Result<(Cli, Vec<String>), 
         refused.remove(ContextKind::Suggested);
     }
     if let Some(help) = refused.as_ref().filter(|error| !error.use_stderr()) {
-        let written = output::own(&help::fitted(&help.render().ansi().to_string()));
+        let written = output::own(&help.render().ansi().to_string());
         return Err(written.map_or_else(|failure| ExitCode::from(failure.code), |()| ExitCode::SUCCESS));
     }
     let advice = refused.as_ref().map(advice).unwrap_or_default();
     Failure::usage(words(refused.as_ref().unwrap_or(&error)) + &advice).print();
     match refused {
         Some(refused) => {
-            output::usage(&help::fitted(&refused.render().ansi().to_string()));
+            output::usage(&refused.render().ansi().to_string());
             if !advice.is_empty() {
                 output::complain(advice.trim_start());
             }

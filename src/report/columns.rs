@@ -66,7 +66,7 @@ pub(crate) fn lines(out: &mut String, indent: &str, most: usize, lines: impl Int
 const HANG: usize = 2;
 
 /// Beginning of a command that is printed to be run.
-pub(crate) const COMMAND: &str = "dtg-passport ";
+const COMMAND: &str = "dtg-passport ";
 
 /// Returns the text with every line broken that is wider than `columns`. A line continues below its last column, a
 /// sentence as in [`paragraph`]; either further left if a word needs the room. A command stays one line, to be copied.
