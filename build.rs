@@ -2,8 +2,9 @@
 //! placeholders. So a value that is missing or has another name does not compile, and an unused text is a warning.
 //!
 //! A text is a line `NAME: English`, and below it, two blanks deep, the Russian. `{name}` is a placeholder; both languages
-//! have the same ones. `\u{a0}` is a non-breaking space. Lines that begin with `#` are comments; the first says what the table
-//! is for.
+//! have the same ones. `~` is a non-breaking space, wherever a line must not end: between a number and its unit, around signs such
+//! as `=`, before a dash, between initials, after a Russian word of one letter (SI Brochure, 5.4.3; GOST 8.417, 5.3). Lines that
+//! begin with `#` are comments; the first says what the table is for.
 //!
 //! After a line `[name]`, up to an empty line, each text is that of the variants `One | Other` of an enum, `_` for those without
 //! a text of their own; `Variant = table::NAME` takes a text from elsewhere. `name!(Enum, value)` is then the text of a value,
@@ -55,7 +56,7 @@ fn table(text: &str) -> Result<String, String> {
         }
         let (name, en) = first.split_once(": ").ok_or_else(|| wrong("no `NAME: English`"))?;
         let ru = lines.next().and_then(|(_, line)| line.strip_prefix("  ")).ok_or_else(|| wrong("no Russian below"))?;
-        let [en, ru] = [en, ru].map(|words| words.replace("\\u{a0}", "\u{a0}"));
+        let [en, ru] = [en, ru].map(|words| words.replace('~', "\u{a0}"));
         let [values, in_russian] = [&en, &ru].map(|words| placeholders(words));
         let set = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<BTreeSet<_>>();
         if set(&values) != set(&in_russian) {

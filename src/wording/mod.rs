@@ -1,12 +1,10 @@
 //! Words for people in each language: texts with values, numbers, non-breaking spaces.
 //!
 //! * `number`: numbers formatted for people.
-//! * `spacing`: places of a text where no line ends.
 //! * `texts`: the texts.
 //! * `words`: texts with values, in every language at once.
 
 pub(crate) mod number;
-pub(crate) mod spacing;
 pub(crate) mod texts;
 pub(crate) mod words;
 
@@ -15,7 +13,6 @@ pub(crate) use words::{Outcome, Words};
 
 use jiff::tz::TimeZone;
 use jiff::{Timestamp, civil::Date};
-use spacing::spaced;
 
 crate::text::words! {
     /// A language of the pages and of a DCC; its word is its code in ISO 639-1.
@@ -35,6 +32,9 @@ crate::text::words! {
     }
 }
 
+/// Non-breaking space.
+pub(crate) const BLANK: char = '\u{00A0}';
+
 /// A text in every language. A new language is a new field, so the compiler reports every text that lacks it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Text {
@@ -45,17 +45,12 @@ pub(crate) struct Text {
 }
 
 impl Text {
-    /// Returns the text in `language` as the table has it.
+    /// Returns the text in `language`.
     pub(crate) fn of(&self, language: Language) -> &'static str {
         match language {
             Language::English => self.en,
             Language::Russian => self.ru,
         }
-    }
-
-    /// Returns the text in `language` with its non-breaking spaces.
-    pub(crate) fn words(&self, language: Language) -> String {
-        spaced(self.of(language))
     }
 }
 
@@ -67,7 +62,7 @@ pub(crate) fn capital(words: &str) -> String {
 
 /// Returns words of a page with the spaces, the minus and the apostrophe of terminals and of signed files.
 pub(crate) fn plain(words: &str) -> String {
-    words.replace(spacing::BLANK, " ").replace(number::THIN_BLANK, "").replace('\u{2212}', "-").replace('’', "'")
+    words.replace(BLANK, " ").replace(number::THIN_BLANK, "").replace('\u{2212}', "-").replace('’', "'")
 }
 
 /// A part of a text.
@@ -100,5 +95,5 @@ pub(crate) fn date_text(language: Language, date: Date) -> String {
 /// Returns a time in UTC in the format of `language`.
 pub(crate) fn time_text(language: Language, time: Timestamp) -> String {
     let at = time.to_zoned(TimeZone::UTC);
-    format!("{} {}{}UTC", date_text(language, at.date()), at.strftime("%H:%M:%S"), spacing::BLANK)
+    format!("{} {}{}UTC", date_text(language, at.date()), at.strftime("%H:%M:%S"), BLANK)
 }

@@ -268,7 +268,7 @@ impl Words {
                         values.iter().filter(|(key, _)| *key == name).map(|(_, value)| written(value)).collect()
                     }
                 };
-                pieces(&text.words(language)).into_iter().map(piece).collect()
+                pieces(text.of(language)).into_iter().map(piece).collect()
             }
             Self::Number(number) => number.text(language),
             Self::Below(limit) => format!("<\u{a0}{}", limit.text(language)),

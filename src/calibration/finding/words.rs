@@ -3,11 +3,10 @@
 use super::{Finding, Kind, Scope};
 use crate::calibration::Parameter;
 use crate::coefficients::PositionIndex;
-use crate::wording::Words;
 use crate::wording::number::{Number, Probability};
-use crate::wording::spacing::{BLANK, spaced};
 use crate::wording::texts::{finding as texts, units};
 use crate::wording::words::{joined, listed, symbol, told};
+use crate::wording::{BLANK, Words};
 
 /// Significant digits of the parameters with a cause.
 const DIGITS: i32 = 6;
@@ -48,7 +47,10 @@ impl Finding {
                     Number::fixed(size, 1).in_hemisphere([units::NORTH_LATITUDE, units::SOUTH_LATITUDE]);
                 texts::other_site(vec![degrees.into(), format!("°{BLANK}").into(), hemisphere.into()])
             }
-            Kind::Renumbered => texts::renumbered(spaced(self.scope.numbers.as_deref().unwrap_or("–"))),
+            Kind::Renumbered => {
+                let numbers = self.scope.numbers.as_deref().unwrap_or("–");
+                texts::renumbered(numbers.replace(" = ", &format!("{BLANK}={BLANK}")))
+            }
             Kind::PositionsExchanged => texts::positions_exchanged(self.place()),
             Kind::TypeUnit => texts::type_unit(number(4)),
             Kind::KDiffers => texts::k_differs(number(2), p),

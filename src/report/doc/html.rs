@@ -4,8 +4,7 @@ use super::{Block, Cell, Column, On, Statement, Table, Words};
 use crate::report::page::language::Languages;
 use crate::report::page::parts::{self, given, mark};
 use crate::report::page::symbols::italic;
-use crate::wording::spacing::BLANK;
-use crate::wording::{Language, Number, Piece, capital, pieces};
+use crate::wording::{BLANK, Language, Number, Piece, capital, pieces};
 use maud::{Markup, html};
 
 /// How words are written.
@@ -41,7 +40,7 @@ impl Languages {
         let named = |words: &Words| self.written(words, if how == How::Cell { How::Name } else { how });
         match (words, how) {
             (Words::Text(text, values), How::In(language)) => html! {
-                @for piece in pieces(&text.words(language)) {
+                @for piece in pieces(text.of(language)) {
                     @match piece {
                         Piece::Words(words) => (italic(words)),
                         Piece::Name(name) => @for (_, value) in values.iter().filter(|(key, _)| *key == name) { (same(value)) },

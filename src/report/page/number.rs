@@ -2,9 +2,8 @@
 
 use super::language::Languages;
 use crate::text::number;
-use crate::wording::Number;
 use crate::wording::number::THIN_BLANK;
-use crate::wording::spacing::BLANK;
+use crate::wording::{BLANK, Number};
 use maud::{Markup, html};
 
 impl Languages {

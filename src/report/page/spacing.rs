@@ -1,6 +1,5 @@
 //! Words that no line breaks: dates, powers of ten, units with a solidus, ids.
 
-use crate::wording::spacing::is_initial;
 use maud::{Markup, html};
 
 /// Units in which browsers see a place for a line to end, after the solidus.
@@ -67,6 +66,12 @@ fn with_initials(text: &str) -> Vec<&str> {
         }
     }
     words
+}
+
+/// Returns `true` for a capital letter with a point, as in «М. П.».
+fn is_initial(word: &str) -> bool {
+    let mut letters = word.chars();
+    matches!((letters.next(), letters.next()), (Some(letter), Some('.')) if letter.is_uppercase())
 }
 
 /// Writes the index of a unit, °/(h·g₀), in a size that can be read.
