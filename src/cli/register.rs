@@ -42,9 +42,6 @@ pub(super) struct Options {
     /// Only passports of this site
     #[arg(long, value_name = "ID")]
     site: Option<String>,
-    /// Only current passports whose expiry date is before this UTC date
-    #[arg(long, value_name = "DATE", value_parser = date)]
-    expiring_before: Option<Date>,
     /// Sign every register again, and make first ones where passports have none; read with --dry-run what is concluded
     #[arg(long)]
     renew: bool,
@@ -192,13 +189,11 @@ impl Options {
 
     fn selects(&self, row: &Row, time: jiff::Timestamp) -> bool {
         let is_current = row.state == State::Current;
-        let before = |date: Date| is_current && row.valid_until.is_some_and(|until| until < date);
         let within =
             |days: u32| row.is_in_force() && row.days_left(time).is_some_and(|left| i64::from(left) <= i64::from(days));
         let state = if is_current && row.expired { "expired" } else { row.state.key() };
         (self.state.is_empty() || self.state.iter().any(|asked| asked == state))
             && self.site.as_ref().is_none_or(|site| row.site == *site)
-            && self.expiring_before.is_none_or(before)
             && self.within.is_none_or(within)
     }
 }
