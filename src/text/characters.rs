@@ -66,14 +66,6 @@ pub(crate) fn latin(text: &str) -> Option<(String, String)> {
     latin.is_ascii().then(|| (latin, character(odd)))
 }
 
-/// Advice for [`typographic_quote`].
-pub(crate) const STRAIGHT_QUOTES: &str = "replace the typographic quotes by straight ones (\")";
-
-/// Returns the first typographic quote in a text, as word processors write it, or `None` if there is none.
-pub(crate) fn typographic_quote(text: &str) -> Option<char> {
-    text.chars().find(|c| "“”„‟«»‘’".contains(*c))
-}
-
 /// Returns `true` if a text has the form that [`sha256_hex`](super::scalar::sha256_hex) returns.
 pub(crate) fn is_sha256_hex(text: &str) -> bool {
     text.len() == 64 && text.bytes().all(|byte| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte))
@@ -96,8 +88,6 @@ mod tests {
         assert_eq!((latin_text.as_str(), odd.as_str()), ("alpha_arcsec", "Cyrillic letter 'а' (U+0430)"));
         assert_eq!(latin("\u{3BF}mega").unwrap().1, "Greek letter 'ο' (U+03BF)");
         assert!(latin("alpha").is_none() && latin("альфа").is_none());
-        assert_eq!(typographic_quote("\u{201C}A\u{201D}"), Some('\u{201C}'));
-        assert_eq!(typographic_quote("\"A'"), None);
     }
 
     #[test]

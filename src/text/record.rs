@@ -1,7 +1,7 @@
 //! Conversion of a [`Node`] to a Rust struct and back; the declaration in `record!` defines the format.
 
 use super::canonical::Scanner;
-use super::characters::{STRAIGHT_QUOTES, allowed_in_string, is_printable_ascii, latin, typographic_quote};
+use super::characters::{allowed_in_string, is_printable_ascii, latin};
 use super::field::{Field, Scalar, Sink, refuse};
 use super::problem::UPDATE;
 use super::{Advice, Node, Path, Problems, RefusalCause, advice, misspelt, node, rule};
@@ -39,7 +39,6 @@ impl<T: Document> Field for File<T> {
             Some(found) => {
                 let advice = match found {
                     Node::Text(text) if rule::is_later_format(text, format) => UPDATE.to_owned(),
-                    Node::Text(text) if typographic_quote(text).is_some() => STRAIGHT_QUOTES.to_owned(),
                     Node::Text(text) => latin(text).filter(|(latin, _)| latin == format).map_or_else(
                         || RIGHT_FILE.to_owned(),
                         |(_, odd)| format!("type the {odd} again, as a Latin letter"),

@@ -316,7 +316,7 @@ def test_an_unverified_passport_says_so() -> None:
         ({"at": {55.7, 37.6}}, "at: found {"),
         ({"at": (1.0,)}, "at: found"),
         ({"time": "yesterday"}, "time: found .yesterday.; expected a time"),
-        ({"time": "2026-02-30"}, "time: found .2026-02-30.; month 02 of 2026 has 28 days"),
+        ({"time": "2026-02-30"}, "time: found .2026-02-30.; expected a time such as"),
         ({"time": datetime.datetime(2026, 11, 20)}, "time zone is missing"),
         ({"time": np.datetime64("2026-11-20T10:00")}, "time zone is missing"),
         ({"time": np.datetime64("NaT")}, "time: found None, expected"),
