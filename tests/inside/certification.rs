@@ -123,7 +123,7 @@ fn the_stand_file_reads_back() {
     assert_eq!(Stand::from_yaml("stand.yaml", text.as_bytes()).unwrap(), found.stand);
     dtg_passport::text::rule::check("stand.yaml", text.as_bytes(), 1 << 20).unwrap();
     for words in [
-        "# Repeatability of one visit, from 3 runs",
+        "# Repeatability of one visit, without",
         "# Means of 3 runs",
         "repeatability_degrees_of_freedom: ",
         "# Warning: The common part is estimated from 3 runs",
